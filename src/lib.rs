@@ -1,0 +1,5 @@
+//! plane-contact
+#![forbid(unsafe_code)]
+
+pub mod mathcad;
+pub mod scalar;

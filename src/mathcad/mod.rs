@@ -1,0 +1,3 @@
+//! Mathcad's semantics.
+
+pub mod array;

@@ -1,0 +1,75 @@
+//! The number type of the mirror.
+
+use std::fmt::{Debug, Display};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use nalgebra::{ClosedAddAssign, ClosedMulAssign};
+use num_traits::{One, Zero};
+
+/// What the listings ask of a number: `+ − · /`, comparison, absolute value, min and max. No square root and nothing
+/// transcendental, so that `f32`, `f64` and exact rationals all serve.
+pub trait Scalar:
+    Copy
+    + Debug
+    + Display
+    + PartialOrd
+    + Zero
+    + One
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + ClosedAddAssign
+    + ClosedMulAssign
+    + nalgebra::Scalar
+{
+    /// The scalar nearest to `x`.
+    fn from_f64(x: f64) -> Self;
+
+    /// The `f64` nearest to the scalar.
+    fn to_f64(self) -> f64;
+
+    /// A whole number of the paper's tables (a node or element number, a restraint) as a scalar.
+    fn from_number(n: usize) -> Self {
+        Self::from_f64(n as f64)
+    }
+
+    /// |x|.
+    fn abs(self) -> Self {
+        if self < Self::zero() { -self } else { self }
+    }
+
+    /// The smaller of the two.
+    fn min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+
+    /// The larger of the two.
+    fn max(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+
+    /// False for an overflow (∞ − ∞ is not 0) and for NaN.
+    fn is_finite(self) -> bool {
+        self - self == Self::zero()
+    }
+}
+
+impl Scalar for f64 {
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+impl Scalar for f32 {
+    fn from_f64(x: f64) -> Self {
+        x as f32
+    }
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}
