@@ -6,10 +6,12 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use nalgebra::{ClosedAddAssign, ClosedMulAssign};
 use num_traits::{One, Zero};
 
+use crate::mathcad::array::Subscript;
+
 /// What the listings ask of a number: `+ − · /`, comparison, absolute value, min and max. No square root and nothing
 /// transcendental, so that `f32`, `f64` and exact rationals all serve.
 pub trait Scalar:
-    Copy
+    Subscript
     + Debug
     + Display
     + PartialOrd
@@ -51,6 +53,7 @@ pub trait Scalar:
     }
 
     /// False for an overflow (∞ − ∞ is not 0) and for NaN.
+    #[allow(clippy::eq_op, reason = "∞ − ∞ and NaN − NaN are the test")]
     fn is_finite(self) -> bool {
         self - self == Self::zero()
     }

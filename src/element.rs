@@ -1,0 +1,105 @@
+//! The three-node triangle of constant strain (CST): what the paper calls `Ae`, `B` and `D`, and does not print.
+//!
+//! ```text
+//!              3
+//!             / \        nodes counter-clockwise: area > 0
+//!            /   \       displacements in the order u1 v1 u2 v2 u3 v3
+//!           1-----2      strains in the order e_xx e_yy g_xy (engineering shear)
+//! ```
+//!
+//! Source: O. C. Zienkiewicz, R. L. Taylor, *The Finite Element Method*, vol. 1, the three-node triangle.
+#![allow(non_snake_case, reason = "the paper's own names")]
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::mirror::Plane;
+use crate::scalar::Scalar;
+
+/// Corner coordinates of a triangle, counted from 0.
+pub type Corners<T> = [[T; 2]; 3];
+
+/// Signed area of the triangle, length²: negative when its corners run clockwise.
+pub fn area<T: Scalar>(p: &Corners<T>) -> T {
+    let two = T::one() + T::one();
+    ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1])) / two
+}
+
+/// Strain matrix, 3 x 6, 1/length: strains = B · displacements. The triangle's area must not be zero.
+pub fn B<T: Scalar>(p: &Corners<T>) -> SMatrix<T, 3, 6> {
+    let double_area = area(p) + area(p);
+    let mut b = SMatrix::zeros();
+    for k in 0..3 {
+        let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+        let dx = (p[next][1] - p[last][1]) / double_area;
+        let dy = (p[last][0] - p[next][0]) / double_area;
+        b[(0, 2 * k)] = dx;
+        b[(1, 2 * k + 1)] = dy;
+        b[(2, 2 * k)] = dy;
+        b[(2, 2 * k + 1)] = dx;
+    }
+    b
+}
+
+/// Elasticity matrix, 3 x 3, stress: stresses = D · strains.
+pub fn D<T: Scalar>(plane: Plane, E: T, nu: T) -> SMatrix<T, 3, 3> {
+    let (zero, one) = (T::zero(), T::one());
+    let two = one + one;
+    let (factor, diagonal, shear) = match plane {
+        Plane::Strain => (E / ((one + nu) * (one - two * nu)), one - nu, (one - two * nu) / two),
+        Plane::Stress => (E / (one - nu * nu), one, (one - nu) / two),
+    };
+    SMatrix::from_row_slice(&[
+        factor * diagonal,
+        factor * nu,
+        zero, //
+        factor * nu,
+        factor * diagonal,
+        zero, //
+        zero,
+        zero,
+        factor * shear,
+    ])
+}
+
+/// What an element carries: one value for the whole of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// sigma_x, sigma_y, tau_xy, stress.
+    pub sigma: SVector<f64, 3>,
+    /// e_xx, e_yy, g_xy.
+    pub epsilon: SVector<f64, 3>,
+    /// Von Mises stress.
+    pub von_mises_stress: f64,
+    /// Von Mises strain.
+    pub von_mises_strain: f64,
+}
+
+impl State {
+    /// Strains, stresses and their von Mises values from the element's six displacements.
+    ///
+    /// The paper gives no formula for either von Mises value. Stress: sqrt(3/2 s:s) of the stress deviator, with
+    /// sigma_z = nu (sigma_x + sigma_y) in plane strain. Strain: sqrt(2/3 e:e) of the strain deviator, with
+    /// e_zz = −nu/(1 − nu) (e_xx + e_yy) in plane stress.
+    pub fn new(plane: Plane, E: f64, nu: f64, B: &SMatrix<f64, 3, 6>, u: &SVector<f64, 6>) -> Self {
+        let epsilon = B * u;
+        let sigma = D(plane, E, nu) * epsilon;
+        let (sigma_z, epsilon_z) = match plane {
+            Plane::Strain => (nu * (sigma[0] + sigma[1]), 0.0),
+            Plane::Stress => (0.0, -nu / (1.0 - nu) * (epsilon[0] + epsilon[1])),
+        };
+        let s = deviator_norm(sigma[0], sigma[1], sigma_z, sigma[2]);
+        let e = deviator_norm(epsilon[0], epsilon[1], epsilon_z, epsilon[2] / 2.0);
+        State {
+            sigma,
+            epsilon,
+            von_mises_stress: 1.5_f64.sqrt() * s,
+            von_mises_strain: (2.0_f64 / 3.0).sqrt() * e,
+        }
+    }
+}
+
+/// sqrt(d:d) of the deviator d of a symmetric tensor whose only shear component is `xy`.
+fn deviator_norm(xx: f64, yy: f64, zz: f64, xy: f64) -> f64 {
+    let squares = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
+    (squares / 3.0 + 2.0 * xy * xy).sqrt()
+}

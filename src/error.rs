@@ -1,0 +1,85 @@
+//! Errors by blame: the input's, the published algorithm's. A fault of ours is a panic.
+
+use std::fmt;
+
+use crate::mirror::Failure;
+
+/// Why a command ended without a result.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The input breaks a condition: exit status 2.
+    #[error("{0}")]
+    Input(#[from] InputError),
+    /// A listing fails as printed: exit status 3, an audit result.
+    #[error("the published algorithm fails as printed: {0}")]
+    Listing(#[from] Failure),
+    /// The matrix of an iteration cannot be solved: exit status 3, an audit result.
+    #[error("the published algorithm fails as printed: {0}")]
+    Singular(#[from] SingularMatrix),
+}
+
+impl Error {
+    /// The exit status that tells who is to blame.
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Error::Input(_) => 2,
+            Error::Listing(_) | Error::Singular(_) => 3,
+        }
+    }
+}
+
+/// What is wrong with the input, where, and how to mend it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputError {
+    /// What is wrong, with the values.
+    pub what: String,
+    /// File and field.
+    pub place: String,
+    /// How to mend it.
+    pub mend: String,
+}
+
+impl InputError {
+    /// An input error; `place` is a field such as `loads[2].on`.
+    pub fn new(place: impl Into<String>, what: impl Into<String>, mend: impl Into<String>) -> Self {
+        InputError { what: what.into(), place: place.into(), mend: mend.into() }
+    }
+
+    /// The same error, its place inside `outer`.
+    pub fn within(mut self, outer: &str) -> Self {
+        self.place =
+            if self.place.is_empty() { outer.into() } else { format!("{outer}: {}", self.place) };
+        self
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}\n  where: {}\n  mend:  {}", self.what, self.place, self.mend)
+    }
+}
+
+impl std::error::Error for InputError {}
+
+/// A matrix with no unique solution.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "iteration {iteration} of variant {variant}: the matrix is singular at node {node}, direction {direction} \
+     (pivot {pivot:e}, {in_contact} nodes in contact{body}): nothing holds it there (findings K4, K6)"
+)]
+pub struct SingularMatrix {
+    /// Name of the variant.
+    pub variant: &'static str,
+    /// Iteration, from 1.
+    pub iteration: usize,
+    /// Node of the equation whose pivot vanished.
+    pub node: usize,
+    /// `x` or `y`.
+    pub direction: char,
+    /// The pivot, force/length.
+    pub pivot: f64,
+    /// Number of contact nodes with dy = 1.
+    pub in_contact: usize,
+    /// `; body "stamp"`, where a body is known.
+    pub body: String,
+}

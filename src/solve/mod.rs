@@ -1,0 +1,5 @@
+//! Solution of the linear equations.
+
+mod dense;
+
+pub use dense::{DenseLu, Singular};
