@@ -1,9 +1,13 @@
 //! plane-contact
 #![forbid(unsafe_code)]
 
+mod choices;
+pub mod contact;
 pub mod element;
 pub mod error;
 pub mod mathcad;
 pub mod mirror;
+pub mod report;
 pub mod scalar;
+pub mod scene;
 pub mod solve;

@@ -1,1 +1,49 @@
-fn main() {}
+//! The command line.
+#![forbid(unsafe_code)]
+
+mod commands;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Audited reimplementation of a published plane contact algorithm (Filipov & Khomenko): finite elements, contact pairs by
+/// the listing c_cnt, stiffness by the listing Km.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "\
+Exit status: 0 done; 2 the input is at fault; 3 the published algorithm fails as printed (an audit result).
+
+Examples:
+  plane-contact solve                        the paper's example
+  plane-contact solve fig1 --variant printed
+  plane-contact c-cnt fig1
+  plane-contact km fig1 --coupled-by none"
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Solve(commands::solve::Args),
+    CCnt(commands::c_cnt::Args),
+    Km(commands::km::Args),
+}
+
+fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Solve(args) => commands::solve::run(&args),
+        Command::CCnt(args) => commands::c_cnt::run(&args),
+        Command::Km(args) => commands::km::run(&args),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(error.exit_status())
+        }
+    }
+}

@@ -75,6 +75,11 @@ impl<T: nalgebra::Scalar> Table<T> {
     pub fn as_matrix(&self) -> &DMatrix<T> {
         &self.0
     }
+
+    /// The matrix itself, counted from 0.
+    pub fn into_matrix(self) -> DMatrix<T> {
+        self.0
+    }
 }
 
 impl<T: nalgebra::Scalar> Column<T> {

@@ -1,46 +1,10 @@
 //! The ambiguities R1 to R8 of the print, each a switch with a default.
 
-use std::fmt;
 use std::str::FromStr;
 
-use serde::Serialize;
+use crate::choices;
 
-/// A closed set of readings with the names they have on the command line.
-macro_rules! readings {
-    ($(#[$doc:meta])* $name:ident { $($(#[$vdoc:meta])* $variant:ident = $text:literal),+ $(,)? }) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-        pub enum $name { $($(#[$vdoc])* #[serde(rename = $text)] $variant),+ }
-
-        impl $name {
-            /// All of them, the default first.
-            pub const ALL: &'static [$name] = &[$($name::$variant),+];
-
-            /// The name on the command line.
-            pub fn name(self) -> &'static str {
-                match self { $($name::$variant => $text),+ }
-            }
-        }
-
-        impl FromStr for $name {
-            type Err = String;
-            fn from_str(text: &str) -> Result<Self, String> {
-                match text {
-                    $($text => Ok($name::$variant),)+
-                    _ => Err(format!("{text:?} is none of {}", [$($text),+].join(", "))),
-                }
-            }
-        }
-
-        impl fmt::Display for $name {
-            fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(self.name())
-            }
-        }
-    };
-}
-
-readings! {
+choices! {
     /// R1, c_cnt 14: where the weights loop stands.
     LoopPlace {
         /// Beside the zeroing loop.
@@ -49,7 +13,7 @@ readings! {
         Inside = "inside",
     }
 }
-readings! {
+choices! {
     /// R2, Km 7: the index under which the x restraint is read.
     RestraintIndex {
         /// `S[2·EL−1]`, the x restraint.
@@ -58,7 +22,7 @@ readings! {
         Printed = "printed",
     }
 }
-readings! {
+choices! {
     /// R3, Km 16-33: where the adding loops stand.
     Wedge {
         /// All three nodes fill `W`, then one adding loop.
@@ -69,7 +33,7 @@ readings! {
         Nested = "nested",
     }
 }
-readings! {
+choices! {
     /// R4, c_cnt 17 and 18: how `∧` is evaluated.
     Order {
         /// A false operand decides, whatever the others do.
@@ -80,7 +44,7 @@ readings! {
         Eager = "eager",
     }
 }
-readings! {
+choices! {
     /// R5, c_cnt 22 and 23: the coordinates under the weights.
     NodeTable {
         /// Initial coordinates, as printed.
@@ -89,7 +53,7 @@ readings! {
         NodeN = "node_n",
     }
 }
-readings! {
+choices! {
     /// R6, not printed: the plane problem behind `D`.
     Plane {
         /// Plane strain.
@@ -98,7 +62,7 @@ readings! {
         Stress = "stress",
     }
 }
-readings! {
+choices! {
     /// R7, not printed: what load an iteration carries.
     Schedule {
         /// The whole load from the initial shape.
@@ -107,7 +71,7 @@ readings! {
         Stepped = "stepped",
     }
 }
-readings! {
+choices! {
     /// R8, not printed: the unit of c_tol, in a scene measured in millimetres.
     ToleranceUnit {
         /// The scene's own length unit (mm in the paper's example).

@@ -34,8 +34,7 @@ impl DenseLu {
         let pivots = factors.U().diagonal().column_vector();
         let singular = (0..n).find(|&j| {
             let largest = matrix.column(j).amax();
-            // A pivot that is NaN counts as zero too.
-            !(pivots[j].abs() > n as f64 * f64::EPSILON * largest)
+            pivots[j].is_nan() || pivots[j].abs() <= n as f64 * f64::EPSILON * largest
         });
         match singular {
             Some(column) => Err(Singular { column, pivot: pivots[column] }),

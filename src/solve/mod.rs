@@ -1,5 +1,6 @@
 //! Solution of the linear equations.
 
 mod dense;
+pub mod memory;
 
 pub use dense::{DenseLu, Singular};

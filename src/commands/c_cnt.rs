@@ -1,0 +1,36 @@
+//! `plane-contact c-cnt`.
+
+use plane_contact::error::Error;
+use plane_contact::mirror::c_cnt;
+use plane_contact::report::{json, tables};
+use plane_contact::scene::Scene;
+
+use super::{ReadingArg, print};
+
+/// Call the listing c_cnt once, at the initial shape.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Prints, by contact node, ct (elem number of the target edge), yt (vertical distance), dy (1 = in contact), then the rows of
+k_cnt that are not zero. --json: {\"ct\": [...], \"yt\": [...], \"dy\": [...], \"k_cnt\": [[mate, weight, mate, weight], ...]}.
+
+Examples:
+  plane-contact c-cnt fig1
+  plane-contact c-cnt fig1 --reading R4=left-to-right    the listing stops: exit status 3
+  plane-contact c-cnt my/scene.json --json")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    scene: String,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let reading = args.reading.reading.0;
+    let sheet = Scene::open(&args.scene)?.worksheet(&reading)?;
+    let pairs = c_cnt(&sheet, &reading, &sheet.node)?;
+    print(&if args.json { json::pairs(&pairs) } else { tables::pairs(&sheet, &pairs) })
+}

@@ -1,0 +1,59 @@
+//! `plane-contact km`.
+
+use std::path::PathBuf;
+
+use plane_contact::error::Error;
+use plane_contact::mathcad::array::Table;
+use plane_contact::mirror::{Km, c_cnt};
+use plane_contact::report::{files, matrix_market};
+use plane_contact::scene::Scene;
+use plane_contact::solve::memory;
+
+use super::{ReadingArg, print};
+
+/// Assemble MJS by the listing Km at the initial shape.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Writes MJS in Matrix Market coordinate format, 17 significant digits, zeros left out.
+
+Examples:
+  plane-contact km fig1
+  plane-contact km fig1 --coupled-by none
+  plane-contact km strand --matrix-market MJS.mtx --reading R3=nested")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    scene: String,
+    /// Write to a file in place of standard output.
+    #[arg(long, value_name = "FILE")]
+    matrix_market: Option<PathBuf>,
+    /// The contact pairs that enter: those of c_cnt at the initial shape, or none.
+    #[arg(long, value_name = "PAIRS", default_value = "c-cnt")]
+    coupled_by: CoupledBy,
+    #[command(flatten)]
+    reading: ReadingArg,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum CoupledBy {
+    CCnt,
+    None,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let reading = args.reading.reading.0;
+    let scene = Scene::open(&args.scene)?;
+    let sheet = scene.worksheet(&reading)?;
+    memory::check(sheet.R(), memory::free())?;
+    let k_cnt = match args.coupled_by {
+        CoupledBy::CCnt => c_cnt(&sheet, &reading, &sheet.node)?.k_cnt,
+        CoupledBy::None => Table::filled(sheet.R(), 4, 0.0),
+    };
+    let matrix = Km(&sheet, &reading, &k_cnt)?;
+    let comment = format!("MJS of scene {}: equation 2n-1 is x of node n, 2n is y", scene.name);
+    let text = matrix_market::matrix_market(matrix.as_matrix(), &comment);
+    match &args.matrix_market {
+        Some(path) => Ok(files::write(path, &text)?),
+        None => print(&text),
+    }
+}

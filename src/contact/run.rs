@@ -1,0 +1,422 @@
+//! The iterations of a variant (`READING.md` section 6).
+//!
+//! - total load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·U = F; node_n = node + U.
+//! - stepped load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n = node + U.
+//!
+//! A(c) is Km(c) under the printed coupling, else Tᵀ·K·T on the free equations, K being Km without contact and without
+//! restraints.
+
+use std::collections::HashMap;
+
+use nalgebra::{DVector, SVector};
+use serde::Serialize;
+
+use super::elimination::{Elimination, ties};
+use super::variant::{Coupling, Variant};
+use crate::element::State;
+use crate::error::{Error, SingularMatrix};
+use crate::mathcad::array::{Column, Table};
+use crate::mirror::{Km, Pairs, Reading, Schedule, Worksheet, c_cnt};
+use crate::scene::Scene;
+use crate::solve::{DenseLu, memory};
+
+/// One iteration.
+#[derive(Clone, Debug)]
+pub struct Iteration {
+    /// Its number, from 1.
+    pub k: usize,
+    /// What `c_cnt` found in the shape that the iteration started from.
+    pub pairs: Pairs<f64>,
+    /// Number of contact nodes with dy = 1.
+    pub in_contact: usize,
+    /// Largest |u| of a node, total, length.
+    pub max_displacement: f64,
+    /// Where this contact state (all of k_cnt) was met before.
+    pub cycle: Option<Cycle>,
+    /// Eq. (1): largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in contact, total displacements, length.
+    pub eq1_residual: f64,
+    /// The same on what this iteration solved for: the increment where the load is stepped.
+    pub eq1_residual_step: f64,
+    /// Sum of the reactions of the target body against the direction of the load applied so far, force; 0 without contact.
+    pub target_force: f64,
+    /// Relative residual |A x − b| / (|A| |x| + |b|) of the solution.
+    pub solve_residual: f64,
+}
+
+/// A contact state that came before.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Cycle {
+    /// Iterations since the state was last met; 1 = it did not change.
+    pub length: usize,
+    /// Those iterations: the last that had this state, and those between.
+    pub members: Vec<usize>,
+}
+
+/// The outcome of a run.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// What was run.
+    pub variant: Variant,
+    /// What an iteration carried.
+    pub schedule: Schedule,
+    /// The reading.
+    pub reading: Reading,
+    /// The paper's arrays.
+    pub sheet: Worksheet<f64>,
+    /// The iterations.
+    pub iterations: Vec<Iteration>,
+    /// Displacements of the 2R equations, length.
+    pub u: DVector<f64>,
+    /// Stresses and strains, by row of `EL`.
+    pub elements: Vec<State>,
+}
+
+/// Runs `variant` on `scene`; `watch` is called after each iteration.
+///
+/// # Errors
+/// The published algorithm failing as printed, a matrix that cannot be solved, a dense matrix that does not fit.
+pub fn run(
+    scene: &Scene,
+    variant: Variant,
+    reading: &Reading,
+    mut watch: impl FnMut(&Iteration),
+) -> Result<Outcome, Error> {
+    let sheet = scene.worksheet(reading)?;
+    memory::check(sheet.R(), memory::free())?;
+    let schedule = variant.schedule(reading);
+    let mut run = Run::new(scene, &sheet, variant, reading, schedule)?;
+    let mut iterations: Vec<Iteration> = Vec::new();
+    for k in 1..=scene.iterations {
+        let iteration = run.iterate(k)?;
+        watch(&iteration);
+        iterations.push(iteration);
+    }
+    let u = run.u;
+    let elements = states(&sheet, &u);
+    Ok(Outcome { variant, schedule, reading: *reading, sheet, iterations, u, elements })
+}
+
+/// What an iteration needs of those before it.
+struct Run<'a> {
+    scene: &'a Scene,
+    sheet: &'a Worksheet<f64>,
+    variant: Variant,
+    reading: &'a Reading,
+    schedule: Schedule,
+    /// `Km` without contact and without restraints.
+    k: Table<f64>,
+    /// The load that one iteration carries, 0 at restrained equations.
+    f: DVector<f64>,
+    /// Total displacements.
+    u: DVector<f64>,
+    /// Contact states met, each with its solution and the last iteration that met it. The load of an iteration is always
+    /// the same, so a state that came before has the same matrix and the same solution: nothing is factored again.
+    met: HashMap<Vec<u64>, Met>,
+}
+
+struct Met {
+    k: usize,
+    solution: Solution,
+}
+
+/// The displacements of an iteration's own load.
+#[derive(Clone)]
+struct Solution {
+    u: DVector<f64>,
+    residual: f64,
+}
+
+impl<'a> Run<'a> {
+    fn new(
+        scene: &'a Scene,
+        sheet: &'a Worksheet<f64>,
+        variant: Variant,
+        reading: &'a Reading,
+        schedule: Schedule,
+    ) -> Result<Self, Error> {
+        let share = match schedule {
+            Schedule::Total => 1.0,
+            Schedule::Stepped => scene.iterations as f64,
+        };
+        let equations = 2 * sheet.R();
+        let f = DVector::from_fn(equations, |e, _| {
+            if sheet.S[e + 1] == 1 { 0.0 } else { scene.load[e] / share }
+        });
+        let (k, u) = (free_stiffness(sheet, reading)?, DVector::zeros(equations));
+        Ok(Run { scene, sheet, variant, reading, schedule, k, f, u, met: HashMap::new() })
+    }
+
+    fn iterate(&mut self, k: usize) -> Result<Iteration, Error> {
+        let pairs = c_cnt(self.sheet, self.reading, &shape(self.sheet, &self.u))?;
+        let in_contact = pairs.dy.iter().sum();
+        let key: Vec<u64> = pairs.k_cnt.as_matrix().iter().map(|x| x.to_bits()).collect();
+        let (cycle, solution) = match self.met.get(&key) {
+            Some(met) => {
+                let cycle = Cycle { length: k - met.k, members: (met.k..k).collect() };
+                (Some(cycle), met.solution.clone())
+            }
+            None => (None, self.solve(&pairs, k, in_contact)?),
+        };
+        match self.schedule {
+            Schedule::Total => self.u = solution.u.clone(),
+            Schedule::Stepped => self.u += &solution.u,
+        }
+        let iteration = Iteration {
+            k,
+            in_contact,
+            max_displacement: max_displacement(&self.u),
+            cycle,
+            eq1_residual: eq1_residual(self.sheet, &pairs, &self.u),
+            eq1_residual_step: eq1_residual(self.sheet, &pairs, &solution.u),
+            target_force: self.target_force(k),
+            solve_residual: solution.residual,
+            pairs,
+        };
+        self.met.insert(key, Met { k, solution });
+        Ok(iteration)
+    }
+
+    /// Solves A(c)·u = f.
+    fn solve(&self, pairs: &Pairs<f64>, k: usize, in_contact: usize) -> Result<Solution, Error> {
+        let singular = |equation: usize, pivot: f64| {
+            let node = equation / 2 + 1;
+            let body = self.scene.bodies.iter().find(|b| b.nodes.binary_search(&node).is_ok());
+            SingularMatrix {
+                variant: self.variant.name(),
+                iteration: k,
+                node,
+                direction: ['x', 'y'][equation % 2],
+                pivot,
+                in_contact,
+                body: body.map_or(String::new(), |b| format!("; body {:?}", b.name)),
+            }
+        };
+        match self.variant.coupling() {
+            Coupling::Printed => {
+                let matrix = Km(self.sheet, self.reading, &pairs.k_cnt)?.into_matrix();
+                let lu = DenseLu::new(matrix).map_err(|s| singular(s.column, s.pivot))?;
+                let u = lu.solve(&self.f);
+                Ok(Solution { residual: lu.residual(&u, &self.f), u })
+            }
+            Coupling::Eliminated => {
+                let t = Elimination::new(self.sheet, pairs);
+                let lu = DenseLu::new(t.matrix(self.k.as_matrix()))
+                    .map_err(|s| singular(t.equation(s.column), s.pivot))?;
+                let f = t.load(&self.f);
+                let u = lu.solve(&f);
+                Ok(Solution { residual: lu.residual(&u, &f), u: t.expand(&u) })
+            }
+        }
+    }
+
+    /// Sum of the target body's reactions, taken against the direction of the load.
+    fn target_force(&self, k: usize) -> f64 {
+        let Some(target) = self.scene.target() else { return 0.0 };
+        let part = match self.schedule {
+            Schedule::Total => 1.0,
+            Schedule::Stepped => k as f64 / self.scene.iterations as f64,
+        };
+        let sum = |v: &dyn Fn(usize) -> f64, nodes: &mut dyn Iterator<Item = usize>| {
+            nodes.fold([0.0, 0.0], |s, n| [s[0] + v(2 * n - 2), s[1] + v(2 * n - 1)])
+        };
+        let load = sum(&|e| part * self.scene.load[e], &mut (1..=self.sheet.R()));
+        let k = self.k.as_matrix();
+        let reaction = |e: usize| {
+            if self.sheet.S[e + 1] == 0 {
+                return 0.0;
+            }
+            // K is symmetric: its column e is its row e, and lies in one piece.
+            k.column(e).dot(&self.u) - part * self.scene.load[e]
+        };
+        let reactions = sum(&reaction, &mut target.nodes.iter().copied());
+        let size = load[0].hypot(load[1]);
+        if size == 0.0 {
+            return reactions[0].hypot(reactions[1]);
+        }
+        // 0 − x rather than −x: no reaction at all is 0, not −0.
+        0.0 - (reactions[0] * load[0] + reactions[1] * load[1]) / size
+    }
+}
+
+/// `Km` without contact and without restraints.
+    k: Table<f64>,
+    /// The load that one iteration carries, 0 at restrained equations.
+    f: DVector<f64>,
+    /// Total displacements.
+    u: DVector<f64>,
+    /// Contact states met, each with its solution and the last iteration that met it. The load of an iteration is always
+    /// the same, so a state that came before has the same matrix and the same solution: nothing is factored again.
+    met: HashMap<Vec<u64>, Met>,
+}
+
+struct Met {
+    k: usize,
+    solution: Solution,
+}
+
+/// The displacements of an iteration's own load.
+#[derive(Clone)]
+struct Solution {
+    u: DVector<f64>,
+    residual: f64,
+}
+
+impl<'a> Run<'a> {
+    fn new(
+        scene: &'a Scene,
+        sheet: &'a Worksheet<f64>,
+        variant: Variant,
+        reading: &'a Reading,
+        schedule: Schedule,
+    ) -> Result<Self, Error> {
+        let share = match schedule {
+            Schedule::Total => 1.0,
+            Schedule::Stepped => scene.iterations as f64,
+        };
+        let equations = 2 * sheet.R();
+        let f = DVector::from_fn(equations, |e, _| {
+            if sheet.S[e + 1] == 1 { 0.0 } else { scene.load[e] / share }
+        });
+        let (k, u) = (free_stiffness(sheet, reading)?, DVector::zeros(equations));
+        Ok(Run { scene, sheet, variant, reading, schedule, k, f, u, met: HashMap::new() })
+    }
+
+    fn iterate(&mut self, k: usize) -> Result<Iteration, Error> {
+        let pairs = c_cnt(self.sheet, self.reading, &shape(self.sheet, &self.u))?;
+        let in_contact = pairs.dy.iter().sum();
+        let key: Vec<u64> = pairs.k_cnt.as_matrix().iter().map(|x| x.to_bits()).collect();
+        let (cycle, solution) = match self.met.get(&key) {
+            Some(met) => {
+                let cycle = Cycle { length: k - met.k, members: (met.k..k).collect() };
+                (Some(cycle), met.solution.clone())
+            }
+            None => (None, self.solve(&pairs, k, in_contact)?),
+        };
+        match self.schedule {
+            Schedule::Total => self.u = solution.u.clone(),
+            Schedule::Stepped => self.u += &solution.u,
+        }
+        let iteration = Iteration {
+            k,
+            in_contact,
+            max_displacement: max_displacement(&self.u),
+            cycle,
+            eq1_residual: eq1_residual(self.sheet, &pairs, &self.u),
+            eq1_residual_step: eq1_residual(self.sheet, &pairs, &solution.u),
+            target_force: self.target_force(k),
+            solve_residual: solution.residual,
+            pairs,
+        };
+        self.met.insert(key, Met { k, solution });
+        Ok(iteration)
+    }
+
+    /// Solves A(c)·u = f.
+    fn solve(&self, pairs: &Pairs<f64>, k: usize, in_contact: usize) -> Result<Solution, Error> {
+        let singular = |equation: usize, pivot: f64| {
+            let node = equation / 2 + 1;
+            let body = self.scene.bodies.iter().find(|b| b.nodes.binary_search(&node).is_ok());
+            SingularMatrix {
+                variant: self.variant.name(),
+                iteration: k,
+                node,
+                direction: ['x', 'y'][equation % 2],
+                pivot,
+                in_contact,
+                body: body.map_or(String::new(), |b| format!("; body {:?}", b.name)),
+            }
+        };
+        match self.variant.coupling() {
+            Coupling::Printed => {
+                let matrix = Km(self.sheet, self.reading, &pairs.k_cnt)?.into_matrix();
+                let lu = DenseLu::new(matrix).map_err(|s| singular(s.column, s.pivot))?;
+                let u = lu.solve(&self.f);
+                Ok(Solution { residual: lu.residual(&u, &self.f), u })
+            }
+            Coupling::Eliminated => {
+                let t = Elimination::new(self.sheet, pairs);
+                let lu = DenseLu::new(t.matrix(self.k.as_matrix()))
+                    .map_err(|s| singular(t.equation(s.column), s.pivot))?;
+                let f = t.load(&self.f);
+                let u = lu.solve(&f);
+                Ok(Solution { residual: lu.residual(&u, &f), u: t.expand(&u) })
+            }
+        }
+    }
+
+    /// Sum of the target body's reactions, taken against the direction of the load.
+    fn target_force(&self, k: usize) -> f64 {
+        let Some(target) = self.scene.target() else { return 0.0 };
+        let part = match self.schedule {
+            Schedule::Total => 1.0,
+            Schedule::Stepped => k as f64 / self.scene.iterations as f64,
+        };
+        let sum = |v: &dyn Fn(usize) -> f64, nodes: &mut dyn Iterator<Item = usize>| {
+            nodes.fold([0.0, 0.0], |s, n| [s[0] + v(2 * n - 2), s[1] + v(2 * n - 1)])
+        };
+        let load = sum(&|e| part * self.scene.load[e], &mut (1..=self.sheet.R()));
+        let k = self.k.as_matrix();
+        let reaction = |e: usize| {
+            if self.sheet.S[e + 1] == 0 {
+                return 0.0;
+            }
+            // K is symmetric: its column e is its row e, and lies in one piece.
+            k.column(e).dot(&self.u) - part * self.scene.load[e]
+        };
+        let reactions = sum(&reaction, &mut target.nodes.iter().copied());
+        let size = load[0].hypot(load[1]);
+        if size == 0.0 {
+            reactions[0].hypot(reactions[1])
+        } else {
+            -(reactions[0] * load[0] + reactions[1] * load[1]) / size
+        }
+    }
+}
+
+/// `Km` without contact and without restraints.
+fn free_stiffness(sheet: &Worksheet<f64>, reading: &Reading) -> Result<Table<f64>, Error> {
+    let mut free = sheet.clone();
+    free.S = Column::filled(2 * sheet.R(), 0);
+    Ok(Km(&free, reading, &Table::filled(sheet.R(), 4, 0.0))?)
+}
+
+/// node_n = node + U.
+fn shape(sheet: &Worksheet<f64>, u: &DVector<f64>) -> Table<f64> {
+    let mut node_n = sheet.node.clone();
+    for n in 1..=sheet.R() {
+        node_n[(n, 2)] += u[2 * n - 2];
+        node_n[(n, 3)] += u[2 * n - 1];
+    }
+    node_n
+}
+
+/// Largest |u| of a node.
+pub fn max_displacement(u: &DVector<f64>) -> f64 {
+    u.as_slice().chunks(2).map(|u| u[0].hypot(u[1])).fold(0.0, f64::max)
+}
+
+/// Largest component of u_cont − u_targ over the nodes in contact.
+fn eq1_residual(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, u: &DVector<f64>) -> f64 {
+    let component = |node: usize, direction: usize| u[2 * node - 2 + direction];
+    let mut largest = 0.0_f64;
+    for tie in ties(sheet, pairs) {
+        for direction in [0, 1] {
+            let target: f64 =
+                tie.weights.iter().map(|&(mate, k)| k * component(mate, direction)).sum();
+            largest = largest.max((component(tie.node, direction) - target).abs());
+        }
+    }
+    largest
+}
+
+/// Stresses and strains of every triangle.
+fn states(sheet: &Worksheet<f64>, u: &DVector<f64>) -> Vec<State> {
+    (1..=sheet.M())
+        .map(|n| {
+            let of_element = SVector::<f64, 6>::from_fn(|k, _| {
+                u[2 * sheet.EL[(n, sheet.ind_1 + k / 2)] - 2 + k % 2]
+            });
+            State::new(sheet.plane, sheet.E[n], sheet.nu[n], &sheet.B[n], &of_element)
+        })
+        .collect()
+}

@@ -1,0 +1,43 @@
+//! Files are written beside their target, then renamed: nothing is ever half written.
+
+use std::io::Write;
+use std::path::Path;
+
+use crate::error::InputError;
+
+/// Writes `content` to `path`, making its folder where it is missing.
+///
+/// # Errors
+/// The folder or the file cannot be written; a file that was there is left as it was.
+pub fn write(path: &Path, content: &str) -> Result<(), InputError> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let written = std::fs::create_dir_all(folder).and_then(|()| {
+        let mut file = temporary(folder)?;
+        file.write_all(content.as_bytes())?;
+        file.persist(path).map_err(|failed| failed.error)?;
+        Ok(())
+    });
+    written.map_err(|why| {
+        let place = path.display().to_string();
+        InputError::new(
+            place,
+            format!("the file cannot be written: {why}"),
+            "choose another place with --out",
+        )
+    })
+}
+
+/// A temporary file with the permissions of an ordinary new file (tempfile's own default is for its owner alone).
+fn temporary(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".plane-contact-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}

@@ -1,0 +1,114 @@
+//! `result.json`: everything that a machine needs of a run. Floats read back to the same bits.
+
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::contact::{Cycle, Iteration, Outcome};
+use crate::mirror::{Pairs, Reading};
+use crate::report::summary::{BodySummary, summaries};
+use crate::scene::{Scene, Units};
+
+/// The content of `result.json`.
+#[derive(Serialize)]
+struct Document<'a> {
+    scene: &'a str,
+    title: &'a str,
+    variant: &'static str,
+    reading: Value,
+    units: &'a Units,
+    /// Sum of the loads, force.
+    load: [f64; 2],
+    /// Numbers, in the mesh file, of nodes that were dropped.
+    dropped: &'a [usize],
+    iterations: Vec<Row<'a>>,
+    bodies: Vec<BodySummary>,
+    /// Displacement of each node, length.
+    u: Vec<[f64; 2]>,
+    elements: Vec<ElementRow>,
+}
+
+#[derive(Serialize)]
+struct Row<'a> {
+    k: usize,
+    in_contact: usize,
+    dy: &'a [usize],
+    max_displacement: f64,
+    cycle: &'a Option<Cycle>,
+    eq1_residual: f64,
+    eq1_residual_step: f64,
+    target_force: f64,
+    solve_residual: f64,
+}
+
+#[derive(Serialize)]
+struct ElementRow {
+    /// Row of `EL`.
+    n: usize,
+    sigma: [f64; 3],
+    epsilon: [f64; 3],
+    von_mises_stress: f64,
+    von_mises_strain: f64,
+}
+
+/// `result.json` of a run.
+pub fn result(scene: &Scene, outcome: &Outcome) -> String {
+    let document = Document {
+        scene: &scene.name,
+        title: &scene.title,
+        variant: outcome.variant.name(),
+        reading: reading(outcome),
+        units: &scene.units,
+        load: scene.total_load(),
+        dropped: &scene.dropped,
+        iterations: outcome.iterations.iter().map(row).collect(),
+        bodies: summaries(scene, outcome),
+        u: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
+        elements: elements(outcome),
+    };
+    serde_json::to_string(&document).expect("the document has string keys only") + "\n"
+}
+
+/// All eight readings as they were in force.
+fn reading(outcome: &Outcome) -> Value {
+    let Reading { r1, r2, r3, r4, r5, r8, .. } = outcome.reading;
+    json!({
+        "R1": r1, "R2": r2, "R3": r3, "R4": r4, "R5": r5,
+        "R6": outcome.sheet.plane, "R7": outcome.schedule, "R8": r8,
+    })
+}
+
+fn row(iteration: &Iteration) -> Row<'_> {
+    Row {
+        k: iteration.k,
+        in_contact: iteration.in_contact,
+        dy: iteration.pairs.dy.as_slice(),
+        max_displacement: iteration.max_displacement,
+        cycle: &iteration.cycle,
+        eq1_residual: iteration.eq1_residual,
+        eq1_residual_step: iteration.eq1_residual_step,
+        target_force: iteration.target_force,
+        solve_residual: iteration.solve_residual,
+    }
+}
+
+fn elements(outcome: &Outcome) -> Vec<ElementRow> {
+    let rows = outcome.elements.iter().enumerate();
+    rows.map(|(k, state)| ElementRow {
+        n: k + 1,
+        sigma: state.sigma.into(),
+        epsilon: state.epsilon.into(),
+        von_mises_stress: state.von_mises_stress,
+        von_mises_strain: state.von_mises_strain,
+    })
+    .collect()
+}
+
+/// What one call of `c_cnt` found.
+pub fn pairs(pairs: &Pairs<f64>) -> String {
+    let k_cnt: Vec<Vec<f64>> =
+        (1..=pairs.k_cnt.rows()).map(|n| pairs.k_cnt.row(n).copied().collect()).collect();
+    let document = json!({
+        "ct": pairs.ct.as_slice(), "yt": pairs.yt.as_slice(), "dy": pairs.dy.as_slice(), "k_cnt": k_cnt,
+    });
+    document.to_string() + "\n"
+}

@@ -1,0 +1,7 @@
+//! Tables, pictures, files.
+
+pub mod files;
+pub mod json;
+pub mod matrix_market;
+mod summary;
+pub mod tables;

@@ -1,0 +1,167 @@
+//! Tables for people.
+
+use std::fmt::Write as _;
+
+use super::summary::summaries;
+use crate::contact::{Cycle, Iteration, Outcome};
+use crate::mirror::{Pairs, Worksheet};
+use crate::scene::Scene;
+
+/// Aligns rows of cells to the right, the first row being the heading.
+fn aligned(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |j: usize| rows.iter().filter_map(|r| r.get(j)).map(|c| c.chars().count()).max();
+    let widths: Vec<usize> = (0..columns).map(|j| width(j).unwrap_or(0)).collect();
+    let mut text = String::new();
+    for (k, row) in rows.iter().enumerate() {
+        let cells: Vec<String> =
+            row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
+        writeln!(text, "  {}", cells.join("  ").trim_end()).expect("a String takes any text");
+        if k == 0 {
+            let rule: Vec<String> = widths.iter().map(|width| "-".repeat(*width)).collect();
+            writeln!(text, "  {}", rule.join("  ")).expect("a String takes any text");
+        }
+    }
+    text
+}
+
+/// `name (unit)`, or the name alone where the scene names no unit.
+fn with_unit(name: &str, unit: &str) -> String {
+    if unit.is_empty() { name.into() } else { format!("{name}, {unit}") }
+}
+
+/// Four digits, in scientific notation where that is shorter to read.
+fn short(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".into(),
+        size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),
+        _ => format!("{x:.3e}"),
+    }
+}
+
+/// The tables of `solve`.
+pub fn solution(scene: &Scene, outcome: &Outcome) -> String {
+    let mut text = format!("{} ({})\n", scene.title, heading(scene, outcome));
+    text += &format!("\nIterations\n{}", iterations(scene, outcome));
+    if let Some(last) = outcome.iterations.last().filter(|_| scene.target().is_some()) {
+        text += &format!("\nIn contact at the end: {}\n", contact_list(&outcome.sheet, last));
+    }
+    text + &format!("\nBodies\n{}", bodies(scene, outcome))
+}
+
+fn heading(scene: &Scene, outcome: &Outcome) -> String {
+    format!(
+        "scene {}, variant {}: {} load, plane {}; {} nodes, {} triangles",
+        scene.name,
+        outcome.variant,
+        outcome.schedule,
+        outcome.sheet.plane,
+        outcome.sheet.R(),
+        outcome.sheet.M()
+    )
+}
+
+fn iterations(scene: &Scene, outcome: &Outcome) -> String {
+    let units = &scene.units;
+    let [fx, fy] = scene.total_load();
+    let head = vec![
+        "k".into(),
+        "in contact".into(),
+        with_unit("largest |u|", &units.length),
+        with_unit("eq. (1), total u", &units.length),
+        with_unit("force on target", &units.force),
+        format!("of {}", short(fx.hypot(fy))),
+        "residual".into(),
+        "contact state".into(),
+    ];
+    let rows = outcome.iterations.iter().map(|it| {
+        vec![
+            it.k.to_string(),
+            it.in_contact.to_string(),
+            short(it.max_displacement),
+            short(it.eq1_residual),
+            short(it.target_force),
+            format!("{:.1} %", 100.0 * it.target_force / fx.hypot(fy).max(f64::MIN_POSITIVE)),
+            format!("{:.0e}", it.solve_residual),
+            state(&it.cycle),
+        ]
+    });
+    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+}
+
+fn state(cycle: &Option<Cycle>) -> String {
+    match cycle {
+        None => "new".into(),
+        Some(Cycle { length: 1, .. }) => "unchanged".into(),
+        Some(cycle) => format!("as in {} (cycle of {})", cycle.members[0], cycle.length),
+    }
+}
+
+/// Node numbers of the contact nodes with dy = 1.
+fn contact_list(sheet: &Worksheet<f64>, iteration: &Iteration) -> String {
+    let nodes: Vec<String> = (1..=sheet.cnt.rows())
+        .filter(|&i1| iteration.pairs.dy[i1] == 1)
+        .map(|i1| sheet.cnt[i1].to_string())
+        .collect();
+    if nodes.is_empty() { "no node".into() } else { format!("nodes {}", nodes.join(", ")) }
+}
+
+fn bodies(scene: &Scene, outcome: &Outcome) -> String {
+    let units = &scene.units;
+    let head = vec![
+        "body".into(),
+        "nodes".into(),
+        "triangles".into(),
+        with_unit("largest |u|", &units.length),
+        with_unit("von Mises stress", &units.stress),
+        "at x, y".into(),
+        "von Mises strain".into(),
+    ];
+    let rows = summaries(scene, outcome).into_iter().map(|body| {
+        vec![
+            body.name,
+            body.nodes.to_string(),
+            body.triangles.to_string(),
+            short(body.max_displacement),
+            short(body.max_von_mises_stress),
+            format!("{:.2}, {:.2}", body.centre[0], body.centre[1]),
+            short(body.max_von_mises_strain),
+        ]
+    });
+    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+}
+
+/// The table of `c-cnt`: contact nodes first, then the rows of k_cnt that are not zero.
+pub fn pairs(sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> String {
+    let head = ["i1", "cnt", "ct", "yt", "dy"].map(String::from).to_vec();
+    let rows = (1..=sheet.cnt.rows()).map(|i1| {
+        vec![
+            i1.to_string(),
+            sheet.cnt[i1].to_string(),
+            pairs.ct[i1].to_string(),
+            short(pairs.yt[i1]),
+            pairs.dy[i1].to_string(),
+        ]
+    });
+    let found = aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>());
+    let head = ["node", "mate", "weight", "mate", "weight", "surface"].map(String::from).to_vec();
+    let linked = (1..=sheet.R()).filter(|&n| pairs.k_cnt.row(n).any(|x| *x != 0.0));
+    let rows: Vec<Vec<String>> = linked.map(|n| k_cnt_row(sheet, pairs, n)).collect();
+    let count = rows.len();
+    let links = aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>());
+    format!(
+        "Contact nodes (c_tll = {})\n{found}\nk_cnt: {count} of {} rows are not zero\n{links}",
+        sheet.c_tll,
+        sheet.R()
+    )
+}
+
+fn k_cnt_row(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, n: usize) -> Vec<String> {
+    let surface = if sheet.cnt.iter().any(|c| *c == n) { "contact" } else { "target" };
+    let cells = pairs
+        .k_cnt
+        .row(n)
+        .enumerate()
+        .map(|(j, x)| if j % 2 == 0 { format!("{x:.0}") } else { short(*x) });
+    std::iter::once(n.to_string()).chain(cells).chain([surface.to_string()]).collect()
+}

@@ -1,0 +1,86 @@
+//! Physical groups: from a name or a tag to the elements that carry it.
+
+use super::file::GroupRef;
+use super::mesh::{Element, Mesh};
+use crate::error::InputError;
+
+/// What a group's elements are, by dimension.
+const ELEMENT_NAMES: [&str; 3] = ["points", "edges", "triangles"];
+
+/// The elements of dimension `dim` (1 = edges, 2 = triangles) that carry the group `name_or_tag`, in mesh order.
+///
+/// # Errors
+/// No such group in that dimension; a group with no element.
+pub fn members<'m>(
+    mesh: &'m Mesh,
+    dim: usize,
+    group: &GroupRef,
+    place: &str,
+) -> Result<Vec<&'m Element>, InputError> {
+    let what = ELEMENT_NAMES[dim];
+    let tag = tag(mesh, dim, group).ok_or_else(|| {
+        InputError::new(
+            place,
+            format!("there is no physical group {group} of {what}"),
+            known(mesh, dim),
+        )
+    })?;
+    let members: Vec<_> = mesh.of_dimension(dim).filter(|e| e.physical.contains(&tag)).collect();
+    if members.is_empty() {
+        return Err(InputError::new(
+            place,
+            format!("the physical group {group} has no element among the mesh's {what}"),
+            known(mesh, dim),
+        ));
+    }
+    Ok(members)
+}
+
+/// The nodes of the group `name_or_tag`, ascending: a group of edges, else of points, else of triangles.
+///
+/// # Errors
+/// No such group; a group with no element.
+pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>, InputError> {
+    let dim = [1, 0, 2].into_iter().find(|&dim| {
+        tag(mesh, dim, group)
+            .is_some_and(|tag| mesh.of_dimension(dim).any(|e| e.physical.contains(&tag)))
+    });
+    let members = members(mesh, dim.unwrap_or(1), group, place)?;
+    let mut nodes: Vec<usize> = members.iter().flat_map(|e| e.nodes.iter().copied()).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    Ok(nodes)
+}
+
+/// The tag of a group: a name first, then a number, also one that is written as text.
+fn tag(mesh: &Mesh, dim: usize, group: &GroupRef) -> Option<usize> {
+    let used = |tag: &usize| mesh.of_dimension(dim).any(|e| e.physical.contains(tag));
+    match group {
+        GroupRef::Tag(tag) => Some(*tag).filter(used),
+        GroupRef::Name(name) => mesh
+            .names
+            .iter()
+            .find(|n| n.dim == dim && n.name == *name)
+            .map(|n| n.tag)
+            .or_else(|| name.parse().ok().filter(used)),
+    }
+}
+
+/// The groups that do exist, for the mend of an error.
+fn known(mesh: &Mesh, dim: usize) -> String {
+    let mut tags: Vec<usize> =
+        mesh.of_dimension(dim).flat_map(|e| e.physical.iter().copied()).collect();
+    tags.sort_unstable();
+    tags.dedup();
+    let names: Vec<String> = tags
+        .iter()
+        .map(|tag| match mesh.names.iter().find(|n| n.dim == dim && n.tag == *tag) {
+            Some(name) => format!("{:?} ({tag})", name.name),
+            None => tag.to_string(),
+        })
+        .collect();
+    match names.as_slice() {
+        [] => format!("the mesh has no physical group of {}", ELEMENT_NAMES[dim]),
+        names => format!("the mesh's groups of {} are {}", ELEMENT_NAMES[dim], names.join(", ")),
+    }
+}

@@ -1,0 +1,124 @@
+//! The two contact surfaces, in the order that the listing walks them.
+
+use super::file::Surface;
+use super::groups;
+use super::mesh::{Element, Mesh};
+use crate::error::InputError;
+
+/// The node numbers of the contact surface `cnt`, in order along it. A list is taken as it is; a group's edges are walked as a
+/// chain from its first end.
+///
+/// # Errors
+/// A group that is no single chain; a number that is no node.
+pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputError> {
+    let place = "contact.cnt";
+    match surface {
+        Surface::Group(group) => {
+            let edges = groups::members(mesh, 1, group, place)?;
+            chain(&edges.iter().map(|e| [e.nodes[0], e.nodes[1]]).collect::<Vec<_>>()).map_err(
+                |why| {
+                    InputError::new(
+                        place,
+                        format!("group {group}: {why}"),
+                        "give the node numbers as a list, in order",
+                    )
+                },
+            )
+        }
+        Surface::Numbers(numbers) => {
+            not_empty(numbers, place)?;
+            numbers.iter().try_for_each(|&n| mesh.check_node(n, place))?;
+            Ok(numbers.clone())
+        }
+    }
+}
+
+/// The `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
+///
+/// # Errors
+/// A number that is no edge.
+pub fn target_edges(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputError> {
+    let place = "contact.trg";
+    match surface {
+        Surface::Group(group) => {
+            Ok(groups::members(mesh, 1, group, place)?.iter().map(|e| e.number).collect())
+        }
+        Surface::Numbers(numbers) => {
+            not_empty(numbers, place)?;
+            for &number in numbers {
+                edge(mesh, number, place)?;
+            }
+            Ok(numbers.clone())
+        }
+    }
+}
+
+/// The edge with `elem` number `number`.
+fn edge<'m>(mesh: &'m Mesh, number: usize, place: &str) -> Result<&'m Element, InputError> {
+    mesh.of_dimension(1).find(|e| e.number == number).ok_or_else(|| {
+        InputError::new(
+            place,
+            format!("elem {number} is no edge of the mesh"),
+            "name elem rows of type 1",
+        )
+    })
+}
+
+fn not_empty(numbers: &[usize], place: &str) -> Result<(), InputError> {
+    if numbers.is_empty() {
+        return Err(InputError::new(
+            place,
+            "the list is empty",
+            "name at least one, or leave out contact",
+        ));
+    }
+    Ok(())
+}
+
+/// Walks `edges` as one chain: from the first end in mesh order; a closed chain from its first edge's first node.
+fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
+    let degree = |node: usize| edges.iter().flatten().filter(|&&n| n == node).count();
+    if let Some(node) = edges.iter().flatten().find(|&&n| degree(n) > 2) {
+        return Err(format!("the chain of edges branches at node {node}"));
+    }
+    let start = edges.iter().flatten().copied().find(|&n| degree(n) == 1).unwrap_or(edges[0][0]);
+    let mut walked = vec![false; edges.len()];
+    let mut nodes = vec![start];
+    let mut here = start;
+    while let Some(k) = (0..edges.len()).find(|&k| !walked[k] && edges[k].contains(&here)) {
+        walked[k] = true;
+        here = if edges[k][0] == here { edges[k][1] } else { edges[k][0] };
+        if here != start {
+            nodes.push(here);
+        }
+    }
+    match walked.iter().position(|walked| !walked) {
+        None => Ok(nodes),
+        Some(k) => Err(format!(
+            "the edges make more than one chain: the one from node {start} ends at node {here}, and edge {} - {} is left",
+            edges[k][0], edges[k][1]
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::chain;
+
+    #[test]
+    fn a_chain_starts_at_its_first_end_in_mesh_order() {
+        assert_eq!(chain(&[[5, 4], [5, 6], [4, 9]]).unwrap(), [9, 4, 5, 6]);
+        assert_eq!(chain(&[[2, 1], [3, 2]]).unwrap(), [1, 2, 3]);
+    }
+
+    #[test]
+    fn a_closed_chain_starts_at_its_first_edge_and_names_each_node_once() {
+        assert_eq!(chain(&[[1, 2], [2, 3], [3, 1]]).unwrap(), [1, 2, 3]);
+    }
+
+    #[test]
+    fn branches_and_pieces_are_refused() {
+        assert!(chain(&[[1, 2], [2, 3], [2, 4]]).unwrap_err().contains("node 2"));
+        assert!(chain(&[[1, 2], [3, 4]]).unwrap_err().contains("edge 3 - 4"));
+    }
+}

@@ -1,0 +1,56 @@
+//! Whether the dense matrices fit in the memory that is free.
+
+use sysinfo::{MemoryRefreshKind, RefreshKind, System};
+
+use crate::error::InputError;
+
+/// Matrices of (2R)² numbers that a solution holds at once: `K`, the matrix of the iteration, its LU factors.
+const MATRICES: u128 = 3;
+
+/// Bytes that a solution with `r` nodes needs for its dense matrices.
+pub fn needed(r: usize) -> u128 {
+    let equations = 2 * r as u128;
+    MATRICES * equations * equations * 8
+}
+
+/// Bytes of memory that are free now, a control group's limit included; nothing where the system does not tell.
+pub fn free() -> Option<u128> {
+    let memory = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
+    let system = System::new_with_specifics(memory).ok()?;
+    let limit = system.cgroup_limits().map_or(u64::MAX, |limits| limits.free_memory);
+    Some(u128::from(system.available_memory().min(limit)))
+}
+
+/// That the dense matrices of `r` nodes fit in `free` bytes.
+///
+/// # Errors
+/// They do not; the message says how much they need.
+pub fn check(r: usize, free: Option<u128>) -> Result<(), InputError> {
+    let free = free.unwrap_or(u128::MAX);
+    if needed(r) <= free {
+        return Ok(());
+    }
+    Err(InputError::new(
+        "the mesh",
+        format!(
+            "R = {r} nodes need {:.1} GB for {MATRICES} dense matrices of {} x {}; {:.1} GB are free",
+            needed(r) as f64 / 1e9,
+            2 * r,
+            2 * r,
+            free as f64 / 1e9
+        ),
+        "use a coarser mesh or a machine with more memory",
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_that_does_not_fit_is_refused_with_its_size() {
+        assert!(check(1000, Some(96_000_000)).is_ok());
+        let error = check(1000, Some(95_999_999)).unwrap_err();
+        assert!(error.what.contains("0.1 GB for 3 dense matrices of 2000 x 2000"), "{error}");
+    }
+}
