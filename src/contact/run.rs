@@ -212,164 +212,26 @@ impl<'a> Run<'a> {
     /// Sum of the target body's reactions, taken against the direction of the load.
     fn target_force(&self, k: usize) -> f64 {
         let Some(target) = self.scene.target() else { return 0.0 };
-        let part = match self.schedule {
+        let applied = match self.schedule {
             Schedule::Total => 1.0,
             Schedule::Stepped => k as f64 / self.scene.iterations as f64,
         };
-        let sum = |v: &dyn Fn(usize) -> f64, nodes: &mut dyn Iterator<Item = usize>| {
-            nodes.fold([0.0, 0.0], |s, n| [s[0] + v(2 * n - 2), s[1] + v(2 * n - 1)])
-        };
-        let load = sum(&|e| part * self.scene.load[e], &mut (1..=self.sheet.R()));
-        let k = self.k.as_matrix();
-        let reaction = |e: usize| {
-            if self.sheet.S[e + 1] == 0 {
-                return 0.0;
-            }
+        let stiffness = self.k.as_matrix();
+        let reaction = |e: usize| match self.sheet.S[e + 1] {
+            0 => 0.0,
             // K is symmetric: its column e is its row e, and lies in one piece.
-            k.column(e).dot(&self.u) - part * self.scene.load[e]
+            _ => stiffness.column(e).dot(&self.u) - applied * self.scene.load[e],
         };
-        let reactions = sum(&reaction, &mut target.nodes.iter().copied());
-        let size = load[0].hypot(load[1]);
+        let sum = |direction| -> f64 {
+            target.nodes.iter().map(|n| reaction(2 * n - 2 + direction)).sum()
+        };
+        let (reactions, [fx, fy]) = ([sum(0), sum(1)], self.scene.total_load());
+        let size = fx.hypot(fy);
         if size == 0.0 {
             return reactions[0].hypot(reactions[1]);
         }
         // 0 − x rather than −x: no reaction at all is 0, not −0.
-        0.0 - (reactions[0] * load[0] + reactions[1] * load[1]) / size
-    }
-}
-
-/// `Km` without contact and without restraints.
-    k: Table<f64>,
-    /// The load that one iteration carries, 0 at restrained equations.
-    f: DVector<f64>,
-    /// Total displacements.
-    u: DVector<f64>,
-    /// Contact states met, each with its solution and the last iteration that met it. The load of an iteration is always
-    /// the same, so a state that came before has the same matrix and the same solution: nothing is factored again.
-    met: HashMap<Vec<u64>, Met>,
-}
-
-struct Met {
-    k: usize,
-    solution: Solution,
-}
-
-/// The displacements of an iteration's own load.
-#[derive(Clone)]
-struct Solution {
-    u: DVector<f64>,
-    residual: f64,
-}
-
-impl<'a> Run<'a> {
-    fn new(
-        scene: &'a Scene,
-        sheet: &'a Worksheet<f64>,
-        variant: Variant,
-        reading: &'a Reading,
-        schedule: Schedule,
-    ) -> Result<Self, Error> {
-        let share = match schedule {
-            Schedule::Total => 1.0,
-            Schedule::Stepped => scene.iterations as f64,
-        };
-        let equations = 2 * sheet.R();
-        let f = DVector::from_fn(equations, |e, _| {
-            if sheet.S[e + 1] == 1 { 0.0 } else { scene.load[e] / share }
-        });
-        let (k, u) = (free_stiffness(sheet, reading)?, DVector::zeros(equations));
-        Ok(Run { scene, sheet, variant, reading, schedule, k, f, u, met: HashMap::new() })
-    }
-
-    fn iterate(&mut self, k: usize) -> Result<Iteration, Error> {
-        let pairs = c_cnt(self.sheet, self.reading, &shape(self.sheet, &self.u))?;
-        let in_contact = pairs.dy.iter().sum();
-        let key: Vec<u64> = pairs.k_cnt.as_matrix().iter().map(|x| x.to_bits()).collect();
-        let (cycle, solution) = match self.met.get(&key) {
-            Some(met) => {
-                let cycle = Cycle { length: k - met.k, members: (met.k..k).collect() };
-                (Some(cycle), met.solution.clone())
-            }
-            None => (None, self.solve(&pairs, k, in_contact)?),
-        };
-        match self.schedule {
-            Schedule::Total => self.u = solution.u.clone(),
-            Schedule::Stepped => self.u += &solution.u,
-        }
-        let iteration = Iteration {
-            k,
-            in_contact,
-            max_displacement: max_displacement(&self.u),
-            cycle,
-            eq1_residual: eq1_residual(self.sheet, &pairs, &self.u),
-            eq1_residual_step: eq1_residual(self.sheet, &pairs, &solution.u),
-            target_force: self.target_force(k),
-            solve_residual: solution.residual,
-            pairs,
-        };
-        self.met.insert(key, Met { k, solution });
-        Ok(iteration)
-    }
-
-    /// Solves A(c)·u = f.
-    fn solve(&self, pairs: &Pairs<f64>, k: usize, in_contact: usize) -> Result<Solution, Error> {
-        let singular = |equation: usize, pivot: f64| {
-            let node = equation / 2 + 1;
-            let body = self.scene.bodies.iter().find(|b| b.nodes.binary_search(&node).is_ok());
-            SingularMatrix {
-                variant: self.variant.name(),
-                iteration: k,
-                node,
-                direction: ['x', 'y'][equation % 2],
-                pivot,
-                in_contact,
-                body: body.map_or(String::new(), |b| format!("; body {:?}", b.name)),
-            }
-        };
-        match self.variant.coupling() {
-            Coupling::Printed => {
-                let matrix = Km(self.sheet, self.reading, &pairs.k_cnt)?.into_matrix();
-                let lu = DenseLu::new(matrix).map_err(|s| singular(s.column, s.pivot))?;
-                let u = lu.solve(&self.f);
-                Ok(Solution { residual: lu.residual(&u, &self.f), u })
-            }
-            Coupling::Eliminated => {
-                let t = Elimination::new(self.sheet, pairs);
-                let lu = DenseLu::new(t.matrix(self.k.as_matrix()))
-                    .map_err(|s| singular(t.equation(s.column), s.pivot))?;
-                let f = t.load(&self.f);
-                let u = lu.solve(&f);
-                Ok(Solution { residual: lu.residual(&u, &f), u: t.expand(&u) })
-            }
-        }
-    }
-
-    /// Sum of the target body's reactions, taken against the direction of the load.
-    fn target_force(&self, k: usize) -> f64 {
-        let Some(target) = self.scene.target() else { return 0.0 };
-        let part = match self.schedule {
-            Schedule::Total => 1.0,
-            Schedule::Stepped => k as f64 / self.scene.iterations as f64,
-        };
-        let sum = |v: &dyn Fn(usize) -> f64, nodes: &mut dyn Iterator<Item = usize>| {
-            nodes.fold([0.0, 0.0], |s, n| [s[0] + v(2 * n - 2), s[1] + v(2 * n - 1)])
-        };
-        let load = sum(&|e| part * self.scene.load[e], &mut (1..=self.sheet.R()));
-        let k = self.k.as_matrix();
-        let reaction = |e: usize| {
-            if self.sheet.S[e + 1] == 0 {
-                return 0.0;
-            }
-            // K is symmetric: its column e is its row e, and lies in one piece.
-            k.column(e).dot(&self.u) - part * self.scene.load[e]
-        };
-        let reactions = sum(&reaction, &mut target.nodes.iter().copied());
-        let size = load[0].hypot(load[1]);
-        if size == 0.0 {
-            reactions[0].hypot(reactions[1])
-        } else {
-            -(reactions[0] * load[0] + reactions[1] * load[1]) / size
-        }
+        0.0 - (reactions[0] * fx + reactions[1] * fy) / size
     }
 }
 
