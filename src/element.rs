@@ -98,8 +98,14 @@ impl State {
     }
 }
 
-/// sqrt(d:d) of the deviator d of a symmetric tensor whose only shear component is `xy`.
+/// sqrt(d:d) of the deviator d of a symmetric tensor whose only shear component is `xy`; scaled, so that no square overflows
+/// or vanishes.
 fn deviator_norm(xx: f64, yy: f64, zz: f64, xy: f64) -> f64 {
+    let scale = [xx, yy, zz, xy].into_iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if scale == 0.0 {
+        return 0.0;
+    }
+    let [xx, yy, zz, xy] = [xx, yy, zz, xy].map(|x| x / scale);
     let squares = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
-    (squares / 3.0 + 2.0 * xy * xy).sqrt()
+    scale * (squares / 3.0 + 2.0 * xy * xy).sqrt()
 }

@@ -1,12 +1,12 @@
 //! `plane-contact solve`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use plane_contact::contact::{self, Outcome, Variant};
+use plane_contact::contact::{self, Variant};
 use plane_contact::error::Error;
-use plane_contact::report::{files, json, tables};
+use plane_contact::report::{folder, json, tables};
 use plane_contact::scene::Scene;
 
 use super::{ReadingArg, print};
@@ -46,13 +46,12 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let outcome = contact::run(&scene, variant, &args.reading.reading.0, |_| progress.inc(1))?;
     progress.finish_and_clear();
     let default = || PathBuf::from("out").join(format!("{}-{variant}", scene.name));
-    let folder = args.out.clone().unwrap_or_else(default);
-    let result = json::result(&scene, &outcome);
-    write_files(&folder, &scene, &outcome, &result)?;
+    let out = args.out.clone().unwrap_or_else(default);
+    folder::write(&out, &scene, &outcome)?;
     if args.json {
-        return print(&result);
+        return print(&json::result(&scene, &outcome));
     }
-    print(&format!("{}\nWritten to {}\n", tables::solution(&scene, &outcome), folder.display()))
+    print(&format!("{}\nWritten to {}\n", tables::solution(&scene, &outcome), out.display()))
 }
 
 /// A bar on standard error; it shows only in a terminal.
@@ -61,10 +60,4 @@ fn progress(iterations: usize) -> ProgressBar {
     let bar = ProgressBar::new(iterations as u64).with_style(style.expect("the template is sound"));
     bar.enable_steady_tick(Duration::from_millis(500));
     bar
-}
-
-fn write_files(folder: &Path, scene: &Scene, outcome: &Outcome, result: &str) -> Result<(), Error> {
-    let _ = (scene, outcome);
-    files::write(&folder.join("result.json"), result)?;
-    Ok(())
 }

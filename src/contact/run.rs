@@ -14,7 +14,7 @@ use serde::Serialize;
 use super::elimination::{Elimination, ties};
 use super::variant::{Coupling, Variant};
 use crate::element::State;
-use crate::error::{Error, SingularMatrix};
+use crate::error::{Error, InputError, SingularMatrix};
 use crate::mathcad::array::{Column, Table};
 use crate::mirror::{Km, Pairs, Reading, Schedule, Worksheet, c_cnt};
 use crate::scene::Scene;
@@ -93,6 +93,7 @@ pub fn run(
     }
     let u = run.u;
     let elements = states(&sheet, &u);
+    check_finite(&u, &elements)?;
     Ok(Outcome { variant, schedule, reading: *reading, sheet, iterations, u, elements })
 }
 
@@ -281,4 +282,14 @@ fn states(sheet: &Worksheet<f64>, u: &DVector<f64>) -> Vec<State> {
             State::new(sheet.plane, sheet.E[n], sheet.nu[n], &sheet.B[n], &of_element)
         })
         .collect()
+}
+
+/// That every displacement, stress and strain can be represented.
+fn check_finite(u: &DVector<f64>, elements: &[State]) -> Result<(), InputError> {
+    let finite = |s: &State| (s.von_mises_stress + s.von_mises_strain).is_finite();
+    if u.iter().all(|x| x.is_finite()) && elements.iter().all(finite) {
+        return Ok(());
+    }
+    let what = "the displacements or stresses are too large to represent";
+    Err(InputError::new("loads, materials, mesh", what, "choose other units"))
 }

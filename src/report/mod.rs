@@ -1,7 +1,13 @@
-//! Tables, pictures, files.
+//! What a run leaves: tables for people, pictures for the eye, files for machines.
+//!
+//! The same input gives the same bytes: no clock, no hash order, no machine in them.
 
 pub mod files;
+pub mod folder;
 pub mod json;
 pub mod matrix_market;
-mod summary;
+pub mod picture;
+pub mod summary;
 pub mod tables;
+pub mod vtu;
+mod xml;

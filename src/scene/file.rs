@@ -268,7 +268,7 @@ impl SceneFile {
         let mut deserializer = serde_json::Deserializer::from_slice(text);
         let file = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
             let place = match error.path().to_string() {
-                path if path == "." => "the scene file".into(),
+                path if path == "." || path == "?" => "the scene file".into(),
                 path => format!("field {path}"),
             };
             InputError::new(place, error.inner().to_string(), "see the scene format in README.md")

@@ -53,9 +53,12 @@ impl DenseLu {
     /// backward error); 0 when x and b are 0.
     pub fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
         let residual = (&self.matrix * x - b).amax();
-        let norm = (0..x.len())
-            .map(|i| self.matrix.row(i).iter().map(|a| a.abs()).sum::<f64>())
-            .fold(0.0, f64::max);
+        // The largest row sum, gathered column by column as the matrix lies in memory.
+        let mut row_sums = DVector::<f64>::zeros(x.len());
+        for column in self.matrix.column_iter() {
+            row_sums.zip_apply(&column, |sum, a| *sum += a.abs());
+        }
+        let norm = row_sums.amax();
         let scale = norm * x.amax() + b.amax();
         if residual == 0.0 { 0.0 } else { residual / scale }
     }

@@ -1,0 +1,91 @@
+//! The numbers to reach, measured from the outside, whole processes: time and peak memory beside their limits. Prints a table;
+//! asserts nothing, for machines differ.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A command, how often it runs, and what it should keep to.
+struct Case {
+    name: &'static str,
+    args: &'static [&'static str],
+    runs: usize,
+    seconds: f64,
+    megabytes: f64,
+}
+
+const CASES: [Case; 4] = [
+    Case {
+        name: "solve strand",
+        args: &["solve", "strand"],
+        runs: 5,
+        seconds: 2.0,
+        megabytes: 300.0,
+    },
+    Case {
+        name: "solve strand --variant tied",
+        args: &["solve", "strand", "--variant", "tied"],
+        runs: 5,
+        seconds: 2.0,
+        megabytes: 300.0,
+    },
+    Case {
+        name: "solve strand --variant printed",
+        args: &["solve", "strand", "--variant", "printed"],
+        runs: 5,
+        seconds: 2.0,
+        megabytes: 300.0,
+    },
+    Case {
+        name: "c-cnt fig1",
+        args: &["c-cnt", "fig1"],
+        runs: 20,
+        seconds: 0.020,
+        megabytes: 300.0,
+    },
+];
+
+fn main() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    println!(
+        "{:32} {:>10} {:>10} {:>10} {:>10}",
+        "whole process", "median s", "limit s", "peak MB", "limit MB"
+    );
+    for case in CASES {
+        let mut seconds: Vec<f64> = Vec::new();
+        let mut peak = 0.0_f64;
+        for _ in 0..case.runs {
+            let (time, megabytes) = measure(case.args, folder.path());
+            seconds.push(time.as_secs_f64());
+            peak = peak.max(megabytes);
+        }
+        seconds.sort_by(f64::total_cmp);
+        let median = seconds[seconds.len() / 2];
+        println!(
+            "{:32} {median:>10.4} {:>10.3} {peak:>10.1} {:>10.0}",
+            case.name, case.seconds, case.megabytes
+        );
+    }
+}
+
+/// Wall time and peak resident memory of one run.
+fn measure(args: &[&str], folder: &Path) -> (Duration, f64) {
+    let start = Instant::now();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
+        .args(args)
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    // VmHWM is the peak so far: read it until the process is gone.
+    let status = format!("/proc/{}/status", child.id());
+    let mut kilobytes = 0.0_f64;
+    while child.try_wait().expect("the child is ours").is_none() {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let value = line.and_then(|line| line.trim().trim_end_matches("kB").trim().parse().ok());
+        kilobytes = kilobytes.max(value.unwrap_or(0.0));
+        std::thread::sleep(Duration::from_micros(500));
+    }
+    (start.elapsed(), kilobytes / 1024.0)
+}

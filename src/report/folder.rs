@@ -1,0 +1,121 @@
+//! The folder that a run leaves: pictures and data.
+
+use std::path::Path;
+
+use super::picture::{self, Contact, Drawing, Field};
+use super::vtu::{Data, VtuMesh, vtu};
+use super::{files, json};
+use crate::contact::Outcome;
+use crate::element::State;
+use crate::error::InputError;
+use crate::scene::Scene;
+
+/// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu` and `result.json` to `folder`.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), InputError> {
+    let shown = Shown::new(scene, outcome);
+    let drawing = shown.drawing(scene);
+    let field = |quantity, unit, values: &[f64]| {
+        let displacement = &shown.displacement;
+        picture::field(&drawing, &Field { quantity, unit, values, displacement })
+    };
+    let stress = values(outcome, |s| s.von_mises_stress);
+    let strain = values(outcome, |s| s.von_mises_strain);
+    let files = [
+        ("mesh.svg", picture::mesh(&drawing)),
+        ("von_mises_stress.svg", field("von Mises stress", &scene.units.stress, &stress)),
+        ("von_mises_strain.svg", field("von Mises strain", "1", &strain)),
+        ("fields.vtu", shown.vtu(outcome)),
+        ("result.json", json::result(scene, outcome)),
+    ];
+    files.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))
+}
+
+fn values(outcome: &Outcome, of: impl Fn(&State) -> f64) -> Vec<f64> {
+    outcome.elements.iter().map(of).collect()
+}
+
+/// The mesh and its displacement, counted from 0.
+struct Shown {
+    points: Vec<[f64; 2]>,
+    triangles: Vec<[usize; 3]>,
+    region: Vec<usize>,
+    region_names: Vec<String>,
+    contact_nodes: Vec<usize>,
+    target_edges: Vec<[usize; 2]>,
+    displacement: Vec<[f64; 2]>,
+}
+
+impl Shown {
+    fn new(scene: &Scene, outcome: &Outcome) -> Self {
+        let sheet = &outcome.sheet;
+        let (region, region_names) = regions(scene, sheet.M());
+        let ends = |e: &usize| [sheet.elem[(*e, 6)] - 1, sheet.elem[(*e, 7)] - 1];
+        Shown {
+            points: (1..=sheet.R()).map(|n| [sheet.node[(n, 2)], sheet.node[(n, 3)]]).collect(),
+            triangles: (1..=sheet.M())
+                .map(|n| [0, 1, 2].map(|k| sheet.EL[(n, sheet.ind_1 + k)] - 1))
+                .collect(),
+            region,
+            region_names,
+            contact_nodes: sheet.cnt.iter().map(|n| n - 1).collect(),
+            target_edges: sheet.trg.iter().map(ends).collect(),
+            displacement: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
+        }
+    }
+
+    fn drawing<'a>(&'a self, scene: &'a Scene) -> Drawing<'a> {
+        let contact = Contact { nodes: &self.contact_nodes, edges: &self.target_edges };
+        Drawing {
+            title: &scene.title,
+            points: &self.points,
+            triangles: &self.triangles,
+            region: &self.region,
+            region_names: &self.region_names,
+            length_unit: &scene.units.length,
+            contact: scene.target().map(|_| contact),
+        }
+    }
+
+    fn vtu(&self, outcome: &Outcome) -> String {
+        let flat = |of: &dyn Fn(&State) -> [f64; 3]| -> Vec<f64> {
+            outcome.elements.iter().flat_map(of).collect()
+        };
+        let sigma = flat(&|s| s.sigma.into());
+        let epsilon = flat(&|s| s.epsilon.into());
+        let stress = values(outcome, |s| s.von_mises_stress);
+        let strain = values(outcome, |s| s.von_mises_strain);
+        let body: Vec<f64> = self.region.iter().map(|r| *r as f64).collect();
+        vtu(&VtuMesh {
+            points: &self.points,
+            triangles: &self.triangles,
+            point_data: &[Data {
+                name: "displacement",
+                components: 2,
+                values: outcome.u.as_slice(),
+            }],
+            cell_data: &[
+                Data { name: "sigma_x sigma_y tau_xy", components: 3, values: &sigma },
+                Data { name: "epsilon_x epsilon_y gamma_xy", components: 3, values: &epsilon },
+                Data { name: "von_mises_stress", components: 1, values: &stress },
+                Data { name: "von_mises_strain", components: 1, values: &strain },
+                Data { name: "body", components: 1, values: &body },
+            ],
+        })
+    }
+}
+
+/// The region of each triangle, 0 the target, then the other bodies; and the regions' names.
+fn regions(scene: &Scene, triangles: usize) -> (Vec<usize>, Vec<String>) {
+    let target = scene.target().unwrap_or(&scene.bodies[0]);
+    let others = scene.bodies.iter().filter(|body| body.name != target.name);
+    let mut region = vec![0; triangles];
+    let mut names = Vec::new();
+    for (k, body) in std::iter::once(target).chain(others).enumerate() {
+        names.push(body.name.clone());
+        body.triangles.iter().for_each(|n| region[n - 1] = k);
+    }
+    (region, names)
+}

@@ -1,0 +1,199 @@
+//! Values to colours, and the colour bar.
+//!
+//! The map is Viridis: equal steps of the value look like equal steps, its lightness only rises, so that it survives
+//! grey printing and colour blindness, and it draws no bands that are not in the numbers. Rainbow maps (Turbo, and those
+//! of the commercial codes) are dark at both ends: in grey the largest and the smallest value look the same.
+
+use super::numbers::{common_exponent, power_of_ten, shifted, significant, ticks};
+use super::page::TEXT_SIZE;
+use super::svg::{Anchor, Paint, Pixel, group, line, rect, text};
+use crate::report::xml::Element;
+
+/// A range below this part of the largest magnitude is round-off, not a difference.
+const UNIFORM: f64 = 1e-9;
+
+const BAR_HEIGHT: f64 = 16.0;
+const BAR_STEPS: u32 = 128;
+
+/// The range of the values that the colours span.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ColourScale {
+    low: f64,
+    high: f64,
+}
+
+impl ColourScale {
+    /// The height that [`bar`](Self::bar) takes, with its ticks.
+    pub const HEIGHT: f64 = 42.0;
+
+    /// From the smallest to the largest of finite `values`, at least one.
+    pub fn of(values: &[f64]) -> Self {
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        Self { low, high }
+    }
+
+    /// Whether all values are the same but for round-off; they then have one colour.
+    pub fn is_uniform(&self) -> bool {
+        self.high - self.low <= UNIFORM * self.largest()
+    }
+
+    /// The colour of a value, as `#rrggbb`.
+    pub fn colour(&self, value: f64) -> String {
+        shade(self.fraction(value))
+    }
+
+    /// Quantity and unit as they stand over the bar, with the power of ten that its numbers leave out.
+    pub fn heading(&self, quantity: &str, unit: &str) -> String {
+        let power = match self.exponent() {
+            0 => String::new(),
+            exponent => power_of_ten(exponent),
+        };
+        let unit = format!("{power} {}", unit_in_words(unit));
+        match unit.trim() {
+            "" => String::from(quantity),
+            unit => format!("{quantity}, {unit}"),
+        }
+    }
+
+    /// A value with its unit, with the same power of ten as the bar where that makes a handy number.
+    pub fn value_in_words(&self, value: f64, unit: &str) -> String {
+        let handy = shifted(value, -self.exponent());
+        if self.exponent() == 0 || handy.abs() < 1e-3 {
+            return with_unit(&significant(value, 4), unit);
+        }
+        let power = power_of_ten(self.exponent());
+        with_unit(&format!("{}·{power}", significant(handy, 4)), unit)
+    }
+
+    /// The bar with its ticks, `width` pixels wide, from its upper left corner.
+    pub fn bar(&self, corner: Pixel, width: f64) -> Element {
+        let strip = |step: u32| {
+            let start = f64::from(step) / f64::from(BAR_STEPS);
+            let colour = if self.is_uniform() {
+                shade(0.5)
+            } else {
+                shade(start + 0.5 / f64::from(BAR_STEPS))
+            };
+            // Each strip reaches under the next: no seam between them.
+            let reach = (2.0 / f64::from(BAR_STEPS)).min(1.0 - start);
+            rect([corner[0] + start * width, corner[1]], [reach * width, BAR_HEIGHT]).fill(&colour)
+        };
+        let ticks = self
+            .ticks()
+            .into_iter()
+            .map(|(fraction, label)| tick(corner, fraction * width, &label));
+        group().with_all((0..BAR_STEPS).map(strip)).with_all(ticks)
+    }
+
+    /// Where the ticks stand along the bar (0 to 1), and what they say.
+    fn ticks(&self) -> Vec<(f64, String)> {
+        let [low, high] = [self.low, self.high].map(|value| shifted(value, -self.exponent()));
+        if self.is_uniform() {
+            return vec![(0.5, significant(high, 4))];
+        }
+        ticks(low, high)
+            .into_iter()
+            .map(|(value, label)| ((value - low) / (high - low), label))
+            .collect()
+    }
+
+    /// The power of ten that the bar's numbers leave out.
+    fn exponent(&self) -> i32 {
+        common_exponent(self.largest())
+    }
+
+    fn fraction(&self, value: f64) -> f64 {
+        if self.is_uniform() { 0.5 } else { (value - self.low) / (self.high - self.low) }
+    }
+
+    fn largest(&self) -> f64 {
+        self.low.abs().max(self.high.abs())
+    }
+}
+
+/// A unit as the pictures print it: `""` is unknown, `"1"` is none.
+pub fn unit_in_words(unit: &str) -> &str {
+    match unit {
+        "" => "unit of the scene",
+        "1" => "",
+        _ => unit,
+    }
+}
+
+/// A number and its unit; a scene without units has the number alone.
+pub fn with_unit(number: &str, unit: &str) -> String {
+    match unit {
+        "" | "1" => String::from(number),
+        _ => format!("{number} {unit}"),
+    }
+}
+
+fn tick(corner: Pixel, along: f64, label: &str) -> Element {
+    let [x, y] = [corner[0] + along, corner[1] + BAR_HEIGHT];
+    group().with(line([x, y - 5.0], [x, y + 5.0]).stroke("#222222", 1.0)).with(text(
+        [x, y + 20.0],
+        TEXT_SIZE,
+        Anchor::Middle,
+        label,
+    ))
+}
+
+fn shade(fraction: f64) -> String {
+    format!("#{:x}", colorous::VIRIDIS.eval_continuous(fraction.clamp(0.0, 1.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_have_the_end_colours() {
+        for unit in [1.0, 1e300, 1e-300] {
+            let scale = ColourScale::of(&[3.0 * unit, -unit, 2.0 * unit]);
+            assert_eq!(scale.colour(-unit), shade(0.0));
+            assert_eq!(scale.colour(3.0 * unit), shade(1.0));
+        }
+    }
+
+    #[test]
+    fn equal_values_have_one_tick_and_one_colour() {
+        for value in [0.0, 6.3, -1e300, 1e-300] {
+            let scale = ColourScale::of(&[value, value * (1.0 + 1e-12)]);
+            assert!(scale.is_uniform());
+            assert_eq!(scale.ticks().len(), 1);
+            assert_eq!(scale.colour(value), shade(0.5));
+        }
+        assert_eq!(ColourScale::of(&[6.3, 6.3]).ticks(), [(0.5, String::from("6.3"))]);
+    }
+
+    #[test]
+    fn ticks_lie_on_the_bar() {
+        for values in [[0.0, 1e300], [1e-300, 7e-300], [-2e5, 3e5], [100.0, 100.001]] {
+            let ticks = ColourScale::of(&values).ticks();
+            assert!(ticks.len() >= 3, "{ticks:?}");
+            assert!(
+                ticks.iter().all(|(place, _)| (-1e-9..=1.0 + 1e-9).contains(place)),
+                "{ticks:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn values_share_the_power_of_the_bar() {
+        let scale = ColourScale::of(&[0.0, 2.068e-4]);
+        let words = [0.0, 1e-12, 1.5e-6, 2.068e-4].map(|value| scale.value_in_words(value, "1"));
+        assert_eq!(words, ["0", "10⁻¹²", "1.5·10⁻⁶", "206.8·10⁻⁶"]);
+        assert_eq!(ColourScale::of(&[6.3]).value_in_words(6.3, "MPa"), "6.3 MPa");
+    }
+
+    #[test]
+    fn heading_names_power_and_unit() {
+        let heading = |largest: f64, unit| ColourScale::of(&[0.0, largest]).heading("q", unit);
+        assert_eq!(heading(6.3, "MPa"), "q, MPa");
+        assert_eq!(heading(6.3e6, "Pa"), "q, 10⁶ Pa");
+        assert_eq!(heading(6.3, ""), "q, unit of the scene");
+        assert_eq!(heading(6.3, "1"), "q");
+        assert_eq!(heading(6.3e-4, "1"), "q, 10⁻⁶");
+    }
+}

@@ -1,0 +1,219 @@
+//! The program from the outside: exit statuses, files, what stands on standard output and error.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn run(folder: &Path, args: &[&str]) -> Output {
+    let program = env!("CARGO_BIN_EXE_plane-contact");
+    Command::new(program).args(args).current_dir(folder).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).expect("UTF-8")
+}
+
+#[track_caller]
+fn succeeds(folder: &Path, args: &[&str]) -> String {
+    let output = run(folder, args);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    text(&output.stdout).to_string()
+}
+
+#[track_caller]
+fn fails(folder: &Path, args: &[&str], status: i32, words: &[&str]) {
+    let output = run(folder, args);
+    assert_eq!(output.status.code(), Some(status), "{}", text(&output.stderr));
+    assert!(output.stdout.is_empty(), "a failure prints nothing on standard output");
+    for word in words {
+        assert!(text(&output.stderr).contains(word), "{word:?}: {}", text(&output.stderr));
+    }
+}
+
+#[test]
+fn solve_prints_tables_and_writes_pictures_and_data() {
+    let folder = TempDir::new().unwrap();
+    let tables = succeeds(folder.path(), &["solve", "fig1", "--variant", "tied"]);
+    for words in ["variant tied", "Iterations", "Bodies", "In contact at the end: nodes 5, 6, 7, 9"]
+    {
+        assert!(tables.contains(words), "{words:?}: {tables}");
+    }
+    let out = folder.path().join("out/fig1-tied");
+    for picture in ["mesh.svg", "von_mises_stress.svg", "von_mises_strain.svg"] {
+        let svg = std::fs::read_to_string(out.join(picture)).expect("the picture is there");
+        roxmltree::Document::parse(&svg).expect("the picture is XML");
+    }
+    let vtu = std::fs::read_to_string(out.join("fields.vtu")).unwrap();
+    let vtu = roxmltree::Document::parse(&vtu).expect("the VTU file is XML");
+    let piece = vtu.descendants().find(|n| n.has_tag_name("Piece")).unwrap();
+    assert_eq!(
+        (piece.attribute("NumberOfPoints"), piece.attribute("NumberOfCells")),
+        (Some("13"), Some("9"))
+    );
+    let count = std::fs::read_dir(&out).unwrap().count();
+    assert_eq!(count, 5, "and no temporary file is left");
+}
+
+#[test]
+fn json_is_result_json_and_nothing_else() {
+    let folder = TempDir::new().unwrap();
+    let printed = succeeds(folder.path(), &["solve", "fig1", "--json", "--out", "there"]);
+    assert_eq!(printed, std::fs::read_to_string(folder.path().join("there/result.json")).unwrap());
+    let result: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!((&result["scene"], &result["variant"]), (&"fig1".into(), &"stepped".into()));
+    assert_eq!(result["reading"]["R7"], "stepped");
+    let iterations = result["iterations"].as_array().unwrap();
+    assert_eq!(iterations.len(), 20);
+    for key in [
+        "k",
+        "in_contact",
+        "dy",
+        "max_displacement",
+        "cycle",
+        "eq1_residual",
+        "target_force",
+        "solve_residual",
+    ] {
+        assert!(iterations[0].get(key).is_some(), "{key}");
+    }
+    assert_eq!(iterations[1]["cycle"]["length"], 1);
+    assert_eq!(result["u"].as_array().unwrap().len(), 13);
+    let elements = result["elements"].as_array().unwrap();
+    assert_eq!(elements.len(), 9);
+    for key in ["n", "sigma", "epsilon", "von_mises_stress", "von_mises_strain"] {
+        assert!(elements[0].get(key).is_some(), "{key}");
+    }
+}
+
+#[test]
+fn floats_read_back_to_the_same_bits() {
+    let folder = TempDir::new().unwrap();
+    let printed = succeeds(folder.path(), &["solve", "fig1", "--json"]);
+    let result: Value = serde_json::from_str(&printed).unwrap();
+    let scene = plane_contact::scene::Scene::open("fig1").unwrap();
+    let reading = plane_contact::mirror::Reading::default();
+    let outcome = plane_contact::contact::run(&scene, scene.variant, &reading, |_| ()).unwrap();
+    for (n, u) in result["u"].as_array().unwrap().iter().enumerate() {
+        assert_eq!(u[0].as_f64().unwrap().to_bits(), outcome.u[2 * n].to_bits());
+        assert_eq!(u[1].as_f64().unwrap().to_bits(), outcome.u[2 * n + 1].to_bits());
+    }
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes() {
+    let folder = TempDir::new().unwrap();
+    for out in ["a", "b"] {
+        succeeds(folder.path(), &["solve", "two-blocks", "--out", out]);
+    }
+    for entry in std::fs::read_dir(folder.path().join("a")).unwrap() {
+        let name = entry.unwrap().file_name();
+        let read = |out: &str| std::fs::read(folder.path().join(out).join(&name)).unwrap();
+        assert!(read("a") == read("b"), "{name:?}");
+    }
+}
+
+#[test]
+fn c_cnt_prints_tables_and_json() {
+    let folder = TempDir::new().unwrap();
+    let tables = succeeds(folder.path(), &["c-cnt", "fig1"]);
+    assert!(tables.contains("Contact nodes (c_tll = 0.001)"), "{tables}");
+    assert!(tables.contains("k_cnt: 8 of 13 rows are not zero"), "{tables}");
+    let json: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["c-cnt", "fig1", "--json"])).unwrap();
+    assert_eq!(json["ct"], serde_json::json!([1, 2, 2, 3, 3]));
+    assert_eq!(json["dy"], serde_json::json!([1, 1, 1, 0, 1]));
+    assert_eq!(json["yt"].as_array().unwrap().len(), 5);
+    let rows = json["k_cnt"].as_array().unwrap();
+    assert_eq!(rows.len(), 13);
+    assert!(rows.iter().all(|row| row.as_array().unwrap().len() == 4));
+}
+
+#[test]
+fn km_writes_matrix_market() {
+    let folder = TempDir::new().unwrap();
+    let printed = succeeds(folder.path(), &["km", "fig1"]);
+    succeeds(folder.path(), &["km", "fig1", "--matrix-market", "MJS.mtx"]);
+    assert_eq!(printed, std::fs::read_to_string(folder.path().join("MJS.mtx")).unwrap());
+    let mut lines = printed.lines().filter(|line| !line.starts_with("% "));
+    assert_eq!(lines.next(), Some("%%MatrixMarket matrix coordinate real general"));
+    let size: Vec<usize> = lines.next().unwrap().split(' ').map(|n| n.parse().unwrap()).collect();
+    assert_eq!((size[0], size[1]), (26, 26));
+    let entries: Vec<Vec<&str>> = lines.map(|line| line.split(' ').collect()).collect();
+    assert_eq!(entries.len(), size[2]);
+    let digits =
+        |entry: &str| entry.chars().take_while(|c| *c != 'e').filter(char::is_ascii_digit).count();
+    assert!(entries.iter().all(|entry| digits(entry[2]) == 17));
+    let free = succeeds(folder.path(), &["km", "fig1", "--coupled-by", "none"]);
+    assert_ne!(free, printed);
+}
+
+#[test]
+fn the_published_algorithm_failing_is_exit_status_3() {
+    let folder = TempDir::new().unwrap();
+    let args = ["c-cnt", "fig1", "--reading", "R4=left-to-right"];
+    let words =
+        ["c_cnt, line 18", "This array index is invalid for this array.", "index of yt = 0"];
+    fails(folder.path(), &args, 3, &words);
+    fails(folder.path(), &["solve", "fig1", "--reading", "R4=eager"], 3, &["c_cnt, line 18"]);
+    assert!(!folder.path().join("out").exists(), "nothing is written");
+}
+
+/// A stamp that touches nothing and that nothing holds in y: the matrix of the first iteration is singular.
+#[test]
+fn a_singular_matrix_is_exit_status_3() {
+    let folder = TempDir::new().unwrap();
+    let scene =
+        include_str!("../golden/fig1/scene.json").replace("\"c_tll\": 0.001", "\"c_tll\": 0.0");
+    std::fs::write(folder.path().join("c8.json"), scene).unwrap();
+    for variant in ["printed", "tied", "stepped"] {
+        let words = ["iteration 1", "singular", "0 nodes in contact", "body \"2\""];
+        fails(folder.path(), &["solve", "c8.json", "--variant", variant], 3, &words);
+    }
+}
+
+#[test]
+fn bad_input_is_exit_status_2_and_loses_no_file() {
+    let folder = TempDir::new().unwrap();
+    fails(
+        folder.path(),
+        &["solve", "nowhere.json"],
+        2,
+        &["nowhere.json", "strand, fig1, two-blocks"],
+    );
+    fails(folder.path(), &["solve", "fig1", "--reading", "R9=x"], 2, &["no such reading"]);
+    fails(
+        folder.path(),
+        &["solve", "fig1", "--reading", "R2=odd-ish"],
+        2,
+        &["none of odd, printed"],
+    );
+    fails(folder.path(), &["solve", "fig1", "--variant", "glued"], 2, &["glued"]);
+    succeeds(folder.path(), &["solve", "two-blocks", "--out", "kept"]);
+    let kept = std::fs::read(folder.path().join("kept/result.json")).unwrap();
+    std::fs::write(folder.path().join("bad.json"), "{ \"plane\": 3 }").unwrap();
+    fails(folder.path(), &["solve", "bad.json", "--out", "kept"], 2, &["field plane", "mend"]);
+    assert_eq!(std::fs::read(folder.path().join("kept/result.json")).unwrap(), kept);
+    std::fs::write(folder.path().join("file"), "").unwrap();
+    fails(folder.path(), &["solve", "fig1", "--out", "file"], 2, &["cannot be written"]);
+}
+
+/// A scene by path: its mesh is resolved beside it, its name is that of its folder.
+#[test]
+fn a_scene_by_path_reads_its_mesh_beside_it() {
+    let folder = TempDir::new().unwrap();
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/strand");
+    let by_path = succeeds(folder.path(), &["c-cnt", golden.to_str().unwrap(), "--json"]);
+    assert_eq!(by_path, succeeds(folder.path(), &["c-cnt", "strand", "--json"]));
+    std::fs::copy(golden.join("scene.json"), folder.path().join("alone.json")).unwrap();
+    fails(folder.path(), &["c-cnt", "alone.json"], 2, &["strand.msh", "resolved beside the scene"]);
+}
+
+#[test]
+fn help_has_examples() {
+    let folder = TempDir::new().unwrap();
+    for args in [&["--help"][..], &["solve", "--help"], &["c-cnt", "--help"], &["km", "--help"]] {
+        assert!(succeeds(folder.path(), args).contains("Examples:"), "{args:?}");
+    }
+}

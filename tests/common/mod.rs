@@ -1,0 +1,28 @@
+//! What several tests share.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+pub mod golden;
+pub mod tolerances;
+
+use plane_contact::contact::{Outcome, Variant, run};
+use plane_contact::mirror::Reading;
+use plane_contact::scene::{SCENES, Scene};
+use serde_json::Value;
+
+/// Runs an embedded scene under the default reading.
+pub fn solve(scene: &str, variant: Variant) -> (Scene, Outcome) {
+    let scene = Scene::open(scene).expect("embedded scenes are sound");
+    let outcome = run(&scene, variant, &Reading::default(), |_| ()).expect("the variant runs");
+    (scene, outcome)
+}
+
+/// The file of an embedded scene as JSON.
+pub fn scene_json(name: &str) -> Value {
+    let embedded = SCENES.iter().find(|s| s.name == name).expect("an embedded scene");
+    serde_json::from_slice(embedded.scene).expect("scene files are JSON")
+}
+
+/// Builds a scene from JSON; it has no file beside it.
+pub fn build(json: &Value) -> Result<Scene, plane_contact::error::InputError> {
+    Scene::build("test", json.to_string().as_bytes(), |_| Err("no file".into()))
+}
