@@ -57,7 +57,7 @@ fn text_that_is_no_scene() {
         error.expect_err("refused")
     };
     says(&parse("{"), "the scene file", &["EOF", "line 1"]);
-    says(&parse("[1]"), "the scene file", &["expected"]);
+    says(&parse("[1]"), "field", &["expected a string"]);
     let whole = scene_json("fig1").to_string();
     says(&parse(&(whole.clone() + "x")), "the end of the scene file", &["trailing characters"]);
     says(&parse(&whole.replacen("0.001", "1e999", 1)), "c_tll", &["number out of range"]);

@@ -23,8 +23,8 @@ impl DenseLu {
     /// Factors `matrix`.
     ///
     /// # Errors
-    /// A pivot below n · eps of its own column's largest entry counts as zero: column by column, so that a body of soft
-    /// material beside one of hard material is not taken for singular.
+    /// A pivot below 16 n · eps of its own column's largest entry counts as zero (rounding leaves some n · eps where the exact
+    /// pivot is 0): column by column, so that a body of soft material beside one of hard material is not taken for singular.
     pub fn new(matrix: DMatrix<f64>) -> Result<Self, Singular> {
         let n = matrix.nrows();
         // One thread: faer's bits depend on the number of threads.
@@ -34,7 +34,7 @@ impl DenseLu {
         let pivots = factors.U().diagonal().column_vector();
         let singular = (0..n).find(|&j| {
             let largest = matrix.column(j).amax();
-            pivots[j].is_nan() || pivots[j].abs() <= n as f64 * f64::EPSILON * largest
+            pivots[j].is_nan() || pivots[j].abs() <= 16.0 * n as f64 * f64::EPSILON * largest
         });
         match singular {
             Some(column) => Err(Singular { column, pivot: pivots[column] }),

@@ -35,11 +35,6 @@ impl Bounds {
         [0, 1].map(|axis| self.low[axis] + self.size()[axis] / 2.0)
     }
 
-    /// Lower left and upper right corner.
-    pub fn corners(&self) -> [[f64; 2]; 2] {
-        [self.low, self.high]
-    }
-
     /// The box with `margin` more on each side.
     pub fn padded(&self, margin: f64) -> Self {
         Self { low: self.low.map(|x| x - margin), high: self.high.map(|x| x + margin) }
@@ -143,7 +138,7 @@ mod tests {
     #[test]
     fn flat_box_grows_to_the_ratio() {
         let grown = Bounds::of(&[[0.0, 3.0], [4.0, 3.0]]).with_ratio(2.0);
-        assert_eq!(grown.corners(), [[0.0, 2.0], [4.0, 4.0]]);
+        assert_eq!([grown.low, grown.high], [[0.0, 2.0], [4.0, 4.0]]);
     }
 
     #[test]
