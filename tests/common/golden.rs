@@ -5,7 +5,7 @@ use std::path::Path;
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Settings, Snapshot};
 
-use super::tolerances::GOLDEN;
+use super::tolerances::{GOLDEN, GOLDEN_FLOOR};
 
 /// Compares `text` with `golden/<folder>/<name>.snap`; `cargo insta review` (or INSTA_UPDATE=always) changes it.
 #[track_caller]
@@ -18,7 +18,8 @@ pub fn assert_golden(folder: &str, name: &str, text: &str) {
     settings.bind(|| insta::assert_snapshot!(name, text));
 }
 
-/// Words equal to the letter, floats (a `.` or an exponent in them) within `GOLDEN` of the largest float of their line.
+/// Words equal to the letter, floats (a `.` or an exponent in them) within `GOLDEN` of the largest float of their line, or
+/// within `GOLDEN_FLOOR`.
 pub struct Toleranced;
 
 impl Comparator for Toleranced {
@@ -59,7 +60,7 @@ fn same_word(expected: &str, value: &str, scale: f64) -> bool {
     // A float that came out as exactly 0 is printed without a point.
     let number = |word: &str| if word == "0" { Some(0.0) } else { float(word) };
     let (Some(e), Some(v)) = (number(expected), number(value)) else { return false };
-    let (error, limit) = ((e - v).abs(), GOLDEN.limit * scale);
+    let (error, limit) = ((e - v).abs(), GOLDEN_FLOOR.limit.max(GOLDEN.limit * scale));
     if error > limit {
         eprintln!(
             "value {v:e}, expected {e:e}, error {error:e}, limit {limit:e} ({})",

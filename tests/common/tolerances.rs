@@ -17,6 +17,13 @@ pub const GOLDEN: Tolerance = tolerance(
      decades of room; integers and statuses are exact",
 );
 
+/// Floats of golden files, absolute, in the scene's length unit.
+pub const GOLDEN_FLOOR: Tolerance = tolerance(
+    1e-13,
+    "yt is a difference of coordinates of order 10, each rounded at 2e-15: on the strand it is 0 but for that where a stamp \
+     node lies on its target edge",
+);
+
 /// `two-blocks` against its closed form, relative to the closed form.
 pub const CLOSED_FORM: Tolerance =
     tolerance(1e-12, "some 40 equations of condition 1e2 in f64; the issue's own number");
