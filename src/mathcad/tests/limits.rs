@@ -1,7 +1,9 @@
 //! Hostile listings end in errors: no hang, no overflowing stack, no exhausted memory.
 
+use proptest::prelude::*;
+
 use super::{failure, program};
-use crate::mathcad::{Cause, Limits, Listing, Settings, Value};
+use crate::mathcad::{Array, Cause, Limits, Listing, Settings, Value};
 
 fn refusal(body: &str) -> String {
     Listing::parse("f", &format!("f(x) :=\n{body}"))
@@ -106,4 +108,65 @@ fn endless_output() {
     assert_eq!(under(&limits, "for i ∈ 1 .. 99999999\n  trace(i)"), held);
     assert_eq!(under(&limits, "y ← trace(1)\nfor i ∈ 1 .. 99\n  y ← trace(y, y)"), held);
     assert_eq!(under(&limits, "for i ∈ 1 .. 99999999\n  a[i] ← i"), held);
+}
+
+/// Words of the notation, some of them in listings that make sense.
+const WORDS: [&str; 40] = [
+    "x",
+    "v",
+    "m",
+    "a",
+    "i",
+    "1",
+    "2",
+    "0",
+    "0.5",
+    "9999999",
+    " ",
+    " ",
+    "   ",
+    "(",
+    ")",
+    "[",
+    "]",
+    ",",
+    "|",
+    "ᵀ",
+    " + ",
+    " − ",
+    "−",
+    "·",
+    " / ",
+    " < ",
+    " = ",
+    " ∧ ",
+    " ← ",
+    " if ",
+    "for i ∈ ",
+    "if ",
+    " .. ",
+    "\n",
+    "\n  ",
+    "\n    ",
+    "rows(",
+    "identity(",
+    "trace(",
+    "v[i]",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_text_ends(words in proptest::collection::vec(0..WORDS.len(), 0..40)) {
+        let body: String = words.into_iter().map(|k| WORDS[k]).collect();
+        let limits = Limits { steps: 10_000, entries: 10_000, ..Limits::default() };
+        if let Ok(listing) = Listing::parse("f", &format!("f(x) :=\n  {body}")) {
+            let mut worksheet = listing.runner(&Settings::default(), &limits);
+            worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
+            let _ = worksheet.call(&[Value::Number(5.0)]);
+            let again = Listing::parse("f", &listing.spelled());
+            prop_assert_eq!(again.map(|again| again.spelled()), Ok(listing.spelled()));
+        }
+    }
 }
