@@ -13,7 +13,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`array`] | arrays with `ORIGIN = 1`, the mirror's own |
+//! | [`mod@array`] | arrays with `ORIGIN = 1`, the mirror's own |
 //! | [`listing`], `lexer`, `parser`, `syntax`, `print` | from text to syntax tree and back |
 //! | [`run`], `eval`, `function`, `arithmetic`, [`value`] | running a listing |
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
