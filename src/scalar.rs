@@ -37,9 +37,9 @@ pub trait Scalar:
         Self::from_f64(n as f64)
     }
 
-    /// |x|.
+    /// |x|; of −0 it is 0.
     fn abs(self) -> Self {
-        if self < Self::zero() { -self } else { self }
+        if self > Self::zero() { self } else { Self::zero() - self }
     }
 
     /// The smaller of the two.

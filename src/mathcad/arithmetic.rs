@@ -1,0 +1,198 @@
+//! The operations on values.
+//!
+//! Every number comes from one IEEE 754 operation after another in the printed order: no fused multiply-add, no other
+//! order of a sum. A matrix product adds k = 1, 2, ... to the first product, not to 0.
+
+use std::rc::Rc;
+
+use super::failure::Cause;
+use super::settings::{Settings, ZeroOverZero};
+use super::syntax::{Comparison, Operation};
+use super::value::{Array, Value};
+
+/// A finite number, or the overflow that Mathcad reports.
+fn finite(result: f64) -> Result<f64, Cause> {
+    if result.is_finite() { Ok(result) } else { Err(Cause::Overflow { result }) }
+}
+
+/// `x / y` under the worksheet's `zero-over-zero`.
+fn quotient(x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
+    if y != 0.0 {
+        finite(x / y)
+    } else if x == 0.0 && settings.zero_over_zero == ZeroOverZero::Zero {
+        Ok(0.0)
+    } else {
+        Err(Cause::Singularity { numerator: x, denominator: y })
+    }
+}
+
+/// `x` and `y` under one of the four operations.
+pub fn calculate(operation: Operation, x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
+    match operation {
+        Operation::Add => finite(x + y),
+        Operation::Subtract => finite(x - y),
+        Operation::Multiply => finite(x * y),
+        Operation::Divide => quotient(x, y, settings),
+    }
+}
+
+/// Whether `x` and `y` compare so, under the worksheet's `exact-boolean`.
+pub fn compare(comparison: Comparison, x: f64, y: f64, settings: &Settings) -> bool {
+    let [x, y] = [x, y].map(|x| if settings.tiny_is_zero && x.abs() < 1e-307 { 0.0 } else { x });
+    let same = x == y || !settings.exact_boolean && nearly_equal(x, y);
+    match comparison {
+        Comparison::Equal => same,
+        Comparison::Unequal => !same,
+        Comparison::Less => x < y && !same,
+        Comparison::LessOrEqual => x < y || same,
+        Comparison::Greater => x > y && !same,
+        Comparison::GreaterOrEqual => x > y || same,
+    }
+}
+
+/// Mathcad's relative comparison: the difference over the mean.
+fn nearly_equal(x: f64, y: f64) -> bool {
+    ((x - y) / (x / 2.0 + y / 2.0)).abs() < 1e-12
+}
+
+/// What an operation on values costs: how many numbers it works through, and how many its result holds.
+pub fn cost(operation: Operation, left: &Value, right: &Value) -> (u64, usize) {
+    match (operation, left, right) {
+        (Operation::Multiply, Value::Array(a), Value::Array(b)) => {
+            let size = a.rows().saturating_mul(b.cols());
+            ((size as u64).saturating_mul(a.cols() as u64), size)
+        }
+        _ => (left.len().max(right.len()) as u64, left.len().max(right.len())),
+    }
+}
+
+/// `left` and `right` under one of the four operations, numbers or arrays.
+pub fn operate(
+    operation: Operation,
+    left: Value,
+    right: Value,
+    settings: &Settings,
+) -> Result<Value, Cause> {
+    let of = |x, y| calculate(operation, x, y, settings);
+    match (operation, left, right) {
+        (_, Value::Number(x), Value::Number(y)) => of(x, y).map(Value::Number),
+        (Operation::Divide, _, Value::Array(a)) => {
+            Err(kind("a number to divide by", &Value::Array(a)))
+        }
+        (_, Value::Number(x), Value::Array(a)) => map(a, |y| of(x, y)),
+        (_, Value::Array(a), Value::Number(y)) => map(a, |x| of(x, y)),
+        (Operation::Multiply, Value::Array(a), Value::Array(b)) => product(&a, &b),
+        (_, Value::Array(a), Value::Array(b)) => zip(operation, a, &b, of),
+        (_, Value::Number(_) | Value::Array(_), other) | (_, other, _) => {
+            Err(kind("a number or an array", &other))
+        }
+    }
+}
+
+/// What a value should have been.
+pub fn kind(expected: &'static str, found: &Value) -> Cause {
+    Cause::Kind { expected, found: found.kind() }
+}
+
+/// Every entry mapped, in place if nothing else holds the array.
+fn map(mut array: Rc<Array>, f: impl Fn(f64) -> Result<f64, Cause>) -> Result<Value, Cause> {
+    for x in Rc::make_mut(&mut array).entries_mut() {
+        *x = f(*x)?;
+    }
+    Ok(Value::Array(array))
+}
+
+fn sizes(operation: Operation, a: &Array, b: &Array) -> Cause {
+    let size = |a: &Array| format!("{} x {}", a.rows(), a.cols());
+    Cause::Sizes { operation: operation.sign(), left: size(a), right: size(b) }
+}
+
+fn zip(
+    operation: Operation,
+    mut a: Rc<Array>,
+    b: &Array,
+    f: impl Fn(f64, f64) -> Result<f64, Cause>,
+) -> Result<Value, Cause> {
+    if (a.rows(), a.cols()) != (b.rows(), b.cols()) {
+        return Err(sizes(operation, &a, b));
+    }
+    for (x, y) in Rc::make_mut(&mut a).entries_mut().iter_mut().zip(b.entries()) {
+        *x = f(*x, *y)?;
+    }
+    Ok(Value::Array(a))
+}
+
+/// The matrix product; of two columns of one length, the scalar product, a number.
+fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
+    let column = |a: &Array| a.cols() == 1 && a.rows() > 1;
+    if column(a) && column(b) && a.rows() == b.rows() {
+        return finite(sum(a.entries().iter().zip(b.entries()).map(|(x, y)| x * y)))
+            .map(Value::Number);
+    }
+    if a.cols() != b.rows() {
+        return Err(sizes(Operation::Multiply, a, b));
+    }
+    let entry = |i: usize, j: usize, k: usize| {
+        a.entries()[i * a.cols() + k] * b.entries()[k * b.cols() + j]
+    };
+    let product =
+        Array::from_fn(a.rows(), b.cols(), |i, j| sum((0..a.cols()).map(|k| entry(i, j, k))));
+    product.entries().iter().try_for_each(|&x| finite(x).map(drop))?;
+    Ok(product.into())
+}
+
+/// The terms one after another, from the first; 0 if there is none.
+fn sum(terms: impl Iterator<Item = f64>) -> f64 {
+    terms.reduce(|sum, term| sum + term).unwrap_or(0.0)
+}
+
+/// `−x`.
+pub fn negative(value: Value) -> Result<Value, Cause> {
+    match value {
+        Value::Number(x) => Ok(Value::Number(-x)),
+        Value::Array(a) => map(a, |x| Ok(-x)),
+        other => Err(kind("a number or an array", &other)),
+    }
+}
+
+/// `xᵀ`; a number is its own transpose.
+pub fn transpose(value: Value) -> Result<Value, Cause> {
+    match value {
+        Value::Number(_) => Ok(value),
+        Value::Array(mut a) if a.rows() == 1 || a.cols() == 1 => {
+            Rc::make_mut(&mut a).turn();
+            Ok(Value::Array(a))
+        }
+        Value::Array(a) => {
+            let entry = |i, j| a.entries()[j * a.cols() + i];
+            Ok(Array::from_fn(a.cols(), a.rows(), entry).into())
+        }
+        other => Err(kind("a number or an array", &other)),
+    }
+}
+
+/// The identity matrix.
+pub fn identity(n: usize) -> Value {
+    let mut identity = Array::default();
+    if n > 0 {
+        identity.grow(n - 1, n - 1);
+        (0..n).for_each(|i| identity.set(i, i, 1.0));
+    }
+    identity.into()
+}
+
+/// All numbers of the values, one after another, under `f`: Mathcad's `min` and `max` flatten their arguments.
+pub fn fold(values: &[Value], f: impl Fn(f64, f64) -> f64) -> Result<Value, Cause> {
+    let mut result = None;
+    let mut take = |x| result = Some(result.map_or(x, |old| f(old, x)));
+    for value in values {
+        match value {
+            Value::Number(x) => take(*x),
+            Value::Array(a) => a.entries().iter().copied().for_each(&mut take),
+            other => return Err(kind("a number or an array", other)),
+        }
+    }
+    result
+        .map(Value::Number)
+        .ok_or(Cause::Kind { expected: "at least one number", found: "none".into() })
+}

@@ -1,0 +1,149 @@
+//! Alternative readings of a listing, as edits of its text.
+//!
+//! `listings/readings/README.md` describes the format. An edit names every line by its printed number: also a line
+//! that it moves, indents anew or repeats, so that messages about the edited listing point at the print.
+
+use thiserror::Error;
+
+use super::failure::ParseError;
+use super::listing::{Line, Listing};
+use super::settings::Limits;
+
+/// A reading: ranges of printed lines, and the lines that stand in their place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edit {
+    /// Why the print can be read so: the lines that start with `#`.
+    pub reason: String,
+    changes: Vec<Change>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Change {
+    listing: String,
+    first: usize,
+    last: usize,
+    lines: Vec<Line>,
+}
+
+/// An edit that cannot be read, or does not fit its listing.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum EditError {
+    /// A line of the edit is none of its format's.
+    #[error("line {line} of the edit: found {found:?}, expected {expected}")]
+    Format {
+        /// The line of the edit, from 1.
+        line: usize,
+        /// The line's text.
+        found: String,
+        /// What should stand there.
+        expected: &'static str,
+    },
+    /// The listing does not have the lines to be replaced.
+    #[error("{listing} has no lines {first}-{last} of {wanted} in order")]
+    NoSuchLines {
+        /// The listing.
+        listing: String,
+        /// The listing that the edit is for.
+        wanted: String,
+        /// The first line to be replaced.
+        first: usize,
+        /// The last line to be replaced.
+        last: usize,
+    },
+    /// The edited listing cannot be read.
+    #[error(transparent)]
+    Parse(#[from] ParseError),
+}
+
+impl Edit {
+    /// Reads an edit.
+    ///
+    /// # Errors
+    ///
+    /// The first line that is not of the format.
+    pub fn parse(text: &str) -> Result<Self, EditError> {
+        let mut edit = Edit { reason: String::new(), changes: vec![] };
+        for (k, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
+            edit.take(line, k + 1).map_err(|expected| EditError::Format {
+                line: k + 1,
+                found: line.into(),
+                expected,
+            })?;
+        }
+        Ok(edit)
+    }
+
+    fn take(&mut self, line: &str, in_file: usize) -> Result<(), &'static str> {
+        if let Some(reason) = line.strip_prefix('#') {
+            self.reason.push_str(reason.strip_prefix(' ').unwrap_or(reason));
+            self.reason.push('\n');
+        } else if line.ends_with(':') {
+            self.changes.push(parse_range(line).ok_or("`c_cnt lines 14-30:` or `Km line 7:`")?);
+        } else {
+            let change =
+                self.changes.last_mut().ok_or("`c_cnt lines 14-30:` above the first line")?;
+            change.lines.push(
+                parse_line(line, in_file).ok_or("a printed number, two spaces, and the line")?,
+            );
+        }
+        Ok(())
+    }
+
+    /// The listing under this reading.
+    ///
+    /// # Errors
+    ///
+    /// A range that the listing does not have, or an edited listing that cannot be read.
+    pub fn apply(&self, listing: &Listing) -> Result<Listing, EditError> {
+        let mut lines = listing.lines().to_vec();
+        for change in &self.changes {
+            let range =
+                change.find(listing.name(), &lines).ok_or_else(|| change.misfit(listing))?;
+            lines.splice(range, change.lines.iter().cloned());
+        }
+        Ok(Listing::from_lines(listing.name(), lines, &Limits::default())?)
+    }
+}
+
+impl Change {
+    /// Where the lines to be replaced stand; they must be there, all and in order.
+    fn find(&self, listing: &str, lines: &[Line]) -> Option<std::ops::Range<usize>> {
+        if self.listing != listing {
+            return None;
+        }
+        let start = lines.iter().position(|line| line.printed == self.first)?;
+        let end = start.checked_add(self.last.checked_sub(self.first)?)?.checked_add(1)?;
+        let range = lines.get(start..end)?;
+        let ordered = range.iter().zip(self.first..).all(|(line, number)| line.printed == number);
+        ordered.then_some(start..end)
+    }
+
+    fn misfit(&self, listing: &Listing) -> EditError {
+        let (first, last) = (self.first, self.last);
+        EditError::NoSuchLines {
+            listing: listing.name().into(),
+            wanted: self.listing.clone(),
+            first,
+            last,
+        }
+    }
+}
+
+/// `c_cnt lines 14-30:` or `Km line 7:`.
+fn parse_range(text: &str) -> Option<Change> {
+    let (listing, range) = text.strip_suffix(':')?.split_once(" line")?;
+    let range = range.strip_prefix('s').unwrap_or(range).strip_prefix(' ')?;
+    let (first, last) = range.split_once('-').unwrap_or((range, range));
+    Some(Change {
+        listing: listing.into(),
+        first: first.parse().ok()?,
+        last: last.parse().ok()?,
+        lines: vec![],
+    })
+}
+
+/// The printed number, two spaces, and the line with its indentation.
+fn parse_line(text: &str, in_file: usize) -> Option<Line> {
+    let (number, line) = text.trim_start().split_once("  ")?;
+    Some(Line::new(number.parse().ok()?, in_file, line))
+}

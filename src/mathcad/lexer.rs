@@ -1,0 +1,240 @@
+//! A line's text as tokens.
+//!
+//! Spaces mean nothing, but for one place: within round brackets they separate the elements of a row. There a
+//! [`Token::Gap`] stands
+//!
+//! - for two or more spaces behind an operand, whatever follows, as in `(a − c   b + c)` and `(a   −b)`,
+//! - for one space between two operands, as in `(0 0 0)` and `(|a| |b|)`.
+//!
+//! A bar closes what the last open bracket is a bar for, if an operand stands before it; otherwise it opens.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use chumsky::span::SimpleSpan;
+
+use super::syntax::{Slot, Span};
+
+/// A token.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Token {
+    /// A number.
+    Number(f64),
+    /// A name, by its number.
+    Name(Slot),
+    /// A name that is followed by `(` without a space: a function.
+    Function(Slot),
+    /// A sign, a bracket or a keyword.
+    Sign(&'static str),
+    /// The bar that closes `|x|`; the one that opens it is a sign.
+    ClosingBar,
+    /// The space between two elements of a row.
+    Gap,
+}
+
+impl fmt::Display for Token {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Token::Number(x) => write!(f, "{x}"),
+            Token::Name(_) | Token::Function(_) => f.write_str("a name"),
+            Token::Sign(sign) => f.write_str(sign),
+            Token::ClosingBar => f.write_str("|"),
+            Token::Gap => f.write_str("the space between two elements"),
+        }
+    }
+}
+
+/// The signs, those of two characters first, and how the tree knows them.
+const SIGNS: [(&str, &str); 24] = [
+    (":=", ":="),
+    ("..", ".."),
+    ("←", "←"),
+    ("∈", "∈"),
+    ("∧", "∧"),
+    ("≤", "≤"),
+    ("≥", "≥"),
+    ("≠", "≠"),
+    ("<", "<"),
+    (">", ">"),
+    ("=", "="),
+    ("+", "+"),
+    ("−", "−"),
+    ("-", "−"),
+    ("·", "·"),
+    ("*", "·"),
+    ("/", "/"),
+    ("ᵀ", "ᵀ"),
+    ("|", "|"),
+    (",", ","),
+    ("(", "("),
+    (")", ")"),
+    ("[", "["),
+    ("]", "]"),
+];
+
+/// The names of a listing in the order of their first appearance.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    names: Vec<String>,
+    slots: BTreeMap<String, Slot>,
+}
+
+impl Names {
+    /// The number of `name`, new or known.
+    fn intern(&mut self, name: &str) -> Slot {
+        if let Some(slot) = self.find(name) {
+            return slot;
+        }
+        self.names.push(name.into());
+        self.slots.insert(name.into(), self.names.len() - 1);
+        self.names.len() - 1
+    }
+
+    /// The number of `name`, if the listing has it.
+    pub fn find(&self, name: &str) -> Option<Slot> {
+        self.slots.get(name).copied()
+    }
+
+    /// The name of that number.
+    pub fn name(&self, slot: Slot) -> &str {
+        &self.names[slot]
+    }
+
+    /// All names, in order.
+    pub fn all(&self) -> impl Iterator<Item = &str> {
+        self.names.iter().map(String::as_str)
+    }
+
+    /// How many names there are.
+    pub fn len(&self) -> usize {
+        self.names.len()
+    }
+}
+
+/// A token and where it stands in its line, in bytes.
+pub type Spanned = (Token, SimpleSpan);
+
+/// A place in a line, in bytes, and what is wrong there.
+pub type Complaint = (usize, String);
+
+/// The tokens of `text`.
+///
+/// # Errors
+///
+/// A character or number that the notation does not know, or brackets more than `depth` deep.
+pub fn tokens(text: &str, names: &mut Names, depth: usize) -> Result<Vec<Spanned>, Complaint> {
+    let mut lexer = Lexer { text, names, found: vec![], open: vec![], depth };
+    let mut at = 0;
+    while at < text.len() {
+        let spaces = text[at..].len() - text[at..].trim_start_matches(' ').len();
+        at += spaces;
+        if at < text.len() {
+            let (token, length) = lexer.token(at)?;
+            lexer.push(lexer.closing(token), at..at + length, spaces)?;
+            at += length;
+        }
+    }
+    Ok(lexer.found)
+}
+
+struct Lexer<'a> {
+    text: &'a str,
+    names: &'a mut Names,
+    found: Vec<Spanned>,
+    open: Vec<&'static str>,
+    depth: usize,
+}
+
+impl Lexer<'_> {
+    /// The token at `at`, and its length.
+    fn token(&mut self, at: usize) -> Result<(Token, usize), Complaint> {
+        let rest = &self.text[at..];
+        if let Some((sign, known)) = SIGNS.iter().find(|(sign, _)| rest.starts_with(sign)) {
+            return Ok((Token::Sign(known), sign.len()));
+        }
+        match rest.chars().next() {
+            Some(c) if c.is_ascii_digit() => number(rest).map_err(|message| (at, message)),
+            Some(c) if is_letter(c) => Ok(self.name(rest)),
+            _ => Err((
+                at,
+                format!("found {:?}, which is no part of the notation", &rest[..first(rest)]),
+            )),
+        }
+    }
+
+    fn name(&mut self, rest: &str) -> (Token, usize) {
+        let length = rest.find(|c: char| !is_letter(c) && !c.is_numeric()).unwrap_or(rest.len());
+        let token = match &rest[..length] {
+            "for" => Token::Sign("for"),
+            "if" => Token::Sign("if"),
+            name if rest[length..].starts_with('(') => Token::Function(self.names.intern(name)),
+            name => Token::Name(self.names.intern(name)),
+        };
+        (token, length)
+    }
+
+    /// The token, or the closing bar that it turns out to be.
+    fn closing(&self, token: Token) -> Token {
+        let closes =
+            token == Token::Sign("|") && self.behind_operand() && self.open.last() == Some(&"|");
+        if closes { Token::ClosingBar } else { token }
+    }
+
+    /// Keeps the token, a gap before it where there is one, and the brackets in step.
+    fn push(&mut self, token: Token, span: Span, spaces: usize) -> Result<(), Complaint> {
+        if self.gap(token, spaces) {
+            self.found.push((Token::Gap, (span.start - spaces..span.start).into()));
+        }
+        match token {
+            Token::Sign(bracket @ ("(" | "[" | "|")) => self.open.push(bracket),
+            Token::Sign(")" | "]") | Token::ClosingBar => drop(self.open.pop()),
+            _ => {}
+        }
+        if self.open.len() > self.depth {
+            return Err((span.start, format!("found brackets more than {} deep", self.depth)));
+        }
+        self.found.push((token, span.into()));
+        Ok(())
+    }
+
+    fn gap(&self, token: Token, spaces: usize) -> bool {
+        let closing = matches!(token, Token::Sign(")" | ","));
+        let wanted = if starts_operand(token) { 1 } else { 2 };
+        self.open.last() == Some(&"(") && self.behind_operand() && !closing && spaces >= wanted
+    }
+
+    fn behind_operand(&self) -> bool {
+        self.found.last().is_some_and(|(last, _)| ends_operand(*last))
+    }
+}
+
+fn is_letter(c: char) -> bool {
+    (c.is_alphabetic() || c == '_') && c != 'ᵀ'
+}
+
+fn first(text: &str) -> usize {
+    text.chars().next().map_or(0, char::len_utf8)
+}
+
+fn number(rest: &str) -> Result<(Token, usize), String> {
+    let digits = |s: &str| s.find(|c: char| !c.is_ascii_digit()).unwrap_or(s.len());
+    let mut length = digits(rest);
+    if let Some(fraction) = rest[length..].strip_prefix('.') {
+        length += if digits(fraction) > 0 { 1 + digits(fraction) } else { 0 };
+    }
+    match rest[..length].parse() {
+        Ok(x) if f64::is_finite(x) => Ok((Token::Number(x), length)),
+        _ => Err("found a number too large".into()),
+    }
+}
+
+fn starts_operand(token: Token) -> bool {
+    matches!(token, Token::Number(_) | Token::Name(_) | Token::Function(_) | Token::Sign("(" | "|"))
+}
+
+fn ends_operand(token: Token) -> bool {
+    matches!(
+        token,
+        Token::Number(_) | Token::Name(_) | Token::ClosingBar | Token::Sign(")" | "]" | "ᵀ")
+    )
+}

@@ -1,0 +1,211 @@
+//! A listing: its lines, and the program they spell.
+
+use std::fmt;
+
+use super::failure::ParseError;
+use super::lexer::{self, Complaint, Names, Spanned};
+use super::parser::{self, Header};
+use super::settings::Limits;
+use super::syntax::{Expr, Statement, Step};
+
+/// A line of a listing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// The line's number in the print, from 1. Under a reading that moves or repeats lines ([`super::edit`]) the
+    /// numbers need not ascend.
+    pub printed: usize,
+    /// The line's number in the file, from 1.
+    pub in_file: usize,
+    /// How deep the line stands: Mathcad's bars to its left.
+    pub level: usize,
+    /// The text behind the indentation.
+    pub text: String,
+}
+
+/// A program as printed, and read.
+#[derive(Clone, Debug)]
+pub struct Listing {
+    pub(super) name: String,
+    pub(super) lines: Vec<Line>,
+    pub(super) names: Names,
+    pub(super) header: Header,
+    pub(super) program: Vec<Statement>,
+}
+
+impl Listing {
+    /// Reads a listing in the notation of `listings/README.md`, under the default [`Limits`].
+    ///
+    /// `name` is what messages call the listing.
+    ///
+    /// # Errors
+    ///
+    /// The first place at which the text leaves the notation.
+    pub fn parse(name: &str, text: &str) -> Result<Self, ParseError> {
+        Self::parse_within(name, text, &Limits::default())
+    }
+
+    /// Reads a listing under limits of the caller's.
+    ///
+    /// # Errors
+    ///
+    /// As [`Listing::parse`].
+    pub fn parse_within(name: &str, text: &str, limits: &Limits) -> Result<Self, ParseError> {
+        let numbered = text.lines().enumerate().map(|(k, text)| (k + 1, text));
+        let lines = numbered.filter(|(_, text)| !text.starts_with('#') && !text.trim().is_empty());
+        let lines =
+            lines.enumerate().map(|(k, (in_file, text))| Line::new(k + 1, in_file, text)).collect();
+        Self::from_lines(name, lines, limits)
+    }
+
+    /// Reads the lines of a listing.
+    pub(super) fn from_lines(
+        name: &str,
+        lines: Vec<Line>,
+        limits: &Limits,
+    ) -> Result<Self, ParseError> {
+        let mut reader = Reader { name, lines: &lines, names: Names::default(), limits, next: 0 };
+        let header = reader.header()?;
+        let program = reader.block(1)?;
+        if let Some(line) = lines.get(reader.next) {
+            return Err(reader
+                .error(line, (0, "found a line beside the header, expected it indented".into())));
+        }
+        let names = reader.names;
+        Ok(Listing { name: name.into(), names, header, program, lines })
+    }
+
+    /// What messages call the listing.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The lines, without headers.
+    pub fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+}
+
+/// The listing's text without headers.
+impl fmt::Display for Listing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.lines.iter().try_for_each(|line| writeln!(f, "{line}"))
+    }
+}
+
+impl Line {
+    /// The line `text` with its indentation.
+    pub(super) fn new(printed: usize, in_file: usize, text: &str) -> Self {
+        let behind = text.trim_start_matches(' ');
+        let spaces = text.len() - behind.len();
+        // An odd space stays with the text, where it is refused.
+        Line { printed, in_file, level: spaces / 2, text: text[spaces / 2 * 2..].trim_end().into() }
+    }
+}
+
+impl fmt::Display for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:1$}{2}", "", 2 * self.level, self.text)
+    }
+}
+
+/// Reads lines into blocks.
+struct Reader<'a> {
+    name: &'a str,
+    lines: &'a [Line],
+    names: Names,
+    limits: &'a Limits,
+    next: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn header(&mut self) -> Result<Header, ParseError> {
+        let empty = Line::new(1, 1, "");
+        let line = self.lines.first().unwrap_or(&empty);
+        if self.lines.len() > self.limits.lines {
+            let message =
+                format!("found {} lines, expected at most {}", self.lines.len(), self.limits.lines);
+            return Err(self.error(line, (0, message)));
+        }
+        let tokens = self.tokens(line)?;
+        self.next = 1;
+        parser::header(&tokens).map_err(|complaint| self.error(line, complaint))
+    }
+
+    /// The lines that stand `level` deep from here on, with all that they hold.
+    fn block(&mut self, level: usize) -> Result<Vec<Statement>, ParseError> {
+        let mut block = vec![];
+        while let Some(line) = self.lines.get(self.next).filter(|line| line.level >= level) {
+            self.check_level(line, level)?;
+            block.push(self.statement(line)?);
+        }
+        if block.is_empty() {
+            let at = &self.lines[self.next - 1];
+            return Err(self.error(at, (at.text.len(), "expected an indented line below".into())));
+        }
+        Ok(block)
+    }
+
+    fn check_level(&self, line: &Line, level: usize) -> Result<(), ParseError> {
+        if line.level > level {
+            let message =
+                format!("found {} spaces of indentation, expected {}", 2 * line.level, 2 * level);
+            return Err(self.error(line, (0, message)));
+        }
+        if level > self.limits.depth {
+            return Err(
+                self.error(line, (0, format!("found blocks more than {} deep", self.limits.depth)))
+            );
+        }
+        Ok(())
+    }
+
+    fn statement(&mut self, line: &'a Line) -> Result<Statement, ParseError> {
+        let tokens = self.tokens(line)?;
+        let mut statement = parser::statement(&tokens, self.next)
+            .map_err(|complaint| self.error(line, complaint))?;
+        self.check_depth(line, &statement.step)?;
+        self.next += 1;
+        if let Step::For { body, .. } | Step::If { body, .. } = &mut statement.step {
+            *body = self.block(line.level + 1)?;
+        }
+        Ok(statement)
+    }
+
+    fn tokens(&mut self, line: &Line) -> Result<Vec<Spanned>, ParseError> {
+        let (length, limit) = (line.text.chars().count(), self.limits.characters);
+        if length > limit {
+            return Err(self
+                .error(line, (0, format!("found {length} characters, expected at most {limit}"))));
+        }
+        if line.text.starts_with(' ') {
+            return Err(
+                self.error(line, (0, "found an odd space, expected two for each level".into()))
+            );
+        }
+        let tokens = lexer::tokens(&line.text, &mut self.names, self.limits.depth);
+        tokens.map_err(|complaint| self.error(line, complaint))
+    }
+
+    fn check_depth(&self, line: &Line, step: &Step) -> Result<(), ParseError> {
+        let limit = self.limits.depth;
+        let deep = |expr: &&Expr| expr.deeper_than(limit);
+        match step.expressions().into_iter().find(deep) {
+            Some(expr) => {
+                let message = format!("found operators and brackets more than {limit} deep");
+                Err(self.error(line, (expr.span.start, message)))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn error(&self, line: &Line, (at, message): Complaint) -> ParseError {
+        ParseError {
+            listing: self.name.into(),
+            line: line.printed,
+            file_line: line.in_file,
+            column: 2 * line.level + line.text[..at].chars().count() + 1,
+            text: line.to_string().chars().take(300).collect(),
+            message,
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! Watching a run: what each statement reads and writes, and which conditions decide.
+
+use std::collections::BTreeMap;
+
+use super::listing::Line;
+use super::value::Value;
+
+/// Is told what happens as a listing runs. `()` is told nothing and costs nothing.
+pub trait Observer {
+    /// False: the run does not even prepare what it would tell.
+    const ACTIVE: bool = true;
+
+    /// A statement begins.
+    fn statement(&mut self, _line: &Line) {}
+
+    /// A name or an entry was read.
+    fn read(&mut self, _access: Access<'_>) {}
+
+    /// A name or an entry was written to; for a loop variable, once for each turn.
+    fn write(&mut self, _access: Access<'_>) {}
+
+    /// A statement's condition held, or did not.
+    fn condition(&mut self, _place: Place<'_>, _held: bool) {}
+
+    /// The operands of an `∧`: true, false, or `None` for one that failed or was not evaluated.
+    fn conjunction(&mut self, _place: Place<'_>, _operands: &[Operand<'_>]) {}
+}
+
+impl Observer for () {
+    const ACTIVE: bool = false;
+}
+
+/// A name or entry, and its value.
+#[derive(Clone, Copy, Debug)]
+pub struct Access<'a> {
+    /// The line.
+    pub line: &'a Line,
+    /// The name.
+    pub name: &'a str,
+    /// The subscripts: none, one or two.
+    pub subscripts: &'a [i64],
+    /// The value read or written.
+    pub value: &'a Value,
+}
+
+/// Where an expression stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a> {
+    /// The line.
+    pub line: &'a Line,
+    /// Where the expression starts in the line, in bytes.
+    pub start: usize,
+    /// The expression's text.
+    pub text: &'a str,
+}
+
+/// An operand of an `∧`.
+#[derive(Clone, Copy, Debug)]
+pub struct Operand<'a> {
+    /// The operand's text.
+    pub text: &'a str,
+    /// Whether it held; `None` if it failed or was not evaluated.
+    pub held: Option<bool>,
+}
+
+/// A statement executed: what it read, and what it wrote.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Executed {
+    /// The printed line.
+    pub line: usize,
+    /// Everything read, in order.
+    pub reads: Vec<Named>,
+    /// Everything written.
+    pub writes: Vec<Named>,
+}
+
+/// A name or entry, and its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// The name.
+    pub name: String,
+    /// The subscripts: none, one or two.
+    pub subscripts: Vec<i64>,
+    /// The value.
+    pub value: Value,
+}
+
+impl From<Access<'_>> for Named {
+    fn from(access: Access<'_>) -> Self {
+        Named {
+            name: access.name.into(),
+            subscripts: access.subscripts.into(),
+            value: access.value.clone(),
+        }
+    }
+}
+
+/// Hands every statement to a function once it is done: the `trace` command's observer.
+///
+/// A `for` line is handed over once for each turn. A statement is done when the next begins, and the last one when the
+/// recorder is dropped.
+pub struct Recorder<F: FnMut(&Executed)> {
+    hand_over: F,
+    current: Option<Executed>,
+}
+
+impl<F: FnMut(&Executed)> Recorder<F> {
+    /// A recorder that hands statements to `hand_over`.
+    pub fn new(hand_over: F) -> Self {
+        Recorder { hand_over, current: None }
+    }
+
+    /// Hands over the statement that is done and begins the next.
+    fn begin(&mut self, line: usize) {
+        let next = Executed { line, reads: vec![], writes: vec![] };
+        if let Some(done) = self.current.replace(next) {
+            (self.hand_over)(&done);
+        }
+    }
+
+    /// The current statement; a new one when a loop's line comes round again.
+    fn on(&mut self, line: usize) -> Option<&mut Executed> {
+        if self.current.as_ref().is_none_or(|current| current.line != line) {
+            self.begin(line);
+        }
+        self.current.as_mut()
+    }
+}
+
+impl<F: FnMut(&Executed)> Observer for Recorder<F> {
+    fn statement(&mut self, line: &Line) {
+        self.begin(line.printed);
+    }
+
+    fn read(&mut self, access: Access<'_>) {
+        self.on(access.line.printed)
+            .into_iter()
+            .for_each(|current| current.reads.push(access.into()));
+    }
+
+    fn write(&mut self, access: Access<'_>) {
+        self.on(access.line.printed)
+            .into_iter()
+            .for_each(|current| current.writes.push(access.into()));
+    }
+}
+
+impl<F: FnMut(&Executed)> Drop for Recorder<F> {
+    fn drop(&mut self) {
+        if let Some(done) = &self.current {
+            (self.hand_over)(done);
+        }
+    }
+}
+
+/// Counts what a run, or several, went through.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Coverage {
+    /// How often each line was executed, by the printed number. A line that was never reached is not there.
+    pub lines: BTreeMap<usize, u64>,
+    /// The statements' conditions, by the printed number of their line.
+    pub conditions: BTreeMap<usize, ConditionCoverage>,
+    /// The operands of each `∧`, by the printed number of its line and its place there.
+    pub conjunctions: BTreeMap<(usize, usize), Vec<OperandCoverage>>,
+}
+
+/// How often a condition held, and how often not.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ConditionCoverage {
+    /// The condition.
+    pub text: String,
+    /// Times it held.
+    pub held: u64,
+    /// Times it did not.
+    pub failed: u64,
+}
+
+/// How often an operand of an `∧` decided: how often the other value would have turned the `∧`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct OperandCoverage {
+    /// The operand.
+    pub text: String,
+    /// Times it was true among operands that all were.
+    pub admitted: u64,
+    /// Times it alone was false.
+    pub refused: u64,
+}
+
+impl OperandCoverage {
+    /// Whether the operand ever decided.
+    pub fn decisive(&self) -> bool {
+        self.admitted > 0 || self.refused > 0
+    }
+
+    /// Whether the operand decided both ways (modified condition/decision coverage).
+    pub fn decided_both_ways(&self) -> bool {
+        self.admitted > 0 && self.refused > 0
+    }
+}
+
+impl Observer for Coverage {
+    fn statement(&mut self, line: &Line) {
+        *self.lines.entry(line.printed).or_default() += 1;
+    }
+
+    fn condition(&mut self, place: Place<'_>, held: bool) {
+        let condition = self.conditions.entry(place.line.printed).or_default();
+        condition.text = place.text.into();
+        *(if held { &mut condition.held } else { &mut condition.failed }) += 1;
+    }
+
+    fn conjunction(&mut self, place: Place<'_>, operands: &[Operand<'_>]) {
+        let known =
+            self.conjunctions.entry((place.line.printed, place.start)).or_insert_with(|| {
+                operands
+                    .iter()
+                    .map(|operand| OperandCoverage {
+                        text: operand.text.into(),
+                        ..Default::default()
+                    })
+                    .collect()
+            });
+        let holding = operands.iter().filter(|operand| operand.held == Some(true)).count();
+        for (known, operand) in known.iter_mut().zip(operands) {
+            match operand.held {
+                Some(true) if holding == operands.len() => known.admitted += 1,
+                Some(false) if holding == operands.len() - 1 => known.refused += 1,
+                _ => {}
+            }
+        }
+    }
+}
