@@ -1,6 +1,7 @@
 //! plane-contact
 #![forbid(unsafe_code)]
 
+pub mod audit;
 mod choices;
 pub mod contact;
 pub mod element;

@@ -1,0 +1,48 @@
+//! What an audit looks at: a scene, its arrays under the default reading, and a run of each variant.
+
+use std::cell::OnceCell;
+use std::rc::Rc;
+
+use crate::contact::{self, Outcome, Variant};
+use crate::error::Error;
+use crate::mirror::{Failure, Pairs, Reading, Worksheet, c_cnt};
+use crate::scene::Scene;
+
+/// A run, or why there is none.
+pub type Run = Result<Outcome, Rc<Error>>;
+
+/// A scene under audit. Runs are made when they are first asked for, once.
+pub struct Case {
+    /// The scene.
+    pub scene: Scene,
+    /// Its arrays under the default reading.
+    pub sheet: Worksheet<f64>,
+    runs: [OnceCell<Run>; Variant::ALL.len()],
+}
+
+impl Case {
+    /// The case of a scene.
+    ///
+    /// # Errors
+    /// A scene that the default reading does not allow.
+    pub fn new(scene: Scene) -> Result<Self, Error> {
+        let sheet = scene.worksheet(&Reading::default())?;
+        Ok(Case { scene, sheet, runs: Default::default() })
+    }
+
+    /// The run of a variant under the default reading.
+    pub fn run(&self, variant: Variant) -> &Run {
+        let at = Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant");
+        self.runs[at].get_or_init(|| {
+            contact::run(&self.scene, variant, &Reading::default(), |_| ()).map_err(Rc::new)
+        })
+    }
+
+    /// What `c_cnt` finds at the initial shape under the default reading.
+    ///
+    /// # Errors
+    /// Where the listing fails as printed.
+    pub fn initial(&self) -> Result<Pairs<f64>, Failure> {
+        c_cnt(&self.sheet, &Reading::default(), &self.sheet.node)
+    }
+}

@@ -1,0 +1,5 @@
+//! The audit: what the ambiguities and the findings of the print do on a scene.
+
+mod case;
+
+pub use case::Case;
