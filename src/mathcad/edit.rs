@@ -22,6 +22,8 @@ struct Change {
     listing: String,
     first: usize,
     last: usize,
+    /// Whether the lines stay and only stand one level deeper.
+    deeper: bool,
     lines: Vec<Line>,
 }
 
@@ -80,8 +82,8 @@ impl Edit {
         } else if line.ends_with(':') {
             self.changes.push(parse_range(line).ok_or("`c_cnt lines 14-30:` or `Km line 7:`")?);
         } else {
-            let change =
-                self.changes.last_mut().ok_or("`c_cnt lines 14-30:` above the first line")?;
+            let change = self.changes.last_mut().filter(|change| !change.deeper);
+            let change = change.ok_or("`c_cnt lines 14-30:` above the first line")?;
             change.lines.push(
                 parse_line(line, in_file).ok_or("a printed number, two spaces, and the line")?,
             );
@@ -99,7 +101,11 @@ impl Edit {
         for change in &self.changes {
             let range =
                 change.find(listing.name(), &lines).ok_or_else(|| change.misfit(listing))?;
-            lines.splice(range, change.lines.iter().cloned());
+            if change.deeper {
+                lines[range].iter_mut().for_each(|line| line.level += 1);
+            } else {
+                lines.splice(range, change.lines.iter().cloned());
+            }
         }
         Ok(Listing::from_lines(listing.name(), lines, &Limits::default())?)
     }
@@ -129,15 +135,18 @@ impl Change {
     }
 }
 
-/// `c_cnt lines 14-30:` or `Km line 7:`.
+/// `c_cnt lines 14-30:`, `Km line 7:` or `c_cnt lines 14-30, one level deeper:`.
 fn parse_range(text: &str) -> Option<Change> {
-    let (listing, range) = text.strip_suffix(':')?.split_once(" line")?;
+    let text = text.strip_suffix(':')?;
+    let replaced = text.strip_suffix(", one level deeper");
+    let (listing, range) = replaced.unwrap_or(text).split_once(" line")?;
     let range = range.strip_prefix('s').unwrap_or(range).strip_prefix(' ')?;
     let (first, last) = range.split_once('-').unwrap_or((range, range));
     Some(Change {
         listing: listing.into(),
         first: first.parse().ok()?,
         last: last.parse().ok()?,
+        deeper: replaced.is_some(),
         lines: vec![],
     })
 }

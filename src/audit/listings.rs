@@ -1,0 +1,186 @@
+//! The paper's listings, executed as they stand on the arrays of a scene.
+
+use std::fmt;
+
+use crate::element;
+use crate::mathcad::array::{Column, Table};
+use crate::mathcad::settings::Conjunction;
+use crate::mathcad::value::Array;
+use crate::mathcad::{
+    Edit, Failure, Limits, Listing, Observer, ParseError, Runner, Settings, Value,
+};
+use crate::mirror::{
+    LoopPlace, NodeTable, Order, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
+};
+
+/// One of the paper's two listings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// Fig. 2.
+    CCnt,
+    /// Fig. 3.
+    Km,
+}
+
+/// What an execution leaves besides the values: the lines that `trace` wrote.
+pub type Traced<T> = Result<(T, Vec<String>), Box<Failure>>;
+
+impl Which {
+    /// The name in the print.
+    pub fn name(self) -> &'static str {
+        match self {
+            Which::CCnt => "c_cnt",
+            Which::Km => "Km",
+        }
+    }
+
+    /// The text of record.
+    pub fn text(self) -> &'static str {
+        match self {
+            Which::CCnt => include_str!("../../listings/c_cnt.txt"),
+            Which::Km => include_str!("../../listings/Km.txt"),
+        }
+    }
+
+    /// The listing whose text begins like one of the paper's.
+    pub fn of(text: &str) -> Option<Which> {
+        let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty())?;
+        [Which::CCnt, Which::Km].into_iter().find(|w| header.trim_start().starts_with(w.name()))
+    }
+
+    /// The listing under a reading: the text of record with the reading's edits.
+    pub fn under(self, reading: &Reading) -> Listing {
+        let listing =
+            Listing::parse(self.name(), self.text()).expect("the text of record is sound");
+        edits(self, reading).into_iter().fold(listing, |listing, edit| {
+            let edit = Edit::parse(edit).expect("the edits of listings/readings are sound");
+            edit.apply(&listing).expect("the edits of listings/readings fit the text of record")
+        })
+    }
+
+    /// Another text in place of the listing.
+    ///
+    /// # Errors
+    /// Where the text leaves the notation.
+    pub fn edited(self, text: &str) -> Result<Listing, ParseError> {
+        Listing::parse(self.name(), text)
+    }
+}
+
+impl fmt::Display for Which {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The edits that a reading makes to a listing's text. R4 is a setting of the worksheet.
+fn edits(which: Which, reading: &Reading) -> Vec<&'static str> {
+    let mut edits = Vec::new();
+    match which {
+        Which::CCnt => {
+            if reading.r5 == NodeTable::NodeN {
+                edits.push(include_str!("../../listings/readings/R5-node_n.edit"));
+            }
+            // It only moves lines, so it comes after the edit that rewrites two of them.
+            if reading.r1 == LoopPlace::Inside {
+                edits.push(include_str!("../../listings/readings/R1-inside.edit"));
+            }
+        }
+        Which::Km => {
+            if reading.r2 == RestraintIndex::Printed {
+                edits.push(include_str!("../../listings/readings/R2-printed.edit"));
+            }
+            match reading.r3 {
+                Wedge::Collect => {}
+                Wedge::PerNode => {
+                    edits.push(include_str!("../../listings/readings/R3-per-node.edit"))
+                }
+                Wedge::Nested => edits.push(include_str!("../../listings/readings/R3-nested.edit")),
+            }
+        }
+    }
+    edits
+}
+
+/// The worksheet's settings under a reading: R4.
+pub fn settings(reading: &Reading) -> Settings {
+    let conjunction = match reading.r4 {
+        Order::Guarded => Conjunction::Guarded,
+        Order::LeftToRight => Conjunction::LeftToRight,
+        Order::Eager => Conjunction::Eager,
+    };
+    Settings { conjunction, ..Settings::default() }
+}
+
+/// Executes `c_cnt` on the shape `node_n`.
+///
+/// # Errors
+/// The failure that stopped the listing.
+pub fn c_cnt<O: Observer>(
+    listing: &Listing,
+    settings: &Settings,
+    sheet: &Worksheet<f64>,
+    node_n: &Table<f64>,
+    observer: &mut O,
+) -> Traced<Pairs<f64>> {
+    let mut runner = listing.runner(settings, &Limits::default());
+    define(&mut runner, sheet);
+    let outcome = runner.call_observed(&[Value::from(node_n)], observer)?;
+    let column = |name: &str| -> Column<f64> {
+        let local = outcome.locals.get(name).map(Column::try_from);
+        local.and_then(Result::ok).unwrap_or_else(|| Column::filled(0, 0.0))
+    };
+    let pairs = Pairs {
+        ct: column("ct").map(|x| x as usize),
+        yt: column("yt"),
+        dy: column("dy").map(|x| x as usize),
+        k_cnt: Table::try_from(&outcome.value).unwrap_or_else(|_| Table::filled(0, 0, 0.0)),
+    };
+    Ok((pairs, outcome.trace_output))
+}
+
+/// Executes `Km` on the contact pairs `k_cnt`.
+///
+/// # Errors
+/// The failure that stopped the listing.
+pub fn km<O: Observer>(
+    listing: &Listing,
+    settings: &Settings,
+    sheet: &Worksheet<f64>,
+    k_cnt: &Table<f64>,
+    observer: &mut O,
+) -> Traced<Table<f64>> {
+    let mut runner = listing.runner(settings, &Limits::default());
+    define(&mut runner, sheet);
+    let outcome = runner.call_observed(&[Value::from(k_cnt)], observer)?;
+    let matrix = Table::try_from(&outcome.value).unwrap_or_else(|_| Table::filled(0, 0, 0.0));
+    Ok((matrix, outcome.trace_output))
+}
+
+/// Defines what stands on the worksheet above the listings.
+fn define(runner: &mut Runner, sheet: &Worksheet<f64>) {
+    let gradients = sheet.B.iter().map(|b| Value::from(Array::from_fn(3, 6, |i, j| b[(i, j)])));
+    runner
+        .define("node", &sheet.node)
+        .define("elem", &sheet.elem)
+        .define("EL", &sheet.EL)
+        .define("trg", &sheet.trg)
+        .define("cnt", &sheet.cnt)
+        .define("c_tll", sheet.c_tll)
+        .define("ind_1", sheet.ind_1)
+        .define("R", sheet.R())
+        .define("M", sheet.M())
+        .define("S", &sheet.S)
+        .define("Ae", &sheet.Ae)
+        .define("B", gradients.collect::<Value>())
+        .define("E", &sheet.E)
+        .define("ν", &sheet.nu);
+    let plane = sheet.plane;
+    runner.define_function("D", move |arguments| match arguments {
+        [Value::Number(e), Value::Number(nu)] => {
+            let d = element::D(plane, *e, *nu);
+            Ok(Array::from_fn(3, 3, |i, j| d[(i, j)]).into())
+        }
+        _ => Err("D takes an elastic modulus and a Poisson's ratio".into()),
+    });
+}
