@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::mathcad;
 use crate::mirror::Failure;
 
 /// Why a command ended without a result.
@@ -13,6 +14,9 @@ pub enum Error {
     /// A listing fails as printed: exit status 3, an audit result.
     #[error("the published algorithm fails as printed: {0}")]
     Listing(#[from] Failure),
+    /// A listing fails as it is executed: exit status 3, an audit result.
+    #[error("the published algorithm fails as printed: {0}")]
+    Execution(#[from] Box<mathcad::Failure>),
     /// The matrix of an iteration cannot be solved: exit status 3, an audit result.
     #[error("the published algorithm fails as printed: {0}")]
     Singular(#[from] SingularMatrix),
@@ -23,7 +27,7 @@ impl Error {
     pub fn exit_status(&self) -> u8 {
         match self {
             Error::Input(_) => 2,
-            Error::Listing(_) | Error::Singular(_) => 3,
+            Error::Listing(_) | Error::Execution(_) | Error::Singular(_) => 3,
         }
     }
 }

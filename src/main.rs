@@ -31,6 +31,7 @@ enum Command {
     Solve(commands::solve::Args),
     CCnt(commands::c_cnt::Args),
     Km(commands::km::Args),
+    Trace(commands::trace::Args),
 }
 
 fn main() -> ExitCode {
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Command::Solve(args) => commands::solve::run(&args),
         Command::CCnt(args) => commands::c_cnt::run(&args),
         Command::Km(args) => commands::km::run(&args),
+        Command::Trace(args) => commands::trace::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

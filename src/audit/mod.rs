@@ -2,5 +2,6 @@
 
 mod case;
 pub mod listings;
+pub mod trace;
 
 pub use case::Case;

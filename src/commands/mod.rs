@@ -3,6 +3,7 @@
 pub mod c_cnt;
 pub mod km;
 pub mod solve;
+pub mod trace;
 
 use std::io::Write;
 

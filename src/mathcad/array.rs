@@ -66,6 +66,11 @@ impl<T: nalgebra::Scalar> Table<T> {
         (0..self.cols()).map(move |j| &self.0[(i - 1, j)])
     }
 
+    /// The entry at `[i, j]`, or nothing outside the table.
+    pub fn get(&self, i: usize, j: usize) -> Option<&T> {
+        self.0.get((i.checked_sub(1)?, j.checked_sub(1)?))
+    }
+
     /// The same table with every entry mapped.
     pub fn map<U: nalgebra::Scalar>(&self, f: impl FnMut(T) -> U) -> Table<U> {
         Table(self.0.map(f))

@@ -105,10 +105,14 @@ fn elements(outcome: &Outcome) -> Vec<ElementRow> {
 
 /// What one call of `c_cnt` found.
 pub fn pairs(pairs: &Pairs<f64>) -> String {
+    pairs_value(pairs).to_string() + "\n"
+}
+
+/// `ct`, `yt`, `dy` by contact node, `k_cnt` by node.
+pub fn pairs_value(pairs: &Pairs<f64>) -> Value {
     let k_cnt: Vec<Vec<f64>> =
         (1..=pairs.k_cnt.rows()).map(|n| pairs.k_cnt.row(n).copied().collect()).collect();
-    let document = json!({
+    json!({
         "ct": pairs.ct.as_slice(), "yt": pairs.yt.as_slice(), "dy": pairs.dy.as_slice(), "k_cnt": k_cnt,
-    });
-    document.to_string() + "\n"
+    })
 }

@@ -9,5 +9,6 @@ pub mod matrix_market;
 pub mod picture;
 pub mod summary;
 pub mod tables;
+pub mod trace;
 pub mod vtu;
 mod xml;

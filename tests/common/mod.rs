@@ -26,3 +26,17 @@ pub fn scene_json(name: &str) -> Value {
 pub fn build(json: &Value) -> Result<Scene, plane_contact::error::InputError> {
     Scene::build("test", json.to_string().as_bytes(), |_| Err("no file".into()))
 }
+
+/// Every scene under `golden/`: those embedded by name, and those of the findings.
+pub fn shipped_scenes() -> Vec<Scene> {
+    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/golden");
+    let mut folders: Vec<std::path::PathBuf> = [golden.to_string(), format!("{golden}/findings")]
+        .iter()
+        .filter_map(|folder| std::fs::read_dir(folder).ok())
+        .flatten()
+        .map(|entry| entry.expect("a folder entry").path())
+        .filter(|path| path.join("scene.json").exists())
+        .collect();
+    folders.sort();
+    folders.iter().filter_map(|path| Scene::open(path.to_str()?).ok()).collect()
+}

@@ -1,0 +1,156 @@
+//! `plane-contact trace`.
+
+use std::path::PathBuf;
+
+use plane_contact::audit::listings::{Which, settings};
+use plane_contact::audit::trace::{self, Trace};
+use plane_contact::error::{Error, InputError};
+use plane_contact::mathcad::Listing;
+use plane_contact::mathcad::array::Table;
+use plane_contact::mirror::{Reading, Worksheet, c_cnt};
+use plane_contact::report::trace as report;
+use plane_contact::scene::Scene;
+
+use super::{ReadingArg, print};
+
+/// Execute a listing and show, line by line, what each statement read and wrote.
+#[derive(clap::Args)]
+#[command(after_help = "\
+c_cnt is executed on the initial shape and shown by contact node; Km on the pairs that c_cnt found there, and shown by element:
+those that have a linked node, or those of --node. --listing FILE executes an edited listing on the same scene, and tells what the
+edit changes (notation: listings/README.md).
+
+Examples:
+  plane-contact trace fig1
+  plane-contact trace fig1 --node 7
+  plane-contact trace fig1 --listing Km --node 7
+  plane-contact trace fig1 --reading R4=left-to-right     the listing stops: exit status 3
+  plane-contact trace strand --listing my-c_cnt.txt --node 113
+  plane-contact trace fig1 --json")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    scene: String,
+    /// c_cnt, Km, or the file of an edited listing.
+    #[arg(long, value_name = "LISTING", default_value = "c_cnt")]
+    listing: String,
+    /// Only this contact node (c_cnt), or the elements of this node (Km).
+    #[arg(long, value_name = "N")]
+    node: Option<usize>,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is executed: one of the paper's listings, or an edit of it.
+struct Chosen {
+    which: Which,
+    listing: Listing,
+    edited: bool,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let reading = args.reading.reading.0;
+    let scene = Scene::open(&args.scene)?;
+    let sheet = scene.worksheet(&reading)?;
+    let chosen = choose(&args.listing, &reading)?;
+    let k_cnt = linked(&sheet, &reading, chosen.which)?;
+    let turns = turns(chosen.which, &sheet, &k_cnt, args.node)?;
+    let wanted = |turn: usize| turns.contains(&turn);
+    let settings = settings(&reading);
+    let trace = trace::trace(chosen.which, &chosen.listing, &settings, &sheet, &k_cnt, wanted);
+    if args.json {
+        print(&report::json(&trace, &chosen.listing, &scene.name))?;
+    } else {
+        print(&report::text(&trace, &chosen.listing, &sheet))?;
+    }
+    finish(trace, &chosen, args, &sheet, &k_cnt)
+}
+
+/// Tells what an edit changed, or why the listing stopped.
+fn finish(
+    trace: Trace,
+    chosen: &Chosen,
+    args: &Args,
+    sheet: &Worksheet<f64>,
+    k_cnt: &Table<f64>,
+) -> Result<(), Error> {
+    let reading = args.reading.reading.0;
+    match trace.result {
+        Err(failure) if chosen.edited => {
+            Err(InputError::new(&args.listing, failure.to_string(), "correct the edited listing")
+                .into())
+        }
+        Err(failure) => Err(Error::Execution(failure)),
+        Ok(product) if chosen.edited && !args.json => {
+            let printed = chosen.which.under(&reading);
+            let (printed, _) =
+                trace::run(chosen.which, &printed, &settings(&reading), sheet, k_cnt, &mut ())
+                    .map_err(Error::Execution)?;
+            print(&report::changes(&printed, &product, sheet))
+        }
+        Ok(_) => Ok(()),
+    }
+}
+
+/// One of the paper's listings by name, or the edited listing in a file.
+fn choose(name: &str, reading: &Reading) -> Result<Chosen, Error> {
+    if let Some(which) = [Which::CCnt, Which::Km].into_iter().find(|w| w.name() == name) {
+        return Ok(Chosen { which, listing: which.under(reading), edited: false });
+    }
+    let text = std::fs::read_to_string(PathBuf::from(name)).map_err(|why| {
+        let what = format!("the listing cannot be read: {why}");
+        InputError::new(name, what, "give c_cnt, Km, or the path of an edited listing")
+    })?;
+    let which = Which::of(&text).ok_or_else(|| {
+        let what = "the file begins with neither c_cnt nor Km";
+        InputError::new(name, what, "keep the listing's first line")
+    })?;
+    let listing = which.edited(&text).map_err(|error| {
+        InputError::new(name, error.to_string(), "see the notation in listings/README.md")
+    })?;
+    Ok(Chosen { which, listing, edited: true })
+}
+
+/// The contact pairs that Km receives: those of c_cnt at the initial shape.
+fn linked(sheet: &Worksheet<f64>, reading: &Reading, which: Which) -> Result<Table<f64>, Error> {
+    match which {
+        Which::CCnt => Ok(Table::filled(sheet.R(), 4, 0.0)),
+        Which::Km => Ok(c_cnt(sheet, reading, &sheet.node)?.k_cnt),
+    }
+}
+
+/// The turns to show.
+fn turns(
+    which: Which,
+    sheet: &Worksheet<f64>,
+    k_cnt: &Table<f64>,
+    node: Option<usize>,
+) -> Result<Vec<usize>, Error> {
+    let nodes = |n: usize| (0..3).map(move |k| sheet.EL[(n, sheet.ind_1 + k)]);
+    let turns: Vec<usize> = match (which, node) {
+        (Which::CCnt, None) => (1..=sheet.cnt.rows()).collect(),
+        (Which::CCnt, Some(node)) => {
+            (1..=sheet.cnt.rows()).filter(|&i1| sheet.cnt[i1] == node).collect()
+        }
+        (Which::Km, None) => {
+            let is_linked = |n: usize| k_cnt.row(n).any(|x| *x != 0.0);
+            (1..=sheet.M()).filter(|&n| nodes(n).any(is_linked)).collect()
+        }
+        (Which::Km, Some(node)) => {
+            (1..=sheet.M()).filter(|&n| nodes(n).any(|m| m == node)).collect()
+        }
+    };
+    match (turns.is_empty(), node) {
+        (true, Some(node)) => {
+            let what = match which {
+                Which::CCnt => format!("node {node} is no contact node"),
+                Which::Km => format!("node {node} is in no triangle"),
+            };
+            Err(InputError::new("--node", what, "name another node, or none").into())
+        }
+        _ => Ok(turns),
+    }
+}

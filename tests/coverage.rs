@@ -1,0 +1,56 @@
+//! What the golden scenes reach of the listings: every line executed, every condition both ways, each operand of each `∧` decisive.
+
+mod common;
+
+use std::fmt::Write as _;
+
+use common::golden::assert_golden;
+use common::shipped_scenes;
+use plane_contact::audit::listings::{self, Which, settings};
+use plane_contact::mathcad::{Coverage, Listing};
+use plane_contact::mirror::{Reading, c_cnt};
+
+#[test]
+fn the_golden_scenes_cover_the_listings() {
+    let reading = Reading::default();
+    let (mut of_c_cnt, mut of_km) = (Coverage::default(), Coverage::default());
+    let (text_c_cnt, text_km) = (Which::CCnt.under(&reading), Which::Km.under(&reading));
+    for scene in shipped_scenes() {
+        let sheet = scene.worksheet(&reading).unwrap();
+        let settings = settings(&reading);
+        // A scene may be there to show where the listing stops; what it reached before counts.
+        let _ = listings::c_cnt(&text_c_cnt, &settings, &sheet, &sheet.node, &mut of_c_cnt);
+        if let Ok(pairs) = c_cnt(&sheet, &reading, &sheet.node) {
+            let _ = listings::km(&text_km, &settings, &sheet, &pairs.k_cnt, &mut of_km);
+        }
+    }
+    let text = format!("c_cnt\n{}\nKm\n{}", table(&text_c_cnt, &of_c_cnt), table(&text_km, &of_km));
+    assert_golden("listings", "coverage", &text);
+    let gaps: Vec<&str> = text.lines().filter(|line| line.contains("NO")).collect();
+    assert!(gaps.is_empty(), "not covered:\n{}", gaps.join("\n"));
+}
+
+/// A line a printed line: executed or not; below it its condition, and the operands of its `∧`.
+fn table(listing: &Listing, coverage: &Coverage) -> String {
+    let said = |covered: bool| if covered { "yes" } else { "NO" };
+    let mut text = String::new();
+    // Line 1 is the header: it is called, not executed.
+    for line in &listing.lines()[1..] {
+        let number = line.printed;
+        writeln!(text, "{number:>2} executed {}", said(coverage.lines.contains_key(&number)))
+            .unwrap();
+        if let Some(condition) = coverage.conditions.get(&number) {
+            let (held, failed) = (said(condition.held > 0), said(condition.failed > 0));
+            writeln!(text, "   condition true {held}, false {failed}: {}", condition.text).unwrap();
+        } else if line.text.contains("if ") {
+            writeln!(text, "   condition NO").unwrap();
+        }
+        for ((_, _), operands) in coverage.conjunctions.range((number, 0)..(number + 1, 0)) {
+            for operand in operands {
+                let decisive = said(operand.decisive());
+                writeln!(text, "   operand decisive {decisive}: {}", operand.text).unwrap();
+            }
+        }
+    }
+    text
+}
