@@ -1,9 +1,13 @@
-//! The numbers to reach, measured from the outside, whole processes: time and peak memory beside their limits. Prints a table;
-//! asserts nothing, for machines differ.
+//! The numbers to reach: whole processes from the outside, time and peak memory beside their limits; then the interpreter
+//! against the mirror, in turn in one run. Prints tables; asserts no time, for machines differ.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
+
+use plane_contact::audit::listings::{self, Which, settings};
+use plane_contact::mirror::{Reading, c_cnt};
+use plane_contact::scene::Scene;
 
 /// A command, how often it runs, and what it should keep to.
 struct Case {
@@ -14,7 +18,7 @@ struct Case {
     megabytes: f64,
 }
 
-const CASES: [Case; 4] = [
+const CASES: [Case; 6] = [
     Case {
         name: "solve strand",
         args: &["solve", "strand"],
@@ -36,6 +40,14 @@ const CASES: [Case; 4] = [
         seconds: 2.0,
         megabytes: 300.0,
     },
+    Case { name: "audit strand", args: &["audit"], runs: 3, seconds: 10.0, megabytes: 1000.0 },
+    Case {
+        name: "trace strand",
+        args: &["trace", "strand"],
+        runs: 3,
+        seconds: 10.0,
+        megabytes: 1000.0,
+    },
     Case {
         name: "c-cnt fig1",
         args: &["c-cnt", "fig1"],
@@ -46,6 +58,40 @@ const CASES: [Case; 4] = [
 ];
 
 fn main() {
+    whole_processes();
+    interpreter_against_mirror();
+}
+
+/// c_cnt of the paper's example, listing and mirror in turn, after a check that both give the same.
+fn interpreter_against_mirror() {
+    let reading = Reading::default();
+    let sheet = Scene::open("strand").expect("embedded").worksheet(&reading).expect("sound");
+    let (listing, settings) = (Which::CCnt.under(&reading), settings(&reading));
+    let interpreted = || listings::c_cnt(&listing, &settings, &sheet, &sheet.node, &mut ());
+    let mirrored = || c_cnt(&sheet, &reading, &sheet.node);
+    assert_eq!(interpreted().expect("it runs").0, mirrored().expect("it runs"));
+    let mut times = [Vec::new(), Vec::new()];
+    for _ in 0..200 {
+        let start = Instant::now();
+        std::hint::black_box(interpreted().is_ok());
+        times[0].push(start.elapsed().as_secs_f64());
+        let start = Instant::now();
+        std::hint::black_box(mirrored().is_ok());
+        times[1].push(start.elapsed().as_secs_f64());
+    }
+    let [listing, mirror] = times.map(|mut t| {
+        t.sort_by(f64::total_cmp);
+        t[t.len() / 2]
+    });
+    println!(
+        "\nc_cnt of strand, median: listing {:.3} ms, mirror {:.3} ms, ratio {:.0} (limit 200)",
+        listing * 1e3,
+        mirror * 1e3,
+        listing / mirror
+    );
+}
+
+fn whole_processes() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     println!(
         "{:32} {:>10} {:>10} {:>10} {:>10}",

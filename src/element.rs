@@ -83,10 +83,11 @@ impl State {
     pub fn new(plane: Plane, E: f64, nu: f64, B: &SMatrix<f64, 3, 6>, u: &SVector<f64, 6>) -> Self {
         let epsilon = B * u;
         let sigma = D(plane, E, nu) * epsilon;
-        let (sigma_z, epsilon_z) = match plane {
-            Plane::Strain => (nu * (sigma[0] + sigma[1]), 0.0),
-            Plane::Stress => (0.0, -nu / (1.0 - nu) * (epsilon[0] + epsilon[1])),
+        let sigma_z = match plane {
+            Plane::Strain => nu * (sigma[0] + sigma[1]),
+            Plane::Stress => 0.0,
         };
+        let epsilon_z = out_of_plane_strain(plane, nu, &epsilon);
         let s = deviator_norm(sigma[0], sigma[1], sigma_z, sigma[2]);
         let e = deviator_norm(epsilon[0], epsilon[1], epsilon_z, epsilon[2] / 2.0);
         State {
@@ -95,6 +96,20 @@ impl State {
             von_mises_stress: 1.5_f64.sqrt() * s,
             von_mises_strain: (2.0_f64 / 3.0).sqrt() * e,
         }
+    }
+}
+
+/// Von Mises strain by the other formula in use (R10): that of the stress, on strains, divided by 1 + nu.
+pub fn von_mises_strain_by_stress_formula(plane: Plane, nu: f64, e: &SVector<f64, 3>) -> f64 {
+    let e_zz = out_of_plane_strain(plane, nu, e);
+    1.5_f64.sqrt() * deviator_norm(e[0], e[1], e_zz, e[2] / 2.0) / (1.0 + nu)
+}
+
+/// e_zz: 0 in plane strain, −nu/(1 − nu) (e_xx + e_yy) in plane stress.
+fn out_of_plane_strain(plane: Plane, nu: f64, e: &SVector<f64, 3>) -> f64 {
+    match plane {
+        Plane::Strain => 0.0,
+        Plane::Stress => -nu / (1.0 - nu) * (e[0] + e[1]),
     }
 }
 

@@ -18,6 +18,7 @@ Exit status: 0 done; 2 the input is at fault; 3 the published algorithm fails as
 Examples:
   plane-contact solve                        the paper's example
   plane-contact solve fig1 --variant printed
+  plane-contact audit                        every ambiguity and finding, on the paper's example
   plane-contact c-cnt fig1
   plane-contact km fig1 --coupled-by none"
 )]
@@ -29,6 +30,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Solve(commands::solve::Args),
+    Audit(commands::audit::Args),
     CCnt(commands::c_cnt::Args),
     Km(commands::km::Args),
     Trace(commands::trace::Args),
@@ -37,6 +39,7 @@ enum Command {
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Solve(args) => commands::solve::run(&args),
+        Command::Audit(args) => commands::audit::run(&args),
         Command::CCnt(args) => commands::c_cnt::run(&args),
         Command::Km(args) => commands::km::run(&args),
         Command::Trace(args) => commands::trace::run(&args),

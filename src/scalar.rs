@@ -1,4 +1,4 @@
-//! The number type of the mirror.
+//! The number type of the mirror, and what may stand in its subscripts.
 
 use std::fmt::{Debug, Display};
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -6,7 +6,31 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use nalgebra::{ClosedAddAssign, ClosedMulAssign};
 use num_traits::{One, Zero};
 
-use crate::mathcad::array::Subscript;
+/// What may stand in a subscript: a whole number, or a number of a table that holds one (`k_cnt` holds node numbers
+/// beside weights).
+pub trait Subscript: Copy {
+    /// The subscript as a whole number.
+    fn at(self) -> usize;
+}
+
+impl Subscript for usize {
+    fn at(self) -> usize {
+        self
+    }
+}
+
+impl Subscript for f64 {
+    fn at(self) -> usize {
+        debug_assert!(self >= 0.0 && self.fract() == 0.0, "{self} is no subscript");
+        self as usize
+    }
+}
+
+impl Subscript for f32 {
+    fn at(self) -> usize {
+        f64::from(self).at()
+    }
+}
 
 /// What the listings ask of a number: `+ − · /`, comparison, absolute value, min and max. No square root and nothing
 /// transcendental, so that `f32`, `f64` and exact rationals all serve.

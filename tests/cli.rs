@@ -213,9 +213,154 @@ fn a_scene_by_path_reads_its_mesh_beside_it() {
 }
 
 #[test]
+fn trace_shows_what_each_line_read_and_wrote() {
+    let folder = TempDir::new().unwrap();
+    let trace = succeeds(folder.path(), &["trace", "fig1", "--node", "7"]);
+    for words in [
+        "contact node 7 (i1 = 3 of 5)",
+        "17  dy[i1] ← 1 if i1 < rows(cnt) ∧ yt[i1] < 0 ∧ yt[i1+1] > 0 ∧ ct[i1] > 0",
+        "⇒ dy[3] ← 1",
+        "⇒ k_cnt[7,3] ← 3",
+        "(lines 4-7 for 2 more edges: the node is outside their boxes)",
+        "trace() wrote: 1 | 2 | 2 | 3",
+    ] {
+        assert!(trace.contains(words), "{words:?}: {trace}");
+    }
+    let km = succeeds(folder.path(), &["trace", "fig1", "--listing", "Km", "--node", "13"]);
+    assert!(km.contains("element n = 7 of 9 (nodes 7, 13, 12)"), "{km}");
+    let json: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["trace", "fig1", "--json"])).unwrap();
+    assert_eq!(json["result"]["dy"], serde_json::json!([1, 1, 1, 0, 1]));
+    assert!(json["steps"].as_array().unwrap().len() > 100);
+    fails(folder.path(), &["trace", "fig1", "--node", "1"], 2, &["node 1 is no contact node"]);
+}
+
+/// An edited listing runs on the same scene; what it changes is told. Line 18 without its slip on the sign, for example.
+#[test]
+fn trace_runs_an_edited_listing() {
+    let folder = TempDir::new().unwrap();
+    let listing = include_str!("../listings/c_cnt.txt");
+    let edited = listing.replace("if |yt[i1]| < c_tll", "if |yt[i1]| < 5·c_tll");
+    std::fs::write(folder.path().join("edited.txt"), edited).unwrap();
+    let trace =
+        succeeds(folder.path(), &["trace", "fig1", "--listing", "edited.txt", "--node", "8"]);
+    assert!(trace.contains("dy[4] (node 8): 0 as printed, 1 edited"), "{trace}");
+    std::fs::write(folder.path().join("same.txt"), listing).unwrap();
+    let trace = succeeds(folder.path(), &["trace", "fig1", "--listing", "same.txt"]);
+    assert!(trace.contains("The edit changes nothing on this scene."), "{trace}");
+    std::fs::write(folder.path().join("broken.txt"), listing.replace("dy[i1] ← 0", "dy[i1 ← 0"))
+        .unwrap();
+    fails(
+        folder.path(),
+        &["trace", "fig1", "--listing", "broken.txt"],
+        2,
+        &["line 15", "column", "expected"],
+    );
+    std::fs::write(folder.path().join("stops.txt"), listing.replace("yt[i1] ← 0", "yt[i1] ← 1/0"))
+        .unwrap();
+    fails_after_output(
+        folder.path(),
+        &["trace", "fig1", "--listing", "stops.txt"],
+        2,
+        "singularity",
+    );
+    fails_after_output(
+        folder.path(),
+        &["trace", "fig1", "--reading", "R4=eager"],
+        3,
+        "c_cnt, line 18",
+    );
+    fails(folder.path(), &["trace", "fig1", "--listing", "none.txt"], 2, &["cannot be read"]);
+    std::fs::write(folder.path().join("other.txt"), "f(x) :=\n  x\n").unwrap();
+    fails(
+        folder.path(),
+        &["trace", "fig1", "--listing", "other.txt"],
+        2,
+        &["neither c_cnt nor Km"],
+    );
+}
+
+/// A trace that stops shows what came before.
+#[track_caller]
+fn fails_after_output(folder: &Path, args: &[&str], status: i32, words: &str) {
+    let output = run(folder, args);
+    assert_eq!(output.status.code(), Some(status), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("contact node 5"));
+    assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
+}
+
+#[test]
+fn audit_shows_readings_findings_and_variants() {
+    let folder = TempDir::new().unwrap();
+    let tables = succeeds(folder.path(), &["audit", "fig1", "--out", "audit"]);
+    for words in [
+        "1. Readings",
+        "R4 = left-to-right",
+        "fails (",
+        "2. Findings",
+        "K1",
+        "3. Variants",
+        "stepped",
+    ] {
+        assert!(tables.contains(words), "{words:?}: {tables}");
+    }
+    assert_eq!(tables, std::fs::read_to_string(folder.path().join("audit/audit.txt")).unwrap());
+    let json: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["audit", "fig1", "--json"])).unwrap();
+    assert_eq!(json["readings"].as_array().unwrap().len(), 17);
+    assert!(json["findings"].as_array().unwrap().len() >= 16);
+    assert_eq!(json["variants"].as_array().unwrap().len(), 3);
+    assert!(folder.path().join("audit/findings/C4.svg").exists());
+    assert!(folder.path().join("audit/printed/von_mises_stress.svg").exists());
+    let c4 = succeeds(folder.path(), &["audit", "--finding", "c4"]);
+    for words in ["c_cnt 17", "Why it matters", "A repair", "holds"] {
+        assert!(c4.contains(words), "{words:?}: {c4}");
+    }
+    fails(folder.path(), &["audit", "--finding", "Z9"], 2, &["no finding", "C1, C2"]);
+}
+
+/// What depends on a reading and what does not, on a scene small enough to know.
+#[test]
+fn audit_of_readings_on_fig1() {
+    let folder = TempDir::new().unwrap();
+    let json: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["audit", "fig1", "--json"])).unwrap();
+    let of = |reading: &str| {
+        let rows = json["readings"].as_array().unwrap();
+        rows.iter()
+            .find(|row| row["reading"] == reading)
+            .unwrap_or_else(|| panic!("{reading}"))
+            .clone()
+    };
+    assert!(of("R2 = printed")["entries"].as_u64().unwrap() > 0);
+    assert!(of("R4 = left-to-right")["failure"].as_str().unwrap().contains("line 18"));
+    assert!(of("ORIGIN = 0")["failure"].as_str().unwrap().contains("index is invalid"));
+    for reading in [
+        "0/0 = 0",
+        "comparisons to 1e-12",
+        "below 1e-307 is 0",
+        "1 .. 0 is empty",
+        "a failed last if is 0",
+    ] {
+        let row = of(reading);
+        assert_eq!(
+            (&row["statuses"], &row["entries"], &row["failure"]),
+            (&0.into(), &0.into(), &Value::Null)
+        );
+    }
+}
+
+#[test]
 fn help_has_examples() {
     let folder = TempDir::new().unwrap();
-    for args in [&["--help"][..], &["solve", "--help"], &["c-cnt", "--help"], &["km", "--help"]] {
+    for args in [
+        &["--help"][..],
+        &["solve", "--help"],
+        &["c-cnt", "--help"],
+        &["km", "--help"],
+        &["trace", "--help"],
+        &["audit", "--help"],
+    ] {
         assert!(succeeds(folder.path(), args).contains("Examples:"), "{args:?}");
     }
 }

@@ -1,7 +1,6 @@
 //! What an audit looks at: a scene, its arrays under the default reading, and a run of each variant.
 
-use std::cell::OnceCell;
-use std::rc::Rc;
+use std::sync::{Arc, OnceLock};
 
 use crate::contact::{self, Outcome, Variant};
 use crate::error::Error;
@@ -9,7 +8,7 @@ use crate::mirror::{Failure, Pairs, Reading, Worksheet, c_cnt};
 use crate::scene::Scene;
 
 /// A run, or why there is none.
-pub type Run = Result<Outcome, Rc<Error>>;
+pub type Run = Result<Outcome, Arc<Error>>;
 
 /// A scene under audit. Runs are made when they are first asked for, once.
 pub struct Case {
@@ -17,7 +16,7 @@ pub struct Case {
     pub scene: Scene,
     /// Its arrays under the default reading.
     pub sheet: Worksheet<f64>,
-    runs: [OnceCell<Run>; Variant::ALL.len()],
+    runs: [OnceLock<Run>; Variant::ALL.len()],
 }
 
 impl Case {
@@ -34,7 +33,7 @@ impl Case {
     pub fn run(&self, variant: Variant) -> &Run {
         let at = Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant");
         self.runs[at].get_or_init(|| {
-            contact::run(&self.scene, variant, &Reading::default(), |_| ()).map_err(Rc::new)
+            contact::run(&self.scene, variant, &Reading::default(), |_| ()).map_err(Arc::new)
         })
     }
 

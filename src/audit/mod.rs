@@ -1,7 +1,72 @@
 //! The audit: what the ambiguities and the findings of the print do on a scene.
 
 mod case;
+pub mod findings;
 pub mod listings;
+pub mod readings;
 pub mod trace;
+pub mod variants;
 
 pub use case::Case;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use findings::{FINDINGS, Finding, Measured};
+use readings::Effect;
+use variants::VariantRow;
+
+/// All that an audit finds.
+pub struct Audit {
+    /// A row a reading.
+    pub readings: Vec<Effect>,
+    /// A row a finding.
+    pub findings: Vec<(&'static Finding, Measured)>,
+    /// A row a variant.
+    pub variants: Vec<VariantRow>,
+}
+
+/// Audits a scene.
+pub fn audit(case: &Case) -> Audit {
+    let variants = variants::side_by_side(case);
+    let readings = readings::effects(case);
+    let findings = FINDINGS.par_iter().map(|finding| (finding, finding.measure(case))).collect();
+    Audit { readings, findings, variants }
+}
+
+/// A finding's row for machines.
+#[derive(Serialize)]
+pub struct FindingRow<'a> {
+    /// `C4`.
+    pub id: &'a str,
+    /// The listing.
+    pub listing: &'a str,
+    /// Its lines.
+    pub lines: &'a [usize],
+    /// What the listing does that the text does not say.
+    pub title: &'a str,
+    /// On this scene: holds, does not arise, contradicted.
+    pub verdict: String,
+    /// The number.
+    pub number: f64,
+    /// What the number is.
+    pub of: &'a str,
+    /// The values.
+    pub detail: &'a str,
+}
+
+impl<'a> FindingRow<'a> {
+    /// The row of a finding and what was measured.
+    pub fn new(finding: &'a Finding, measured: &'a Measured) -> Self {
+        FindingRow {
+            id: finding.id,
+            listing: finding.listing,
+            lines: finding.lines,
+            title: finding.title,
+            verdict: measured.verdict.to_string(),
+            number: measured.number,
+            of: finding.number,
+            detail: &measured.detail,
+        }
+    }
+}

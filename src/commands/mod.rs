@@ -1,12 +1,15 @@
 //! One module a command.
 
+pub mod audit;
 pub mod c_cnt;
 pub mod km;
 pub mod solve;
 pub mod trace;
 
 use std::io::Write;
+use std::time::Duration;
 
+use indicatif::ProgressBar;
 use plane_contact::error::Error;
 use plane_contact::mirror::Reading;
 
@@ -46,4 +49,11 @@ pub fn print(text: &str) -> Result<(), Error> {
         }
         _ => Ok(()),
     }
+}
+
+/// A sign of life on standard error for what may take over two seconds; it shows only in a terminal.
+pub fn waiting(what: &'static str) -> ProgressBar {
+    let spinner = ProgressBar::new_spinner().with_message(what);
+    spinner.enable_steady_tick(Duration::from_millis(500));
+    spinner
 }

@@ -2,8 +2,10 @@
 
 mod elimination;
 mod run;
+mod summary;
 mod variant;
 
 pub use elimination::{Elimination, Tie, ties};
 pub use run::{Cycle, Iteration, Outcome, max_displacement, run};
+pub use summary::{BodySummary, summaries};
 pub use variant::{Coupling, Variant};

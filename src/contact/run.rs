@@ -25,7 +25,9 @@ use crate::solve::{DenseLu, memory};
 pub struct Iteration {
     /// Its number, from 1.
     pub k: usize,
-    /// What `c_cnt` found in the shape that the iteration started from.
+    /// The shape that the iteration started from: R x 4, as `node`.
+    pub node_n: Table<f64>,
+    /// What `c_cnt` found in it.
     pub pairs: Pairs<f64>,
     /// Number of contact nodes with dy = 1.
     pub in_contact: usize,
@@ -148,7 +150,8 @@ impl<'a> Run<'a> {
     }
 
     fn iterate(&mut self, k: usize) -> Result<Iteration, Error> {
-        let pairs = c_cnt(self.sheet, self.reading, &shape(self.sheet, &self.u))?;
+        let node_n = shape(self.sheet, &self.u);
+        let pairs = c_cnt(self.sheet, self.reading, &node_n)?;
         let in_contact = pairs.dy.iter().sum();
         let key: Vec<u64> = pairs.k_cnt.as_matrix().iter().map(|x| x.to_bits()).collect();
         let (cycle, solution) = match self.met.get(&key) {
@@ -171,6 +174,7 @@ impl<'a> Run<'a> {
             eq1_residual_step: eq1_residual(self.sheet, &pairs, &solution.u),
             target_force: self.target_force(k),
             solve_residual: solution.residual,
+            node_n,
             pairs,
         };
         self.met.insert(key, Met { k, solution });

@@ -4,33 +4,7 @@ use std::ops::{Index, IndexMut};
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::scalar::Scalar;
-
-/// What may stand in a subscript: a whole number, or a number of a table that holds one (`k_cnt` holds node numbers
-/// beside weights).
-pub trait Subscript: Copy {
-    /// The subscript as a whole number.
-    fn at(self) -> usize;
-}
-
-impl Subscript for usize {
-    fn at(self) -> usize {
-        self
-    }
-}
-
-impl Subscript for f64 {
-    fn at(self) -> usize {
-        debug_assert!(self >= 0.0 && self.fract() == 0.0, "{self} is no subscript");
-        self as usize
-    }
-}
-
-impl Subscript for f32 {
-    fn at(self) -> usize {
-        f64::from(self).at()
-    }
-}
+use crate::scalar::{Scalar, Subscript};
 
 /// A matrix whose rows and columns count from 1.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,6 +8,7 @@ use super::{files, json};
 use crate::contact::Outcome;
 use crate::element::State;
 use crate::error::InputError;
+use crate::mirror::Worksheet;
 use crate::scene::Scene;
 
 /// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu` and `result.json` to `folder`.
@@ -15,11 +16,12 @@ use crate::scene::Scene;
 /// # Errors
 /// A file that cannot be written.
 pub fn write(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), InputError> {
-    let shown = Shown::new(scene, outcome);
+    let shown = Shown::new(scene, &outcome.sheet);
+    let displacement: Vec<[f64; 2]> =
+        outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect();
     let drawing = shown.drawing(scene);
     let field = |quantity, unit, values: &[f64]| {
-        let displacement = &shown.displacement;
-        picture::field(&drawing, &Field { quantity, unit, values, displacement })
+        picture::field(&drawing, &Field { quantity, unit, values, displacement: &displacement })
     };
     let stress = values(outcome, |s| s.von_mises_stress);
     let strain = values(outcome, |s| s.von_mises_strain);
@@ -37,7 +39,12 @@ fn values(outcome: &Outcome, of: impl Fn(&State) -> f64) -> Vec<f64> {
     outcome.elements.iter().map(of).collect()
 }
 
-/// The mesh and its displacement, counted from 0.
+/// The mesh of a scene as a picture.
+pub fn mesh_picture(scene: &Scene, sheet: &Worksheet<f64>) -> String {
+    picture::mesh(&Shown::new(scene, sheet).drawing(scene))
+}
+
+/// The mesh, counted from 0.
 struct Shown {
     points: Vec<[f64; 2]>,
     triangles: Vec<[usize; 3]>,
@@ -45,12 +52,10 @@ struct Shown {
     region_names: Vec<String>,
     contact_nodes: Vec<usize>,
     target_edges: Vec<[usize; 2]>,
-    displacement: Vec<[f64; 2]>,
 }
 
 impl Shown {
-    fn new(scene: &Scene, outcome: &Outcome) -> Self {
-        let sheet = &outcome.sheet;
+    fn new(scene: &Scene, sheet: &Worksheet<f64>) -> Self {
         let (region, region_names) = regions(scene, sheet.M());
         let ends = |e: &usize| [sheet.elem[(*e, 6)] - 1, sheet.elem[(*e, 7)] - 1];
         Shown {
@@ -62,7 +67,6 @@ impl Shown {
             region_names,
             contact_nodes: sheet.cnt.iter().map(|n| n - 1).collect(),
             target_edges: sheet.trg.iter().map(ends).collect(),
-            displacement: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
         }
     }
 

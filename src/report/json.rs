@@ -3,9 +3,8 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::contact::{Cycle, Iteration, Outcome};
+use crate::contact::{BodySummary, Cycle, Iteration, Outcome, summaries};
 use crate::mirror::{Pairs, Reading};
-use crate::report::summary::{BodySummary, summaries};
 use crate::scene::{Scene, Units};
 
 /// The content of `result.json`.

@@ -2,12 +2,12 @@
 //!
 //! The same input gives the same bytes: no clock, no hash order, no machine in them.
 
+pub mod audit;
 pub mod files;
 pub mod folder;
 pub mod json;
 pub mod matrix_market;
 pub mod picture;
-pub mod summary;
 pub mod tables;
 pub mod trace;
 pub mod vtu;

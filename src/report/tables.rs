@@ -2,21 +2,26 @@
 
 use std::fmt::Write as _;
 
-use super::summary::summaries;
-use crate::contact::{Cycle, Iteration, Outcome};
+use crate::contact::{Cycle, Iteration, Outcome, summaries};
 use crate::mirror::{Pairs, Worksheet};
 use crate::scene::Scene;
 
-/// Aligns rows of cells to the right, the first row being the heading.
-fn aligned(rows: &[Vec<String>]) -> String {
+/// Rows of cells in columns, the first row being the heading: numbers to the right, words to the left.
+pub(super) fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |j: usize| rows.iter().filter_map(|r| r.get(j)).map(|c| c.chars().count()).max();
-    let widths: Vec<usize> = (0..columns).map(|j| width(j).unwrap_or(0)).collect();
+    let column = |j: usize| rows.iter().filter_map(move |row| row.get(j));
+    let widths: Vec<usize> =
+        (0..columns).map(|j| column(j).map(|c| c.chars().count()).max().unwrap_or(0)).collect();
+    let numeric: Vec<bool> =
+        (0..columns).map(|j| column(j).skip(1).all(|c| is_number(c))).collect();
     let mut text = String::new();
     for (k, row) in rows.iter().enumerate() {
-        let cells: Vec<String> =
-            row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}")).collect();
-        writeln!(text, "  {}", cells.join("  ").trim_end()).expect("a String takes any text");
+        let cells = row.iter().enumerate().map(|(j, cell)| {
+            let width = widths[j];
+            if numeric[j] { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+        });
+        let line = cells.collect::<Vec<_>>().join("  ");
+        writeln!(text, "  {}", line.trim_end()).expect("a String takes any text");
         if k == 0 {
             let rule: Vec<String> = widths.iter().map(|width| "-".repeat(*width)).collect();
             writeln!(text, "  {}", rule.join("  ")).expect("a String takes any text");
@@ -25,13 +30,18 @@ fn aligned(rows: &[Vec<String>]) -> String {
     text
 }
 
+/// A number, a percentage, or `-` for none.
+fn is_number(cell: &str) -> bool {
+    cell == "-" || cell.trim_end_matches(" %").parse::<f64>().is_ok()
+}
+
 /// `name (unit)`, or the name alone where the scene names no unit.
 fn with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.into() } else { format!("{name}, {unit}") }
 }
 
 /// Four digits, in scientific notation where that is shorter to read.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     match x.abs() {
         0.0 => "0".into(),
         size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::contact::Outcome;
+use super::run::Outcome;
 use crate::scene::{Body, Scene};
 
 /// The largest values of a body.

@@ -1,0 +1,70 @@
+//! The variants side by side.
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::case::Case;
+use crate::contact::{BodySummary, Cycle, Outcome, Variant, summaries};
+
+/// What a variant comes to on a scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct VariantRow {
+    /// The variant.
+    pub variant: Variant,
+    /// What came of it.
+    #[serde(flatten)]
+    pub end: End,
+}
+
+/// The end of a run.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum End {
+    /// A result.
+    Result {
+        /// Contact nodes with dy = 1 at each iteration.
+        in_contact: Vec<usize>,
+        /// The contact nodes themselves at the last one.
+        contact_set: Vec<usize>,
+        /// Force that reaches the target at the end, against the load applied.
+        target_share: f64,
+        /// Residual of eq. (1) at the end, total displacements, length.
+        eq1_residual: f64,
+        /// Where the last contact state was met before.
+        cycle: Option<Cycle>,
+        /// The bodies.
+        bodies: Vec<BodySummary>,
+    },
+    /// The published algorithm fails.
+    Failure {
+        /// Why.
+        failure: String,
+    },
+}
+
+/// Every variant on a scene.
+pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
+    let row = |variant: &Variant| {
+        let end = match case.run(*variant) {
+            Ok(outcome) => end(case, outcome),
+            Err(why) => End::Failure { failure: why.to_string() },
+        };
+        VariantRow { variant: *variant, end }
+    };
+    Variant::ALL.par_iter().map(row).collect()
+}
+
+fn end(case: &Case, outcome: &Outcome) -> End {
+    let last = outcome.iterations.last().expect("a run has an iteration");
+    let [fx, fy] = case.scene.total_load();
+    let load = fx.hypot(fy);
+    let cnt = &outcome.sheet.cnt;
+    End::Result {
+        in_contact: outcome.iterations.iter().map(|it| it.in_contact).collect(),
+        contact_set: (1..=cnt.rows()).filter(|&i| last.pairs.dy[i] == 1).map(|i| cnt[i]).collect(),
+        target_share: if load == 0.0 { 0.0 } else { last.target_force / load },
+        eq1_residual: last.eq1_residual,
+        cycle: last.cycle.clone(),
+        bodies: summaries(&case.scene, outcome),
+    }
+}

@@ -1,0 +1,106 @@
+//! `plane-contact audit`.
+
+use std::path::{Path, PathBuf};
+
+use plane_contact::audit::findings::{FINDINGS, Finding};
+use plane_contact::audit::{Audit, Case, FindingRow, audit};
+use plane_contact::contact::Variant;
+use plane_contact::error::{Error, InputError};
+use plane_contact::report::{audit as report, files, folder};
+use plane_contact::scene::Scene;
+
+use super::{print, waiting};
+
+/// Show what every ambiguity and every finding does on a scene.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Three tables: the readings (what the other reading changes), the findings (holds, does not arise, contradicted; with a number), and
+the variants side by side. --finding explains one on its smallest scene, or on SCENE where that is given.
+
+Examples:
+  plane-contact audit
+  plane-contact audit fig1 --json
+  plane-contact audit --finding C4
+  plane-contact audit strand --finding K1
+  plane-contact audit strand --out out/audit      audit.txt, audit.json, a picture a finding and a variant")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one [default: strand; with --finding, the finding's own].
+    #[arg(value_name = "SCENE")]
+    scene: Option<String>,
+    /// Explain one finding.
+    #[arg(long, value_name = "ID")]
+    finding: Option<String>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    /// Write the tables, JSON and pictures to a folder.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    match &args.finding {
+        Some(id) => explain(args, find(id)?),
+        None => whole(args),
+    }
+}
+
+fn find(id: &str) -> Result<&'static Finding, InputError> {
+    FINDINGS.iter().find(|finding| finding.id.eq_ignore_ascii_case(id)).ok_or_else(|| {
+        let ids: Vec<&str> = FINDINGS.iter().map(|finding| finding.id).collect();
+        InputError::new(
+            "--finding",
+            format!("there is no finding {id:?}"),
+            format!("the findings are {}", ids.join(", ")),
+        )
+    })
+}
+
+fn explain(args: &Args, finding: &Finding) -> Result<(), Error> {
+    let scene = match &args.scene {
+        Some(scene) => Scene::open(scene)?,
+        None => finding.scene(),
+    };
+    let case = Case::new(scene)?;
+    let measured = finding.measure(&case);
+    if let Some(out) = &args.out {
+        files::write(
+            &out.join(format!("{}.svg", finding.id)),
+            &folder::mesh_picture(&case.scene, &case.sheet),
+        )?;
+    }
+    if args.json {
+        let row = FindingRow::new(finding, &measured);
+        return print(&(serde_json::to_string(&row).expect("string keys only") + "\n"));
+    }
+    print(&report::explain(finding, &measured, &case.scene))
+}
+
+fn whole(args: &Args) -> Result<(), Error> {
+    let case = Case::new(Scene::open(args.scene.as_deref().unwrap_or("strand"))?)?;
+    let spinner = waiting("auditing");
+    let found = audit(&case);
+    spinner.finish_and_clear();
+    let (text, json) = (report::text(&found, &case.scene), report::json(&found, &case.scene));
+    if let Some(out) = &args.out {
+        write(out, &case, &found, &text, &json)?;
+    }
+    print(if args.json { &json } else { &text })
+}
+
+/// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.
+fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Result<(), Error> {
+    files::write(&out.join("audit.txt"), text)?;
+    files::write(&out.join("audit.json"), json)?;
+    for (finding, _) in &audit.findings {
+        let own = Case::new(finding.scene())?;
+        let picture = folder::mesh_picture(&own.scene, &own.sheet);
+        files::write(&out.join("findings").join(format!("{}.svg", finding.id)), &picture)?;
+    }
+    for variant in Variant::ALL {
+        if let Ok(outcome) = case.run(*variant) {
+            folder::write(&out.join(variant.name()), &case.scene, outcome)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,165 @@
+//! The audit for people and for machines.
+
+use serde_json::json;
+
+use super::tables::{aligned, short};
+use crate::audit::findings::{Finding, Measured};
+use crate::audit::listings::Which;
+use crate::audit::readings::Effect;
+use crate::audit::variants::{End, VariantRow};
+use crate::audit::{Audit, FindingRow};
+use crate::contact::Cycle;
+use crate::scene::Scene;
+
+/// The three tables.
+pub fn text(audit: &Audit, scene: &Scene) -> String {
+    format!(
+        "Audit of scene {} ({})\n\n1. Readings: what the other reading changes, at the initial shape and at the end\n{}\n\
+         2. Findings (`audit --finding C4` explains one)\n{}\n3. Variants side by side\n{}",
+        scene.name,
+        scene.title,
+        readings(&audit.readings),
+        findings(&audit.findings),
+        variants(&audit.variants)
+    )
+}
+
+fn readings(effects: &[Effect]) -> String {
+    let head = ["id", "reading", "lines", "dy changed", "MJS entries", "largest difference", "of"];
+    let mut notes = Vec::new();
+    let rows: Vec<Vec<String>> = effects
+        .iter()
+        .map(|effect| {
+            let remark = match (&effect.failure, effect.changes()) {
+                (Some(why), _) => {
+                    notes.push(format!("  ({}) {}", notes.len() + 1, first_line(why)));
+                    format!(": fails ({})", notes.len())
+                }
+                (None, true) => String::new(),
+                (None, false) => ": nothing depends on it".into(),
+            };
+            vec![
+                effect.id.into(),
+                effect.reading.clone(),
+                effect.lines.into(),
+                effect.statuses.to_string(),
+                effect.entries.to_string(),
+                effect.displacement.map_or("-".into(), short),
+                effect.of.clone() + &remark,
+            ]
+        })
+        .collect();
+    table(&head, rows.into_iter())
+        + &notes.iter().map(|note| format!("{note}\n")).collect::<String>()
+}
+
+fn first_line(text: &str) -> &str {
+    text.lines()
+        .next()
+        .unwrap_or("")
+        .trim_start_matches("the published algorithm fails as printed: ")
+}
+
+fn findings(findings: &[(&Finding, Measured)]) -> String {
+    let head =
+        ["id", "line", "verdict", "number", "what the listing does that the text does not say"];
+    let rows = findings.iter().map(|(finding, measured)| {
+        vec![
+            finding.id.into(),
+            place(finding),
+            measured.verdict.to_string(),
+            short(measured.number),
+            finding.title.into(),
+        ]
+    });
+    table(&head, rows)
+}
+
+/// `c_cnt 17, 18`.
+fn place(finding: &Finding) -> String {
+    let lines: Vec<String> = finding.lines.iter().map(usize::to_string).collect();
+    format!("{} {}", finding.listing, lines.join(", ")).trim_end().into()
+}
+
+fn variants(rows: &[VariantRow]) -> String {
+    let head = [
+        "variant",
+        "in contact",
+        "contact state",
+        "force on target",
+        "eq. (1), total u",
+        "von Mises stress",
+    ];
+    let rows = rows.iter().map(|row| match &row.end {
+        End::Failure { failure } => vec![row.variant.to_string(), first_line(failure).into()],
+        End::Result { in_contact, target_share, eq1_residual, cycle, bodies, .. } => {
+            let stresses: Vec<String> = bodies
+                .iter()
+                .map(|b| format!("{} {}", b.name, short(b.max_von_mises_stress)))
+                .collect();
+            vec![
+                row.variant.to_string(),
+                in_contact.last().map_or(String::new(), usize::to_string),
+                state(cycle),
+                format!("{:.1} %", 100.0 * target_share),
+                short(*eq1_residual),
+                stresses.join(", "),
+            ]
+        }
+    });
+    table(&head, rows)
+}
+
+fn state(cycle: &Option<Cycle>) -> String {
+    match cycle {
+        None => "new in the last iteration".into(),
+        Some(Cycle { length: 1, .. }) => "settled".into(),
+        Some(cycle) => format!("cycle of {}", cycle.length),
+    }
+}
+
+fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+    let head = head.iter().map(|cell| cell.to_string()).collect();
+    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+}
+
+/// The audit as JSON.
+pub fn json(audit: &Audit, scene: &Scene) -> String {
+    let findings: Vec<FindingRow> = audit
+        .findings
+        .iter()
+        .map(|(finding, measured)| FindingRow::new(finding, measured))
+        .collect();
+    let document = json!({
+        "scene": scene.name, "readings": audit.readings, "findings": findings, "variants": audit.variants,
+    });
+    document.to_string() + "\n"
+}
+
+/// One finding explained: the listing's lines, the values on `scene`, why it matters, what a repair would be.
+pub fn explain(finding: &Finding, measured: &Measured, scene: &Scene) -> String {
+    format!(
+        "{}: {}\n\nListing\n{}\nOn scene {}: {} ({} {})\n  {}\n\nWhy it matters\n  {}\n\nA repair\n  {}\n",
+        finding.id,
+        finding.title,
+        quoted(finding),
+        scene.name,
+        measured.verdict,
+        short(measured.number),
+        finding.number,
+        measured.detail,
+        finding.why,
+        finding.repair
+    )
+}
+
+/// The finding's lines as printed.
+fn quoted(finding: &Finding) -> String {
+    let Some(which) = [Which::CCnt, Which::Km].into_iter().find(|w| w.name() == finding.listing)
+    else {
+        return "  none: it is in what the paper does around the listings\n".into();
+    };
+    let printed: Vec<&str> = which.text().lines().filter(|line| !line.starts_with('#')).collect();
+    let line = |n: &usize| format!("  {} {n:>2}  {}\n", which.name(), printed[n - 1].trim_start());
+    finding.lines.iter().map(line).collect()
+}
