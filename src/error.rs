@@ -18,7 +18,7 @@ pub enum Error {
     #[error("the published algorithm fails as printed: {0}")]
     Execution(#[from] Box<mathcad::Failure>),
     /// The matrix of an iteration cannot be solved: exit status 3, an audit result.
-    #[error("the published algorithm fails as printed: {0}")]
+    #[error("{0}")]
     Singular(#[from] SingularMatrix),
 }
 
@@ -68,8 +68,13 @@ impl std::error::Error for InputError {}
 /// A matrix with no unique solution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "iteration {iteration} of variant {variant}: the matrix is singular at node {node}, direction {direction} \
-     (pivot {pivot:e}, {in_contact} nodes in contact{body}): nothing holds it there (findings K4, K6)"
+    "variant {variant} cannot go on: iteration {iteration}: the matrix is singular at node {node}{body}, direction \
+     {direction} (pivot {pivot:e}); {} in contact, and {}",
+    match .in_contact { 0 => "no node is".into(), 1 => "1 node is".into(), n => format!("{n} nodes are") },
+    match .in_contact {
+        0 => "the restraints alone do not hold the body",
+        _ => "that does not hold the body (finding K6), or to the last digit it does not",
+    }
 )]
 pub struct SingularMatrix {
     /// Name of the variant.
@@ -84,6 +89,6 @@ pub struct SingularMatrix {
     pub pivot: f64,
     /// Number of contact nodes with dy = 1.
     pub in_contact: usize,
-    /// `; body "stamp"`, where a body is known.
+    /// ` of body "stamp"`, where a body is known.
     pub body: String,
 }

@@ -170,7 +170,7 @@ fn a_singular_matrix_is_exit_status_3() {
         .replace("[8, 2.3, 0.032,", "[8, 2.3, 0.038,");
     std::fs::write(folder.path().join("c8.json"), scene).unwrap();
     for variant in ["printed", "tied", "stepped"] {
-        let words = ["iteration 1", "singular", "0 nodes in contact", "body \"2\""];
+        let words = ["iteration 1", "singular", "no node is in contact", "body \"2\""];
         fails(folder.path(), &["solve", "c8.json", "--variant", variant], 3, &words);
     }
 }
@@ -199,6 +199,28 @@ fn bad_input_is_exit_status_2_and_loses_no_file() {
     assert_eq!(std::fs::read(folder.path().join("kept/result.json")).unwrap(), kept);
     std::fs::write(folder.path().join("file"), "").unwrap();
     fails(folder.path(), &["solve", "fig1", "--out", "file"], 2, &["cannot be written"]);
+}
+
+/// A link is written through, a pipe is written to: neither is replaced.
+#[cfg(unix)]
+#[test]
+fn links_and_pipes_stay_what_they_are() {
+    let folder = TempDir::new().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("real.mtx"), "old").unwrap();
+    std::os::unix::fs::symlink("real.mtx", at("link.mtx")).unwrap();
+    succeeds(folder.path(), &["km", "fig1", "--matrix-market", "link.mtx"]);
+    assert!(std::fs::symlink_metadata(at("link.mtx")).unwrap().is_symlink());
+    assert!(std::fs::read_to_string(at("real.mtx")).unwrap().starts_with("%%MatrixMarket"));
+    let made = Command::new("mkfifo").arg(at("pipe")).status().expect("mkfifo");
+    assert!(made.success());
+    let reader = std::thread::spawn({
+        let pipe = at("pipe");
+        move || std::fs::read_to_string(pipe).unwrap()
+    });
+    succeeds(folder.path(), &["km", "fig1", "--matrix-market", "pipe"]);
+    assert!(reader.join().unwrap().starts_with("%%MatrixMarket"));
+    assert!(!std::fs::metadata(at("pipe")).unwrap().is_file());
 }
 
 /// A scene by path: its mesh is resolved beside it, its name is that of its folder.

@@ -83,6 +83,8 @@ fn meshes() {
     says(&e, "triangles", &["triangle 10 (nodes [1, 10, 2])", "area"]);
     let e = refused(|s| push(&mut s["elem"], json!([19, 2, 2, 1, 1, 10, 2, 1])));
     says(&e, "elements", &["triangles 10 and 19 have the same nodes"]);
+    let e = refused(|s| push(&mut s["elem"], json!([19, 1, 2, 1, 1, 2, 2])));
+    says(&e, "elements", &["element 19 names node 2 twice"]);
     let e = refused(|s| push(&mut s["elem"], json!([18, 1, 2, 1, 1, 1, 2])));
     says(&e, "elements", &["element 18 is given twice"]);
     let e = refused(|s| push(&mut s["elem"], json!([1000000, 1, 2, 1, 1, 1, 2])));
@@ -156,6 +158,12 @@ fn restraints_and_loads() {
     says(&e, "thickness", &["0 is not positive"]);
     let e = refused(|s| s["iterations"] = json!(0));
     says(&e, "iterations", &["0 iterations"]);
+    let e = refused(|s| s["iterations"] = json!(10_000_000));
+    says(&e, "iterations", &["10000000 iterations are outside"]);
+    let e = refused(|s| s["restraints"][1]["fix"] = json!([]));
+    says(&e, "restraints[1].fix", &["fixes no direction"]);
+    let e = refused(|s| push(&mut s["elem"], json!([19, 1, 2, 21, 21, 13, 12])));
+    says(&e, "loads[0]", &["edges 8 and 19 of group 21 are the same"]);
     let e = refused(|s| s["loads"][0]["pressure"] = json!(1.5e308));
     says(&e, "loads[0]", &["too large"]);
 }
@@ -193,6 +201,8 @@ fn bodies_that_nothing_holds() {
     says(&free(Value::Null), "restraints", &["body \"2\" is held by no contact", "move in x"]);
     says(&free(json!({ "node": 12, "fix": ["x"] })), "restraints", &["move in y"]);
     says(&free(json!({ "node": 12, "fix": ["x", "y"] })), "restraints", &["rotate"]);
+    let e = refused(|s| s["restraints"] = json!([{ "on": 11, "fix": ["y"] }]));
+    says(&e, "restraints", &["the bodies that contact joins can still move in x, all together"]);
     let mut held = scene_json("fig1");
     held.as_object_mut().unwrap().remove("contact");
     push(&mut held["restraints"], json!({ "node": 12, "fix": ["x", "y"] }));
@@ -260,6 +270,23 @@ fn names_tags_and_lists_are_one() {
     scene["contact"]["trg"] = json!("10");
     let sheet = |s: &plane_contact::scene::Scene| s.worksheet(&Reading::default()).unwrap();
     assert_eq!(sheet(&build(&scene).unwrap()), sheet(&by_list));
+}
+
+/// Two groups of one name: which one a scene means cannot be told.
+#[test]
+fn a_name_belongs_to_one_group() {
+    let mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"top\"\n1 2 \"top\"\n2 3 \"body\"\n\
+        $EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n\
+        $Elements\n3\n1 1 2 1 1 1 2\n2 1 2 2 2 2 3\n3 2 2 3 1 1 2 3\n$EndElements\n";
+    let scene = r#"{"mesh": "m.msh", "plane": "strain", "materials": {"body": {"E": 1, "nu": 0}},
+        "restraints": [{"on": "top", "fix": ["x", "y"]}]}"#;
+    let read = |mesh: String| {
+        plane_contact::scene::Scene::build("test", scene.as_bytes(), move |_| {
+            Ok(mesh.clone().into())
+        })
+    };
+    says(&read(mesh.into()).unwrap_err(), "physical groups", &["1 and 2 are both named \"top\""]);
+    read(mesh.replacen("top", "base", 1)).expect("each name once");
 }
 
 /// R8: c_tol in metres is 1,000 times as much in a scene in mm.

@@ -100,10 +100,12 @@ fn k5_tied_cycles_and_stepped_settles_on_the_strand() {
     assert_eq!((last.in_contact, last.cycle.as_ref().map(|c| c.length)), (8, Some(1)));
 }
 
-/// A state that came before is not solved again and gives the same displacements.
+/// A state that came before is not factored again, and gives the same displacements.
 #[test]
-fn a_state_met_before_gives_the_same_bits() {
+fn a_state_met_before_is_not_factored_again() {
     let (_, outcome) = solve("strand", Variant::Tied);
+    let new = outcome.iterations.iter().filter(|it| it.cycle.is_none()).count();
+    assert_eq!((outcome.factored, new), (8, 8));
     let of = |k: usize| &outcome.iterations[k - 1];
     assert_eq!(of(18).max_displacement.to_bits(), of(20).max_displacement.to_bits());
     assert_eq!(of(18).pairs, of(20).pairs);
@@ -174,6 +176,52 @@ fn c4_a_scene_mirrored_in_y_has_another_answer() {
     let sheet = image.worksheet(&Reading::default()).unwrap();
     let pairs = c_cnt(&sheet, &Reading::default(), &sheet.node).unwrap();
     assert_eq!(pairs.dy.as_slice(), [1, 1, 0, 1, 1]);
+}
+
+/// The residual of eq. (1) is measured on the target edge, not by the weights that were imposed: where a reading or a scene inflates
+/// them, it shows.
+#[test]
+fn the_residual_of_eq_1_shows_inflated_weights() {
+    let mut once = scene_json("fig1");
+    once["iterations"] = json!(1);
+    let inside: Reading = "R1=inside".parse().unwrap();
+    let outcome = run(&build(&once).unwrap(), Variant::Tied, &inside, |_| ()).unwrap();
+    assert!(outcome.iterations[0].eq1_residual > 1e-3);
+    let mut twice = scene_json("two-blocks");
+    twice["contact"]["cnt"] = json!([10, 11, 11, 12]);
+    let outcome = solved(&build(&twice).unwrap(), Variant::Tied);
+    assert!(outcome.iterations[0].eq1_residual > 1e-4);
+}
+
+/// Under R2 = printed `Km` takes other equations for restrained than S names; a force there stays a force.
+#[test]
+fn r2_printed_holds_what_km_holds() {
+    let mut scene = scene_json("fig1");
+    scene["restraints"] = json!([
+        { "on": 11, "fix": ["x", "y"] }, { "node": 13, "fix": ["x"] }, { "node": 12, "fix": ["y"] }
+    ]);
+    scene["loads"] = json!([{ "node": 12, "force": [5.0, 0.0] }]);
+    scene["iterations"] = json!(1);
+    let reading: Reading = "R2=printed".parse().unwrap();
+    let outcome = run(&build(&scene).unwrap(), Variant::Printed, &reading, |_| ()).unwrap();
+    assert_eq!((outcome.u[22], outcome.u[23]), (0.0, 0.0));
+}
+
+/// Loads from 1e-200 to 1e150: forces stay forces; what overflows is refused.
+#[test]
+fn loads_of_any_size() {
+    let pressed = |p: f64| {
+        let mut scene = scene_json("two-blocks");
+        scene["loads"][0]["pressure"] = json!(p);
+        run(&build(&scene).unwrap(), Variant::Tied, &Reading::default(), |_| ())
+    };
+    for p in [1e-200, 1e150] {
+        let last = pressed(p).unwrap().iterations.pop().unwrap();
+        assert_near("force on the target", last.target_force, 2.0 * p, p, &CLOSED_FORM);
+    }
+    let error = pressed(1e308).unwrap_err();
+    assert!(error.to_string().contains("too large to represent"), "{error}");
+    assert_eq!(error.exit_status(), 2);
 }
 
 /// `stepped` is `tied` with R7 = stepped, and the other way round.

@@ -30,7 +30,8 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let reading = args.reading.reading.0;
-    let sheet = Scene::open(&args.scene)?.worksheet(&reading)?;
+    let scene = Scene::open(&args.scene)?;
+    let sheet = scene.worksheet(&reading)?;
     let pairs = c_cnt(&sheet, &reading, &sheet.node)?;
-    print(&if args.json { json::pairs(&pairs) } else { tables::pairs(&sheet, &pairs) })
+    print(&if args.json { json::pairs(&pairs) } else { tables::pairs(&scene, &sheet, &pairs) })
 }

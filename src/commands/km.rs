@@ -44,7 +44,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let reading = args.reading.reading.0;
     let scene = Scene::open(&args.scene)?;
     let sheet = scene.worksheet(&reading)?;
-    memory::check(sheet.R(), memory::free())?;
+    memory::check(sheet.R(), 1, memory::free())?;
     let k_cnt = match args.coupled_by {
         CoupledBy::CCnt => c_cnt(&sheet, &reading, &sheet.node)?.k_cnt,
         CoupledBy::None => Table::filled(sheet.R(), 4, 0.0),

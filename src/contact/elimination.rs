@@ -9,6 +9,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::mathcad::array::Table;
 use crate::mirror::{Pairs, Worksheet};
 
 /// The matrix T: for each of the 2R equations its weights on the equations that remain.
@@ -116,4 +117,20 @@ pub fn ties(sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> Vec<Tie> {
         }
     }
     ties
+}
+
+/// The contact nodes with dy = 1 and the weights of their place on the target edge, as lines 22 and 23 of `c_cnt` have them before
+/// they are added up in k_cnt: they sum to 1 whatever the reading does to k_cnt. `node` is the shape that weights come from (R5).
+pub fn interpolations(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, node: &Table<f64>) -> Vec<Tie> {
+    let in_contact = (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1);
+    in_contact
+        .map(|i1| {
+            let node_of = |column: usize| sheet.elem[(pairs.ct[i1], column)];
+            let x = |n: usize| node[(n, 2)];
+            let (c, a, b) = (sheet.cnt[i1], node_of(6), node_of(7));
+            let k1 = 1.0 - (x(c) - x(a)) / (x(b) - x(a));
+            let k2 = 1.0 - (x(b) - x(c)) / (x(b) - x(a));
+            Tie { node: c, weights: [(a, k1), (b, k2)] }
+        })
+        .collect()
 }

@@ -5,7 +5,7 @@ mod run;
 mod summary;
 mod variant;
 
-pub use elimination::{Elimination, Tie, ties};
+pub use elimination::{Elimination, Tie, interpolations, ties};
 pub use run::{Cycle, Iteration, Outcome, max_displacement, run};
 pub use summary::{BodySummary, summaries};
 pub use variant::{Coupling, Variant};

@@ -11,12 +11,12 @@ use std::collections::HashMap;
 use nalgebra::{DVector, SVector};
 use serde::Serialize;
 
-use super::elimination::{Elimination, ties};
+use super::elimination::{Elimination, Tie, interpolations};
 use super::variant::{Coupling, Variant};
 use crate::element::State;
 use crate::error::{Error, InputError, SingularMatrix};
 use crate::mathcad::array::{Column, Table};
-use crate::mirror::{Km, Pairs, Reading, Schedule, Worksheet, c_cnt};
+use crate::mirror::{Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet, c_cnt};
 use crate::scene::Scene;
 use crate::solve::{DenseLu, memory};
 
@@ -71,6 +71,8 @@ pub struct Outcome {
     pub u: DVector<f64>,
     /// Stresses and strains, by row of `EL`.
     pub elements: Vec<State>,
+    /// Number of matrices factored: one for each contact state.
+    pub factored: usize,
 }
 
 /// Runs `variant` on `scene`; `watch` is called after each iteration.
@@ -84,7 +86,7 @@ pub fn run(
     mut watch: impl FnMut(&Iteration),
 ) -> Result<Outcome, Error> {
     let sheet = scene.worksheet(reading)?;
-    memory::check(sheet.R(), memory::free())?;
+    memory::check(sheet.R(), memory::OF_A_SOLUTION, memory::free())?;
     let schedule = variant.schedule(reading);
     let mut run = Run::new(scene, &sheet, variant, reading, schedule)?;
     let mut iterations: Vec<Iteration> = Vec::new();
@@ -93,10 +95,10 @@ pub fn run(
         watch(&iteration);
         iterations.push(iteration);
     }
-    let u = run.u;
+    let (u, factored) = (run.u, run.met.len());
     let elements = states(&sheet, &u);
-    check_finite(&u, &elements)?;
-    Ok(Outcome { variant, schedule, reading: *reading, sheet, iterations, u, elements })
+    check_finite(&iterations, &u, &elements)?;
+    Ok(Outcome { variant, schedule, reading: *reading, sheet, iterations, u, elements, factored })
 }
 
 /// What an iteration needs of those before it.
@@ -108,6 +110,8 @@ struct Run<'a> {
     schedule: Schedule,
     /// `Km` without contact and without restraints.
     k: Table<f64>,
+    /// The restrained equations.
+    held: Vec<bool>,
     /// The load that one iteration carries, 0 at restrained equations.
     f: DVector<f64>,
     /// Total displacements.
@@ -142,11 +146,11 @@ impl<'a> Run<'a> {
             Schedule::Stepped => scene.iterations as f64,
         };
         let equations = 2 * sheet.R();
-        let f = DVector::from_fn(equations, |e, _| {
-            if sheet.S[e + 1] == 1 { 0.0 } else { scene.load[e] / share }
-        });
+        let held = held(sheet, variant, reading);
+        let f =
+            DVector::from_fn(equations, |e, _| if held[e] { 0.0 } else { scene.load[e] / share });
         let (k, u) = (free_stiffness(sheet, reading)?, DVector::zeros(equations));
-        Ok(Run { scene, sheet, variant, reading, schedule, k, f, u, met: HashMap::new() })
+        Ok(Run { scene, sheet, variant, reading, schedule, k, held, f, u, met: HashMap::new() })
     }
 
     fn iterate(&mut self, k: usize) -> Result<Iteration, Error> {
@@ -165,13 +169,18 @@ impl<'a> Run<'a> {
             Schedule::Total => self.u = solution.u.clone(),
             Schedule::Stepped => self.u += &solution.u,
         }
+        let weights_from = match self.reading.r5 {
+            NodeTable::Node => &self.sheet.node,
+            NodeTable::NodeN => &node_n,
+        };
+        let interpolations = interpolations(self.sheet, &pairs, weights_from);
         let iteration = Iteration {
             k,
             in_contact,
             max_displacement: max_displacement(&self.u),
             cycle,
-            eq1_residual: eq1_residual(self.sheet, &pairs, &self.u),
-            eq1_residual_step: eq1_residual(self.sheet, &pairs, &solution.u),
+            eq1_residual: eq1_residual(&interpolations, &self.u),
+            eq1_residual_step: eq1_residual(&interpolations, &solution.u),
             target_force: self.target_force(k),
             solve_residual: solution.residual,
             node_n,
@@ -193,7 +202,7 @@ impl<'a> Run<'a> {
                 direction: ['x', 'y'][equation % 2],
                 pivot,
                 in_contact,
-                body: body.map_or(String::new(), |b| format!("; body {:?}", b.name)),
+                body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
             }
         };
         match self.variant.coupling() {
@@ -222,10 +231,10 @@ impl<'a> Run<'a> {
             Schedule::Stepped => k as f64 / self.scene.iterations as f64,
         };
         let stiffness = self.k.as_matrix();
-        let reaction = |e: usize| match self.sheet.S[e + 1] {
-            0 => 0.0,
+        let reaction = |e: usize| match self.held[e] {
+            false => 0.0,
             // K is symmetric: its column e is its row e, and lies in one piece.
-            _ => stiffness.column(e).dot(&self.u) - applied * self.scene.load[e],
+            true => stiffness.column(e).dot(&self.u) - applied * self.scene.load[e],
         };
         let sum = |direction| -> f64 {
             target.nodes.iter().map(|n| reaction(2 * n - 2 + direction)).sum()
@@ -236,7 +245,7 @@ impl<'a> Run<'a> {
             return reactions[0].hypot(reactions[1]);
         }
         // 0 − x rather than −x: no reaction at all is 0, not −0.
-        0.0 - (reactions[0] * fx + reactions[1] * fy) / size
+        0.0 - (reactions[0] * (fx / size) + reactions[1] * (fy / size))
     }
 }
 
@@ -262,11 +271,19 @@ pub fn max_displacement(u: &DVector<f64>) -> f64 {
     u.as_slice().chunks(2).map(|u| u[0].hypot(u[1])).fold(0.0, f64::max)
 }
 
-/// Largest component of u_cont − u_targ over the nodes in contact.
-fn eq1_residual(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, u: &DVector<f64>) -> f64 {
+/// The equations that are restrained: those that S names, but under reading R2 = printed, where `Km` reads S, those that
+/// `Km` takes for restrained.
+fn held(sheet: &Worksheet<f64>, variant: Variant, reading: &Reading) -> Vec<bool> {
+    let by_km = variant.coupling() == Coupling::Printed && reading.r2 == RestraintIndex::Printed;
+    let index = |e: usize| if by_km { 2 * (e / 2) + 2 } else { e + 1 };
+    (0..2 * sheet.R()).map(|e| sheet.S[index(e)] == 1).collect()
+}
+
+/// Largest component of u_cont − u_targ over the nodes in contact, u_targ interpolated on the target edge.
+fn eq1_residual(interpolations: &[Tie], u: &DVector<f64>) -> f64 {
     let component = |node: usize, direction: usize| u[2 * node - 2 + direction];
     let mut largest = 0.0_f64;
-    for tie in ties(sheet, pairs) {
+    for tie in interpolations {
         for direction in [0, 1] {
             let target: f64 =
                 tie.weights.iter().map(|&(mate, k)| k * component(mate, direction)).sum();
@@ -289,9 +306,19 @@ fn states(sheet: &Worksheet<f64>, u: &DVector<f64>) -> Vec<State> {
 }
 
 /// That every displacement, stress and strain can be represented.
-fn check_finite(u: &DVector<f64>, elements: &[State]) -> Result<(), InputError> {
-    let finite = |s: &State| (s.von_mises_stress + s.von_mises_strain).is_finite();
-    if u.iter().all(|x| x.is_finite()) && elements.iter().all(finite) {
+fn check_finite(
+    iterations: &[Iteration],
+    u: &DVector<f64>,
+    elements: &[State],
+) -> Result<(), InputError> {
+    let of_element = |s: &State| (s.von_mises_stress + s.von_mises_strain).is_finite();
+    let of_iteration = |it: &Iteration| {
+        (it.max_displacement + it.eq1_residual + it.target_force + it.solve_residual).is_finite()
+    };
+    if u.iter().all(|x| x.is_finite())
+        && elements.iter().all(of_element)
+        && iterations.iter().all(of_iteration)
+    {
         return Ok(());
     }
     let what = "the displacements or stresses are too large to represent";

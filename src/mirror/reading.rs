@@ -123,11 +123,15 @@ impl FromStr for Reading {
 
     /// Reads `R2=printed,R5=node_n`; what is not named keeps its default.
     fn from_str(text: &str) -> Result<Self, String> {
-        let mut reading = Reading::default();
+        let (mut reading, mut named) = (Reading::default(), Vec::new());
         for item in text.split(',').map(str::trim).filter(|item| !item.is_empty()) {
             let (id, value) = item
                 .split_once('=')
                 .ok_or_else(|| format!("{item:?} is not of the form R2=printed"))?;
+            if named.contains(&id.trim()) {
+                return Err(format!("{} is given twice", id.trim()));
+            }
+            named.push(id.trim());
             reading.set(id.trim(), value.trim()).map_err(|why| format!("{id}: {why}"))?;
         }
         Ok(reading)

@@ -26,7 +26,7 @@ pub struct Worksheet<T> {
     pub ind_1: usize,
     /// Restraints: entry 2n−1 for x and 2n for y of node n, 1 = fixed. 2R.
     pub S: Column<usize>,
-    /// Element areas, times the scene's thickness (1 in the paper). M, length².
+    /// Element areas times the scene's thickness: length³, and with the paper's thickness of 1 its areas. M.
     pub Ae: Column<T>,
     /// Strain matrices. M of 3 x 6, 1/length.
     pub B: Column<SMatrix<T, 3, 6>>,

@@ -5,29 +5,34 @@ use std::path::Path;
 
 use crate::error::InputError;
 
-/// Writes `content` to `path`, making its folder where it is missing.
+/// Writes `content` to `path`, making its folder where it is missing. A link is followed; what is no ordinary file (a pipe, a
+/// device) is written to as it is.
 ///
 /// # Errors
 /// The folder or the file cannot be written; a file that was there is left as it was.
 pub fn write(path: &Path, content: &str) -> Result<(), InputError> {
+    let written = match std::fs::canonicalize(path) {
+        Ok(there) if !there.is_file() && !there.is_dir() => std::fs::write(there, content),
+        Ok(there) => replace(&there, content),
+        Err(_) => replace(path, content),
+    };
+    written.map_err(|why| {
+        let place = path.display().to_string();
+        InputError::new(place, format!("the file cannot be written: {why}"), "choose another place")
+    })
+}
+
+/// Writes beside `path`, then renames.
+fn replace(path: &Path, content: &str) -> std::io::Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let written = std::fs::create_dir_all(folder).and_then(|()| {
-        let mut file = temporary(folder)?;
-        file.write_all(content.as_bytes())?;
-        file.persist(path).map_err(|failed| failed.error)?;
-        Ok(())
-    });
-    written.map_err(|why| {
-        let place = path.display().to_string();
-        InputError::new(
-            place,
-            format!("the file cannot be written: {why}"),
-            "choose another place with --out",
-        )
-    })
+    std::fs::create_dir_all(folder)?;
+    let mut file = temporary(folder)?;
+    file.write_all(content.as_bytes())?;
+    file.persist(path).map_err(|failed| failed.error)?;
+    Ok(())
 }
 
 /// A temporary file with the permissions of an ordinary new file (tempfile's own default is for its owner alone).

@@ -19,7 +19,8 @@ pub fn write(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), Inpu
     let shown = Shown::new(scene, &outcome.sheet);
     let displacement: Vec<[f64; 2]> =
         outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect();
-    let drawing = shown.drawing(scene);
+    let title = format!("{} ({})", scene.title, outcome.variant);
+    let drawing = Drawing { title: &title, ..shown.drawing(scene) };
     let field = |quantity, unit, values: &[f64]| {
         picture::field(&drawing, &Field { quantity, unit, values, displacement: &displacement })
     };

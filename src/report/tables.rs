@@ -49,9 +49,21 @@ pub(super) fn short(x: f64) -> String {
     }
 }
 
+/// A line on nodes that were dropped; nothing where none was.
+fn dropped(scene: &Scene) -> String {
+    let numbers: Vec<String> = scene.dropped.iter().map(usize::to_string).collect();
+    match numbers.as_slice() {
+        [] => String::new(),
+        some => format!(
+            "Dropped: nodes {} of the mesh belong to no triangle; the others are numbered anew, 1 to R\n",
+            some.join(", ")
+        ),
+    }
+}
+
 /// The tables of `solve`.
 pub fn solution(scene: &Scene, outcome: &Outcome) -> String {
-    let mut text = format!("{} ({})\n", scene.title, heading(scene, outcome));
+    let mut text = format!("{} ({})\n{}", scene.title, heading(scene, outcome), dropped(scene));
     text += &format!("\nIterations\n{}", iterations(scene, outcome));
     if let Some(last) = outcome.iterations.last().filter(|_| scene.target().is_some()) {
         text += &format!("\nIn contact at the end: {}\n", contact_list(&outcome.sheet, last));
@@ -61,13 +73,14 @@ pub fn solution(scene: &Scene, outcome: &Outcome) -> String {
 
 fn heading(scene: &Scene, outcome: &Outcome) -> String {
     format!(
-        "scene {}, variant {}: {} load, plane {}; {} nodes, {} triangles",
+        "scene {}, variant {}: {} load, plane {}; {} nodes, {} triangles; {} matrices factored",
         scene.name,
         outcome.variant,
         outcome.schedule,
         outcome.sheet.plane,
         outcome.sheet.R(),
-        outcome.sheet.M()
+        outcome.sheet.M(),
+        outcome.factored
     )
 }
 
@@ -142,7 +155,7 @@ fn bodies(scene: &Scene, outcome: &Outcome) -> String {
 }
 
 /// The table of `c-cnt`: contact nodes first, then the rows of k_cnt that are not zero.
-pub fn pairs(sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> String {
+pub fn pairs(scene: &Scene, sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> String {
     let head = ["i1", "cnt", "ct", "yt", "dy"].map(String::from).to_vec();
     let rows = (1..=sheet.cnt.rows()).map(|i1| {
         vec![
@@ -160,7 +173,8 @@ pub fn pairs(sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> String {
     let count = rows.len();
     let links = aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>());
     format!(
-        "Contact nodes (c_tll = {})\n{found}\nk_cnt: {count} of {} rows are not zero\n{links}",
+        "{}Contact nodes (c_tll = {})\n{found}\nk_cnt: {count} of {} rows are not zero\n{links}",
+        dropped(scene),
         sheet.c_tll,
         sheet.R()
     )

@@ -80,25 +80,23 @@ fn number_equal_names(bodies: &mut [Body]) {
     }
 }
 
-/// How `body` can still move under its restraints alone: `fixed(n)` tells which directions of node n are held. Nothing
+/// How what has these nodes can still move, as a rigid body, under its restraints alone: `fixed(n)` tells which directions of node n are held. Nothing
 /// where it cannot.
 pub fn freedom(
     mesh: &Mesh,
     body: &Body,
     fixed: impl Fn(usize) -> [bool; 2],
 ) -> Option<&'static str> {
-    let count = body.nodes.len() as f64;
-    let sum =
-        body.nodes.iter().map(|&n| mesh.xy(n)).fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
+    let count = nodes.len() as f64;
+    let sum = nodes.iter().map(|&n| mesh.xy(n)).fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
     let centre = [sum[0] / count, sum[1] / count];
-    let size = body
-        .nodes
+    let size = nodes
         .iter()
         .map(|&n| (mesh.xy(n)[0] - centre[0]).hypot(mesh.xy(n)[1] - centre[1]))
         .fold(0.0, f64::max);
     // The three rigid motions' components at each restraint; they leave none free when their Gram matrix has full rank.
     let mut gram = Matrix3::zeros();
-    for &n in &body.nodes {
+    for &n in nodes {
         let [x, y] = mesh.xy(n);
         let motions = [
             Vector3::new(1.0, 0.0, -(y - centre[1]) / size),

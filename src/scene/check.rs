@@ -1,6 +1,6 @@
 //! What a scene file says of its mesh, checked: materials, restraints, contact surfaces, bodies that something holds.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::body::{self, Body};
 use super::file::{Axis, Material, SceneFile};
@@ -9,6 +9,9 @@ use super::{groups, surface};
 use crate::error::InputError;
 use crate::mathcad::array::Column;
 use crate::mirror::{Plane, Worksheet};
+
+/// More iterations than anybody waits for.
+const MOST_ITERATIONS: usize = 1_000_000;
 
 /// The scene's plain numbers, checked.
 pub struct Numbers {
@@ -28,8 +31,8 @@ impl Numbers {
             let what = format!("the thickness {} is not positive", file.thickness);
             return Err(InputError::new("field thickness", what, "the paper's is 1"));
         }
-        if file.iterations == 0 {
-            let what = "0 iterations give no result";
+        if !(1..=MOST_ITERATIONS).contains(&file.iterations) {
+            let what = format!("{} iterations are outside 1 .. {MOST_ITERATIONS}", file.iterations);
             return Err(InputError::new("field iterations", what, "the paper's number is 20"));
         }
         Ok(Numbers { plane: file.plane, thickness: file.thickness })
@@ -115,6 +118,10 @@ pub fn restraints(mesh: &Mesh, file: &SceneFile) -> Result<Column<usize>, InputE
                 return Err(InputError::new(place, what, "give exactly one of on and node"));
             }
         };
+        if restraint.fix.is_empty() {
+            let what = "a restraint that fixes no direction";
+            return Err(InputError::new(format!("{place}.fix"), what, "name \"x\", \"y\" or both"));
+        }
         for n in nodes {
             for axis in &restraint.fix {
                 fixed[2 * n - if *axis == Axis::X { 1 } else { 0 }] = 1;
@@ -136,8 +143,10 @@ pub fn contact(mesh: &Mesh, file: &SceneFile) -> Result<(Vec<usize>, Vec<usize>,
     }
     let cnt = surface::contact_nodes(mesh, &contact.cnt)?;
     let trg = surface::target_edges(mesh, &contact.trg)?;
-    for edge in mesh.of_dimension(1).filter(|e| trg.contains(&e.number)) {
-        if let Some(n) = edge.nodes.iter().find(|n| cnt.contains(n)) {
+    let (on_cnt, on_trg): (HashSet<usize>, HashSet<usize>) =
+        (cnt.iter().copied().collect(), trg.iter().copied().collect());
+    for edge in mesh.of_dimension(1).filter(|e| on_trg.contains(&e.number)) {
+        if let Some(n) = edge.nodes.iter().find(|n| on_cnt.contains(n)) {
             let what = format!("contact node {n} is also on the target edge {}", edge.number);
             return Err(InputError::new("contact", what, "let the two bodies share no node"));
         }
@@ -145,17 +154,18 @@ pub fn contact(mesh: &Mesh, file: &SceneFile) -> Result<(Vec<usize>, Vec<usize>,
     Ok((cnt, trg, contact.c_tll))
 }
 
-/// That restraints hold each body that no contact surface touches.
+/// That restraints hold each body that no contact surface touches, and, taken as one, the bodies that contact joins.
 ///
 /// # Errors
 /// A body that can still move, and how.
 pub fn held(mesh: &Mesh, bodies: &[Body], sheet: &Worksheet<f64>) -> Result<(), InputError> {
     let target_nodes = sheet.trg.iter().map(|&e| sheet.elem[(e, 6)]);
     let in_contact: Vec<usize> = sheet.cnt.iter().copied().chain(target_nodes).collect();
+    let touched = |body: &Body| in_contact.iter().any(|n| body.nodes.binary_search(n).is_ok());
     let fixed = |n: usize| [sheet.S[2 * n - 1] == 1, sheet.S[2 * n] == 1];
-    for body in bodies {
-        let touched = in_contact.iter().any(|n| body.nodes.binary_search(n).is_ok());
-        if let Some(freedom) = body::freedom(mesh, body, fixed).filter(|_| !touched) {
+    let (joined, alone): (Vec<&Body>, Vec<&Body>) = bodies.iter().partition(|body| touched(body));
+    for body in alone {
+        if let Some(freedom) = body::freedom(mesh, &body.nodes, fixed) {
             let what =
                 format!("body {:?} is held by no contact and can still {freedom}", body.name);
             return Err(InputError::new(
@@ -164,6 +174,11 @@ pub fn held(mesh: &Mesh, bodies: &[Body], sheet: &Worksheet<f64>) -> Result<(), 
                 "hold it, or give it a contact surface",
             ));
         }
+    }
+    let nodes: Vec<usize> = joined.iter().flat_map(|body| body.nodes.iter().copied()).collect();
+    if let Some(freedom) = body::freedom(mesh, &nodes, fixed).filter(|_| !joined.is_empty()) {
+        let what = format!("the bodies that contact joins can still {freedom}, all together");
+        return Err(InputError::new("restraints", what, "hold one of them"));
     }
     Ok(())
 }

@@ -265,6 +265,7 @@ impl SceneFile {
     /// # Errors
     /// What is wrong, with the field's path, the line and the column.
     pub fn parse(text: &[u8]) -> Result<Self, InputError> {
+        let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
         let mut deserializer = serde_json::Deserializer::from_slice(text);
         let file = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
             let place = match error.path().to_string() {

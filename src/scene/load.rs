@@ -1,5 +1,7 @@
 //! The load vector, consistent for linear edges.
 
+use std::collections::HashMap;
+
 use nalgebra::DVector;
 
 use super::file::{GroupRef, Load};
@@ -53,6 +55,20 @@ pub fn vector(mesh: &Mesh, loads: &[Load], thickness: f64) -> Result<DVector<f64
     Ok(f)
 }
 
+/// For each edge of a triangle, its nodes ascending, the nodes across it.
+type Across = HashMap<[usize; 2], Vec<usize>>;
+
+fn across(mesh: &Mesh) -> Across {
+    let mut across = Across::new();
+    for triangle in mesh.of_dimension(2) {
+        for k in 0..3 {
+            let [a, b, third] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| triangle.nodes[k]);
+            across.entry([a.min(b), a.max(b)]).or_default().push(third);
+        }
+    }
+    across
+}
+
 /// Half of each edge's load on each of its nodes; `traction` is given the unit normal that points into the body.
 fn on_edges(
     f: &mut DVector<f64>,
@@ -62,9 +78,18 @@ fn on_edges(
     place: &str,
     traction: impl Fn([f64; 2]) -> [f64; 2],
 ) -> Result<(), InputError> {
+    let across = across(mesh);
+    let mut loaded = HashMap::new();
     for edge in groups::members(mesh, 1, on, &format!("{place}.on"))? {
         let [a, b] = [edge.nodes[0], edge.nodes[1]];
-        let third = third_node(mesh, [a, b], edge.number, place)?;
+        if let Some(first) = loaded.insert([a.min(b), a.max(b)], edge.number) {
+            let what = format!(
+                "edges {first} and {} of group {on} are the same (nodes {a} and {b})",
+                edge.number
+            );
+            return Err(InputError::new(place, what, "keep one: the load would count twice"));
+        }
+        let third = third_node(&across, [a, b], edge.number, place)?;
         let ([ax, ay], [bx, by], [cx, cy]) = (mesh.xy(a), mesh.xy(b), mesh.xy(third));
         let length = (bx - ax).hypot(by - ay);
         let left = [-(by - ay) / length, (bx - ax) / length];
@@ -84,24 +109,18 @@ fn add(f: &mut DVector<f64>, node: usize, force: [f64; 2]) {
 
 /// The node across the edge in the one triangle that it bounds.
 fn third_node(
-    mesh: &Mesh,
-    edge: [usize; 2],
+    across: &Across,
+    [a, b]: [usize; 2],
     number: usize,
     place: &str,
 ) -> Result<usize, InputError> {
-    let thirds: Vec<usize> = mesh
-        .of_dimension(2)
-        .filter(|t| edge.iter().all(|n| t.nodes.contains(n)))
-        .filter_map(|t| t.nodes.iter().copied().find(|n| !edge.contains(n)))
-        .collect();
-    match thirds[..] {
-        [third] => Ok(third),
+    let thirds = across.get(&[a.min(b), a.max(b)]).map_or(&[][..], Vec::as_slice);
+    match thirds {
+        [third] => Ok(*third),
         _ => Err(InputError::new(
             place,
             format!(
-                "edge {number} (nodes {} and {}) bounds {} triangles: a load needs an edge of exactly one",
-                edge[0],
-                edge[1],
+                "edge {number} (nodes {a} and {b}) bounds {} triangles: a load needs an edge of exactly one",
                 thirds.len()
             ),
             "load an outer edge of a body",

@@ -118,9 +118,28 @@ impl Mesh {
     /// # Errors
     /// The first condition that is broken, by node or element number.
     pub fn check(&self) -> Result<(), InputError> {
+        self.check_names()?;
         self.check_nodes()?;
         self.check_elements()?;
         self.of_dimension(2).try_for_each(|triangle| self.check_area(triangle))
+    }
+
+    fn check_names(&self) -> Result<(), InputError> {
+        for (k, a) in self.names.iter().enumerate() {
+            let same = |b: &&PhysicalName| a.dim == b.dim && a.name == b.name && a.tag != b.tag;
+            if let Some(b) = self.names[..k].iter().find(same) {
+                let what = format!(
+                    "the physical groups {} and {} are both named {:?}",
+                    b.tag, a.tag, a.name
+                );
+                return Err(InputError::new(
+                    "the mesh's physical groups",
+                    what,
+                    "give each a name of its own",
+                ));
+            }
+        }
+        Ok(())
     }
 
     fn check_nodes(&self) -> Result<(), InputError> {
@@ -161,8 +180,13 @@ impl Mesh {
                 let mend = "elem is indexed by element number: number the elements 1, 2, 3, ...";
                 return Err(InputError::new(place, what, mend));
             }
-            for &n in &element.nodes {
+            for (k, &n) in element.nodes.iter().enumerate() {
                 self.check_node(n, &format!("element {number}"))?;
+                if element.nodes[..k].contains(&n) {
+                    let what =
+                        format!("element {number} names node {n} twice: {:?}", element.nodes);
+                    return Err(InputError::new(place, what, "give it different nodes"));
+                }
             }
             if element.kind == KINDS[2] {
                 let mut key = element.nodes.clone();

@@ -80,7 +80,7 @@ impl Scene {
             )
         })?;
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-        let beside = |file: &str| std::fs::read(folder.join(file)).map_err(|why| why.to_string());
+        let beside = |file: &str| read_beside(&folder.join(file));
         Scene::build(&name_of(&path), &text, beside)
             .map_err(|error| error.within(&path.display().to_string()))
     }
@@ -158,6 +158,15 @@ impl Scene {
         let node = self.sheet.elem[(*trg, 6)];
         self.bodies.iter().find(|body| body.nodes.binary_search(&node).is_ok())
     }
+}
+
+/// Reads an ordinary file: a device would never end.
+fn read_beside(path: &Path) -> Result<Vec<u8>, String> {
+    let metadata = std::fs::metadata(path).map_err(|why| why.to_string())?;
+    if !metadata.is_file() {
+        return Err("it is no ordinary file".into());
+    }
+    std::fs::read(path).map_err(|why| why.to_string())
 }
 
 /// `golden/strand/scene.json` is the scene `strand`, `my/plate.json` the scene `plate`.

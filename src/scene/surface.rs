@@ -1,5 +1,7 @@
 //! The two contact surfaces, in the order that the listing walks them.
 
+use std::collections::HashMap;
+
 use super::file::Surface;
 use super::groups;
 use super::mesh::{Element, Mesh};
@@ -77,15 +79,18 @@ fn not_empty(numbers: &[usize], place: &str) -> Result<(), InputError> {
 
 /// Walks `edges` as one chain: from the first end in mesh order; a closed chain from its first edge's first node.
 fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
-    let degree = |node: usize| edges.iter().flatten().filter(|&&n| n == node).count();
-    if let Some(node) = edges.iter().flatten().find(|&&n| degree(n) > 2) {
+    let mut at: HashMap<usize, Vec<usize>> = HashMap::new();
+    for (k, edge) in edges.iter().enumerate() {
+        edge.iter().for_each(|n| at.entry(*n).or_default().push(k));
+    }
+    if let Some(node) = edges.iter().flatten().find(|n| at[n].len() > 2) {
         return Err(format!("the chain of edges branches at node {node}"));
     }
-    let start = edges.iter().flatten().copied().find(|&n| degree(n) == 1).unwrap_or(edges[0][0]);
+    let start = edges.iter().flatten().copied().find(|n| at[n].len() == 1).unwrap_or(edges[0][0]);
     let mut walked = vec![false; edges.len()];
     let mut nodes = vec![start];
     let mut here = start;
-    while let Some(k) = (0..edges.len()).find(|&k| !walked[k] && edges[k].contains(&here)) {
+    while let Some(&k) = at[&here].iter().find(|&&k| !walked[k]) {
         walked[k] = true;
         here = if edges[k][0] == here { edges[k][1] } else { edges[k][0] };
         if here != start {

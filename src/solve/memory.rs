@@ -5,12 +5,12 @@ use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 use crate::error::InputError;
 
 /// Matrices of (2R)² numbers that a solution holds at once: `K`, the matrix of the iteration, its LU factors.
-const MATRICES: u128 = 3;
+pub const OF_A_SOLUTION: usize = 3;
 
-/// Bytes that a solution with `r` nodes needs for its dense matrices.
-pub fn needed(r: usize) -> u128 {
+/// Bytes of `matrices` dense matrices for `r` nodes.
+pub fn needed(r: usize, matrices: usize) -> u128 {
     let equations = 2 * r as u128;
-    MATRICES * equations * equations * 8
+    matrices as u128 * equations * equations * 8
 }
 
 /// Bytes of memory that are free now, a control group's limit included; nothing where the system does not tell.
@@ -21,20 +21,20 @@ pub fn free() -> Option<u128> {
     Some(u128::from(system.available_memory().min(limit)))
 }
 
-/// That the dense matrices of `r` nodes fit in `free` bytes.
+/// That `matrices` dense matrices for `r` nodes fit in `free` bytes.
 ///
 /// # Errors
 /// They do not; the message says how much they need.
-pub fn check(r: usize, free: Option<u128>) -> Result<(), InputError> {
+pub fn check(r: usize, matrices: usize, free: Option<u128>) -> Result<(), InputError> {
     let free = free.unwrap_or(u128::MAX);
-    if needed(r) <= free {
+    if needed(r, matrices) <= free {
         return Ok(());
     }
     Err(InputError::new(
         "the mesh",
         format!(
-            "R = {r} nodes need {:.1} GB for {MATRICES} dense matrices of {} x {}; {:.1} GB are free",
-            needed(r) as f64 / 1e9,
+            "R = {r} nodes need {:.1} GB for {matrices} dense matrices of {} x {}; {:.1} GB are free",
+            needed(r, matrices) as f64 / 1e9,
             2 * r,
             2 * r,
             free as f64 / 1e9
@@ -49,8 +49,8 @@ mod tests {
 
     #[test]
     fn a_matrix_that_does_not_fit_is_refused_with_its_size() {
-        assert!(check(1000, Some(96_000_000)).is_ok());
-        let error = check(1000, Some(95_999_999)).unwrap_err();
+        assert!(check(1000, 3, Some(96_000_000)).is_ok());
+        let error = check(1000, 3, Some(95_999_999)).unwrap_err();
         assert!(error.what.contains("0.1 GB for 3 dense matrices of 2000 x 2000"), "{error}");
     }
 }
