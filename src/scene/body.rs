@@ -84,7 +84,7 @@ fn number_equal_names(bodies: &mut [Body]) {
 /// where it cannot.
 pub fn freedom(
     mesh: &Mesh,
-    body: &Body,
+    nodes: &[usize],
     fixed: impl Fn(usize) -> [bool; 2],
 ) -> Option<&'static str> {
     let count = nodes.len() as f64;
