@@ -91,7 +91,7 @@ pub const FINDINGS: &[Finding] = &[
         title: "only a node inside some edge's box gets a ct, and without one its yt is 0; over a horizontal edge the box is 2 · c_tll high",
         why: "the node that jumped deeper than c_tll, for which the text has the sign rule, is lost; over a horizontal edge the rule can fire at |yt| = c_tll at most",
         repair: "search along the normal, without a box",
-        number: "contact nodes inside the target without a target edge",
+        number: "contact nodes inside the target, deeper than c_tll, without a target edge",
         measure: search::lost_inside,
     },
     Finding {

@@ -75,13 +75,16 @@ fn near_a_slope(sheet: &Worksheet<f64>, node_n: &Table<f64>, pairs: &Pairs<f64>)
     )
 }
 
-/// C9: contact nodes inside the target without a target edge.
+/// C9: contact nodes inside the target, c_tll or more from the edges above or below them, without a target edge.
 pub(super) fn lost_inside(case: &Case) -> Measured {
     at_shapes(case, |node_n| {
         let pairs = c_cnt(&case.sheet, node_n)?;
         Ok(Measured::count(&contact_nodes(
             &case.sheet,
-            |i1| pairs.ct[i1] == 0 && inside_target(case, node_n, i1),
+            |i1| {
+                let deep = nearest(&case.sheet, node_n, i1) >= case.sheet.c_tll;
+                pairs.ct[i1] == 0 && deep && inside_target(case, node_n, i1)
+            },
             |i1| format!("inside the target, ct 0 yt {} dy {}", pairs.yt[i1], pairs.dy[i1]),
         )))
     })
