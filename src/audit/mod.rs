@@ -63,7 +63,7 @@ impl<'a> FindingRow<'a> {
             listing: finding.listing,
             lines: finding.lines,
             title: finding.title,
-            verdict: measured.verdict.to_string(),
+            verdict: measured.verdict.name().to_string(),
             number: measured.number,
             of: finding.number,
             detail: &measured.detail,

@@ -67,7 +67,7 @@ fn findings(findings: &[(&Finding, Measured)]) -> String {
         vec![
             finding.id.into(),
             place(finding),
-            measured.verdict.to_string(),
+            measured.verdict.name().into(),
             short(measured.number),
             finding.title.into(),
         ]
@@ -144,7 +144,7 @@ pub fn explain(finding: &Finding, measured: &Measured, scene: &Scene) -> String 
         finding.title,
         quoted(finding),
         scene.name,
-        measured.verdict,
+        measured.verdict.name(),
         short(measured.number),
         finding.number,
         measured.detail,

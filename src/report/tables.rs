@@ -40,10 +40,10 @@ fn with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.into() } else { format!("{name}, {unit}") }
 }
 
-/// Four digits, in scientific notation where that is shorter to read.
+/// A whole number as it is, else some five digits, in scientific notation where that is shorter to read.
 pub(super) fn short(x: f64) -> String {
     match x.abs() {
-        0.0 => "0".into(),
+        size if size < 1e9 && x.fract() == 0.0 => format!("{x:.0}"),
         size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),
         _ => format!("{x:.3e}"),
     }

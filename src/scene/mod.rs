@@ -23,7 +23,7 @@ use std::path::Path;
 use nalgebra::DVector;
 
 pub use body::Body;
-pub use embedded::{Embedded, SCENES};
+pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use file::{SceneFile, Units};
 pub use mesh::{Element, Mesh, Node, PhysicalName};
 
@@ -62,7 +62,8 @@ impl Scene {
     /// # Errors
     /// Anything wrong with the scene file, the mesh file, or what they say together.
     pub fn open(name_or_path: &str) -> Result<Self, InputError> {
-        if let Some(embedded) = SCENES.iter().find(|s| s.name == name_or_path) {
+        let mut embedded = SCENES.iter().chain(FINDING_SCENES);
+        if let Some(embedded) = embedded.find(|s| s.name == name_or_path) {
             let beside = |file: &str| {
                 let found = embedded.files.iter().find(|(name, _)| *name == file);
                 found.map(|(_, bytes)| bytes.to_vec()).ok_or_else(|| "not embedded".to_string())

@@ -60,6 +60,10 @@ pub const RESIDUAL: Tolerance =
 pub const BALANCE: Tolerance =
     tolerance(1e-10, "a residual of 1e-16 times |K| |u| / |F|, summed over the held nodes");
 
+/// The number of a finding on its own scene, worked out by hand, relative to that number.
+pub const FINDING: Tolerance =
+    tolerance(1e-12, "a handful of operations, and LU of a few equations, on numbers of order 1");
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {
