@@ -55,7 +55,7 @@ fn shows(id: &str, measured: &Measured, number: f64, words: &[&str]) {
 /// The README of each scene works these numbers out.
 #[test]
 fn each_finding_holds_on_its_scene() {
-    let expected: [(&str, f64, &[&str]); 23] = [
+    let expected: [(&str, f64, &[&str]); 24] = [
         ("C1", 1.0, &["node 4: ct 1 dy 1, turned round ct 0 dy 0"]),
         ("C2", 1.0, &["node 5: ct 2 dy 0, in reverse ct 1 dy 1"]),
         ("C3", 1.0, &["node 4: yt -1.500e-1, cos t 0.600, along the normal -9.000e-2"]),
@@ -90,6 +90,7 @@ fn each_finding_holds_on_its_scene() {
         ("K6", 1.0, &["one linked node: singular; two: solvable"]),
         ("K7", 1.0, &["triangle 2, pair 1: weights [0.75, 0.0]"]),
         ("K8", -7.0, &["node 1, direction y"]),
+        ("K9", 1.0, &["node 4: held with 6.000e-1"]),
     ];
     assert_eq!(
         expected.map(|(id, ..)| id).to_vec(),
@@ -106,7 +107,7 @@ type Change = fn(&mut Value);
 
 #[test]
 fn each_finding_vanishes_where_its_cause_does() {
-    let changes: [(&str, Change); 21] = [
+    let changes: [(&str, Change); 22] = [
         // Over the middle of the edge both boxes hold the node.
         ("C1", |s| at(s, 4, 0.5, 0.0)),
         // Over the first edge alone.
@@ -150,6 +151,8 @@ fn each_finding_vanishes_where_its_cause_does() {
         ("K7", |s| at(s, 5, 0.75, 0.0)),
         // Inside the edge's ends.
         ("K8", |s| at(s, 5, 0.75, 0.0)),
+        // Pressed down.
+        ("K9", |s| s["loads"][0]["force"] = json!([0.0, -0.6])),
     ];
     for (id, change) in changes {
         let measured = measured(id, change);

@@ -61,4 +61,5 @@ pub const FINDING_SCENES: &[Embedded] = &[
     finding!("K6"),
     finding!("K7"),
     finding!("K8"),
+    finding!("K9"),
 ];

@@ -9,6 +9,9 @@ use crate::mirror::{Failure, Km, Pairs, Reading, Worksheet};
 /// A list in a detail names this many at most.
 const SHOWN: usize = 6;
 
+/// What counts as a difference, relative to the largest entry: sums in another order differ by less.
+pub(super) const ROUNDING: f64 = 1e-9;
+
 impl Measured {
     /// A measure of the verdict `holds` or `does not arise`.
     pub(super) fn holds_if(holds: bool, number: f64, detail: impl Into<String>) -> Self {

@@ -45,3 +45,11 @@ pub(super) fn inner_sign(sheet: &Worksheet<f64>, node_n: &Table<f64>, e: usize) 
     let third = triangle.into_iter().find(|n| !edge.contains(n))?;
     rise(ends(sheet, node_n, e), place(node_n, third)).map(f64::signum)
 }
+
+/// The unit normal of target edge `e` that points away from the target.
+pub(super) fn away(sheet: &Worksheet<f64>, node_n: &Table<f64>, e: usize) -> Option<[f64; 2]> {
+    let [a, b] = ends(sheet, node_n, e);
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let scale = inner_sign(sheet, node_n, e)? * dx.signum() / dx.hypot(dy);
+    Some([-dy * scale, dx * scale])
+}

@@ -2,7 +2,7 @@
 
 use super::{Finding, search, status, stiffness, weights};
 
-/// All of them: C1 to C15, K1 to K8.
+/// All of them: C1 to C15, K1 to K9.
 pub const FINDINGS: &[Finding] = &[
     Finding {
         id: "C1",
@@ -233,5 +233,15 @@ pub const FINDINGS: &[Finding] = &[
         repair: "weights in [0, 1]",
         number: "smallest diagonal entry of MJS, force/length",
         measure: stiffness::stiffness_taken_away,
+    },
+    Finding {
+        id: "K9",
+        listing: "-",
+        lines: &[],
+        title: "the status looks at the gap only and eq. (1) ties both components: nothing releases a node that pulls, and nothing lets it slide",
+        why: "a contact that carries tension stays, against the text's own condition of no penetration and friction",
+        repair: "release a node whose contact force pulls",
+        number: "nodes that the target holds with a pull at the end of stepped",
+        measure: stiffness::pulls,
     },
 ];

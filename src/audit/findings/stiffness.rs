@@ -2,7 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use super::experiment::{at_shapes, c_cnt, first_in_contact, mjs};
+use super::experiment::{ROUNDING, at_shapes, c_cnt, contact_nodes, first_in_contact, mjs};
+use super::geometry::away;
 use super::{Measured, Verdict};
 use crate::audit::Case;
 use crate::contact::{Elimination, Variant, max_displacement};
@@ -163,6 +164,31 @@ pub(super) fn cycle(case: &Case) -> Measured {
         _ => Verdict::Holds,
     };
     Measured { verdict, number: cycle.length as f64, detail }
+}
+
+/// K9: nodes that eq. (1) holds on the target with a pull, at the end of `stepped`.
+pub(super) fn pulls(case: &Case) -> Measured {
+    let sheet = &case.sheet;
+    let (outcome, k) = match (case.run(Variant::Stepped), free_stiffness(sheet)) {
+        (Ok(outcome), Ok(k)) => (outcome, k),
+        (Err(error), _) => return Measured::nothing(error.to_string()),
+        (_, Err(failure)) => return Measured::nothing(failure.to_string()),
+    };
+    let Some(last) = outcome.iterations.last() else { return Measured::nothing("no iteration") };
+    // What eq. (1) adds at each equation; at a held one it cannot be told from the support's reaction.
+    let tie = k * &outcome.u - &case.scene.load;
+    let rounding = ROUNDING * tie.amax();
+    let push = |i1: usize| {
+        let away = away(sheet, &sheet.node, last.pairs.ct[i1]).unwrap_or_default();
+        let equation = |direction: usize| 2 * sheet.cnt[i1] - 1 + direction;
+        let free = [0, 1].into_iter().filter(|&d| sheet.S[equation(d)] == 0);
+        free.map(|d| tie[equation(d) - 1] * away[d]).sum::<f64>()
+    };
+    Measured::count(&contact_nodes(
+        sheet,
+        |i1| last.pairs.dy[i1] == 1 && push(i1) < -rounding,
+        |i1| format!("held with {:.3e}", -push(i1)),
+    ))
 }
 
 /// K6: the stamp released from its restraints, eq. (1) on one and on two of its nodes in contact.

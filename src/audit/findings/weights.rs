@@ -1,7 +1,7 @@
 //! Findings of the weights: c_cnt 21-30, and what `Km` makes of them.
 
 use super::Measured;
-use super::experiment::{at_shapes, c_cnt, contact_nodes, mjs};
+use super::experiment::{ROUNDING, at_shapes, c_cnt, contact_nodes, mjs};
 use crate::audit::Case;
 use crate::contact::{Variant, ties};
 use crate::mathcad::array::Column;
@@ -82,7 +82,7 @@ pub(super) fn reversed_cnt(case: &Case) -> Measured {
     at_shapes(case, |node_n| {
         let as_is = mjs(&case.sheet, node_n)?.into_matrix();
         let change = mjs(&reversed, node_n)?.into_matrix() - &as_is;
-        let rounding = 1e-9 * as_is.amax();
+        let rounding = ROUNDING * as_is.amax();
         let changed = change.iter().filter(|x| x.abs() > rounding).count();
         let detail = format!("the largest change is {:.3e} of {:.3e}", change.amax(), as_is.amax());
         Ok(Measured::holds_if(changed > 0, changed as f64, detail))
