@@ -221,7 +221,22 @@ fn loads_of_any_size() {
     }
     let error = pressed(1e308).unwrap_err();
     assert!(error.to_string().contains("too large to represent"), "{error}");
-    assert_eq!(error.exit_status(), 2);
+}
+
+/// What a tie passes straight to a held target node reaches the target too.
+#[test]
+fn forces_on_held_target_nodes_count() {
+    let mut scene = scene_json("two-blocks");
+    scene["restraints"].as_array_mut().unwrap().push(json!({ "on": 11, "fix": ["y"] }));
+    let scene = build(&scene).unwrap();
+    for variant in [Variant::Tied, Variant::Stepped] {
+        let outcome = solved(&scene, variant);
+        for u in &outcome.u.as_slice()[..18] {
+            assert_near("the lower block does not move", *u, 0.0, outcome.u.amax(), &CLOSED_FORM);
+        }
+        let last = outcome.iterations.last().unwrap();
+        assert_near("force on the target", last.target_force, 12.6, 12.6, &CLOSED_FORM);
+    }
 }
 
 /// `stepped` is `tied` with R7 = stepped, and the other way round.

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use nalgebra::{DVector, SVector};
 use serde::Serialize;
 
-use super::elimination::{Elimination, Tie, interpolations};
+use super::elimination::{Elimination, Tie, interpolations, ties};
 use super::variant::{Coupling, Variant};
 use crate::element::State;
 use crate::error::{Error, InputError, SingularMatrix};
@@ -114,8 +114,12 @@ struct Run<'a> {
     held: Vec<bool>,
     /// The load that one iteration carries, 0 at restrained equations.
     f: DVector<f64>,
+    /// The whole load over the load of one iteration.
+    share: f64,
     /// Total displacements.
     u: DVector<f64>,
+    /// Sum of the target body's reactions so far.
+    reaction: [f64; 2],
     /// Contact states met, each with its solution and the last iteration that met it. The load of an iteration is always
     /// the same, so a state that came before has the same matrix and the same solution: nothing is factored again.
     met: HashMap<Vec<u64>, Met>,
@@ -131,6 +135,8 @@ struct Met {
 struct Solution {
     u: DVector<f64>,
     residual: f64,
+    /// Sum of the target body's reactions.
+    reaction: [f64; 2],
 }
 
 impl<'a> Run<'a> {
@@ -150,7 +156,20 @@ impl<'a> Run<'a> {
         let f =
             DVector::from_fn(equations, |e, _| if held[e] { 0.0 } else { scene.load[e] / share });
         let (k, u) = (free_stiffness(sheet, reading)?, DVector::zeros(equations));
-        Ok(Run { scene, sheet, variant, reading, schedule, k, held, f, u, met: HashMap::new() })
+        Ok(Run {
+            scene,
+            sheet,
+            variant,
+            reading,
+            schedule,
+            k,
+            held,
+            f,
+            share,
+            u,
+            reaction: [0.0, 0.0],
+            met: HashMap::new(),
+        })
     }
 
     fn iterate(&mut self, k: usize) -> Result<Iteration, Error> {
@@ -166,8 +185,11 @@ impl<'a> Run<'a> {
             None => (None, self.solve(&pairs, k, in_contact)?),
         };
         match self.schedule {
-            Schedule::Total => self.u = solution.u.clone(),
-            Schedule::Stepped => self.u += &solution.u,
+            Schedule::Total => (self.u, self.reaction) = (solution.u.clone(), solution.reaction),
+            Schedule::Stepped => {
+                self.u += &solution.u;
+                self.reaction = [0, 1].map(|d| self.reaction[d] + solution.reaction[d]);
+            }
         }
         let weights_from = match self.reading.r5 {
             NodeTable::Node => &self.sheet.node,
@@ -181,7 +203,7 @@ impl<'a> Run<'a> {
             cycle,
             eq1_residual: eq1_residual(&interpolations, &self.u),
             eq1_residual_step: eq1_residual(&interpolations, &solution.u),
-            target_force: self.target_force(k),
+            target_force: self.target_force(),
             solve_residual: solution.residual,
             node_n,
             pairs,
@@ -205,12 +227,12 @@ impl<'a> Run<'a> {
                 body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
             }
         };
-        match self.variant.coupling() {
+        let (residual, u) = match self.variant.coupling() {
             Coupling::Printed => {
                 let matrix = Km(self.sheet, self.reading, &pairs.k_cnt)?.into_matrix();
                 let lu = DenseLu::new(matrix).map_err(|s| singular(s.column, s.pivot))?;
                 let u = lu.solve(&self.f);
-                Ok(Solution { residual: lu.residual(&u, &self.f), u })
+                (lu.residual(&u, &self.f), u)
             }
             Coupling::Eliminated => {
                 let t = Elimination::new(self.sheet, pairs);
@@ -218,34 +240,45 @@ impl<'a> Run<'a> {
                     .map_err(|s| singular(t.equation(s.column), s.pivot))?;
                 let f = t.load(&self.f);
                 let u = lu.solve(&f);
-                Ok(Solution { residual: lu.residual(&u, &f), u: t.expand(&u) })
+                (lu.residual(&u, &f), t.expand(&u))
             }
-        }
+        };
+        Ok(Solution { residual, reaction: self.target_reaction(pairs, &u), u })
     }
 
-    /// Sum of the target body's reactions, taken against the direction of the load.
-    fn target_force(&self, k: usize) -> f64 {
-        let Some(target) = self.scene.target() else { return 0.0 };
-        let applied = match self.schedule {
-            Schedule::Total => 1.0,
-            Schedule::Stepped => k as f64 / self.scene.iterations as f64,
-        };
-        let stiffness = self.k.as_matrix();
-        let reaction = |e: usize| match self.held[e] {
-            false => 0.0,
-            // K is symmetric: its column e is its row e, and lies in one piece.
-            true => stiffness.column(e).dot(&self.u) - applied * self.scene.load[e],
-        };
-        let sum = |direction| -> f64 {
-            target.nodes.iter().map(|n| reaction(2 * n - 2 + direction)).sum()
-        };
-        let (reactions, [fx, fy]) = ([sum(0), sum(1)], self.scene.total_load());
-        let size = fx.hypot(fy);
+    /// Sum of the target body's reactions to an iteration's own load: K·u − F at its restrained equations, and what ties pass
+    /// straight to them.
+    fn target_reaction(&self, pairs: &Pairs<f64>, u: &DVector<f64>) -> [f64; 2] {
+        let Some(target) = self.scene.target() else { return [0.0, 0.0] };
+        let unbalanced = self.k.as_matrix() * u - &self.scene.load / self.share;
+        let mut reaction = [0.0, 0.0];
+        for e in target.nodes.iter().flat_map(|n| [2 * n - 2, 2 * n - 1]).filter(|&e| self.held[e])
+        {
+            reaction[e % 2] += unbalanced[e];
+        }
+        if self.variant.coupling() == Coupling::Printed {
+            return reaction;
+        }
+        for tie in ties(self.sheet, pairs) {
+            for direction in [0, 1].into_iter().filter(|d| !self.held[2 * tie.node - 2 + d]) {
+                let held =
+                    tie.weights.iter().filter(|(mate, _)| self.held[2 * mate - 2 + direction]);
+                let passed: f64 = held.map(|(_, k)| k).sum();
+                reaction[direction] += passed * unbalanced[2 * tie.node - 2 + direction];
+            }
+        }
+        reaction
+    }
+
+    /// The target body's reactions so far, taken against the direction of the load.
+    fn target_force(&self) -> f64 {
+        let [fx, fy] = self.scene.total_load();
+        let ([rx, ry], size) = (self.reaction, fx.hypot(fy));
         if size == 0.0 {
-            return reactions[0].hypot(reactions[1]);
+            return rx.hypot(ry);
         }
         // 0 − x rather than −x: no reaction at all is 0, not −0.
-        0.0 - (reactions[0] * (fx / size) + reactions[1] * (fy / size))
+        0.0 - (rx * (fx / size) + ry * (fy / size))
     }
 }
 
