@@ -9,7 +9,7 @@
 //! $...               any other section is skipped
 //! ```
 //!
-//! A grammar is written once for text and binary: both are read as the same run of numbers, by [`Tokens`]. Nothing is
+//! A grammar is written once for text and binary: both are read as the same run of numbers, by `Tokens`. Nothing is
 //! ever reserved for a count that the file declares: a wrong count runs into the file's end, not out of memory.
 //!
 //! Reference: Gmsh's manual, "MSH file format" and "MSH file format version 2 (Legacy)".

@@ -2,14 +2,14 @@
 //!
 //! | module          | what it holds                                |
 //! |-----------------|----------------------------------------------|
-//! | [`bodies`]      | what the mesh's panels and legend show       |
-//! | [`fields`]      | what a field's panels and captions show      |
-//! | [`deformation`] | the deformed mesh and its outline            |
-//! | [`page`]        | layout: title, panels, legend, captions      |
-//! | [`colour`]      | values to colours, and the colour bar        |
-//! | [`view`]        | the mesh's coordinates to pixels             |
-//! | [`numbers`]     | round numbers and how numbers are written    |
-//! | [`svg`]         | shapes, on top of the XML writer                    |
+//! | `bodies`      | what the mesh's panels and legend show       |
+//! | `fields`      | what a field's panels and captions show      |
+//! | `deformation` | the deformed mesh and its outline            |
+//! | `page`        | layout: title, panels, legend, captions      |
+//! | `colour`      | values to colours, and the colour bar        |
+//! | `view`        | the mesh's coordinates to pixels             |
+//! | `numbers`     | round numbers and how numbers are written    |
+//! | `svg`         | shapes, on top of the XML writer                    |
 
 mod bodies;
 mod colour;
