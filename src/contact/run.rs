@@ -175,15 +175,22 @@ impl<'a> Run<'a> {
     fn iterate(&mut self, k: usize) -> Result<Iteration, Error> {
         let node_n = shape(self.sheet, &self.u);
         let pairs = c_cnt(self.sheet, self.reading, &node_n)?;
-        let in_contact = pairs.dy.iter().sum();
         let key: Vec<u64> = pairs.k_cnt.as_matrix().iter().map(|x| x.to_bits()).collect();
         let (cycle, solution) = match self.met.get(&key) {
             Some(met) => {
                 let cycle = Cycle { length: k - met.k, members: (met.k..k).collect() };
                 (Some(cycle), met.solution.clone())
             }
-            None => (None, self.solve(&pairs, k, in_contact)?),
+            None => (None, self.solve(&pairs, k)?),
         };
+        self.advance(&solution);
+        let iteration = self.report(k, node_n, pairs, cycle, &solution);
+        self.met.insert(key, Met { k, solution });
+        Ok(iteration)
+    }
+
+    /// From one shape to the next.
+    fn advance(&mut self, solution: &Solution) {
         match self.schedule {
             Schedule::Total => (self.u, self.reaction) = (solution.u.clone(), solution.reaction),
             Schedule::Stepped => {
@@ -191,14 +198,24 @@ impl<'a> Run<'a> {
                 self.reaction = [0, 1].map(|d| self.reaction[d] + solution.reaction[d]);
             }
         }
+    }
+
+    fn report(
+        &self,
+        k: usize,
+        node_n: Table<f64>,
+        pairs: Pairs<f64>,
+        cycle: Option<Cycle>,
+        solution: &Solution,
+    ) -> Iteration {
         let weights_from = match self.reading.r5 {
             NodeTable::Node => &self.sheet.node,
             NodeTable::NodeN => &node_n,
         };
         let interpolations = interpolations(self.sheet, &pairs, weights_from);
-        let iteration = Iteration {
+        Iteration {
             k,
-            in_contact,
+            in_contact: pairs.dy.iter().sum(),
             max_displacement: max_displacement(&self.u),
             cycle,
             eq1_residual: eq1_residual(&interpolations, &self.u),
@@ -207,26 +224,13 @@ impl<'a> Run<'a> {
             solve_residual: solution.residual,
             node_n,
             pairs,
-        };
-        self.met.insert(key, Met { k, solution });
-        Ok(iteration)
+        }
     }
 
     /// Solves A(c)·u = f.
-    fn solve(&self, pairs: &Pairs<f64>, k: usize, in_contact: usize) -> Result<Solution, Error> {
-        let singular = |equation: usize, pivot: f64| {
-            let node = equation / 2 + 1;
-            let body = self.scene.bodies.iter().find(|b| b.nodes.binary_search(&node).is_ok());
-            SingularMatrix {
-                variant: self.variant.name(),
-                iteration: k,
-                node,
-                direction: ['x', 'y'][equation % 2],
-                pivot,
-                in_contact,
-                body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
-            }
-        };
+    fn solve(&self, pairs: &Pairs<f64>, k: usize) -> Result<Solution, Error> {
+        let singular =
+            |equation: usize, pivot: f64| self.singular_matrix(pairs, k, equation, pivot);
         let (residual, u) = match self.variant.coupling() {
             Coupling::Printed => {
                 let matrix = Km(self.sheet, self.reading, &pairs.k_cnt)?.into_matrix();
@@ -244,6 +248,26 @@ impl<'a> Run<'a> {
             }
         };
         Ok(Solution { residual, reaction: self.target_reaction(pairs, &u), u })
+    }
+
+    fn singular_matrix(
+        &self,
+        pairs: &Pairs<f64>,
+        iteration: usize,
+        equation: usize,
+        pivot: f64,
+    ) -> SingularMatrix {
+        let node = equation / 2 + 1;
+        let body = self.scene.bodies.iter().find(|b| b.nodes.binary_search(&node).is_ok());
+        SingularMatrix {
+            variant: self.variant.name(),
+            iteration,
+            node,
+            direction: ['x', 'y'][equation % 2],
+            pivot,
+            in_contact: pairs.dy.iter().sum(),
+            body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
+        }
     }
 
     /// Sum of the target body's reactions to an iteration's own load: K·u − F at its restrained equations, and what ties pass
