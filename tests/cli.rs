@@ -341,6 +341,31 @@ fn audit_shows_readings_findings_and_variants() {
     fails(folder.path(), &["audit", "--finding", "Z9"], 2, &["no finding", "C1, C2"]);
 }
 
+/// A scene without contact has an audit and a trace of Km; c_cnt is not called.
+#[test]
+fn a_scene_without_contact_is_audited_too() {
+    let folder = TempDir::new().unwrap();
+    let mut scene: Value =
+        serde_json::from_str(include_str!("../golden/two-blocks/scene.json")).unwrap();
+    scene.as_object_mut().unwrap().remove("contact");
+    scene["restraints"].as_array_mut().unwrap().push(serde_json::json!({ "on": 20, "fix": ["y"] }));
+    std::fs::write(folder.path().join("plain.json"), scene.to_string()).unwrap();
+    let audit: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["audit", "plain.json", "--json"])).unwrap();
+    let failed = |row: &&Value| !row["failure"].is_null();
+    let rows: Vec<&Value> = audit["readings"].as_array().unwrap().iter().filter(failed).collect();
+    assert_eq!(rows.iter().map(|row| &row["reading"]).collect::<Vec<_>>(), ["ORIGIN = 0"]);
+    fails(folder.path(), &["trace", "plain.json"], 2, &["the scene has no contact"]);
+    fails(
+        folder.path(),
+        &["trace", "plain.json", "--listing", "Km"],
+        2,
+        &["no element has a linked node"],
+    );
+    let km = succeeds(folder.path(), &["trace", "plain.json", "--listing", "Km", "--node", "1"]);
+    assert!(km.contains("element n = 1 of 16"), "{km}");
+}
+
 /// What depends on a reading and what does not, on a scene small enough to know.
 #[test]
 fn audit_of_readings_on_fig1() {

@@ -190,8 +190,13 @@ fn worksheet(
 /// The two listings, executed at the initial shape.
 fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
     let (sheet, reading) = (&case.sheet, Reading::default());
-    let listing = Which::CCnt.under(&reading);
-    let (pairs, _) = listings::c_cnt(&listing, settings, sheet, &sheet.node, &mut ())?;
+    let pairs = if sheet.cnt.rows() == 0 {
+        // Without contact nothing of contact is built: `c_cnt` is not called.
+        Pairs::none(sheet.R())
+    } else {
+        let listing = Which::CCnt.under(&reading);
+        listings::c_cnt(&listing, settings, sheet, &sheet.node, &mut ())?.0
+    };
     let listing = Which::Km.under(&reading);
     let (matrix, _) = listings::km(&listing, settings, sheet, &pairs.k_cnt, &mut ())?;
     Ok(Initial { pairs, matrix })

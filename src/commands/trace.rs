@@ -143,14 +143,22 @@ fn turns(
             (1..=sheet.M()).filter(|&n| nodes(n).any(|m| m == node)).collect()
         }
     };
-    match (turns.is_empty(), node) {
-        (true, Some(node)) => {
-            let what = match which {
-                Which::CCnt => format!("node {node} is no contact node"),
-                Which::Km => format!("node {node} is in no triangle"),
-            };
-            Err(InputError::new("--node", what, "name another node, or none").into())
-        }
-        _ => Ok(turns),
+    if !turns.is_empty() {
+        return Ok(turns);
     }
+    let (place, what, mend) = match (which, node) {
+        (Which::CCnt, Some(node)) => {
+            ("--node", format!("node {node} is no contact node"), "name a contact node, or none")
+        }
+        (Which::Km, Some(node)) => {
+            ("--node", format!("node {node} is in no triangle"), "name another node")
+        }
+        (Which::CCnt, None) => {
+            ("SCENE", "the scene has no contact, so c_cnt is not called".into(), "trace Km instead")
+        }
+        (Which::Km, None) => {
+            ("SCENE", "no element has a linked node".into(), "name a node with --node")
+        }
+    };
+    Err(InputError::new(place, what, mend).into())
 }

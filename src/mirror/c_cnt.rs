@@ -19,6 +19,15 @@ pub struct Pairs<T> {
     pub k_cnt: Table<T>,
 }
 
+impl<T: Scalar> Pairs<T> {
+    /// No pair, for `nodes` nodes: what stands in place of `c_cnt`'s outcome where a scene has no contact.
+    pub fn none(nodes: usize) -> Self {
+        let k_cnt = Table::filled(nodes, 4, T::zero());
+        let empty = Column::filled(0, 0);
+        Pairs { ct: empty.clone(), yt: Column::filled(0, T::zero()), dy: empty, k_cnt }
+    }
+}
+
 /// Finds the contact pairs in the current shape `node_n` (R x 4).
 ///
 /// # Errors
