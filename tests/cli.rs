@@ -292,6 +292,14 @@ fn trace_runs_an_edited_listing() {
         3,
         "c_cnt, line 18",
     );
+    // C10's repair, where the listing as printed stops: the guard first.
+    let line_18 = "yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ i1 ≥ 2 ∧ ct[i1] > 0";
+    let repaired = listing.replace(line_18, "i1 ≥ 2 ∧ yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ ct[i1] > 0");
+    std::fs::write(folder.path().join("repaired.txt"), repaired).unwrap();
+    let args = ["trace", "fig1", "--listing", "repaired.txt", "--reading", "R4=left-to-right"];
+    assert!(
+        succeeds(folder.path(), &args).contains("The edited listing runs; as printed it fails")
+    );
     fails(folder.path(), &["trace", "fig1", "--listing", "none.txt"], 2, &["cannot be read"]);
     std::fs::write(folder.path().join("other.txt"), "f(x) :=\n  x\n").unwrap();
     fails(
@@ -300,6 +308,43 @@ fn trace_runs_an_edited_listing() {
         2,
         &["neither c_cnt nor Km"],
     );
+}
+
+/// Edits that end in something else than the paper's listing does, that never end, or that are no listing: errors, no panic.
+#[test]
+fn trace_survives_hostile_listings() {
+    let folder = TempDir::new().unwrap();
+    let c_cnt = include_str!("../listings/c_cnt.txt");
+    let traced = |text: &str| {
+        std::fs::write(folder.path().join("listing.txt"), text).unwrap();
+        let output = run(folder.path(), &["trace", "fig1", "--listing", "listing.txt", "--json"]);
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let edited = |from: &str, to: &str| traced(&c_cnt.replace(from, to));
+    let (status, error) = edited("dy[i1] ← 0\n", "dy[i1] ← 0.4\n");
+    assert!(status == Some(2) && error.contains("whole numbers"), "{status:?} {error}");
+    let (status, _) = edited("trace(ct[i1])", "trace(identity(0))");
+    assert_eq!(status, Some(0));
+    let (status, error) = traced("c_cnt(node_n) :=\n  for j ∈ 1 .. 99999999999\n    a ← 1\n");
+    assert!(status == Some(2) && error.contains("limit"), "{status:?} {error}");
+    let sum = vec!["x + 0"; 35].join(", ");
+    let (status, error) =
+        traced(&format!("c_cnt(node_n) :=\n  x[30000000] ← 1\n  a ← min({sum}, 0)\n"));
+    assert!(status == Some(2) && error.contains("limit"), "{status:?} {error}");
+    for matrix in ["MJS[26,1] ← 1", "MJS[30,1] ← 1", "MJS[1,99] ← 1"] {
+        let (status, error) = traced(&format!("Km(c_cnt) :=\n  {matrix}\n  MJS\n"));
+        assert_eq!(status, Some(0), "{error}");
+        let output = run(folder.path(), &["trace", "fig1", "--listing", "listing.txt"]);
+        assert!(
+            text(&output.stdout).contains("the shape of the result"),
+            "{}",
+            text(&output.stdout)
+        );
+    }
+    for nothing in ["", "\u{feff}", "\tc_cnt"] {
+        assert_eq!(traced(nothing).0, Some(2), "{nothing:?}");
+    }
+    assert_eq!(traced(&format!("\u{feff}{c_cnt}")).0, Some(0));
 }
 
 /// A trace that stops shows what came before.

@@ -10,6 +10,19 @@ use plane_contact::audit::listings::{self, Which, settings};
 use plane_contact::mathcad::{Coverage, Listing};
 use plane_contact::mirror::{Reading, c_cnt};
 
+/// Operands that can never be the only false one, on any scene:
+/// - c_cnt 17, 18: ct = 0 leaves yt = 0 (lines 9, 10), so that yt < 0 is false too;
+/// - c_cnt 17, 18: where i1 is the last (the first), yt[i1+1] (yt[i1−1]) is not there to be true;
+/// - Km 13: with i = j, cx[i] and cx[j] are one.
+const NEVER_ALONE: [(&str, usize, &str); 6] = [
+    ("c_cnt", 17, "ct[i1] > 0"),
+    ("c_cnt", 18, "ct[i1] > 0"),
+    ("c_cnt", 17, "i1 < rows(cnt)"),
+    ("c_cnt", 18, "i1 ≥ 2"),
+    ("Km", 13, "cx[i] = 0"),
+    ("Km", 13, "cx[j] = 0"),
+];
+
 #[test]
 fn the_golden_scenes_cover_the_listings() {
     let reading = Reading::default();
@@ -47,8 +60,18 @@ fn table(listing: &Listing, coverage: &Coverage) -> String {
         }
         for ((_, _), operands) in coverage.conjunctions.range((number, 0)..(number + 1, 0)) {
             for operand in operands {
-                let decisive = said(operand.decisive());
-                writeln!(text, "   operand decisive {decisive}: {}", operand.text).unwrap();
+                let (admitted, refused) = (said(operand.admitted > 0), said(operand.refused > 0));
+                let refused =
+                    match NEVER_ALONE.contains(&(listing.name(), number, operand.text.as_str())) {
+                        true if operand.refused == 0 => "never",
+                        _ => refused,
+                    };
+                writeln!(
+                    text,
+                    "   operand decides true {admitted}, false {refused}: {}",
+                    operand.text
+                )
+                .unwrap();
             }
         }
     }

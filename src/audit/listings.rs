@@ -7,7 +7,7 @@ use crate::mathcad::array::{Column, Table};
 use crate::mathcad::settings::Conjunction;
 use crate::mathcad::value::Array;
 use crate::mathcad::{
-    Edit, Failure, Limits, Listing, Observer, ParseError, Runner, Settings, Value,
+    Cause, Edit, Failure, Limits, Listing, Observer, ParseError, Runner, Settings, Value,
 };
 use crate::mirror::{
     LoopPlace, NodeTable, Order, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
@@ -21,6 +21,10 @@ pub enum Which {
     /// Fig. 3.
     Km,
 }
+
+/// Limits of an execution: the assembly of 10,000 nodes takes some 10 million steps beside its arrays.
+const LIMITS: Limits =
+    Limits { lines: 1_000, characters: 2_000, depth: 64, entries: 1 << 27, steps: 1 << 29 };
 
 /// What an execution leaves besides the values: the lines that `trace` wrote.
 pub type Traced<T> = Result<(T, Vec<String>), Box<Failure>>;
@@ -123,18 +127,26 @@ pub fn c_cnt<O: Observer>(
     node_n: &Table<f64>,
     observer: &mut O,
 ) -> Traced<Pairs<f64>> {
-    let mut runner = listing.runner(settings, &Limits::default());
+    let mut runner = listing.runner(settings, &LIMITS);
     define(&mut runner, sheet);
     let outcome = runner.call_observed(&[Value::from(node_n)], observer)?;
-    let column = |name: &str| -> Column<f64> {
-        let local = outcome.locals.get(name).map(Column::try_from);
-        local.and_then(Result::ok).unwrap_or_else(|| Column::filled(0, 0.0))
+    let column = |name: &'static str| -> Result<Column<f64>, Box<Failure>> {
+        let local = outcome.locals.get(name).and_then(|value| Column::try_from(value).ok());
+        local.ok_or_else(|| unexpected(listing, "a column", name))
+    };
+    let whole = |name: &'static str| -> Result<Column<usize>, Box<Failure>> {
+        let column = column(name)?;
+        if column.iter().any(|x| *x < 0.0 || x.fract() != 0.0) {
+            return Err(unexpected(listing, "whole numbers", name));
+        }
+        Ok(column.map(|x| x as usize))
     };
     let pairs = Pairs {
-        ct: column("ct").map(|x| x as usize),
-        yt: column("yt"),
-        dy: column("dy").map(|x| x as usize),
-        k_cnt: Table::try_from(&outcome.value).unwrap_or_else(|_| Table::filled(0, 0, 0.0)),
+        ct: whole("ct")?,
+        yt: column("yt")?,
+        dy: whole("dy")?,
+        k_cnt: Table::try_from(&outcome.value)
+            .map_err(|_| unexpected(listing, "an array", "value of the program"))?,
     };
     Ok((pairs, outcome.trace_output))
 }
@@ -150,11 +162,25 @@ pub fn km<O: Observer>(
     k_cnt: &Table<f64>,
     observer: &mut O,
 ) -> Traced<Table<f64>> {
-    let mut runner = listing.runner(settings, &Limits::default());
+    let mut runner = listing.runner(settings, &LIMITS);
     define(&mut runner, sheet);
     let outcome = runner.call_observed(&[Value::from(k_cnt)], observer)?;
-    let matrix = Table::try_from(&outcome.value).unwrap_or_else(|_| Table::filled(0, 0, 0.0));
+    let matrix = Table::try_from(&outcome.value)
+        .map_err(|_| unexpected(listing, "an array", "value of the program"))?;
     Ok((matrix, outcome.trace_output))
+}
+
+/// An edited listing that ends without what the paper's listing computes.
+fn unexpected(listing: &Listing, expected: &'static str, name: &str) -> Box<Failure> {
+    let last = listing.lines().last();
+    Box::new(Failure {
+        listing: listing.name().into(),
+        line: last.map_or(1, |line| line.printed),
+        column: 1,
+        text: name.into(),
+        statement: last.map_or(String::new(), |line| line.text.clone()),
+        cause: Cause::Kind { expected, found: format!("something else in {name}") },
+    })
 }
 
 /// Defines what stands on the worksheet above the listings.

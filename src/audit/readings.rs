@@ -22,10 +22,10 @@ pub struct Effect {
     pub reading: String,
     /// Listing and lines that it concerns.
     pub lines: &'static str,
-    /// Contact nodes whose dy changes at the initial shape.
-    pub statuses: usize,
-    /// Entries of MJS that change at the initial shape.
-    pub entries: usize,
+    /// Contact nodes whose dy changes at the initial shape; nothing where that was not computed.
+    pub statuses: Option<usize>,
+    /// Entries of MJS that change at the initial shape; likewise.
+    pub entries: Option<usize>,
     /// Largest difference of a displacement at the end, of the variant named; nothing where no solution is asked for.
     pub displacement: Option<f64>,
     /// That variant, or where the number stands for something else, what it is.
@@ -118,7 +118,10 @@ fn mirror(
     let compared =
         initial(case, &Reading::default()).and_then(|a| Ok((a, initial(case, &reading)?)));
     let (statuses, entries) = match compared {
-        Ok((a, b)) => (changed_statuses(&a.pairs, &b.pairs), changed_entries(&a.matrix, &b.matrix)),
+        Ok((a, b)) => (
+            Some(changed_statuses(&a.pairs, &b.pairs)),
+            Some(changed_entries(&a.matrix, &b.matrix)),
+        ),
         Err(why) => return effect.failed(&why),
     };
     let effect = Effect { statuses, entries, ..effect };
@@ -148,7 +151,7 @@ fn conjunction(case: &Case, id: &'static str, lines: &'static str, r4: Order) ->
             Ok(pairs) => assert_eq!(pairs, it.pairs, "the order of evaluation changes no value"),
         }
     }
-    Effect { displacement: Some(0.0), ..effect }
+    Effect { statuses: Some(0), entries: Some(0), displacement: Some(0.0), ..effect }
 }
 
 /// A variant under the other load schedule.
@@ -178,12 +181,14 @@ fn worksheet(
     let effect = Effect::none(id, name.into(), lines, "listings executed once".into());
     match (blank, executed(case, &settings)) {
         (Ok(a), Ok(b)) => Effect {
-            statuses: changed_statuses(&a.pairs, &b.pairs),
-            entries: changed_entries(&a.matrix, &b.matrix),
+            statuses: Some(changed_statuses(&a.pairs, &b.pairs)),
+            entries: Some(changed_entries(&a.matrix, &b.matrix)),
             ..effect
         },
-        (Err(why), _) => effect.failed(why),
         (_, Err(why)) => effect.failed(&why),
+        (Err(why), Ok(_)) => {
+            effect.failed(&format!("runs; under a blank worksheet it fails: {why}"))
+        }
     }
 }
 
@@ -226,8 +231,8 @@ impl Effect {
             id,
             reading,
             lines,
-            statuses: 0,
-            entries: 0,
+            statuses: None,
+            entries: None,
             displacement: None,
             of,
             failure: None,
@@ -241,8 +246,8 @@ impl Effect {
     /// Whether anything of the result depends on the reading.
     pub fn changes(&self) -> bool {
         self.failure.is_some()
-            || self.statuses > 0
-            || self.entries > 0
+            || self.statuses.is_some_and(|n| n > 0)
+            || self.entries.is_some_and(|n| n > 0)
             || self.displacement.is_some_and(|d| d > 0.0)
     }
 }

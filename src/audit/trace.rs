@@ -51,6 +51,9 @@ pub struct Access {
     pub value: Json,
 }
 
+/// Statements kept at most: what comes after is executed, but not shown.
+pub const MOST_STEPS: usize = 200_000;
+
 /// Executes `listing` (as `which`) on the arrays `sheet`: `c_cnt` on the initial shape, `Km` on the contact pairs `k_cnt`. Only the
 /// turns that `wanted` asks for are kept.
 pub fn trace(
@@ -69,7 +72,7 @@ pub fn trace(
             if let Some(begun) = turn_begun(which, text, done) {
                 turn = begun;
             }
-            if turn.is_none_or(&wanted) {
+            if turn.is_none_or(&wanted) && steps.len() < MOST_STEPS {
                 steps.push(Step::new(turn, done));
             }
         });
@@ -143,7 +146,7 @@ fn json(value: &Value) -> Json {
         Value::Number(x) => Json::from(*x),
         Value::Array(a) if a.entries().len() > 36 => Json::from(value.kind()),
         Value::Array(a) if a.cols() == 1 => Json::from(a.entries()),
-        Value::Array(a) => a.entries().chunks(a.cols()).map(Json::from).collect(),
+        Value::Array(a) => a.entries().chunks(a.cols().max(1)).map(Json::from).collect(),
         other => Json::from(other.kind()),
     }
 }

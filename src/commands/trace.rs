@@ -86,10 +86,12 @@ fn finish(
         Err(failure) => Err(Error::Execution(failure)),
         Ok(product) if chosen.edited && !args.json => {
             let printed = chosen.which.under(&reading);
-            let (printed, _) =
-                trace::run(chosen.which, &printed, &settings(&reading), sheet, k_cnt, &mut ())
-                    .map_err(Error::Execution)?;
-            print(&report::changes(&printed, &product, sheet))
+            match trace::run(chosen.which, &printed, &settings(&reading), sheet, k_cnt, &mut ()) {
+                Ok((printed, _)) => print(&report::changes(&printed, &product, sheet)),
+                Err(why) => {
+                    print(&format!("\nThe edited listing runs; as printed it fails: {why}\n"))
+                }
+            }
         }
         Ok(_) => Ok(()),
     }
@@ -104,11 +106,12 @@ fn choose(name: &str, reading: &Reading) -> Result<Chosen, Error> {
         let what = format!("the listing cannot be read: {why}");
         InputError::new(name, what, "give c_cnt, Km, or the path of an edited listing")
     })?;
-    let which = Which::of(&text).ok_or_else(|| {
+    let text = text.trim_start_matches('\u{feff}');
+    let which = Which::of(text).ok_or_else(|| {
         let what = "the file begins with neither c_cnt nor Km";
         InputError::new(name, what, "keep the listing's first line")
     })?;
-    let listing = which.edited(&text).map_err(|error| {
+    let listing = which.edited(text).map_err(|error| {
         InputError::new(name, error.to_string(), "see the notation in listings/README.md")
     })?;
     Ok(Chosen { which, listing, edited: true })

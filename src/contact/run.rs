@@ -174,7 +174,12 @@ impl<'a> Run<'a> {
 
     fn iterate(&mut self, k: usize) -> Result<Iteration, Error> {
         let node_n = shape(self.sheet, &self.u);
-        let pairs = c_cnt(self.sheet, self.reading, &node_n)?;
+        let pairs = if self.sheet.cnt.rows() == 0 {
+            // Without contact nothing of contact is built: `c_cnt` is not called.
+            Pairs::none(self.sheet.R())
+        } else {
+            c_cnt(self.sheet, self.reading, &node_n)?
+        };
         let key: Vec<u64> = pairs.k_cnt.as_matrix().iter().map(|x| x.to_bits()).collect();
         let (cycle, solution) = match self.met.get(&key) {
             Some(met) => {

@@ -51,7 +51,12 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         y: &'r Expr,
         span: &Span,
     ) -> Fallible<Value> {
-        let (x, y) = (self.eval(x)?, self.eval(y)?);
+        let x = self.eval(x)?;
+        // The left operand counts as held while the right one is evaluated.
+        self.held += x.len();
+        let y = self.eval(y);
+        self.held -= x.len();
+        let y = y?;
         let result = if let (Value::Number(x), Value::Number(y)) = (&x, &y) {
             calculate(operation, *x, *y, self.settings).map(Value::Number)
         } else {

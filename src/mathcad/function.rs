@@ -42,6 +42,18 @@ impl Function<'_> {
 }
 
 impl<'r, O: Observer> Run<'r, '_, O> {
+    /// Evaluates arguments; each counts as held while the next is evaluated.
+    fn arguments(&mut self, arguments: &'r [Expr]) -> Fallible<Vec<Value>> {
+        let mut values = Vec::with_capacity(arguments.len());
+        for argument in arguments {
+            let value = self.eval(argument)?;
+            self.room(value.len())?;
+            self.held += value.len();
+            values.push(value);
+        }
+        Ok(values)
+    }
+
     /// Calls a function.
     pub(super) fn call(
         &mut self,
@@ -49,7 +61,10 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         arguments: &'r [Expr],
         span: &Span,
     ) -> Fallible<Value> {
-        let arguments = arguments.iter().map(|x| self.eval(x)).collect::<Fallible<Vec<_>>>()?;
+        let held = self.held;
+        let arguments = self.arguments(arguments);
+        self.held = held;
+        let arguments = arguments?;
         match &mut self.functions[slot] {
             None => Err(self.undefined(slot, span)),
             Some(Function::Identity) => self.identity(&arguments, span),

@@ -26,14 +26,19 @@ pub fn text(audit: &Audit, scene: &Scene) -> String {
 
 fn readings(effects: &[Effect]) -> String {
     let head = ["id", "reading", "lines", "dy changed", "MJS entries", "largest difference", "of"];
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = Vec::new();
     let rows: Vec<Vec<String>> = effects
         .iter()
         .map(|effect| {
             let remark = match (&effect.failure, effect.changes()) {
                 (Some(why), _) => {
-                    notes.push(format!("  ({}) {}", notes.len() + 1, first_line(why)));
-                    format!(": fails ({})", notes.len())
+                    let note = first_line(why).to_string();
+                    let known = notes.iter().position(|n| *n == note);
+                    let at = known.unwrap_or_else(|| {
+                        notes.push(note);
+                        notes.len() - 1
+                    });
+                    format!(": fails ({})", at + 1)
                 }
                 (None, true) => String::new(),
                 (None, false) => ": nothing depends on it".into(),
@@ -42,15 +47,15 @@ fn readings(effects: &[Effect]) -> String {
                 effect.id.into(),
                 effect.reading.clone(),
                 effect.lines.into(),
-                effect.statuses.to_string(),
-                effect.entries.to_string(),
+                effect.statuses.map_or("-".into(), |n| n.to_string()),
+                effect.entries.map_or("-".into(), |n| n.to_string()),
                 effect.displacement.map_or("-".into(), short),
                 effect.of.clone() + &remark,
             ]
         })
         .collect();
-    table(&head, rows.into_iter())
-        + &notes.iter().map(|note| format!("{note}\n")).collect::<String>()
+    let notes = notes.iter().enumerate().map(|(k, note)| format!("  ({}) {note}\n", k + 1));
+    table(&head, rows.into_iter()) + &notes.collect::<String>()
 }
 
 fn first_line(text: &str) -> &str {

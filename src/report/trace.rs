@@ -6,8 +6,9 @@ use serde_json::{Value as Json, json};
 
 use super::json::pairs_value;
 use crate::audit::listings::Which;
-use crate::audit::trace::{Access, Product, Step, Trace, text_of};
+use crate::audit::trace::{Access, MOST_STEPS, Product, Step, Trace, text_of};
 use crate::mathcad::Listing;
+use crate::mathcad::array::Table;
 use crate::mirror::{Pairs, Worksheet};
 
 /// The trace as text: the steps turn by turn, what `trace()` wrote, and what came out.
@@ -28,8 +29,36 @@ pub fn text(trace: &Trace, listing: &Listing, sheet: &Worksheet<f64>) -> String 
             .expect("a String takes any text");
         }
     }
+    text += &outside(trace, listing);
+    if trace.steps.len() == MOST_STEPS {
+        writeln!(text, "\n(only the first {MOST_STEPS} statements are shown)")
+            .expect("a String takes any text");
+    }
     if !trace.output.is_empty() {
         writeln!(text, "\ntrace() wrote: {}", trace.output.join(" | "))
+            .expect("a String takes any text");
+    }
+    text
+}
+
+/// The statements outside the turns, a line each: how often it was executed, and what it wrote last.
+fn outside(trace: &Trace, listing: &Listing) -> String {
+    let mut lines: Vec<(usize, usize, &Step)> = Vec::new();
+    for step in trace.steps.iter().filter(|step| step.turn.is_none()) {
+        match lines.iter_mut().find(|(line, _, _)| *line == step.line) {
+            Some((_, times, last)) => (*times, *last) = (*times + 1, step),
+            None => lines.push((step.line, 1, step)),
+        }
+    }
+    if lines.is_empty() {
+        return String::new();
+    }
+    let mut text = "\noutside these\n".to_string();
+    for (line, times, last) in lines {
+        let written = listed(&last.writes, " ← ");
+        let last = if written.is_empty() { String::new() } else { format!(", last ⇒ {written}") };
+        let printed = text_of(listing, line);
+        writeln!(text, "  {line:>2}  {printed}   ({times} times{last})")
             .expect("a String takes any text");
     }
     text
@@ -162,15 +191,15 @@ fn product_value(product: &Product) -> Json {
     match product {
         Product::Pairs(pairs) => pairs_value(pairs),
         Product::Matrix(matrix) => {
-            let entries = entries(matrix.rows(), |i, j| matrix[(i, j)]);
-            json!({ "rows": matrix.rows(), "entries": entries })
+            let entries = entries(matrix, |i, j| matrix[(i, j)]);
+            json!({ "rows": matrix.rows(), "cols": matrix.cols(), "entries": entries })
         }
     }
 }
 
 /// Entries that are not zero: row, column, value.
-fn entries(rows: usize, of: impl Fn(usize, usize) -> f64) -> Vec<(usize, usize, f64)> {
-    let places = (1..=rows).flat_map(|i| (1..=rows).map(move |j| (i, j)));
+fn entries(matrix: &Table<f64>, of: impl Fn(usize, usize) -> f64) -> Vec<(usize, usize, f64)> {
+    let places = (1..=matrix.rows()).flat_map(|i| (1..=matrix.cols()).map(move |j| (i, j)));
     places.map(|(i, j)| (i, j, of(i, j))).filter(|(_, _, x)| *x != 0.0).collect()
 }
 
@@ -178,8 +207,10 @@ fn entries(rows: usize, of: impl Fn(usize, usize) -> f64) -> Vec<(usize, usize, 
 pub fn changes(printed: &Product, edited: &Product, sheet: &Worksheet<f64>) -> String {
     let lines = match (printed, edited) {
         (Product::Pairs(a), Product::Pairs(b)) => pair_changes(a, b, sheet),
-        (Product::Matrix(a), Product::Matrix(b)) if a.rows() == b.rows() => {
-            let changed = entries(a.rows(), |i, j| b[(i, j)] - a[(i, j)]);
+        (Product::Matrix(a), Product::Matrix(b))
+            if (a.rows(), a.cols()) == (b.rows(), b.cols()) =>
+        {
+            let changed = entries(a, |i, j| b[(i, j)] - a[(i, j)]);
             let mut lines = vec![format!("{} entries of MJS", changed.len())];
             lines.extend(changed.iter().take(20).map(|(i, j, _)| {
                 format!("MJS[{i},{j}]: {} as printed, {} edited", a[(*i, *j)], b[(*i, *j)])

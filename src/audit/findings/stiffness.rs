@@ -199,13 +199,18 @@ pub(super) fn hinge(case: &Case) -> Measured {
         Err(failure) => return Measured::nothing(failure.to_string()),
     };
     let released = released(case, case.sheet.cnt[1]);
+    // Nothing where the scene has not so many nodes in contact.
     let singular = [1, 2].map(|count| {
-        let few = first_ties(&pairs, count);
-        DenseLu::new(Elimination::new(&released, &few).matrix(&k)).is_err()
+        let few = first_ties(&case.sheet, &pairs, count)?;
+        Some(DenseLu::new(Elimination::new(&released, &few).matrix(&k)).is_err())
     });
-    let most = singular.iter().rposition(|singular| *singular).map_or(0, |at| at + 1);
-    let [one, two] = singular.map(|singular| if singular { "singular" } else { "solvable" });
-    let verdict = if singular[0] { Verdict::Holds } else { Verdict::Contradicted };
+    let most = singular.iter().rposition(|singular| *singular == Some(true)).map_or(0, |at| at + 1);
+    let [one, two] = singular.map(|singular| match singular {
+        Some(true) => "singular",
+        Some(false) => "solvable",
+        None => "not in this scene",
+    });
+    let verdict = if singular[0] == Some(true) { Verdict::Holds } else { Verdict::Contradicted };
     let detail = format!("one linked node: {one}; two: {two}");
     Measured { verdict, number: most as f64, detail }
 }
@@ -221,12 +226,19 @@ fn released(case: &Case, node: usize) -> Worksheet<f64> {
     sheet
 }
 
-/// The pairs with only the first `count` contact nodes in contact.
-fn first_ties(pairs: &Pairs<f64>, count: usize) -> Pairs<f64> {
+/// The pairs with only the first `count` different contact nodes in contact; nothing where there are fewer.
+fn first_ties(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, count: usize) -> Option<Pairs<f64>> {
     let mut few = pairs.clone();
-    let in_contact = (1..=pairs.dy.rows()).filter(|&i1| pairs.dy[i1] == 1);
-    in_contact.skip(count).for_each(|i1| few.dy[i1] = 0);
-    few
+    let mut kept: Vec<usize> = Vec::new();
+    for i1 in (1..=pairs.dy.rows()).filter(|&i1| pairs.dy[i1] == 1) {
+        let node = sheet.cnt[i1];
+        if kept.len() < count && !kept.contains(&node) {
+            kept.push(node);
+        } else if !kept.contains(&node) {
+            few.dy[i1] = 0;
+        }
+    }
+    (kept.len() == count).then_some(few)
 }
 
 /// `Km` without contact and without restraints.
