@@ -22,9 +22,11 @@ pub enum Which {
     Km,
 }
 
-/// Limits of an execution: the assembly of 10,000 nodes takes some 10 million steps beside its arrays.
-const LIMITS: Limits =
-    Limits { lines: 1_000, characters: 2_000, depth: 64, entries: 1 << 27, steps: 1 << 29 };
+/// Limits of an execution: 16 million steps, and what arrays of the size of MJS ask for (a step an entry and operation).
+fn limits(sheet: &Worksheet<f64>) -> Limits {
+    let matrix = 4 * sheet.R() as u64 * sheet.R() as u64;
+    Limits { steps: (1 << 24) + 8 * matrix, entries: 1 << 27, ..Limits::default() }
+}
 
 /// What an execution leaves besides the values: the lines that `trace` wrote.
 pub type Traced<T> = Result<(T, Vec<String>), Box<Failure>>;
@@ -127,7 +129,7 @@ pub fn c_cnt<O: Observer>(
     node_n: &Table<f64>,
     observer: &mut O,
 ) -> Traced<Pairs<f64>> {
-    let mut runner = listing.runner(settings, &LIMITS);
+    let mut runner = listing.runner(settings, &limits(sheet));
     define(&mut runner, sheet);
     let outcome = runner.call_observed(&[Value::from(node_n)], observer)?;
     let column = |name: &'static str| -> Result<Column<f64>, Box<Failure>> {
@@ -162,7 +164,7 @@ pub fn km<O: Observer>(
     k_cnt: &Table<f64>,
     observer: &mut O,
 ) -> Traced<Table<f64>> {
-    let mut runner = listing.runner(settings, &LIMITS);
+    let mut runner = listing.runner(settings, &limits(sheet));
     define(&mut runner, sheet);
     let outcome = runner.call_observed(&[Value::from(k_cnt)], observer)?;
     let matrix = Table::try_from(&outcome.value)
