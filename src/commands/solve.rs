@@ -6,7 +6,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use plane_contact::contact::{self, Variant};
 use plane_contact::error::Error;
-use plane_contact::report::{folder, json, tables};
+use plane_contact::report::{folder, tables};
 use plane_contact::scene::Scene;
 
 use super::{ReadingArg, print};
@@ -47,9 +47,9 @@ pub fn run(args: &Args) -> Result<(), Error> {
     progress.finish_and_clear();
     let default = || PathBuf::from("out").join(format!("{}-{variant}", scene.name));
     let out = args.out.clone().unwrap_or_else(default);
-    folder::write(&out, &scene, &outcome)?;
+    let result = folder::write(&out, &scene, &outcome)?;
     if args.json {
-        return print(&json::result(&scene, &outcome));
+        return print(&result);
     }
     print(&format!("{}\nWritten to {}\n", tables::solution(&scene, &outcome), out.display()))
 }

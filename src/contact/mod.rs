@@ -6,6 +6,6 @@ mod summary;
 mod variant;
 
 pub use elimination::{Elimination, Tie, interpolations, ties};
-pub use run::{Cycle, Iteration, Outcome, max_displacement, run};
+pub use run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, run, shape};
 pub use summary::{BodySummary, summaries};
 pub use variant::{Coupling, Variant};

@@ -16,7 +16,9 @@ use super::variant::{Coupling, Variant};
 use crate::element::State;
 use crate::error::{Error, InputError, SingularMatrix};
 use crate::mathcad::array::{Column, Table};
-use crate::mirror::{Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet, c_cnt};
+use crate::mirror::{
+    Failure, Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet, c_cnt,
+};
 use crate::scene::Scene;
 use crate::solve::{DenseLu, memory};
 
@@ -263,7 +265,7 @@ impl<'a> Run<'a> {
         pivot: f64,
     ) -> SingularMatrix {
         let node = equation / 2 + 1;
-        let body = self.scene.bodies.iter().find(|b| b.nodes.binary_search(&node).is_ok());
+        let body = self.scene.body_of(node);
         SingularMatrix {
             variant: self.variant.name(),
             iteration,
@@ -311,15 +313,17 @@ impl<'a> Run<'a> {
     }
 }
 
-/// `Km` without contact and without restraints.
-fn free_stiffness(sheet: &Worksheet<f64>, reading: &Reading) -> Result<Table<f64>, Error> {
-    let mut free = sheet.clone();
-    free.S = Column::filled(2 * sheet.R(), 0);
-    Ok(Km(&free, reading, &Table::filled(sheet.R(), 4, 0.0))?)
+/// `Km` without contact and without restraints: 2R x 2R, force/length.
+///
+/// # Errors
+/// An overflow.
+pub fn free_stiffness(sheet: &Worksheet<f64>, reading: &Reading) -> Result<Table<f64>, Failure> {
+    let free = Worksheet { S: Column::filled(2 * sheet.R(), 0), ..sheet.clone() };
+    Km(&free, reading, &Table::filled(sheet.R(), 4, 0.0))
 }
 
-/// node_n = node + U.
-fn shape(sheet: &Worksheet<f64>, u: &DVector<f64>) -> Table<f64> {
+/// node_n = node + U: R x 4, length.
+pub fn shape(sheet: &Worksheet<f64>, u: &DVector<f64>) -> Table<f64> {
     let mut node_n = sheet.node.clone();
     for n in 1..=sheet.R() {
         node_n[(n, 2)] += u[2 * n - 2];

@@ -11,11 +11,12 @@ use crate::error::InputError;
 use crate::mirror::Worksheet;
 use crate::scene::Scene;
 
-/// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu` and `result.json` to `folder`.
+/// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu` and `result.json` to `folder`; gives back the
+/// last one's content.
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), InputError> {
+pub fn write(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<String, InputError> {
     let shown = Shown::new(scene, &outcome.sheet);
     let displacement: Vec<[f64; 2]> =
         outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect();
@@ -31,9 +32,11 @@ pub fn write(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<(), Inpu
         ("von_mises_stress.svg", field("von Mises stress", &scene.units.stress, &stress)),
         ("von_mises_strain.svg", field("von Mises strain", "1", &strain)),
         ("fields.vtu", shown.vtu(outcome)),
-        ("result.json", json::result(scene, outcome)),
     ];
-    files.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))
+    files.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))?;
+    let result = json::result(scene, outcome);
+    files::write(&folder.join("result.json"), &result)?;
+    Ok(result)
 }
 
 fn values(outcome: &Outcome, of: impl Fn(&State) -> f64) -> Vec<f64> {

@@ -156,7 +156,11 @@ impl Scene {
     /// The body that carries the target surface; none without contact.
     pub fn target(&self) -> Option<&Body> {
         let trg = self.sheet.trg.iter().next()?;
-        let node = self.sheet.elem[(*trg, 6)];
+        self.body_of(self.sheet.elem[(*trg, 6)])
+    }
+
+    /// The body that has node `node`.
+    pub fn body_of(&self, node: usize) -> Option<&Body> {
         self.bodies.iter().find(|body| body.nodes.binary_search(&node).is_ok())
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Measured, Verdict};
 use crate::audit::Case;
-use crate::contact::Variant;
+use crate::contact::{self, Variant};
 use crate::mathcad::array::Table;
 use crate::mirror::{Failure, Km, Pairs, Reading, Worksheet};
 
@@ -59,11 +59,7 @@ fn shapes(case: &Case) -> Vec<(String, Table<f64>)> {
     let mut shapes = vec![("initial shape".to_string(), case.sheet.node.clone())];
     for variant in Variant::ALL {
         if let Ok(outcome) = case.run(*variant) {
-            let moved = |n: usize, j: usize| match j {
-                2 | 3 => case.sheet.node[(n, j)] + outcome.u[2 * n + j - 4],
-                _ => case.sheet.node[(n, j)],
-            };
-            let node_n = Table::from_fn(case.sheet.R(), 4, moved);
+            let node_n = contact::shape(&case.sheet, &outcome.u);
             shapes.push((format!("last shape of {variant}"), node_n));
         }
     }

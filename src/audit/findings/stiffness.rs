@@ -1,12 +1,10 @@
 //! Findings of the stiffness matrix, `Km`, and of the iterations.
 
-use nalgebra::DMatrix;
-
 use super::experiment::{ROUNDING, at_shapes, c_cnt, contact_nodes, first_in_contact, mjs};
 use super::geometry::away;
 use super::{Measured, Verdict};
 use crate::audit::Case;
-use crate::contact::{Elimination, Variant, max_displacement};
+use crate::contact::{Elimination, Variant, free_stiffness, max_displacement};
 use crate::mathcad::array::{Column, Table};
 use crate::mirror::{Failure, Km, Pairs, Reading, Worksheet};
 use crate::scene::Body;
@@ -169,14 +167,15 @@ pub(super) fn cycle(case: &Case) -> Measured {
 /// K9: nodes that eq. (1) holds on the target with a pull, at the end of `stepped`.
 pub(super) fn pulls(case: &Case) -> Measured {
     let sheet = &case.sheet;
-    let (outcome, k) = match (case.run(Variant::Stepped), free_stiffness(sheet)) {
-        (Ok(outcome), Ok(k)) => (outcome, k),
-        (Err(error), _) => return Measured::nothing(error.to_string()),
-        (_, Err(failure)) => return Measured::nothing(failure.to_string()),
-    };
+    let (outcome, k) =
+        match (case.run(Variant::Stepped), free_stiffness(sheet, &Reading::default())) {
+            (Ok(outcome), Ok(k)) => (outcome, k),
+            (Err(error), _) => return Measured::nothing(error.to_string()),
+            (_, Err(failure)) => return Measured::nothing(failure.to_string()),
+        };
     let Some(last) = outcome.iterations.last() else { return Measured::nothing("no iteration") };
     // What eq. (1) adds at each equation; at a held one it cannot be told from the support's reaction.
-    let tie = k * &outcome.u - &case.scene.load;
+    let tie = k.as_matrix() * &outcome.u - &case.scene.load;
     let rounding = ROUNDING * tie.amax();
     let push = |i1: usize| {
         let away = away(sheet, &sheet.node, last.pairs.ct[i1]).unwrap_or_default();
@@ -194,7 +193,7 @@ pub(super) fn pulls(case: &Case) -> Measured {
 /// K6: the stamp released from its restraints, eq. (1) on one and on two of its nodes in contact.
 pub(super) fn hinge(case: &Case) -> Measured {
     let Some((_, pairs)) = first_in_contact(case) else { return Measured::nothing("no contact") };
-    let k = match free_stiffness(&case.sheet) {
+    let k = match free_stiffness(&case.sheet, &Reading::default()) {
         Ok(k) => k,
         Err(failure) => return Measured::nothing(failure.to_string()),
     };
@@ -202,7 +201,7 @@ pub(super) fn hinge(case: &Case) -> Measured {
     // Nothing where the scene has not so many nodes in contact.
     let singular = [1, 2].map(|count| {
         let few = first_ties(&case.sheet, &pairs, count)?;
-        Some(DenseLu::new(Elimination::new(&released, &few).matrix(&k)).is_err())
+        Some(DenseLu::new(Elimination::new(&released, &few).matrix(k.as_matrix())).is_err())
     });
     let most = singular.iter().rposition(|singular| *singular == Some(true)).map_or(0, |at| at + 1);
     let [one, two] = singular.map(|singular| match singular {
@@ -218,8 +217,7 @@ pub(super) fn hinge(case: &Case) -> Measured {
 /// The arrays with the body of `node` held by nothing.
 fn released(case: &Case, node: usize) -> Worksheet<f64> {
     let mut sheet = case.sheet.clone();
-    let body = case.scene.bodies.iter().find(|body| body.nodes.contains(&node));
-    for n in body.into_iter().flat_map(|body| &body.nodes) {
+    for n in case.scene.body_of(node).into_iter().flat_map(|body| &body.nodes) {
         sheet.S[2 * n - 1] = 0;
         sheet.S[2 * n] = 0;
     }
@@ -239,10 +237,4 @@ fn first_ties(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, count: usize) -> Optio
         }
     }
     (kept.len() == count).then_some(few)
-}
-
-/// `Km` without contact and without restraints.
-fn free_stiffness(sheet: &Worksheet<f64>) -> Result<DMatrix<f64>, Failure> {
-    let free = Worksheet { S: Column::filled(2 * sheet.R(), 0), ..sheet.clone() };
-    Ok(Km(&free, &Reading::default(), &Table::filled(sheet.R(), 4, 0.0))?.into_matrix())
 }
