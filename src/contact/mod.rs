@@ -1,6 +1,8 @@
 //! Contact: how the pairs that `c_cnt` finds enter the equations, and the iterations; and the converged answer beside them.
 
+mod distance;
 mod elimination;
+mod hertz;
 mod pairing;
 mod pressure;
 mod published;
@@ -11,7 +13,9 @@ mod support;
 mod unilateral;
 mod variant;
 
+pub use distance::{BodyDistance, Distance, distance, reference};
 pub use elimination::{Elimination, Motion, Tie, interpolations, ties};
+pub use hertz::Hertz;
 pub use pairing::{Coupling, Pairing, Surfaces};
 pub use pressure::ContactNode;
 pub use run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, run, shape};
