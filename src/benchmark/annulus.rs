@@ -58,7 +58,8 @@ impl Annulus {
             "units": { "length": "mm", "stress": "MPa", "force": "N" },
             "materials": { "wall": { "E": 30000.0, "nu": 0.2 } },
             "restraints": [{ "on": "x_axis", "fix": ["y"] }, { "on": "y_axis", "fix": ["x"] }],
-            "loads": [{ "on": "inner", "pressure": 10.0 }]
+            "loads": [{ "on": "inner", "pressure": 10.0 }],
+            "variant": "unilateral"
         });
         Ok(Benchmark::new("annulus", builder.finish(), scene))
     }

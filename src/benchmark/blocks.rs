@@ -75,6 +75,7 @@ fn scene() -> serde_json::Value {
             { "on": "upper_left", "fix": ["x"] }
         ],
         "loads": [{ "on": "top", "pressure": 6.3 }],
-        "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001 }
+        "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001, "coupling": "mortar", "friction": 0 },
+        "variant": "unilateral"
     })
 }

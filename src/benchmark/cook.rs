@@ -51,7 +51,8 @@ impl Cook {
             "plane": "stress",
             "materials": { "membrane": { "E": 1.0, "nu": 1.0 / 3.0 } },
             "restraints": [{ "on": "left", "fix": ["x", "y"] }],
-            "loads": [{ "on": "right", "traction": [0.0, 1.0 / 16.0] }]
+            "loads": [{ "on": "right", "traction": [0.0, 1.0 / 16.0] }],
+            "variant": "unilateral"
         });
         Ok(Benchmark::new("cook", builder.finish(), scene))
     }

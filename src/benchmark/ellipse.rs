@@ -60,7 +60,8 @@ impl Ellipse {
             "units": { "length": "m", "stress": "MPa", "force": "MN" },
             "materials": { "membrane": { "E": 210000.0, "nu": 0.3 } },
             "restraints": [{ "on": "x_axis", "fix": ["y"] }, { "on": "y_axis", "fix": ["x"] }],
-            "loads": [{ "on": "outer", "pressure": -10.0 }]
+            "loads": [{ "on": "outer", "pressure": -10.0 }],
+            "variant": "unilateral"
         });
         Ok(Benchmark::new("ellipse", builder.finish(), scene))
     }

@@ -147,7 +147,8 @@ impl Hertz {
                 { "on": "cylinder_axis", "fix": ["x"] }
             ],
             "loads": [{ "node": top, "force": [0.0, -self.load / 2.0] }],
-            "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001 }
+            "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001, "coupling": "mortar", "friction": 0 },
+        "variant": "unilateral"
         })
     }
 }
@@ -157,8 +158,8 @@ fn join_to_corner(builder: &mut Builder, rows: &[Vec<usize>], ellipses: usize, c
     builder.join_all("block", &rows[..ellipses]);
     for pair in rows[ellipses - 1..].windows(2) {
         let backwards = |row: &[usize]| row.iter().rev().copied().collect::<Vec<_>>();
-        builder.join("block", &pair[0][..=corner], &pair[1][..=corner]);
-        builder.join("block", &backwards(&pair[0][corner..]), &backwards(&pair[1][corner..]));
+        builder.join("block", &backwards(&pair[0][..=corner]), &backwards(&pair[1][..=corner]));
+        builder.join("block", &pair[0][corner..], &pair[1][corner..]);
     }
 }
 

@@ -67,7 +67,8 @@ fn scene(loads: Vec<Value>) -> Value {
         "plane": "stress",
         "materials": { "sheet": { "E": 1000.0, "nu": 0.3 } },
         "restraints": [{ "on": "x_axis", "fix": ["y"] }, { "on": "y_axis", "fix": ["x"] }],
-        "loads": loads
+        "loads": loads,
+        "variant": "unilateral"
     })
 }
 

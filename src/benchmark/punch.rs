@@ -86,6 +86,7 @@ fn scene() -> serde_json::Value {
             { "on": "punch_axis", "fix": ["x"] }
         ],
         "loads": [{ "on": "top", "pressure": 1.0 }],
-        "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001 }
+        "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001, "coupling": "mortar", "friction": 0 },
+        "variant": "unilateral"
     })
 }

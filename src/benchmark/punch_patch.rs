@@ -103,7 +103,8 @@ impl PunchPatch {
                 { "on": "free_left", "pressure": p },
                 { "on": "free_right", "pressure": p }
             ],
-            "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001 }
+            "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001, "coupling": "mortar", "friction": 0 },
+        "variant": "unilateral"
         })
     }
 }
