@@ -37,6 +37,7 @@ enum Command {
     Audit(commands::audit::Args),
     CCnt(commands::c_cnt::Args),
     Km(commands::km::Args),
+    Mesh(commands::mesh::Args),
     Trace(commands::trace::Args),
 }
 
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         Command::Audit(args) => commands::audit::run(&args),
         Command::CCnt(args) => commands::c_cnt::run(&args),
         Command::Km(args) => commands::km::run(&args),
+        Command::Mesh(args) => commands::mesh::run(&args),
         Command::Trace(args) => commands::trace::run(&args),
     };
     match result {

@@ -3,6 +3,7 @@
 pub mod audit;
 pub mod c_cnt;
 pub mod km;
+pub mod mesh;
 pub mod solve;
 pub mod trace;
 
