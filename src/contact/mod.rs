@@ -21,4 +21,4 @@ pub use pressure::ContactNode;
 pub use run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, run, shape};
 pub use stiffness::Stiffness;
 pub use summary::{BodySummary, summaries};
-pub use variant::{Friction, Model, Variant};
+pub use variant::{Friction, Geometry, Model, Variant};
