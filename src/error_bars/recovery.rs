@@ -32,9 +32,7 @@ pub fn recover(patches: &Patches, stresses: &[Stress]) -> Vec<Option<Stress>> {
     (0..patches.points.len())
         .map(|site| match &own[site] {
             Some(polynomial) => Some(polynomial.at(patches.points[site])),
-            None => {
-                nearest(patches, &own, site).or_else(|| enlarged(patches, stresses, site))
-            }
+            None => nearest(patches, &own, site).or_else(|| enlarged(patches, stresses, site)),
         })
         .collect()
 }
@@ -42,10 +40,8 @@ pub fn recover(patches: &Patches, stresses: &[Stress]) -> Vec<Option<Stress>> {
 /// The polynomials of the nearest sites that have one, read at `site`: their mean.
 fn nearest(patches: &Patches, own: &[Option<Linear>], site: usize) -> Option<Stress> {
     let read = |ring: &[usize]| {
-        let values: Vec<Stress> = ring
-            .iter()
-            .filter_map(|&s| Some(own[s].as_ref()?.at(patches.points[site])))
-            .collect();
+        let values: Vec<Stress> =
+            ring.iter().filter_map(|&s| Some(own[s].as_ref()?.at(patches.points[site]))).collect();
         (!values.is_empty()).then(|| values.iter().sum::<Stress>() / values.len() as f64)
     };
     Rings::new(patches, site).find_map(|ring| read(&ring))

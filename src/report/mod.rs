@@ -10,5 +10,6 @@ pub mod matrix_market;
 pub mod picture;
 pub mod tables;
 pub mod trace;
+pub mod uncertain;
 pub mod vtu;
 mod xml;

@@ -64,6 +64,26 @@ pub const BALANCE: Tolerance =
 pub const FINDING: Tolerance =
     tolerance(1e-12, "a handful of operations, and LU of a few equations, on numbers of order 1");
 
+/// Least effectivity, estimated / true error in the energy norm, of the discretisation error bar on smooth fields.
+pub const EFFECTIVITY_LOW: Tolerance = tolerance(
+    0.8,
+    "the issue's own number; 0.88 is measured on the coarsest mesh, 0.97 and more on the finest",
+);
+
+/// Largest effectivity.
+pub const EFFECTIVITY_HIGH: Tolerance =
+    tolerance(1.3, "the issue's own number; below 1 is measured everywhere");
+
+/// Widest bar of a largest von Mises stress, against the true stress error in the triangle that has it.
+pub const BAR_WIDTH: Tolerance = tolerance(
+    4.0,
+    "a safety factor of 2, and as much again for the worst of a dozen neighbours standing in for one triangle",
+);
+
+/// Errors of a field that the triangle represents, relative to the field.
+pub const CONSTANT_FIELD: Tolerance =
+    tolerance(1e-12, "LU of 100 equations of condition 1e3: 1e-16 times it, and a decade of room");
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {
