@@ -30,8 +30,9 @@ use super::recovery::{Stress, recover};
 use crate::element::State;
 use crate::mirror::{Plane, Worksheet};
 
-/// By how much d_e may underrate the true error near the largest stress. On 400 random polynomial fields, meshes of 12 to 200
-/// cells, 1.62 was needed: at the corner of a body with one triangle in it.
+/// By how much d_e may underrate the true error near the largest stress: it is an estimate, not a bound. Chosen on 400 random
+/// polynomial fields (1.62 would have held them all) and then tried on 4,000 others, on four domains and 24 to 400 triangles: 1.1 %
+/// of the bars missed; where [`Discretisation::relative`] is at most 0.2, 0.13 %, and where at most 0.1, none.
 const SAFETY: f64 = 2.0;
 
 /// What the mesh does to a solution.
@@ -58,7 +59,7 @@ pub struct LargestVonMises {
     pub at: usize,
     /// The largest of the recovered stresses: as a rule nearer to the truth than `value`. Stress.
     pub recovered: f64,
-    /// The true largest value lies within `value` ± `bar`; infinite where nothing is known. Stress.
+    /// The true largest value is expected within `value` ± `bar`; infinite where nothing is known. Stress.
     pub bar: f64,
 }
 

@@ -80,6 +80,14 @@ pub const BAR_WIDTH: Tolerance = tolerance(
     "a safety factor of 2, and as much again for the worst of a dozen neighbours standing in for one triangle",
 );
 
+/// Part of the bars of largest von Mises stresses that may miss the truth on random fields and meshes.
+pub const BARS_MISSED: Tolerance =
+    tolerance(0.03, "1.1 % of 4,000 such cases missed, 512 cases scatter");
+
+/// The same where the estimated relative error in the energy norm is at most 0.2.
+pub const BARS_MISSED_ON_FAIR_MESHES: Tolerance =
+    tolerance(0.01, "0.13 % of 3,168 such cases missed, by at most 9 %; some 400 cases scatter");
+
 /// Errors of a field that the triangle represents, relative to the field.
 pub const CONSTANT_FIELD: Tolerance =
     tolerance(1e-12, "LU of 100 equations of condition 1e3: 1e-16 times it, and a decade of room");
