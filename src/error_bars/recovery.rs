@@ -106,6 +106,9 @@ impl Linear {
         let origin = triangles.iter().map(centre).sum::<Vector2<f64>>() / count;
         let mean = triangles.iter().map(|&t| stresses[t]).sum::<Stress>() / count;
         let size = triangles.iter().map(|t| (centre(t) - origin).norm()).fold(0.0, f64::max);
+        if size == 0.0 {
+            return None;
+        }
         // About the mean point the constant and the slopes separate: slope · G = H.
         let (mut g, mut h) = (Matrix2::zeros(), SMatrix::<f64, 3, 2>::zeros());
         for t in triangles {
@@ -114,7 +117,7 @@ impl Linear {
             h += (stresses[*t] - mean) * d.transpose();
         }
         let moments = g.symmetric_eigenvalues();
-        if !(moments.min() > COLLINEAR * moments.max()) {
+        if moments.min() <= COLLINEAR * moments.max() {
             return None;
         }
         Some(Linear { origin, size, mean, slope: h * g.try_inverse()? })

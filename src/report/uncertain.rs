@@ -16,11 +16,8 @@ pub fn uncertain(value: f64, unit: &str, bars: &[(f64, &str)]) -> String {
     if !value.is_finite() || bars.iter().any(|(bar, _)| !bar.is_finite()) {
         let words: Vec<String> =
             bars.iter().map(|(bar, name)| named(*bar, false, "", name)).collect();
-        return format!(
-            "about {}{unit}, {}",
-            at_place(value, exponent(value) - 1),
-            words.join(", ")
-        );
+        let place = if value == 0.0 { 0 } else { exponent(value) - 1 };
+        return format!("about {}{unit}, {}", at_place(value, place), words.join(", "));
     }
     let largest = bars.iter().map(|(bar, _)| bar.abs()).fold(0.0, f64::max);
     let shown = match Rounded::up(largest, true) {
