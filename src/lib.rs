@@ -31,6 +31,7 @@ mod choices;
 pub mod contact;
 pub mod element;
 pub mod error;
+pub mod error_bars;
 pub mod mathcad;
 pub mod mirror;
 pub mod report;

@@ -11,5 +11,6 @@ pub mod picture;
 pub mod pressure;
 pub mod tables;
 pub mod trace;
+pub mod uncertain;
 pub mod vtu;
 mod xml;
