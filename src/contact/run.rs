@@ -12,13 +12,12 @@ use nalgebra::{DVector, SVector};
 use serde::Serialize;
 
 use super::elimination::{Elimination, Tie, interpolations, ties};
+use super::status::{self, StatusRule};
 use super::variant::{Coupling, Variant};
 use crate::element::State;
 use crate::error::{Error, InputError, SingularMatrix};
 use crate::mathcad::array::{Column, Table};
-use crate::mirror::{
-    Failure, Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet, c_cnt,
-};
+use crate::mirror::{Failure, Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet};
 use crate::scene::Scene;
 use crate::solve::{DenseLu, memory};
 
@@ -85,12 +84,26 @@ pub fn run(
     scene: &Scene,
     variant: Variant,
     reading: &Reading,
+    watch: impl FnMut(&Iteration),
+) -> Result<Outcome, Error> {
+    run_by(StatusRule::Signs, scene, variant, reading, watch)
+}
+
+/// As [`run`], the status of contact nodes decided by `rule`.
+///
+/// # Errors
+/// As those of [`run`].
+pub fn run_by(
+    rule: StatusRule,
+    scene: &Scene,
+    variant: Variant,
+    reading: &Reading,
     mut watch: impl FnMut(&Iteration),
 ) -> Result<Outcome, Error> {
     let sheet = scene.worksheet(reading)?;
     memory::check(sheet.R(), memory::OF_A_SOLUTION, memory::free())?;
     let schedule = variant.schedule(reading);
-    let mut run = Run::new(scene, &sheet, variant, reading, schedule)?;
+    let mut run = Run { rule, ..Run::new(scene, &sheet, variant, reading, schedule)? };
     let mut iterations: Vec<Iteration> = Vec::new();
     for k in 1..=scene.iterations {
         let iteration = run.iterate(k)?;
@@ -108,6 +121,7 @@ struct Run<'a> {
     scene: &'a Scene,
     sheet: &'a Worksheet<f64>,
     variant: Variant,
+    rule: StatusRule,
     reading: &'a Reading,
     schedule: Schedule,
     /// `Km` without contact and without restraints.
@@ -162,6 +176,7 @@ impl<'a> Run<'a> {
             scene,
             sheet,
             variant,
+            rule: StatusRule::Signs,
             reading,
             schedule,
             k,
@@ -180,7 +195,7 @@ impl<'a> Run<'a> {
             // Without contact nothing of contact is built: `c_cnt` is not called.
             Pairs::none(self.sheet.R())
         } else {
-            c_cnt(self.sheet, self.reading, &node_n)?
+            status::pairs(self.rule, self.sheet, self.reading, &node_n)?
         };
         let key: Vec<u64> = pairs.k_cnt.as_matrix().iter().map(|x| x.to_bits()).collect();
         let (cycle, solution) = match self.met.get(&key) {
