@@ -37,6 +37,7 @@ enum Command {
     Audit(commands::audit::Args),
     CCnt(commands::c_cnt::Args),
     Km(commands::km::Args),
+    Statuses(commands::statuses::Args),
     Trace(commands::trace::Args),
 }
 
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         Command::Audit(args) => commands::audit::run(&args),
         Command::CCnt(args) => commands::c_cnt::run(&args),
         Command::Km(args) => commands::km::run(&args),
+        Command::Statuses(args) => commands::statuses::run(&args),
         Command::Trace(args) => commands::trace::run(&args),
     };
     match result {

@@ -4,6 +4,7 @@ pub mod audit;
 pub mod c_cnt;
 pub mod km;
 pub mod solve;
+pub mod statuses;
 pub mod trace;
 
 use std::io::Write;

@@ -8,6 +8,7 @@ pub mod folder;
 pub mod json;
 pub mod matrix_market;
 pub mod picture;
+pub mod statuses;
 pub mod tables;
 pub mod trace;
 pub mod vtu;
