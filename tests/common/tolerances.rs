@@ -64,6 +64,10 @@ pub const BALANCE: Tolerance =
 pub const FINDING: Tolerance =
     tolerance(1e-12, "a handful of operations, and LU of a few equations, on numbers of order 1");
 
+/// A foot, its distance and its normal against the closed form, relative to coordinates of order 1.
+pub const FOOT: Tolerance =
+    tolerance(1e-14, "a dozen roundings of 1e-16, of turned coordinates too");
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {
