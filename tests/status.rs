@@ -3,9 +3,9 @@
 mod common;
 
 use common::tolerances::{FOOT, assert_near};
-use plane_contact::audit::statuses::{Measurement, measure};
+use plane_contact::audit::statuses::{Measurement, Row, measure};
 use plane_contact::contact::{
-    Operations, Outcome, StatusRule, TargetSurface, Variant, pairs, run, run_by, statuses,
+    Operations, Outcome, StatusRule, TargetSurface, Variant, pairs, run, run_by, shape, statuses,
     summaries,
 };
 use plane_contact::mathcad::array::{Column, Table};
@@ -93,10 +93,10 @@ const VALLEY: &[[f64; 2]] = &[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]];
 const SLOPE: &[[f64; 2]] = &[[-2.0, -0.4], [2.0, 0.4]];
 
 /// Name, chain, contact node; statuses by signs, intersection, projection.
-type Row = (&'static str, &'static [[f64; 2]], [f64; 2], [usize; 3]);
+type Case = (&'static str, &'static [[f64; 2]], [f64; 2], [usize; 3]);
 
 /// Nodes farther than c_tll from the surface: here line 16 has no say.
-const FAR: &[Row] = &[
+const FAR: &[Case] = &[
     ("above", FLAT, [0.3, 0.5], [0, 0, 0]),
     ("deep", FLAT, [0.3, -0.1], [0, 1, 1]),
     ("deep under a node of the surface", FLAT, [0.0, -0.1], [0, 1, 1]),
@@ -113,7 +113,7 @@ const FAR: &[Row] = &[
 ];
 
 /// Nodes no farther than c_tll.
-const NEAR: &[Row] = &[
+const NEAR: &[Case] = &[
     ("within c_tll", FLAT, [0.3, 0.0005], [1, 1, 1]),
     ("on the surface", FLAT, [0.3, 0.0], [1, 1, 1]),
     ("just inside", FLAT, [0.3, -0.0005], [1, 1, 1]),
@@ -285,4 +285,139 @@ fn weights_are_those_of_the_listing() {
             assert_eq!(found.k_cnt, printed.k_cnt, "{rule}, {:?}", reading.r5 == NodeTable::Node);
         }
     }
+}
+
+/// The paper's example with a duct of radius `duct` instead of 7.7 mm: the block's nodes move outwards along their radius, less and less
+/// to the block's sides, and the stamp is let down so that it touches the duct's lowest point.
+fn wider_duct(duct: f64) -> Scene {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/strand");
+    let mesh = std::fs::read_to_string(format!("{folder}/strand.msh")).unwrap();
+    let scene = std::fs::read(format!("{folder}/scene.json")).unwrap();
+    let original = Scene::open("strand").unwrap();
+    let block = original.target().unwrap();
+    let (before, rest) = mesh.split_once("$Nodes\n").unwrap();
+    let (nodes, after) = rest.split_once("$EndNodes").unwrap();
+    let moved: Vec<String> = nodes.lines().map(|line| moved(line, &block.nodes, duct)).collect();
+    let mesh = format!("{before}$Nodes\n{}\n$EndNodes{after}", moved.join("\n"));
+    Scene::build("wide", &scene, |_| Ok(mesh.clone().into_bytes()))
+        .expect("the wider duct is sound")
+}
+
+fn moved(line: &str, block: &[usize], duct: f64) -> String {
+    let fields: Vec<f64> = line.split(' ').map(|field| field.parse().unwrap()).collect();
+    let [number, x, y, z] = fields[..] else { return line.into() };
+    if !block.contains(&(number as usize)) {
+        return format!("{number} {x} {} {z}", y - (duct - 7.7));
+    }
+    let (radius, side) = (x.hypot(y), 25.0);
+    let border = side * radius / x.abs().max(y.abs());
+    let scale = (border - (border - radius) * (border - duct) / (border - 7.7)) / radius;
+    format!("{number} {} {} {z}", x * scale, y * scale)
+}
+
+fn stepped(rule: StatusRule, scene: &Scene) -> Outcome {
+    run_by(rule, scene, Variant::Stepped, &Reading::default(), |_| ()).expect("the variant runs")
+}
+
+/// Where a node passes c_tll between two steps the sign rule loses it for a while, its contact set comes and goes, and what bears the load
+/// is pressed harder (C4, C9). By projection the set only grows, and nothing is left inside the block.
+#[test]
+fn in_a_wider_duct_stepped_differs_by_rule() {
+    let counts = |outcome: &Outcome| -> Vec<usize> {
+        outcome.iterations.iter().map(|iteration| iteration.in_contact).collect()
+    };
+    for (duct, by_signs, by_projection) in [
+        (8.0, [2, 2, 3, 3, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5], [3; 4].as_slice()),
+        (8.1, [3, 3, 5, 5, 5, 5, 5, 4, 4, 5, 5, 4, 4, 5, 5, 4, 4, 5, 5, 4], [3; 8].as_slice()),
+    ] {
+        let scene = wider_duct(duct);
+        let [signs, projection] =
+            [StatusRule::Signs, StatusRule::Projection].map(|rule| stepped(rule, &scene));
+        assert_eq!(counts(&signs), by_signs, "{duct}");
+        let found = counts(&projection);
+        let (start, end) = found.split_at(by_projection.len());
+        assert_eq!((start, end), (by_projection, [5].repeat(end.len()).as_slice()), "{duct}");
+        assert_near("deepest node", deepest(&projection), 0.0, 10.0, &FOOT);
+        assert!(deepest(&signs) < -0.2 * C, "{duct}: {}", deepest(&signs));
+        let [more, less] =
+            [&signs, &projection].map(|it| summaries(&scene, it)[0].max_von_mises_stress);
+        assert!(more > 1.05 * less, "{duct}: {more} and {less}");
+    }
+}
+
+/// Smallest signed distance of a contact node at the end.
+fn deepest(outcome: &Outcome) -> f64 {
+    let end = shape(&outcome.sheet, &outcome.u);
+    let surface = TargetSurface::new(&outcome.sheet, &end);
+    let distance = |n: &usize| surface.nearest([end[(*n, 2)], end[(*n, 3)]]).unwrap().distance;
+    outcome.sheet.cnt.iter().map(distance).fold(f64::INFINITY, f64::min)
+}
+
+/// `run` is `run_by` signs: what the paper prints.
+#[test]
+fn signs_are_the_default() {
+    let scene = Scene::open("fig1").unwrap();
+    let printed = run(&scene, Variant::Stepped, &Reading::default(), |_| ()).unwrap();
+    assert_eq!(printed.u, stepped(StatusRule::Signs, &scene).u);
+    assert_eq!(StatusRule::default(), StatusRule::Signs);
+}
+
+/// Nodes, nodes in contact, then for signs, intersection, projection: missed + false, operations. Seed 1, 20 scenes a row.
+const BY_DEPTH: &str = "\
+16 0.5 below: 158 23, 2 + 9 18021, 0 + 0 76401, 0 + 0 80486
+16 0.5 above: 152 21, 1 + 0 17923, 0 + 0 72563, 0 + 1 77288
+16 2 below: 175 23, 21 + 7 20662, 0 + 0 92519, 0 + 0 88966
+16 2 above: 157 28, 6 + 0 18831, 0 + 0 81510, 0 + 0 79786
+16 8 below: 157 33, 29 + 6 18555, 0 + 0 85376, 0 + 0 79846
+16 8 above: 150 30, 18 + 0 18273, 0 + 0 82891, 0 + 0 76206
+16 32 below: 156 50, 50 + 5 18614, 0 + 0 95616, 0 + 0 79314
+16 32 above: 166 63, 57 + 0 19550, 0 + 0 106912, 0 + 1 84394
+16 128 below: 135 100, 98 + 2 15957, 0 + 0 108888, 0 + 0 68640
+16 128 above: 151 100, 98 + 0 17979, 0 + 0 120990, 0 + 1 76732
+16 512 below: 156 122, 122 + 0 17857, 97 + 0 88475, 2 + 4 79338
+16 512 above: 144 126, 126 + 0 16813, 103 + 0 82605, 1 + 2 73260
+";
+const BY_SIZE: &str = "\
+8 4 both: 79 23, 18 + 3 5089, 0 + 0 23038, 0 + 0 19950
+16 4 both: 145 24, 21 + 3 17111, 0 + 0 76502, 0 + 0 73756
+32 4 both: 289 40, 32 + 2 64763, 0 + 0 298806, 0 + 0 294966
+64 4 both: 580 64, 52 + 2 256109, 0 + 0 1183995, 0 + 0 1185778
+128 4 both: 1283 133, 112 + 0 1136451, 2 + 0 5326912, 0 + 0 5250336
+256 4 both: 2115 218, 173 + 4 3647227, 2 + 1 17294498, 0 + 0 17319006
+";
+
+#[test]
+fn the_measurement_is_pinned() {
+    let Measurement { by_depth, by_size, .. } = measure(20, 1);
+    let line = |row: &Row| {
+        let rules = row.rules.iter().map(|score| {
+            format!(", {} + {} {}", score.missed, score.false_contacts, score.operations)
+        });
+        let rules: String = rules.collect();
+        format!(
+            "{} {} {}: {} {}{rules}\n",
+            row.edges, row.depth, row.target, row.nodes, row.touching
+        )
+    };
+    assert_eq!(by_depth.iter().map(line).collect::<String>(), BY_DEPTH);
+    assert_eq!(by_size.iter().map(line).collect::<String>(), BY_SIZE);
+}
+
+#[test]
+fn the_command_prints_tables_or_json() {
+    let run = |args: &[&str]| {
+        let program = env!("CARGO_BIN_EXE_plane-contact");
+        let output = std::process::Command::new(program).args(args).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    let (status, tables) = run(&["statuses", "--scenes", "3"]);
+    assert_eq!(status, Some(0));
+    for words in ["seed 1", "depth / c_tll", "signs", "intersection", "projection", "Operations"] {
+        assert!(tables.contains(words), "{words:?}: {tables}");
+    }
+    let (_, json) = run(&["statuses", "--scenes", "3", "--seed", "7", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!((&json["scenes"], &json["seed"]), (&3.into(), &7.into()));
+    assert_eq!(json["by_depth"][0]["rules"][1]["rule"], "intersection");
+    assert_eq!(run(&["statuses", "--scenes", "0"]).0, Some(2));
 }

@@ -18,9 +18,9 @@ use drawn::{Drawn, Kind, draw};
 const DEPTHS: [f64; 6] = [0.5, 2.0, 8.0, 32.0, 128.0, 512.0];
 /// Number of target edges where the depth is varied.
 const EDGES: usize = 16;
-/// Numbers of target edges where the operations are counted, and the depth there.
+/// Numbers of target edges where the operations are counted, and the depth there: no element sinks whole.
 const SIZES: [usize; 6] = [8, 16, 32, 64, 128, 256];
-const DEPTH: f64 = 32.0;
+const DEPTH: f64 = 4.0;
 /// Operations of lines 22 to 30 for a node in contact: all rules share them, none is charged for them.
 const WEIGHTS: u64 = 12;
 
