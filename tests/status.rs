@@ -420,4 +420,11 @@ fn the_command_prints_tables_or_json() {
     assert_eq!((&json["scenes"], &json["seed"]), (&3.into(), &7.into()));
     assert_eq!(json["by_depth"][0]["rules"][1]["rule"], "intersection");
     assert_eq!(run(&["statuses", "--scenes", "0"]).0, Some(2));
+    let folder = tempfile::TempDir::new().unwrap();
+    let picture = folder.path().join("statuses.svg");
+    run(&["statuses", "--scenes", "3", "--picture", picture.to_str().unwrap()]);
+    let svg = std::fs::read_to_string(picture).unwrap();
+    let svg = roxmltree::Document::parse(&svg).expect("the picture is XML");
+    let points = svg.descendants().filter(|node| node.has_tag_name("circle")).count();
+    assert_eq!(points, 36, "6 depths, 3 rules, 2 orientations");
 }

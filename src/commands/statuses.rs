@@ -1,8 +1,10 @@
 //! `plane-contact statuses`.
 
+use std::path::PathBuf;
+
 use plane_contact::audit::statuses::measure;
 use plane_contact::error::Error;
-use plane_contact::report::statuses as report;
+use plane_contact::report::{files, picture, statuses as report};
 
 use super::{print, waiting};
 
@@ -14,7 +16,8 @@ prints it, and intersection. projection is the exact answer. Wrong statuses are 
 
 Examples:
   plane-contact statuses
-  plane-contact statuses --scenes 1000 --seed 7 --json")]
+  plane-contact statuses --scenes 1000 --seed 7 --json
+  plane-contact statuses --picture out/statuses.svg")]
 pub struct Args {
     /// Scenes for each row of the tables.
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -25,11 +28,17 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    /// Write a picture: share of wrong statuses by depth.
+    #[arg(long, value_name = "SVG")]
+    picture: Option<PathBuf>,
 }
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let spinner = waiting("measuring");
     let measured = measure(args.scenes as usize, args.seed);
     spinner.finish_and_clear();
+    if let Some(path) = &args.picture {
+        files::write(path, &picture::statuses(&measured))?;
+    }
     print(&if args.json { report::json(&measured) } else { report::text(&measured) })
 }

@@ -17,8 +17,11 @@ mod deformation;
 mod fields;
 mod numbers;
 mod page;
+mod statuses;
 mod svg;
 mod view;
+
+pub use statuses::statuses;
 
 use self::bodies::{draw_bodies, legend};
 use self::deformation::{deformed, magnification};
