@@ -38,6 +38,7 @@ enum Command {
     CCnt(commands::c_cnt::Args),
     Km(commands::km::Args),
     Mesh(commands::mesh::Args),
+    Statuses(commands::statuses::Args),
     Trace(commands::trace::Args),
 }
 
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Command::CCnt(args) => commands::c_cnt::run(&args),
         Command::Km(args) => commands::km::run(&args),
         Command::Mesh(args) => commands::mesh::run(&args),
+        Command::Statuses(args) => commands::statuses::run(&args),
         Command::Trace(args) => commands::trace::run(&args),
     };
     match result {

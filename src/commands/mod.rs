@@ -5,13 +5,14 @@ pub mod c_cnt;
 pub mod km;
 pub mod mesh;
 pub mod solve;
+pub mod statuses;
 pub mod trace;
 
 use std::io::Write;
 use std::time::Duration;
 
 use indicatif::ProgressBar;
-use plane_contact::contact::{Coupling, Friction, Geometry, Model};
+use plane_contact::contact::{Coupling, Friction, Geometry, Model, StatusRule};
 use plane_contact::error::Error;
 use plane_contact::mirror::Reading;
 
@@ -40,6 +41,10 @@ pub struct ModelArgs {
     /// scene's].
     #[arg(long)]
     geometry: Option<Geometry>,
+    /// Under tied and stepped, who is in contact: signs (as c_cnt prints), intersection (the text's other remedy), projection (signed distance
+    /// to the nearest target edge) [default: the scene's].
+    #[arg(long, value_name = "RULE")]
+    status: Option<StatusRule>,
 }
 
 impl ModelArgs {
@@ -48,6 +53,7 @@ impl ModelArgs {
         model.coupling = self.coupling.unwrap_or(model.coupling);
         model.friction = self.friction.unwrap_or(model.friction);
         model.geometry = self.geometry.unwrap_or(model.geometry);
+        model.status = self.status.unwrap_or(model.status);
     }
 }
 

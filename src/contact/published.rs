@@ -13,12 +13,13 @@ use super::elimination::{Elimination, Tie, interpolations, ties};
 use super::pairing::{Coupling, Surfaces};
 use super::pressure::{ContactNode, contact_nodes};
 use super::run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, shape, states};
+use super::status::{self, StatusRule};
 use super::stiffness::Stiffness;
 use super::support::{against_load, support};
 use super::variant::Variant;
 use crate::error::{Error, InputError, SingularMatrix};
 use crate::mathcad::array::Table;
-use crate::mirror::{Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet, c_cnt};
+use crate::mirror::{Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet};
 use crate::scene::Scene;
 use crate::solve::{DenseLu, memory};
 
@@ -145,7 +146,7 @@ impl<'a> Run<'a> {
             // Without contact nothing of contact is built: `c_cnt` is not called.
             Pairs::none(self.sheet.R())
         } else {
-            c_cnt(self.sheet, self.reading, &node_n)?
+            status::pairs(self.status(), self.sheet, self.reading, &node_n)?
         };
         let ties = self.ties(&pairs, &node_n);
         let key = state(&pairs, &ties);
@@ -160,6 +161,14 @@ impl<'a> Run<'a> {
         let iteration = self.report(k, node_n, pairs, cycle, &solution);
         self.met.insert(key, Met { k, solution });
         Ok(iteration)
+    }
+
+    /// The rule by which nodes are in contact: under `printed` the listing's own.
+    fn status(&self) -> StatusRule {
+        match self.variant {
+            Variant::Printed => StatusRule::Signs,
+            _ => self.scene.contact.status,
+        }
     }
 
     /// From one shape to the next.

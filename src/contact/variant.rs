@@ -4,6 +4,7 @@ use serde::Deserialize;
 use serde::de::{self, Deserializer};
 
 use super::pairing::Coupling;
+use super::status::StatusRule;
 use crate::choices;
 use crate::mirror::{Reading, Schedule};
 
@@ -68,6 +69,8 @@ pub struct Model {
     pub friction: Friction,
     /// The shape in which contact is measured.
     pub geometry: Geometry,
+    /// How `tied` and `stepped` decide who is in contact.
+    pub status: StatusRule,
 }
 
 impl Variant {

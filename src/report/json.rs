@@ -4,8 +4,8 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::contact::{
-    BodySummary, ContactNode, Coupling, Cycle, Distance, Friction, Hertz, Iteration, Outcome,
-    distance, summaries,
+    BodySummary, ContactNode, Coupling, Cycle, Distance, Friction, Geometry, Hertz, Iteration,
+    Outcome, StatusRule, distance, summaries,
 };
 use crate::mirror::{Pairs, Reading};
 use crate::scene::{Scene, Units};
@@ -19,6 +19,8 @@ struct Document<'a> {
     reading: Value,
     coupling: Coupling,
     friction: Friction,
+    geometry: Geometry,
+    status: StatusRule,
     units: &'a Units,
     /// Sum of the loads, force.
     load: [f64; 2],
@@ -69,6 +71,8 @@ pub fn result(scene: &Scene, outcome: &Outcome, converged: Option<&Outcome>) -> 
         reading: reading(outcome),
         coupling: outcome.model.coupling,
         friction: outcome.model.friction,
+        geometry: outcome.model.geometry,
+        status: outcome.model.status,
         units: &scene.units,
         load: scene.total_load(),
         dropped: &scene.dropped,

@@ -9,6 +9,7 @@ pub mod json;
 pub mod matrix_market;
 pub mod picture;
 pub mod pressure;
+pub mod statuses;
 pub mod tables;
 pub mod trace;
 pub mod uncertain;

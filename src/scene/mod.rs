@@ -129,6 +129,7 @@ impl Scene {
                 coupling: contact.coupling,
                 friction: contact.friction,
                 geometry: contact.geometry,
+                status: contact.status,
             }),
             thickness: file.thickness,
             bodies,

@@ -139,6 +139,10 @@ pub const BARS_MISSED_ON_FAIR_MESHES: Tolerance =
 pub const CONSTANT_FIELD: Tolerance =
     tolerance(1e-12, "LU of 100 equations of condition 1e3: 1e-16 times it, and a decade of room");
 
+/// A foot, its distance and its normal against the closed form, relative to coordinates of order 1.
+pub const FOOT: Tolerance =
+    tolerance(1e-14, "a dozen roundings of 1e-16, of turned coordinates too");
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {
