@@ -17,6 +17,9 @@ use crate::error::InputError;
 /// the top of the whole cylinder, as in the benchmark: a pressure on the diameter of a lower half would bend that half and with
 /// it the contact arc, where the point load is a diameter away.
 ///
+/// Contact is measured in the initial shape, as Hertz's theory of small displacements does: in the current one the peak is 1.8 % higher at any mesh,
+/// for the surfaces shorten by 1 to 3 % under the pressure.
+///
 /// Source: NAFEMS, Benchmark Tests for Various Finite Element Contact Problems, CGS-1; closed form: K. L. Johnson, Contact
 /// Mechanics, 1985, section 4.2.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
@@ -147,7 +150,7 @@ impl Hertz {
                 { "on": "cylinder_axis", "fix": ["x"] }
             ],
             "loads": [{ "node": top, "force": [0.0, -self.load / 2.0] }],
-            "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001, "coupling": "mortar", "friction": 0 },
+            "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001, "coupling": "mortar", "friction": 0, "geometry": "initial" },
         "variant": "unilateral"
         })
     }

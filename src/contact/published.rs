@@ -11,7 +11,7 @@ use nalgebra::DVector;
 
 use super::elimination::{Elimination, Tie, interpolations, ties};
 use super::pairing::{Coupling, Surfaces};
-use super::pressure::{ContactNode, contact_nodes};
+use super::pressure::{ContactNode, Surface};
 use super::run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, shape, states};
 use super::status::{self, StatusRule};
 use super::stiffness::Stiffness;
@@ -257,10 +257,16 @@ impl<'a> Run<'a> {
         if self.sheet.cnt.rows() == 0 {
             return Ok(Vec::new());
         }
-        let surfaces = Surfaces::new(self.sheet)?;
-        let pairings = surfaces.pairings(Coupling::Nts, &shape(self.sheet, &self.u));
-        let force = self.stiffness.times(&self.u) - &self.scene.load;
-        Ok(contact_nodes(self.sheet, self.scene.thickness, &pairings, last.dy.as_slice(), &force))
+        let node_n = shape(self.sheet, &self.u);
+        let surface = Surface {
+            sheet: self.sheet,
+            thickness: self.scene.thickness,
+            pairings: &Surfaces::new(self.sheet)?.pairings(Coupling::Nts, &node_n),
+            node_n: &node_n,
+            dy: last.dy.as_slice(),
+            reaction: &(self.stiffness.times(&self.u) - &self.scene.load),
+        };
+        surface.nodes()
     }
 
     fn singular_matrix(

@@ -4,7 +4,7 @@ use nalgebra::{DVector, SVector};
 use serde::Serialize;
 
 use super::pairing::Pairing;
-use super::pressure::{ContactNode, contact_nodes};
+use super::pressure::{ContactNode, Surface};
 use super::published::published;
 use super::support::{against_load, support};
 use super::unilateral::{Step, unilateral};
@@ -111,7 +111,15 @@ fn converged(
     let factored = steps.len();
     let last = steps.into_iter().next_back().expect("an equilibrium takes an iteration");
     let (dy, pairings) = (closed(&last), &last.after.pairings);
-    let contact = contact_nodes(&sheet, scene.thickness, pairings, &dy, &last.reaction);
+    let surface = Surface {
+        sheet: &sheet,
+        thickness: scene.thickness,
+        node_n: &last.after.node_n,
+        pairings,
+        dy: &dy,
+        reaction: &last.reaction,
+    };
+    let contact = surface.nodes()?;
     let (elements, u) = (states(&sheet, &last.u), last.u);
     let (variant, reading) = (Variant::Unilateral, *reading);
     let schedule = variant.schedule(&reading);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Matrix3, Vector3};
 use plane_contact::benchmark::Benchmark;
-use plane_contact::contact::{Outcome, Variant, run};
+use plane_contact::contact::{Model, Outcome, Variant, run};
 use plane_contact::element;
 use plane_contact::error::InputError;
 use plane_contact::mirror::Reading;
@@ -12,8 +12,17 @@ use plane_contact::scene::{Element, Mesh};
 
 /// Generates a benchmark and runs the variant `unilateral`.
 pub fn solved(benchmark: Result<Benchmark, InputError>) -> (Mesh, Outcome) {
+    solved_by(benchmark, |_| ())
+}
+
+/// The same with contact modelled otherwise.
+pub fn solved_by(
+    benchmark: Result<Benchmark, InputError>,
+    change: impl Fn(&mut Model),
+) -> (Mesh, Outcome) {
     let benchmark = benchmark.expect("the parameters are in range");
-    let scene = benchmark.scene().expect("generated scenes are sound");
+    let mut scene = benchmark.scene().expect("generated scenes are sound");
+    change(&mut scene.contact);
     let outcome = run(&scene, Variant::Unilateral, &Reading::default(), |_| ());
     (benchmark.mesh, outcome.expect("the benchmark has a solution"))
 }

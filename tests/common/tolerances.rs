@@ -143,6 +143,39 @@ pub const CONSTANT_FIELD: Tolerance =
 pub const FOOT: Tolerance =
     tolerance(1e-14, "a dozen roundings of 1e-16, of turned coordinates too");
 
+/// The contact patch test under mortar, relative to the exact value.
+pub const PATCH_TEST: Tolerance =
+    tolerance(1e-10, "the issue's own number; measured 1e-14, some 300 equations of condition 1e3");
+
+/// sigma_y / p of the patch test under node to segment, absolute.
+pub const KNOWN_NTS: Tolerance = tolerance(1e-4, "the known miss is stated to four digits");
+
+/// Hertz's closed form beside the benchmark's printed numbers, relative.
+pub const HERTZ_PRINTED: Tolerance = tolerance(1e-5, "they are printed with five and six digits");
+
+/// Hertz's half width and peak at about 4,000 equations, relative.
+pub const HERTZ_COARSE: Tolerance =
+    tolerance(1e-2, "the issue's own number; measured 0.1 % and 0.5 %");
+
+/// The same at about 30,000.
+pub const HERTZ_FINE: Tolerance =
+    tolerance(5e-3, "the issue's own number; measured 0.1 %, and 0.24 % at a tenth of the load");
+
+/// Known departures of a curved or deformed surface from Hertz's half plane, relative.
+pub const KNOWN_CURVATURE: Tolerance =
+    tolerance(1e-3, "stated to three decimals, and a mesh error of 5e-4 at 40 and 59 edges");
+
+/// The pressure of a flat punch away from its corner, relative to the closed form.
+pub const PUNCH: Tolerance =
+    tolerance(1.5e-2, "24 edges on the half width, a boundary at 20: measured 1 %");
+
+/// Gap times force of a contact node relative to size times the largest force; penetration relative to the size.
+pub const COMPLEMENTARITY: Tolerance = tolerance(1e-12, "the issue's own number");
+
+/// Contact in the current shape beside contact in the initial one at a load of a thousandth of CGS-1's, relative to the peak.
+pub const CURRENT_LENGTHS: Tolerance =
+    tolerance(2e-3, "strains of 1e-3 at the contact: the two differ by as much");
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {
