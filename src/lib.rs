@@ -26,6 +26,7 @@
 #![forbid(unsafe_code)]
 
 pub mod audit;
+pub mod calculix;
 mod choices;
 pub mod contact;
 pub mod element;

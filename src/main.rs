@@ -38,6 +38,8 @@ enum Command {
     CCnt(commands::c_cnt::Args),
     Km(commands::km::Args),
     Trace(commands::trace::Args),
+    Export(commands::export::Args),
+    Compare(commands::compare::Args),
 }
 
 fn main() -> ExitCode {
@@ -47,6 +49,8 @@ fn main() -> ExitCode {
         Command::CCnt(args) => commands::c_cnt::run(&args),
         Command::Km(args) => commands::km::run(&args),
         Command::Trace(args) => commands::trace::run(&args),
+        Command::Export(args) => commands::export::run(&args),
+        Command::Compare(args) => commands::compare::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,0 +1,104 @@
+//! `plane-contact export`.
+
+use std::path::PathBuf;
+
+use plane_contact::calculix::{Contact, ContactKind, Friction, Model, Pair, deck};
+use plane_contact::contact::{self, Outcome, Variant};
+use plane_contact::error::Error;
+use plane_contact::report::files;
+use plane_contact::scene::Scene;
+
+use super::{ReadingArg, print, waiting};
+
+plane_contact::choices! {
+    /// A code that a scene can be exported to.
+    Code {
+        /// CalculiX.
+        Calculix = "calculix",
+    }
+}
+
+/// Write a scene as the input deck of another code.
+#[derive(clap::Args)]
+#[command(after_help = "\
+The deck runs as it is: ccx FILE without .inp. --contact equation writes eq. (1) as the variant's last iteration has it; --contact pair
+lets CalculiX look for contact itself, from the initial shape.
+
+Examples:
+  plane-contact export fig1 --to calculix
+  plane-contact export strand --to calculix --variant tied --out strand.inp
+  plane-contact export strand --to calculix --contact pair --penalty 1e8 --friction none --out strand.inp")]
+pub struct Args {
+    /// The code.
+    #[arg(long, value_name = "CODE")]
+    to: Code,
+    #[command(flatten)]
+    deck: DeckArgs,
+    /// Write to a file in place of standard output.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+/// What `export` and `compare` share.
+#[derive(clap::Args)]
+pub struct DeckArgs {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    pub scene: String,
+    /// equation: the ties of the last iteration; pair: the other code's own contact, by penalty.
+    #[arg(long, default_value_t = ContactKind::Equation)]
+    pub contact: ContactKind,
+    /// tied or stepped; with --contact pair also printed [default: the scene's].
+    #[arg(long)]
+    pub variant: Option<Variant>,
+    #[command(flatten)]
+    pub reading: ReadingArg,
+    /// Pressure over penetration of a pair, stress/length [default: 100 times the largest E over the target's mean edge].
+    #[arg(long, value_name = "K", value_parser = penalty)]
+    pub penalty: Option<f64>,
+    /// Friction of a pair: stick or none.
+    #[arg(long, default_value_t = Friction::Stick)]
+    pub friction: Friction,
+}
+
+fn penalty(text: &str) -> Result<f64, String> {
+    let penalty: f64 = text.parse().map_err(|_| "it is no number".to_string())?;
+    if penalty > 0.0 && penalty.is_finite() {
+        Ok(penalty)
+    } else {
+        Err("it is not positive".into())
+    }
+}
+
+impl DeckArgs {
+    /// The run whose last iteration has the ties.
+    pub fn solve(&self, scene: &Scene) -> Result<Outcome, Error> {
+        let spinner = waiting("solving");
+        let variant = self.variant.unwrap_or(scene.variant);
+        let outcome = contact::run(scene, variant, &self.reading.reading.0, |_| ());
+        spinner.finish_and_clear();
+        outcome
+    }
+
+    /// How the deck has the bodies touch.
+    pub fn contact(&self, outcome: &Outcome) -> Result<Contact, Error> {
+        match self.contact {
+            ContactKind::Equation => Ok(Contact::of_last_iteration(outcome)?),
+            ContactKind::Pair => {
+                Ok(Contact::Pair(Pair::new(&outcome.sheet, self.penalty, self.friction)))
+            }
+        }
+    }
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let Code::Calculix = args.to;
+    let scene = Scene::open(&args.deck.scene)?;
+    let outcome = args.deck.solve(&scene)?;
+    let contact = args.deck.contact(&outcome)?;
+    let text = deck(&Model { scene: &scene, sheet: &outcome.sheet, contact: &contact })?;
+    match &args.out {
+        Some(path) => Ok(files::write(path, &text)?),
+        None => print(&text),
+    }
+}
