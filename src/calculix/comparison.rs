@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::reference::Fields;
-use crate::scene::Scene;
+use super::fields::Fields;
+use crate::scene::{Body, Scene};
 
 /// Two results of one model, node by node and triangle by triangle.
 pub struct Comparison {
@@ -11,6 +11,8 @@ pub struct Comparison {
     pub ours: Fields,
     /// By CalculiX.
     pub theirs: Fields,
+    /// Von Mises stress of each triangle, by this program and by CalculiX.
+    pub von_mises: [Vec<f64>; 2],
     /// Displacements, by node.
     pub displacement: Difference,
     /// Stresses, by triangle: the largest component of sigma_x, sigma_y, tau_xy; relative to the largest von Mises stress.
@@ -58,9 +60,11 @@ impl Comparison {
     pub fn new(scene: &Scene, ours: Fields, theirs: Fields) -> Self {
         let length = |[x, y]: &[f64; 2]| x.hypot(*y);
         let moved = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).hypot(a[1] - b[1]);
-        let stressed = |(a, b): (&[f64; 3], &[f64; 3])| {
-            a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        // sigma_x, sigma_y, tau_xy: sigma_z is no unknown of a plane problem.
+        let stressed = |(a, b): (&[f64; 6], &[f64; 6])| {
+            [0, 1, 3].into_iter().map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max)
         };
+        let von_mises = [ours.von_mises(), theirs.von_mises()];
         Comparison {
             displacement: Difference::new(
                 ours.u.iter().zip(&theirs.u).map(moved).collect(),
@@ -68,9 +72,10 @@ impl Comparison {
             ),
             stress: Difference::new(
                 ours.sigma.iter().zip(&theirs.sigma).map(stressed).collect(),
-                largest(ours.von_mises.iter().copied()),
+                largest(von_mises[0].iter().copied()),
             ),
-            bodies: bodies(scene, &ours, &theirs),
+            bodies: bodies(scene, &von_mises),
+            von_mises,
             ours,
             theirs,
         }
@@ -99,14 +104,11 @@ impl Difference {
     }
 }
 
-fn bodies(scene: &Scene, ours: &Fields, theirs: &Fields) -> Vec<BodyStress> {
-    let by = |fields: &Fields, triangles: &[usize]| {
-        largest(triangles.iter().map(|n| fields.von_mises[n - 1]))
-    };
-    let row = |body: &crate::scene::Body| BodyStress {
-        name: body.name.clone(),
-        ours: by(ours, &body.triangles),
-        calculix: by(theirs, &body.triangles),
+fn bodies(scene: &Scene, von_mises: &[Vec<f64>; 2]) -> Vec<BodyStress> {
+    let row = |body: &Body| {
+        let [ours, calculix] =
+            [0, 1].map(|by: usize| largest(body.triangles.iter().map(|n| von_mises[by][n - 1])));
+        BodyStress { name: body.name.clone(), ours, calculix }
     };
     scene.bodies.iter().map(row).collect()
 }

@@ -174,10 +174,10 @@ fn restraints(model: &Model) -> String {
 
 /// One static step with the loads on the equations that S leaves free.
 fn step(model: &Model) -> String {
-    let mut text = String::from("*STEP\n*STATIC\n*CLOAD\n");
+    let mut text = String::from("*STEP\n*STATIC\n");
     for (e, force) in model.scene.load.iter().enumerate() {
         if *force != 0.0 && model.sheet.S[e + 1] == 0 {
-            line(&mut text, format!("{},{},{}", e / 2 + 1, e % 2 + 1, field(*force)));
+            line(&mut text, format!("*CLOAD\n{},{},{}", e / 2 + 1, e % 2 + 1, field(*force)));
         }
     }
     line(&mut text, "*NODE PRINT, NSET=NODES\nU".into());

@@ -1,34 +1,38 @@
 //! CalculiX beside this program: an input deck that `ccx` runs unchanged, and its results read back.
 //!
 //! ```text
-//!  Scene, Outcome --model--> Model --deck--> job.inp --ccx--> job.dat --results--> Fields
-//!         |                    |                                                     |
-//!         +---- reference ---- Fields, by this program ------------ comparison ------+
+//!  Scene --> contact::run --> Outcome --> Model --deck--> job.inp --ccx--> job.dat --parse--> Fields --+
+//!                               |                                                                      +--> Comparison
+//!                               +-------------------------- Fields ------------------------------------+
 //! ```
 //!
-//! | contact    | in the deck                                            | what it is compared with                              |
-//! |------------|--------------------------------------------------------|-------------------------------------------------------|
-//! | `equation` | `*EQUATION`: eq. (1) as the last iteration has it      | one linear solve here: those ties, the whole load     |
-//! | `pair`     | `*CONTACT PAIR`, node to surface, linear penalty       | the variant's own result                              |
+//! | contact    | in the deck                                                  | what is compared                              |
+//! |------------|--------------------------------------------------------------|-----------------------------------------------|
+//! | `equation` | `*EQUATION`: eq. (1) with the weights of an iteration        | the finite elements and the elimination       |
+//! | `pair`     | `*CONTACT PAIR`, node to surface, linear penalty             | the contact algorithms                        |
 //!
-//! `equation` compares the finite elements and the elimination; `pair` compares the contact algorithms, and differs by the
-//! penalty, by what the two take for contact, and by what they let slide.
+//! `equation`: what this program and `ccx` solve is the same, so they agree to the seven digits that `ccx` prints. Under a total
+//! load that is one deck, the last iteration's. Under a stepped load the ties change from increment to increment, and no deck can
+//! change its equations: one deck for each contact state that was met, with the whole load, and their sum, each with its share of
+//! the iterations.
+//!
+//! `pair`: they differ by the penalty, by what each takes for contact, and by what each lets slide.
 //!
 //! Source: G. Dhondt, *CalculiX CrunchiX user's manual*, version 2.20.
 
 mod comparison;
 mod deck;
 mod equation;
+mod fields;
 mod model;
 mod number;
-mod reference;
 mod results;
 mod run;
 
 pub use comparison::{BodyStress, Comparison, Difference, Largest};
 pub use deck::deck;
 pub use equation::{Equation, Term};
-pub use model::{Contact, ContactKind, Friction, Model, Pair};
-pub use reference::{Fields, reference};
+pub use fields::Fields;
+pub use model::{Contact, ContactKind, Friction, Model, Pair, Part};
 pub use results::parse;
 pub use run::{Ran, run};

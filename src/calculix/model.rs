@@ -2,15 +2,15 @@
 
 use super::equation::Equation;
 use crate::choices;
-use crate::contact::{Coupling, Outcome, ties};
+use crate::contact::{Coupling, Iteration, Outcome, ties};
 use crate::error::InputError;
-use crate::mirror::Worksheet;
+use crate::mirror::{Schedule, Worksheet};
 use crate::scene::Scene;
 
 choices! {
     /// How the deck has the bodies touch.
     ContactKind {
-        /// `*EQUATION`: eq. (1) as the last iteration has it.
+        /// `*EQUATION`: eq. (1) as an iteration has it.
         Equation = "equation",
         /// `*CONTACT PAIR`: node to surface, linear penalty.
         Pair = "pair",
@@ -54,26 +54,47 @@ pub struct Pair {
     pub friction: Friction,
 }
 
+/// One of the problems whose sum is a run: the whole load on one contact state.
+pub struct Part {
+    /// How the bodies touch.
+    pub contact: Contact,
+    /// Its share of the run.
+    pub share: f64,
+}
+
 impl Contact {
-    /// The equations that held in the last iteration of a run.
+    /// The problems whose sum a run is. A run with total load is its last iteration. A run with stepped load is the sum of its
+    /// increments: each contact state that it met, with the whole load, times the share of the iterations that it stood. The last
+    /// iteration's state comes last.
     ///
     /// # Errors
     /// The variant `printed`, which ties nothing.
-    pub fn of_last_iteration(outcome: &Outcome) -> Result<Self, InputError> {
+    pub fn parts(outcome: &Outcome) -> Result<Vec<Part>, InputError> {
         if outcome.variant.coupling() == Coupling::Printed {
             let what = "the variant printed adds stiffness and ties nothing: there are no equations to write";
-            return Err(InputError::new(
-                "--variant",
-                what,
-                "choose tied or stepped, or --contact pair",
-            ));
+            let mend = "choose tied or stepped, or --contact pair";
+            return Err(InputError::new("--variant", what, mend));
         }
-        let last = outcome.iterations.last().expect("a run has an iteration");
-        Ok(Contact::Equations(Equation::of_ties(
-            &outcome.sheet,
-            &ties(&outcome.sheet, &last.pairs),
-        )))
+        let carried = match outcome.schedule {
+            Schedule::Total => outcome.iterations.len() - 1..outcome.iterations.len(),
+            Schedule::Stepped => 0..outcome.iterations.len(),
+        };
+        let share = 1.0 / carried.len() as f64;
+        let mut states: Vec<(Vec<Equation>, f64)> = Vec::new();
+        for iteration in &outcome.iterations[carried] {
+            let equations = equations(outcome, iteration);
+            let met = states.iter().position(|(other, _)| *other == equations);
+            let before = met.map_or(0.0, |k| states.remove(k).1);
+            states.push((equations, before + share));
+        }
+        let part = |(equations, share)| Part { contact: Contact::Equations(equations), share };
+        Ok(states.into_iter().map(part).collect())
     }
+}
+
+/// What held in an iteration.
+fn equations(outcome: &Outcome, iteration: &Iteration) -> Vec<Equation> {
+    Equation::of_ties(&outcome.sheet, &ties(&outcome.sheet, &iteration.pairs))
 }
 
 impl Pair {

@@ -1,6 +1,6 @@
 //! What `ccx` printed to its `.dat` file.
 
-use super::reference::Fields;
+use super::fields::Fields;
 use crate::error::InputError;
 
 /// What the lines of a block hold.
@@ -44,12 +44,7 @@ pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields, Input
     let u = u.into_iter().enumerate().map(|(k, u)| u.ok_or_else(|| missing("node", k + 1)));
     let stresses = stresses.iter().enumerate();
     let stresses = stresses.map(|(k, s)| s.mean().ok_or_else(|| missing("element", k + 1)));
-    let stresses: Vec<[f64; 6]> = stresses.collect::<Result<_, _>>()?;
-    Ok(Fields {
-        u: u.collect::<Result<_, _>>()?,
-        sigma: stresses.iter().map(|s| [s[0], s[1], s[3]]).collect(),
-        von_mises: stresses.iter().map(von_mises).collect(),
-    })
+    Ok(Fields { u: u.collect::<Result<_, _>>()?, sigma: stresses.collect::<Result<_, _>>()? })
 }
 
 /// The stresses at the integration points of an element.
@@ -70,13 +65,6 @@ impl Points {
         let sum = |c: usize| self.0.iter().map(|point| point[c]).sum::<f64>();
         (!self.0.is_empty()).then(|| std::array::from_fn(|c| sum(c) / count))
     }
-}
-
-/// Of xx, yy, zz, xy, xz, yz.
-fn von_mises(s: &[f64; 6]) -> f64 {
-    let normal = (s[0] - s[1]).powi(2) + (s[1] - s[2]).powi(2) + (s[2] - s[0]).powi(2);
-    let shear = s[3].powi(2) + s[4].powi(2) + s[5].powi(2);
-    (normal / 2.0 + 3.0 * shear).sqrt()
 }
 
 fn heading(line: &str) -> Block {

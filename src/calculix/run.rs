@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use super::reference::Fields;
+use super::fields::Fields;
 use super::results;
 use crate::error::InputError;
 use crate::report::files;

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use plane_contact::calculix::{self, Comparison, Fields, Model, Ran, deck, reference};
+use plane_contact::calculix::{self, Comparison, Fields, Model, Part, Ran, deck};
 use plane_contact::contact::Outcome;
-use plane_contact::error::Error;
+use plane_contact::error::{Error, InputError};
 use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::scene::Scene;
 
@@ -17,8 +17,8 @@ use super::{print, waiting};
 Exports the scene to a temporary folder, runs ccx there and reads its results. Writes to --out: compare.json, nodes.csv, elements.csv,
 von_mises_stress.svg (this program), von_mises_stress_calculix.svg, difference.svg.
 
---contact equation: one linear system, the last iteration's ties and the whole load, solved by both. --contact pair: the variant's own
-result beside CalculiX's own contact; they differ by the penalty and by what each takes for contact.
+--contact equation: the same linear systems solved by both; where the load is stepped, a deck for each contact state, summed.
+--contact pair: CalculiX's own contact; the two differ by the penalty and by what each takes for contact.
 
 Examples:
   plane-contact compare strand --with calculix --variant tied
@@ -44,33 +44,40 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let Code::Calculix = args.with;
     let scene = Scene::open(&args.deck.scene)?;
     let outcome = args.deck.solve(&scene)?;
-    let contact = args.deck.contact(&outcome)?;
-    let ran = ccx(args, &Model { scene: &scene, sheet: &outcome.sheet, contact: &contact })?;
-    let ours = reference(&scene, &outcome, args.deck.contact)?;
+    let parts = args.deck.parts(&outcome)?;
+    let spinner = waiting("running ccx");
+    let ran = run_parts(&args.ccx, &scene, &outcome, &parts);
+    spinner.finish_and_clear();
+    let ran = ran?;
     let compared = Compared {
         scene: &scene,
         sheet: &outcome.sheet,
         variant: outcome.variant,
-        contact: &contact,
+        contact: &parts.last().expect("a run has an iteration").contact,
+        decks: parts.len(),
         version: &ran.version,
-        from_variant: from_variant(&outcome, &ours),
-        comparison: &Comparison::new(&scene, ours, ran.fields),
+        comparison: &Comparison::new(&scene, Fields::of(&outcome), ran.fields),
     };
     finish(args, &compared)
 }
 
-fn ccx(args: &Args, model: &Model) -> Result<Ran, Error> {
-    let text = deck(model)?;
-    let spinner = waiting("running ccx");
-    let ran = calculix::run(&args.ccx, &text, model.sheet.R(), model.sheet.M());
-    spinner.finish_and_clear();
-    Ok(ran?)
-}
-
-/// Largest displacement between what the deck is compared with and the variant's own result.
-fn from_variant(outcome: &Outcome, ours: &Fields) -> f64 {
-    let own = outcome.u.as_slice().chunks(2);
-    own.zip(&ours.u).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max)
+/// Runs a deck for each part and sums their results.
+fn run_parts(
+    ccx: &str,
+    scene: &Scene,
+    outcome: &Outcome,
+    parts: &[Part],
+) -> Result<Ran, InputError> {
+    let sheet = &outcome.sheet;
+    let mut sum = Fields::zero(sheet.R(), sheet.M());
+    let mut version = String::new();
+    for Part { contact, share } in parts {
+        let text = deck(&Model { scene, sheet, contact })?;
+        let ran = calculix::run(ccx, &text, sheet.R(), sheet.M())?;
+        sum.add(*share, &ran.fields);
+        version = ran.version;
+    }
+    Ok(Ran { version, fields: sum })
 }
 
 fn finish(args: &Args, compared: &Compared) -> Result<(), Error> {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plane_contact::calculix::{Contact, ContactKind, Friction, Model, Pair, deck};
+use plane_contact::calculix::{Contact, ContactKind, Friction, Model, Pair, Part, deck};
 use plane_contact::contact::{self, Outcome, Variant};
 use plane_contact::error::Error;
 use plane_contact::report::files;
@@ -21,8 +21,8 @@ plane_contact::choices! {
 /// Write a scene as the input deck of another code.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The deck runs as it is: ccx FILE without .inp. --contact equation writes eq. (1) as the variant's last iteration has it; --contact pair
-lets CalculiX look for contact itself, from the initial shape.
+The deck runs as it is: ccx FILE without .inp. --contact equation writes eq. (1) as the variant's last iteration has it, with the
+whole load; --contact pair lets CalculiX look for contact itself, from the initial shape.
 
 Examples:
   plane-contact export fig1 --to calculix
@@ -80,12 +80,13 @@ impl DeckArgs {
         outcome
     }
 
-    /// How the deck has the bodies touch.
-    pub fn contact(&self, outcome: &Outcome) -> Result<Contact, Error> {
+    /// The problems whose sum is the run; the last iteration's comes last.
+    pub fn parts(&self, outcome: &Outcome) -> Result<Vec<Part>, Error> {
         match self.contact {
-            ContactKind::Equation => Ok(Contact::of_last_iteration(outcome)?),
+            ContactKind::Equation => Ok(Contact::parts(outcome)?),
             ContactKind::Pair => {
-                Ok(Contact::Pair(Pair::new(&outcome.sheet, self.penalty, self.friction)))
+                let pair = Pair::new(&outcome.sheet, self.penalty, self.friction);
+                Ok(vec![Part { contact: Contact::Pair(pair), share: 1.0 }])
             }
         }
     }
@@ -95,8 +96,9 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let Code::Calculix = args.to;
     let scene = Scene::open(&args.deck.scene)?;
     let outcome = args.deck.solve(&scene)?;
-    let contact = args.deck.contact(&outcome)?;
-    let text = deck(&Model { scene: &scene, sheet: &outcome.sheet, contact: &contact })?;
+    let parts = args.deck.parts(&outcome)?;
+    let last = parts.last().expect("a run has an iteration");
+    let text = deck(&Model { scene: &scene, sheet: &outcome.sheet, contact: &last.contact })?;
     match &args.out {
         Some(path) => Ok(files::write(path, &text)?),
         None => print(&text),

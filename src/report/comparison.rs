@@ -24,14 +24,14 @@ pub struct Compared<'a> {
     pub sheet: &'a Worksheet<f64>,
     /// What this program ran.
     pub variant: Variant,
-    /// How the deck has the bodies touch.
+    /// How the deck has the bodies touch; the last of several decks.
     pub contact: &'a Contact,
+    /// How many decks were run and summed.
+    pub decks: usize,
     /// The version of CalculiX.
     pub version: &'a str,
     /// Both results.
     pub comparison: &'a Comparison,
-    /// Largest difference between what the deck is compared with and the variant's own result, length.
-    pub from_variant: f64,
 }
 
 /// The tables.
@@ -64,33 +64,24 @@ fn heading(compared: &Compared) -> String {
     text
 }
 
-/// What the two have in common, and what not.
+/// How the bodies touch in what CalculiX ran.
 fn contact(compared: &Compared) -> String {
     let units = &compared.scene.units;
-    match compared.contact {
-        Contact::Equations(equations) => {
-            let from = compared.from_variant;
-            let apart = format!(
-                "it is {}{} from the variant's own result",
-                short(from),
-                space(&units.length)
-            );
-            let own = if from == 0.0 { "it is the variant's own result" } else { &apart };
+    match (compared.contact, compared.decks) {
+        (Contact::Equations(equations), 1) => {
+            format!("{} equations: those of the last iteration", equations.len())
+        }
+        (Contact::Equations(_), decks) => {
             format!(
-                "{} equations of the last iteration, the whole load; here: one linear solve with them ({own})",
-                equations.len()
+                "{decks} decks, one for each contact state of the increments, summed with their shares of the load"
             )
         }
-        Contact::Pair(Pair { penalty, friction }) => {
-            let unit = if units.stress.is_empty() || units.length.is_empty() {
-                String::new()
-            } else {
-                format!(" {}/{}", units.stress, units.length)
+        (Contact::Pair(Pair { penalty, friction }), _) => {
+            let unit = match (units.stress.as_str(), units.length.as_str()) {
+                ("", _) | (_, "") => String::new(),
+                (stress, length) => format!(" {stress}/{length}"),
             };
-            format!(
-                "contact pair, penalty {}{unit}, friction {friction}; here: the variant's own result",
-                short(*penalty)
-            )
+            format!("contact pair, penalty {}{unit}, friction {friction}", short(*penalty))
         }
     }
 }
@@ -119,12 +110,12 @@ fn differences(compared: &Compared) -> String {
 }
 
 fn bodies(comparison: &Comparison) -> String {
-    let head = ["body", "here", "CalculiX", "difference"].map(String::from).to_vec();
+    let head = ["body", "here", "CalculiX", "relative difference"].map(String::from).to_vec();
     let rows = comparison.bodies.iter().map(|body| {
         let difference = if body.ours == 0.0 {
             String::from("-")
         } else {
-            format!("{:.4} %", 100.0 * (body.calculix - body.ours) / body.ours)
+            format!("{:.1e}", (body.calculix - body.ours) / body.ours)
         };
         vec![body.name.clone(), short(body.ours), short(body.calculix), difference]
     });
@@ -139,7 +130,8 @@ fn worst(compared: &Compared) -> String {
         let ([x, y], u) = (place(sheet, n), comparison.ours.u[n - 1]);
         let cells = u.iter().chain(&comparison.theirs.u[n - 1]);
         let mut row = vec![n.to_string(), format!("{x:.3}, {y:.3}")];
-        row.extend(cells.map(|value| format!("{value:.6e}")));
+        // + 0: no component is −0.
+        row.extend(cells.map(|value| format!("{:.6e}", value + 0.0)));
         row.push(format!("{:.3e}", comparison.displacement.at[n - 1]));
         row
     });
@@ -157,7 +149,7 @@ pub fn json(compared: &Compared) -> String {
         "calculix": compared.version,
         "plane": sheet.plane,
         "contact": contact_value(compared.contact),
-        "from_variant": compared.from_variant,
+        "decks": compared.decks,
         "units": scene.units,
         "displacement": difference(&comparison.displacement),
         "stress": difference(&comparison.stress),
@@ -191,11 +183,11 @@ fn nodes(comparison: &Comparison) -> Vec<Value> {
 }
 
 fn elements(comparison: &Comparison) -> Vec<Value> {
-    let Comparison { ours, theirs, stress, .. } = comparison;
+    let Comparison { ours, theirs, von_mises, stress, .. } = comparison;
     let row = |(k, difference): (usize, &f64)| {
         json!({
-            "n": k + 1, "sigma": ours.sigma[k], "sigma_calculix": theirs.sigma[k],
-            "von_mises_stress": ours.von_mises[k], "von_mises_stress_calculix": theirs.von_mises[k],
+            "n": k + 1, "sigma": plane(&ours.sigma[k]), "sigma_calculix": plane(&theirs.sigma[k]),
+            "von_mises_stress": von_mises[0][k], "von_mises_stress_calculix": von_mises[1][k],
             "difference": difference,
         })
     };
@@ -212,12 +204,12 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String, InputError> {
     let stress = |name: &str, values: &[f64], u: &[[f64; 2]]| {
         picture(compared, &format!("von Mises stress, {name}"), &units.stress, values, u)
     };
-    let (ours, theirs) = (&comparison.ours, &comparison.theirs);
+    let (ours, theirs) = (&comparison.ours.u, &comparison.theirs.u);
     let files = [
         ("nodes.csv", nodes_csv(comparison)),
         ("elements.csv", elements_csv(comparison)),
-        ("von_mises_stress.svg", stress("this program", &ours.von_mises, &ours.u)),
-        ("von_mises_stress_calculix.svg", stress("CalculiX", &theirs.von_mises, &theirs.u)),
+        ("von_mises_stress.svg", stress("this program", &comparison.von_mises[0], ours)),
+        ("von_mises_stress_calculix.svg", stress("CalculiX", &comparison.von_mises[1], theirs)),
         ("difference.svg", difference_picture(compared)),
     ];
     files.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))?;
@@ -270,7 +262,7 @@ fn nodes_csv(comparison: &Comparison) -> String {
 }
 
 fn elements_csv(comparison: &Comparison) -> String {
-    let Comparison { ours, theirs, stress, .. } = comparison;
+    let Comparison { ours, theirs, von_mises, stress, .. } = comparison;
     let columns = ["sigma_x", "sigma_y", "tau_xy", "von_mises_stress"];
     let mut text = format!(
         "element,{},{}_calculix,difference\n",
@@ -278,14 +270,20 @@ fn elements_csv(comparison: &Comparison) -> String {
         columns.join("_calculix,")
     );
     for (k, difference) in stress.at.iter().enumerate() {
-        let by = |fields: &crate::calculix::Fields| {
-            let [x, y, xy] = fields.sigma[k];
-            format!("{x:e},{y:e},{xy:e},{:e}", fields.von_mises[k])
+        let by = |sigma: &[f64; 6], von_mises: f64| {
+            let [x, y, xy] = plane(sigma);
+            format!("{x:e},{y:e},{xy:e},{von_mises:e}")
         };
-        writeln!(text, "{},{},{},{difference:e}", k + 1, by(ours), by(theirs))
-            .expect("a String takes any text");
+        let here = by(&ours.sigma[k], von_mises[0][k]);
+        let there = by(&theirs.sigma[k], von_mises[1][k]);
+        writeln!(text, "{},{here},{there},{difference:e}", k + 1).expect("a String takes any text");
     }
     text
+}
+
+/// sigma_x, sigma_y, tau_xy.
+fn plane(sigma: &[f64; 6]) -> [f64; 3] {
+    [sigma[0], sigma[1], sigma[3]]
 }
 
 /// x and y of a node.
@@ -306,9 +304,4 @@ fn corners(sheet: &Worksheet<f64>, n: usize) -> [usize; 3] {
 /// `, unit`, or nothing where the scene names none.
 fn in_unit(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(", {unit}") }
-}
-
-/// ` unit`, or nothing where the scene names none.
-fn space(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
