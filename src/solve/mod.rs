@@ -2,5 +2,7 @@
 
 mod dense;
 pub mod memory;
+mod sparse;
 
 pub use dense::{DenseLu, Singular};
+pub use sparse::{SparseCholesky, SparseSymmetric};
