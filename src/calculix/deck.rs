@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use super::equation::{Equation, Term};
-use super::model::{Contact, Friction, Model, Pair};
 use super::number::field;
+use super::problem::{Contact, Pair, Problem};
+use crate::contact::Friction;
 use crate::error::InputError;
 use crate::mirror::{Plane, Worksheet};
 
@@ -15,36 +16,36 @@ const STICKING: f64 = 1000.0;
 /// Stick slope over penalty: the manual advises about a tenth.
 const STICK_SLOPE: f64 = 0.1;
 
-/// The deck of a model: plane triangles, the whole load in one static step; displacements and stresses go to the `.dat` file, where
+/// The deck of a problem: plane triangles, the whole load in one static step; displacements and stresses go to the `.dat` file, where
 /// ccx prints seven digits (`.frd`: six).
 ///
 /// # Errors
 /// A pair whose surfaces bound no triangle.
-pub fn deck(model: &Model) -> Result<String, InputError> {
-    let mut text = heading(model);
-    text += &nodes(model.sheet);
-    text += &elements(model);
-    match model.contact {
-        Contact::Equations(equations) => text += &equation_cards(model.sheet, equations),
-        Contact::Pair(_) if model.sheet.cnt.rows() == 0 => {}
-        Contact::Pair(pair) => text += &pair_cards(model.sheet, pair)?,
+pub fn deck(problem: &Problem) -> Result<String, InputError> {
+    let mut text = heading(problem);
+    text += &nodes(problem.sheet);
+    text += &elements(problem);
+    match problem.contact {
+        Contact::Equations(equations) => text += &equation_cards(problem.sheet, equations),
+        Contact::Pair(_) if problem.sheet.cnt.rows() == 0 => {}
+        Contact::Pair(pair) => text += &pair_cards(problem.sheet, pair)?,
     }
-    text += &restraints(model);
-    text += &step(model);
+    text += &restraints(problem);
+    text += &step(problem);
     Ok(text)
 }
 
 /// Comment lines: what the deck is.
-fn heading(model: &Model) -> String {
-    let title: Vec<&str> = model.scene.title.split_whitespace().collect();
+fn heading(problem: &Problem) -> String {
+    let title: Vec<&str> = problem.scene.title.split_whitespace().collect();
     let title: String = title.join(" ").chars().take(100).collect();
-    let contact = match model.contact {
+    let contact = match problem.contact {
         Contact::Equations(equations) => format!("{} equations", equations.len()),
         Contact::Pair(Pair { penalty, friction }) => {
             format!("contact pair, penalty {penalty:e} stress/length, friction {friction}")
         }
     };
-    format!("** {title}\n** plane {}; contact: {contact}\n", model.sheet.plane)
+    format!("** {title}\n** plane {}; contact: {contact}\n", problem.sheet.plane)
 }
 
 fn nodes(sheet: &Worksheet<f64>) -> String {
@@ -57,8 +58,8 @@ fn nodes(sheet: &Worksheet<f64>) -> String {
 }
 
 /// The triangles of each material, in the order in which the materials come.
-fn elements(model: &Model) -> String {
-    let sheet = model.sheet;
+fn elements(problem: &Problem) -> String {
+    let sheet = problem.sheet;
     let kind = match sheet.plane {
         Plane::Strain => "CPE3",
         Plane::Stress => "CPS3",
@@ -73,7 +74,7 @@ fn elements(model: &Model) -> String {
         }
         line(&mut text, format!("*MATERIAL, NAME={name}\n*ELASTIC\n{},{}", field(e), field(nu)));
         line(&mut text, format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}"));
-        line(&mut text, field(model.scene.thickness));
+        line(&mut text, field(problem.scene.thickness));
     }
     text
 }
@@ -163,9 +164,9 @@ fn surface(
 }
 
 /// The displacements that S holds.
-fn restraints(model: &Model) -> String {
+fn restraints(problem: &Problem) -> String {
     let mut text = String::from("*BOUNDARY\n");
-    for e in (0..model.sheet.S.rows()).filter(|&e| model.sheet.S[e + 1] == 1) {
+    for e in (0..problem.sheet.S.rows()).filter(|&e| problem.sheet.S[e + 1] == 1) {
         let (node, direction) = (e / 2 + 1, e % 2 + 1);
         line(&mut text, format!("{node},{direction},{direction}"));
     }
@@ -173,15 +174,19 @@ fn restraints(model: &Model) -> String {
 }
 
 /// One static step with the loads on the equations that S leaves free.
-fn step(model: &Model) -> String {
+fn step(problem: &Problem) -> String {
     let mut text = String::from("*STEP\n*STATIC\n");
-    for (e, force) in model.scene.load.iter().enumerate() {
-        if *force != 0.0 && model.sheet.S[e + 1] == 0 {
+    if let Contact::Pair(_) = problem.contact {
+        // A tenth of the load first: from the whole of it at once ccx may settle on another contact zone.
+        line(&mut text, "0.1,1".into());
+    }
+    for (e, force) in problem.scene.load.iter().enumerate() {
+        if *force != 0.0 && problem.sheet.S[e + 1] == 0 {
             line(&mut text, format!("*CLOAD\n{},{},{}", e / 2 + 1, e % 2 + 1, field(*force)));
         }
     }
     line(&mut text, "*NODE PRINT, NSET=NODES\nU".into());
-    for k in 1..=materials(model.sheet).len() {
+    for k in 1..=materials(problem.sheet).len() {
         line(&mut text, format!("*EL PRINT, ELSET=MATERIAL{k}\nS"));
     }
     text + "*END STEP\n"

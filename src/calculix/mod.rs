@@ -1,9 +1,9 @@
 //! CalculiX beside this program: an input deck that `ccx` runs unchanged, and its results read back.
 //!
 //! ```text
-//!  Scene --> contact::run --> Outcome --> Model --deck--> job.inp --ccx--> job.dat --parse--> Fields --+
-//!                               |                                                                      +--> Comparison
-//!                               +-------------------------- Fields ------------------------------------+
+//!  Scene --> contact::run --> Outcome --> Problem --deck--> job.inp --ccx--> job.dat --parse--> Fields --+
+//!                               |                                                                        +--> Comparison
+//!                               +-------------------------- Fields --------------------------------------+
 //! ```
 //!
 //! | contact    | in the deck                                                  | what is compared                              |
@@ -24,8 +24,8 @@ mod comparison;
 mod deck;
 mod equation;
 mod fields;
-mod model;
 mod number;
+mod problem;
 mod results;
 mod run;
 
@@ -33,6 +33,6 @@ pub use comparison::{BodyStress, Comparison, Difference, Largest};
 pub use deck::deck;
 pub use equation::{Equation, Term};
 pub use fields::Fields;
-pub use model::{Contact, ContactKind, Friction, Model, Pair, Part};
+pub use problem::{Contact, ContactKind, Pair, Part, Problem};
 pub use results::parse;
 pub use run::{Ran, run};

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plane_contact::calculix::{self, Comparison, Fields, Model, Part, Ran, deck};
+use plane_contact::calculix::{self, Comparison, Fields, Part, Problem, Ran, deck};
 use plane_contact::contact::Outcome;
 use plane_contact::error::{Error, InputError};
 use plane_contact::report::comparison::{self as report, Compared};
@@ -22,7 +22,8 @@ von_mises_stress.svg (this program), von_mises_stress_calculix.svg, difference.s
 
 Examples:
   plane-contact compare strand --with calculix --variant tied
-  plane-contact compare strand --with calculix --contact pair --penalty 1e8 --json")]
+  plane-contact compare strand --with calculix --variant unilateral --coupling mortar --friction 0
+  plane-contact compare strand --with calculix --variant unilateral --friction 0 --contact pair --penalty 1e7 --json")]
 pub struct Args {
     /// The code.
     #[arg(long, value_name = "CODE")]
@@ -42,9 +43,9 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let Code::Calculix = args.with;
-    let scene = Scene::open(&args.deck.scene)?;
+    let scene = args.deck.scene()?;
     let outcome = args.deck.solve(&scene)?;
-    let parts = args.deck.parts(&outcome)?;
+    let parts = args.deck.parts(&scene, &outcome)?;
     let spinner = waiting("running ccx");
     let ran = run_parts(&args.ccx, &scene, &outcome, &parts);
     spinner.finish_and_clear();
@@ -72,7 +73,7 @@ fn run_parts(
     let mut sum = Fields::zero(sheet.R(), sheet.M());
     let mut version = String::new();
     for Part { contact, share } in parts {
-        let text = deck(&Model { scene, sheet, contact })?;
+        let text = deck(&Problem { scene, sheet, contact })?;
         let ran = calculix::run(ccx, &text, sheet.R(), sheet.M())?;
         sum.add(*share, &ran.fields);
         version = ran.version;

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use plane_contact::calculix::{Contact, ContactKind, Friction, Model, Pair, Part, deck};
+use plane_contact::calculix::{Contact, ContactKind, Pair, Part, Problem, deck};
 use plane_contact::contact::{self, Outcome, Variant};
 use plane_contact::error::Error;
 use plane_contact::report::files;
 use plane_contact::scene::Scene;
 
-use super::{ReadingArg, print, waiting};
+use super::{ModelArgs, ReadingArg, print, waiting};
 
 plane_contact::choices! {
     /// A code that a scene can be exported to.
@@ -27,7 +27,8 @@ whole load; --contact pair lets CalculiX look for contact itself, from the initi
 Examples:
   plane-contact export fig1 --to calculix
   plane-contact export strand --to calculix --variant tied --out strand.inp
-  plane-contact export strand --to calculix --contact pair --penalty 1e8 --friction none --out strand.inp")]
+  plane-contact export strand --to calculix --variant unilateral --coupling mortar --friction 0
+  plane-contact export strand --to calculix --contact pair --penalty 1e7 --friction 0 --out strand.inp")]
 pub struct Args {
     /// The code.
     #[arg(long, value_name = "CODE")]
@@ -48,17 +49,16 @@ pub struct DeckArgs {
     /// equation: the ties of the last iteration; pair: the other code's own contact, by penalty.
     #[arg(long, default_value_t = ContactKind::Equation)]
     pub contact: ContactKind,
-    /// tied or stepped; with --contact pair also printed [default: the scene's].
+    /// tied, stepped or unilateral; with --contact pair also printed [default: the scene's].
     #[arg(long)]
     pub variant: Option<Variant>,
     #[command(flatten)]
     pub reading: ReadingArg,
-    /// Pressure over penetration of a pair, stress/length [default: 100 times the largest E over the target's mean edge].
+    /// Pressure over penetration of a pair, stress/length [default: 10 times the largest E over the target's mean edge].
     #[arg(long, value_name = "K", value_parser = penalty)]
     pub penalty: Option<f64>,
-    /// Friction of a pair: stick or none.
-    #[arg(long, default_value_t = Friction::Stick)]
-    pub friction: Friction,
+    #[command(flatten)]
+    pub model: ModelArgs,
 }
 
 fn penalty(text: &str) -> Result<f64, String> {
@@ -71,7 +71,14 @@ fn penalty(text: &str) -> Result<f64, String> {
 }
 
 impl DeckArgs {
-    /// The run whose last iteration has the ties.
+    /// The scene with the contact model that is asked for.
+    pub fn scene(&self) -> Result<Scene, Error> {
+        let mut scene = Scene::open(&self.scene)?;
+        self.model.apply(&mut scene.contact);
+        Ok(scene)
+    }
+
+    /// The run that is compared.
     pub fn solve(&self, scene: &Scene) -> Result<Outcome, Error> {
         let spinner = waiting("solving");
         let variant = self.variant.unwrap_or(scene.variant);
@@ -81,11 +88,11 @@ impl DeckArgs {
     }
 
     /// The problems whose sum is the run; the last iteration's comes last.
-    pub fn parts(&self, outcome: &Outcome) -> Result<Vec<Part>, Error> {
+    pub fn parts(&self, scene: &Scene, outcome: &Outcome) -> Result<Vec<Part>, Error> {
         match self.contact {
-            ContactKind::Equation => Ok(Contact::parts(outcome)?),
+            ContactKind::Equation => Ok(Contact::parts(scene, outcome)?),
             ContactKind::Pair => {
-                let pair = Pair::new(&outcome.sheet, self.penalty, self.friction);
+                let pair = Pair::new(&outcome.sheet, self.penalty, scene.contact.friction);
                 Ok(vec![Part { contact: Contact::Pair(pair), share: 1.0 }])
             }
         }
@@ -94,11 +101,11 @@ impl DeckArgs {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let Code::Calculix = args.to;
-    let scene = Scene::open(&args.deck.scene)?;
+    let scene = args.deck.scene()?;
     let outcome = args.deck.solve(&scene)?;
-    let parts = args.deck.parts(&outcome)?;
+    let parts = args.deck.parts(&scene, &outcome)?;
     let last = parts.last().expect("a run has an iteration");
-    let text = deck(&Model { scene: &scene, sheet: &outcome.sheet, contact: &last.contact })?;
+    let text = deck(&Problem { scene: &scene, sheet: &outcome.sheet, contact: &last.contact })?;
     match &args.out {
         Some(path) => Ok(files::write(path, &text)?),
         None => print(&text),

@@ -2,7 +2,7 @@
 
 use super::equation::Equation;
 use crate::choices;
-use crate::contact::{Coupling, Iteration, Outcome, ties};
+use crate::contact::{Friction, Outcome, Variant};
 use crate::error::InputError;
 use crate::mirror::{Schedule, Worksheet};
 use crate::scene::Scene;
@@ -16,18 +16,8 @@ choices! {
         Pair = "pair",
     }
 }
-choices! {
-    /// Friction of a contact pair.
-    Friction {
-        /// So much that nothing slides while it is pressed.
-        Stick = "stick",
-        /// None.
-        None = "none",
-    }
-}
-
 /// What a deck describes.
-pub struct Model<'a> {
+pub struct Problem<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// The paper's arrays.
@@ -68,11 +58,11 @@ impl Contact {
     /// iteration's state comes last.
     ///
     /// # Errors
-    /// The variant `printed`, which ties nothing.
-    pub fn parts(outcome: &Outcome) -> Result<Vec<Part>, InputError> {
-        if outcome.variant.coupling() == Coupling::Printed {
+    /// The variant `printed`, which ties nothing; surfaces that `unilateral` does not take.
+    pub fn parts(scene: &Scene, outcome: &Outcome) -> Result<Vec<Part>, InputError> {
+        if outcome.variant == Variant::Printed {
             let what = "the variant printed adds stiffness and ties nothing: there are no equations to write";
-            let mend = "choose tied or stepped, or --contact pair";
+            let mend = "choose tied, stepped or unilateral, or --contact pair";
             return Err(InputError::new("--variant", what, mend));
         }
         let carried = match outcome.schedule {
@@ -82,7 +72,7 @@ impl Contact {
         let share = 1.0 / carried.len() as f64;
         let mut states: Vec<(Vec<Equation>, f64)> = Vec::new();
         for iteration in &outcome.iterations[carried] {
-            let equations = equations(outcome, iteration);
+            let equations = Equation::of_iteration(scene, outcome, iteration)?;
             let met = states.iter().position(|(other, _)| *other == equations);
             let before = met.map_or(0.0, |k| states.remove(k).1);
             states.push((equations, before + share));
@@ -92,17 +82,12 @@ impl Contact {
     }
 }
 
-/// What held in an iteration.
-fn equations(outcome: &Outcome, iteration: &Iteration) -> Vec<Equation> {
-    Equation::of_ties(&outcome.sheet, &ties(&outcome.sheet, &iteration.pairs))
-}
-
 impl Pair {
-    /// Penalty over elastic modulus times edge length, unless it is given: deep in what the manual advises (5 to 50 times the
-    /// modulus, in mm), for the edges of a contact are some tenths of a mm.
-    const STIFFNESS: f64 = 100.0;
+    /// Penalty times edge length over elastic modulus, unless a penalty is given: the manual advises 5 to 50 times the modulus,
+    /// in mm. With more, ccx takes many more iterations, and may settle on another contact zone.
+    const STIFFNESS: f64 = 10.0;
 
-    /// A pair with `penalty`, or with one that suits the scene: 100 E / h, E the largest modulus and h the mean length of
+    /// A pair with `penalty`, or with one that suits the scene: 10 E / h, E the largest modulus and h the mean length of
     /// the target's edges.
     pub fn new(sheet: &Worksheet<f64>, penalty: Option<f64>, friction: Friction) -> Self {
         let suits = || {
