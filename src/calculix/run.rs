@@ -3,10 +3,14 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use super::deck::deck;
 use super::fields::Fields;
-use super::results;
+use super::problem::{Part, Problem};
+use super::results::parse;
 use crate::error::InputError;
+use crate::mirror::Worksheet;
 use crate::report::files;
+use crate::scene::Scene;
 
 /// How many of the last lines of a failed run are shown.
 const TAIL: usize = 12;
@@ -19,26 +23,40 @@ pub struct Ran {
     pub fields: Fields,
 }
 
-/// Runs `program` on `deck` in a temporary folder and reads the displacements of `nodes` nodes and the stresses of `triangles`
-/// triangles.
+/// Runs `program` on a deck for each part and sums the results with the parts' shares.
 ///
 /// # Errors
-/// No such program; one that fails, with the last lines of its output; results that cannot be read.
-pub fn run(program: &str, deck: &str, nodes: usize, triangles: usize) -> Result<Ran, InputError> {
+/// No such program; one that fails, with the last lines of its output; results that cannot be read; a pair whose surfaces bound
+/// no triangle.
+pub fn run(
+    program: &str,
+    scene: &Scene,
+    sheet: &Worksheet<f64>,
+    parts: &[Part],
+) -> Result<Ran, InputError> {
+    let version = version(program)?;
+    let mut fields = Fields::zero(sheet.R(), sheet.M());
+    for Part { contact, share } in parts {
+        let printed = print(program, &deck(&Problem { scene, sheet, contact })?)?;
+        fields.add(*share, &parse(&printed, sheet.R(), sheet.M())?);
+    }
+    Ok(Ran { version, fields })
+}
+
+/// What `program` prints to its `.dat` file for `deck`, in a temporary folder.
+fn print(program: &str, deck: &str) -> Result<String, InputError> {
     let folder = tempfile::tempdir().map_err(|why| {
         let what = format!("no temporary folder can be made: {why}");
         InputError::new("the temporary folder", what, "set TMPDIR to a place that can be written")
     })?;
-    let version = version(program)?;
     files::write(&folder.path().join("job.inp"), deck)?;
     let output = start(program, &["job"], folder.path())?;
-    let printed = text(&output);
-    if !output.status.success() || printed.contains("*ERROR") {
-        return Err(failed(program, &format!("failed ({})", output.status), &printed));
+    let said = text(&output);
+    if !output.status.success() || said.contains("*ERROR") {
+        return Err(failed(program, &format!("failed ({})", output.status), &said));
     }
-    let dat = std::fs::read_to_string(folder.path().join("job.dat"))
-        .map_err(|why| failed(program, &format!("left no results ({why})"), &printed))?;
-    Ok(Ran { version, fields: results::parse(&dat, nodes, triangles)? })
+    std::fs::read_to_string(folder.path().join("job.dat"))
+        .map_err(|why| failed(program, &format!("left no results ({why})"), &said))
 }
 
 /// The last word of `ccx -v`: "This is Version 2.20".
@@ -63,8 +81,8 @@ fn text(output: &Output) -> String {
     both.concat()
 }
 
-fn failed(program: &str, how: &str, printed: &str) -> InputError {
-    let lines: Vec<&str> = printed.lines().filter(|line| !line.trim().is_empty()).collect();
+fn failed(program: &str, how: &str, said: &str) -> InputError {
+    let lines: Vec<&str> = said.lines().filter(|line| !line.trim().is_empty()).collect();
     let tail = lines[lines.len().saturating_sub(TAIL)..].join("\n  ");
     let what = format!("{program} {how}; the end of its output:\n  {tail}");
     InputError::new("ccx", what, "export the deck and run it by hand, or choose another penalty")

@@ -2,11 +2,9 @@
 
 use std::path::PathBuf;
 
-use plane_contact::calculix::{self, Comparison, Fields, Part, Problem, Ran, deck};
-use plane_contact::contact::Outcome;
-use plane_contact::error::{Error, InputError};
+use plane_contact::calculix::{self, Comparison, Fields};
+use plane_contact::error::Error;
 use plane_contact::report::comparison::{self as report, Compared};
-use plane_contact::scene::Scene;
 
 use super::export::{Code, DeckArgs};
 use super::{print, waiting};
@@ -47,7 +45,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let outcome = args.deck.solve(&scene)?;
     let parts = args.deck.parts(&scene, &outcome)?;
     let spinner = waiting("running ccx");
-    let ran = run_parts(&args.ccx, &scene, &outcome, &parts);
+    let ran = calculix::run(&args.ccx, &scene, &outcome.sheet, &parts);
     spinner.finish_and_clear();
     let ran = ran?;
     let compared = Compared {
@@ -60,25 +58,6 @@ pub fn run(args: &Args) -> Result<(), Error> {
         comparison: &Comparison::new(&scene, Fields::of(&outcome), ran.fields),
     };
     finish(args, &compared)
-}
-
-/// Runs a deck for each part and sums their results.
-fn run_parts(
-    ccx: &str,
-    scene: &Scene,
-    outcome: &Outcome,
-    parts: &[Part],
-) -> Result<Ran, InputError> {
-    let sheet = &outcome.sheet;
-    let mut sum = Fields::zero(sheet.R(), sheet.M());
-    let mut version = String::new();
-    for Part { contact, share } in parts {
-        let text = deck(&Problem { scene, sheet, contact })?;
-        let ran = calculix::run(ccx, &text, sheet.R(), sheet.M())?;
-        sum.add(*share, &ran.fields);
-        version = ran.version;
-    }
-    Ok(Ran { version, fields: sum })
 }
 
 fn finish(args: &Args, compared: &Compared) -> Result<(), Error> {

@@ -64,6 +64,25 @@ pub const BALANCE: Tolerance =
 pub const FINDING: Tolerance =
     tolerance(1e-12, "a handful of operations, and LU of a few equations, on numbers of order 1");
 
+/// CalculiX beside this program on the same equations, relative to the largest displacement, or von Mises stress.
+pub const CCX_PRINTS: Tolerance = tolerance(
+    1e-6,
+    "ccx prints seven digits: each of two components is rounded by at most 5e-7 of itself, and so is each of the parts of a sum",
+);
+
+/// CalculiX's contact pair beside `unilateral` without friction where the zone is the whole surface, relative to the largest
+/// displacement, or von Mises stress.
+pub const PENALTY: Tolerance = tolerance(
+    1e-2,
+    "bodies penetrate by pressure over penalty, h/(10 E) of the pressure: 6.3 MPa / 2.1e6 MPa/mm on a displacement of 4e-4 mm",
+);
+
+/// The same where the contact zone is to be found.
+pub const PENALTY_ZONE: Tolerance = tolerance(
+    2e-2,
+    "a penalty lets the edge of the zone spread, and ccx measures normals once an iteration, unilateral until they settle",
+);
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {
