@@ -108,8 +108,11 @@ mod tests {
     use super::*;
     use crate::mirror::Reading;
 
+    /// Terms (node, direction, coefficient) and the constant.
+    type Plain = (Vec<(usize, usize, f64)>, f64);
+
     /// The equations of one tie of node 11 of `two-blocks` (free in x and y) or 10 (held in x).
-    fn equations(node: usize, motion: Motion) -> Vec<(Vec<(usize, usize, f64)>, f64)> {
+    fn equations(node: usize, motion: Motion) -> Vec<Plain> {
         let sheet = Scene::open("two-blocks").unwrap().worksheet(&Reading::default()).unwrap();
         let tie = Tie { node, weights: vec![(7, 0.25), (8, 0.75), (9, 0.0)], motion };
         let terms = |equation: &Equation| {
