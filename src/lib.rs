@@ -26,6 +26,7 @@
 #![forbid(unsafe_code)]
 
 pub mod audit;
+pub mod benchmark;
 pub mod calculix;
 mod choices;
 pub mod contact;

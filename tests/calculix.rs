@@ -8,7 +8,7 @@ use common::golden::assert_golden;
 use common::tolerances::{CCX_PRINTS, PENALTY, PENALTY_STRESS, assert_near};
 use common::{build, solve};
 use plane_contact::calculix::{Comparison, Contact, Fields, Pair, Part, Problem, deck, parse, run};
-use plane_contact::contact::{self, Coupling, Friction, Outcome, Variant};
+use plane_contact::contact::{self, Coupling, Friction, Geometry, Model, Outcome, Variant};
 use plane_contact::mirror::Reading;
 use plane_contact::scene::Scene;
 use serde_json::{Value, json};
@@ -201,17 +201,23 @@ fn ccx_solves_the_same_equations() {
         for variant in [Variant::Tied, Variant::Stepped] {
             assert_equations(name, &scene, variant);
         }
-        for coupling in Coupling::ALL {
-            for friction in Friction::ALL {
-                scene.contact = contact::Model { coupling: *coupling, friction: *friction };
-                assert_equations(
-                    &format!("{name} {coupling} {friction}"),
-                    &scene,
-                    Variant::Unilateral,
-                );
-            }
+        for model in models() {
+            scene.contact = model;
+            assert_equations(&format!("{name} {model:?}"), &scene, Variant::Unilateral);
         }
     }
+}
+
+/// Every way to model contact under `unilateral`.
+fn models() -> Vec<Model> {
+    let mut models = Vec::new();
+    for &coupling in Coupling::ALL {
+        for &geometry in Geometry::ALL {
+            models.push(Model { coupling, friction: Friction::None, geometry });
+        }
+        models.push(Model { coupling, friction: Friction::Stick, geometry: Geometry::Current });
+    }
+    models
 }
 
 #[track_caller]
@@ -230,7 +236,7 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
         return;
     }
     for (name, mut scene) in scenes() {
-        scene.contact = contact::Model { coupling: Coupling::Nts, friction: Friction::None };
+        scene.contact = Model { friction: Friction::None, ..Model::default() };
         let outcome = outcome(&scene, Variant::Unilateral);
         let pair = Pair::new(&outcome.sheet, None, Friction::None);
         let part = Part { contact: Contact::Pair(pair), share: 1.0 };

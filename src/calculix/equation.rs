@@ -1,6 +1,8 @@
 //! Linear equations between displacements.
 
-use crate::contact::{Friction, Iteration, Motion, Outcome, Pairing, Surfaces, Tie, Variant, ties};
+use crate::contact::{
+    Friction, Geometry, Iteration, Model, Motion, Outcome, Pairing, Surfaces, Tie, Variant, ties,
+};
 use crate::error::InputError;
 use crate::mirror::Worksheet;
 use crate::scene::Scene;
@@ -77,19 +79,19 @@ impl Equation {
     }
 }
 
-/// What closed the gaps in an iteration of `unilateral`: weights and normals in the shape that it started from, under stick in the
-/// initial one; gaps in the initial shape.
+/// What closed the gaps in an iteration of `unilateral`: weights and normals in the shape that it started from, or in the initial
+/// one; gaps in the initial shape.
 fn closing(
     scene: &Scene,
     sheet: &Worksheet<f64>,
     iteration: &Iteration,
 ) -> Result<Vec<Tie>, InputError> {
-    let friction = scene.contact.friction;
-    let measured = match friction {
-        Friction::None => &iteration.node_n,
-        Friction::Stick => &sheet.node,
+    let Model { coupling, friction, geometry } = scene.contact;
+    let measured = match (friction, geometry) {
+        (Friction::None, Geometry::Current) => &iteration.node_n,
+        _ => &sheet.node,
     };
-    let pairings = Surfaces::new(sheet)?.pairings(scene.contact.coupling, measured);
+    let pairings = Surfaces::new(sheet)?.pairings(coupling, measured);
     let closed = pairings.iter().zip(iteration.pairs.dy.iter()).filter(|(_, dy)| **dy == 1);
     Ok(closed.filter_map(|(p, _)| p.as_ref()).map(|p| tie(sheet, p, friction)).collect())
 }

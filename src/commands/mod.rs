@@ -5,6 +5,7 @@ pub mod c_cnt;
 pub mod compare;
 pub mod export;
 pub mod km;
+pub mod mesh;
 pub mod solve;
 pub mod trace;
 
@@ -12,7 +13,7 @@ use std::io::Write;
 use std::time::Duration;
 
 use indicatif::ProgressBar;
-use plane_contact::contact::{Coupling, Friction, Model};
+use plane_contact::contact::{Coupling, Friction, Geometry, Model};
 use plane_contact::error::Error;
 use plane_contact::mirror::Reading;
 
@@ -37,6 +38,10 @@ pub struct ModelArgs {
     /// Under unilateral: 0 (contact nodes slide) or stick (they follow the target, as eq. (1) asks) [default: the scene's].
     #[arg(long)]
     friction: Option<Friction>,
+    /// Under unilateral, the shape in which the contact of sliding nodes is measured: current, or initial (small displacements) [default: the
+    /// scene's].
+    #[arg(long)]
+    geometry: Option<Geometry>,
 }
 
 impl ModelArgs {
@@ -44,6 +49,7 @@ impl ModelArgs {
     pub fn apply(&self, model: &mut Model) {
         model.coupling = self.coupling.unwrap_or(model.coupling);
         model.friction = self.friction.unwrap_or(model.friction);
+        model.geometry = self.geometry.unwrap_or(model.geometry);
     }
 }
 

@@ -1,6 +1,8 @@
 //! Contact: how the pairs that `c_cnt` finds enter the equations, and the iterations; and the converged answer beside them.
 
+mod distance;
 mod elimination;
+mod hertz;
 mod pairing;
 mod pressure;
 mod published;
@@ -11,10 +13,12 @@ mod support;
 mod unilateral;
 mod variant;
 
+pub use distance::{BodyDistance, Distance, distance, reference};
 pub use elimination::{Elimination, Motion, Tie, interpolations, ties};
+pub use hertz::Hertz;
 pub use pairing::{Coupling, Pairing, Surfaces};
 pub use pressure::ContactNode;
 pub use run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, run, shape};
 pub use stiffness::Stiffness;
 pub use summary::{BodySummary, summaries};
-pub use variant::{Friction, Model, Variant};
+pub use variant::{Friction, Geometry, Model, Variant};

@@ -19,7 +19,9 @@ pub struct ContactNode {
     pub dy: usize,
     /// Distance from the target along its normal, length; < 0 where the node penetrates.
     pub gap: f64,
-    /// Contact pressure, stress; < 0 where the node pulls.
+    /// Force on the node along the normal, force; < 0 where it pulls.
+    pub force: f64,
+    /// The same over the surface that the node stands for: contact pressure, stress.
     pub pressure: f64,
     /// Traction along the tangent (the normal turned left), stress.
     pub shear: f64,
@@ -65,6 +67,7 @@ fn contact_node(
         arc,
         dy,
         gap: pairing.gap,
+        force: normal,
         pressure: over(normal, area),
         shear: over(tangent, area),
         friction_needed: presses.then(|| tangent.abs() / normal),
@@ -77,7 +80,7 @@ fn over(force: f64, area: f64) -> f64 {
 }
 
 /// Distance of each entry of `cnt` from the first along the polyline, length.
-fn arcs(sheet: &Worksheet<f64>, node: &Table<f64>) -> Vec<f64> {
+pub(super) fn arcs(sheet: &Worksheet<f64>, node: &Table<f64>) -> Vec<f64> {
     let at = |i1: usize| [2, 3].map(|column| node[(sheet.cnt[i1], column)]);
     let mut arc = 0.0;
     (1..=sheet.cnt.rows())

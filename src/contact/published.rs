@@ -46,7 +46,19 @@ pub(super) fn published(
     let (schedule, u, factored) = (run.schedule, run.u, run.met.len());
     let elements = states(&sheet, &u);
     let reading = *reading;
-    Ok(Outcome { variant, schedule, reading, sheet, iterations, u, elements, contact, factored })
+    let model = scene.contact;
+    Ok(Outcome {
+        variant,
+        schedule,
+        reading,
+        model,
+        sheet,
+        iterations,
+        u,
+        elements,
+        contact,
+        factored,
+    })
 }
 
 /// What an iteration needs of those before it.

@@ -8,7 +8,7 @@ use super::pressure::{ContactNode, contact_nodes};
 use super::published::published;
 use super::support::{against_load, support};
 use super::unilateral::{Step, unilateral};
-use super::variant::Variant;
+use super::variant::{Model, Variant};
 use crate::element::State;
 use crate::error::{Error, InputError};
 use crate::mathcad::array::{Column, Table};
@@ -59,6 +59,8 @@ pub struct Outcome {
     pub schedule: Schedule,
     /// The reading.
     pub reading: Reading,
+    /// How contact is modelled beyond what the paper prints.
+    pub model: Model,
     /// The paper's arrays.
     pub sheet: Worksheet<f64>,
     /// The iterations.
@@ -113,7 +115,19 @@ fn converged(
     let (elements, u) = (states(&sheet, &last.u), last.u);
     let (variant, reading) = (Variant::Unilateral, *reading);
     let schedule = variant.schedule(&reading);
-    Ok(Outcome { variant, schedule, reading, sheet, iterations, u, elements, contact, factored })
+    let model = scene.contact;
+    Ok(Outcome {
+        variant,
+        schedule,
+        reading,
+        model,
+        sheet,
+        iterations,
+        u,
+        elements,
+        contact,
+        factored,
+    })
 }
 
 fn closed(step: &Step) -> Vec<usize> {

@@ -47,6 +47,18 @@ impl<'de> Deserialize<'de> for Friction {
     }
 }
 
+choices! {
+    /// The shape in which `unilateral` measures normals, weights and gaps of nodes that slide.
+    #[derive(Default)]
+    Geometry {
+        /// The current one.
+        #[default]
+        Current = "current",
+        /// The initial one: the theory of small displacements, as Hertz's.
+        Initial = "initial",
+    }
+}
+
 /// How contact is modelled, beyond what the paper prints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Model {
@@ -54,6 +66,8 @@ pub struct Model {
     pub coupling: Coupling,
     /// What it may do along the tangent.
     pub friction: Friction,
+    /// The shape in which contact is measured.
+    pub geometry: Geometry,
 }
 
 impl Variant {

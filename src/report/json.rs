@@ -3,7 +3,10 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::contact::{BodySummary, Cycle, Iteration, Outcome, summaries};
+use crate::contact::{
+    BodySummary, ContactNode, Coupling, Cycle, Distance, Friction, Hertz, Iteration, Outcome,
+    distance, summaries,
+};
 use crate::mirror::{Pairs, Reading};
 use crate::scene::{Scene, Units};
 
@@ -14,6 +17,8 @@ struct Document<'a> {
     title: &'a str,
     variant: &'static str,
     reading: Value,
+    coupling: Coupling,
+    friction: Friction,
     units: &'a Units,
     /// Sum of the loads, force.
     load: [f64; 2],
@@ -21,6 +26,12 @@ struct Document<'a> {
     dropped: &'a [usize],
     iterations: Vec<Row<'a>>,
     bodies: Vec<BodySummary>,
+    /// The contact surface at the end.
+    contact: &'a [ContactNode],
+    /// Hertz's contact, where his theory applies.
+    hertz: Option<Hertz>,
+    /// How far the run is from the converged answer; none without contact, and where there is none.
+    distance: Option<Distance>,
     /// Displacement of each node, length.
     u: Vec<[f64; 2]>,
     elements: Vec<ElementRow>,
@@ -49,18 +60,23 @@ struct ElementRow {
     von_mises_strain: f64,
 }
 
-/// `result.json` of a run.
-pub fn result(scene: &Scene, outcome: &Outcome) -> String {
+/// `result.json` of a run; `converged` is the answer that it is measured against.
+pub fn result(scene: &Scene, outcome: &Outcome, converged: Option<&Outcome>) -> String {
     let document = Document {
         scene: &scene.name,
         title: &scene.title,
         variant: outcome.variant.name(),
         reading: reading(outcome),
+        coupling: outcome.model.coupling,
+        friction: outcome.model.friction,
         units: &scene.units,
         load: scene.total_load(),
         dropped: &scene.dropped,
         iterations: outcome.iterations.iter().map(row).collect(),
         bodies: summaries(scene, outcome),
+        contact: &outcome.contact,
+        hertz: Hertz::of(outcome, scene.thickness),
+        distance: converged.map(|converged| distance(scene, outcome, converged)),
         u: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
         elements: elements(outcome),
     };

@@ -9,6 +9,7 @@ pub mod folder;
 pub mod json;
 pub mod matrix_market;
 pub mod picture;
+pub mod pressure;
 pub mod tables;
 pub mod trace;
 pub mod vtu;

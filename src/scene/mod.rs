@@ -128,6 +128,7 @@ impl Scene {
             contact: file.contact.map_or(Model::default(), |contact| Model {
                 coupling: contact.coupling,
                 friction: contact.friction,
+                geometry: contact.geometry,
             }),
             thickness: file.thickness,
             bodies,

@@ -82,6 +82,53 @@ pub const PENALTY_STRESS: Tolerance = tolerance(
     "a penalty spreads the contact forces over more nodes, and moves the largest stress with them; 2.6e-2 on the strand",
 );
 
+/// Areas and lengths of generated meshes with straight sides, relative to the exact ones.
+pub const STRAIGHT: Tolerance =
+    tolerance(1e-12, "a sum of some hundred areas or lengths, each a difference of coordinates");
+
+/// Areas and lengths of generated meshes with curved sides, relative to the exact ones.
+pub const CHORDS: Tolerance = tolerance(
+    0.02,
+    "chords of at most 15 degrees cut off 1.2 % of the sector, and half as much again at the ends",
+);
+
+/// Lamé: order of convergence, absolute.
+pub const LAME_ORDER: Tolerance = tolerance(
+    0.06,
+    "theory gives 2 in the limit; 1.95, 2.00, 2.01 were measured between 4 and 32 divisions",
+);
+
+/// Lamé at 64 divisions through the wall, displacement of the bore, relative to it.
+pub const LAME_DISPLACEMENT: Tolerance =
+    tolerance(2e-4, "second order: 1.2e-4 was measured, four times that at 32 divisions");
+
+/// Lamé at 64 divisions, hoop stress of the bore, relative to it.
+pub const LAME_STRESS: Tolerance = tolerance(
+    6e-4,
+    "second order by extrapolation: 3.9e-4 was measured, four times that at 32 divisions",
+);
+
+/// Kirsch at 64 divisions of the quarter, stress at the hole, relative to each value.
+pub const KIRSCH: Tolerance = tolerance(
+    4e-3,
+    "2.5e-3 and 3.3e-3 were measured; on an axis of symmetry, which the mesh's diagonals do not share, extrapolation is not quite \
+     second order",
+);
+
+/// Cook: half a unit of the last of the three decimals of the reference numbers, absolute.
+pub const COOK: Tolerance =
+    tolerance(5.1e-4, "the reference numbers are printed with three decimals");
+
+/// LE1: half a unit of the last of the two decimals of the reference numbers, absolute.
+pub const LE1_GRID: Tolerance =
+    tolerance(5.1e-3, "the reference numbers are printed with two decimals");
+
+/// LE1 at 64 divisions by extrapolation, relative to 92.7.
+pub const LE1_LIMIT: Tolerance = tolerance(
+    3e-3,
+    "92.7 is rounded at 5e-4; extrapolation on the axis of symmetry leaves 1.4e-3 at 64 divisions, 2.6e-3 at 128",
+);
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {

@@ -1,10 +1,11 @@
-//! Pictures as SVG: the mesh (the paper's fig. 4) and a field on the deformed mesh (fig. 5).
+//! Pictures as SVG: the mesh (the paper's fig. 4), a field on the deformed mesh (fig. 5), curves in a chart.
 //!
 //! | module          | what it holds                                |
 //! |-----------------|----------------------------------------------|
 //! | `bodies`      | what the mesh's panels and legend show       |
 //! | `fields`      | what a field's panels and captions show      |
 //! | `deformation` | the deformed mesh and its outline            |
+//! | `chart`       | curves over one axis                         |
 //! | `page`        | layout: title, panels, legend, captions      |
 //! | `colour`      | values to colours, and the colour bar        |
 //! | `view`        | the mesh's coordinates to pixels             |
@@ -12,6 +13,7 @@
 //! | `svg`         | shapes, on top of the XML writer                    |
 
 mod bodies;
+mod chart;
 mod colour;
 mod deformation;
 mod fields;
@@ -19,6 +21,8 @@ mod numbers;
 mod page;
 mod svg;
 mod view;
+
+pub use self::chart::{Axis, Series, Style, chart};
 
 use self::bodies::{draw_bodies, legend};
 use self::deformation::{deformed, magnification};
