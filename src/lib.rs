@@ -27,6 +27,7 @@
 
 pub mod audit;
 pub mod benchmark;
+pub mod calculix;
 mod choices;
 pub mod contact;
 pub mod element;

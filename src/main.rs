@@ -40,6 +40,8 @@ enum Command {
     Mesh(commands::mesh::Args),
     Statuses(commands::statuses::Args),
     Trace(commands::trace::Args),
+    Export(commands::export::Args),
+    Compare(commands::compare::Args),
 }
 
 fn main() -> ExitCode {
@@ -51,6 +53,8 @@ fn main() -> ExitCode {
         Command::Mesh(args) => commands::mesh::run(&args),
         Command::Statuses(args) => commands::statuses::run(&args),
         Command::Trace(args) => commands::trace::run(&args),
+        Command::Export(args) => commands::export::run(&args),
+        Command::Compare(args) => commands::compare::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,6 +2,8 @@
 
 pub mod audit;
 pub mod c_cnt;
+pub mod compare;
+pub mod export;
 pub mod km;
 pub mod mesh;
 pub mod solve;

@@ -57,6 +57,17 @@ pub fn mesh_picture(scene: &Scene, sheet: &Worksheet<f64>) -> String {
     picture::mesh(&Shown::new(scene, sheet).drawing(scene))
 }
 
+/// A field on the deformed mesh of a scene as a picture.
+pub fn field_picture(
+    scene: &Scene,
+    sheet: &Worksheet<f64>,
+    title: &str,
+    field: &Field<'_>,
+) -> String {
+    let shown = Shown::new(scene, sheet);
+    picture::field(&Drawing { title, ..shown.drawing(scene) }, field)
+}
+
 /// The mesh, counted from 0.
 struct Shown {
     points: Vec<[f64; 2]>,

@@ -3,6 +3,7 @@
 //! The same input gives the same bytes: no clock, no hash order, no machine in them.
 
 pub mod audit;
+pub mod comparison;
 pub mod files;
 pub mod folder;
 pub mod json;

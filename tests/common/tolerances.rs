@@ -64,6 +64,25 @@ pub const BALANCE: Tolerance =
 pub const FINDING: Tolerance =
     tolerance(1e-12, "a handful of operations, and LU of a few equations, on numbers of order 1");
 
+/// CalculiX beside this program on the same equations, relative to the largest displacement, or von Mises stress.
+pub const CCX_PRINTS: Tolerance = tolerance(
+    1e-6,
+    "ccx prints seven digits: each of two components is rounded by at most 5e-7 of itself, and so is each of the parts of a sum",
+);
+
+/// CalculiX's contact pair beside `unilateral`, node to segment, relative to the largest displacement.
+pub const PENALTY: Tolerance = tolerance(
+    1e-2,
+    "bodies penetrate by pressure over penalty, h/(10 E) of the pressure: on two-blocks 3e-6 mm of 4.2e-4 mm",
+);
+
+/// The same for the largest von Mises stress of a body, relative to it.
+pub const PENALTY_STRESS: Tolerance = tolerance(
+    5e-2,
+    "ccx pushes along the normal of the target's face, unilateral along one that turns from face to face: 2.3e-2 on the strand, \
+     whatever the penalty; the default penalty adds 2e-3",
+);
+
 /// Areas and lengths of generated meshes with straight sides, relative to the exact ones.
 pub const STRAIGHT: Tolerance =
     tolerance(1e-12, "a sum of some hundred areas or lengths, each a difference of coordinates");
