@@ -64,6 +64,12 @@ pub const BALANCE: Tolerance =
 pub const FINDING: Tolerance =
     tolerance(1e-12, "a handful of operations, and LU of a few equations, on numbers of order 1");
 
+/// A double-double operation against exact arithmetic, relative to its result.
+pub const DOUBLE_DOUBLE: Tolerance = tolerance(
+    1.3e-31,
+    "the proven errors, in units of u² = 2^-106 = 1.2e-32: sum 3, product 4, quotient 9.8, root of a square 3.125 + 2",
+);
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {

@@ -1,10 +1,25 @@
-//! The number type of the mirror, and what may stand in its subscripts.
+//! The number types of the mirror, and what may stand in their subscripts.
+//!
+//! | scalar | digits | what it is for |
+//! |---|---|---|
+//! | `f32` | 7 | how much the answer hangs on the precision |
+//! | `f64` | 16 | Mathcad's own |
+//! | [`F64x2`] | 31 | a reference for scenes of any size |
+//! | [`Exact`] | all | rational numbers: a reference without doubt, for small scenes |
+
+mod exact;
+mod f64x2;
+pub mod rational;
 
 use std::fmt::{Debug, Display};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use dashu_ratio::RBig;
 use nalgebra::{ClosedAddAssign, ClosedMulAssign};
 use num_traits::{One, Zero};
+
+pub use exact::{Exact, scope};
+pub use f64x2::F64x2;
 
 /// What may stand in a subscript: a whole number, or a number of a table that holds one (`k_cnt` holds node numbers
 /// beside weights).
@@ -33,7 +48,7 @@ impl Subscript for f32 {
 }
 
 /// What the listings ask of a number: `+ − · /`, comparison, absolute value, min and max. No square root and nothing
-/// transcendental, so that `f32`, `f64` and exact rationals all serve.
+/// transcendental, so that `f32`, `f64` and exact rationals all serve. The square roots of norms are taken on the way out, to `f64`.
 pub trait Scalar:
     Subscript
     + Debug
@@ -55,6 +70,29 @@ pub trait Scalar:
 
     /// The `f64` nearest to the scalar.
     fn to_f64(self) -> f64;
+
+    /// The scalar nearest to the shortest decimal that reads back to `x`: 0.1 for 0.1, not the dyadic number beside it.
+    fn from_decimal(x: f64) -> Self {
+        Self::from_f64(x)
+    }
+
+    /// The exact value; nothing for an infinity or NaN.
+    fn to_rational(self) -> Option<RBig> {
+        RBig::try_from(self.to_f64()).ok()
+    }
+
+    /// sqrt(factor) · scale · sqrt(square), as near as the scalar allows; `scale` keeps `square` from overflow.
+    fn scaled_root(factor: Self, scale: Self, square: Self) -> f64;
+
+    /// sqrt(self² + other²), as near as the scalar allows.
+    fn hypot(self, other: Self) -> f64 {
+        let scale = Scalar::max(Scalar::abs(self), Scalar::abs(other));
+        if scale == Self::zero() {
+            return 0.0;
+        }
+        let (a, b) = (self / scale, other / scale);
+        Self::scaled_root(Self::one(), scale, a * a + b * b)
+    }
 
     /// A whole number of the paper's tables (a node or element number, a restraint) as a scalar.
     fn from_number(n: usize) -> Self {
@@ -90,6 +128,12 @@ impl Scalar for f64 {
     fn to_f64(self) -> f64 {
         self
     }
+    fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
+        factor.sqrt() * (scale * square.sqrt())
+    }
+    fn hypot(self, other: Self) -> f64 {
+        f64::hypot(self, other)
+    }
 }
 
 impl Scalar for f32 {
@@ -98,5 +142,11 @@ impl Scalar for f32 {
     }
     fn to_f64(self) -> f64 {
         f64::from(self)
+    }
+    fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
+        f64::from(factor.sqrt() * (scale * square.sqrt()))
+    }
+    fn hypot(self, other: Self) -> f64 {
+        f64::from(f32::hypot(self, other))
     }
 }
