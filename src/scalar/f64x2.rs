@@ -6,7 +6,7 @@
 //! Relative errors, u = 2^-53: sum 3 u², product 4 u², quotient 9.8 u², root 3.125 u², while nothing underflows.
 
 use std::fmt;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
@@ -122,6 +122,12 @@ impl Neg for F64x2 {
 impl AddAssign for F64x2 {
     fn add_assign(&mut self, y: Self) {
         *self = *self + y;
+    }
+}
+
+impl SubAssign for F64x2 {
+    fn sub_assign(&mut self, y: Self) {
+        *self = *self - y;
     }
 }
 

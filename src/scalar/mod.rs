@@ -4,9 +4,11 @@
 //! |---|---|---|
 //! | `f32` | 7 | how much the answer hangs on the precision |
 //! | `f64` | 16 | Mathcad's own |
+//! | [`Bounded`] | 16 | `f64` with a bound on its error |
 //! | [`F64x2`] | 31 | a reference for scenes of any size |
 //! | [`Exact`] | all | rational numbers: a reference without doubt, for small scenes |
 
+mod bounded;
 mod exact;
 mod f64x2;
 pub mod rational;
@@ -15,9 +17,10 @@ use std::fmt::{Debug, Display};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use dashu_ratio::RBig;
-use nalgebra::{ClosedAddAssign, ClosedMulAssign};
+use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{One, Zero};
 
+pub use bounded::Bounded;
 pub use exact::{Exact, scope};
 pub use f64x2::F64x2;
 
@@ -62,6 +65,7 @@ pub trait Scalar:
     + Div<Output = Self>
     + Neg<Output = Self>
     + ClosedAddAssign
+    + ClosedSubAssign
     + ClosedMulAssign
     + nalgebra::Scalar
 {
