@@ -37,6 +37,12 @@ impl Case {
         })
     }
 
+    /// The scene's variant where it is one of the paper's, else the first of those.
+    pub fn published_variant(&self) -> Variant {
+        let own = Some(self.scene.variant).filter(|v| Variant::OF_THE_PAPER.contains(v));
+        own.unwrap_or(Variant::OF_THE_PAPER[0])
+    }
+
     /// What `c_cnt` finds at the initial shape under the default reading.
     ///
     /// # Errors

@@ -50,7 +50,7 @@ enum Trial {
 
 /// Every other reading on a scene, in the order of `READING.md`.
 pub fn effects(case: &Case) -> Vec<Effect> {
-    let own = case.scene.variant;
+    let own = case.published_variant();
     let plane = match case.sheet.plane {
         Plane::Strain => "R6=stress",
         Plane::Stress => "R6=strain",
@@ -138,7 +138,7 @@ fn mirror(
 /// The shapes of the scene's own variant once more under another order of evaluation: it can only make `c_cnt` fail, or leave
 /// everything as it is.
 fn conjunction(case: &Case, id: &'static str, lines: &'static str, r4: Order) -> Effect {
-    let variant = case.scene.variant;
+    let variant = case.published_variant();
     let effect = Effect::none(id, format!("R4 = {r4}"), lines, variant.name().into());
     let outcome = match case.run(variant) {
         Ok(outcome) => outcome,
@@ -159,7 +159,9 @@ fn schedule(case: &Case, id: &'static str, lines: &'static str, variant: Variant
     let (other, text) = match variant {
         Variant::Stepped => (Variant::Tied, "R7=total"),
         Variant::Tied => (Variant::Stepped, "R7=stepped"),
-        Variant::Printed => return mirror(case, id, lines, "R7=stepped", variant),
+        Variant::Printed | Variant::Unilateral => {
+            return mirror(case, id, lines, "R7=stepped", variant);
+        }
     };
     let effect = Effect::none(id, text.replace('=', " = "), lines, variant.name().into());
     match (case.run(variant), case.run(other)) {
@@ -211,7 +213,7 @@ fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
 fn strain_formula(case: &Case, id: &'static str, lines: &'static str) -> Effect {
     let what = "largest von Mises strain, difference";
     let effect = Effect::none(id, "stress formula / (1 + nu)".into(), lines, what.into());
-    match case.run(case.scene.variant) {
+    match case.run(case.published_variant()) {
         Err(why) => effect.failed(why),
         Ok(outcome) => {
             let sheet = &outcome.sheet;

@@ -10,6 +10,7 @@ use std::io::Write;
 use std::time::Duration;
 
 use indicatif::ProgressBar;
+use plane_contact::contact::{Coupling, Friction, Model};
 use plane_contact::error::Error;
 use plane_contact::mirror::Reading;
 
@@ -23,6 +24,25 @@ pub struct ReadingArg {
     /// scene in mm).
     #[arg(long, value_name = "LIST", default_value = "")]
     pub reading: ReadingText,
+}
+
+/// How contact is modelled beyond what the paper prints, in place of what the scene says.
+#[derive(clap::Args)]
+pub struct ModelArgs {
+    /// nts: node to segment, two weights a node, as c_cnt does; mortar: averaged over what the node's edges cover [default: the scene's].
+    #[arg(long)]
+    coupling: Option<Coupling>,
+    /// Under unilateral: 0 (contact nodes slide) or stick (they follow the target, as eq. (1) asks) [default: the scene's].
+    #[arg(long)]
+    friction: Option<Friction>,
+}
+
+impl ModelArgs {
+    /// Puts what is given in place of what `model` has.
+    pub fn apply(&self, model: &mut Model) {
+        model.coupling = self.coupling.unwrap_or(model.coupling);
+        model.friction = self.friction.unwrap_or(model.friction);
+    }
 }
 
 /// A reading as clap parses it: an error of its own words, exit status 2.

@@ -9,7 +9,7 @@ use plane_contact::error::Error;
 use plane_contact::report::{folder, tables};
 use plane_contact::scene::Scene;
 
-use super::{ReadingArg, print};
+use super::{ModelArgs, ReadingArg, print};
 
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
@@ -21,14 +21,18 @@ Examples:
   plane-contact solve
   plane-contact solve strand --variant tied --out out/tied
   plane-contact solve fig1 --variant printed --reading R3=nested --json
+  plane-contact solve strand --variant unilateral --coupling mortar --friction 0
   plane-contact solve my/scene.json --reading R6=stress,R8=m")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
     scene: String,
-    /// printed: Km as printed; tied: eq. (1) on total displacements; stepped: eq. (1) on increments [default: the scene's].
+    /// printed: Km as printed; tied: eq. (1) on total displacements; stepped: eq. (1) on increments; unilateral: gaps closed along the
+    /// normal, the converged answer [default: the scene's].
     #[arg(long)]
     variant: Option<Variant>,
+    #[command(flatten)]
+    model: ModelArgs,
     #[command(flatten)]
     reading: ReadingArg,
     /// Folder for pictures and data [default: out/<scene>-<variant>].
@@ -40,7 +44,8 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Error> {
-    let scene = Scene::open(&args.scene)?;
+    let mut scene = Scene::open(&args.scene)?;
+    args.model.apply(&mut scene.contact);
     let variant = args.variant.unwrap_or(scene.variant);
     let progress = progress(scene.iterations);
     let outcome = contact::run(&scene, variant, &args.reading.reading.0, |_| progress.inc(1))?;

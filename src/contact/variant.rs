@@ -1,5 +1,9 @@
 //! What can be run: `READING.md` section 6.
 
+use serde::Deserialize;
+use serde::de::{self, Deserializer};
+
+use super::pairing::Coupling;
 use crate::choices;
 use crate::mirror::{Reading, Schedule};
 
@@ -14,32 +18,55 @@ choices! {
         Tied = "tied",
         /// `Km` exactly as printed.
         Printed = "printed",
+        /// Gaps closed along the normal, released where they would pull: the converged answer.
+        Unilateral = "unilateral",
     }
 }
 
-/// How the contact pairs enter the equations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coupling {
-    /// `Km` adds weighted blocks to the mates' equations.
-    Printed,
-    /// Eq. (1) by elimination.
-    Eliminated,
+choices! {
+    /// What a contact node may do along the target's tangent, under `unilateral`.
+    #[derive(Default)]
+    Friction {
+        /// It follows the target, as eq. (1) asks.
+        #[default]
+        Stick = "stick",
+        /// It slides.
+        None = "0",
+    }
+}
+
+impl<'de> Deserialize<'de> for Friction {
+    /// Reads `0` or `"stick"`.
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        let text = match serde_json::Value::deserialize(d)? {
+            serde_json::Value::String(text) => text,
+            other => other.to_string(),
+        };
+        text.parse()
+            .map_err(|_| de::Error::custom(format!("friction {text} is neither 0 nor \"stick\"")))
+    }
+}
+
+/// How contact is modelled, beyond what the paper prints.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Model {
+    /// How a contact node is bound to the target surface.
+    pub coupling: Coupling,
+    /// What it may do along the tangent.
+    pub friction: Friction,
 }
 
 impl Variant {
-    /// How the contact pairs enter the equations.
-    pub fn coupling(self) -> Coupling {
-        match self {
-            Variant::Printed => Coupling::Printed,
-            Variant::Tied | Variant::Stepped => Coupling::Eliminated,
-        }
-    }
+    /// The paper's own: those that search with `c_cnt`.
+    pub const OF_THE_PAPER: &'static [Variant] =
+        &[Variant::Stepped, Variant::Tied, Variant::Printed];
 
     /// What load an iteration carries: R7 where it is given, else the variant's own.
     pub fn schedule(self, reading: &Reading) -> Schedule {
-        reading.r7.unwrap_or(match self {
-            Variant::Printed | Variant::Tied => Schedule::Total,
-            Variant::Stepped => Schedule::Stepped,
-        })
+        match self {
+            Variant::Unilateral => Schedule::Total,
+            Variant::Printed | Variant::Tied => reading.r7.unwrap_or(Schedule::Total),
+            Variant::Stepped => reading.r7.unwrap_or(Schedule::Stepped),
+        }
     }
 }

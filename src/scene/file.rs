@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
-use crate::contact::Variant;
+use crate::contact::{Coupling, Friction, Variant};
 use crate::error::InputError;
 use crate::mirror::Plane;
 
@@ -144,6 +144,12 @@ pub struct Contact {
     pub trg: Surface,
     /// The text's c_tol, length.
     pub c_tll: f64,
+    /// How a contact node is bound to the target.
+    #[serde(default, deserialize_with = "by_name")]
+    pub coupling: Coupling,
+    /// What it may do along the tangent under `unilateral`: 0 or "stick".
+    #[serde(default)]
+    pub friction: Friction,
 }
 
 /// A physical group, by its name or its tag.

@@ -27,7 +27,7 @@ pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use file::{SceneFile, Units};
 pub use mesh::{Element, Mesh, Node, PhysicalName};
 
-use crate::contact::Variant;
+use crate::contact::{Model, Variant};
 use crate::error::InputError;
 use crate::mirror::{Reading, ToleranceUnit, Worksheet};
 
@@ -44,6 +44,8 @@ pub struct Scene {
     pub iterations: usize,
     /// What is run unless the command line says otherwise.
     pub variant: Variant,
+    /// How contact is modelled beyond what the paper prints.
+    pub contact: Model,
     /// Thickness across the plane, length.
     pub thickness: f64,
     /// Load on all 2R equations, restrained ones included, force.
@@ -123,6 +125,10 @@ impl Scene {
             units: file.units,
             iterations: file.iterations,
             variant: file.variant,
+            contact: file.contact.map_or(Model::default(), |contact| Model {
+                coupling: contact.coupling,
+                friction: contact.friction,
+            }),
             thickness: file.thickness,
             bodies,
             dropped,

@@ -4,7 +4,7 @@ use super::experiment::{ROUNDING, at_shapes, c_cnt, contact_nodes, first_in_cont
 use super::geometry::away;
 use super::{Measured, Verdict};
 use crate::audit::Case;
-use crate::contact::{Elimination, Variant, free_stiffness, max_displacement};
+use crate::contact::{Elimination, Variant, free_stiffness, max_displacement, ties};
 use crate::mathcad::array::{Column, Table};
 use crate::mirror::{Failure, Km, Pairs, Reading, Worksheet};
 use crate::scene::Body;
@@ -201,7 +201,10 @@ pub(super) fn hinge(case: &Case) -> Measured {
     // Nothing where the scene has not so many nodes in contact.
     let singular = [1, 2].map(|count| {
         let few = first_ties(&case.sheet, &pairs, count)?;
-        Some(DenseLu::new(Elimination::new(&released, &few).matrix(k.as_matrix())).is_err())
+        Some(
+            DenseLu::new(Elimination::new(&released, &ties(&released, &few)).matrix(k.as_matrix()))
+                .is_err(),
+        )
     });
     let most = singular.iter().rposition(|singular| *singular == Some(true)).map_or(0, |at| at + 1);
     let [one, two] = singular.map(|singular| match singular {

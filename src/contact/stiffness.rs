@@ -1,0 +1,80 @@
+//! Stiffness without contact and without restraints, triangle by triangle: what `Km` would add up in a dense matrix.
+
+use nalgebra::{DVector, SMatrix, SVector};
+
+use super::elimination::Elimination;
+use crate::element::D;
+use crate::mirror::Worksheet;
+use crate::solve::SparseSymmetric;
+
+/// The stiffness matrix K, 2R x 2R, force/length, kept as its triangles' matrices.
+pub struct Stiffness {
+    equations: usize,
+    triangles: Vec<Triangle>,
+}
+
+/// One triangle: its six equations, counted from 0, and Ae·Bᵀ·D·B, force/length.
+struct Triangle {
+    equations: [usize; 6],
+    k: SMatrix<f64, 6, 6>,
+}
+
+impl Stiffness {
+    /// The stiffness of every triangle.
+    pub fn new(sheet: &Worksheet<f64>) -> Self {
+        let triangle = |n: usize| {
+            let b = &sheet.B[n];
+            let node = |k: usize| sheet.EL[(n, sheet.ind_1 + k)];
+            Triangle {
+                equations: std::array::from_fn(|k| 2 * node(k / 2) - 2 + k % 2),
+                k: b.transpose() * D(sheet.plane, sheet.E[n], sheet.nu[n]) * b * sheet.Ae[n],
+            }
+        };
+        Stiffness { equations: 2 * sheet.R(), triangles: (1..=sheet.M()).map(triangle).collect() }
+    }
+
+    /// K u: the forces that hold the shape `u`.
+    pub fn times(&self, u: &DVector<f64>) -> DVector<f64> {
+        let mut force = DVector::zeros(self.equations);
+        for triangle in &self.triangles {
+            let product = triangle.k * triangle.displacements(u);
+            for (e, value) in triangle.equations.into_iter().zip(product.iter()) {
+                force[e] += value;
+            }
+        }
+        force
+    }
+
+    /// sqrt(uᵀ K u): the energy norm, (force · length)^½. Summed by triangle, so that nothing negative is left of a cancellation.
+    pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
+        let of_triangle = |triangle: &Triangle| {
+            let u = triangle.displacements(u);
+            u.dot(&(triangle.k * u)).max(0.0)
+        };
+        self.triangles.iter().map(of_triangle).sum::<f64>().sqrt()
+    }
+
+    /// Tᵀ K T.
+    pub fn reduced(&self, t: &Elimination) -> SparseSymmetric {
+        let mut entries = Vec::new();
+        for triangle in &self.triangles {
+            for (i, p) in triangle.equations.into_iter().enumerate() {
+                for (j, q) in triangle.equations.into_iter().enumerate() {
+                    let value = triangle.k[(i, j)];
+                    for &(row, wr) in t.row(p) {
+                        for &(column, wc) in t.row(q) {
+                            entries.push((row, column, wr * value * wc));
+                        }
+                    }
+                }
+            }
+        }
+        SparseSymmetric::new(t.size(), entries.into_iter())
+    }
+}
+
+impl Triangle {
+    fn displacements(&self, u: &DVector<f64>) -> SVector<f64, 6> {
+        SVector::from_fn(|k, _| u[self.equations[k]])
+    }
+}

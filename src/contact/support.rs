@@ -1,0 +1,56 @@
+//! What holds the target up: the forces on its restraints, and what ties pass straight to them.
+
+use nalgebra::DVector;
+
+use super::elimination::{Motion, Tie};
+use crate::scene::Scene;
+
+/// Sum of the target body's reactions, force. `force` is K·u − F on all 2R equations, `held` the restrained ones.
+pub fn support(scene: &Scene, held: &[bool], ties: &[Tie], force: &DVector<f64>) -> [f64; 2] {
+    let Some(target) = scene.target() else { return [0.0, 0.0] };
+    let mut sum = [0.0, 0.0];
+    for e in target.nodes.iter().flat_map(|n| [2 * n - 2, 2 * n - 1]).filter(|&e| held[e]) {
+        sum[e % 2] += force[e];
+    }
+    for tie in ties {
+        let passed = passed(tie, held, force);
+        for direction in [0, 1] {
+            let to_held = tie.weights.iter().filter(|(mate, _)| held[2 * mate - 2 + direction]);
+            sum[direction] += to_held.map(|(_, w)| w).sum::<f64>() * passed[direction];
+        }
+    }
+    sum
+}
+
+/// The contact force on a tied node, force.
+fn passed(tie: &Tie, held: &[bool], force: &DVector<f64>) -> [f64; 2] {
+    let first = 2 * tie.node - 2;
+    let free = [!held[first], !held[first + 1]];
+    match tie.motion {
+        Motion::Both(_) => [0, 1].map(|d| if free[d] { force[first + d] } else { 0.0 }),
+        Motion::Along(normal, _) => {
+            normal.map(|n| n * along(normal, free, [force[first], force[first + 1]]))
+        }
+    }
+}
+
+/// The component along `normal` of a force that acts along it, from the components that no restraint has a share in.
+pub(super) fn along(normal: [f64; 2], free: [bool; 2], force: [f64; 2]) -> f64 {
+    match free {
+        [true, true] => normal[0] * force[0] + normal[1] * force[1],
+        [false, true] => force[1] / normal[1],
+        [true, false] => force[0] / normal[0],
+        [false, false] => 0.0,
+    }
+}
+
+/// The reactions taken against the direction of the load, force.
+pub fn against_load(scene: &Scene, [rx, ry]: [f64; 2]) -> f64 {
+    let [fx, fy] = scene.total_load();
+    let size = fx.hypot(fy);
+    if size == 0.0 {
+        return rx.hypot(ry);
+    }
+    // 0 − x rather than −x: no reaction at all is 0, not −0.
+    0.0 - (rx * (fx / size) + ry * (fy / size))
+}
