@@ -14,7 +14,7 @@ mod variant;
 pub use elimination::{Elimination, Motion, Tie, interpolations, ties};
 pub use pairing::{Coupling, Pairing, Surfaces};
 pub use pressure::ContactNode;
-pub use run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, run, shape};
+pub use run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, run, run_in, shape};
 pub use stiffness::Stiffness;
 pub use summary::{BodySummary, summaries};
 pub use variant::{Friction, Model, Variant};

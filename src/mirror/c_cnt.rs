@@ -26,6 +26,16 @@ impl<T: Scalar> Pairs<T> {
         let empty = Column::filled(0, 0);
         Pairs { ct: empty.clone(), yt: Column::filled(0, T::zero()), dy: empty, k_cnt }
     }
+
+    /// The same pairs, their numbers rounded to `f64`.
+    pub fn rounded(&self) -> Pairs<f64> {
+        Pairs {
+            ct: self.ct.clone(),
+            yt: self.yt.map(T::to_f64),
+            dy: self.dy.clone(),
+            k_cnt: self.k_cnt.map(T::to_f64),
+        }
+    }
 }
 
 /// Finds the contact pairs in the current shape `node_n` (R x 4).

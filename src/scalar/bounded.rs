@@ -159,6 +159,13 @@ impl Scalar for Bounded {
         let whole = x.fract() == 0.0 && x.abs() < 1e15;
         Bounded { value: x, error: if whole { 0.0 } else { x.abs() * f64::EPSILON / 2.0 + 5e-324 } }
     }
+    /// Value and bound.
+    fn same(self, other: Self) -> bool {
+        self.value == other.value && self.error == other.error
+    }
+    fn error_bound(self) -> Option<f64> {
+        Some(self.error)
+    }
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
         f64::scaled_root(factor.value, scale.value, square.value)
     }

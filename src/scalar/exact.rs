@@ -220,6 +220,10 @@ impl Scalar for Exact {
     fn from_number(n: usize) -> Self {
         Exact::new(RBig::from(n))
     }
+    /// 40 significant digits: the fraction itself may have thousands.
+    fn digits(self) -> Option<String> {
+        self.with(|x| rational::decimal(x, 40))
+    }
     /// One rounding, the root's own.
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
         (factor * scale * scale * square).with(rational::nearest_root).unwrap_or(f64::NAN)

@@ -172,6 +172,9 @@ impl Scalar for F64x2 {
     fn to_rational(self) -> Option<RBig> {
         Some(RBig::try_from(self.hi).ok()? + RBig::try_from(self.lo).ok()?)
     }
+    fn digits(self) -> Option<String> {
+        Some(self.to_string())
+    }
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
         (factor.sqrt() * (scale * square.sqrt())).hi
     }

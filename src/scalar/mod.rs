@@ -85,6 +85,21 @@ pub trait Scalar:
         RBig::try_from(self.to_f64()).ok()
     }
 
+    /// Whether the two are the same in all that comes of them.
+    fn same(self, other: Self) -> bool {
+        self == other
+    }
+
+    /// The number in decimal with all the digits that are worth having; nothing where its `f64` has them.
+    fn digits(self) -> Option<String> {
+        None
+    }
+
+    /// A bound on the error of the number; nothing where none is kept.
+    fn error_bound(self) -> Option<f64> {
+        None
+    }
+
     /// sqrt(factor) · scale · sqrt(square), as near as the scalar allows; `scale` keeps `square` from overflow.
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64;
 

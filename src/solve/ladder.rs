@@ -69,8 +69,8 @@ choices! {
 pub struct Arithmetic {
     /// The number type.
     pub scalar: ScalarName,
-    /// The solver.
-    pub solver: Solver,
+    /// The solver; nothing: the scalar's own, dense LU in numbers of the machine, sparse LDLᵀ in others.
+    pub solver: Option<Solver>,
     /// Largest relative residual |A x − b| / (|A| |x| + |b|) that `cg` and `refined` stop at; nothing: 16 eps of the scalar.
     pub tol: Option<f64>,
     /// What the scene's numbers stand for.
@@ -79,16 +79,24 @@ pub struct Arithmetic {
 
 impl Default for Arithmetic {
     fn default() -> Self {
-        Arithmetic {
-            scalar: ScalarName::F64,
-            solver: Solver::DenseLu,
-            tol: None,
-            inputs: Inputs::Binary,
-        }
+        Arithmetic { scalar: ScalarName::F64, solver: None, tol: None, inputs: Inputs::Binary }
     }
 }
 
 impl Arithmetic {
+    /// The solver.
+    pub fn solver(&self) -> Solver {
+        self.solver.unwrap_or(match self.scalar {
+            ScalarName::F64x2 | ScalarName::Exact => Solver::SparseCholesky,
+            _ => Solver::DenseLu,
+        })
+    }
+
+    /// Whether it is `f64` by a solver that nobody chose.
+    pub fn is_default(&self) -> bool {
+        *self == Arithmetic::default()
+    }
+
     /// That the rung is there, and the tolerance sound.
     ///
     /// # Errors
@@ -101,9 +109,9 @@ impl Arithmetic {
             Name::F64x2 => &[DenseLu, SparseCholesky, Cg, Refined],
             Name::Exact => &[DenseLu, SparseCholesky],
         };
-        if !offered.contains(&self.solver) {
+        if !offered.contains(&self.solver()) {
             let names: Vec<&str> = offered.iter().map(|solver| solver.name()).collect();
-            let what = format!("{} does not solve in {}", self.solver, self.scalar);
+            let what = format!("{} does not solve in {}", self.solver(), self.scalar);
             return Err(InputError::new("--solver", what, format!("use {}", names.join(", "))));
         }
         match self.tol {

@@ -1,5 +1,6 @@
 //! Solution of the linear equations: one matrix, several rungs of a ladder.
 
+pub mod cost;
 mod dense;
 mod error_bound;
 mod field;
