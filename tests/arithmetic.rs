@@ -42,7 +42,7 @@ fn within(value: F64x2, expected: &RBig, Tolerance { limit, reason }: &Tolerance
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn double_double_keeps_its_proven_errors(x in double_double(200), y in double_double(200)) {
