@@ -80,21 +80,35 @@ impl State {
     /// The paper gives no formula for either von Mises value. Stress: sqrt(3/2 s:s) of the stress deviator, with
     /// sigma_z = nu (sigma_x + sigma_y) in plane strain. Strain: sqrt(2/3 e:e) of the strain deviator, with
     /// e_zz = −nu/(1 − nu) (e_xx + e_yy) in plane stress.
-    pub fn new(plane: Plane, E: f64, nu: f64, B: &SMatrix<f64, 3, 6>, u: &SVector<f64, 6>) -> Self {
+    ///
+    /// Each is computed in T and rounded once on the way out; of exact numbers the von Mises values are the nearest `f64`.
+    pub fn new<T: Scalar>(
+        plane: Plane,
+        E: T,
+        nu: T,
+        B: &SMatrix<T, 3, 6>,
+        u: &SVector<T, 6>,
+    ) -> Self {
+        let two = T::one() + T::one();
+        let three = two + T::one();
         let epsilon = B * u;
         let sigma = D(plane, E, nu) * epsilon;
         let sigma_z = match plane {
             Plane::Strain => nu * (sigma[0] + sigma[1]),
-            Plane::Stress => 0.0,
+            Plane::Stress => T::zero(),
         };
         let epsilon_z = out_of_plane_strain(plane, nu, &epsilon);
-        let s = deviator_norm(sigma[0], sigma[1], sigma_z, sigma[2]);
-        let e = deviator_norm(epsilon[0], epsilon[1], epsilon_z, epsilon[2] / 2.0);
         State {
-            sigma,
-            epsilon,
-            von_mises_stress: 1.5_f64.sqrt() * s,
-            von_mises_strain: (2.0_f64 / 3.0).sqrt() * e,
+            sigma: sigma.map(Scalar::to_f64),
+            epsilon: epsilon.map(Scalar::to_f64),
+            von_mises_stress: deviator_norm(three / two, sigma[0], sigma[1], sigma_z, sigma[2]),
+            von_mises_strain: deviator_norm(
+                two / three,
+                epsilon[0],
+                epsilon[1],
+                epsilon_z,
+                epsilon[2] / two,
+            ),
         }
     }
 }
@@ -102,25 +116,27 @@ impl State {
 /// Von Mises strain by the other formula in use (R10): that of the stress, on strains, divided by 1 + nu.
 pub fn von_mises_strain_by_stress_formula(plane: Plane, nu: f64, e: &SVector<f64, 3>) -> f64 {
     let e_zz = out_of_plane_strain(plane, nu, e);
-    1.5_f64.sqrt() * deviator_norm(e[0], e[1], e_zz, e[2] / 2.0) / (1.0 + nu)
+    deviator_norm(1.5, e[0], e[1], e_zz, e[2] / 2.0) / (1.0 + nu)
 }
 
 /// e_zz: 0 in plane strain, −nu/(1 − nu) (e_xx + e_yy) in plane stress.
-fn out_of_plane_strain(plane: Plane, nu: f64, e: &SVector<f64, 3>) -> f64 {
+fn out_of_plane_strain<T: Scalar>(plane: Plane, nu: T, e: &SVector<T, 3>) -> T {
     match plane {
-        Plane::Strain => 0.0,
-        Plane::Stress => -nu / (1.0 - nu) * (e[0] + e[1]),
+        Plane::Strain => T::zero(),
+        Plane::Stress => -nu / (T::one() - nu) * (e[0] + e[1]),
     }
 }
 
-/// sqrt(d:d) of the deviator d of a symmetric tensor whose only shear component is `xy`; scaled, so that no square overflows
+/// sqrt(factor · d:d) of the deviator d of a symmetric tensor whose only shear component is `xy`; scaled, so that no square overflows
 /// or vanishes.
-fn deviator_norm(xx: f64, yy: f64, zz: f64, xy: f64) -> f64 {
-    let scale = [xx, yy, zz, xy].into_iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    if scale == 0.0 {
+fn deviator_norm<T: Scalar>(factor: T, xx: T, yy: T, zz: T, xy: T) -> f64 {
+    let (two, three) = (T::one() + T::one(), T::one() + T::one() + T::one());
+    let scale = [xx, yy, zz, xy].into_iter().fold(T::zero(), |m, x| m.max(x.abs()));
+    if scale == T::zero() {
         return 0.0;
     }
     let [xx, yy, zz, xy] = [xx, yy, zz, xy].map(|x| x / scale);
-    let squares = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
-    scale * (squares / 3.0 + 2.0 * xy * xy).sqrt()
+    let square = |x: T| x * x;
+    let squares = square(xx - yy) + square(yy - zz) + square(zz - xx);
+    T::scaled_root(factor, scale, squares / three + two * xy * xy)
 }

@@ -32,7 +32,7 @@ fn last_deck(scene: &Scene, outcome: &Outcome, parts: &[Part]) -> String {
 fn decks_of_fig1() {
     for variant in [Variant::Tied, Variant::Unilateral] {
         let (scene, outcome) = solve("fig1", variant);
-        let parts = Contact::parts(&scene, &outcome).unwrap();
+        let parts = Contact::parts(&outcome).unwrap();
         assert_golden("fig1", &format!("calculix-{variant}"), &last_deck(&scene, &outcome, &parts));
     }
     let (scene, outcome) = solve("fig1", Variant::Tied);
@@ -48,14 +48,14 @@ fn decks_of_fig1() {
 #[test]
 fn the_shares_of_the_parts_sum_to_one() {
     for (variant, several) in [(Variant::Tied, false), (Variant::Stepped, true)] {
-        let (scene, outcome) = solve("strand", variant);
-        let parts = Contact::parts(&scene, &outcome).unwrap();
+        let (_, outcome) = solve("strand", variant);
+        let parts = Contact::parts(&outcome).unwrap();
         assert_eq!(parts.len() > 1, several);
         let sum: f64 = parts.iter().map(|part| part.share).sum();
         assert!((sum - 1.0).abs() < 1e-12, "{sum}");
     }
-    let (scene, outcome) = solve("fig1", Variant::Printed);
-    let error = Contact::parts(&scene, &outcome).err().expect("printed ties nothing");
+    let (_, outcome) = solve("fig1", Variant::Printed);
+    let error = Contact::parts(&outcome).err().expect("printed ties nothing");
     assert!(error.what.contains("no equations"), "{error}");
 }
 
@@ -213,9 +213,9 @@ fn models() -> Vec<Model> {
     let mut models = Vec::new();
     for &coupling in Coupling::ALL {
         for &geometry in Geometry::ALL {
-            models.push(Model { coupling, friction: Friction::None, geometry });
+            models.push(Model { coupling, friction: Friction::None, geometry, ..Model::default() });
         }
-        models.push(Model { coupling, friction: Friction::Stick, geometry: Geometry::Current });
+        models.push(Model { coupling, friction: Friction::Stick, ..Model::default() });
     }
     models
 }
@@ -223,7 +223,7 @@ fn models() -> Vec<Model> {
 #[track_caller]
 fn assert_equations(name: &str, scene: &Scene, variant: Variant) {
     let outcome = outcome(scene, variant);
-    let parts = Contact::parts(scene, &outcome).unwrap();
+    let parts = Contact::parts(&outcome).unwrap();
     let ran = run("ccx", scene, &outcome.sheet, &parts).unwrap();
     let comparison = Comparison::new(scene, Fields::of(&outcome), ran.fields);
     assert_same(&comparison, &format!("{name} {variant}"));
@@ -277,7 +277,7 @@ fn export_writes_the_deck() {
     let folder = TempDir::new().unwrap();
     let printed = command(&folder, &["export", "fig1", "--to", "calculix", "--variant", "tied"]);
     let (scene, outcome) = solve("fig1", Variant::Tied);
-    let parts = Contact::parts(&scene, &outcome).unwrap();
+    let parts = Contact::parts(&outcome).unwrap();
     assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &outcome, &parts));
     let args = ["export", "fig1", "--to", "calculix", "--contact", "pair", "--out", "deck.inp"];
     assert!(command(&folder, &args).stdout.is_empty());

@@ -1,11 +1,7 @@
 //! Linear equations between displacements.
 
-use crate::contact::{
-    Friction, Geometry, Iteration, Model, Motion, Outcome, Pairing, Surfaces, Tie, Variant, ties,
-};
-use crate::error::InputError;
+use crate::contact::{Iteration, Motion, Tie};
 use crate::mirror::Worksheet;
-use crate::scene::Scene;
 
 /// A coefficient on one displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,20 +26,8 @@ pub struct Equation {
 
 impl Equation {
     /// What held in an iteration of a run.
-    ///
-    /// # Errors
-    /// Contact surfaces that the variant `unilateral` does not take.
-    pub fn of_iteration(
-        scene: &Scene,
-        outcome: &Outcome,
-        iteration: &Iteration,
-    ) -> Result<Vec<Equation>, InputError> {
-        let sheet = &outcome.sheet;
-        let ties = match outcome.variant {
-            Variant::Unilateral => closing(scene, sheet, iteration)?,
-            _ => ties(sheet, &iteration.pairs),
-        };
-        Ok(ties.iter().flat_map(|tie| Equation::of_tie(sheet, tie)).collect())
+    pub fn of_iteration(sheet: &Worksheet<f64>, iteration: &Iteration) -> Vec<Equation> {
+        iteration.ties.iter().flat_map(|tie| Equation::of_tie(sheet, tie)).collect()
     }
 
     /// A tie: an equation along its normal, or one in each direction that S leaves free.
@@ -79,36 +63,11 @@ impl Equation {
     }
 }
 
-/// What closed the gaps in an iteration of `unilateral`: weights and normals in the shape that it started from, or in the initial
-/// one; gaps in the initial shape.
-fn closing(
-    scene: &Scene,
-    sheet: &Worksheet<f64>,
-    iteration: &Iteration,
-) -> Result<Vec<Tie>, InputError> {
-    let Model { coupling, friction, geometry } = scene.contact;
-    let measured = match (friction, geometry) {
-        (Friction::None, Geometry::Current) => &iteration.node_n,
-        _ => &sheet.node,
-    };
-    let pairings = Surfaces::new(sheet)?.pairings(coupling, measured);
-    let closed = pairings.iter().zip(iteration.pairs.dy.iter()).filter(|(_, dy)| **dy == 1);
-    Ok(closed.filter_map(|(p, _)| p.as_ref()).map(|p| tie(sheet, p, friction)).collect())
-}
-
-fn tie(sheet: &Worksheet<f64>, pairing: &Pairing, friction: Friction) -> Tie {
-    let closing = -pairing.opening(|n| [sheet.node[(n, 2)], sheet.node[(n, 3)]]);
-    let motion = match friction {
-        Friction::None => Motion::Along(pairing.normal, closing),
-        Friction::Stick => Motion::Both(pairing.normal.map(|n| closing * n)),
-    };
-    Tie { node: pairing.node, weights: pairing.weights.clone(), motion }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mirror::Reading;
+    use crate::scene::Scene;
 
     /// Terms (node, direction, coefficient) and the constant.
     type Plain = (Vec<(usize, usize, f64)>, f64);

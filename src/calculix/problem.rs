@@ -58,8 +58,8 @@ impl Contact {
     /// iteration's state comes last.
     ///
     /// # Errors
-    /// The variant `printed`, which ties nothing; surfaces that `unilateral` does not take.
-    pub fn parts(scene: &Scene, outcome: &Outcome) -> Result<Vec<Part>, InputError> {
+    /// The variant `printed`, which ties nothing.
+    pub fn parts(outcome: &Outcome) -> Result<Vec<Part>, InputError> {
         if outcome.variant == Variant::Printed {
             let what = "the variant printed adds stiffness and ties nothing: there are no equations to write";
             let mend = "choose tied, stepped or unilateral, or --contact pair";
@@ -72,7 +72,7 @@ impl Contact {
         let share = 1.0 / carried.len() as f64;
         let mut states: Vec<(Vec<Equation>, f64)> = Vec::new();
         for iteration in &outcome.iterations[carried] {
-            let equations = Equation::of_iteration(scene, outcome, iteration)?;
+            let equations = Equation::of_iteration(&outcome.sheet, iteration);
             let met = states.iter().position(|(other, _)| *other == equations);
             let before = met.map_or(0.0, |k| states.remove(k).1);
             states.push((equations, before + share));

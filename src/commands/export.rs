@@ -90,7 +90,7 @@ impl DeckArgs {
     /// The problems whose sum is the run; the last iteration's comes last.
     pub fn parts(&self, scene: &Scene, outcome: &Outcome) -> Result<Vec<Part>, Error> {
         match self.contact {
-            ContactKind::Equation => Ok(Contact::parts(scene, outcome)?),
+            ContactKind::Equation => Ok(Contact::parts(outcome)?),
             ContactKind::Pair => {
                 let pair = Pair::new(&outcome.sheet, self.penalty, scene.contact.friction);
                 Ok(vec![Part { contact: Contact::Pair(pair), share: 1.0 }])

@@ -9,6 +9,7 @@ use plane_contact::error::Error;
 use plane_contact::mirror::Reading;
 use plane_contact::report::{folder, tables};
 use plane_contact::scene::Scene;
+use plane_contact::solve::{Arithmetic, Inputs, ScalarName, Solver};
 
 use super::{ModelArgs, ReadingArg, print};
 
@@ -23,6 +24,8 @@ Examples:
   plane-contact solve strand --variant tied --out out/tied
   plane-contact solve fig1 --variant printed --reading R3=nested --json
   plane-contact solve strand --variant unilateral --coupling mortar --friction 0
+  plane-contact solve fig1 --scalar exact --inputs decimal
+  plane-contact solve strand --variant tied --scalar f64x2 --solver refined --tol 1e-28
   plane-contact solve my/scene.json --reading R6=stress,R8=m")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
@@ -35,6 +38,8 @@ pub struct Args {
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
+    arithmetic: ArithmeticArgs,
+    #[command(flatten)]
     reading: ReadingArg,
     /// Folder for pictures and data [default: out/<scene>-<variant>].
     #[arg(long, value_name = "DIR")]
@@ -44,12 +49,39 @@ pub struct Args {
     json: bool,
 }
 
+/// In which numbers a run computes, and how it solves.
+#[derive(clap::Args)]
+struct ArithmeticArgs {
+    /// f64, f32, f64x2 (31 digits), f64-bounded (f64 with a bound on the error of the displacements), exact (rational numbers, for some
+    /// hundred equations).
+    #[arg(long, value_name = "NAME", default_value = "f64")]
+    scalar: ScalarName,
+    /// dense-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients to --tol), refined (factors in the scalar below, refined to --tol)
+    /// [default: dense-lu; sparse-cholesky in f64x2, exact and under unilateral].
+    #[arg(long, value_name = "NAME")]
+    solver: Option<Solver>,
+    /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop [default: 16 eps of the scalar].
+    #[arg(long, value_name = "T")]
+    tol: Option<f64>,
+    /// What the numbers of the scene stand for: binary, the exact value of their f64; decimal, the shortest decimal that reads back to it.
+    #[arg(long, value_name = "NAME", default_value = "binary")]
+    inputs: Inputs,
+}
+
+impl ArithmeticArgs {
+    fn arithmetic(&self) -> Arithmetic {
+        let ArithmeticArgs { scalar, solver, tol, inputs } = *self;
+        Arithmetic { scalar, solver, tol, inputs }
+    }
+}
+
 pub fn run(args: &Args) -> Result<(), Error> {
     let mut scene = Scene::open(&args.scene)?;
     args.model.apply(&mut scene.contact);
     let variant = args.variant.unwrap_or(scene.variant);
     let progress = progress(scene.iterations);
-    let outcome = contact::run(&scene, variant, &args.reading.reading.0, |_| progress.inc(1))?;
+    let (reading, arithmetic) = (&args.reading.reading.0, args.arithmetic.arithmetic());
+    let outcome = contact::run_in(&scene, variant, reading, arithmetic, |_| progress.inc(1))?;
     progress.finish_and_clear();
     let default = || PathBuf::from("out").join(format!("{}-{variant}", scene.name));
     let out = args.out.clone().unwrap_or_else(default);

@@ -23,7 +23,7 @@ pub use nearest::{Foot, TargetSurface};
 pub use operations::Operations;
 pub use pairing::{Coupling, Pairing, Surfaces};
 pub use pressure::ContactNode;
-pub use run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, run, shape};
+pub use run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, run, run_in, shape};
 pub use status::{StatusRule, Statuses, pairs, statuses};
 pub use stiffness::Stiffness;
 pub use summary::{BodySummary, summaries};

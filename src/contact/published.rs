@@ -5,138 +5,152 @@
 //!
 //! A(c) is Km(c) under `printed`, else Tᵀ·K·T on the free equations, K being Km without contact and without restraints.
 
-use std::collections::HashMap;
-
 use nalgebra::DVector;
 
-use super::elimination::{Elimination, Tie, interpolations, ties};
+use super::elimination::{Elimination, Tie, interpolations, sum, ties};
 use super::pairing::{Coupling, Surfaces};
 use super::pressure::{ContactNode, Surface};
-use super::run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, shape, states};
+use super::run::{
+    Cycle, Iteration, Outcome, Task, free_stiffness, max_displacement, shape, states,
+};
 use super::status::{self, StatusRule};
 use super::stiffness::Stiffness;
 use super::support::{against_load, support};
 use super::variant::Variant;
 use crate::error::{Error, InputError, SingularMatrix};
 use crate::mathcad::array::Table;
-use crate::mirror::{Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet};
-use crate::scene::Scene;
-use crate::solve::{DenseLu, memory};
+use crate::mirror::{
+    Failure, Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet, c_cnt,
+};
+use crate::scalar::Scalar;
+use crate::solve::{Inputs, Rung, ScalarName, Unsolved, cost, memory};
 
 /// The iterations that the paper describes.
 ///
 /// # Errors
 /// The published algorithm failing as printed, a matrix that cannot be solved, a dense matrix that does not fit.
-pub(super) fn published(
-    scene: &Scene,
-    sheet: Worksheet<f64>,
-    variant: Variant,
-    reading: &Reading,
+pub(super) fn published<T: Rung>(
+    task: &Task,
     mut watch: impl FnMut(&Iteration),
 ) -> Result<Outcome, Error> {
-    memory::check(sheet.R(), memory::OF_A_SOLUTION, memory::free())?;
-    let mut run = Run::new(scene, &sheet, variant, reading)?;
+    check_size::<T>(task)?;
+    let number = |x: f64| match task.arithmetic.inputs {
+        Inputs::Binary => T::from_f64(x),
+        Inputs::Decimal => T::from_decimal(x),
+    };
+    let sheet = task.sheet.recomputed(number, task.scene.thickness);
+    let mut run = Run::new(task, &sheet, task.scene.load.map(number))?;
     let mut iterations: Vec<Iteration> = Vec::new();
-    for k in 1..=scene.iterations {
+    for k in 1..=task.scene.iterations {
         let iteration = run.iterate(k)?;
         watch(&iteration);
         iterations.push(iteration);
     }
     let last = iterations.last().expect("a scene has an iteration");
     let contact = run.contact(&last.pairs)?;
-    let (schedule, u, factored) = (run.schedule, run.u, run.met.len());
-    let elements = states(&sheet, &u);
-    let reading = *reading;
-    let model = scene.contact;
     Ok(Outcome {
-        variant,
-        schedule,
-        reading,
-        model,
-        sheet,
+        variant: task.variant,
+        schedule: run.schedule,
+        reading: *task.reading,
+        model: task.scene.contact,
+        sheet: task.sheet.clone(),
         iterations,
-        u,
-        elements,
+        elements: states(&sheet, &run.u),
         contact,
-        factored,
+        factored: run.met.len(),
+        arithmetic: task.arithmetic,
+        digits: run.u.iter().map(|u| u.digits()).collect(),
+        error_bound: run.u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e))),
+        u: run.u.map(T::to_f64),
     })
 }
 
+/// That the matrices fit in memory, and exact numbers in a bearable time.
+fn check_size<T: Rung>(task: &Task) -> Result<(), InputError> {
+    // Of the numbers' own size, in units of an f64.
+    let matrices = memory::OF_A_SOLUTION * size_of::<T>().div_ceil(size_of::<f64>());
+    memory::check(task.sheet.R(), matrices, memory::free())?;
+    if task.arithmetic.scalar != ScalarName::Exact {
+        return Ok(());
+    }
+    let free = task.sheet.S.iter().filter(|s| **s == 0).count();
+    cost::check(free, task.reading.r5 == NodeTable::NodeN, task.scene.iterations)
+}
+
 /// What an iteration needs of those before it.
-struct Run<'a> {
-    scene: &'a Scene,
-    sheet: &'a Worksheet<f64>,
-    variant: Variant,
-    reading: &'a Reading,
+struct Run<'a, T> {
+    task: &'a Task<'a>,
+    sheet: &'a Worksheet<T>,
     schedule: Schedule,
     /// `Km` without contact and without restraints.
-    k: Table<f64>,
+    k: Table<T>,
     /// The same by triangles, for forces.
-    stiffness: Stiffness,
+    stiffness: Stiffness<T>,
     /// The restrained equations.
     held: Vec<bool>,
     /// What mortar needs of the surfaces; nothing under `nts`.
     surfaces: Option<Surfaces>,
+    /// The whole load, force.
+    load: DVector<T>,
     /// The load that one iteration carries, 0 at restrained equations.
-    f: DVector<f64>,
+    f: DVector<T>,
     /// The whole load over the load of one iteration.
-    share: f64,
+    share: T,
     /// Total displacements.
-    u: DVector<f64>,
+    u: DVector<T>,
     /// What supports the target so far.
-    support: [f64; 2],
+    support: [T; 2],
     /// Contact states met, each with its solution and the last iteration that met it. The load of an iteration is always
     /// the same, so a state that came before has the same matrix and the same solution: nothing is factored again.
-    met: HashMap<Vec<u64>, Met>,
+    met: Vec<Met<T>>,
 }
 
-struct Met {
+/// A contact state, all of k_cnt and the weights of the ties, and what came of it.
+struct Met<T> {
+    k_cnt: Table<T>,
+    ties: Vec<Tie<T>>,
+    /// The last iteration that met it.
     k: usize,
-    solution: Solution,
+    solution: Solution<T>,
 }
 
 /// The displacements of an iteration's own load.
 #[derive(Clone)]
-struct Solution {
-    u: DVector<f64>,
+struct Solution<T> {
+    u: DVector<T>,
     residual: f64,
     /// What supports the target.
-    support: [f64; 2],
+    support: [T; 2],
 }
 
-impl<'a> Run<'a> {
-    fn new(
-        scene: &'a Scene,
-        sheet: &'a Worksheet<f64>,
-        variant: Variant,
-        reading: &'a Reading,
-    ) -> Result<Self, Error> {
+impl<'a, T: Rung> Run<'a, T> {
+    fn new(task: &'a Task<'a>, sheet: &'a Worksheet<T>, load: DVector<T>) -> Result<Self, Error> {
+        let Task { scene, variant, reading, .. } = *task;
         let schedule = variant.schedule(reading);
         let share = match schedule {
-            Schedule::Total => 1.0,
-            Schedule::Stepped => scene.iterations as f64,
+            Schedule::Total => T::one(),
+            Schedule::Stepped => T::from_number(scene.iterations),
         };
         let equations = 2 * sheet.R();
         let held = held(sheet, variant, reading);
         let f =
-            DVector::from_fn(equations, |e, _| if held[e] { 0.0 } else { scene.load[e] / share });
+            DVector::from_fn(equations, |e, _| if held[e] { T::zero() } else { load[e] / share });
         let mortar = scene.contact.coupling == Coupling::Mortar && variant != Variant::Printed;
-        let surfaces = if mortar { Some(Surfaces::new(sheet)?) } else { None };
+        let surfaces = if mortar { Some(mortar_surfaces(task)?) } else { None };
         Ok(Run {
-            scene,
+            task,
             sheet,
-            variant,
-            reading,
             schedule,
             k: free_stiffness(sheet, reading)?,
             stiffness: Stiffness::new(sheet),
             held,
             surfaces,
+            load,
             f,
             share,
-            u: DVector::zeros(equations),
-            support: [0.0, 0.0],
-            met: HashMap::new(),
+            u: DVector::from_element(equations, T::zero()),
+            support: [T::zero(), T::zero()],
+            met: Vec::new(),
         })
     }
 
@@ -146,33 +160,38 @@ impl<'a> Run<'a> {
             // Without contact nothing of contact is built: `c_cnt` is not called.
             Pairs::none(self.sheet.R())
         } else {
-            status::pairs(self.status(), self.sheet, self.reading, &node_n)?
+            self.pairs(&node_n)?
         };
         let ties = self.ties(&pairs, &node_n);
-        let key = state(&pairs, &ties);
-        let (cycle, solution) = match self.met.get(&key) {
+        let before = self.met.iter().position(|met| met.is(&pairs, &ties));
+        let (cycle, solution) = match before.map(|at| self.met.swap_remove(at)) {
             Some(met) => {
                 let cycle = Cycle { length: k - met.k, members: (met.k..k).collect() };
-                (Some(cycle), met.solution.clone())
+                (Some(cycle), met.solution)
             }
             None => (None, self.solve(&pairs, &ties, k)?),
         };
         self.advance(&solution);
-        let iteration = self.report(k, node_n, pairs, cycle, &solution);
-        self.met.insert(key, Met { k, solution });
+        let iteration = self.report(k, &node_n, (&pairs, &ties), cycle, &solution);
+        self.met.push(Met { k_cnt: pairs.k_cnt, ties, k, solution });
         Ok(iteration)
     }
 
-    /// The rule by which nodes are in contact: under `printed` the listing's own.
-    fn status(&self) -> StatusRule {
-        match self.variant {
-            Variant::Printed => StatusRule::Signs,
-            _ => self.scene.contact.status,
+    /// The contact pairs, by `c_cnt`; under another status rule, which decides in f64, by that. `printed` is the listing's own.
+    fn pairs(&self, node_n: &Table<T>) -> Result<Pairs<T>, Failure> {
+        let Task { scene, sheet, reading, variant, .. } = *self.task;
+        match scene.contact.status {
+            StatusRule::Signs => c_cnt(self.sheet, reading, node_n),
+            _ if variant == Variant::Printed => c_cnt(self.sheet, reading, node_n),
+            rule => {
+                let pairs = status::pairs(rule, sheet, reading, &node_n.map(T::to_f64))?;
+                Ok(pairs.map(T::from_f64))
+            }
         }
     }
 
     /// From one shape to the next.
-    fn advance(&mut self, solution: &Solution) {
+    fn advance(&mut self, solution: &Solution<T>) {
         match self.schedule {
             Schedule::Total => (self.u, self.support) = (solution.u.clone(), solution.support),
             Schedule::Stepped => {
@@ -185,14 +204,15 @@ impl<'a> Run<'a> {
     fn report(
         &self,
         k: usize,
-        node_n: Table<f64>,
-        pairs: Pairs<f64>,
+        node_n: &Table<T>,
+        (pairs, ties): (&Pairs<T>, &[Tie<T>]),
         cycle: Option<Cycle>,
-        solution: &Solution,
+        solution: &Solution<T>,
     ) -> Iteration {
+        let bound: &[Tie<T>] = if self.task.variant == Variant::Printed { &[] } else { ties };
         let interpolations = match &self.surfaces {
-            Some(_) => self.ties(&pairs, &node_n),
-            None => interpolations(self.sheet, &pairs, self.weights_from(&node_n)),
+            Some(_) => ties.to_vec(),
+            None => interpolations(self.sheet, pairs, self.weights_from(node_n)),
         };
         Iteration {
             k,
@@ -201,85 +221,116 @@ impl<'a> Run<'a> {
             cycle,
             eq1_residual: eq1_residual(&interpolations, &self.u),
             eq1_residual_step: eq1_residual(&interpolations, &solution.u),
-            target_force: against_load(self.scene, self.support),
+            target_force: against_load(self.task.scene, self.support.map(T::to_f64)),
             solve_residual: solution.residual,
-            node_n,
-            pairs,
+            node_n: node_n.map(T::to_f64),
+            ties: bound.iter().map(|tie| tie.map(T::to_f64)).collect(),
+            pairs: pairs.map(T::to_f64),
         }
     }
 
     /// The shape that weights come from (R5).
-    fn weights_from<'b>(&'b self, node_n: &'b Table<f64>) -> &'b Table<f64> {
-        match self.reading.r5 {
+    fn weights_from<'b>(&'b self, node_n: &'b Table<T>) -> &'b Table<T> {
+        match self.task.reading.r5 {
             NodeTable::Node => &self.sheet.node,
             NodeTable::NodeN => node_n,
         }
     }
 
     /// Eq. (1) for the nodes in contact: the weights of k_cnt, or mortar's for the nodes whose edges cover the target.
-    fn ties(&self, pairs: &Pairs<f64>, node_n: &Table<f64>) -> Vec<Tie> {
+    fn ties(&self, pairs: &Pairs<T>, node_n: &Table<T>) -> Vec<Tie<T>> {
         let mut ties = ties(self.sheet, pairs);
         let Some(surfaces) = &self.surfaces else { return ties };
-        let pairings = surfaces.pairings(Coupling::Mortar, self.weights_from(node_n));
+        let shape = self.weights_from(node_n).map(T::to_f64);
+        let pairings = surfaces.pairings(Coupling::Mortar, &shape);
         for pairing in pairings.into_iter().flatten() {
             for tie in ties.iter_mut().filter(|tie| tie.node == pairing.node) {
-                tie.weights.clone_from(&pairing.weights);
+                tie.weights =
+                    pairing.weights.iter().map(|(mate, w)| (*mate, T::from_f64(*w))).collect();
             }
         }
         ties
     }
 
     /// Solves A(c)·u = f.
-    fn solve(&self, pairs: &Pairs<f64>, ties: &[Tie], k: usize) -> Result<Solution, Error> {
-        let singular =
-            |equation: usize, pivot: f64| self.singular_matrix(pairs, k, equation, pivot);
-        if self.variant == Variant::Printed {
-            let matrix = Km(self.sheet, self.reading, &pairs.k_cnt)?.into_matrix();
-            let lu = DenseLu::new(matrix).map_err(|s| singular(s.column, s.pivot))?;
-            let u = lu.solve(&self.f);
-            return Ok(self.solution(lu.residual(&u, &self.f), u, &[]));
+    fn solve(&self, pairs: &Pairs<T>, ties: &[Tie<T>], k: usize) -> Result<Solution<T>, Error> {
+        let (solver, tol) = (self.task.arithmetic.solver(), self.task.arithmetic.tol);
+        if self.task.variant == Variant::Printed {
+            let solved = T::sweep(|| {
+                let matrix = Km(self.sheet, self.task.reading, &pairs.k_cnt)?.into_matrix();
+                let solved = T::solve(matrix, &self.f, solver, tol);
+                solved.map_err(|why| self.unsolved(why, pairs, k, |column| column))
+            })?;
+            return Ok(self.solution(solved.residual, solved.x, &[]));
         }
         let t = Elimination::new(self.sheet, ties);
-        let lu = DenseLu::new(t.matrix(self.k.as_matrix()))
-            .map_err(|s| singular(t.equation(s.column), s.pivot))?;
-        let f = t.load(&self.f);
-        let q = lu.solve(&f);
-        Ok(self.solution(lu.residual(&q, &f), t.expand(&q), ties))
+        let solved = T::sweep(|| {
+            let (matrix, f) = (t.matrix(self.k.as_matrix()), t.load(&self.f));
+            let solved = T::solve(matrix, &f, solver, tol);
+            solved.map_err(|why| self.unsolved(why, pairs, k, |column| t.equation(column)))
+        })?;
+        Ok(self.solution(solved.residual, t.expand(&solved.x), ties))
     }
 
-    fn solution(&self, residual: f64, u: DVector<f64>, ties: &[Tie]) -> Solution {
-        let force = self.stiffness.times(&u) - &self.scene.load / self.share;
-        Solution { residual, support: support(self.scene, &self.held, ties, &force), u }
+    fn solution(&self, residual: f64, u: DVector<T>, ties: &[Tie<T>]) -> Solution<T> {
+        let load = self.load.map(|f| f / self.share);
+        let force = self.stiffness.times(&u) - load;
+        Solution { residual, support: support(self.task.scene, &self.held, ties, &force), u }
+    }
+
+    /// Why there is no solution, in words; `equation` gives the equation of a column.
+    fn unsolved(
+        &self,
+        why: Unsolved,
+        pairs: &Pairs<T>,
+        iteration: usize,
+        equation: impl Fn(usize) -> usize,
+    ) -> Error {
+        let stopped = match why {
+            Unsolved::Singular(s) => {
+                return self.singular_matrix(pairs, iteration, equation(s.column), s.pivot).into();
+            }
+            Unsolved::NotConverged(stopped) => stopped,
+        };
+        let what = format!(
+            "{} in {} stopped after {} iterations at a relative residual of {:e}",
+            self.task.arithmetic.solver(),
+            self.task.arithmetic.scalar,
+            stopped.iterations,
+            stopped.residual
+        );
+        InputError::new("--solver, --tol", what, "give a larger --tol or another solver").into()
     }
 
     /// The contact surface at the end.
     fn contact(&self, last: &Pairs<f64>) -> Result<Vec<ContactNode>, InputError> {
-        if self.sheet.cnt.rows() == 0 {
+        let Task { scene, sheet, .. } = *self.task;
+        if sheet.cnt.rows() == 0 {
             return Ok(Vec::new());
         }
-        let node_n = shape(self.sheet, &self.u);
+        let node_n = shape(self.sheet, &self.u).map(T::to_f64);
         let surface = Surface {
-            sheet: self.sheet,
-            thickness: self.scene.thickness,
-            pairings: &Surfaces::new(self.sheet)?.pairings(Coupling::Nts, &node_n),
+            sheet,
+            thickness: scene.thickness,
+            pairings: &Surfaces::new(sheet)?.pairings(Coupling::Nts, &node_n),
             node_n: &node_n,
             dy: last.dy.as_slice(),
-            reaction: &(self.stiffness.times(&self.u) - &self.scene.load),
+            reaction: &(self.stiffness.times(&self.u) - &self.load).map(T::to_f64),
         };
         surface.nodes()
     }
 
     fn singular_matrix(
         &self,
-        pairs: &Pairs<f64>,
+        pairs: &Pairs<T>,
         iteration: usize,
         equation: usize,
         pivot: f64,
     ) -> SingularMatrix {
         let node = equation / 2 + 1;
-        let body = self.scene.body_of(node);
+        let body = self.task.scene.body_of(node);
         SingularMatrix {
-            variant: self.variant.name(),
+            variant: self.task.variant.name(),
             iteration,
             node,
             direction: ['x', 'y'][equation % 2],
@@ -290,31 +341,46 @@ impl<'a> Run<'a> {
     }
 }
 
-/// What decides an iteration's matrix: all of k_cnt, and the weights of the ties.
-fn state(pairs: &Pairs<f64>, ties: &[Tie]) -> Vec<u64> {
-    let weights = ties.iter().flat_map(|tie| &tie.weights);
-    let weights = weights.flat_map(|(mate, w)| [*mate as u64, w.to_bits()]);
-    pairs.k_cnt.as_matrix().iter().map(|x| x.to_bits()).chain(weights).collect()
+impl<T: Scalar> Met<T> {
+    /// Whether this is the state of `pairs` and `ties`.
+    fn is(&self, pairs: &Pairs<T>, ties: &[Tie<T>]) -> bool {
+        let mut entries = self.k_cnt.as_matrix().iter().zip(pairs.k_cnt.as_matrix().iter());
+        let weights = |ties: &[Tie<T>]| -> Vec<(usize, T)> {
+            ties.iter().flat_map(|tie| tie.weights.clone()).collect()
+        };
+        let (mine, theirs) = (weights(&self.ties), weights(ties));
+        entries.all(|(a, b)| a.same(*b))
+            && mine.len() == theirs.len()
+            && mine.iter().zip(&theirs).all(|(a, b)| a.0 == b.0 && a.1.same(b.1))
+    }
+}
+
+/// What mortar needs of the surfaces: its integrals are taken in `f64`.
+fn mortar_surfaces(task: &Task) -> Result<Surfaces, InputError> {
+    if task.arithmetic.scalar == ScalarName::F64 {
+        return Surfaces::new(task.sheet);
+    }
+    let what = format!("mortar coupling does not run in {}", task.arithmetic.scalar);
+    Err(InputError::new("--scalar", what, "use f64, or --coupling nts"))
 }
 
 /// The equations that are restrained: those that S names, but under reading R2 = printed, where `Km` reads S, those that
 /// `Km` takes for restrained.
-fn held(sheet: &Worksheet<f64>, variant: Variant, reading: &Reading) -> Vec<bool> {
+fn held<T: Scalar>(sheet: &Worksheet<T>, variant: Variant, reading: &Reading) -> Vec<bool> {
     let by_km = variant == Variant::Printed && reading.r2 == RestraintIndex::Printed;
     let index = |e: usize| if by_km { 2 * (e / 2) + 2 } else { e + 1 };
     (0..2 * sheet.R()).map(|e| sheet.S[index(e)] == 1).collect()
 }
 
 /// Largest component of u_cont − u_targ over the nodes in contact, u_targ interpolated on the target edge.
-fn eq1_residual(interpolations: &[Tie], u: &DVector<f64>) -> f64 {
+fn eq1_residual<T: Scalar>(interpolations: &[Tie<T>], u: &DVector<T>) -> f64 {
     let component = |node: usize, direction: usize| u[2 * node - 2 + direction];
-    let mut largest = 0.0_f64;
+    let mut largest = T::zero();
     for tie in interpolations {
         for direction in [0, 1] {
-            let target: f64 =
-                tie.weights.iter().map(|&(mate, k)| k * component(mate, direction)).sum();
+            let target = sum(tie.weights.iter().map(|&(mate, k)| k * component(mate, direction)));
             largest = largest.max((component(tie.node, direction) - target).abs());
         }
     }
-    largest
+    largest.to_f64()
 }

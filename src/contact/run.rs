@@ -3,6 +3,7 @@
 use nalgebra::{DVector, SVector};
 use serde::Serialize;
 
+use super::elimination::Tie;
 use super::pairing::Pairing;
 use super::pressure::{ContactNode, Surface};
 use super::published::published;
@@ -13,7 +14,9 @@ use crate::element::State;
 use crate::error::{Error, InputError};
 use crate::mathcad::array::{Column, Table};
 use crate::mirror::{Failure, Km, Pairs, Reading, Schedule, Worksheet};
+use crate::scalar::{self, Bounded, Exact, F64x2, Scalar};
 use crate::scene::Scene;
+use crate::solve::{Arithmetic, ScalarName, Solver};
 
 /// One iteration.
 #[derive(Clone, Debug)]
@@ -24,6 +27,8 @@ pub struct Iteration {
     pub node_n: Table<f64>,
     /// What `c_cnt` found in it.
     pub pairs: Pairs<f64>,
+    /// What bound contact nodes to the target, by elimination; empty under `printed`.
+    pub ties: Vec<Tie>,
     /// Number of contact nodes with dy = 1.
     pub in_contact: usize,
     /// Largest |u| of a node, total, length.
@@ -73,6 +78,13 @@ pub struct Outcome {
     pub contact: Vec<ContactNode>,
     /// Number of matrices factored: one for each contact state.
     pub factored: usize,
+    /// In which numbers and by which solver.
+    pub arithmetic: Arithmetic,
+    /// `u` in decimal, where the scalar has more digits than an `f64`.
+    pub digits: Option<Vec<String>>,
+    /// A bound on the largest error of an entry of `u` against the same run without rounding, where the scalar keeps one: it
+    /// holds while rounding does not change who is in contact. Length.
+    pub error_bound: Option<f64>,
 }
 
 /// Runs `variant` on `scene`; `watch` is called after each iteration.
@@ -86,13 +98,61 @@ pub fn run(
     reading: &Reading,
     watch: impl FnMut(&Iteration),
 ) -> Result<Outcome, Error> {
+    run_in(scene, variant, reading, Arithmetic::default(), watch)
+}
+
+/// The same in other numbers or by another solver.
+///
+/// # Errors
+/// Those of [`run`](fn@run); a rung that the ladder does not have; exact numbers on a scene too large for them.
+pub fn run_in(
+    scene: &Scene,
+    variant: Variant,
+    reading: &Reading,
+    arithmetic: Arithmetic,
+    watch: impl FnMut(&Iteration),
+) -> Result<Outcome, Error> {
+    arithmetic.check()?;
     let sheet = scene.worksheet(reading)?;
-    let outcome = match variant {
-        Variant::Unilateral => converged(scene, sheet, reading, watch)?,
-        _ => published(scene, sheet, variant, reading, watch)?,
+    let task = Task { scene, sheet: &sheet, variant, reading, arithmetic };
+    let outcome = match (variant, arithmetic.scalar) {
+        (Variant::Unilateral, _) => {
+            unilateral_rung(arithmetic)?;
+            converged(scene, sheet, reading, watch)?
+        }
+        (_, ScalarName::F64) => published::<f64>(&task, watch)?,
+        (_, ScalarName::F32) => published::<f32>(&task, watch)?,
+        (_, ScalarName::F64x2) => published::<F64x2>(&task, watch)?,
+        (_, ScalarName::Bounded) => published::<Bounded>(&task, watch)?,
+        (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(&task, watch))?,
     };
     check_finite(&outcome)?;
     Ok(outcome)
+}
+
+/// What a run of a published variant is given.
+pub(super) struct Task<'a> {
+    pub scene: &'a Scene,
+    pub sheet: &'a Worksheet<f64>,
+    pub variant: Variant,
+    pub reading: &'a Reading,
+    pub arithmetic: Arithmetic,
+}
+
+/// That `unilateral` is asked for in its own rung: f64, sparse Cholesky.
+fn unilateral_rung(arithmetic: Arithmetic) -> Result<(), InputError> {
+    if arithmetic.scalar != ScalarName::F64 {
+        let what =
+            format!("unilateral does not run in {}: normals take square roots", arithmetic.scalar);
+        return Err(InputError::new("--scalar", what, "use f64, or another variant"));
+    }
+    match arithmetic.solver {
+        None | Some(Solver::SparseCholesky) => Ok(()),
+        Some(other) => {
+            let what = format!("unilateral does not solve by {other}");
+            Err(InputError::new("--solver", what, "use sparse-cholesky, or another variant"))
+        }
+    }
 }
 
 /// The variant `unilateral`.
@@ -135,6 +195,9 @@ fn converged(
         elements,
         contact,
         factored,
+        arithmetic: Arithmetic::default(),
+        digits: None,
+        error_bound: None,
     })
 }
 
@@ -159,6 +222,7 @@ fn of_step(scene: &Scene, sheet: &Worksheet<f64>, step: &Step) -> Iteration {
         node_n: step.before.node_n.clone(),
         in_contact: pairs.dy.iter().sum(),
         pairs,
+        ties: step.ties.clone(),
         max_displacement: max_displacement(&step.u),
         cycle: step.cycle.clone(),
         eq1_residual: step.violation,
@@ -172,13 +236,16 @@ fn of_step(scene: &Scene, sheet: &Worksheet<f64>, step: &Step) -> Iteration {
 ///
 /// # Errors
 /// An overflow.
-pub fn free_stiffness(sheet: &Worksheet<f64>, reading: &Reading) -> Result<Table<f64>, Failure> {
+pub fn free_stiffness<T: Scalar>(
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+) -> Result<Table<T>, Failure> {
     let free = Worksheet { S: Column::filled(2 * sheet.R(), 0), ..sheet.clone() };
-    Km(&free, reading, &Table::filled(sheet.R(), 4, 0.0))
+    Km(&free, reading, &Table::filled(sheet.R(), 4, T::zero()))
 }
 
 /// node_n = node + U: R x 4, length.
-pub fn shape(sheet: &Worksheet<f64>, u: &DVector<f64>) -> Table<f64> {
+pub fn shape<T: Scalar>(sheet: &Worksheet<T>, u: &DVector<T>) -> Table<T> {
     let mut node_n = sheet.node.clone();
     for n in 1..=sheet.R() {
         node_n[(n, 2)] += u[2 * n - 2];
@@ -188,15 +255,15 @@ pub fn shape(sheet: &Worksheet<f64>, u: &DVector<f64>) -> Table<f64> {
 }
 
 /// Largest |u| of a node.
-pub fn max_displacement(u: &DVector<f64>) -> f64 {
-    u.as_slice().chunks(2).map(|u| u[0].hypot(u[1])).fold(0.0, f64::max)
+pub fn max_displacement<T: Scalar>(u: &DVector<T>) -> f64 {
+    u.as_slice().chunks(2).map(|u| Scalar::hypot(u[0], u[1])).fold(0.0, f64::max)
 }
 
 /// Stresses and strains of every triangle.
-pub(super) fn states(sheet: &Worksheet<f64>, u: &DVector<f64>) -> Vec<State> {
+pub(super) fn states<T: Scalar>(sheet: &Worksheet<T>, u: &DVector<T>) -> Vec<State> {
     (1..=sheet.M())
         .map(|n| {
-            let of_element = SVector::<f64, 6>::from_fn(|k, _| {
+            let of_element = SVector::<T, 6>::from_fn(|k, _| {
                 u[2 * sheet.EL[(n, sheet.ind_1 + k / 2)] - 2 + k % 2]
             });
             State::new(sheet.plane, sheet.E[n], sheet.nu[n], &sheet.B[n], &of_element)

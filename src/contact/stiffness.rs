@@ -5,23 +5,24 @@ use nalgebra::{DVector, SMatrix, SVector};
 use super::elimination::Elimination;
 use crate::element::D;
 use crate::mirror::Worksheet;
+use crate::scalar::Scalar;
 use crate::solve::SparseSymmetric;
 
 /// The stiffness matrix K, 2R x 2R, force/length, kept as its triangles' matrices.
-pub struct Stiffness {
+pub struct Stiffness<T = f64> {
     equations: usize,
-    triangles: Vec<Triangle>,
+    triangles: Vec<Triangle<T>>,
 }
 
 /// One triangle: its six equations, counted from 0, and Ae·Bᵀ·D·B, force/length.
-struct Triangle {
+struct Triangle<T> {
     equations: [usize; 6],
-    k: SMatrix<f64, 6, 6>,
+    k: SMatrix<T, 6, 6>,
 }
 
-impl Stiffness {
+impl<T: Scalar> Stiffness<T> {
     /// The stiffness of every triangle.
-    pub fn new(sheet: &Worksheet<f64>) -> Self {
+    pub fn new(sheet: &Worksheet<T>) -> Self {
         let triangle = |n: usize| {
             let b = &sheet.B[n];
             let node = |k: usize| sheet.EL[(n, sheet.ind_1 + k)];
@@ -34,20 +35,22 @@ impl Stiffness {
     }
 
     /// K u: the forces that hold the shape `u`.
-    pub fn times(&self, u: &DVector<f64>) -> DVector<f64> {
-        let mut force = DVector::zeros(self.equations);
+    pub fn times(&self, u: &DVector<T>) -> DVector<T> {
+        let mut force = DVector::from_element(self.equations, T::zero());
         for triangle in &self.triangles {
             let product = triangle.k * triangle.displacements(u);
             for (e, value) in triangle.equations.into_iter().zip(product.iter()) {
-                force[e] += value;
+                force[e] += *value;
             }
         }
         force
     }
+}
 
+impl Stiffness {
     /// sqrt(uᵀ K u): the energy norm, (force · length)^½. Summed by triangle, so that nothing negative is left of a cancellation.
     pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
-        let of_triangle = |triangle: &Triangle| {
+        let of_triangle = |triangle: &Triangle<f64>| {
             let u = triangle.displacements(u);
             u.dot(&(triangle.k * u)).max(0.0)
         };
@@ -73,8 +76,8 @@ impl Stiffness {
     }
 }
 
-impl Triangle {
-    fn displacements(&self, u: &DVector<f64>) -> SVector<f64, 6> {
+impl<T: Scalar> Triangle<T> {
+    fn displacements(&self, u: &DVector<T>) -> SVector<T, 6> {
         SVector::from_fn(|k, _| u[self.equations[k]])
     }
 }

@@ -2,32 +2,38 @@
 
 use nalgebra::DVector;
 
-use super::elimination::{Motion, Tie};
+use super::elimination::{Motion, Tie, sum};
+use crate::scalar::Scalar;
 use crate::scene::Scene;
 
 /// Sum of the target body's reactions, force. `force` is K·u − F on all 2R equations, `held` the restrained ones.
-pub fn support(scene: &Scene, held: &[bool], ties: &[Tie], force: &DVector<f64>) -> [f64; 2] {
-    let Some(target) = scene.target() else { return [0.0, 0.0] };
-    let mut sum = [0.0, 0.0];
+pub fn support<T: Scalar>(
+    scene: &Scene,
+    held: &[bool],
+    ties: &[Tie<T>],
+    force: &DVector<T>,
+) -> [T; 2] {
+    let mut total = [T::zero(), T::zero()];
+    let Some(target) = scene.target() else { return total };
     for e in target.nodes.iter().flat_map(|n| [2 * n - 2, 2 * n - 1]).filter(|&e| held[e]) {
-        sum[e % 2] += force[e];
+        total[e % 2] += force[e];
     }
     for tie in ties {
         let passed = passed(tie, held, force);
         for direction in [0, 1] {
             let to_held = tie.weights.iter().filter(|(mate, _)| held[2 * mate - 2 + direction]);
-            sum[direction] += to_held.map(|(_, w)| w).sum::<f64>() * passed[direction];
+            total[direction] += sum(to_held.map(|(_, w)| *w)) * passed[direction];
         }
     }
-    sum
+    total
 }
 
 /// The contact force on a tied node, force.
-fn passed(tie: &Tie, held: &[bool], force: &DVector<f64>) -> [f64; 2] {
+fn passed<T: Scalar>(tie: &Tie<T>, held: &[bool], force: &DVector<T>) -> [T; 2] {
     let first = 2 * tie.node - 2;
     let free = [!held[first], !held[first + 1]];
     match tie.motion {
-        Motion::Both(_) => [0, 1].map(|d| if free[d] { force[first + d] } else { 0.0 }),
+        Motion::Both(_) => [0, 1].map(|d| if free[d] { force[first + d] } else { T::zero() }),
         Motion::Along(normal, _) => {
             normal.map(|n| n * along(normal, free, [force[first], force[first + 1]]))
         }
@@ -35,12 +41,12 @@ fn passed(tie: &Tie, held: &[bool], force: &DVector<f64>) -> [f64; 2] {
 }
 
 /// The component along `normal` of a force that acts along it, from the components that no restraint has a share in.
-pub(super) fn along(normal: [f64; 2], free: [bool; 2], force: [f64; 2]) -> f64 {
+pub(super) fn along<T: Scalar>(normal: [T; 2], free: [bool; 2], force: [T; 2]) -> T {
     match free {
         [true, true] => normal[0] * force[0] + normal[1] * force[1],
         [false, true] => force[1] / normal[1],
         [true, false] => force[0] / normal[0],
-        [false, false] => 0.0,
+        [false, false] => T::zero(),
     }
 }
 

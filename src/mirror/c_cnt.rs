@@ -26,6 +26,16 @@ impl<T: Scalar> Pairs<T> {
         let empty = Column::filled(0, 0);
         Pairs { ct: empty.clone(), yt: Column::filled(0, T::zero()), dy: empty, k_cnt }
     }
+
+    /// The same pairs in other numbers.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Pairs<U> {
+        Pairs {
+            ct: self.ct.clone(),
+            yt: self.yt.map(&to),
+            dy: self.dy.clone(),
+            k_cnt: self.k_cnt.map(&to),
+        }
+    }
 }
 
 /// Finds the contact pairs in the current shape `node_n` (R x 4).

@@ -3,6 +3,7 @@
 use nalgebra::SMatrix;
 
 use super::reading::Plane;
+use crate::element;
 use crate::mathcad::array::{Column, Table};
 use crate::scalar::Scalar;
 
@@ -49,6 +50,34 @@ impl<T: Scalar> Worksheet<T> {
     #[allow(non_snake_case, reason = "the paper's own name")]
     pub fn M(&self) -> usize {
         self.EL.rows()
+    }
+
+    /// The worksheet in another scalar: its numbers by `number`, and `Ae` and `B` computed anew from the coordinates. `thickness` is the
+    /// scene's, length.
+    #[allow(non_snake_case, reason = "the paper's own names")]
+    pub fn recomputed<U: Scalar>(&self, number: impl Fn(T) -> U, thickness: T) -> Worksheet<U> {
+        let node = self.node.map(&number);
+        let corners = |n: usize| {
+            [0, 1, 2].map(|k| [2, 3].map(|column| node[(self.EL[(n, self.ind_1 + k)], column)]))
+        };
+        let (triangles, thickness) = (1..=self.M(), number(thickness));
+        let Ae = triangles.clone().map(|n| element::area(&corners(n)) * thickness).collect();
+        let B = triangles.map(|n| element::B(&corners(n))).collect();
+        Worksheet {
+            Ae: Column::from_vec(Ae),
+            B: Column::from_vec(B),
+            node,
+            elem: self.elem.clone(),
+            EL: self.EL.clone(),
+            trg: self.trg.clone(),
+            cnt: self.cnt.clone(),
+            c_tll: number(self.c_tll),
+            ind_1: self.ind_1,
+            S: self.S.clone(),
+            E: self.E.map(&number),
+            nu: self.nu.map(&number),
+            plane: self.plane,
+        }
     }
 
     /// The same worksheet in another scalar, each number rounded once.

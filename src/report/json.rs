@@ -9,6 +9,7 @@ use crate::contact::{
 };
 use crate::mirror::{Pairs, Reading};
 use crate::scene::{Scene, Units};
+use crate::solve::Arithmetic;
 
 /// The content of `result.json`.
 #[derive(Serialize)]
@@ -22,6 +23,12 @@ struct Document<'a> {
     geometry: Geometry,
     status: StatusRule,
     units: &'a Units,
+    /// Absent: f64 by the variant's own solver.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    arithmetic: Option<Arithmetic>,
+    /// Bound on the error of `u`, where one is kept, length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_bound: Option<f64>,
     /// Sum of the loads, force.
     load: [f64; 2],
     /// Numbers, in the mesh file, of nodes that were dropped.
@@ -36,6 +43,9 @@ struct Document<'a> {
     distance: Option<Distance>,
     /// Displacement of each node, length.
     u: Vec<[f64; 2]>,
+    /// The same with all digits, where the scalar has more than an f64.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    u_digits: Option<Vec<&'a [String]>>,
     elements: Vec<ElementRow>,
 }
 
@@ -74,6 +84,8 @@ pub fn result(scene: &Scene, outcome: &Outcome, converged: Option<&Outcome>) -> 
         geometry: outcome.model.geometry,
         status: outcome.model.status,
         units: &scene.units,
+        arithmetic: Some(outcome.arithmetic).filter(|a| !a.is_default()),
+        error_bound: outcome.error_bound.filter(|bound| bound.is_finite()),
         load: scene.total_load(),
         dropped: &scene.dropped,
         iterations: outcome.iterations.iter().map(row).collect(),
@@ -82,6 +94,7 @@ pub fn result(scene: &Scene, outcome: &Outcome, converged: Option<&Outcome>) -> 
         hertz: Hertz::of(outcome, scene.thickness),
         distance: converged.map(|converged| distance(scene, outcome, converged)),
         u: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
+        u_digits: outcome.digits.as_ref().map(|digits| digits.chunks(2).collect()),
         elements: elements(outcome),
     };
     serde_json::to_string(&document).expect("the document has string keys only") + "\n"

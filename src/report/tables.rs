@@ -135,7 +135,7 @@ pub fn distance(scene: &Scene, outcome: &Outcome, converged: &Outcome) -> String
 }
 
 fn heading(scene: &Scene, outcome: &Outcome) -> String {
-    format!(
+    let heading = format!(
         "scene {}, variant {}: {} load, plane {}; {} nodes, {} triangles; {} matrices factored",
         scene.name,
         outcome.variant,
@@ -144,7 +144,25 @@ fn heading(scene: &Scene, outcome: &Outcome) -> String {
         outcome.sheet.R(),
         outcome.sheet.M(),
         outcome.factored
-    )
+    );
+    heading + &arithmetic(scene, outcome)
+}
+
+/// In which numbers a run was done, unless in those of every run; and how far they lead.
+fn arithmetic(scene: &Scene, outcome: &Outcome) -> String {
+    let done = outcome.arithmetic;
+    let mut text = match done.is_default() {
+        true => String::new(),
+        false => format!("\nin {} by {}, inputs {}", done.scalar, done.solver(), done.inputs),
+    };
+    if let Some(bound) = outcome.error_bound {
+        let unit = &scene.units.length;
+        text += &match bound.is_finite() {
+            true => format!("; rounding moves no displacement by more than {bound:.1e} {unit}"),
+            false => "; how far rounding leads is not known".into(),
+        };
+    }
+    text
 }
 
 fn iterations(scene: &Scene, outcome: &Outcome) -> String {

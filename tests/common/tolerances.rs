@@ -195,6 +195,36 @@ pub const COMPLEMENTARITY: Tolerance = tolerance(1e-12, "the issue's own number"
 pub const CURRENT_LENGTHS: Tolerance =
     tolerance(2e-3, "strains of 1e-3 at the contact: the two differ by as much");
 
+/// A double-double operation against exact arithmetic, relative to its result.
+pub const DOUBLE_DOUBLE: Tolerance = tolerance(
+    1.3e-31,
+    "the proven errors, in units of u² = 2^-106 = 1.2e-32: sum 3, product 4, quotient 9.8, root of a square 3.125 + 2",
+);
+
+/// f32 against exact numbers, displacements relative to the largest.
+pub const LADDER_SINGLE: Tolerance =
+    tolerance(1e-4, "eps = 6e-8 times a condition number of 1e2 to 1e3 of fig1 and two-blocks");
+
+/// f64 against exact numbers, displacements relative to the largest.
+pub const LADDER_DOUBLE: Tolerance =
+    tolerance(1e-13, "eps = 1e-16 times a condition number of 1e2 to 1e3 of fig1 and two-blocks");
+
+/// f64x2 against exact numbers, displacements relative to the largest.
+pub const LADDER_DOUBLE_DOUBLE: Tolerance = tolerance(
+    1e-28,
+    "eps = 5e-32, iterations stop at 16 of it, times a condition number of 1e2 to 1e3 of fig1 and two-blocks",
+);
+
+/// The bound on an error over the error.
+pub const BOUND_WIDTH: Tolerance = tolerance(
+    1e3,
+    "roundings add up in the bound and cancel in fact; the issue's own number on well-scaled scenes",
+);
+
+/// An estimate of a norm that no exact arithmetic would let it pass, relative to the norm.
+pub const NORM_ESTIMATE: Tolerance =
+    tolerance(1e-10, "estimate and norm are both rounded: 1e-16 times a condition number of 1e4");
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::fmt;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use num_traits::{One, Zero};
 
@@ -54,6 +54,12 @@ impl AddAssign for Counted {
     }
 }
 
+impl SubAssign for Counted {
+    fn sub_assign(&mut self, other: Counted) {
+        *self = *self - other;
+    }
+}
+
 impl MulAssign for Counted {
     fn mul_assign(&mut self, other: Counted) {
         *self = *self * other;
@@ -100,6 +106,9 @@ impl Scalar for Counted {
     }
     fn to_f64(self) -> f64 {
         self.0
+    }
+    fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
+        f64::scaled_root(factor.0, scale.0, square.0)
     }
     fn abs(self) -> Self {
         Counted(self.0.abs())

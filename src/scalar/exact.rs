@@ -1,0 +1,247 @@
+//! Exact rational numbers that are `Copy`, as the mirror's code wants them: handles into an arena of their thread.
+
+use std::cell::RefCell;
+use std::cmp::Ordering;
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use dashu_ratio::RBig;
+use num_traits::{One, Zero};
+
+use super::{Scalar, Subscript, rational};
+
+/// A rational number, or *undefined*: x/0, and what comes of it. Undefined equals nothing, as NaN does.
+///
+/// The number lives in an arena of its thread until the [`scope`] that it was made in ends; to use it later is a panic.
+#[derive(Clone, Copy)]
+pub struct Exact {
+    at: u32,
+    epoch: u32,
+    /// Another thread has another arena.
+    of_thread: PhantomData<*const ()>,
+}
+
+/// The numbers, each with the epoch that it was made in.
+struct Arena {
+    numbers: Vec<(u32, RBig)>,
+    epoch: u32,
+}
+
+/// Places of the numbers that always stand there, made in epoch 0.
+const ZERO: u32 = 0;
+const ONE: u32 = 1;
+const UNDEFINED: u32 = u32::MAX;
+
+thread_local! {
+    static ARENA: RefCell<Arena> =
+        RefCell::new(Arena { numbers: vec![(0, RBig::ZERO), (0, RBig::ONE)], epoch: 0 });
+}
+
+/// Does `work`, then frees every number that it made.
+pub fn scope<R>(work: impl FnOnce() -> R) -> R {
+    let _guard = Guard { size: ARENA.with_borrow(|arena| arena.numbers.len()) };
+    work()
+}
+
+struct Guard {
+    size: usize,
+}
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        ARENA.with_borrow_mut(|arena| {
+            arena.numbers.truncate(self.size);
+            arena.epoch += 1;
+        });
+    }
+}
+
+impl Exact {
+    /// The number `x`.
+    pub fn new(x: RBig) -> Self {
+        match () {
+            _ if x.is_zero() => Exact::fixed(ZERO),
+            _ if x.is_one() => Exact::fixed(ONE),
+            _ => ARENA.with_borrow_mut(|arena| {
+                let at = u32::try_from(arena.numbers.len()).expect("fewer than 2^32 numbers");
+                arena.numbers.push((arena.epoch, x));
+                Exact { at, epoch: arena.epoch, of_thread: PhantomData }
+            }),
+        }
+    }
+
+    fn fixed(at: u32) -> Self {
+        Exact { at, epoch: 0, of_thread: PhantomData }
+    }
+
+    fn undefined() -> Self {
+        Exact::fixed(UNDEFINED)
+    }
+
+    /// What `read` makes of the number; nothing where it is undefined.
+    fn with<R>(self, read: impl FnOnce(&RBig) -> R) -> Option<R> {
+        if self.at == UNDEFINED {
+            return None;
+        }
+        ARENA.with_borrow(|arena| {
+            let entry = arena.numbers.get(self.at as usize);
+            let entry = entry.filter(|(epoch, _)| *epoch == self.epoch);
+            Some(read(&entry.expect("an exact number outlived its scope").1))
+        })
+    }
+
+    fn combine(self, other: Self, operation: impl FnOnce(&RBig, &RBig) -> RBig) -> Self {
+        let result = self.with(|x| other.with(|y| operation(x, y))).flatten();
+        result.map_or(Exact::undefined(), Exact::new)
+    }
+
+    fn is(self, at: u32) -> bool {
+        self.at == at
+    }
+}
+
+impl Add for Exact {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        match () {
+            _ if self.is(ZERO) => other,
+            _ if other.is(ZERO) => self,
+            _ => self.combine(other, |x, y| x + y),
+        }
+    }
+}
+
+impl Sub for Exact {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        if other.is(ZERO) { self } else { self.combine(other, |x, y| x - y) }
+    }
+}
+
+impl Mul for Exact {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        match () {
+            _ if self.is(ONE) => other,
+            _ if other.is(ONE) => self,
+            _ => self.combine(other, |x, y| x * y),
+        }
+    }
+}
+
+impl Div for Exact {
+    type Output = Self;
+    /// x/0 is undefined.
+    fn div(self, other: Self) -> Self {
+        match () {
+            _ if other.is(ZERO) => Exact::undefined(),
+            _ if other.is(ONE) => self,
+            _ => self.combine(other, |x, y| x / y),
+        }
+    }
+}
+
+impl Neg for Exact {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Exact::zero() - self
+    }
+}
+
+impl AddAssign for Exact {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Exact {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl MulAssign for Exact {
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl PartialEq for Exact {
+    fn eq(&self, other: &Self) -> bool {
+        self.partial_cmp(other) == Some(Ordering::Equal)
+    }
+}
+
+impl PartialOrd for Exact {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.with(|x| other.with(|y| x.cmp(y))).flatten()
+    }
+}
+
+impl Zero for Exact {
+    fn zero() -> Self {
+        Exact::fixed(ZERO)
+    }
+    fn is_zero(&self) -> bool {
+        self.is(ZERO)
+    }
+}
+
+impl One for Exact {
+    fn one() -> Self {
+        Exact::fixed(ONE)
+    }
+}
+
+impl Subscript for Exact {
+    fn at(self) -> usize {
+        let whole =
+            self.with(|x| if x.is_int() { usize::try_from(x.numerator()).ok() } else { None });
+        whole.flatten().unwrap_or_else(|| panic!("{self} is no subscript"))
+    }
+}
+
+impl Scalar for Exact {
+    /// Exactly `x`; undefined for an infinity or NaN.
+    fn from_f64(x: f64) -> Self {
+        RBig::try_from(x).map_or(Exact::undefined(), Exact::new)
+    }
+    /// Ties to even; NaN where it is undefined.
+    fn to_f64(self) -> f64 {
+        self.with(rational::nearest).unwrap_or(f64::NAN)
+    }
+    fn from_decimal(x: f64) -> Self {
+        rational::of_decimal(x).map_or(Exact::undefined(), Exact::new)
+    }
+    fn to_rational(self) -> Option<RBig> {
+        self.with(RBig::clone)
+    }
+    fn from_number(n: usize) -> Self {
+        Exact::new(RBig::from(n))
+    }
+    /// 40 significant digits: the fraction itself may have thousands.
+    fn digits(self) -> Option<String> {
+        self.with(|x| rational::decimal(x, 40))
+    }
+    /// One rounding, the root's own.
+    fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
+        (factor * scale * scale * square).with(rational::nearest_root).unwrap_or(f64::NAN)
+    }
+    fn is_finite(self) -> bool {
+        !self.is(UNDEFINED)
+    }
+}
+
+impl fmt::Display for Exact {
+    /// The nearest `f64`: the number itself may have thousands of digits.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}", self.to_f64())
+    }
+}
+
+impl fmt::Debug for Exact {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        self.with(|x| write!(f, "{x}")).unwrap_or_else(|| f.write_str("undefined"))
+    }
+}

@@ -1,0 +1,34 @@
+//! Whether exact numbers on a scene end in a bearable time.
+
+use crate::error::InputError;
+
+/// Seconds of one exact solution of `EQUATIONS` equations of a plane mesh; it grows with their cube.
+const SECONDS: f64 = 7.0;
+const EQUATIONS: f64 = 544.0;
+
+/// Seconds beyond which an exact run is refused.
+const LIMIT: f64 = 600.0;
+
+/// Estimated seconds of exact solutions of `equations` equations. `growing`: weights come from the shape that the iteration before led
+/// to, so that numbers grow longer by a factor of the equations each time.
+pub fn seconds(equations: usize, growing: bool, iterations: usize) -> f64 {
+    let n = equations as f64;
+    let first = SECONDS * (n / EQUATIONS).powi(3);
+    let last = if growing { n.powi(iterations as i32 - 1) } else { 1.0 };
+    first * last * iterations as f64
+}
+
+/// That they do.
+///
+/// # Errors
+/// They do not; the message says how long they may take.
+pub fn check(equations: usize, growing: bool, iterations: usize) -> Result<(), InputError> {
+    let seconds = seconds(equations, growing, iterations);
+    if seconds <= LIMIT {
+        return Ok(());
+    }
+    let what = format!(
+        "{equations} equations in exact numbers, {iterations} iterations, may take {seconds:.0e} s: more than {LIMIT} s"
+    );
+    Err(InputError::new("--scalar exact", what, "use f64x2, fewer iterations or a coarser mesh"))
+}
