@@ -53,7 +53,7 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         (Some("13"), Some("9"))
     );
     let count = std::fs::read_dir(&out).unwrap().count();
-    assert_eq!(count, 5, "and no temporary file is left");
+    assert_eq!(count, 6, "and no temporary file is left");
 }
 
 #[test]
@@ -376,7 +376,7 @@ fn audit_shows_readings_findings_and_variants() {
         serde_json::from_str(&succeeds(folder.path(), &["audit", "fig1", "--json"])).unwrap();
     assert_eq!(json["readings"].as_array().unwrap().len(), 17);
     assert!(json["findings"].as_array().unwrap().len() >= 16);
-    assert_eq!(json["variants"].as_array().unwrap().len(), 3);
+    assert_eq!(json["variants"].as_array().unwrap().len(), 4);
     assert!(folder.path().join("audit/findings/C4.svg").exists());
     assert!(folder.path().join("audit/printed/von_mises_stress.svg").exists());
     let c4 = succeeds(folder.path(), &["audit", "--finding", "c4"]);
