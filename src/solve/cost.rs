@@ -4,7 +4,7 @@ use crate::error::InputError;
 
 /// Seconds of an exact iteration of `EQUATIONS` equations of a plane mesh whose coordinates use all digits of an f64; most of them go into
 /// forces and stresses, whose fractions are as long as the displacements'. They grow with the cube of the equations.
-const SECONDS: f64 = 6.0;
+const SECONDS: f64 = 2.0;
 const EQUATIONS: f64 = 144.0;
 
 /// Seconds beyond which an exact run is refused.

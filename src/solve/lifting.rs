@@ -4,13 +4,14 @@
 //!
 //! Source: J. D. Dixon, *Exact solution of linear equations using P-adic expansions*, Numer. Math. 40 (1982) 137-141.
 
-use dashu_base::{Abs, BitTest, Gcd};
-use dashu_int::{IBig, UBig};
+use dashu_base::{Abs, BitTest};
+use dashu_int::IBig;
 use dashu_ratio::RBig;
 
 use super::field::Field;
 use super::ldlt::Ldlt;
 use super::sparse::SparseSymmetric;
+use crate::scalar::rational::lcm;
 
 /// The prime: 2^61 − 1.
 const P: u64 = (1 << 61) - 1;
@@ -59,7 +60,9 @@ impl Field for Residue {
         self.0 == 0
     }
     fn times(&self, other: &Self) -> Self {
-        Residue((u128::from(self.0) * u128::from(other.0) % u128::from(P)) as u64)
+        let product = u128::from(self.0) * u128::from(other.0);
+        // 2^61 is 1 modulo p.
+        Residue(((product as u64 & P) + (product >> 61) as u64) % P)
     }
     fn over(&self, other: &Self) -> Self {
         self.times(&other.inverse())
@@ -176,9 +179,4 @@ fn fraction(value: IBig, modulus: &IBig, length: usize) -> (IBig, IBig) {
         (last_factor, factor) = (factor, next_factor);
     }
     if factor < IBig::ZERO { (-rest, -factor) } else { (rest, factor) }
-}
-
-fn lcm(a: UBig, b: &UBig) -> UBig {
-    let common = (&a).gcd(b);
-    a / common * b
 }
