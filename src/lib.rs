@@ -26,10 +26,13 @@
 #![forbid(unsafe_code)]
 
 pub mod audit;
+pub mod benchmark;
+pub mod calculix;
 mod choices;
 pub mod contact;
 pub mod element;
 pub mod error;
+pub mod error_bars;
 pub mod mathcad;
 pub mod mirror;
 pub mod report;

@@ -37,7 +37,11 @@ enum Command {
     Audit(commands::audit::Args),
     CCnt(commands::c_cnt::Args),
     Km(commands::km::Args),
+    Mesh(commands::mesh::Args),
+    Statuses(commands::statuses::Args),
     Trace(commands::trace::Args),
+    Export(commands::export::Args),
+    Compare(commands::compare::Args),
 }
 
 fn main() -> ExitCode {
@@ -46,7 +50,11 @@ fn main() -> ExitCode {
         Command::Audit(args) => commands::audit::run(&args),
         Command::CCnt(args) => commands::c_cnt::run(&args),
         Command::Km(args) => commands::km::run(&args),
+        Command::Mesh(args) => commands::mesh::run(&args),
+        Command::Statuses(args) => commands::statuses::run(&args),
         Command::Trace(args) => commands::trace::run(&args),
+        Command::Export(args) => commands::export::run(&args),
+        Command::Compare(args) => commands::compare::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

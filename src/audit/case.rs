@@ -17,6 +17,7 @@ pub struct Case {
     /// Its arrays under the default reading.
     pub sheet: Worksheet<f64>,
     runs: [OnceLock<Run>; Variant::ALL.len()],
+    converged: OnceLock<Run>,
 }
 
 impl Case {
@@ -26,7 +27,7 @@ impl Case {
     /// A scene that the default reading does not allow.
     pub fn new(scene: Scene) -> Result<Self, Error> {
         let sheet = scene.worksheet(&Reading::default())?;
-        Ok(Case { scene, sheet, runs: Default::default() })
+        Ok(Case { scene, sheet, runs: Default::default(), converged: OnceLock::new() })
     }
 
     /// The run of a variant under the default reading.
@@ -35,6 +36,12 @@ impl Case {
         self.runs[at].get_or_init(|| {
             contact::run(&self.scene, variant, &Reading::default(), |_| ()).map_err(Arc::new)
         })
+    }
+
+    /// The converged answer that runs are measured against.
+    pub fn converged(&self) -> &Run {
+        self.converged
+            .get_or_init(|| contact::reference(&self.scene, &Reading::default()).map_err(Arc::new))
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.

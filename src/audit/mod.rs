@@ -4,6 +4,7 @@ mod case;
 pub mod findings;
 pub mod listings;
 pub mod readings;
+pub mod statuses;
 pub mod trace;
 pub mod variants;
 

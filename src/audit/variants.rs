@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use crate::contact::{BodySummary, Cycle, Outcome, Variant, summaries};
+use crate::contact::{BodySummary, Cycle, Distance, Outcome, Variant, distance, summaries};
 
 /// What a variant comes to on a scene.
 #[derive(Clone, Debug, Serialize)]
@@ -34,6 +34,12 @@ pub enum End {
         cycle: Option<Cycle>,
         /// The bodies.
         bodies: Vec<BodySummary>,
+        /// How far this is from the converged answer; none without contact, and where there is none.
+        distance: Option<Distance>,
+        /// The largest friction coefficient that a node in contact would need not to slide.
+        friction_needed: Option<f64>,
+        /// Contact nodes in contact that pull.
+        pulling: Vec<usize>,
     },
     /// The published algorithm fails.
     Failure {
@@ -59,6 +65,7 @@ fn end(case: &Case, outcome: &Outcome) -> End {
     let [fx, fy] = case.scene.total_load();
     let load = fx.hypot(fy);
     let cnt = &outcome.sheet.cnt;
+    let pulling = outcome.contact.iter().filter(|c| c.dy == 1 && c.force < 0.0);
     End::Result {
         in_contact: outcome.iterations.iter().map(|it| it.in_contact).collect(),
         contact_set: (1..=cnt.rows()).filter(|&i| last.pairs.dy[i] == 1).map(|i| cnt[i]).collect(),
@@ -66,5 +73,12 @@ fn end(case: &Case, outcome: &Outcome) -> End {
         eq1_residual: last.eq1_residual,
         cycle: last.cycle.clone(),
         bodies: summaries(&case.scene, outcome),
+        distance: case
+            .scene
+            .target()
+            .and_then(|_| case.converged().as_ref().ok())
+            .map(|converged| distance(&case.scene, outcome, converged)),
+        friction_needed: outcome.contact.iter().filter_map(|c| c.friction_needed).reduce(f64::max),
+        pulling: pulling.map(|c| c.node).collect(),
     }
 }

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use plane_contact::audit::findings::{FINDINGS, Finding};
 use plane_contact::audit::{Audit, Case, FindingRow, audit};
-use plane_contact::contact::Variant;
+use plane_contact::contact::{Outcome, Variant};
 use plane_contact::error::{Error, InputError};
-use plane_contact::report::{audit as report, files, folder};
+use plane_contact::report::{audit as report, files, folder, pressure};
 use plane_contact::scene::Scene;
 
 use super::{print, waiting};
@@ -22,7 +22,7 @@ Examples:
   plane-contact audit fig1 --json
   plane-contact audit --finding C4
   plane-contact audit strand --finding K1
-  plane-contact audit strand --out out/audit      audit.txt, audit.json, a picture a finding and a variant")]
+  plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, a picture a finding and a variant")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one [default: strand; with --finding, the finding's own].
     #[arg(value_name = "SCENE")]
@@ -99,8 +99,15 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     }
     for variant in Variant::ALL {
         if let Ok(outcome) = case.run(*variant) {
-            folder::write(&out.join(variant.name()), &case.scene, outcome)?;
+            let converged = case.scene.target().and_then(|_| case.converged().as_ref().ok());
+            folder::write(&out.join(variant.name()), &case.scene, outcome, converged)?;
         }
+    }
+    let runs: Vec<&Outcome> =
+        Variant::ALL.iter().filter_map(|v| case.run(*v).as_ref().ok()).collect();
+    if case.scene.target().is_some() {
+        let runs: Vec<&Outcome> = runs.into_iter().chain(case.converged().as_ref().ok()).collect();
+        files::write(&out.join("pressure.svg"), &pressure::picture(&case.scene, &runs))?;
     }
     Ok(())
 }

@@ -2,15 +2,19 @@
 
 pub mod audit;
 pub mod c_cnt;
+pub mod compare;
+pub mod export;
 pub mod km;
+pub mod mesh;
 pub mod solve;
+pub mod statuses;
 pub mod trace;
 
 use std::io::Write;
 use std::time::Duration;
 
 use indicatif::ProgressBar;
-use plane_contact::contact::{Coupling, Friction, Model};
+use plane_contact::contact::{Coupling, Friction, Geometry, Model, StatusRule};
 use plane_contact::error::Error;
 use plane_contact::mirror::Reading;
 
@@ -35,6 +39,14 @@ pub struct ModelArgs {
     /// Under unilateral: 0 (contact nodes slide) or stick (they follow the target, as eq. (1) asks) [default: the scene's].
     #[arg(long)]
     friction: Option<Friction>,
+    /// Under unilateral, the shape in which the contact of sliding nodes is measured: current, or initial (small displacements) [default: the
+    /// scene's].
+    #[arg(long)]
+    geometry: Option<Geometry>,
+    /// Under tied and stepped, who is in contact: signs (as c_cnt prints), intersection (the text's other remedy), projection (signed distance
+    /// to the nearest target edge) [default: the scene's].
+    #[arg(long, value_name = "RULE")]
+    status: Option<StatusRule>,
 }
 
 impl ModelArgs {
@@ -42,6 +54,8 @@ impl ModelArgs {
     pub fn apply(&self, model: &mut Model) {
         model.coupling = self.coupling.unwrap_or(model.coupling);
         model.friction = self.friction.unwrap_or(model.friction);
+        model.geometry = self.geometry.unwrap_or(model.geometry);
+        model.status = self.status.unwrap_or(model.status);
     }
 }
 

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use plane_contact::contact::{self, Variant};
+use plane_contact::contact::{self, Outcome, Variant};
 use plane_contact::error::Error;
+use plane_contact::mirror::Reading;
 use plane_contact::report::{folder, tables};
 use plane_contact::scene::Scene;
 use plane_contact::solve::{Arithmetic, Inputs, ScalarName, Solver};
@@ -15,8 +16,8 @@ use super::{ModelArgs, ReadingArg, print};
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Prints a table of the iterations and one of the bodies. Writes to --out: mesh.svg (the paper's fig. 4),
-von_mises_stress.svg and von_mises_strain.svg (fig. 5), fields.vtu (ParaView), result.json.
+Prints a table of the iterations, one of the bodies, one of the contact nodes, and how far this is from the converged answer. Writes to --out:
+mesh.svg (the paper's fig. 4), von_mises_stress.svg and von_mises_strain.svg (fig. 5), pressure.svg, fields.vtu (ParaView), result.json.
 
 Examples:
   plane-contact solve
@@ -84,11 +85,31 @@ pub fn run(args: &Args) -> Result<(), Error> {
     progress.finish_and_clear();
     let default = || PathBuf::from("out").join(format!("{}-{variant}", scene.name));
     let out = args.out.clone().unwrap_or_else(default);
-    let result = folder::write(&out, &scene, &outcome)?;
+    let converged = converged(&scene, &args.reading.reading.0);
+    let found = converged.as_ref().and_then(|converged| converged.as_ref().ok());
+    let result = folder::write(&out, &scene, &outcome, found)?;
     if args.json {
         return print(&result);
     }
-    print(&format!("{}\nWritten to {}\n", tables::solution(&scene, &outcome), out.display()))
+    let tables = tables::solution(&scene, &outcome) + &distance(&scene, &outcome, &converged);
+    print(&format!("{tables}\nWritten to {}\n", out.display()))
+}
+
+/// The converged answer, or why there is none; nothing without contact.
+fn converged(scene: &Scene, reading: &Reading) -> Option<Result<Outcome, Error>> {
+    scene.target().map(|_| contact::reference(scene, reading))
+}
+
+fn distance(
+    scene: &Scene,
+    outcome: &Outcome,
+    converged: &Option<Result<Outcome, Error>>,
+) -> String {
+    match converged {
+        None => String::new(),
+        Some(Ok(converged)) => tables::distance(scene, outcome, converged),
+        Some(Err(why)) => format!("\nNo converged answer to measure this against: {why}\n"),
+    }
 }
 
 /// A bar on standard error; it shows only in a terminal.

@@ -27,6 +27,20 @@ pub struct Tie<T = f64> {
     pub motion: Motion<T>,
 }
 
+impl<T: Scalar> Tie<T> {
+    /// The same tie in other numbers.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Tie<U> {
+        Tie {
+            node: self.node,
+            weights: self.weights.iter().map(|&(mate, w)| (mate, to(w))).collect(),
+            motion: match self.motion {
+                Motion::Both(shift) => Motion::Both(shift.map(&to)),
+                Motion::Along(normal, shift) => Motion::Along(normal.map(&to), to(shift)),
+            },
+        }
+    }
+}
+
 /// The motions of a contact node that a tie binds. Lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion<T = f64> {

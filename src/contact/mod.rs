@@ -1,20 +1,30 @@
 //! Contact: how the pairs that `c_cnt` finds enter the equations, and the iterations; and the converged answer beside them.
 
+mod distance;
 mod elimination;
+mod hertz;
+mod nearest;
+mod operations;
 mod pairing;
 mod pressure;
 mod published;
 mod run;
+mod status;
 mod stiffness;
 mod summary;
 mod support;
 mod unilateral;
 mod variant;
 
+pub use distance::{BodyDistance, Distance, distance, reference};
 pub use elimination::{Elimination, Motion, Tie, interpolations, ties};
+pub use hertz::Hertz;
+pub use nearest::{Foot, TargetSurface};
+pub use operations::Operations;
 pub use pairing::{Coupling, Pairing, Surfaces};
 pub use pressure::ContactNode;
 pub use run::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, run, run_in, shape};
+pub use status::{StatusRule, Statuses, pairs, statuses};
 pub use stiffness::Stiffness;
 pub use summary::{BodySummary, summaries};
-pub use variant::{Friction, Model, Variant};
+pub use variant::{Friction, Geometry, Model, Variant};

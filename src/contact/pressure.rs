@@ -3,8 +3,9 @@
 use nalgebra::DVector;
 use serde::Serialize;
 
-use super::pairing::Pairing;
+use super::pairing::{Pairing, Surfaces};
 use super::unilateral::normal_force;
+use crate::error::InputError;
 use crate::mathcad::array::Table;
 use crate::mirror::Worksheet;
 
@@ -19,7 +20,9 @@ pub struct ContactNode {
     pub dy: usize,
     /// Distance from the target along its normal, length; < 0 where the node penetrates.
     pub gap: f64,
-    /// Contact pressure, stress; < 0 where the node pulls.
+    /// Force on the node along the normal, force; < 0 where it pulls.
+    pub force: f64,
+    /// The same over the undeformed surface that the node stands for: contact pressure, stress.
     pub pressure: f64,
     /// Traction along the tangent (the normal turned left), stress.
     pub shear: f64,
@@ -27,57 +30,70 @@ pub struct ContactNode {
     pub friction_needed: Option<f64>,
 }
 
-/// The contact nodes that face the target, in the order of `cnt`. `pairings` are those of the last shape, `reaction` is K u − F.
-pub fn contact_nodes(
-    sheet: &Worksheet<f64>,
-    thickness: f64,
-    pairings: &[Option<Pairing>],
-    dy: &[usize],
-    reaction: &DVector<f64>,
-) -> Vec<ContactNode> {
-    let arcs = arcs(sheet, &sheet.node);
-    let faced = pairings.iter().zip(arcs).zip(dy);
-    faced
-        .filter_map(|((pairing, arc), dy)| {
-            pairing.as_ref().map(|p| contact_node(sheet, thickness, p, arc, *dy, reaction))
-        })
-        .collect()
+/// The contact surface at the end of a run.
+pub struct Surface<'a> {
+    /// The paper's arrays.
+    pub sheet: &'a Worksheet<f64>,
+    /// Thickness, length.
+    pub thickness: f64,
+    /// The last shape: R x 4.
+    pub node_n: &'a Table<f64>,
+    /// What each entry of `cnt` faces in it.
+    pub pairings: &'a [Option<Pairing>],
+    /// By entry of `cnt`, 1 = in contact.
+    pub dy: &'a [usize],
+    /// K u − F, force.
+    pub reaction: &'a DVector<f64>,
 }
 
-fn contact_node(
-    sheet: &Worksheet<f64>,
-    thickness: f64,
-    pairing: &Pairing,
-    arc: f64,
-    dy: usize,
-    reaction: &DVector<f64>,
-) -> ContactNode {
-    let first = 2 * pairing.node - 2;
-    let [nx, ny] = pairing.normal;
-    let held = sheet.S[first + 1] == 1 || sheet.S[first + 2] == 1;
-    let normal = normal_force(sheet, pairing, reaction);
-    // Of a node that a restraint holds the part along the tangent cannot be told from the restraint's own.
-    let tangent = if held { 0.0 } else { nx * reaction[first + 1] - ny * reaction[first] };
-    let area = pairing.length * thickness;
-    let presses = dy == 1 && normal > 0.0;
-    ContactNode {
-        node: pairing.node,
-        arc,
-        dy,
-        gap: pairing.gap,
-        pressure: over(normal, area),
-        shear: over(tangent, area),
-        friction_needed: presses.then(|| tangent.abs() / normal),
+impl Surface<'_> {
+    /// The contact nodes that face the target, in the order of `cnt`.
+    ///
+    /// # Errors
+    /// A target edge that bounds no triangle.
+    pub fn nodes(&self) -> Result<Vec<ContactNode>, InputError> {
+        let surfaces = Surfaces::new(self.sheet)?;
+        let lengths = [&self.sheet.node, self.node_n].map(|shape| surfaces.tributary(shape));
+        let arcs = arcs(self.sheet, &self.sheet.node);
+        let node = |i: usize| {
+            let pairing = self.pairings[i].as_ref()?;
+            let stretch = lengths[1][i] / lengths[0][i];
+            Some(self.node(pairing, arcs[i], self.dy[i], over(pairing.length, stretch)))
+        };
+        Ok((0..self.pairings.len()).filter_map(node).collect())
+    }
+
+    /// A contact node that stands for `length` of the undeformed surface.
+    fn node(&self, pairing: &Pairing, arc: f64, dy: usize, length: f64) -> ContactNode {
+        let (sheet, reaction) = (self.sheet, self.reaction);
+        let first = 2 * pairing.node - 2;
+        let [nx, ny] = pairing.normal;
+        let held = sheet.S[first + 1] == 1 || sheet.S[first + 2] == 1;
+        let normal = normal_force(sheet, pairing, reaction);
+        // Of a node that a restraint holds the part along the tangent cannot be told from the restraint's own.
+        let tangent = if held { 0.0 } else { nx * reaction[first + 1] - ny * reaction[first] };
+        let area = length * self.thickness;
+        let presses = dy == 1 && normal > 0.0;
+        ContactNode {
+            node: pairing.node,
+            arc,
+            dy,
+            gap: pairing.gap,
+            force: normal,
+            pressure: over(normal, area),
+            shear: over(tangent, area),
+            friction_needed: presses.then(|| tangent.abs() / normal),
+        }
     }
 }
 
-/// Force over area; a node that stands for no length carries nothing that can be told.
-fn over(force: f64, area: f64) -> f64 {
-    if area > 0.0 { force / area } else { 0.0 }
+/// a / b; 0 for a node that stands for no length.
+fn over(a: f64, b: f64) -> f64 {
+    if b > 0.0 { a / b } else { 0.0 }
 }
 
 /// Distance of each entry of `cnt` from the first along the polyline, length.
-fn arcs(sheet: &Worksheet<f64>, node: &Table<f64>) -> Vec<f64> {
+pub(super) fn arcs(sheet: &Worksheet<f64>, node: &Table<f64>) -> Vec<f64> {
     let at = |i1: usize| [2, 3].map(|column| node[(sheet.cnt[i1], column)]);
     let mut arc = 0.0;
     (1..=sheet.cnt.rows())

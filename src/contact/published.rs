@@ -9,16 +9,19 @@ use nalgebra::DVector;
 
 use super::elimination::{Elimination, Tie, interpolations, sum, ties};
 use super::pairing::{Coupling, Surfaces};
-use super::pressure::{ContactNode, contact_nodes};
+use super::pressure::{ContactNode, Surface};
 use super::run::{
     Cycle, Iteration, Outcome, Task, free_stiffness, max_displacement, shape, states,
 };
+use super::status::{self, StatusRule};
 use super::stiffness::Stiffness;
 use super::support::{against_load, support};
 use super::variant::Variant;
 use crate::error::{Error, InputError, SingularMatrix};
 use crate::mathcad::array::Table;
-use crate::mirror::{Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet, c_cnt};
+use crate::mirror::{
+    Failure, Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet, c_cnt,
+};
 use crate::scalar::Scalar;
 use crate::solve::{Inputs, Rung, ScalarName, Unsolved, cost, memory};
 
@@ -49,6 +52,7 @@ pub(super) fn published<T: Rung>(
         variant: task.variant,
         schedule: run.schedule,
         reading: *task.reading,
+        model: task.scene.contact,
         sheet: task.sheet.clone(),
         iterations,
         elements: states(&sheet, &run.u),
@@ -156,7 +160,7 @@ impl<'a, T: Rung> Run<'a, T> {
             // Without contact nothing of contact is built: `c_cnt` is not called.
             Pairs::none(self.sheet.R())
         } else {
-            c_cnt(self.sheet, self.task.reading, &node_n)?
+            self.pairs(&node_n)?
         };
         let ties = self.ties(&pairs, &node_n);
         let before = self.met.iter().position(|met| met.is(&pairs, &ties));
@@ -168,9 +172,22 @@ impl<'a, T: Rung> Run<'a, T> {
             None => (None, self.solve(&pairs, &ties, k)?),
         };
         self.advance(&solution);
-        let iteration = self.report(k, &node_n, &pairs, cycle, &solution);
+        let iteration = self.report(k, &node_n, (&pairs, &ties), cycle, &solution);
         self.met.push(Met { k_cnt: pairs.k_cnt, ties, k, solution });
         Ok(iteration)
+    }
+
+    /// The contact pairs, by `c_cnt`; under another status rule, which decides in f64, by that. `printed` is the listing's own.
+    fn pairs(&self, node_n: &Table<T>) -> Result<Pairs<T>, Failure> {
+        let Task { scene, sheet, reading, variant, .. } = *self.task;
+        match scene.contact.status {
+            StatusRule::Signs => c_cnt(self.sheet, reading, node_n),
+            _ if variant == Variant::Printed => c_cnt(self.sheet, reading, node_n),
+            rule => {
+                let pairs = status::pairs(rule, sheet, reading, &node_n.map(T::to_f64))?;
+                Ok(pairs.map(T::from_f64))
+            }
+        }
     }
 
     /// From one shape to the next.
@@ -188,12 +205,13 @@ impl<'a, T: Rung> Run<'a, T> {
         &self,
         k: usize,
         node_n: &Table<T>,
-        pairs: &Pairs<T>,
+        (pairs, ties): (&Pairs<T>, &[Tie<T>]),
         cycle: Option<Cycle>,
         solution: &Solution<T>,
     ) -> Iteration {
+        let bound: &[Tie<T>] = if self.task.variant == Variant::Printed { &[] } else { ties };
         let interpolations = match &self.surfaces {
-            Some(_) => self.ties(pairs, node_n),
+            Some(_) => ties.to_vec(),
             None => interpolations(self.sheet, pairs, self.weights_from(node_n)),
         };
         Iteration {
@@ -206,7 +224,8 @@ impl<'a, T: Rung> Run<'a, T> {
             target_force: against_load(self.task.scene, self.support.map(T::to_f64)),
             solve_residual: solution.residual,
             node_n: node_n.map(T::to_f64),
-            pairs: pairs.rounded(),
+            ties: bound.iter().map(|tie| tie.map(T::to_f64)).collect(),
+            pairs: pairs.map(T::to_f64),
         }
     }
 
@@ -289,10 +308,16 @@ impl<'a, T: Rung> Run<'a, T> {
         if sheet.cnt.rows() == 0 {
             return Ok(Vec::new());
         }
-        let shape = shape(self.sheet, &self.u).map(T::to_f64);
-        let pairings = Surfaces::new(sheet)?.pairings(Coupling::Nts, &shape);
-        let force = (self.stiffness.times(&self.u) - &self.load).map(T::to_f64);
-        Ok(contact_nodes(sheet, scene.thickness, &pairings, last.dy.as_slice(), &force))
+        let node_n = shape(self.sheet, &self.u).map(T::to_f64);
+        let surface = Surface {
+            sheet,
+            thickness: scene.thickness,
+            pairings: &Surfaces::new(sheet)?.pairings(Coupling::Nts, &node_n),
+            node_n: &node_n,
+            dy: last.dy.as_slice(),
+            reaction: &(self.stiffness.times(&self.u) - &self.load).map(T::to_f64),
+        };
+        surface.nodes()
     }
 
     fn singular_matrix(

@@ -3,12 +3,13 @@
 use nalgebra::{DVector, SVector};
 use serde::Serialize;
 
+use super::elimination::Tie;
 use super::pairing::Pairing;
-use super::pressure::{ContactNode, contact_nodes};
+use super::pressure::{ContactNode, Surface};
 use super::published::published;
 use super::support::{against_load, support};
 use super::unilateral::{Step, unilateral};
-use super::variant::Variant;
+use super::variant::{Model, Variant};
 use crate::element::State;
 use crate::error::{Error, InputError};
 use crate::mathcad::array::{Column, Table};
@@ -26,6 +27,8 @@ pub struct Iteration {
     pub node_n: Table<f64>,
     /// What `c_cnt` found in it.
     pub pairs: Pairs<f64>,
+    /// What bound contact nodes to the target, by elimination; empty under `printed`.
+    pub ties: Vec<Tie>,
     /// Number of contact nodes with dy = 1.
     pub in_contact: usize,
     /// Largest |u| of a node, total, length.
@@ -61,6 +64,8 @@ pub struct Outcome {
     pub schedule: Schedule,
     /// The reading.
     pub reading: Reading,
+    /// How contact is modelled beyond what the paper prints.
+    pub model: Model,
     /// The paper's arrays.
     pub sheet: Worksheet<f64>,
     /// The iterations.
@@ -166,14 +171,24 @@ fn converged(
     let factored = steps.len();
     let last = steps.into_iter().next_back().expect("an equilibrium takes an iteration");
     let (dy, pairings) = (closed(&last), &last.after.pairings);
-    let contact = contact_nodes(&sheet, scene.thickness, pairings, &dy, &last.reaction);
+    let surface = Surface {
+        sheet: &sheet,
+        thickness: scene.thickness,
+        node_n: &last.after.node_n,
+        pairings,
+        dy: &dy,
+        reaction: &last.reaction,
+    };
+    let contact = surface.nodes()?;
     let (elements, u) = (states(&sheet, &last.u), last.u);
     let (variant, reading) = (Variant::Unilateral, *reading);
     let schedule = variant.schedule(&reading);
+    let model = scene.contact;
     Ok(Outcome {
         variant,
         schedule,
         reading,
+        model,
         sheet,
         iterations,
         u,
@@ -207,6 +222,7 @@ fn of_step(scene: &Scene, sheet: &Worksheet<f64>, step: &Step) -> Iteration {
         node_n: step.before.node_n.clone(),
         in_contact: pairs.dy.iter().sum(),
         pairs,
+        ties: step.ties.clone(),
         max_displacement: max_displacement(&step.u),
         cycle: step.cycle.clone(),
         eq1_residual: step.violation,

@@ -7,7 +7,7 @@
 //!
 //! A primal-dual active set: each iteration measures normals, weights and gaps in the current shape, closes the gaps of the set, and
 //! takes as the next set the nodes that press or penetrate. It ends when the set repeats and the gaps stay closed as the shape
-//! settles. Friction is none (the node slides along the tangent) or sticks: then both components follow the target,
+//! settles. The shape is the current one, or the initial one for small displacements. Friction is none (the node slides along the tangent) or sticks: then both components follow the target,
 //! as eq. (1) asks, and the node stays at the place of the target that it faced in the initial shape.
 //!
 //! A set that came before, other than the last, would return for ever. From then on one node changes at a time, the last along `cnt` of those
@@ -26,7 +26,7 @@ use super::pairing::{Pairing, Surfaces};
 use super::run::{Cycle, shape};
 use super::stiffness::Stiffness;
 use super::support::along;
-use super::variant::Friction;
+use super::variant::{Friction, Geometry, Model};
 use crate::error::InputError;
 use crate::mathcad::array::Table;
 use crate::mirror::Worksheet;
@@ -34,7 +34,11 @@ use crate::scene::Scene;
 use crate::solve::SparseCholesky;
 
 /// Gaps below this, of the size of the scene, are closed.
-const CLOSED: f64 = 1e-13;
+const CLOSED: f64 = 5e-13;
+
+/// What presses through a first set of few nodes reaches far beyond the contact to come: of the nodes outside, the second set takes those that
+/// penetrate by this part of the deepest. Measured on Hertz's contact of 800 to 100,000 equations: 12 iterations at most, against 14.
+const FIRST_GROWTH: f64 = 0.9;
 
 /// Iterations beyond one for each contact node after which no equilibrium is taken to exist.
 const PATIENCE: usize = 100;
@@ -143,20 +147,24 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Where contact is measured after displacements `u`: in the current shape; under stick in the initial one.
+    /// Where contact is measured after displacements `u`.
     fn place(&self, u: &DVector<f64>) -> Place {
-        let node_n = shape(self.sheet, u);
-        let measured = match self.scene.contact.friction {
-            Friction::None => &node_n,
-            Friction::Stick => &self.sheet.node,
-        };
-        let mut pairings = self.surfaces.pairings(self.scene.contact.coupling, measured);
-        if self.scene.contact.friction == Friction::Stick {
-            for pairing in pairings.iter_mut().flatten() {
-                pairing.gap += pairing.opening(|n| [u[2 * n - 2], u[2 * n - 1]]);
-            }
+        let (node_n, coupling) = (shape(self.sheet, u), self.scene.contact.coupling);
+        if self.measures_current_shape() {
+            let pairings = self.surfaces.pairings(coupling, &node_n);
+            return Place { node_n, pairings };
+        }
+        let mut pairings = self.surfaces.pairings(coupling, &self.sheet.node);
+        for pairing in pairings.iter_mut().flatten() {
+            pairing.gap += pairing.opening(|n| [u[2 * n - 2], u[2 * n - 1]]);
         }
         Place { node_n, pairings }
+    }
+
+    /// A node that sticks stays at the place that it faced in the initial shape.
+    fn measures_current_shape(&self) -> bool {
+        let Model { friction, geometry, .. } = self.scene.contact;
+        (friction, geometry) == (Friction::None, Geometry::Current)
     }
 
     /// The next set; nothing once set and shape have settled.
@@ -172,7 +180,8 @@ impl<'a> Problem<'a> {
     /// The nodes that press or penetrate.
     fn wanted(&self, step: &Step) -> Vec<bool> {
         let presses = |p: &Pairing| normal_force(self.sheet, p, &step.reaction) > 0.0;
-        let penetrates = |p: &Pairing| p.gap < -self.closed;
+        let deep = if step.k == 1 { FIRST_GROWTH * step.violation } else { 0.0 }.max(self.closed);
+        let penetrates = |p: &Pairing| p.gap < -deep;
         let faced = step.before.pairings.iter().zip(&step.after.pairings).zip(&step.closed);
         faced
             .map(|((before, after), closed)| match (before, after) {

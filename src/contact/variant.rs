@@ -4,6 +4,7 @@ use serde::Deserialize;
 use serde::de::{self, Deserializer};
 
 use super::pairing::Coupling;
+use super::status::StatusRule;
 use crate::choices;
 use crate::mirror::{Reading, Schedule};
 
@@ -47,6 +48,18 @@ impl<'de> Deserialize<'de> for Friction {
     }
 }
 
+choices! {
+    /// The shape in which `unilateral` measures normals, weights and gaps of nodes that slide.
+    #[derive(Default)]
+    Geometry {
+        /// The current one.
+        #[default]
+        Current = "current",
+        /// The initial one: the theory of small displacements, as Hertz's.
+        Initial = "initial",
+    }
+}
+
 /// How contact is modelled, beyond what the paper prints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Model {
@@ -54,6 +67,10 @@ pub struct Model {
     pub coupling: Coupling,
     /// What it may do along the tangent.
     pub friction: Friction,
+    /// The shape in which contact is measured.
+    pub geometry: Geometry,
+    /// How `tied` and `stepped` decide who is in contact.
+    pub status: StatusRule,
 }
 
 impl Variant {

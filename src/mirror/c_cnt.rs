@@ -27,13 +27,13 @@ impl<T: Scalar> Pairs<T> {
         Pairs { ct: empty.clone(), yt: Column::filled(0, T::zero()), dy: empty, k_cnt }
     }
 
-    /// The same pairs, their numbers rounded to `f64`.
-    pub fn rounded(&self) -> Pairs<f64> {
+    /// The same pairs in other numbers.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Pairs<U> {
         Pairs {
             ct: self.ct.clone(),
-            yt: self.yt.map(T::to_f64),
+            yt: self.yt.map(&to),
             dy: self.dy.clone(),
-            k_cnt: self.k_cnt.map(T::to_f64),
+            k_cnt: self.k_cnt.map(&to),
         }
     }
 }

@@ -94,10 +94,23 @@ fn variants(rows: &[VariantRow]) -> String {
         "force on target",
         "eq. (1), total u",
         "von Mises stress",
+        "off in energy",
+        "friction needed",
+        "pulling",
     ];
     let rows = rows.iter().map(|row| match &row.end {
         End::Failure { failure } => vec![row.variant.to_string(), first_line(failure).into()],
-        End::Result { in_contact, target_share, eq1_residual, cycle, bodies, .. } => {
+        End::Result {
+            in_contact,
+            target_share,
+            eq1_residual,
+            cycle,
+            bodies,
+            distance,
+            friction_needed,
+            pulling,
+            ..
+        } => {
             let stresses: Vec<String> = bodies
                 .iter()
                 .map(|b| format!("{} {}", b.name, short(b.max_von_mises_stress)))
@@ -109,6 +122,11 @@ fn variants(rows: &[VariantRow]) -> String {
                 format!("{:.1} %", 100.0 * target_share),
                 short(*eq1_residual),
                 stresses.join(", "),
+                distance
+                    .as_ref()
+                    .map_or("-".into(), |d| format!("{:.2} %", 100.0 * d.energy_relative)),
+                friction_needed.map_or("-".into(), short),
+                pulling.len().to_string(),
             ]
         }
     });

@@ -4,19 +4,24 @@ use std::path::Path;
 
 use super::picture::{self, Contact, Drawing, Field};
 use super::vtu::{Data, VtuMesh, vtu};
-use super::{files, json};
+use super::{files, json, pressure};
 use crate::contact::Outcome;
 use crate::element::State;
 use crate::error::InputError;
 use crate::mirror::Worksheet;
 use crate::scene::Scene;
 
-/// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu` and `result.json` to `folder`; gives back the
-/// last one's content.
+/// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu`, `result.json` and, with contact, `pressure.svg` to
+/// `folder`; gives back the content of `result.json`. `converged` is the answer that the run is measured against.
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<String, InputError> {
+pub fn write(
+    folder: &Path,
+    scene: &Scene,
+    outcome: &Outcome,
+    converged: Option<&Outcome>,
+) -> Result<String, InputError> {
     let shown = Shown::new(scene, &outcome.sheet);
     let displacement: Vec<[f64; 2]> =
         outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect();
@@ -34,7 +39,11 @@ pub fn write(folder: &Path, scene: &Scene, outcome: &Outcome) -> Result<String, 
         ("fields.vtu", shown.vtu(outcome)),
     ];
     files.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))?;
-    let result = json::result(scene, outcome);
+    if !outcome.contact.is_empty() {
+        let runs: Vec<&Outcome> = std::iter::once(outcome).chain(converged).collect();
+        files::write(&folder.join("pressure.svg"), &pressure::picture(scene, &runs))?;
+    }
+    let result = json::result(scene, outcome, converged);
     files::write(&folder.join("result.json"), &result)?;
     Ok(result)
 }
@@ -46,6 +55,17 @@ fn values(outcome: &Outcome, of: impl Fn(&State) -> f64) -> Vec<f64> {
 /// The mesh of a scene as a picture.
 pub fn mesh_picture(scene: &Scene, sheet: &Worksheet<f64>) -> String {
     picture::mesh(&Shown::new(scene, sheet).drawing(scene))
+}
+
+/// A field on the deformed mesh of a scene as a picture.
+pub fn field_picture(
+    scene: &Scene,
+    sheet: &Worksheet<f64>,
+    title: &str,
+    field: &Field<'_>,
+) -> String {
+    let shown = Shown::new(scene, sheet);
+    picture::field(&Drawing { title, ..shown.drawing(scene) }, field)
 }
 
 /// The mesh, counted from 0.

@@ -3,7 +3,10 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::contact::{BodySummary, Cycle, Iteration, Outcome, summaries};
+use crate::contact::{
+    BodySummary, ContactNode, Coupling, Cycle, Distance, Friction, Geometry, Hertz, Iteration,
+    Outcome, StatusRule, distance, summaries,
+};
 use crate::mirror::{Pairs, Reading};
 use crate::scene::{Scene, Units};
 use crate::solve::Arithmetic;
@@ -15,6 +18,10 @@ struct Document<'a> {
     title: &'a str,
     variant: &'static str,
     reading: Value,
+    coupling: Coupling,
+    friction: Friction,
+    geometry: Geometry,
+    status: StatusRule,
     units: &'a Units,
     /// Absent: f64 by the variant's own solver.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,6 +35,12 @@ struct Document<'a> {
     dropped: &'a [usize],
     iterations: Vec<Row<'a>>,
     bodies: Vec<BodySummary>,
+    /// The contact surface at the end.
+    contact: &'a [ContactNode],
+    /// Hertz's contact, where his theory applies.
+    hertz: Option<Hertz>,
+    /// How far the run is from the converged answer; none without contact, and where there is none.
+    distance: Option<Distance>,
     /// Displacement of each node, length.
     u: Vec<[f64; 2]>,
     /// The same with all digits, where the scalar has more than an f64.
@@ -59,13 +72,17 @@ struct ElementRow {
     von_mises_strain: f64,
 }
 
-/// `result.json` of a run.
-pub fn result(scene: &Scene, outcome: &Outcome) -> String {
+/// `result.json` of a run; `converged` is the answer that it is measured against.
+pub fn result(scene: &Scene, outcome: &Outcome, converged: Option<&Outcome>) -> String {
     let document = Document {
         scene: &scene.name,
         title: &scene.title,
         variant: outcome.variant.name(),
         reading: reading(outcome),
+        coupling: outcome.model.coupling,
+        friction: outcome.model.friction,
+        geometry: outcome.model.geometry,
+        status: outcome.model.status,
         units: &scene.units,
         arithmetic: Some(outcome.arithmetic).filter(|a| !a.is_default()),
         error_bound: outcome.error_bound.filter(|bound| bound.is_finite()),
@@ -73,6 +90,9 @@ pub fn result(scene: &Scene, outcome: &Outcome) -> String {
         dropped: &scene.dropped,
         iterations: outcome.iterations.iter().map(row).collect(),
         bodies: summaries(scene, outcome),
+        contact: &outcome.contact,
+        hertz: Hertz::of(outcome, scene.thickness),
+        distance: converged.map(|converged| distance(scene, outcome, converged)),
         u: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
         u_digits: outcome.digits.as_ref().map(|digits| digits.chunks(2).collect()),
         elements: elements(outcome),

@@ -3,12 +3,16 @@
 //! The same input gives the same bytes: no clock, no hash order, no machine in them.
 
 pub mod audit;
+pub mod comparison;
 pub mod files;
 pub mod folder;
 pub mod json;
 pub mod matrix_market;
 pub mod picture;
+pub mod pressure;
+pub mod statuses;
 pub mod tables;
 pub mod trace;
+pub mod uncertain;
 pub mod vtu;
 mod xml;

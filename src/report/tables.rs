@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::contact::{Cycle, Iteration, Outcome, summaries};
+use crate::contact::{self, ContactNode, Cycle, Iteration, Outcome, Variant, summaries};
 use crate::mirror::{Pairs, Worksheet};
 use crate::scene::Scene;
 
@@ -68,7 +68,70 @@ pub fn solution(scene: &Scene, outcome: &Outcome) -> String {
     if let Some(last) = outcome.iterations.last().filter(|_| scene.target().is_some()) {
         text += &format!("\nIn contact at the end: {}\n", contact_list(&outcome.sheet, last));
     }
-    text + &format!("\nBodies\n{}", bodies(scene, outcome))
+    text += &format!("\nBodies\n{}", bodies(scene, outcome));
+    let carrying: Vec<&ContactNode> = outcome.contact.iter().filter(|c| c.dy == 1).collect();
+    if !carrying.is_empty() {
+        text += &format!("\nContact surface\n{}", contact_surface(scene, &carrying));
+    }
+    text
+}
+
+/// The contact nodes in contact at the end.
+fn contact_surface(scene: &Scene, nodes: &[&ContactNode]) -> String {
+    let units = &scene.units;
+    let head = vec![
+        "node".into(),
+        with_unit("arc", &units.length),
+        with_unit("gap", &units.length),
+        with_unit("pressure", &units.stress),
+        with_unit("shear", &units.stress),
+        "friction needed".into(),
+    ];
+    let rows = nodes.iter().map(|c| {
+        vec![
+            c.node.to_string(),
+            short(c.arc),
+            format!("{:.1e}", c.gap),
+            short(c.pressure),
+            short(c.shear),
+            c.friction_needed.map_or("-".into(), short),
+        ]
+    });
+    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+}
+
+/// How far a run is from the converged answer.
+pub fn distance(scene: &Scene, outcome: &Outcome, converged: &Outcome) -> String {
+    let of = contact::distance(scene, outcome, converged);
+    let percent = |x: f64| format!("{:.2} %", 100.0 * x);
+    let mut text = format!(
+        "\nDistance to the converged answer ({}; {} in contact)\n",
+        super::pressure::name(converged),
+        converged.contact.iter().filter(|c| c.dy == 1).count()
+    );
+    let head = ["", "this run", "converged", "difference"].map(String::from).to_vec();
+    let displacement = vec![
+        with_unit("displacement, largest difference", &scene.units.length),
+        "-".into(),
+        "-".into(),
+        format!("{} = {}", short(of.displacement), percent(of.displacement_relative)),
+    ];
+    let energy = vec![
+        "energy norm of the difference".into(),
+        "-".into(),
+        "-".into(),
+        percent(of.energy_relative),
+    ];
+    let bodies = of.bodies.into_iter().map(|body| {
+        vec![
+            with_unit(&format!("von Mises stress, {}", body.name), &scene.units.stress),
+            short(body.von_mises_stress),
+            short(body.converged),
+            percent(body.relative),
+        ]
+    });
+    text += &aligned(&[head, displacement, energy].into_iter().chain(bodies).collect::<Vec<_>>());
+    text
 }
 
 fn heading(scene: &Scene, outcome: &Outcome) -> String {
@@ -109,7 +172,10 @@ fn iterations(scene: &Scene, outcome: &Outcome) -> String {
         "k".into(),
         "in contact".into(),
         with_unit("largest |u|", &units.length),
-        with_unit("eq. (1), total u", &units.length),
+        match outcome.variant {
+            Variant::Unilateral => with_unit("gap or overlap left", &units.length),
+            _ => with_unit("eq. (1), total u", &units.length),
+        },
         with_unit("force on target", &units.force),
         format!("of {}", short(fx.hypot(fy))),
         "residual".into(),

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
-use crate::contact::{Coupling, Friction, Variant};
+use crate::contact::{Coupling, Friction, Geometry, StatusRule, Variant};
 use crate::error::InputError;
 use crate::mirror::Plane;
 
@@ -150,6 +150,12 @@ pub struct Contact {
     /// What it may do along the tangent under `unilateral`: 0 or "stick".
     #[serde(default)]
     pub friction: Friction,
+    /// The shape in which `unilateral` measures contact.
+    #[serde(default, deserialize_with = "by_name")]
+    pub geometry: Geometry,
+    /// How `tied` and `stepped` decide who is in contact.
+    #[serde(default, deserialize_with = "by_name")]
+    pub status: StatusRule,
 }
 
 /// A physical group, by its name or its tag.

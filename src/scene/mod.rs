@@ -128,6 +128,8 @@ impl Scene {
             contact: file.contact.map_or(Model::default(), |contact| Model {
                 coupling: contact.coupling,
                 friction: contact.friction,
+                geometry: contact.geometry,
+                status: contact.status,
             }),
             thickness: file.thickness,
             bodies,

@@ -1,10 +1,11 @@
-//! Pictures as SVG: the mesh (the paper's fig. 4) and a field on the deformed mesh (fig. 5).
+//! Pictures as SVG: the mesh (the paper's fig. 4), a field on the deformed mesh (fig. 5), curves in a chart.
 //!
 //! | module          | what it holds                                |
 //! |-----------------|----------------------------------------------|
 //! | `bodies`      | what the mesh's panels and legend show       |
 //! | `fields`      | what a field's panels and captions show      |
 //! | `deformation` | the deformed mesh and its outline            |
+//! | `chart`       | curves over one axis                         |
 //! | `page`        | layout: title, panels, legend, captions      |
 //! | `colour`      | values to colours, and the colour bar        |
 //! | `view`        | the mesh's coordinates to pixels             |
@@ -12,13 +13,18 @@
 //! | `svg`         | shapes, on top of the XML writer                    |
 
 mod bodies;
+mod chart;
 mod colour;
 mod deformation;
 mod fields;
 mod numbers;
 mod page;
+mod statuses;
 mod svg;
 mod view;
+
+pub use self::chart::{Axis, Series, Style, chart};
+pub use statuses::statuses;
 
 use self::bodies::{draw_bodies, legend};
 use self::deformation::{deformed, magnification};

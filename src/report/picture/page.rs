@@ -11,14 +11,14 @@ pub const TEXT_SIZE: f64 = 14.0;
 
 const TITLE_SIZE: f64 = 20.0;
 const WIDTH: f64 = 1100.0;
-const MARGIN: f64 = 40.0;
-const INNER: f64 = WIDTH - 2.0 * MARGIN;
+pub(super) const MARGIN: f64 = 40.0;
+pub(super) const INNER: f64 = WIDTH - 2.0 * MARGIN;
 const GAP: f64 = 24.0;
 const PANEL_HEIGHT: [f64; 2] = [300.0, 600.0];
 const BAR_WIDTH: f64 = 640.0;
 /// A scale bar is up to a quarter as long as its panel is wide, and as one this wide at least.
 const SCALE_BAR: f64 = 240.0;
-const DARK: &str = "#222222";
+pub(super) const DARK: &str = "#222222";
 
 /// A sign of the legend.
 pub enum Sign {
@@ -44,7 +44,8 @@ pub struct Panels<'a> {
 pub struct Page {
     title: String,
     content: Element,
-    y: f64,
+    /// Where the next part begins, pixels from the top.
+    pub(super) y: f64,
 }
 
 impl Page {
@@ -118,7 +119,7 @@ impl Page {
         document(WIDTH, (self.y + MARGIN / 2.0).ceil(), &self.title, self.content)
     }
 
-    fn put(&mut self, element: Element) {
+    pub(super) fn put(&mut self, element: Element) {
         self.content.push(element);
     }
 

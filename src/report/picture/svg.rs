@@ -13,6 +13,8 @@ pub type Pixel = [f64; 2];
 pub enum Anchor {
     Start,
     Middle,
+    /// Its right end stands there.
+    End,
 }
 
 /// The picture as a file: a white page with a title for screen readers, then `content`.
@@ -82,6 +84,7 @@ pub fn text(at: Pixel, size: f64, anchor: Anchor, words: &str) -> Element {
     match anchor {
         Anchor::Start => element,
         Anchor::Middle => element.set("text-anchor", "middle"),
+        Anchor::End => element.set("text-anchor", "end"),
     }
 }
 

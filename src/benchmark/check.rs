@@ -1,0 +1,54 @@
+//! Parameters of benchmarks, checked.
+
+use crate::error::InputError;
+
+/// More divisions of a side than anybody has memory for.
+const MOST: usize = 2000;
+
+/// That a number of divisions lies in `least ..= MOST`.
+///
+/// # Errors
+/// It does not.
+pub fn count(option: &str, n: usize, least: usize) -> Result<(), InputError> {
+    if (least..=MOST).contains(&n) {
+        return Ok(());
+    }
+    let what = format!("{n} divisions are outside {least} .. {MOST}");
+    Err(InputError::new(option, what, format!("give a number from {least} to {MOST}")))
+}
+
+/// That a number of divisions is even too: a node must stand in the middle.
+///
+/// # Errors
+/// It is odd, or outside the range of [`count`].
+pub fn even(option: &str, n: usize) -> Result<(), InputError> {
+    count(option, n, 2)?;
+    if n.is_multiple_of(2) {
+        return Ok(());
+    }
+    let what = format!("{n} divisions leave no node in the middle, where the body is held");
+    Err(InputError::new(option, what, format!("give an even number, such as {}", n + 1)))
+}
+
+/// That a length, load or modulus is positive and finite.
+///
+/// # Errors
+/// It is not.
+pub fn positive(option: &str, x: f64) -> Result<(), InputError> {
+    if x > 0.0 && x.is_finite() {
+        return Ok(());
+    }
+    Err(InputError::new(option, format!("{x} is not positive"), "give a number above 0"))
+}
+
+/// That a ratio lies in a range.
+///
+/// # Errors
+/// It does not.
+pub fn between(option: &str, x: f64, [least, most]: [f64; 2]) -> Result<(), InputError> {
+    if (least..=most).contains(&x) {
+        return Ok(());
+    }
+    let what = format!("{x} is outside {least} .. {most}");
+    Err(InputError::new(option, what, format!("give a number from {least} to {most}")))
+}

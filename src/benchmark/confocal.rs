@@ -1,0 +1,61 @@
+//! Half planes meshed along confocal ellipses: fine at a contact face, coarse far away, near squares everywhere.
+//!
+//! ```text
+//!   z = c cosh(xi + i eta)      |            xi = 0: the face, 0 <= x <= c, nodes closer towards c
+//!                              .-+--.        eta = 0: the surface beyond it
+//!   eta = pi/2: x = 0         /  |    \      eta = pi/2: the axis of symmetry
+//!                            | .-+-.   \     cells are square, for the map is conformal
+//!                            ||==+==|---|
+//!                                0  c   c cosh xi
+//! ```
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::builder::Builder;
+use super::line::quarter;
+
+/// An ellipse of the family and its number of segments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ring {
+    /// The ellipse's number; 0 is the face.
+    pub xi: f64,
+    /// Its segments from the surface to the axis.
+    pub segments: usize,
+}
+
+/// The xi at which the segments are halved: the field is smooth there.
+const HALVED_AT: [f64; 2] = [0.5, 1.25];
+
+/// Rings of square cells from the face, with `segments`, to the ellipse `end`.
+pub fn rings(segments: usize, end: f64) -> Vec<Ring> {
+    let mut rings = vec![Ring { xi: 0.0, segments }];
+    let mut last = rings[0];
+    while last.xi < end {
+        let step = FRAC_PI_2 / last.segments as f64;
+        let halvings = HALVED_AT.iter().filter(|&&at| last.xi >= at).count();
+        last = Ring { xi: last.xi + step, segments: segments.div_ceil(1 << halvings) };
+        rings.push(last);
+    }
+    let stretch = end / last.xi;
+    rings.iter().map(|ring| Ring { xi: ring.xi * stretch, ..*ring }).collect()
+}
+
+/// Adds the nodes of a ring of focus `c`, from the surface to the axis, each placed by `map` from the upper half plane.
+pub fn add(
+    builder: &mut Builder,
+    c: f64,
+    ring: Ring,
+    map: impl Fn([f64; 2]) -> [f64; 2],
+) -> Vec<usize> {
+    let (a, b) = (c * ring.xi.cosh(), c * ring.xi.sinh());
+    builder.row((0..=ring.segments).map(|k| {
+        let [cos, sin] = quarter(k, ring.segments);
+        map([a * cos, b * sin])
+    }))
+}
+
+/// The nodes of the surface from the axis outwards: the face, then the first node of each further ring as far as x = `end`.
+pub fn surface(builder: &Builder, rows: &[Vec<usize>], end: f64) -> Vec<usize> {
+    let beyond = rows[1..].iter().map(|row| row[0]).take_while(|&n| builder.xy(n)[0] <= end);
+    rows[0].iter().rev().copied().chain(beyond).collect()
+}

@@ -1,0 +1,106 @@
+//! A circular hole in an infinite sheet under tension: Kirsch.
+
+use serde_json::{Value, json};
+
+use super::builder::{Builder, Grid};
+use super::line::{geometric, quarter};
+use super::{Benchmark, check};
+use crate::error::InputError;
+
+/// Kirsch: a circular hole in an infinite sheet under unit tension in x.
+///
+/// Hole of radius 1, E = 1000, nu = 0.3, plane stress. A quarter of the sheet is cut out along a circle, and each outer edge
+/// carries the traction of the closed form at its middle: the sheet is infinite at any outer radius. At the hole sigma_x = 3
+/// at (0, 1) and sigma_y = -1 at (1, 0).
+///
+/// Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 35.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+#[command(after_help = "\
+Examples:
+  plane-contact mesh hole
+  plane-contact mesh hole --around 64 --outer 20")]
+pub struct Hole {
+    /// Divisions around the quarter; cells are near square.
+    #[arg(long, default_value_t = Hole::default().around)]
+    pub around: usize,
+    /// Radius at which the sheet is cut, in radii of the hole.
+    #[arg(long, default_value_t = Hole::default().outer)]
+    pub outer: f64,
+}
+
+impl Default for Hole {
+    fn default() -> Self {
+        Hole { around: 16, outer: 5.0 }
+    }
+}
+
+impl Hole {
+    /// Generates the scene.
+    ///
+    /// # Errors
+    /// Fewer than two divisions, or too many; an outer radius below 1.5 or beyond 1e6.
+    pub fn generate(&self) -> Result<Benchmark, InputError> {
+        check::count("--around", self.around, 2)?;
+        check::between("--outer", self.outer, [1.5, 1e6])?;
+        let n = self.around;
+        let radial = (self.outer.ln() * n as f64 / std::f64::consts::FRAC_PI_2).ceil() as usize;
+        let mut builder = Builder::default();
+        let grid = Grid::add(&mut builder, "sheet", [n, radial], |i, j| {
+            quarter(i, n).map(|x| x * geometric(1.0, self.outer, j, radial))
+        });
+        builder.edges("hole", grid.first());
+        builder.edges("x_axis", &grid.starts());
+        builder.edges("y_axis", &grid.ends());
+        let mut loads = Vec::new();
+        for (k, edge) in grid.last().windows(2).enumerate() {
+            let (group, [a, b]) = (format!("outer_{}", k + 1), [0, 1].map(|i| builder.xy(edge[i])));
+            loads.push(json!({ "on": group, "traction": traction(a, b) }));
+            builder.edges(group, edge);
+        }
+        Ok(Benchmark::new("hole", builder.finish(), scene(loads)))
+    }
+}
+
+fn scene(loads: Vec<Value>) -> Value {
+    json!({
+        "title": "Circular hole in an infinite sheet under tension (Kirsch)",
+        "plane": "stress",
+        "materials": { "sheet": { "E": 1000.0, "nu": 0.3 } },
+        "restraints": [{ "on": "x_axis", "fix": ["y"] }, { "on": "y_axis", "fix": ["x"] }],
+        "loads": loads,
+        "variant": "unilateral"
+    })
+}
+
+/// Traction of the closed form at the middle of the edge from `a` to `b`, counter-clockwise around the hole.
+fn traction(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+    let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
+    let [xx, yy, xy] = stress([(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0]);
+    [xx * normal[0] + xy * normal[1], xy * normal[0] + yy * normal[1]]
+}
+
+/// sigma_x, sigma_y, tau_xy of the closed form: unit tension in x, hole of radius 1 at the origin.
+fn stress([x, y]: [f64; 2]) -> [f64; 3] {
+    let (a2, angle) = (1.0 / (x * x + y * y), y.atan2(x));
+    let a4 = 1.5 * a2 * a2;
+    let ((s2, c2), (s4, c4)) = ((2.0 * angle).sin_cos(), (4.0 * angle).sin_cos());
+    [
+        1.0 - a2 * (1.5 * c2 + c4) + a4 * c4,
+        -a2 * (0.5 * c2 - c4) - a4 * c4,
+        -a2 * (0.5 * s2 + s4) + a4 * s4,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::stress;
+
+    #[test]
+    fn the_closed_form_has_its_known_values_at_the_hole_and_far_away() {
+        let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8);
+        assert!(near(stress([0.0, 1.0]), [3.0, 0.0, 0.0]));
+        assert!(near(stress([1.0, 0.0]), [0.0, -1.0, 0.0]));
+        assert!(near(stress([3e5, 4e5]), [1.0, 0.0, 0.0]));
+    }
+}

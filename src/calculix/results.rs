@@ -1,0 +1,131 @@
+//! What `ccx` printed to its `.dat` file.
+
+use super::fields::Fields;
+use crate::error::InputError;
+
+/// What the lines of a block hold.
+#[derive(Clone, Copy)]
+enum Block {
+    /// Node, u_x, u_y, u_z.
+    Displacements,
+    /// Element, integration point, the six stresses.
+    Stresses,
+    /// Something else.
+    Other,
+}
+
+/// Reads the displacements of `nodes` nodes and the stresses of `triangles` triangles; of several increments the last.
+///
+/// A plane triangle has two integration points across the thickness: their mean.
+///
+/// # Errors
+/// A node or a triangle that is missing; what is no number.
+pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields, InputError> {
+    let mut u = vec![None; nodes];
+    let mut stresses = vec![Points::default(); triangles];
+    let mut block = Block::Other;
+    for line in text.lines().filter(|line| !line.trim().is_empty()) {
+        if line.trim_start().starts_with(|c: char| c.is_ascii_alphabetic()) {
+            block = heading(line);
+            continue;
+        }
+        match block {
+            Block::Displacements => {
+                let (node, [], values) = row::<0, 3>(line)?;
+                *entry(&mut u, node, line)? = Some([values[0], values[1]]);
+            }
+            Block::Stresses => {
+                let (triangle, [point], values) = row::<1, 6>(line)?;
+                entry(&mut stresses, triangle, line)?.set(point, values);
+            }
+            Block::Other => {}
+        }
+    }
+    let u = u.into_iter().enumerate().map(|(k, u)| u.ok_or_else(|| missing("node", k + 1)));
+    let stresses = stresses.iter().enumerate();
+    let stresses = stresses.map(|(k, s)| s.mean().ok_or_else(|| missing("element", k + 1)));
+    Ok(Fields { u: u.collect::<Result<_, _>>()?, sigma: stresses.collect::<Result<_, _>>()? })
+}
+
+/// The stresses at the integration points of an element.
+#[derive(Clone, Debug, Default)]
+struct Points(Vec<[f64; 6]>);
+
+impl Points {
+    /// Point 1 begins a new increment.
+    fn set(&mut self, point: usize, values: [f64; 6]) {
+        if point == 1 {
+            self.0.clear();
+        }
+        self.0.push(values);
+    }
+
+    fn mean(&self) -> Option<[f64; 6]> {
+        let count = self.0.len() as f64;
+        let sum = |c: usize| self.0.iter().map(|point| point[c]).sum::<f64>();
+        (!self.0.is_empty()).then(|| std::array::from_fn(|c| sum(c) / count))
+    }
+}
+
+fn heading(line: &str) -> Block {
+    match line.trim_start() {
+        line if line.starts_with("displacements") => Block::Displacements,
+        line if line.starts_with("stresses") => Block::Stresses,
+        _ => Block::Other,
+    }
+}
+
+fn entry<'a, T>(of: &'a mut [T], number: usize, line: &str) -> Result<&'a mut T, InputError> {
+    number.checked_sub(1).and_then(|k| of.get_mut(k)).ok_or_else(|| not_understood(line))
+}
+
+/// A number, `I` numbers more, then `V` values.
+fn row<const I: usize, const V: usize>(
+    line: &str,
+) -> Result<(usize, [usize; I], [f64; V]), InputError> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    if words.len() != 1 + I + V {
+        return Err(not_understood(line));
+    }
+    let whole = |word: &&str| word.parse::<usize>().map_err(|_| not_understood(line));
+    let real = |word: &&str| float(word).ok_or_else(|| not_understood(line));
+    let numbers: Vec<usize> = words[..=I].iter().map(whole).collect::<Result<_, _>>()?;
+    let values: Vec<f64> = words[1 + I..].iter().map(real).collect::<Result<_, _>>()?;
+    let indices = std::array::from_fn(|k| numbers[1 + k]);
+    Ok((numbers[0], indices, std::array::from_fn(|k| values[k])))
+}
+
+/// A finite number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent has three digits.
+fn float(word: &str) -> Option<f64> {
+    let plain = word.parse::<f64>().ok();
+    let short = || {
+        let sign = word.rfind(['+', '-']).filter(|&at| at > 0)?;
+        format!("{}e{}", &word[..sign], &word[sign..]).parse().ok()
+    };
+    plain.or_else(short).filter(|x| x.is_finite())
+}
+
+fn not_understood(line: &str) -> InputError {
+    let what = format!("the line {:?} is not understood", line.trim());
+    InputError::new("the results of ccx", what, "use CalculiX 2.20, which this was written for")
+}
+
+fn missing(what: &str, number: usize) -> InputError {
+    let what = format!("{what} {number} is not in them");
+    InputError::new("the results of ccx", what, "export the deck and see what ccx says of it")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::float;
+
+    #[test]
+    fn fortran_leaves_out_the_e_of_a_long_exponent() {
+        assert_eq!(float("-1.500000E-03"), Some(-1.5e-3));
+        assert_eq!(float("-1.500000-103"), Some(-1.5e-103));
+        assert_eq!(float("1.500000+103"), Some(1.5e103));
+        for word in ["NaN", "Infinity", "*************", "-", ""] {
+            assert_eq!(float(word), None, "{word}");
+        }
+    }
+}

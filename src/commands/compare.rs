@@ -1,0 +1,74 @@
+//! `plane-contact compare`.
+
+use std::path::PathBuf;
+
+use plane_contact::calculix::{self, Comparison, Fields};
+use plane_contact::error::Error;
+use plane_contact::report::comparison::{self as report, Compared};
+
+use super::export::{Code, DeckArgs};
+use super::{print, waiting};
+
+/// Run a scene here and in another code, and show the differences.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Exports the scene to a temporary folder, runs ccx there and reads its results. Writes to --out: compare.json, nodes.csv, elements.csv,
+von_mises_stress.svg (this program), von_mises_stress_calculix.svg, difference.svg.
+
+--contact equation: the same linear systems solved by both; where the load is stepped, a deck for each contact state, summed.
+--contact pair: CalculiX's own contact; the two differ by the penalty and by what each takes for contact.
+
+Examples:
+  plane-contact compare strand --with calculix --variant tied
+  plane-contact compare strand --with calculix --variant unilateral --coupling mortar --friction 0
+  plane-contact compare strand --with calculix --variant unilateral --friction 0 --contact pair --penalty 1e7 --json")]
+pub struct Args {
+    /// The code.
+    #[arg(long, value_name = "CODE")]
+    with: Code,
+    #[command(flatten)]
+    deck: DeckArgs,
+    /// The program of CalculiX.
+    #[arg(long, value_name = "PROGRAM", default_value = "ccx")]
+    ccx: String,
+    /// Folder for data and pictures [default: out/<scene>-<variant>-calculix-<contact>].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print compare.json in place of the tables.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let Code::Calculix = args.with;
+    let scene = args.deck.scene()?;
+    let outcome = args.deck.solve(&scene)?;
+    let parts = args.deck.parts(&scene, &outcome)?;
+    let spinner = waiting("running ccx");
+    let ran = calculix::run(&args.ccx, &scene, &outcome.sheet, &parts);
+    spinner.finish_and_clear();
+    let ran = ran?;
+    let compared = Compared {
+        scene: &scene,
+        sheet: &outcome.sheet,
+        variant: outcome.variant,
+        contact: &parts.last().expect("a run has an iteration").contact,
+        decks: parts.len(),
+        version: &ran.version,
+        comparison: &Comparison::new(&scene, Fields::of(&outcome), ran.fields),
+    };
+    finish(args, &compared)
+}
+
+fn finish(args: &Args, compared: &Compared) -> Result<(), Error> {
+    let default = || {
+        let (scene, kind) = (&compared.scene.name, args.deck.contact);
+        PathBuf::from("out").join(format!("{scene}-{}-calculix-{kind}", compared.variant))
+    };
+    let out = args.out.clone().unwrap_or_else(default);
+    let json = report::write(&out, compared)?;
+    if args.json {
+        return print(&json);
+    }
+    print(&format!("{}\nWritten to {}\n", report::text(compared), out.display()))
+}

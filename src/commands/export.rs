@@ -1,0 +1,113 @@
+//! `plane-contact export`.
+
+use std::path::PathBuf;
+
+use plane_contact::calculix::{Contact, ContactKind, Pair, Part, Problem, deck};
+use plane_contact::contact::{self, Outcome, Variant};
+use plane_contact::error::Error;
+use plane_contact::report::files;
+use plane_contact::scene::Scene;
+
+use super::{ModelArgs, ReadingArg, print, waiting};
+
+plane_contact::choices! {
+    /// A code that a scene can be exported to.
+    Code {
+        /// CalculiX.
+        Calculix = "calculix",
+    }
+}
+
+/// Write a scene as the input deck of another code.
+#[derive(clap::Args)]
+#[command(after_help = "\
+The deck runs as it is: ccx FILE without .inp. --contact equation writes eq. (1) as the variant's last iteration has it, with the
+whole load; --contact pair lets CalculiX look for contact itself, from the initial shape.
+
+Examples:
+  plane-contact export fig1 --to calculix
+  plane-contact export strand --to calculix --variant tied --out strand.inp
+  plane-contact export strand --to calculix --variant unilateral --coupling mortar --friction 0
+  plane-contact export strand --to calculix --contact pair --penalty 1e7 --friction 0 --out strand.inp")]
+pub struct Args {
+    /// The code.
+    #[arg(long, value_name = "CODE")]
+    to: Code,
+    #[command(flatten)]
+    deck: DeckArgs,
+    /// Write to a file in place of standard output.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+/// What `export` and `compare` share.
+#[derive(clap::Args)]
+pub struct DeckArgs {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    pub scene: String,
+    /// equation: the ties of the last iteration; pair: the other code's own contact, by penalty.
+    #[arg(long, default_value_t = ContactKind::Equation)]
+    pub contact: ContactKind,
+    /// tied, stepped or unilateral; with --contact pair also printed [default: the scene's].
+    #[arg(long)]
+    pub variant: Option<Variant>,
+    #[command(flatten)]
+    pub reading: ReadingArg,
+    /// Pressure over penetration of a pair, stress/length [default: 10 times the largest E over the target's mean edge].
+    #[arg(long, value_name = "K", value_parser = penalty)]
+    pub penalty: Option<f64>,
+    #[command(flatten)]
+    pub model: ModelArgs,
+}
+
+fn penalty(text: &str) -> Result<f64, String> {
+    let penalty: f64 = text.parse().map_err(|_| "it is no number".to_string())?;
+    if penalty > 0.0 && penalty.is_finite() {
+        Ok(penalty)
+    } else {
+        Err("it is not positive".into())
+    }
+}
+
+impl DeckArgs {
+    /// The scene with the contact model that is asked for.
+    pub fn scene(&self) -> Result<Scene, Error> {
+        let mut scene = Scene::open(&self.scene)?;
+        self.model.apply(&mut scene.contact);
+        Ok(scene)
+    }
+
+    /// The run that is compared.
+    pub fn solve(&self, scene: &Scene) -> Result<Outcome, Error> {
+        let spinner = waiting("solving");
+        let variant = self.variant.unwrap_or(scene.variant);
+        let outcome = contact::run(scene, variant, &self.reading.reading.0, |_| ());
+        spinner.finish_and_clear();
+        outcome
+    }
+
+    /// The problems whose sum is the run; the last iteration's comes last.
+    pub fn parts(&self, scene: &Scene, outcome: &Outcome) -> Result<Vec<Part>, Error> {
+        match self.contact {
+            ContactKind::Equation => Ok(Contact::parts(outcome)?),
+            ContactKind::Pair => {
+                let pair = Pair::new(&outcome.sheet, self.penalty, scene.contact.friction);
+                Ok(vec![Part { contact: Contact::Pair(pair), share: 1.0 }])
+            }
+        }
+    }
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let Code::Calculix = args.to;
+    let scene = args.deck.scene()?;
+    let outcome = args.deck.solve(&scene)?;
+    let parts = args.deck.parts(&scene, &outcome)?;
+    let last = parts.last().expect("a run has an iteration");
+    let text = deck(&Problem { scene: &scene, sheet: &outcome.sheet, contact: &last.contact })?;
+    match &args.out {
+        Some(path) => Ok(files::write(path, &text)?),
+        None => print(&text),
+    }
+}

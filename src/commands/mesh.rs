@@ -1,0 +1,42 @@
+//! `plane-contact mesh`.
+
+use std::path::PathBuf;
+
+use plane_contact::benchmark::Kind;
+use plane_contact::error::Error;
+
+use super::print;
+
+/// Generate a benchmark: a structured mesh and its scene.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Writes scene.json and KIND.msh (Gmsh MSH 2.2, text, with named physical groups) to --out; solve runs that folder.
+mesh KIND --help tells what is known of its solution.
+
+Examples:
+  plane-contact mesh cook --n 32 --out cook
+  plane-contact solve cook
+  plane-contact mesh blocks --upper 7 --lower 10")]
+pub struct Args {
+    #[command(subcommand)]
+    kind: Kind,
+    /// Folder for the two files [default: out/mesh-KIND].
+    #[arg(long, value_name = "DIR", global = true)]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let benchmark = args.kind.generate()?;
+    let default = || PathBuf::from("out").join(format!("mesh-{}", benchmark.name));
+    let out = args.out.clone().unwrap_or_else(default);
+    benchmark.write(&out)?;
+    let mesh = &benchmark.mesh;
+    let (nodes, triangles) = (mesh.nodes.len(), mesh.of_dimension(2).count());
+    let groups: Vec<&str> =
+        mesh.names.iter().filter(|n| n.dim == 1).map(|n| n.name.as_str()).collect();
+    print(&format!(
+        "{nodes} nodes, {triangles} triangles, edges {}\nWritten to {}\n",
+        groups.join(", "),
+        out.display()
+    ))
+}

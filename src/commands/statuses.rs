@@ -1,0 +1,44 @@
+//! `plane-contact statuses`.
+
+use std::path::PathBuf;
+
+use plane_contact::audit::statuses::measure;
+use plane_contact::error::Error;
+use plane_contact::report::{files, picture, statuses as report};
+
+use super::{print, waiting};
+
+/// Compare the rules that decide who is in contact, on random scenes whose statuses are known.
+#[derive(clap::Args)]
+#[command(after_help = "\
+For a node that jumped deeper into the target than c_tol the paper names two remedies and takes the cheaper: signs, as the listing
+prints it, and intersection. projection is the exact answer. Wrong statuses are counted by depth of the jump, operations by size.
+
+Examples:
+  plane-contact statuses
+  plane-contact statuses --scenes 1000 --seed 7 --json
+  plane-contact statuses --picture out/statuses.svg")]
+pub struct Args {
+    /// Scenes for each row of the tables.
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    scenes: u32,
+    /// Seed of the random scenes.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    /// Write a picture: share of wrong statuses by depth.
+    #[arg(long, value_name = "SVG")]
+    picture: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let spinner = waiting("measuring");
+    let measured = measure(args.scenes as usize, args.seed);
+    spinner.finish_and_clear();
+    if let Some(path) = &args.picture {
+        files::write(path, &picture::statuses(&measured))?;
+    }
+    print(&if args.json { report::json(&measured) } else { report::text(&measured) })
+}

@@ -1,0 +1,129 @@
+//! Superconvergent patch recovery: better stresses at the nodes than the triangles' own.
+//!
+//! A linear polynomial is fitted by least squares to the stresses at the centres of the triangles around an interior
+//! node, and read at the node. A node on an edge of its body or material has too few triangles, all on one side: there the
+//! polynomials of the interior nodes beside it are read, and their mean taken.
+//!
+//! Source: O. C. Zienkiewicz, J. Z. Zhu, "The superconvergent patch recovery and a posteriori error estimates, part 1: the
+//! recovery technique", Int. J. Numer. Methods Eng. 33 (1992) 1331-1364.
+
+use std::collections::BTreeSet;
+
+use nalgebra::{Matrix2, SMatrix, Vector2, Vector3};
+
+use super::patches::Patches;
+
+/// sigma_x, sigma_y, tau_xy.
+pub type Stress = Vector3<f64>;
+
+/// Centres closer to one line than this, as the ratio of the two principal second moments, fix no slope across it.
+const COLLINEAR: f64 = 1e-10;
+
+/// Recovered stress at each site; nothing where the site's material has no patch that fixes a slope.
+///
+/// Given: the patches, the stress of each triangle.
+pub fn recover(patches: &Patches, stresses: &[Stress]) -> Vec<Option<Stress>> {
+    let own: Vec<Option<Linear>> = (0..patches.points.len())
+        .map(|site| {
+            let fit = || Linear::fit(patches, &patches.around[site], stresses);
+            patches.interior[site].then(fit).flatten()
+        })
+        .collect();
+    (0..patches.points.len())
+        .map(|site| match &own[site] {
+            Some(polynomial) => Some(polynomial.at(patches.points[site])),
+            None => nearest(patches, &own, site).or_else(|| enlarged(patches, stresses, site)),
+        })
+        .collect()
+}
+
+/// The polynomials of the nearest sites that have one, read at `site`: their mean.
+fn nearest(patches: &Patches, own: &[Option<Linear>], site: usize) -> Option<Stress> {
+    let read = |ring: &[usize]| {
+        let values: Vec<Stress> =
+            ring.iter().filter_map(|&s| Some(own[s].as_ref()?.at(patches.points[site]))).collect();
+        (!values.is_empty()).then(|| values.iter().sum::<Stress>() / values.len() as f64)
+    };
+    Rings::new(patches, site).find_map(|ring| read(&ring))
+}
+
+/// The polynomial of the smallest patch that fixes one, grown ring by ring.
+fn enlarged(patches: &Patches, stresses: &[Stress], site: usize) -> Option<Stress> {
+    let mut triangles: BTreeSet<usize> = patches.around[site].iter().copied().collect();
+    for ring in Rings::new(patches, site) {
+        triangles.extend(ring.iter().flat_map(|&s| &patches.around[s]));
+        let members: Vec<usize> = triangles.iter().copied().collect();
+        if let Some(polynomial) = Linear::fit(patches, &members, stresses) {
+            return Some(polynomial.at(patches.points[site]));
+        }
+    }
+    None
+}
+
+/// The sites one edge away, two edges away, and so on.
+struct Rings<'a> {
+    patches: &'a Patches,
+    seen: BTreeSet<usize>,
+    last: Vec<usize>,
+}
+
+impl<'a> Rings<'a> {
+    fn new(patches: &'a Patches, site: usize) -> Self {
+        Rings { patches, seen: BTreeSet::from([site]), last: vec![site] }
+    }
+}
+
+impl Iterator for Rings<'_> {
+    type Item = Vec<usize>;
+
+    fn next(&mut self) -> Option<Vec<usize>> {
+        let beyond: BTreeSet<usize> = self
+            .last
+            .iter()
+            .flat_map(|&s| &self.patches.neighbours[s])
+            .copied()
+            .filter(|s| !self.seen.contains(s))
+            .collect();
+        self.seen.extend(&beyond);
+        self.last = beyond.into_iter().collect();
+        (!self.last.is_empty()).then(|| self.last.clone())
+    }
+}
+
+/// A stress that is linear in the plane: mean + slope · (p − origin) / size.
+struct Linear {
+    origin: Vector2<f64>,
+    size: f64,
+    mean: Stress,
+    slope: SMatrix<f64, 3, 2>,
+}
+
+impl Linear {
+    /// Least squares at the centres of `triangles`; nothing where they lie on one line.
+    fn fit(patches: &Patches, triangles: &[usize], stresses: &[Stress]) -> Option<Self> {
+        let count = triangles.len() as f64;
+        let centre = |t: &usize| Vector2::from(patches.centres[*t]);
+        let origin = triangles.iter().map(centre).sum::<Vector2<f64>>() / count;
+        let mean = triangles.iter().map(|&t| stresses[t]).sum::<Stress>() / count;
+        let size = triangles.iter().map(|t| (centre(t) - origin).norm()).fold(0.0, f64::max);
+        if size == 0.0 {
+            return None;
+        }
+        // About the mean point the constant and the slopes separate: slope · G = H.
+        let (mut g, mut h) = (Matrix2::zeros(), SMatrix::<f64, 3, 2>::zeros());
+        for t in triangles {
+            let d = (centre(t) - origin) / size;
+            g += d * d.transpose();
+            h += (stresses[*t] - mean) * d.transpose();
+        }
+        let moments = g.symmetric_eigenvalues();
+        if moments.min() <= COLLINEAR * moments.max() {
+            return None;
+        }
+        Some(Linear { origin, size, mean, slope: h * g.try_inverse()? })
+    }
+
+    fn at(&self, point: [f64; 2]) -> Stress {
+        self.mean + self.slope * ((Vector2::from(point) - self.origin) / self.size)
+    }
+}

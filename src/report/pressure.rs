@@ -1,0 +1,83 @@
+//! The contact pressure along the contact surface, several runs in one picture.
+
+use super::picture::{Axis, Series, Style, chart};
+use crate::contact::{ContactNode, Hertz, Outcome, Variant};
+use crate::scene::Scene;
+
+/// How far beyond the outermost node in contact the picture shows, of the width of the contact.
+const MARGIN: f64 = 0.25;
+
+/// Points of Hertz's curve.
+const POINTS: usize = 101;
+
+/// Pressure against distance along the undeformed contact surface: a curve a run, and Hertz's where his theory applies to the last.
+pub fn picture(scene: &Scene, runs: &[&Outcome]) -> String {
+    let [from, to] = shown(runs);
+    let mut series: Vec<Series> = runs.iter().map(|run| curve(run, [from, to])).collect();
+    let hertz = runs.last().and_then(|run| Hertz::of(run, scene.thickness));
+    let mut captions = vec![String::from(
+        "Pressure of a node: the reaction of its equations, K u − F, along the target's normal, over the length that the node stands for.",
+    )];
+    if let Some(hertz) = hertz {
+        series.push(hertz_curve(&hertz, [from, to]));
+        captions.push(format!(
+            "Hertz: half width {:.4}, peak {:.5}, relative radius {:.4}.",
+            hertz.half_width, hertz.peak, hertz.radius
+        ));
+    }
+    let x = label("distance along the contact surface", &scene.units.length);
+    let y = label("contact pressure", &scene.units.stress);
+    let axis = |label| Axis { label, logarithmic: false };
+    let title = format!("{}: contact pressure", scene.title);
+    chart(&title, [axis(&x), axis(&y)], &series, &captions)
+}
+
+fn label(quantity: &str, unit: &str) -> String {
+    if unit.is_empty() { quantity.into() } else { format!("{quantity}, {unit}") }
+}
+
+/// The stretch of the surface that any run has in contact, with a margin; all of it where none has.
+fn shown(runs: &[&Outcome]) -> [f64; 2] {
+    let nodes = || runs.iter().flat_map(|run| &run.contact);
+    let extent = |nodes: &mut dyn Iterator<Item = &ContactNode>| {
+        nodes.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], c| [a.min(c.arc), b.max(c.arc)])
+    };
+    let [from, to] = extent(&mut nodes().filter(|c| c.dy == 1));
+    if from < to {
+        let margin = MARGIN * (to - from);
+        [from - margin, to + margin]
+    } else {
+        extent(&mut nodes())
+    }
+}
+
+fn curve(run: &Outcome, [from, to]: [f64; 2]) -> Series {
+    let shown = run.contact.iter().filter(|c| from <= c.arc && c.arc <= to);
+    Series {
+        name: name(run),
+        points: shown.map(|c| [c.arc, c.pressure]).collect(),
+        style: Style::Dotted,
+    }
+}
+
+/// The run in words: its variant, and its coupling where that is not `c_cnt`'s.
+pub fn name(run: &Outcome) -> String {
+    match run.variant {
+        Variant::Printed => run.variant.to_string(),
+        Variant::Tied | Variant::Stepped => format!("{}, {}", run.variant, run.model.coupling),
+        Variant::Unilateral => {
+            format!("{}, {}, friction {}", run.variant, run.model.coupling, run.model.friction)
+        }
+    }
+}
+
+fn hertz_curve(hertz: &Hertz, [from, to]: [f64; 2]) -> Series {
+    let ends = [hertz.centre - hertz.half_width, hertz.centre + hertz.half_width];
+    let (from, to) = (from.max(ends[0]), to.min(ends[1]));
+    let arc = |k: usize| from + (to - from) * k as f64 / (POINTS - 1) as f64;
+    Series {
+        name: "Hertz".into(),
+        points: (0..POINTS).map(|k| [arc(k), hertz.pressure(arc(k))]).collect(),
+        style: Style::Line,
+    }
+}
