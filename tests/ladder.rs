@@ -342,6 +342,8 @@ fn what_the_ladder_does_not_have_is_refused() {
         of(ScalarName::F64, Some(Solver::Cg)),
         "does not solve by cg",
     );
+    let direct = Arithmetic { tol: Some(1e-9), ..of(ScalarName::F64, None) };
+    refused("fig1", tied, direct, "it has no tolerance");
     for tol in [0.0, 1.0, f64::NAN] {
         let arithmetic = Arithmetic { tol: Some(tol), ..of(ScalarName::F64, Some(Solver::Cg)) };
         refused("fig1", tied, arithmetic, "is not between 0 and 1");

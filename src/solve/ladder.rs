@@ -116,6 +116,10 @@ impl Arithmetic {
             return Err(InputError::new("--solver", what, format!("use {}", names.join(", "))));
         }
         match self.tol {
+            Some(_) if ![Cg, Refined].contains(&self.solver()) => {
+                let what = format!("{} solves directly: it has no tolerance", self.solver());
+                Err(InputError::new("--tol", what, "leave it out, or use --solver cg or refined"))
+            }
             Some(tol) if !(tol > 0.0 && tol < 1.0) => {
                 let what = format!("the tolerance {tol:e} is not between 0 and 1");
                 Err(InputError::new("--tol", what, "give the largest relative residual, as 1e-12"))
