@@ -18,7 +18,7 @@ struct Case {
     megabytes: f64,
 }
 
-const CASES: [Case; 6] = [
+const CASES: [Case; 8] = [
     Case {
         name: "solve strand",
         args: &["solve", "strand"],
@@ -39,6 +39,20 @@ const CASES: [Case; 6] = [
         runs: 5,
         seconds: 2.0,
         megabytes: 300.0,
+    },
+    Case {
+        name: "solve fig1 --scalar exact",
+        args: &["solve", "fig1", "--scalar", "exact"],
+        runs: 3,
+        seconds: 1.0,
+        megabytes: 300.0,
+    },
+    Case {
+        name: "solve strand --scalar f64x2",
+        args: &["solve", "strand", "--scalar", "f64x2"],
+        runs: 3,
+        seconds: 2.0,
+        megabytes: 600.0,
     },
     Case { name: "audit strand", args: &["audit"], runs: 3, seconds: 10.0, megabytes: 1000.0 },
     Case {

@@ -91,7 +91,8 @@ impl State {
     ) -> Self {
         let two = T::one() + T::one();
         let three = two + T::one();
-        let epsilon = B * u;
+        let (u, common) = T::over_common(u.as_slice().to_vec());
+        let epsilon = B * SVector::<T, 6>::from_vec(u);
         let sigma = D(plane, E, nu) * epsilon;
         let sigma_z = match plane {
             Plane::Strain => nu * (sigma[0] + sigma[1]),
@@ -99,15 +100,17 @@ impl State {
         };
         let epsilon_z = out_of_plane_strain(plane, nu, &epsilon);
         State {
-            sigma: sigma.map(Scalar::to_f64),
-            epsilon: epsilon.map(Scalar::to_f64),
-            von_mises_stress: deviator_norm(three / two, sigma[0], sigma[1], sigma_z, sigma[2]),
+            sigma: sigma.map(|s| (s / common).to_f64()),
+            epsilon: epsilon.map(|e| (e / common).to_f64()),
+            von_mises_stress: deviator_norm(
+                three / two,
+                [sigma[0], sigma[1], sigma_z, sigma[2]],
+                common,
+            ),
             von_mises_strain: deviator_norm(
                 two / three,
-                epsilon[0],
-                epsilon[1],
-                epsilon_z,
-                epsilon[2] / two,
+                [epsilon[0], epsilon[1], epsilon_z, epsilon[2] / two],
+                common,
             ),
         }
     }
@@ -116,7 +119,7 @@ impl State {
 /// Von Mises strain by the other formula in use (R10): that of the stress, on strains, divided by 1 + nu.
 pub fn von_mises_strain_by_stress_formula(plane: Plane, nu: f64, e: &SVector<f64, 3>) -> f64 {
     let e_zz = out_of_plane_strain(plane, nu, e);
-    deviator_norm(1.5, e[0], e[1], e_zz, e[2] / 2.0) / (1.0 + nu)
+    deviator_norm(1.5, [e[0], e[1], e_zz, e[2] / 2.0], 1.0) / (1.0 + nu)
 }
 
 /// e_zz: 0 in plane strain, −nu/(1 − nu) (e_xx + e_yy) in plane stress.
@@ -127,16 +130,17 @@ fn out_of_plane_strain<T: Scalar>(plane: Plane, nu: T, e: &SVector<T, 3>) -> T {
     }
 }
 
-/// sqrt(factor · d:d) of the deviator d of a symmetric tensor whose only shear component is `xy`; scaled, so that no square overflows
-/// or vanishes.
-fn deviator_norm<T: Scalar>(factor: T, xx: T, yy: T, zz: T, xy: T) -> f64 {
+/// sqrt(factor · d:d) of the deviator d of a symmetric tensor, its components xx, yy, zz, xy over `common`; scaled, so that no square
+/// overflows or vanishes.
+fn deviator_norm<T: Scalar>(factor: T, tensor: [T; 4], common: T) -> f64 {
     let (two, three) = (T::one() + T::one(), T::one() + T::one() + T::one());
-    let scale = [xx, yy, zz, xy].into_iter().fold(T::zero(), |m, x| m.max(x.abs()));
-    if scale == T::zero() {
+    let largest = tensor.into_iter().fold(T::zero(), |m, x| m.max(x.abs()));
+    if largest == T::zero() {
         return 0.0;
     }
-    let [xx, yy, zz, xy] = [xx, yy, zz, xy].map(|x| x / scale);
+    let scale = T::scale(largest);
+    let [xx, yy, zz, xy] = tensor.map(|x| x / scale);
     let square = |x: T| x * x;
     let squares = square(xx - yy) + square(yy - zz) + square(zz - xx);
-    T::scaled_root(factor, scale, squares / three + two * xy * xy)
+    T::scaled_root(factor, scale / common, squares / three + two * xy * xy)
 }

@@ -15,7 +15,7 @@ use plane_contact::scalar::{Bounded, Exact, F64x2, Scalar, scope};
 use plane_contact::scene::Scene;
 use plane_contact::solve::{
     Arithmetic, DenseLu, Inputs, Ldlt, Rung, ScalarName, Solver, SparseSymmetric,
-    conjugate_gradients, inverse_norm, solve_dense,
+    conjugate_gradients, inverse_norm, lift, solve_dense,
 };
 use proptest::prelude::*;
 
@@ -236,6 +236,9 @@ proptest! {
             let product: RBig = (0..b.len()).map(|j| value(a[(i, j)]) * &x[j]).fold(RBig::ZERO, |s, p| s + p);
             prop_assert_eq!(&product, &load[i]);
         }
+        let sparse = SparseSymmetric::of_lower(&a).map(|x| value(*x) / RBig::from(3));
+        let lifted: Vec<RBig> = lift(&sparse, &load).unwrap().into_iter().map(|x| x / RBig::from(3)).collect();
+        prop_assert_eq!(&lifted, &x);
         prop_assert_eq!(solve_dense(|i, j| value(a[(i, j)]), load).unwrap(), x);
     }
 
@@ -339,6 +342,8 @@ fn what_the_ladder_does_not_have_is_refused() {
         of(ScalarName::F64, Some(Solver::Cg)),
         "does not solve by cg",
     );
+    let direct = Arithmetic { tol: Some(1e-9), ..of(ScalarName::F64, None) };
+    refused("fig1", tied, direct, "it has no tolerance");
     for tol in [0.0, 1.0, f64::NAN] {
         let arithmetic = Arithmetic { tol: Some(tol), ..of(ScalarName::F64, Some(Solver::Cg)) };
         refused("fig1", tied, arithmetic, "is not between 0 and 1");

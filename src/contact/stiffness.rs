@@ -37,13 +37,15 @@ impl<T: Scalar> Stiffness<T> {
     /// K u: the forces that hold the shape `u`.
     pub fn times(&self, u: &DVector<T>) -> DVector<T> {
         let mut force = DVector::from_element(self.equations, T::zero());
+        let (u, common) = T::over_common(u.as_slice().to_vec());
+        let u = DVector::from_vec(u);
         for triangle in &self.triangles {
-            let product = triangle.k * triangle.displacements(u);
+            let product = triangle.k * triangle.displacements(&u);
             for (e, value) in triangle.equations.into_iter().zip(product.iter()) {
                 force[e] += *value;
             }
         }
-        force
+        force.map(|f| f / common)
     }
 }
 

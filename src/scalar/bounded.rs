@@ -79,7 +79,7 @@ impl Div for Bounded {
         if self.value == 0.0 && self.error == 0.0 && least > 0.0 {
             return Bounded { value, error: 0.0 };
         }
-        if !(least > 0.0) {
+        if least.is_nan() || least <= 0.0 {
             return Bounded { value, error: f64::INFINITY };
         }
         let rounding = (-value).mul_add(y.value, self.value) / y.value;

@@ -6,6 +6,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use dashu_int::UBig;
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
 
@@ -220,9 +221,23 @@ impl Scalar for Exact {
     fn from_number(n: usize) -> Self {
         Exact::new(RBig::from(n))
     }
+    /// The displacements of a solution have long denominators, nearly all of them the same.
+    fn over_common(values: Vec<Self>) -> (Vec<Self>, Self) {
+        let Some(fractions) = values.iter().map(|x| x.to_rational()).collect::<Option<Vec<_>>>()
+        else {
+            return (values, Exact::one());
+        };
+        let common =
+            fractions.iter().fold(UBig::ONE, |common, x| rational::lcm(common, x.denominator()));
+        let whole = |x: &RBig| Exact::new(RBig::from(x.numerator() * (&common / x.denominator())));
+        (fractions.iter().map(whole).collect(), Exact::new(RBig::from(common.clone())))
+    }
     /// 40 significant digits: the fraction itself may have thousands.
     fn digits(self) -> Option<String> {
         self.with(|x| rational::decimal(x, 40))
+    }
+    fn scale(_: Self) -> Self {
+        Exact::one()
     }
     /// One rounding, the root's own.
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {

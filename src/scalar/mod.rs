@@ -85,6 +85,11 @@ pub trait Scalar:
         RBig::try_from(self.to_f64()).ok()
     }
 
+    /// `values` as numerators over one common denominator, where that is cheaper to compute with; otherwise themselves, over 1.
+    fn over_common(values: Vec<Self>) -> (Vec<Self>, Self) {
+        (values, Self::one())
+    }
+
     /// Whether the two are the same in all that comes of them.
     fn same(self, other: Self) -> bool {
         self == other
@@ -100,15 +105,21 @@ pub trait Scalar:
         None
     }
 
+    /// What numbers up to `largest` are divided by before they are squared: 1 where no square overflows.
+    fn scale(largest: Self) -> Self {
+        largest
+    }
+
     /// sqrt(factor) · scale · sqrt(square), as near as the scalar allows; `scale` keeps `square` from overflow.
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64;
 
     /// sqrt(self² + other²), as near as the scalar allows.
     fn hypot(self, other: Self) -> f64 {
-        let scale = Scalar::max(Scalar::abs(self), Scalar::abs(other));
-        if scale == Self::zero() {
+        let largest = Scalar::max(Scalar::abs(self), Scalar::abs(other));
+        if largest == Self::zero() {
             return 0.0;
         }
+        let scale = Self::scale(largest);
         let (a, b) = (self / scale, other / scale);
         Self::scaled_root(Self::one(), scale, a * a + b * b)
     }

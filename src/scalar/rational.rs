@@ -1,6 +1,6 @@
 //! Rational numbers from and to `f64` and decimals, each conversion exact or correctly rounded.
 
-use dashu_base::{BitTest, DivRem, SquareRootRem};
+use dashu_base::{BitTest, DivRem, Gcd, SquareRootRem};
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
@@ -44,6 +44,15 @@ pub fn decimal(x: &RBig, digits: usize) -> String {
         false => mantissa,
     };
     format!("{mantissa}e{exponent}")
+}
+
+/// The least common multiple.
+pub fn lcm(a: UBig, b: &UBig) -> UBig {
+    if a == *b {
+        return a;
+    }
+    let common = (&a).gcd(b);
+    a / common * b
 }
 
 fn times_power_of_two(mantissa: UBig, exponent: isize) -> RBig {

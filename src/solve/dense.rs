@@ -107,7 +107,7 @@ impl<T: Native> DenseCholesky<T> {
         let diagonal = factors.L().diagonal().column_vector();
         let pivot = |j: usize| diagonal[j].to_f64() * diagonal[j].to_f64();
         let least = |j: usize| 16.0 * n as f64 * T::EPSILON * matrix[(j, j)].to_f64();
-        match (0..n).find(|&j| !(pivot(j) > least(j))) {
+        match (0..n).find(|&j| pivot(j).is_nan() || pivot(j) <= least(j)) {
             Some(column) => Err(Singular { column, pivot: pivot(column) }),
             None => Ok(DenseCholesky { factors }),
         }

@@ -74,7 +74,8 @@ pub fn inverse_norm(factors: &dyn Factors<f64>, w: &DVector<f64>) -> f64 {
     }
     // A vector that the ascent above is blind to.
     let last = (n.max(2) - 1) as f64;
-    let alternating = |i: usize| if i % 2 == 0 { 1.0 } else { -1.0 } * (1.0 + i as f64 / last);
+    let alternating =
+        |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 } * (1.0 + i as f64 / last);
     let other = forward(&DVector::from_fn(n, |i, _| alternating(i)));
     estimate.max(2.0 * other.lp_norm(1) / (3.0 * n as f64))
 }

@@ -52,7 +52,8 @@ pub fn conjugate_gradients<T: Scalar>(
         loop {
             let ap = a.times(&p);
             let curvature = dot(&p, &ap);
-            if iterations >= limit || !(curvature > T::zero()) || !(rz > T::zero()) {
+            let positive = curvature > T::zero() && rz > T::zero();
+            if iterations >= limit || !positive {
                 let residual = a.residual(&x, b);
                 return Err(NotConverged { iterations, residual });
             }
@@ -93,7 +94,7 @@ pub fn refine<L: Scalar, T: Scalar>(
             return Ok(Iterated { x, iterations });
         }
         // The first, at x = 0, is 1 whatever comes of it.
-        if !(residual <= last / 2.0) {
+        if residual.is_nan() || residual > last / 2.0 {
             return Err(NotConverged { iterations, residual });
         }
         last = if iterations == 0 { f64::INFINITY } else { residual };

@@ -4,7 +4,7 @@
 //! |---|---|---|---|---|
 //! | `dense-lu` | faer | faer | own | own |
 //! | `dense-cholesky` | faer | faer | - | - |
-//! | `sparse-cholesky` | faer | faer | LDLᵀ | LDLᵀ |
+//! | `sparse-cholesky` | faer | faer | LDLᵀ | LDLᵀ modulo a prime, lifted |
 //! | `cg` | to `tol` | to `tol` | to `tol` | - |
 //! | `refined` | - | factors in f32 | factors in f64 | - |
 
@@ -16,6 +16,7 @@ use super::error_bound::error_bound;
 use super::field::Field;
 use super::iterative::{NotConverged, conjugate_gradients, refine};
 use super::ldlt::Ldlt;
+use super::lifting::lift;
 use super::lu::solve_dense;
 use super::sparse::{SparseCholesky, SparseSymmetric};
 use crate::choices;
@@ -115,6 +116,10 @@ impl Arithmetic {
             return Err(InputError::new("--solver", what, format!("use {}", names.join(", "))));
         }
         match self.tol {
+            Some(_) if ![Cg, Refined].contains(&self.solver()) => {
+                let what = format!("{} solves directly: it has no tolerance", self.solver());
+                Err(InputError::new("--tol", what, "leave it out, or use --solver cg or refined"))
+            }
             Some(tol) if !(tol > 0.0 && tol < 1.0) => {
                 let what = format!("the tolerance {tol:e} is not between 0 and 1");
                 Err(InputError::new("--tol", what, "give the largest relative residual, as 1e-12"))
@@ -258,7 +263,12 @@ impl Rung for Exact {
         let b: Vec<RBig> = b.iter().map(|x| value(*x)).collect();
         let x = match solver {
             Solver::DenseLu => solve_dense(|i, j| value(matrix[(i, j)]), b)?,
-            _ => Ldlt::new(&SparseSymmetric::of_lower(&matrix).map(|x| value(*x)))?.solve(&b),
+            _ => {
+                let matrix = SparseSymmetric::of_lower(&matrix).map(|x| value(*x));
+                // In fractions where the prime was an unlucky one, and to name the pivot of a singular matrix.
+                lift(&matrix, &b)
+                    .map_or_else(|| Ok(Ldlt::new(&matrix)?.solve(&b)), Ok::<_, Singular>)?
+            }
         };
         let x = DVector::from_iterator(x.len(), x.into_iter().map(Exact::new));
         Ok(Solved { x, residual: 0.0 })

@@ -42,7 +42,7 @@ impl<F: Field> Ldlt<F> {
             }
             let least = 16.0 * n as f64 * F::EPSILON * y[k].size();
             let pivot = factors.row(k, &path, &mut y);
-            if pivot.vanishes() || !(pivot.size() >= least) {
+            if pivot.vanishes() || pivot.size().is_nan() || pivot.size() < least {
                 return Err(Singular { column: factors.order[k], pivot: pivot.size() });
             }
             factors.pivots.push(pivot);

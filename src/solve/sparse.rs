@@ -41,6 +41,13 @@ impl<T: Clone> SparseSymmetric<T> {
         SparseSymmetric { columns: columns.into_iter().map(|c| c.into_iter().collect()).collect() }
     }
 
+    /// The matrix of entries (row, column, value) on and below the diagonal, none twice, rows ascending.
+    pub(super) fn of_entries(n: usize, entries: impl Iterator<Item = (usize, usize, T)>) -> Self {
+        let mut columns = vec![Vec::new(); n];
+        entries.for_each(|(i, j, value)| columns[j].push((i, value)));
+        SparseSymmetric { columns }
+    }
+
     /// Number of rows.
     pub fn size(&self) -> usize {
         self.columns.len()
@@ -180,7 +187,7 @@ fn probe<T: Native>(factors: &Llt<usize, T>, diagonal: &DVector<T>) -> Option<(u
 /// The equation that a singular matrix leaves free to move.
 fn mechanism<T: Native>(matrix: &SparseSymmetric<T>) -> Singular {
     let diagonal = matrix.diagonal();
-    if let Some(column) = diagonal.iter().position(|d| !(d.to_f64() > 0.0)) {
+    if let Some(column) = diagonal.iter().position(|d| d.to_f64().is_nan() || d.to_f64() <= 0.0) {
         return Singular { column, pivot: diagonal[column].to_f64() };
     }
     let shifted = factor(matrix, SHIFT * T::EPSILON).and_then(|factors| probe(&factors, &diagonal));
@@ -215,8 +222,8 @@ mod tests {
 
     #[test]
     fn a_matrix_without_equations_is_solved() {
-        let cholesky =
-            SparseCholesky::new(SparseSymmetric::<f64>::new(0, std::iter::empty())).unwrap();
+        let nothing = SparseSymmetric::<f64>::new(0, std::iter::empty());
+        let cholesky = SparseCholesky::new(nothing).unwrap();
         assert_eq!(cholesky.solve(&DVector::zeros(0)).len(), 0);
     }
 }
