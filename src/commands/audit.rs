@@ -6,6 +6,7 @@ use plane_contact::audit::findings::{FINDINGS, Finding};
 use plane_contact::audit::{Audit, Case, FindingRow, audit};
 use plane_contact::contact::{Outcome, Variant};
 use plane_contact::error::{Error, InputError};
+use plane_contact::error_bars::ErrorBars;
 use plane_contact::report::{audit as report, files, folder, pressure};
 use plane_contact::scene::Scene;
 
@@ -100,7 +101,8 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     for variant in Variant::ALL {
         if let Ok(outcome) = case.run(*variant) {
             let converged = case.scene.target().and_then(|_| case.converged().as_ref().ok());
-            folder::write(&out.join(variant.name()), &case.scene, outcome, converged)?;
+            let bars = ErrorBars::new(&case.scene, outcome);
+            folder::write(&out.join(variant.name()), &case.scene, outcome, &bars, converged)?;
         }
     }
     let runs: Vec<&Outcome> =

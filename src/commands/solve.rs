@@ -6,6 +6,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use plane_contact::contact::{self, Outcome, Variant};
 use plane_contact::error::Error;
+use plane_contact::error_bars::ErrorBars;
 use plane_contact::mirror::Reading;
 use plane_contact::report::{folder, tables};
 use plane_contact::scene::Scene;
@@ -16,7 +17,8 @@ use super::{ModelArgs, ReadingArg, print};
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Prints a table of the iterations, one of the bodies, one of the contact nodes, and how far this is from the converged answer. Writes to --out:
+Prints a table of the iterations, one of the bodies, one of the contact nodes, the error bars, and how far this is from the converged
+answer. Writes to --out:
 mesh.svg (the paper's fig. 4), von_mises_stress.svg and von_mises_strain.svg (fig. 5), pressure.svg, fields.vtu (ParaView), result.json.
 
 Examples:
@@ -87,11 +89,14 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let out = args.out.clone().unwrap_or_else(default);
     let converged = converged(&scene, &args.reading.reading.0);
     let found = converged.as_ref().and_then(|converged| converged.as_ref().ok());
-    let result = folder::write(&out, &scene, &outcome, found)?;
+    let bars = ErrorBars::new(&scene, &outcome);
+    let result = folder::write(&out, &scene, &outcome, &bars, found)?;
     if args.json {
         return print(&result);
     }
-    let tables = tables::solution(&scene, &outcome) + &distance(&scene, &outcome, &converged);
+    let tables = tables::solution(&scene, &outcome)
+        + &tables::error_bars(&scene, &outcome, &bars)
+        + &distance(&scene, &outcome, &converged);
     print(&format!("{tables}\nWritten to {}\n", out.display()))
 }
 

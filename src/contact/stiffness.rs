@@ -47,20 +47,9 @@ impl<T: Scalar> Stiffness<T> {
         }
         force.map(|f| f / common)
     }
-}
-
-impl Stiffness {
-    /// sqrt(uᵀ K u): the energy norm, (force · length)^½. Summed by triangle, so that nothing negative is left of a cancellation.
-    pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
-        let of_triangle = |triangle: &Triangle<f64>| {
-            let u = triangle.displacements(u);
-            u.dot(&(triangle.k * u)).max(0.0)
-        };
-        self.triangles.iter().map(of_triangle).sum::<f64>().sqrt()
-    }
 
     /// Tᵀ K T.
-    pub fn reduced(&self, t: &Elimination) -> SparseSymmetric {
+    pub fn reduced(&self, t: &Elimination<T>) -> SparseSymmetric<T> {
         let mut entries = Vec::new();
         for triangle in &self.triangles {
             for (i, p) in triangle.equations.into_iter().enumerate() {
@@ -75,6 +64,17 @@ impl Stiffness {
             }
         }
         SparseSymmetric::new(t.size(), entries.into_iter())
+    }
+}
+
+impl Stiffness {
+    /// sqrt(uᵀ K u): the energy norm, (force · length)^½. Summed by triangle, so that nothing negative is left of a cancellation.
+    pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
+        let of_triangle = |triangle: &Triangle<f64>| {
+            let u = triangle.displacements(u);
+            u.dot(&(triangle.k * u)).max(0.0)
+        };
+        self.triangles.iter().map(of_triangle).sum::<f64>().sqrt()
     }
 }
 

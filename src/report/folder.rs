@@ -8,6 +8,7 @@ use super::{files, json, pressure};
 use crate::contact::Outcome;
 use crate::element::State;
 use crate::error::InputError;
+use crate::error_bars::ErrorBars;
 use crate::mirror::Worksheet;
 use crate::scene::Scene;
 
@@ -20,6 +21,7 @@ pub fn write(
     folder: &Path,
     scene: &Scene,
     outcome: &Outcome,
+    bars: &ErrorBars,
     converged: Option<&Outcome>,
 ) -> Result<String, InputError> {
     let shown = Shown::new(scene, &outcome.sheet);
@@ -36,14 +38,14 @@ pub fn write(
         ("mesh.svg", picture::mesh(&drawing)),
         ("von_mises_stress.svg", field("von Mises stress", &scene.units.stress, &stress)),
         ("von_mises_strain.svg", field("von Mises strain", "1", &strain)),
-        ("fields.vtu", shown.vtu(outcome)),
+        ("fields.vtu", shown.vtu(outcome, bars)),
     ];
     files.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))?;
     if !outcome.contact.is_empty() {
         let runs: Vec<&Outcome> = std::iter::once(outcome).chain(converged).collect();
         files::write(&folder.join("pressure.svg"), &pressure::picture(scene, &runs))?;
     }
-    let result = json::result(scene, outcome, converged);
+    let result = json::result(scene, outcome, bars, converged);
     files::write(&folder.join("result.json"), &result)?;
     Ok(result)
 }
@@ -107,7 +109,8 @@ impl Shown {
         }
     }
 
-    fn vtu(&self, outcome: &Outcome) -> String {
+    fn vtu(&self, outcome: &Outcome, bars: &ErrorBars) -> String {
+        let error = bars.mesh.error_map();
         let flat = |of: &dyn Fn(&State) -> [f64; 3]| -> Vec<f64> {
             outcome.elements.iter().flat_map(of).collect()
         };
@@ -130,6 +133,7 @@ impl Shown {
                 Data { name: "von_mises_stress", components: 1, values: &stress },
                 Data { name: "von_mises_strain", components: 1, values: &strain },
                 Data { name: "body", components: 1, values: &body },
+                Data { name: "mesh_error", components: 1, values: &error },
             ],
         })
     }

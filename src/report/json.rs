@@ -7,6 +7,7 @@ use crate::contact::{
     BodySummary, ContactNode, Coupling, Cycle, Distance, Friction, Geometry, Hertz, Iteration,
     Outcome, StatusRule, distance, summaries,
 };
+use crate::error_bars::ErrorBars;
 use crate::mirror::{Pairs, Reading};
 use crate::scene::{Scene, Units};
 use crate::solve::Arithmetic;
@@ -39,6 +40,8 @@ struct Document<'a> {
     contact: &'a [ContactNode],
     /// Hertz's contact, where his theory applies.
     hertz: Option<Hertz>,
+    /// How far its numbers may be from the truth.
+    error_bars: Value,
     /// How far the run is from the converged answer; none without contact, and where there is none.
     distance: Option<Distance>,
     /// Displacement of each node, length.
@@ -73,7 +76,12 @@ struct ElementRow {
 }
 
 /// `result.json` of a run; `converged` is the answer that it is measured against.
-pub fn result(scene: &Scene, outcome: &Outcome, converged: Option<&Outcome>) -> String {
+pub fn result(
+    scene: &Scene,
+    outcome: &Outcome,
+    bars: &ErrorBars,
+    converged: Option<&Outcome>,
+) -> String {
     let document = Document {
         scene: &scene.name,
         title: &scene.title,
@@ -92,12 +100,29 @@ pub fn result(scene: &Scene, outcome: &Outcome, converged: Option<&Outcome>) -> 
         bodies: summaries(scene, outcome),
         contact: &outcome.contact,
         hertz: Hertz::of(outcome, scene.thickness),
+        error_bars: error_bars(bars),
         distance: converged.map(|converged| distance(scene, outcome, converged)),
         u: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
         u_digits: outcome.digits.as_ref().map(|digits| digits.chunks(2).collect()),
         elements: elements(outcome),
     };
     serde_json::to_string(&document).expect("the document has string keys only") + "\n"
+}
+
+/// Null stands for a bar that is not known.
+fn error_bars(bars: &ErrorBars) -> Value {
+    let known = |bar: f64| if bar.is_finite() { json!(bar) } else { Value::Null };
+    let bodies = bars.bodies.iter().map(|body| {
+        json!({
+            "name": body.name, "von_mises_stress": body.value, "recovered": body.recovered,
+            "mesh": known(body.mesh), "arithmetic": known(body.arithmetic),
+        })
+    });
+    json!({
+        "displacement_arithmetic": known(bars.displacement),
+        "mesh_energy_relative": known(bars.mesh.relative()),
+        "bodies": bodies.collect::<Vec<_>>(),
+    })
 }
 
 /// All eight readings as they were in force.

@@ -3,8 +3,11 @@
 use std::fmt::Write as _;
 
 use crate::contact::{self, ContactNode, Cycle, Iteration, Outcome, Variant, summaries};
+use crate::error_bars::ErrorBars;
 use crate::mirror::{Pairs, Worksheet};
 use crate::scene::Scene;
+
+use super::uncertain::uncertain;
 
 /// Rows of cells in columns, the first row being the heading: numbers to the right, words to the left.
 pub(super) fn aligned(rows: &[Vec<String>]) -> String {
@@ -48,6 +51,9 @@ pub(super) fn short(x: f64) -> String {
         _ => format!("{x:.3e}"),
     }
 }
+
+/// The error of the mesh in the energy norm beyond which its bars missed the truth now and then (`error_bars::discretisation`).
+const FAIR: f64 = 0.2;
 
 /// A line on nodes that were dropped; nothing where none was.
 fn dropped(scene: &Scene) -> String {
@@ -98,6 +104,30 @@ fn contact_surface(scene: &Scene, nodes: &[&ContactNode]) -> String {
         ]
     });
     aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+}
+
+/// The error bars of a run.
+pub fn error_bars(scene: &Scene, outcome: &Outcome, bars: &ErrorBars) -> String {
+    let largest = contact::max_displacement(&outcome.u);
+    let moved = [(bars.displacement, "arithmetic")];
+    let mut text = format!(
+        "\nError bars\n  largest |u|: {}\n",
+        uncertain(largest, &scene.units.length, &moved)
+    );
+    for body in &bars.bodies {
+        let two = [(body.mesh, "mesh"), (body.arithmetic, "arithmetic")];
+        let stress = uncertain(body.value, &scene.units.stress, &two);
+        text += &format!("  largest von Mises stress, {}: {stress}\n", body.name);
+    }
+    let relative = bars.mesh.relative();
+    text += &match relative.is_finite() {
+        true => format!("  error of the mesh: {:.1} % in the energy norm", 100.0 * relative),
+        false => "  error of the mesh: unknown, a body is too small for an estimate".into(),
+    };
+    if relative > FAIR {
+        text += ": too coarse for its bars to be relied on";
+    }
+    text + "\n"
 }
 
 /// How far a run is from the converged answer.

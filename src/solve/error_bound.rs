@@ -4,41 +4,32 @@
 //! xSYRFS. The norm of |A⁻¹| w is estimated by solving with A a few times; |(A + ΔA)⁻¹| is at most |A⁻¹| / (1 − ρ), ρ the norm of
 //! |A⁻¹| E. The estimate is a lower bound of the norm, in practice the norm itself.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::dense::Factors;
 use crate::scalar::{Bounded, F64x2, Scalar};
 
-/// A bound on the largest |δ|; infinite where A cannot be told from a singular matrix.
+/// A bound on the largest |δ|; infinite where A cannot be told from a singular matrix. `entries` are those of the whole of A: row, column,
+/// value.
 pub fn error_bound(
     factors: &dyn Factors<f64>,
-    matrix: &DMatrix<Bounded>,
+    entries: impl Iterator<Item = (usize, usize, Bounded)>,
     b: &DVector<Bounded>,
     x: &DVector<f64>,
 ) -> f64 {
-    let mut w = residual(matrix, b, x);
-    let mut spread = DVector::zeros(x.len());
-    for (j, column) in matrix.column_iter().enumerate() {
-        for (i, a) in column.iter().enumerate() {
-            w[i] += a.error() * x[j].abs();
-            spread[i] += a.error();
-        }
+    let double = |value: f64| F64x2::from_f64(value);
+    // In double-double the residual's own rounding does not show.
+    let mut r = b.map(|b| double(b.to_f64()));
+    let (mut w, mut spread) = (DVector::zeros(x.len()), DVector::zeros(x.len()));
+    for (i, j, a) in entries {
+        r[i] -= double(a.to_f64()) * double(x[j]);
+        w[i] += a.error() * x[j].abs();
+        spread[i] += a.error();
     }
+    w += r.map(|r| r.to_f64().abs());
     w += b.map(Bounded::error);
     let rho = inverse_norm(factors, &spread);
     if rho < 1.0 { inverse_norm(factors, &w) / (1.0 - rho) } else { f64::INFINITY }
-}
-
-/// |b − A x|, in double-double: its own rounding does not show.
-fn residual(matrix: &DMatrix<Bounded>, b: &DVector<Bounded>, x: &DVector<f64>) -> DVector<f64> {
-    let double = |value: f64| F64x2::from_f64(value);
-    let mut r = b.map(|b| double(b.to_f64()));
-    for (j, column) in matrix.column_iter().enumerate() {
-        for (i, a) in column.iter().enumerate().filter(|(_, a)| a.to_f64() != 0.0) {
-            r[i] -= double(a.to_f64()) * double(x[j]);
-        }
-    }
-    r.map(|r| r.to_f64().abs())
 }
 
 /// The largest entry of |A⁻¹| w, A symmetric and w >= 0: the 1-norm of diag(w) A⁻¹.

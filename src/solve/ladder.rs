@@ -225,7 +225,12 @@ impl Rung for Bounded {
             let factors = SparseCholesky::new(SparseSymmetric::of_lower(&values))?;
             (Box::new(factors), f64::solve(values, &f, solver, tol)?)
         };
-        let error = error_bound(&*factors, &matrix, b, &solved.x);
+        let columns = matrix.column_iter().enumerate();
+        let entries = columns.flat_map(|(j, column)| {
+            column.iter().copied().enumerate().map(move |(i, a)| (i, j, a)).collect::<Vec<_>>()
+        });
+        let entries = entries.filter(|(_, _, a)| a.to_f64() != 0.0 || a.error() > 0.0);
+        let error = error_bound(&*factors, entries, b, &solved.x);
         Ok(Solved { x: solved.x.map(|x| Bounded::new(x, error)), residual: solved.residual })
     }
 }

@@ -76,6 +76,14 @@ impl<T: Scalar> SparseSymmetric<T> {
         SparseSymmetric { columns: (0..matrix.ncols()).map(column).collect() }
     }
 
+    /// The entries of the whole matrix: row, column, value.
+    pub fn both_triangles(&self) -> impl Iterator<Item = (usize, usize, T)> {
+        self.entries().flat_map(|(i, j, value)| {
+            let mirrored = (i != j).then_some((j, i, value));
+            std::iter::once((i, j, value)).chain(mirrored)
+        })
+    }
+
     /// A x.
     pub fn times(&self, x: &DVector<T>) -> DVector<T> {
         let mut product = DVector::from_element(x.len(), T::zero());
