@@ -225,6 +225,12 @@ pub const BOUND_WIDTH: Tolerance = tolerance(
 pub const NORM_ESTIMATE: Tolerance =
     tolerance(1e-10, "estimate and norm are both rounded: 1e-16 times a condition number of 1e4");
 
+/// Widest bar of rounding on a well-scaled scene, against the true error.
+pub const BAR_WIDTH_OF_ROUNDING: Tolerance = tolerance(
+    1e3,
+    "the issue's own number; below half a unit in the last place of the largest displacement the error itself is luck",
+);
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {
