@@ -10,6 +10,7 @@ pub mod variants;
 
 pub use case::Case;
 
+use crate::contact::{ContactNode, Friction};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -25,6 +26,9 @@ pub struct Audit {
     pub findings: Vec<(&'static Finding, Measured)>,
     /// A row a variant.
     pub variants: Vec<VariantRow>,
+    /// The contact nodes of the converged answer that are in contact, where they stick: what friction that takes. Empty where they slide, without
+    /// contact, and where there is no converged answer.
+    pub sticking: Vec<ContactNode>,
 }
 
 /// Audits a scene.
@@ -32,7 +36,15 @@ pub fn audit(case: &Case) -> Audit {
     let variants = variants::side_by_side(case);
     let readings = readings::effects(case);
     let findings = FINDINGS.par_iter().map(|finding| (finding, finding.measure(case))).collect();
-    Audit { readings, findings, variants }
+    Audit { readings, findings, variants, sticking: sticking(case) }
+}
+
+fn sticking(case: &Case) -> Vec<ContactNode> {
+    if case.scene.target().is_none() || case.scene.contact.friction == Friction::None {
+        return Vec::new();
+    }
+    let converged = case.converged().as_ref().map_or(&[][..], |outcome| &outcome.contact);
+    converged.iter().filter(|node| node.dy == 1).cloned().collect()
 }
 
 /// A finding's row for machines.

@@ -8,19 +8,20 @@ use crate::audit::listings::Which;
 use crate::audit::readings::Effect;
 use crate::audit::variants::{End, VariantRow};
 use crate::audit::{Audit, FindingRow};
-use crate::contact::Cycle;
+use crate::contact::{ContactNode, Cycle};
 use crate::scene::Scene;
 
-/// The three tables.
+/// The tables.
 pub fn text(audit: &Audit, scene: &Scene) -> String {
     format!(
         "Audit of scene {} ({})\n\n1. Readings: what the other reading changes, at the initial shape and at the end\n{}\n\
-         2. Findings (`audit --finding C4` explains one)\n{}\n3. Variants side by side\n{}",
+         2. Findings (`audit --finding C4` explains one)\n{}\n3. Variants side by side\n{}{}",
         scene.name,
         scene.title,
         readings(&audit.readings),
         findings(&audit.findings),
-        variants(&audit.variants)
+        variants(&audit.variants),
+        sticking(&audit.sticking)
     )
 }
 
@@ -133,6 +134,37 @@ fn variants(rows: &[VariantRow]) -> String {
     table(&head, rows)
 }
 
+/// Friction coefficients at which slipping nodes are counted.
+const FRICTION: [f64; 4] = [0.1, 0.2, 0.4, 0.8];
+
+/// What friction it takes that the nodes of the converged answer stick, and where they would have slipped.
+fn sticking(nodes: &[ContactNode]) -> String {
+    if nodes.is_empty() {
+        return String::new();
+    }
+    let head = ["node", "pressure", "shear", "friction needed"];
+    let rows = nodes.iter().map(|c| {
+        let needed = c.friction_needed.map_or("-".into(), short);
+        vec![c.node.to_string(), short(c.pressure), short(c.shear), needed]
+    });
+    let slipping = FRICTION.map(|coefficient| {
+        let slips = nodes.iter().filter(|c| c.friction_needed.is_some_and(|f| f > coefficient));
+        let slips: Vec<String> = slips.map(|c| c.node.to_string()).collect();
+        match slips.as_slice() {
+            [] => format!("  at a friction coefficient of {coefficient} none would slip\n"),
+            some => format!(
+                "  at a friction coefficient of {coefficient} nodes {} would slip\n",
+                some.join(", ")
+            ),
+        }
+    });
+    format!(
+        "\n4. What friction it takes that the nodes of the converged answer stick\n{}{}",
+        table(&head, rows),
+        slipping.concat()
+    )
+}
+
 fn state(cycle: &Option<Cycle>) -> String {
     match cycle {
         None => "new in the last iteration".into(),
@@ -155,6 +187,7 @@ pub fn json(audit: &Audit, scene: &Scene) -> String {
         .collect();
     let document = json!({
         "scene": scene.name, "readings": audit.readings, "findings": findings, "variants": audit.variants,
+        "sticking": audit.sticking,
     });
     document.to_string() + "\n"
 }
