@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use plane_contact::audit::statuses::measure;
 use plane_contact::error::Error;
-use plane_contact::report::{files, picture, statuses as report};
+use plane_contact::report::{files, statuses as report};
 
 use super::{print, waiting};
 
@@ -38,7 +38,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let measured = measure(args.scenes as usize, args.seed);
     spinner.finish_and_clear();
     if let Some(path) = &args.picture {
-        files::write(path, &picture::statuses(&measured))?;
+        files::write(path, &report::picture(&measured))?;
     }
     print(&if args.json { report::json(&measured) } else { report::text(&measured) })
 }

@@ -1,5 +1,6 @@
 //! The status rules measured, for people and for machines.
 
+use super::picture::{Axis, Series, Style, chart};
 use super::tables::aligned;
 use crate::audit::statuses::{Measurement, Row};
 use crate::contact::StatusRule;
@@ -14,6 +15,21 @@ pub fn text(measured: &Measurement) -> String {
         wrong(&measured.by_depth),
         operations(&measured.by_size)
     )
+}
+
+/// Share of wrong statuses by depth of the jump: a curve a rule and side of the target.
+pub fn picture(measured: &Measurement) -> String {
+    let curves = StatusRule::ALL.iter().enumerate().flat_map(|(k, rule)| {
+        ["below", "above"].map(|target| {
+            let rows = measured.by_depth.iter().filter(|row| row.target == target);
+            let point = |row: &Row| [row.depth, 100.0 * row.rules[k].wrong_share(row.nodes)];
+            let name = format!("{rule}, target {target}");
+            Series { name, points: rows.map(point).collect(), style: Style::Dotted }
+        })
+    });
+    let x = Axis { label: "depth of the jump / c_tll", logarithmic: true };
+    let y = Axis { label: "contact nodes with a wrong status, %", logarithmic: false };
+    chart("Wrong statuses by depth of the jump", [x, y], &curves.collect::<Vec<_>>(), &[])
 }
 
 /// The measurement as JSON.

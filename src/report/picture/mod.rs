@@ -19,12 +19,10 @@ mod deformation;
 mod fields;
 mod numbers;
 mod page;
-mod statuses;
 mod svg;
 mod view;
 
 pub use self::chart::{Axis, Series, Style, chart};
-pub use statuses::statuses;
 
 use self::bodies::{draw_bodies, legend};
 use self::deformation::{deformed, magnification};
