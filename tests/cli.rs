@@ -36,12 +36,19 @@ fn fails(folder: &Path, args: &[&str], status: i32, words: &[&str]) {
 fn solve_prints_tables_and_writes_pictures_and_data() {
     let folder = TempDir::new().unwrap();
     let tables = succeeds(folder.path(), &["solve", "fig1", "--variant", "tied"]);
-    for words in ["variant tied", "Iterations", "Bodies", "In contact at the end: nodes 5, 6, 7, 9"]
-    {
+    for words in [
+        "variant tied",
+        "Iterations",
+        "Bodies",
+        "In contact at the end: nodes 5, 6, 7, 9",
+        "Contact surface",
+        "Error bars",
+        "Distance to the converged answer (unilateral, mortar, friction stick",
+    ] {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }
     let out = folder.path().join("out/fig1-tied");
-    for picture in ["mesh.svg", "von_mises_stress.svg", "von_mises_strain.svg"] {
+    for picture in ["mesh.svg", "von_mises_stress.svg", "von_mises_strain.svg", "pressure.svg"] {
         let svg = std::fs::read_to_string(out.join(picture)).expect("the picture is there");
         roxmltree::Document::parse(&svg).expect("the picture is XML");
     }
@@ -368,6 +375,8 @@ fn audit_shows_readings_findings_and_variants() {
         "K1",
         "3. Variants",
         "stepped",
+        "off: beside the converged answer (unilateral, mortar, friction stick)",
+        "4. What friction it takes",
     ] {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }

@@ -10,7 +10,7 @@ pub mod variants;
 
 pub use case::Case;
 
-use crate::contact::{ContactNode, Friction};
+use crate::contact::{BodySummary, ContactNode, Friction, Model, summaries};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -26,6 +26,8 @@ pub struct Audit {
     pub findings: Vec<(&'static Finding, Measured)>,
     /// A row a variant.
     pub variants: Vec<VariantRow>,
+    /// What the variants are measured against: the bodies of the converged answer; nothing without contact, and where there is none.
+    pub converged: Option<Converged>,
     /// The contact nodes of the converged answer that are in contact, where they stick: what friction that takes. Empty where they slide, without
     /// contact, and where there is no converged answer.
     pub sticking: Vec<ContactNode>,
@@ -36,7 +38,29 @@ pub fn audit(case: &Case) -> Audit {
     let variants = variants::side_by_side(case);
     let readings = readings::effects(case);
     let findings = FINDINGS.par_iter().map(|finding| (finding, finding.measure(case))).collect();
-    Audit { readings, findings, variants, sticking: sticking(case) }
+    let converged = converged(case);
+    Audit { readings, findings, variants, converged, sticking: sticking(case) }
+}
+
+/// The converged answer in short.
+#[derive(Clone, Debug, Serialize)]
+pub struct Converged {
+    /// How contact was modelled.
+    pub model: Model,
+    /// Its contact nodes in contact.
+    pub in_contact: usize,
+    /// Its bodies.
+    pub bodies: Vec<BodySummary>,
+}
+
+fn converged(case: &Case) -> Option<Converged> {
+    case.scene.target()?;
+    let outcome = case.converged().as_ref().ok()?;
+    Some(Converged {
+        model: outcome.model,
+        in_contact: outcome.contact.iter().filter(|node| node.dy == 1).count(),
+        bodies: summaries(&case.scene, outcome),
+    })
 }
 
 fn sticking(case: &Case) -> Vec<ContactNode> {

@@ -1,7 +1,7 @@
 //! What can be run: `READING.md` section 6.
 
-use serde::Deserialize;
 use serde::de::{self, Deserializer};
+use serde::{Deserialize, Serialize};
 
 use super::pairing::Coupling;
 use super::status::StatusRule;
@@ -61,7 +61,7 @@ choices! {
 }
 
 /// How contact is modelled, beyond what the paper prints.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Model {
     /// How a contact node is bound to the target surface.
     pub coupling: Coupling,

@@ -7,20 +7,21 @@ use crate::audit::findings::{Finding, Measured};
 use crate::audit::listings::Which;
 use crate::audit::readings::Effect;
 use crate::audit::variants::{End, VariantRow};
-use crate::audit::{Audit, FindingRow};
-use crate::contact::{ContactNode, Cycle};
+use crate::audit::{Audit, Converged, FindingRow};
+use crate::contact::{BodySummary, ContactNode, Cycle};
 use crate::scene::Scene;
 
 /// The tables.
 pub fn text(audit: &Audit, scene: &Scene) -> String {
     format!(
         "Audit of scene {} ({})\n\n1. Readings: what the other reading changes, at the initial shape and at the end\n{}\n\
-         2. Findings (`audit --finding C4` explains one)\n{}\n3. Variants side by side\n{}{}",
+         2. Findings (`audit --finding C4` explains one)\n{}\n3. Variants side by side\n{}{}{}",
         scene.name,
         scene.title,
         readings(&audit.readings),
         findings(&audit.findings),
         variants(&audit.variants),
+        audit.converged.as_ref().map_or(String::new(), converged),
         sticking(&audit.sticking)
     )
 }
@@ -95,6 +96,7 @@ fn variants(rows: &[VariantRow]) -> String {
         "force on target",
         "eq. (1), total u",
         "von Mises stress",
+        "off in |u|",
         "off in energy",
         "friction needed",
         "pulling",
@@ -125,6 +127,9 @@ fn variants(rows: &[VariantRow]) -> String {
                 stresses.join(", "),
                 distance
                     .as_ref()
+                    .map_or("-".into(), |d| format!("{:.2} %", 100.0 * d.displacement_relative)),
+                distance
+                    .as_ref()
                     .map_or("-".into(), |d| format!("{:.2} %", 100.0 * d.energy_relative)),
                 friction_needed.map_or("-".into(), short),
                 pulling.len().to_string(),
@@ -132,6 +137,19 @@ fn variants(rows: &[VariantRow]) -> String {
         }
     });
     table(&head, rows)
+}
+
+/// What the variants are off from.
+fn converged(converged: &Converged) -> String {
+    let of_body = |b: &BodySummary| format!("{} {}", b.name, short(b.max_von_mises_stress));
+    let bodies: Vec<String> = converged.bodies.iter().map(of_body).collect();
+    format!(
+        "  off: beside the converged answer (unilateral, {}, friction {}): {} in contact, von Mises stress {}\n",
+        converged.model.coupling,
+        converged.model.friction,
+        converged.in_contact,
+        bodies.join(", ")
+    )
 }
 
 /// Friction coefficients at which slipping nodes are counted.
@@ -187,6 +205,7 @@ pub fn json(audit: &Audit, scene: &Scene) -> String {
         .collect();
     let document = json!({
         "scene": scene.name, "readings": audit.readings, "findings": findings, "variants": audit.variants,
+        "converged": audit.converged,
         "sticking": audit.sticking,
     });
     document.to_string() + "\n"
