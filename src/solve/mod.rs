@@ -10,6 +10,7 @@ mod ldlt;
 mod lu;
 pub mod memory;
 mod sparse;
+mod symbolic;
 
 pub use dense::{DenseCholesky, DenseLu, Factors, Native, Singular};
 pub use error_bound::{error_bound, inverse_norm};
@@ -19,3 +20,4 @@ pub use ladder::{Arithmetic, Inputs, Rung, ScalarName, Solved, Solver, Unsolved}
 pub use ldlt::Ldlt;
 pub use lu::solve_dense;
 pub use sparse::{SparseCholesky, SparseSymmetric};
+pub use symbolic::FactorSize;
