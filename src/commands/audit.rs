@@ -100,7 +100,7 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     for variant in Variant::ALL {
         if let Ok(outcome) = case.run(*variant) {
             let converged = case.scene.target().and_then(|_| case.converged().as_ref().ok());
-            folder::write(&out.join(variant.name()), &case.scene, outcome, converged)?;
+            folder::write(&out.join(variant.name()), &case.scene, outcome, converged, None)?;
         }
     }
     let runs: Vec<&Outcome> =
