@@ -35,6 +35,7 @@ pub mod error;
 pub mod error_bars;
 pub mod mathcad;
 pub mod mirror;
+pub mod plan;
 pub mod report;
 pub mod scalar;
 pub mod scene;

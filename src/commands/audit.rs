@@ -102,7 +102,7 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
         if let Ok(outcome) = case.run(*variant) {
             let converged = case.scene.target().and_then(|_| case.converged().as_ref().ok());
             let bars = ErrorBars::new(&case.scene, outcome);
-            folder::write(&out.join(variant.name()), &case.scene, outcome, &bars, converged)?;
+            folder::write(&out.join(variant.name()), &case.scene, outcome, &bars, converged, None)?;
         }
     }
     let runs: Vec<&Outcome> =

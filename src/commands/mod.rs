@@ -6,6 +6,7 @@ pub mod compare;
 pub mod export;
 pub mod km;
 pub mod mesh;
+pub mod plan;
 pub mod solve;
 pub mod statuses;
 pub mod trace;

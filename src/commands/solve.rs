@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use plane_contact::contact::{self, Outcome, Variant};
+use plane_contact::contact::{self, Coupling, Outcome, Variant};
 use plane_contact::error::Error;
 use plane_contact::error_bars::ErrorBars;
-use plane_contact::mirror::Reading;
-use plane_contact::report::{folder, tables};
+use plane_contact::plan::Plan;
+use plane_contact::report::{self, folder, tables};
 use plane_contact::scene::Scene;
 use plane_contact::solve::{Arithmetic, Inputs, ScalarName, Solver};
 
@@ -53,7 +53,7 @@ pub struct Args {
 
 /// In which numbers a run computes, and how it solves.
 #[derive(clap::Args)]
-struct ArithmeticArgs {
+pub struct ArithmeticArgs {
     /// f64, f32, f64x2 (31 digits), f64-bounded (f64 with a bound on the error of the displacements), exact (rational numbers, for some
     /// hundred equations).
     #[arg(long, value_name = "NAME", default_value = "f64")]
@@ -71,7 +71,7 @@ struct ArithmeticArgs {
 }
 
 impl ArithmeticArgs {
-    fn arithmetic(&self) -> Arithmetic {
+    pub fn arithmetic(&self) -> Arithmetic {
         let ArithmeticArgs { scalar, solver, tol, inputs } = *self;
         Arithmetic { scalar, solver, tol, inputs }
     }
@@ -81,34 +81,41 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let mut scene = Scene::open(&args.scene)?;
     args.model.apply(&mut scene.contact);
     let variant = args.variant.unwrap_or(scene.variant);
-    let progress = progress(scene.iterations);
     let (reading, arithmetic) = (&args.reading.reading.0, args.arithmetic.arithmetic());
+    let plan = Plan::new(&scene, variant, reading, arithmetic)?;
+    let progress = progress(scene.iterations);
     let outcome = contact::run_in(&scene, variant, reading, arithmetic, |_| progress.inc(1))?;
     progress.finish_and_clear();
     let default = || PathBuf::from("out").join(format!("{}-{variant}", scene.name));
     let out = args.out.clone().unwrap_or_else(default);
-    let converged = converged(&scene, &args.reading.reading.0);
-    let found = converged.as_ref().and_then(|converged| converged.as_ref().ok());
+    let other = converged(&scene, &outcome);
+    let converged = match &other {
+        None if scene.target().is_some() => Some(Ok(&outcome)),
+        other => other.as_ref().map(Result::as_ref),
+    };
+    let found = converged.and_then(Result::ok);
     let bars = ErrorBars::new(&scene, &outcome);
-    let result = folder::write(&out, &scene, &outcome, &bars, found)?;
+    let result = folder::write(&out, &scene, &outcome, &bars, found, Some(&plan))?;
     if args.json {
         return print(&result);
     }
     let tables = tables::solution(&scene, &outcome)
         + &tables::error_bars(&scene, &outcome, &bars)
-        + &distance(&scene, &outcome, &converged);
-    print(&format!("{tables}\nWritten to {}\n", out.display()))
+        + &distance(&scene, &outcome, converged);
+    let plan = report::plan::line(&plan);
+    print(&format!("{tables}\n{plan}\nWritten to {}\n", out.display()))
 }
 
-/// The converged answer, or why there is none; nothing without contact.
-fn converged(scene: &Scene, reading: &Reading) -> Option<Result<Outcome, Error>> {
-    scene.target().map(|_| contact::reference(scene, reading))
+/// The converged answer, or why there is none; nothing without contact, and where `outcome` is that answer itself.
+fn converged(scene: &Scene, outcome: &Outcome) -> Option<Result<Outcome, Error>> {
+    let same = (outcome.variant, outcome.model.coupling) == (Variant::Unilateral, Coupling::Mortar);
+    scene.target().filter(|_| !same).map(|_| contact::reference(scene, &outcome.reading))
 }
 
 fn distance(
     scene: &Scene,
     outcome: &Outcome,
-    converged: &Option<Result<Outcome, Error>>,
+    converged: Option<Result<&Outcome, &Error>>,
 ) -> String {
     match converged {
         None => String::new(),

@@ -13,6 +13,7 @@ use super::pressure::{ContactNode, Surface};
 use super::run::{
     Cycle, Iteration, Outcome, Task, free_stiffness, max_displacement, shape, states,
 };
+use super::sparse::Sparse;
 use super::status::{self, StatusRule};
 use super::stiffness::Stiffness;
 use super::support::{against_load, support};
@@ -23,14 +24,17 @@ use crate::mirror::{
     Failure, Km, NodeTable, Pairs, Reading, RestraintIndex, Schedule, Worksheet, c_cnt,
 };
 use crate::scalar::Scalar;
-use crate::solve::{Inputs, Rung, ScalarName, Unsolved, cost, memory};
+use crate::solve::{
+    Inputs, Rung, ScalarName, Solved, Solver, SparseSymmetric, Unsolved, cost, memory,
+};
 
-/// The iterations that the paper describes.
+/// The iterations that the paper describes. `sparse` solves where the rung is sparse Cholesky; without it that rung builds a dense matrix too.
 ///
 /// # Errors
 /// The published algorithm failing as printed, a matrix that cannot be solved, a dense matrix that does not fit.
 pub(super) fn published<T: Rung>(
     task: &Task,
+    sparse: Option<Sparse<T>>,
     mut watch: impl FnMut(&Iteration),
 ) -> Result<Outcome, Error> {
     check_size::<T>(task)?;
@@ -39,7 +43,7 @@ pub(super) fn published<T: Rung>(
         Inputs::Decimal => T::from_decimal(x),
     };
     let sheet = task.sheet.recomputed(number, task.scene.thickness);
-    let mut run = Run::new(task, &sheet, task.scene.load.map(number))?;
+    let mut run = Run::new(task, &sheet, task.scene.load.map(number), sparse)?;
     let mut iterations: Vec<Iteration> = Vec::new();
     for k in 1..=task.scene.iterations {
         let iteration = run.iterate(k)?;
@@ -68,7 +72,7 @@ pub(super) fn published<T: Rung>(
 /// That the matrices fit in memory, and exact numbers in a bearable time.
 fn check_size<T: Rung>(task: &Task) -> Result<(), InputError> {
     // Of the numbers' own size, in units of an f64.
-    let matrices = memory::OF_A_SOLUTION * size_of::<T>().div_ceil(size_of::<f64>());
+    let matrices = task.dense_matrices() * size_of::<T>().div_ceil(size_of::<f64>());
     memory::check(task.sheet.R(), matrices, memory::free())?;
     if task.arithmetic.scalar != ScalarName::Exact {
         return Ok(());
@@ -82,9 +86,9 @@ struct Run<'a, T> {
     task: &'a Task<'a>,
     sheet: &'a Worksheet<T>,
     schedule: Schedule,
-    /// `Km` without contact and without restraints.
-    k: Table<T>,
-    /// The same by triangles, for forces.
+    /// How the matrix of an iteration comes about.
+    assembly: Assembly<T>,
+    /// The stiffness by triangles.
     stiffness: Stiffness<T>,
     /// The restrained equations.
     held: Vec<bool>,
@@ -103,6 +107,16 @@ struct Run<'a, T> {
     /// Contact states met, each with its solution and the last iteration that met it. The load of an iteration is always
     /// the same, so a state that came before has the same matrix and the same solution: nothing is factored again.
     met: Vec<Met<T>>,
+}
+
+/// How the matrix of an iteration comes about.
+enum Assembly<T> {
+    /// By `Km` with the contact pairs.
+    Printed,
+    /// By elimination from `Km` without contact and without restraints.
+    Dense(Table<T>),
+    /// By elimination from the triangles; solved by the function.
+    Sparse(Sparse<T>),
 }
 
 /// A contact state, all of k_cnt and the weights of the ties, and what came of it.
@@ -124,7 +138,12 @@ struct Solution<T> {
 }
 
 impl<'a, T: Rung> Run<'a, T> {
-    fn new(task: &'a Task<'a>, sheet: &'a Worksheet<T>, load: DVector<T>) -> Result<Self, Error> {
+    fn new(
+        task: &'a Task<'a>,
+        sheet: &'a Worksheet<T>,
+        load: DVector<T>,
+        sparse: Option<Sparse<T>>,
+    ) -> Result<Self, Error> {
         let Task { scene, variant, reading, .. } = *task;
         let schedule = variant.schedule(reading);
         let share = match schedule {
@@ -136,12 +155,18 @@ impl<'a, T: Rung> Run<'a, T> {
         let f =
             DVector::from_fn(equations, |e, _| if held[e] { T::zero() } else { load[e] / share });
         let mortar = scene.contact.coupling == Coupling::Mortar && variant != Variant::Printed;
+        let sparse = sparse.filter(|_| task.arithmetic.solver() == Solver::SparseCholesky);
+        let assembly = match (variant, sparse) {
+            (Variant::Printed, _) => Assembly::Printed,
+            (_, Some(solve)) => Assembly::Sparse(solve),
+            (_, None) => Assembly::Dense(free_stiffness(sheet, reading)?),
+        };
         let surfaces = if mortar { Some(mortar_surfaces(task)?) } else { None };
         Ok(Run {
             task,
             sheet,
             schedule,
-            k: free_stiffness(sheet, reading)?,
+            assembly,
             stiffness: Stiffness::new(sheet),
             held,
             surfaces,
@@ -255,21 +280,50 @@ impl<'a, T: Rung> Run<'a, T> {
     /// Solves A(c)·u = f.
     fn solve(&self, pairs: &Pairs<T>, ties: &[Tie<T>], k: usize) -> Result<Solution<T>, Error> {
         let (solver, tol) = (self.task.arithmetic.solver(), self.task.arithmetic.tol);
-        if self.task.variant == Variant::Printed {
-            let solved = T::sweep(|| {
-                let matrix = Km(self.sheet, self.task.reading, &pairs.k_cnt)?.into_matrix();
-                let solved = T::solve(matrix, &self.f, solver, tol);
-                solved.map_err(|why| self.unsolved(why, pairs, k, |column| column))
-            })?;
-            return Ok(self.solution(solved.residual, solved.x, &[]));
+        match &self.assembly {
+            Assembly::Printed => {
+                let solved = T::sweep(|| {
+                    let matrix = Km(self.sheet, self.task.reading, &pairs.k_cnt)?.into_matrix();
+                    let solved = T::solve(matrix, &self.f, solver, tol);
+                    solved.map_err(|why| self.unsolved(why, pairs, k, |column| column))
+                })?;
+                Ok(self.solution(solved.residual, solved.x, &[]))
+            }
+            Assembly::Dense(matrix) => self.eliminate(pairs, ties, k, |t, f| {
+                Ok(T::solve(t.matrix(matrix.as_matrix()), f, solver, tol))
+            }),
+            Assembly::Sparse(solve) => {
+                self.eliminate(pairs, ties, k, |t, f| Ok(solve(self.reduced(t)?, f)))
+            }
         }
+    }
+
+    /// Solves Tᵀ K T q = Tᵀ f by `solve`.
+    fn eliminate(
+        &self,
+        pairs: &Pairs<T>,
+        ties: &[Tie<T>],
+        k: usize,
+        solve: impl Fn(&Elimination<T>, &DVector<T>) -> Result<Result<Solved<T>, Unsolved>, Error>,
+    ) -> Result<Solution<T>, Error> {
         let t = Elimination::new(self.sheet, ties);
         let solved = T::sweep(|| {
-            let (matrix, f) = (t.matrix(self.k.as_matrix()), t.load(&self.f));
-            let solved = T::solve(matrix, &f, solver, tol);
+            let solved = solve(&t, &t.load(&self.f))?;
             solved.map_err(|why| self.unsolved(why, pairs, k, |column| t.equation(column)))
         })?;
         Ok(self.solution(solved.residual, t.expand(&solved.x), ties))
+    }
+
+    /// Tᵀ K T without a dense K.
+    ///
+    /// # Errors
+    /// An overflow, in the words of `Km`.
+    fn reduced(&self, t: &Elimination<T>) -> Result<SparseSymmetric<T>, Error> {
+        let matrix = self.stiffness.reduced(t);
+        if matrix.entries().any(|(_, _, value)| !Scalar::is_finite(value)) {
+            free_stiffness(self.sheet, self.task.reading)?;
+        }
+        Ok(matrix)
     }
 
     fn solution(&self, residual: f64, u: DVector<T>, ties: &[Tie<T>]) -> Solution<T> {

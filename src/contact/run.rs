@@ -7,6 +7,7 @@ use super::elimination::Tie;
 use super::pairing::Pairing;
 use super::pressure::{ContactNode, Surface};
 use super::published::published;
+use super::sparse;
 use super::support::{against_load, support};
 use super::unilateral::{Step, unilateral};
 use super::variant::{Model, Variant};
@@ -120,11 +121,11 @@ pub fn run_in(
             unilateral_rung(arithmetic)?;
             converged(scene, sheet, reading, watch)?
         }
-        (_, ScalarName::F64) => published::<f64>(&task, watch)?,
-        (_, ScalarName::F32) => published::<f32>(&task, watch)?,
-        (_, ScalarName::F64x2) => published::<F64x2>(&task, watch)?,
-        (_, ScalarName::Bounded) => published::<Bounded>(&task, watch)?,
-        (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(&task, watch))?,
+        (_, ScalarName::F64) => published::<f64>(&task, Some(sparse::cholesky), watch)?,
+        (_, ScalarName::F32) => published::<f32>(&task, Some(sparse::cholesky), watch)?,
+        (_, ScalarName::F64x2) => published::<F64x2>(&task, Some(sparse::ldlt), watch)?,
+        (_, ScalarName::Bounded) => published::<Bounded>(&task, None, watch)?,
+        (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(&task, None, watch))?,
     };
     check_finite(&outcome)?;
     Ok(outcome)

@@ -50,20 +50,8 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Tᵀ K T.
     pub fn reduced(&self, t: &Elimination<T>) -> SparseSymmetric<T> {
-        let mut entries = Vec::new();
-        for triangle in &self.triangles {
-            for (i, p) in triangle.equations.into_iter().enumerate() {
-                for (j, q) in triangle.equations.into_iter().enumerate() {
-                    let value = triangle.k[(i, j)];
-                    for &(row, wr) in t.row(p) {
-                        for &(column, wc) in t.row(q) {
-                            entries.push((row, column, wr * value * wc));
-                        }
-                    }
-                }
-            }
-        }
-        SparseSymmetric::new(t.size(), entries.into_iter())
+        let entries = self.triangles.iter().flat_map(|triangle| triangle.reduced(t));
+        SparseSymmetric::new(t.size(), entries)
     }
 }
 
@@ -79,6 +67,21 @@ impl Stiffness {
 }
 
 impl<T: Scalar> Triangle<T> {
+    /// What it adds to the lower triangle of Tᵀ K T: row, column, value.
+    fn reduced(&self, t: &Elimination<T>) -> Vec<(usize, usize, T)> {
+        let mut entries = Vec::with_capacity(36);
+        for (i, p) in self.equations.into_iter().enumerate() {
+            for (j, q) in self.equations.into_iter().enumerate() {
+                for &(row, wr) in t.row(p) {
+                    for &(column, wc) in t.row(q).iter().filter(|(column, _)| *column <= row) {
+                        entries.push((row, column, wr * self.k[(i, j)] * wc));
+                    }
+                }
+            }
+        }
+        entries
+    }
+
     fn displacements(&self, u: &DVector<T>) -> SVector<T, 6> {
         SVector::from_fn(|k, _| u[self.equations[k]])
     }

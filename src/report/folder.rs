@@ -10,10 +10,12 @@ use crate::element::State;
 use crate::error::InputError;
 use crate::error_bars::ErrorBars;
 use crate::mirror::Worksheet;
+use crate::plan::Plan;
 use crate::scene::Scene;
 
 /// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu`, `result.json` and, with contact, `pressure.svg` to
-/// `folder`; gives back the content of `result.json`. `converged` is the answer that the run is measured against.
+/// `folder`; gives back the content of `result.json`. `converged` is the answer that the run is measured against,
+/// `plan` the plan that it followed.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -23,6 +25,7 @@ pub fn write(
     outcome: &Outcome,
     bars: &ErrorBars,
     converged: Option<&Outcome>,
+    plan: Option<&Plan>,
 ) -> Result<String, InputError> {
     let shown = Shown::new(scene, &outcome.sheet);
     let displacement: Vec<[f64; 2]> =
@@ -45,7 +48,7 @@ pub fn write(
         let runs: Vec<&Outcome> = std::iter::once(outcome).chain(converged).collect();
         files::write(&folder.join("pressure.svg"), &pressure::picture(scene, &runs))?;
     }
-    let result = json::result(scene, outcome, bars, converged);
+    let result = json::result(scene, outcome, bars, converged, plan);
     files::write(&folder.join("result.json"), &result)?;
     Ok(result)
 }

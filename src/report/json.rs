@@ -9,6 +9,7 @@ use crate::contact::{
 };
 use crate::error_bars::ErrorBars;
 use crate::mirror::{Pairs, Reading};
+use crate::plan::Plan;
 use crate::scene::{Scene, Units};
 use crate::solve::Arithmetic;
 
@@ -30,6 +31,9 @@ struct Document<'a> {
     /// Bound on the error of `u`, where one is kept, length.
     #[serde(skip_serializing_if = "Option::is_none")]
     error_bound: Option<f64>,
+    /// What was built and what not, in one line; none where no plan was made.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plan: Option<String>,
     /// Sum of the loads, force.
     load: [f64; 2],
     /// Numbers, in the mesh file, of nodes that were dropped.
@@ -75,12 +79,13 @@ struct ElementRow {
     von_mises_strain: f64,
 }
 
-/// `result.json` of a run; `converged` is the answer that it is measured against.
+/// `result.json` of a run that followed `plan`; `converged` is the answer that it is measured against.
 pub fn result(
     scene: &Scene,
     outcome: &Outcome,
     bars: &ErrorBars,
     converged: Option<&Outcome>,
+    plan: Option<&Plan>,
 ) -> String {
     let document = Document {
         scene: &scene.name,
@@ -94,6 +99,7 @@ pub fn result(
         units: &scene.units,
         arithmetic: Some(outcome.arithmetic).filter(|a| !a.is_default()),
         error_bound: outcome.error_bound.filter(|bound| bound.is_finite()),
+        plan: plan.map(super::plan::line),
         load: scene.total_load(),
         dropped: &scene.dropped,
         iterations: outcome.iterations.iter().map(row).collect(),

@@ -9,6 +9,7 @@ pub mod folder;
 pub mod json;
 pub mod matrix_market;
 pub mod picture;
+pub mod plan;
 pub mod pressure;
 pub mod statuses;
 pub mod tables;

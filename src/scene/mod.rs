@@ -15,10 +15,13 @@ pub mod gmsh;
 mod groups;
 mod load;
 mod mesh;
+mod refine;
 mod source;
 mod surface;
+pub mod symmetry;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
@@ -26,6 +29,7 @@ pub use body::Body;
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use file::{SceneFile, Units};
 pub use mesh::{Element, Mesh, Node, PhysicalName};
+pub use refine::Refined;
 
 use crate::contact::{Model, Variant};
 use crate::error::InputError;
@@ -56,6 +60,8 @@ pub struct Scene {
     pub dropped: Vec<usize>,
     /// The paper's arrays under the scene's own plane problem and length unit.
     sheet: Worksheet<f64>,
+    /// What it was built from; nothing of half a scene.
+    source: Option<Arc<(SceneFile, Mesh)>>,
 }
 
 impl Scene {
@@ -121,11 +127,11 @@ impl Scene {
         Ok(Scene {
             name: name.into(),
             load: load::vector(mesh, &file.loads, file.thickness)?,
-            title: file.title,
-            units: file.units,
+            title: file.title.clone(),
+            units: file.units.clone(),
             iterations: file.iterations,
             variant: file.variant,
-            contact: file.contact.map_or(Model::default(), |contact| Model {
+            contact: file.contact.as_ref().map_or(Model::default(), |contact| Model {
                 coupling: contact.coupling,
                 friction: contact.friction,
                 geometry: contact.geometry,
@@ -135,6 +141,7 @@ impl Scene {
             bodies,
             dropped,
             sheet,
+            source: Some(Arc::new((file, mesh.clone()))),
         })
     }
 
@@ -154,6 +161,11 @@ impl Scene {
             sheet.c_tll *= 1000.0;
         }
         Ok(sheet)
+    }
+
+    /// Puts another tolerance in place of the scene's own, length.
+    pub fn set_c_tll(&mut self, c_tll: f64) {
+        self.sheet.c_tll = c_tll;
     }
 
     /// Sum of the loads, force.

@@ -11,6 +11,7 @@ mod lifting;
 mod lu;
 pub mod memory;
 mod sparse;
+mod symbolic;
 
 pub use dense::{DenseCholesky, DenseLu, Factors, Native, Singular};
 pub use error_bound::{error_bound, inverse_norm};
@@ -21,3 +22,4 @@ pub use ldlt::Ldlt;
 pub use lifting::lift;
 pub use lu::solve_dense;
 pub use sparse::{SparseCholesky, SparseSymmetric};
+pub use symbolic::FactorSize;

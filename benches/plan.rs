@@ -1,0 +1,148 @@
+//! What `plan` predicts against what `solve` takes, whole processes from the outside: peak memory within 20 %, processor time within a factor
+//! of 2. Then half of the strand against the whole of it. Prints tables; a ratio beyond its limit is marked.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use clap::Parser;
+use plane_contact::benchmark::Kind;
+use plane_contact::contact::Variant;
+use plane_contact::mirror::Reading;
+use plane_contact::plan::{Machine, Plan};
+use plane_contact::scene::Scene;
+use plane_contact::solve::{Arithmetic, Solver};
+
+/// A scene, or the words of `mesh` that make it; variant and solver where they are not the scene's.
+type Case = (&'static str, Option<Variant>, Option<Solver>);
+
+const SPARSE: Option<Solver> = Some(Solver::SparseCholesky);
+
+const CASES: [Case; 19] = [
+    ("two-blocks", None, None),
+    ("fig1", None, None),
+    ("fig1", Some(Variant::Unilateral), None),
+    ("strand", Some(Variant::Printed), None),
+    ("strand", Some(Variant::Tied), None),
+    ("strand", Some(Variant::Stepped), None),
+    ("strand", Some(Variant::Unilateral), None),
+    ("strand", Some(Variant::Tied), SPARSE),
+    ("strand", Some(Variant::Stepped), SPARSE),
+    ("strand", Some(Variant::Stepped), Some(Solver::DenseCholesky)),
+    ("hertz --size 10", None, None),
+    ("hertz --size 20", None, None),
+    ("hertz --size 40", None, None),
+    ("hertz --size 59", None, None),
+    ("cook --n 16", None, None),
+    ("cook --n 64", None, None),
+    ("cook --n 24", Some(Variant::Tied), None),
+    ("cook --n 64", Some(Variant::Tied), SPARSE),
+    ("blocks --upper 28 --lower 40", None, None),
+];
+
+fn main() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let machine = Machine::measure();
+    println!("this machine is {:.2} times as fast as the reference", machine.speed);
+    println!(
+        "{:52} {:>8} {:>8} {:>6}   {:>8} {:>8} {:>6} {:>8}",
+        "solve", "MB", "planned", "ratio", "cpu s", "planned", "ratio", "wall s"
+    );
+    for case in CASES {
+        compare(case, folder.path(), machine);
+    }
+}
+
+fn compare((words, variant, solver): Case, folder: &Path, machine: Machine) {
+    let place = scene(words, folder);
+    let scene = Scene::open(&place).expect("the scene is sound");
+    let variant = variant.unwrap_or(scene.variant);
+    let arithmetic = Arithmetic { solver, ..Arithmetic::default() };
+    let plan = Plan::new(&scene, variant, &Reading::default(), arithmetic).expect("it is sound");
+    let mut args = vec!["solve".to_string(), place, "--variant".into(), variant.to_string()];
+    args.extend(solver.into_iter().flat_map(|s| ["--solver".into(), s.to_string()]));
+    let seconds = plan.cost.seconds(machine);
+    let taken = measure(&args, folder, if seconds < 0.1 { 20 } else { 3 });
+    let megabytes = plan.cost.bytes.total() / 1e6;
+    let name = format!("{words} {variant} {}", plan.solver);
+    let (memory, time) = (megabytes / taken.megabytes, seconds / taken.processor);
+    println!(
+        "{name:52} {:>8.1} {megabytes:>8.1} {memory:>5.2}{}   {:>8.3} {seconds:>8.3} {time:>5.2}{} {:>8.3}",
+        taken.megabytes,
+        mark((1.0 / 1.2..=1.2).contains(&memory)),
+        taken.processor,
+        mark((0.5..=2.0).contains(&time)),
+        taken.wall
+    );
+}
+
+fn mark(within: bool) -> char {
+    if within { ' ' } else { '!' }
+}
+
+/// The path of a scene: an embedded one's name, or a benchmark written to `folder`.
+fn scene(words: &str, folder: &Path) -> String {
+    #[derive(Parser)]
+    struct Mesh {
+        #[command(subcommand)]
+        kind: Kind,
+    }
+    if !words.contains(' ') {
+        return words.into();
+    }
+    let place = folder.join(words.replace(' ', "-"));
+    let mesh = Mesh::parse_from(std::iter::once("mesh").chain(words.split(' ')));
+    mesh.kind.generate().and_then(|benchmark| benchmark.write(&place)).expect("a benchmark");
+    place.to_str().expect("a path in UTF-8").into()
+}
+
+/// What a process took.
+struct Taken {
+    /// Processor time, mean, s.
+    processor: f64,
+    /// Wall time, least, s.
+    wall: f64,
+    /// Peak memory, 10⁶ bytes.
+    megabytes: f64,
+}
+
+fn measure(args: &[String], folder: &Path, runs: usize) -> Taken {
+    let (before, mut wall, mut peak) = (children(), f64::INFINITY, 0.0_f64);
+    for _ in 0..runs {
+        let start = Instant::now();
+        peak = peak.max(run(args, folder));
+        wall = wall.min(start.elapsed().as_secs_f64());
+    }
+    Taken { processor: (children() - before) / runs as f64, wall, megabytes: peak }
+}
+
+/// Peak resident memory of one run, 10⁶ bytes.
+fn run(args: &[String], folder: &Path) -> f64 {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
+        .args(args)
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    // VmHWM is the peak so far: read it until the process is gone.
+    let status = format!("/proc/{}/status", child.id());
+    let mut kilobytes = 0.0_f64;
+    while child.try_wait().expect("the child is ours").is_none() {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let value = line.and_then(|line| line.trim().trim_end_matches("kB").trim().parse().ok());
+        kilobytes = kilobytes.max(value.unwrap_or(0.0));
+        std::thread::sleep(Duration::from_micros(500));
+    }
+    kilobytes * 1024.0 / 1e6
+}
+
+/// Processor time of all children that have ended, s: fields 16 and 17 of /proc/self/stat, in hundredths.
+fn children() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let after_name = stat.rsplit(')').next().unwrap_or_default();
+    let ticks = |field: usize| -> f64 {
+        after_name.split_whitespace().nth(field - 3).and_then(|t| t.parse().ok()).unwrap_or(0.0)
+    };
+    (ticks(16) + ticks(17)) / 100.0
+}

@@ -1,0 +1,52 @@
+//! `plane-contact plan`.
+
+use plane_contact::contact::Variant;
+use plane_contact::error::Error;
+use plane_contact::plan::{Machine, Plan};
+use plane_contact::report::plan as report;
+use plane_contact::scene::Scene;
+use plane_contact::solve::memory;
+
+use super::solve::ArithmeticArgs;
+use super::{ModelArgs, ReadingArg, print};
+
+/// What solve will build and what not, why, and what it will cost; nothing is solved.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Bodies, free equations, contact candidates after a test of boxes, the rung, dense or sparse, predicted bytes, operations and time (the speed of
+the machine is measured by one small factorisation), and what is left out or could be: orphan nodes, restrained equations, bodies that nothing
+moves, half of a symmetric scene.
+
+Examples:
+  plane-contact plan
+  plane-contact plan strand --variant tied --solver sparse-cholesky
+  plane-contact plan fig1 --json")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
+    #[arg(value_name = "SCENE", default_value = "strand")]
+    scene: String,
+    /// printed, tied, stepped, unilateral [default: the scene's].
+    #[arg(long)]
+    variant: Option<Variant>,
+    #[command(flatten)]
+    model: ModelArgs,
+    #[command(flatten)]
+    arithmetic: ArithmeticArgs,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let mut scene = Scene::open(&args.scene)?;
+    args.model.apply(&mut scene.contact);
+    let variant = args.variant.unwrap_or(scene.variant);
+    let plan = Plan::new(&scene, variant, &args.reading.reading.0, args.arithmetic.arithmetic())?;
+    let machine = Machine::measure();
+    if args.json {
+        return print(&report::json(&plan, machine));
+    }
+    print(&report::text(&plan, machine, memory::free()))
+}

@@ -1,0 +1,129 @@
+//! A scene on a finer mesh: every triangle split in four, every edge in two.
+//!
+//! ```text
+//!          c                   new nodes halve the edges; the outline stays the polygon that it was:
+//!        / \                   of a curved surface no more is known than its corners.
+//!      ca---bc
+//!      / \  / \
+//!     a---ab---b
+//! ```
+
+use std::collections::HashMap;
+
+use super::Scene;
+use super::file::{SceneFile, Surface};
+use super::mesh::{Element, Mesh, Node};
+use crate::error::InputError;
+
+/// A finer scene. Nodes keep their numbers, and the triangles 4n − 3 .. 4n (rows of `EL`) are those of triangle n.
+#[derive(Clone, Debug)]
+pub struct Refined {
+    /// The scene.
+    pub scene: Scene,
+    /// The ends of the edge that each new node halves, from node R + 1 on.
+    pub parents: Vec<[usize; 2]>,
+}
+
+impl Scene {
+    /// The scene on a mesh of half the element size, everything else being the same; nothing of half a scene, which forgot its mesh. A
+    /// restraint or a force on a single node stays on that node.
+    ///
+    /// # Errors
+    /// As [`Scene::build`].
+    pub fn refined(&self) -> Result<Option<Refined>, InputError> {
+        let Some(source) = &self.source else { return Ok(None) };
+        let (file, mesh) = (&source.0, &source.1);
+        let halves = Halves::new(mesh);
+        let (elements, children) = halves.elements(mesh);
+        let mut nodes = mesh.nodes.clone();
+        for [a, b] in &halves.parents {
+            let xyz =
+                [0, 1, 2].map(|d| (mesh.nodes[a - 1].xyz[d] + mesh.nodes[b - 1].xyz[d]) / 2.0);
+            nodes.push(Node { number: nodes.len() + 1, xyz });
+        }
+        let finer = Mesh { nodes, elements, names: mesh.names.clone() };
+        let file = halves.renumbered(file, &children);
+        let mut scene = Scene::assemble(&self.name, file, &finer, Vec::new())?;
+        (scene.variant, scene.contact) = (self.variant, self.contact);
+        scene.iterations = self.iterations;
+        scene.set_c_tll(self.sheet.c_tll);
+        Ok(Some(Refined { scene, parents: halves.parents }))
+    }
+}
+
+/// The new nodes.
+struct Halves {
+    parents: Vec<[usize; 2]>,
+    /// From an edge, its nodes ascending, to the node that halves it.
+    node: HashMap<[usize; 2], usize>,
+}
+
+impl Halves {
+    fn new(mesh: &Mesh) -> Self {
+        let mut halves = Halves { parents: Vec::new(), node: HashMap::new() };
+        for element in &mesh.elements {
+            let nodes = &element.nodes;
+            match nodes.len() {
+                3 => (0..3).for_each(|k| halves.add(mesh, nodes[k], nodes[(k + 1) % 3])),
+                2 => halves.add(mesh, nodes[0], nodes[1]),
+                _ => (),
+            }
+        }
+        halves
+    }
+
+    fn add(&mut self, mesh: &Mesh, a: usize, b: usize) {
+        let key = [a.min(b), a.max(b)];
+        if !self.node.contains_key(&key) {
+            self.parents.push(key);
+            self.node.insert(key, mesh.nodes.len() + self.parents.len());
+        }
+    }
+
+    fn between(&self, a: usize, b: usize) -> Option<usize> {
+        self.node.get(&[a.min(b), a.max(b)]).copied()
+    }
+
+    /// The elements, numbered from 1, children in the place of their parent; and by the parent's number the children's.
+    fn elements(&self, mesh: &Mesh) -> (Vec<Element>, HashMap<usize, Vec<usize>>) {
+        let (mut elements, mut children) = (Vec::new(), HashMap::new());
+        for parent in &mesh.elements {
+            for nodes in self.split(&parent.nodes) {
+                let number = elements.len() + 1;
+                elements.push(Element { number, nodes, ..parent.clone() });
+                children.entry(parent.number).or_insert_with(Vec::new).push(number);
+            }
+        }
+        (elements, children)
+    }
+
+    fn split(&self, nodes: &[usize]) -> Vec<Vec<usize>> {
+        let half = |a, b| self.between(a, b).expect("every edge is halved");
+        match *nodes {
+            [a, b, c] => {
+                let [ab, bc, ca] = [half(a, b), half(b, c), half(c, a)];
+                vec![vec![a, ab, ca], vec![ab, b, bc], vec![ca, bc, c], vec![ab, bc, ca]]
+            }
+            [a, b] => vec![vec![a, half(a, b)], vec![half(a, b), b]],
+            _ => vec![nodes.to_vec()],
+        }
+    }
+
+    /// The scene file with its lists of contact nodes and target edges refined.
+    fn renumbered(&self, file: &SceneFile, children: &HashMap<usize, Vec<usize>>) -> SceneFile {
+        let mut file = file.clone();
+        let Some(contact) = &mut file.contact else { return file };
+        if let Surface::Numbers(cnt) = &mut contact.cnt {
+            let mut finer = Vec::new();
+            for (k, n) in cnt.iter().enumerate() {
+                finer.push(*n);
+                finer.extend(cnt.get(k + 1).and_then(|next| self.between(*n, *next)));
+            }
+            *cnt = finer;
+        }
+        if let Surface::Numbers(trg) = &mut contact.trg {
+            *trg = trg.iter().flat_map(|number| children[number].clone()).collect();
+        }
+        file
+    }
+}

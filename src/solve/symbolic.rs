@@ -1,0 +1,99 @@
+//! What Cholesky factors of a sparse matrix will cost, from its pattern alone: a symbolic factorisation by the library faer, with the same
+//! ordering as [`SparseCholesky`](super::SparseCholesky).
+
+use faer::Side;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{Pair, SymbolicSparseColMat};
+
+/// The size of a factorisation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct FactorSize {
+    /// Equations.
+    pub equations: usize,
+    /// Entries of the lower triangle of A that are not 0.
+    pub entries: usize,
+    /// Numbers that the factors keep.
+    pub nonzeros: usize,
+    /// Multiplications and additions of the factorisation.
+    pub operations: f64,
+}
+
+impl FactorSize {
+    /// Dense LU of `n` equations: 2/3 n³ operations.
+    pub fn dense_lu(n: usize) -> Self {
+        FactorSize { operations: 2.0 * cube(n) / 3.0, ..FactorSize::full(n, n * n) }
+    }
+
+    /// Dense Cholesky of `n` equations: 1/3 n³ operations.
+    pub fn dense_cholesky(n: usize) -> Self {
+        FactorSize { operations: cube(n) / 3.0, ..FactorSize::full(n, n * n) }
+    }
+
+    /// Sparse Cholesky of `n` equations whose matrix has `entries` (row, column), those above the diagonal left out.
+    pub fn sparse_cholesky(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Self {
+        let lower: Vec<Pair<usize, usize>> = entries
+            .filter(|(row, column)| row >= column)
+            .map(|(row, col)| Pair { row, col })
+            .collect();
+        let (pattern, _) = SymbolicSparseColMat::try_new_from_indices(n, n, &lower)
+            .expect("rows and columns are within the matrix");
+        let factors = factorize_symbolic_cholesky(
+            pattern.as_ref(),
+            Side::Lower,
+            SymmetricOrdering::Amd,
+            CholeskySymbolicParams::default(),
+        )
+        .expect("a pattern that fits in memory");
+        let columns = columns(factors.raw());
+        FactorSize {
+            equations: n,
+            entries: pattern.compute_nnz(),
+            nonzeros: factors.len_val(),
+            // Column by column: a square root, divisions, and the update of what lies to its right.
+            operations: columns.map(|below| (below * below) as f64).sum(),
+        }
+    }
+
+    fn full(n: usize, nonzeros: usize) -> Self {
+        FactorSize { equations: n, entries: n * (n + 1) / 2, nonzeros, operations: 0.0 }
+    }
+}
+
+fn cube(n: usize) -> f64 {
+    (n as f64).powi(3)
+}
+
+/// Entries of each column of L, the diagonal included.
+fn columns(raw: &SymbolicCholeskyRaw<usize>) -> Box<dyn Iterator<Item = usize> + '_> {
+    match raw {
+        SymbolicCholeskyRaw::Simplicial(l) => Box::new(l.col_ptr().windows(2).map(|w| w[1] - w[0])),
+        SymbolicCholeskyRaw::Supernodal(l) => Box::new((0..l.n_supernodes()).flat_map(|s| {
+            let width = l.supernode_end()[s] - l.supernode_begin()[s];
+            let below = l.supernode(s).pattern().len();
+            (0..width).map(move |k| width - k + below)
+        })),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chain_fills_nothing_in() {
+        let chain = (0..5).map(|i| (i, i)).chain((1..5).map(|i| (i, i - 1)));
+        let size = FactorSize::sparse_cholesky(5, chain);
+        assert_eq!((size.entries, size.nonzeros), (9, 9));
+        assert_eq!(size.operations, 4.0 * 4.0 + 1.0);
+    }
+
+    #[test]
+    fn a_full_matrix_has_full_factors() {
+        let full = (0..6).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        let size = FactorSize::sparse_cholesky(6, full);
+        assert!(size.nonzeros >= size.entries);
+        assert_eq!(size.operations, (1..=6).map(|k| f64::from(k * k)).sum::<f64>());
+    }
+}
