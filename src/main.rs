@@ -40,6 +40,7 @@ enum Command {
     Mesh(commands::mesh::Args),
     Statuses(commands::statuses::Args),
     Trace(commands::trace::Args),
+    Trade(commands::trade::Args),
     Export(commands::export::Args),
     Compare(commands::compare::Args),
 }
@@ -53,6 +54,7 @@ fn main() -> ExitCode {
         Command::Mesh(args) => commands::mesh::run(&args),
         Command::Statuses(args) => commands::statuses::run(&args),
         Command::Trace(args) => commands::trace::run(&args),
+        Command::Trade(args) => commands::trade::run(&args),
         Command::Export(args) => commands::export::run(&args),
         Command::Compare(args) => commands::compare::run(&args),
     };

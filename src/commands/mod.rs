@@ -9,6 +9,7 @@ pub mod mesh;
 pub mod solve;
 pub mod statuses;
 pub mod trace;
+pub mod trade;
 
 use std::io::Write;
 use std::time::Duration;

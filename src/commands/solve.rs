@@ -7,9 +7,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 use plane_contact::contact::{self, Outcome, Variant};
 use plane_contact::error::Error;
 use plane_contact::mirror::Reading;
-use plane_contact::report::{folder, tables};
+use plane_contact::report::{folder, tables, trade as accuracy};
 use plane_contact::scene::Scene;
 use plane_contact::solve::{Arithmetic, Inputs, ScalarName, Solver};
+use plane_contact::trade::solve_to;
 
 use super::{ModelArgs, ReadingArg, print};
 
@@ -26,6 +27,7 @@ Examples:
   plane-contact solve strand --variant unilateral --coupling mortar --friction 0
   plane-contact solve fig1 --scalar exact --inputs decimal
   plane-contact solve strand --variant tied --scalar f64x2 --solver refined --tol 1e-28
+  plane-contact solve strand --accuracy 1e-3
   plane-contact solve my/scene.json --reading R6=stress,R8=m")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
@@ -39,6 +41,10 @@ pub struct Args {
     model: ModelArgs,
     #[command(flatten)]
     arithmetic: ArithmeticArgs,
+    /// Take the cheapest arithmetic whose rounding moves displacements by at most this part of the largest, and say what was done; the
+    /// mesh's own error is told beside it.
+    #[arg(long, value_name = "A", conflicts_with_all = ["scalar", "solver", "tol", "inputs"])]
+    accuracy: Option<f64>,
     #[command(flatten)]
     reading: ReadingArg,
     /// Folder for pictures and data [default: out/<scene>-<variant>].
@@ -81,7 +87,17 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let variant = args.variant.unwrap_or(scene.variant);
     let progress = progress(scene.iterations);
     let (reading, arithmetic) = (&args.reading.reading.0, args.arithmetic.arithmetic());
-    let outcome = contact::run_in(&scene, variant, reading, arithmetic, |_| progress.inc(1))?;
+    let (outcome, accuracy) = match args.accuracy {
+        None => {
+            let watch = |_: &contact::Iteration| progress.inc(1);
+            (contact::run_in(&scene, variant, reading, arithmetic, watch)?, String::new())
+        }
+        Some(asked) => {
+            let reached = solve_to(&scene, variant, reading, asked)?;
+            let words = accuracy::reached(&reached, asked);
+            (reached.outcome, words)
+        }
+    };
     progress.finish_and_clear();
     let default = || PathBuf::from("out").join(format!("{}-{variant}", scene.name));
     let out = args.out.clone().unwrap_or_else(default);
@@ -89,10 +105,11 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let found = converged.as_ref().and_then(|converged| converged.as_ref().ok());
     let result = folder::write(&out, &scene, &outcome, found)?;
     if args.json {
+        eprint!("{accuracy}");
         return print(&result);
     }
     let tables = tables::solution(&scene, &outcome) + &distance(&scene, &outcome, &converged);
-    print(&format!("{tables}\nWritten to {}\n", out.display()))
+    print(&format!("{tables}{accuracy}\nWritten to {}\n", out.display()))
 }
 
 /// The converged answer, or why there is none; nothing without contact.
