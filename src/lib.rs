@@ -40,3 +40,4 @@ pub mod report;
 pub mod scalar;
 pub mod scene;
 pub mod solve;
+pub mod trade;

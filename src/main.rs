@@ -41,6 +41,7 @@ enum Command {
     Plan(commands::plan::Args),
     Statuses(commands::statuses::Args),
     Trace(commands::trace::Args),
+    Trade(commands::trade::Args),
     Export(commands::export::Args),
     Compare(commands::compare::Args),
 }
@@ -55,6 +56,7 @@ fn main() -> ExitCode {
         Command::Plan(args) => commands::plan::run(&args),
         Command::Statuses(args) => commands::statuses::run(&args),
         Command::Trace(args) => commands::trace::run(&args),
+        Command::Trade(args) => commands::trade::run(&args),
         Command::Export(args) => commands::export::run(&args),
         Command::Compare(args) => commands::compare::run(&args),
     };

@@ -10,6 +10,7 @@ pub mod plan;
 pub mod solve;
 pub mod statuses;
 pub mod trace;
+pub mod trade;
 
 use std::io::Write;
 use std::time::Duration;

@@ -11,6 +11,7 @@ use plane_contact::plan::Plan;
 use plane_contact::report::{self, folder, tables};
 use plane_contact::scene::Scene;
 use plane_contact::solve::{Arithmetic, Inputs, ScalarName, Solver};
+use plane_contact::trade::solve_to;
 
 use super::{ModelArgs, ReadingArg, print};
 
@@ -28,6 +29,7 @@ Examples:
   plane-contact solve strand --variant unilateral --coupling mortar --friction 0
   plane-contact solve fig1 --scalar exact --inputs decimal
   plane-contact solve strand --variant tied --scalar f64x2 --solver refined --tol 1e-28
+  plane-contact solve strand --accuracy 1e-3
   plane-contact solve my/scene.json --reading R6=stress,R8=m")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
@@ -41,6 +43,10 @@ pub struct Args {
     model: ModelArgs,
     #[command(flatten)]
     arithmetic: ArithmeticArgs,
+    /// Take the cheapest arithmetic whose rounding moves displacements by at most this part of the largest, and say what was done; the
+    /// mesh's own error is told beside it.
+    #[arg(long, value_name = "A", conflicts_with_all = ["scalar", "solver", "tol", "inputs"])]
+    accuracy: Option<f64>,
     #[command(flatten)]
     reading: ReadingArg,
     /// Folder for pictures and data [default: out/<scene>-<variant>].
@@ -81,11 +87,8 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let mut scene = Scene::open(&args.scene)?;
     args.model.apply(&mut scene.contact);
     let variant = args.variant.unwrap_or(scene.variant);
-    let (reading, arithmetic) = (&args.reading.reading.0, args.arithmetic.arithmetic());
-    let plan = Plan::new(&scene, variant, reading, arithmetic)?;
-    let progress = progress(scene.iterations);
-    let outcome = contact::run_in(&scene, variant, reading, arithmetic, |_| progress.inc(1))?;
-    progress.finish_and_clear();
+    let (outcome, accuracy) = solve(args, &scene, variant)?;
+    let plan = Plan::new(&scene, variant, &outcome.reading, outcome.arithmetic)?;
     let default = || PathBuf::from("out").join(format!("{}-{variant}", scene.name));
     let out = args.out.clone().unwrap_or_else(default);
     let other = converged(&scene, &outcome);
@@ -97,13 +100,30 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let bars = ErrorBars::new(&scene, &outcome);
     let result = folder::write(&out, &scene, &outcome, &bars, found, Some(&plan))?;
     if args.json {
+        eprint!("{accuracy}");
         return print(&result);
     }
     let tables = tables::solution(&scene, &outcome)
         + &tables::error_bars(&scene, &outcome, &bars)
-        + &distance(&scene, &outcome, converged);
+        + &distance(&scene, &outcome, converged)
+        + &accuracy;
     let plan = report::plan::line(&plan);
     print(&format!("{tables}\n{plan}\nWritten to {}\n", out.display()))
+}
+
+/// The run, and under `--accuracy` how the rung was found.
+fn solve(args: &Args, scene: &Scene, variant: Variant) -> Result<(Outcome, String), Error> {
+    let reading = &args.reading.reading.0;
+    if let Some(asked) = args.accuracy {
+        let reached = solve_to(scene, variant, reading, asked)?;
+        let words = report::trade::reached(&reached, asked);
+        return Ok((reached.outcome, words));
+    }
+    let progress = progress(scene.iterations);
+    let watch = |_: &contact::Iteration| progress.inc(1);
+    let outcome = contact::run_in(scene, variant, reading, args.arithmetic.arithmetic(), watch)?;
+    progress.finish_and_clear();
+    Ok((outcome, String::new()))
 }
 
 /// The converged answer, or why there is none; nothing without contact, and where `outcome` is that answer itself.

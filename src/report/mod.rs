@@ -14,6 +14,7 @@ pub mod pressure;
 pub mod statuses;
 pub mod tables;
 pub mod trace;
+pub mod trade;
 pub mod uncertain;
 pub mod vtu;
 mod xml;

@@ -163,6 +163,11 @@ impl Scene {
         Ok(sheet)
     }
 
+    /// The paper's arrays under the scene's own plane problem and unit.
+    pub(crate) fn sheet(&self) -> &Worksheet<f64> {
+        &self.sheet
+    }
+
     /// Puts another tolerance in place of the scene's own, length.
     pub fn set_c_tll(&mut self, c_tll: f64) {
         self.sheet.c_tll = c_tll;

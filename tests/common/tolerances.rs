@@ -231,6 +231,18 @@ pub const BAR_WIDTH_OF_ROUNDING: Tolerance = tolerance(
     "the issue's own number; below half a unit in the last place of the largest displacement the error itself is luck",
 );
 
+/// Half a symmetric scene beside the whole, and a refined scene's area and load, relative to the largest.
+pub const HALF: Tolerance = tolerance(
+    1e-9,
+    "the strand's mesh is symmetric within 2e-11 mm of triangles of 0.2 mm; the same equations in another order add 1e-13",
+);
+
+/// Lamé: order of convergence in the energy norm, absolute.
+pub const LAME_ENERGY_ORDER: Tolerance = tolerance(
+    0.1,
+    "theory gives 1 in the limit where the solution is smooth; the polygon's corners on the bore take a little of it",
+);
+
 /// Asserts |value − expected| ≤ limit · scale, or prints value, expected, error and limit.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance: &Tolerance) {

@@ -11,8 +11,8 @@ const LEFT: f64 = 78.0;
 const GRID: &str = "#dddddd";
 
 /// Colours that the colour-blind tell apart (M. Okabe, K. Ito, 2008), then repeated.
-const COLOURS: [&str; 7] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#222222"];
+const COLOURS: [&str; 8] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#222222", "#f0e442"];
 
 /// An axis.
 pub struct Axis<'a> {
@@ -41,6 +41,8 @@ pub enum Style {
     Line,
     /// Dots alone.
     Dots,
+    /// Rings, around dots of other series.
+    Rings,
 }
 
 /// A chart of `series` as a picture, with paragraphs under it.
@@ -68,6 +70,7 @@ pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[Stri
 fn legend(series: &[Series]) -> Vec<(Sign, String)> {
     let sign = |k: usize, style| match style {
         Style::Dots => Sign::Node(COLOURS[k % COLOURS.len()]),
+        Style::Rings => Sign::Ring(DARK),
         Style::Line | Style::Dotted => Sign::Edge(COLOURS[k % COLOURS.len()]),
     };
     series.iter().enumerate().map(|(k, s)| (sign(k, s.style), s.name.clone())).collect()
@@ -156,6 +159,10 @@ impl Plot {
         };
         let points: Vec<Pixel> = series.points.iter().filter_map(place).collect();
         let mut drawn = group();
+        if series.style == Style::Rings {
+            let rings = points.iter().map(|p| circle(*p, 6.0).fill("none").stroke(DARK, 1.5));
+            return drawn.with_all(rings);
+        }
         if series.style != Style::Dots && points.len() > 1 {
             drawn.push(path([points.as_slice()]).stroke(colour, 2.0));
         }

@@ -28,6 +28,8 @@ pub enum Sign {
     Node(&'static str),
     /// An edge of this colour.
     Edge(&'static str),
+    /// A ring of this colour.
+    Ring(&'static str),
 }
 
 /// What the panels show.
@@ -205,6 +207,7 @@ fn draw_sign(sign: &Sign, at: Pixel) -> Element {
             rect([at[0], at[1] - 7.0], [22.0, 14.0]).fill(colour).stroke(DARK, 0.5)
         }
         Sign::Node(colour) => circle([at[0] + 11.0, at[1]], 3.5).fill(colour),
+        Sign::Ring(colour) => circle([at[0] + 11.0, at[1]], 6.0).fill("none").stroke(colour, 1.5),
         Sign::Edge(colour) => line(at, [at[0] + 22.0, at[1]]).stroke(colour, 3.0),
     }
 }

@@ -1,0 +1,100 @@
+//! `plane-contact trade`.
+
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use plane_contact::contact;
+use plane_contact::error::{Error, InputError};
+use plane_contact::report::trade as report;
+use plane_contact::scene::Scene;
+use plane_contact::trade::{self, Knob, Options, Trial, peak};
+
+use super::{ReadingArg, print};
+
+/// Measure speed against accuracy: the rungs of the ladder and the paper's own knobs.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Times are medians of several runs in one process, in turn (A B C A B C ...); what takes over 4 s is run once. Peak memory is that of a process of
+its own, program included. Knobs of contact are turned in f64 by sparse-cholesky, meshes under unilateral. Writes trade.json, trade.csv and
+trade.svg to --out.
+
+Examples:
+  plane-contact trade
+  plane-contact trade fig1 --only arithmetic,solver
+  plane-contact trade strand --only c_tll --runs 1 --json")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
+    #[arg(value_name = "SCENE", default_value = "strand")]
+    scene: String,
+    /// Runs of each trial.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    runs: u16,
+    /// What to vary: arithmetic, solver, mesh, c_tll, iterations, status, coupling, symmetry [default: all].
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    only: Vec<Knob>,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// Print trade.json in place of the tables.
+    #[arg(long)]
+    json: bool,
+    /// Folder for the files [default: out/trade-<scene>].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Run this trial alone and print the peak memory of the process, bytes.
+    #[arg(long, value_name = "TRIAL", hide = true)]
+    peak_of: Option<String>,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let scene = Scene::open(&args.scene)?;
+    if let Some(name) = &args.peak_of {
+        return peak_of(args, &scene, name);
+    }
+    let reading = &args.reading.reading.0;
+    let only = if args.only.is_empty() { Knob::ALL.to_vec() } else { args.only.clone() };
+    let options = Options { runs: usize::from(args.runs), only };
+    let trials = |knob: &Knob| trade::trials(&scene, reading, *knob).len();
+    let bar = progress(options.only.iter().map(trials).sum::<usize>() * (options.runs + 1));
+    let watch = |trial: &str| {
+        bar.set_message(trial.to_string());
+        bar.inc(1);
+    };
+    let measured = trade::measure(&scene, reading, &options, in_a_process, watch)?;
+    bar.finish_and_clear();
+    let default = || PathBuf::from("out").join(format!("trade-{}", scene.name));
+    let out = args.out.clone().unwrap_or_else(default);
+    let json = report::write(&out, &measured)?;
+    if args.json {
+        return print(&json);
+    }
+    print(&format!("{}\nWritten to {}\n", report::text(&measured), out.display()))
+}
+
+/// The peak memory of a process that runs nothing but `trial`: this command again, with one more option.
+fn in_a_process(trial: &Trial) -> Option<u64> {
+    let mut command = Command::new(std::env::current_exe().ok()?);
+    command.args(std::env::args_os().skip(1)).arg(format!("--peak-of={}", trial.name()));
+    let output = command.output().ok()?;
+    std::str::from_utf8(&output.stdout).ok()?.trim().parse().ok()
+}
+
+fn peak_of(args: &Args, scene: &Scene, name: &str) -> Result<(), Error> {
+    let reading = &args.reading.reading.0;
+    let trial = trade::find(scene, reading, name).ok_or_else(|| {
+        InputError::new("--peak-of", format!("there is no trial {name:?}"), "leave it out")
+    })?;
+    let scene = trial.scene(scene)?;
+    contact::run_in(&scene, trial.variant, reading, trial.arithmetic, |_| ())?;
+    let bytes = peak::of_this_process();
+    print(&bytes.map_or(String::new(), |bytes| format!("{bytes}\n")))
+}
+
+/// A bar on standard error; it shows only in a terminal.
+fn progress(steps: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{pos} of {len} {wide_bar} {eta} {msg}");
+    let bar = ProgressBar::new(steps as u64).with_style(style.expect("the template is sound"));
+    bar.enable_steady_tick(Duration::from_millis(500));
+    bar
+}

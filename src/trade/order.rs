@@ -1,0 +1,50 @@
+//! The order of convergence, from a ladder of meshes each of half the element size of the one before, the true answer unknown.
+//!
+//! Where the error is C·h^p, differences between neighbours d_l = |q_l − q_(l+1)| fall by 2^p from mesh to mesh, whatever the
+//! truth: p is the slope of a line fitted to log2 d_l, and what is left beyond the finest mesh is d_last / (2^p − 1).
+
+use serde::Serialize;
+
+/// An order of convergence and its fit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Order {
+    /// What converges.
+    pub quantity: &'static str,
+    /// Differences between neighbouring meshes, relative to the finest one's value, the coarsest first.
+    pub differences: Vec<f64>,
+    /// p; nothing where differences do not fall, or are fewer than two.
+    pub order: Option<f64>,
+    /// How far the farthest difference lies from the fitted line, as a factor; nothing of two, which every line passes through.
+    pub scatter: Option<f64>,
+    /// Estimated relative error of the finest mesh.
+    pub left: Option<f64>,
+}
+
+impl Order {
+    /// Fits p.
+    pub fn fit(quantity: &'static str, differences: Vec<f64>) -> Self {
+        let falling = differences.len() > 1
+            && differences.windows(2).all(|d| d[1] < d[0])
+            && differences.iter().all(|d| *d > 0.0);
+        if !falling {
+            return Order { quantity, differences, order: None, scatter: None, left: None };
+        }
+        let logs: Vec<f64> = differences.iter().map(|d| d.log2()).collect();
+        let (slope, start) = line(&logs);
+        let off = logs.iter().enumerate().map(|(l, y)| (y - start - slope * l as f64).abs());
+        let scatter = if logs.len() > 2 { Some(off.fold(0.0, f64::max).exp2()) } else { None };
+        let left = differences[differences.len() - 1] / ((-slope).exp2() - 1.0);
+        Order { quantity, differences, order: Some(-slope), scatter, left: Some(left) }
+    }
+}
+
+/// Slope and start of the line through (0, y_0), (1, y_1), ..., by least squares.
+fn line(y: &[f64]) -> (f64, f64) {
+    let n = y.len() as f64;
+    let (mean_x, mean_y) = ((n - 1.0) / 2.0, y.iter().sum::<f64>() / n);
+    let along = |l: usize| l as f64 - mean_x;
+    let top: f64 = y.iter().enumerate().map(|(l, y)| along(l) * (y - mean_y)).sum();
+    let bottom: f64 = (0..y.len()).map(|l| along(l).powi(2)).sum();
+    let slope = top / bottom;
+    (slope, mean_y - slope * mean_x)
+}
