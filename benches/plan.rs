@@ -7,10 +7,11 @@ use std::time::{Duration, Instant};
 
 use clap::Parser;
 use plane_contact::benchmark::Kind;
-use plane_contact::contact::Variant;
+use plane_contact::contact::{Variant, max_displacement, run_in};
 use plane_contact::mirror::Reading;
 use plane_contact::plan::{Machine, Plan};
 use plane_contact::scene::Scene;
+use plane_contact::scene::symmetry::half;
 use plane_contact::solve::{Arithmetic, Solver};
 
 /// A scene, or the words of `mesh` that make it; variant and solver where they are not the scene's.
@@ -51,6 +52,37 @@ fn main() {
     for case in CASES {
         compare(case, folder.path(), machine);
     }
+    half_against_whole();
+}
+
+/// The run alone, without files, in this process: least of three.
+fn half_against_whole() {
+    let whole = Scene::open("strand").expect("embedded");
+    let half = half(&whole).expect("strand is symmetric").scene;
+    println!(
+        "\n{:40} {:>9} {:>9} {:>7} {:>12}",
+        "strand", "whole s", "half s", "saves", "|u| differs"
+    );
+    let dense = Variant::ALL.iter().map(|variant| (*variant, None));
+    for (variant, solver) in dense.chain([(Variant::Stepped, SPARSE), (Variant::Tied, SPARSE)]) {
+        let arithmetic = Arithmetic { solver, ..Arithmetic::default() };
+        let [(whole, u), (half, v)] =
+            [&whole, &half].map(|scene| timed(scene, variant, arithmetic));
+        let name = format!("{variant} {}", solver.map_or("", Solver::name));
+        let (saves, differs) = (1.0 - half / whole, (u - v).abs() / u);
+        println!("{name:40} {whole:>9.3} {half:>9.3} {:>5.0} % {differs:>12.1e}", 100.0 * saves);
+    }
+}
+
+/// Seconds, and the largest displacement.
+fn timed(scene: &Scene, variant: Variant, arithmetic: Arithmetic) -> (f64, f64) {
+    let attempt = || {
+        let start = Instant::now();
+        let outcome = run_in(scene, variant, &Reading::default(), arithmetic, |_| ());
+        let u = max_displacement(&outcome.expect("strand runs").u);
+        (start.elapsed().as_secs_f64(), u)
+    };
+    (0..3).map(|_| attempt()).reduce(|a, b| if b.0 < a.0 { b } else { a }).expect("three runs")
 }
 
 fn compare((words, variant, solver): Case, folder: &Path, machine: Machine) {
@@ -110,14 +142,14 @@ fn measure(args: &[String], folder: &Path, runs: usize) -> Taken {
     let (before, mut wall, mut peak) = (children(), f64::INFINITY, 0.0_f64);
     for _ in 0..runs {
         let start = Instant::now();
-        peak = peak.max(run(args, folder));
+        peak = peak.max(once(args, folder));
         wall = wall.min(start.elapsed().as_secs_f64());
     }
     Taken { processor: (children() - before) / runs as f64, wall, megabytes: peak }
 }
 
 /// Peak resident memory of one run, 10⁶ bytes.
-fn run(args: &[String], folder: &Path) -> f64 {
+fn once(args: &[String], folder: &Path) -> f64 {
     let mut child = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
         .args(args)
         .current_dir(folder)

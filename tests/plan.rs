@@ -5,7 +5,7 @@ mod common;
 use common::{build, scene_json};
 use plane_contact::contact::Variant;
 use plane_contact::mirror::Reading;
-use plane_contact::plan::{Axis, Idle, Plan, Storage};
+use plane_contact::plan::{Idle, Plan, Storage};
 use plane_contact::report::plan::line;
 use plane_contact::scene::Scene;
 use plane_contact::solve::{Arithmetic, Solver, memory};
@@ -93,12 +93,9 @@ fn a_dense_run_is_refused_by_its_estimate_and_a_sparse_one_is_not() {
 #[test]
 fn strand_is_symmetric_and_fig1_is_not() {
     let strand = plan("strand", Variant::Stepped);
-    let across: Vec<Axis> = strand.symmetries.iter().map(|s| s.across).collect();
-    assert_eq!(across, [Axis::X]);
-    assert_eq!(strand.symmetries[0].at, 0.0);
-    let half = strand.symmetries[0].nodes_of_half;
-    assert!(half > strand.nodes / 2 && half < strand.nodes * 6 / 10, "{half}");
-    assert!(plan("fig1", Variant::Stepped).symmetries.is_empty());
+    let half = strand.half.expect("strand.msh is its own mirror image about x = 0");
+    assert_eq!((half.at, half.nodes), (0.0, 571));
+    assert!(plan("fig1", Variant::Stepped).half.is_none());
     assert!(plan("strand", Variant::Unilateral).half_would_do() && !strand.half_would_do());
 }
 
@@ -111,11 +108,11 @@ fn one_side_changed_is_no_symmetry() {
     let mut held = strand.clone();
     held["restraints"].as_array_mut().unwrap().push(json!({ "on": "right", "fix": ["y"] }));
     let beside = |_: &str| Ok(include_bytes!("../golden/strand/strand.msh").to_vec());
-    let symmetries = |scene: &serde_json::Value| {
+    let symmetric = |scene: &serde_json::Value| {
         let scene = Scene::build("strand", scene.to_string().as_bytes(), beside).unwrap();
-        plan_of(&scene, Variant::Tied, None).symmetries.len()
+        plan_of(&scene, Variant::Tied, None).half.is_some()
     };
-    assert_eq!([&strand, &loaded, &held].map(symmetries), [1, 0, 0]);
+    assert_eq!([&strand, &loaded, &held].map(symmetric), [true, false, false]);
 }
 
 /// A third block, held and without load, beside the two of two-blocks.

@@ -83,13 +83,12 @@ mod bytes {
     pub const PROGRAM: f64 = 14.5e6;
     /// A triangle and its share of the nodes: worksheet, strain matrix, stiffness, states, sparse matrix, pictures.
     pub const TRIANGLE: f64 = 3700.0;
-    /// What is freed and not given back at once, a triangle; and at most.
-    pub const FREED: f64 = 12e3;
-    pub const MOST_FREED: f64 = 17e6;
+    /// What is freed and not given back at once, a triangle; and at most. Without contact, and with it.
+    pub const FREED: [[f64; 2]; 2] = [[12e3, 17e6], [25e3, 13e6]];
     /// A node in an iteration that is kept: shape, k_cnt, what its solution keeps.
     pub const KEPT: f64 = 160.0;
-    /// A number of sparse factors: its value and its row.
-    pub const FACTOR: f64 = 16.0;
+    /// A number of sparse factors: its value, and its share of a row's number.
+    pub const FACTOR: f64 = 10.0;
 }
 
 /// Seconds of processor time on the machine of [`Machine::REFERENCE`], measured.
@@ -118,7 +117,7 @@ mod states {
     pub const TIED: usize = 8;
     pub const STICKING: usize = 3;
     /// Measured on Hertz's contact with 5 to 59 elements on the half width: where nodes slide, one more for each so many that do not touch yet.
-    pub const NODES: usize = 4;
+    pub const NODES: usize = 2;
 }
 
 impl Work<'_> {
@@ -184,7 +183,8 @@ impl Work<'_> {
 
     fn bytes(&self) -> Bytes {
         let (r, m) = (self.sheet.R() as f64, self.sheet.M() as f64);
-        let freed = (bytes::FREED * m).min(bytes::MOST_FREED);
+        let [each, most] = bytes::FREED[usize::from(self.candidates.is_some())];
+        let freed = (each * m).min(most);
         Bytes {
             program: bytes::PROGRAM,
             mesh: bytes::TRIANGLE * m + freed,

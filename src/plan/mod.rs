@@ -11,7 +11,6 @@ mod bodies;
 mod candidates;
 mod cost;
 mod machine;
-mod symmetry;
 
 use serde::Serialize;
 
@@ -19,13 +18,13 @@ pub use bodies::{BodyPlan, Idle};
 pub use candidates::{Candidates, MARGIN};
 pub use cost::{Bytes, Cost, Work};
 pub use machine::Machine;
-pub use symmetry::{Axis, Symmetry};
 
 use crate::choices;
 use crate::contact::{Coupling, Friction, Model, StatusRule, Variant, dense_matrices};
 use crate::error::InputError;
 use crate::mirror::{Reading, Worksheet};
 use crate::scene::Scene;
+use crate::scene::symmetry::half;
 use crate::solve::{Arithmetic, FactorSize, ScalarName, Solver, memory};
 
 choices! {
@@ -67,8 +66,8 @@ pub struct Plan {
     pub cost: Cost,
     /// Nodes of the mesh file that belong to no triangle and were dropped.
     pub orphans: usize,
-    /// The mirror symmetries of all of the scene.
-    pub symmetries: Vec<Symmetry>,
+    /// Half of the scene, where it is its own mirror image about a vertical line.
+    pub half: Option<HalfPlan>,
 }
 
 /// The equations: 2R.
@@ -84,6 +83,15 @@ pub struct Equations {
     pub solved: usize,
     /// Free ones of bodies that nothing moves.
     pub idle: usize,
+}
+
+/// Half of a symmetric scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct HalfPlan {
+    /// Where the line of symmetry stands: x, length.
+    pub at: f64,
+    /// Nodes of the half, those on the line among them.
+    pub nodes: usize,
 }
 
 /// The contact.
@@ -147,15 +155,14 @@ impl Plan {
             storage: if dense > 0 { Storage::Dense } else { Storage::Sparse },
             factors,
             orphans: scene.dropped.len(),
-            symmetries: symmetry::find(scene, &sheet),
+            half: half(scene).map(|half| HalfPlan { at: half.at, nodes: half.nodes.len() }),
         })
     }
 
     /// Whether half of the scene has the same solution. Under the other variants it has not: the print's search goes along the surface in one
     /// direction, and gives a symmetric scene an answer that is not symmetric.
     pub fn half_would_do(&self) -> bool {
-        !self.symmetries.is_empty()
-            && (self.contact.is_none() || self.variant == Variant::Unilateral)
+        self.half.is_some() && (self.contact.is_none() || self.variant == Variant::Unilateral)
     }
 
     /// That what the run holds in dense matrices fits in `free` bytes: what `solve` asks before it starts.

@@ -25,7 +25,7 @@ pub fn line(plan: &Plan) -> String {
         megabytes(plan.cost.bytes.total()),
         operations(plan.cost.operations),
     );
-    if !plan.symmetries.is_empty() {
+    if plan.half.is_some() {
         text += if plan.half_would_do() {
             "; symmetric, half of it would do"
         } else {
@@ -192,15 +192,11 @@ fn left_out(plan: &Plan) -> String {
     } else {
         "but half of it has another answer, for c_cnt as printed is not symmetric"
     };
-    rows.extend(plan.symmetries.iter().map(|symmetry| {
+    rows.extend(plan.half.map(|found| {
         row(
             "nodes of the other half",
-            plan.nodes - symmetry.nodes_of_half,
-            format!(
-                "the scene is its own mirror image across {} = {}: {half}",
-                symmetry.across,
-                short(symmetry.at)
-            ),
+            plan.nodes - found.nodes,
+            format!("the scene is its own mirror image about x = {}: {half}", short(found.at)),
         )
     }));
     table(rows)
