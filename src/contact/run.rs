@@ -124,7 +124,7 @@ pub fn run_in(
         (_, ScalarName::F64) => published::<f64>(&task, Some(sparse::cholesky), watch)?,
         (_, ScalarName::F32) => published::<f32>(&task, Some(sparse::cholesky), watch)?,
         (_, ScalarName::F64x2) => published::<F64x2>(&task, Some(sparse::ldlt), watch)?,
-        (_, ScalarName::Bounded) => published::<Bounded>(&task, None, watch)?,
+        (_, ScalarName::Bounded) => published::<Bounded>(&task, Some(sparse::bounded), watch)?,
         (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(&task, None, watch))?,
     };
     check_finite(&outcome)?;

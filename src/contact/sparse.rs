@@ -4,9 +4,10 @@ use nalgebra::DVector;
 
 use super::run::Task;
 use super::variant::Variant;
-use crate::scalar::F64x2;
+use crate::scalar::{Bounded, F64x2, Scalar};
 use crate::solve::{
-    Arithmetic, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky, SparseSymmetric, Unsolved,
+    Arithmetic, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky, SparseSymmetric,
+    Unsolved, error_bound,
 };
 
 /// Solves A x = b with factors of a sparse A.
@@ -22,6 +23,19 @@ pub(super) fn cholesky<T: Native>(
     Ok(Solved { residual: factors.residual(&x, b), x })
 }
 
+/// By Cholesky factors, with a bound on the error of the solution.
+pub(super) fn bounded(
+    a: SparseSymmetric<Bounded>,
+    b: &DVector<Bounded>,
+) -> Result<Solved<Bounded>, Unsolved> {
+    let (values, f) = (a.map(|x| x.to_f64()), b.map(Scalar::to_f64));
+    let factors = SparseCholesky::new(values)?;
+    let x = factors.solve(&f);
+    let residual = factors.residual(&x, &f);
+    let error = error_bound(&factors, a.both_triangles(), b, &x);
+    Ok(Solved { residual, x: x.map(|x| Bounded::new(x, error)) })
+}
+
 /// By LDLᵀ factors.
 pub(super) fn ldlt(
     a: SparseSymmetric<F64x2>,
@@ -33,8 +47,8 @@ pub(super) fn ldlt(
 
 /// Dense 2R x 2R matrices that a run holds at once, each of `size_of` numbers of the scalar: 0 where all is sparse.
 pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
-    let sparse = arithmetic.solver() == Solver::SparseCholesky
-        && !matches!(arithmetic.scalar, ScalarName::Exact | ScalarName::Bounded);
+    let sparse =
+        arithmetic.solver() == Solver::SparseCholesky && arithmetic.scalar != ScalarName::Exact;
     match (variant, arithmetic.solver()) {
         (Variant::Unilateral, _) => 0,
         (Variant::Printed, Solver::DenseLu) => 3,
