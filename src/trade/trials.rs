@@ -11,7 +11,7 @@ use crate::solve::{Arithmetic, ScalarName, Solver, cost};
 const EXACT: f64 = 10.0;
 
 /// Equations beyond which no finer mesh is tried, and meshes that are tried at most.
-const EQUATIONS: usize = 40_000;
+const EQUATIONS: usize = 150_000;
 const MESHES: usize = 5;
 
 /// The tolerances, in the scene's unit of length.
@@ -246,10 +246,10 @@ fn tolerances(scene: &Scene) -> Vec<(String, Setting, bool)> {
 
 fn iterations(scene: &Scene) -> Vec<(String, Setting, bool)> {
     let mut values = ITERATIONS.to_vec();
-    if !values.contains(&scene.iterations) {
-        values.push(scene.iterations);
-        values.sort_unstable();
-    }
+    // One more than the scene's shows what a cycle of two does.
+    values.extend([scene.iterations, scene.iterations + 1]);
+    values.sort_unstable();
+    values.dedup();
     let place = |n: usize| (n.to_string(), Setting::Iterations(n), n == scene.iterations);
     values.into_iter().map(place).collect()
 }
