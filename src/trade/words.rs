@@ -50,7 +50,7 @@ fn by_variant(rows: &[Row], of: impl Fn(Variant, &[&Row]) -> Option<String>) -> 
 /// `0.12 %`, or a power of ten where that is shorter.
 fn percent(x: f64) -> String {
     match 100.0 * x {
-        p if p == 0.0 => "0 %".into(),
+        0.0 => "0 %".into(),
         p if p >= 0.01 => format!("{p:.2} %"),
         p => format!("{p:.0e} %"),
     }
@@ -90,7 +90,7 @@ fn arithmetic(scene: &Scene, reading: &Reading, rows: &[Row]) -> Vec<String> {
 
 fn solver(rows: &[Row]) -> Vec<String> {
     let errors = |of: &dyn Fn(&Row) -> bool| {
-        let of_rows = rows.iter().filter(|row| of(row) && row.rung != "f64x2, to compare");
+        let of_rows = rows.iter().filter(|row| of(row) && row.rung != "f64x2 to compare");
         of_rows.filter_map(|row| row.error.map(|e| e.displacement)).fold(0.0, f64::max)
     };
     let direct = errors(&|row| !row.rung.starts_with("cg"));
