@@ -83,7 +83,7 @@ fn every_knob_has_its_rows_and_every_row_its_columns() {
         assert_eq!(section.rows.iter().any(|row| row.pareto), ran, "{}", section.knob);
     }
     let text = report::text(&trade);
-    for words in ["c_tll", "order", "von Mises", "exact", "converged answer"] {
+    for words in ["c_tll", "von Mises", "exact", "converged answer"] {
         assert!(text.contains(words), "{words:?}: {text}");
     }
 }
@@ -102,8 +102,6 @@ fn csv_and_json_agree() {
     assert_eq!(lines.clone().count(), rows.len());
     let column = |name: &str| head.iter().position(|c| *c == name).expect("a column");
     for (line, row) in lines.zip(rows) {
-        // Only the rung may hold a comma, and then it is quoted.
-        let line = line.replace("f64, bounded", "f64 bounded").replace('"', "");
         let cells: Vec<&str> = line.split(',').collect();
         assert_eq!(cells.len(), head.len(), "{line}");
         let number = |name: &str| cells[column(name)].parse::<f64>().expect("a number");
@@ -135,7 +133,7 @@ fn errors_fall_up_the_ladder() {
 /// The triangle's order in the energy norm is 1 where the solution is smooth.
 #[test]
 fn lame_converges_with_order_1_in_the_energy_norm() {
-    let scene = Annulus { radial: 6, around: 12 }.generate().and_then(|b| b.scene()).unwrap();
+    let scene = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.scene()).unwrap();
     let trade = measured(&scene, &[Knob::Mesh]);
     let section = &trade.sections[0];
     let errors: Vec<f64> = section.rows.iter().map(|row| row.error.unwrap().energy).collect();

@@ -219,6 +219,9 @@ pub fn reached(reached: &Reached, accuracy: f64) -> String {
             attempt.predicted
         );
     }
+    if !reached.outcome.contact.is_empty() {
+        text += "  This holds while rounding does not change who is in contact.\n";
+    }
     text + &mesh(reached.mesh, accuracy)
 }
 

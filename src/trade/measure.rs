@@ -105,8 +105,8 @@ pub fn measure(
         let runs = timed(scene, reading, &trials, options.runs, &mut watch)?;
         let bench = Bench { scene, trials: &trials, runs: &runs, converged: converged.as_ref() };
         let mut rows = Vec::new();
-        for place in 0..trials.len() {
-            rows.push(bench.row(place, peak(&trials[place]))?);
+        for (place, trial) in trials.iter().enumerate() {
+            rows.push(bench.row(place, peak(trial))?);
             watch("peak memory");
         }
         mark_front(&mut rows);
@@ -121,9 +121,9 @@ pub fn measure(
 /// What errors are measured against.
 fn against(knob: Knob) -> &'static str {
     match knob {
-        Knob::Arithmetic => "the last row",
+        Knob::Arithmetic => "the last row that ran",
         Knob::Solver => "f64x2",
-        Knob::Mesh => "the finest mesh",
+        Knob::Mesh => "the finest mesh that ran",
         Knob::Symmetry => "the whole scene under the same variant",
         _ => "the converged answer on the same mesh (unilateral, mortar)",
     }
@@ -208,13 +208,24 @@ impl Bench<'_> {
 
     fn error(&self, place: usize) -> Result<Option<Errors>, Error> {
         match self.trials[place].against {
-            Against::Trial(best) => self.between(place, best),
+            Against::Trial(best) => match self.best_that_ran(place, best) {
+                Some(best) => self.between(place, best),
+                None => Ok(None),
+            },
             Against::Converged => {
                 let outcome = self.runs[place].outcome.as_ref().ok();
                 let both = outcome.zip(self.converged);
                 Ok(both.map(|(outcome, truth)| Errors::new(self.scene, outcome, truth)))
             }
         }
+    }
+
+    /// `best`, or where it failed the last rung before it that did not.
+    fn best_that_ran(&self, place: usize, best: usize) -> Option<usize> {
+        if self.trials[place].knob == Knob::Symmetry {
+            return Some(best);
+        }
+        (place..=best).rev().find(|k| self.runs[*k].outcome.is_ok())
     }
 
     /// From the same variant where the scene has the knob; knobs that change the mesh have their own measure.

@@ -50,7 +50,7 @@ fn by_variant(rows: &[Row], of: impl Fn(Variant, &[&Row]) -> Option<String>) -> 
 /// `0.12 %`, or a power of ten where that is shorter.
 fn percent(x: f64) -> String {
     match 100.0 * x {
-        p if p == 0.0 => "0 %".into(),
+        0.0 => "0 %".into(),
         p if p >= 0.01 => format!("{p:.2} %"),
         p => format!("{p:.0e} %"),
     }
@@ -90,7 +90,7 @@ fn arithmetic(scene: &Scene, reading: &Reading, rows: &[Row]) -> Vec<String> {
 
 fn solver(rows: &[Row]) -> Vec<String> {
     let errors = |of: &dyn Fn(&Row) -> bool| {
-        let of_rows = rows.iter().filter(|row| of(row) && row.rung != "f64x2, to compare");
+        let of_rows = rows.iter().filter(|row| of(row) && row.rung != "f64x2 to compare");
         of_rows.filter_map(|row| row.error.map(|e| e.displacement)).fold(0.0, f64::max)
     };
     let direct = errors(&|row| !row.rung.starts_with("cg"));
@@ -149,9 +149,14 @@ fn tolerance(scene: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
     let below = rows.iter().take_while(|row| !row.own);
     let most = below.filter_map(|row| row.change).max_by(|a, b| seen(a).total_cmp(&seen(b)))?;
     let verdict = if seen(&most) < NOTICEABLE { "is" } else { "is not" };
-    let far = own.error.map_or(String::new(), |e| {
-        format!(" The run is then {} from the converged answer.", percent(e.displacement))
-    });
+    let from = |row: &Row| row.error.map_or("-".into(), |e| percent(e.displacement));
+    let far = format!(
+        " From the converged answer: {} at {}, {} at {}.",
+        from(own),
+        own.rung,
+        from(rows[0]),
+        rows[0].rung
+    );
     let unit = &scene.units.length;
     let above = rows.iter().rev().find(|row| !row.own).and_then(|row| row.change);
     let above = above.map_or(String::new(), |change| {
@@ -166,9 +171,11 @@ fn tolerance(scene: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
 }
 
 fn iterations(variant: Variant, rows: &[&Row]) -> Option<String> {
-    let (own, last) = (rows.iter().find(|row| row.own)?, rows.last()?);
-    let change = last.change?;
-    let verdict = if seen(&change) < NOTICEABLE { "are enough" } else { "are not enough" };
+    let (at, last) = (rows.iter().position(|row| row.own)?, rows.last()?);
+    let own = rows[at];
+    let (next, change) = (rows.get(at + 1)?.change?, last.change?);
+    let enough = seen(&change).max(seen(&next)) < NOTICEABLE;
+    let verdict = if enough { "are enough" } else { "are not enough" };
     let state = match own.cycle {
         Some(1) => "the contact state has settled".into(),
         Some(length) => format!("contact states repeat in a cycle of {length}, for ever"),
@@ -176,8 +183,9 @@ fn iterations(variant: Variant, rows: &[&Row]) -> Option<String> {
     };
     let far = |row: &Row| row.error.map_or("-".into(), |e| percent(e.displacement));
     Some(format!(
-        "{variant}: {} iterations {verdict}: {state}; {} of them move {}. From the converged answer: {} at {}, {} at {}.",
+        "{variant}: {} iterations {verdict}: {state}; one more moves {}; {} of them move {}. From the converged answer: {} at {}, {} at {}.",
         own.rung,
+        both(&next),
         last.rung,
         both(&change),
         far(own),
