@@ -87,6 +87,8 @@ mod bytes {
     pub const FREED: [[f64; 2]; 2] = [[12e3, 17e6], [25e3, 13e6]];
     /// A node in an iteration that is kept: shape, k_cnt, what its solution keeps.
     pub const KEPT: f64 = 160.0;
+    /// An entry of the printed matrix while its error bar is found: the matrix with a bound on each entry, its values, their factors.
+    pub const PRINTED_BAR: f64 = 43.0;
     /// A number of sparse factors: its value, and its share of a row's number.
     pub const FACTOR: f64 = 10.0;
 }
@@ -204,7 +206,9 @@ impl Work<'_> {
         let (all, solved) = (2 * self.sheet.R(), self.factors.equations);
         match (self.dense, self.variant) {
             (0, _) => 0.0,
-            (matrices, Variant::Printed) => matrices as f64 * square(all),
+            (matrices, Variant::Printed) => {
+                (matrices as f64 * square(all)).max(bytes::PRINTED_BAR * (all as f64).powi(2))
+            }
             (matrices, _) => square(all) + (matrices - 1) as f64 * square(solved),
         }
     }
