@@ -42,6 +42,7 @@ enum Command {
     Trace(commands::trace::Args),
     Export(commands::export::Args),
     Compare(commands::compare::Args),
+    Extremes(commands::extremes::Args),
 }
 
 fn main() -> ExitCode {
@@ -55,6 +56,7 @@ fn main() -> ExitCode {
         Command::Trace(args) => commands::trace::run(&args),
         Command::Export(args) => commands::export::run(&args),
         Command::Compare(args) => commands::compare::run(&args),
+        Command::Extremes(args) => commands::extremes::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
