@@ -33,6 +33,7 @@ pub mod contact;
 pub mod element;
 pub mod error;
 pub mod error_bars;
+pub mod extremes;
 pub mod mathcad;
 pub mod mirror;
 pub mod plan;

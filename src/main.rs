@@ -44,6 +44,7 @@ enum Command {
     Trade(commands::trade::Args),
     Export(commands::export::Args),
     Compare(commands::compare::Args),
+    Extremes(commands::extremes::Args),
 }
 
 fn main() -> ExitCode {
@@ -59,6 +60,7 @@ fn main() -> ExitCode {
         Command::Trade(args) => commands::trade::run(&args),
         Command::Export(args) => commands::export::run(&args),
         Command::Compare(args) => commands::compare::run(&args),
+        Command::Extremes(args) => commands::extremes::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -4,6 +4,7 @@ pub mod audit;
 pub mod c_cnt;
 pub mod compare;
 pub mod export;
+pub mod extremes;
 pub mod km;
 pub mod mesh;
 pub mod plan;

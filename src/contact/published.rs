@@ -43,7 +43,9 @@ pub(super) fn published<T: Rung>(
         Inputs::Decimal => T::from_decimal(x),
     };
     let sheet = task.sheet.recomputed(number, task.scene.thickness);
-    let mut run = Run::new(task, &sheet, task.scene.load.map(number), sparse)?;
+    let load = task.scene.load.map(number);
+    check_load(task, &load)?;
+    let mut run = Run::new(task, &sheet, load, sparse)?;
     let mut iterations: Vec<Iteration> = Vec::new();
     for k in 1..=task.scene.iterations {
         let iteration = run.iterate(k)?;
@@ -67,6 +69,23 @@ pub(super) fn published<T: Rung>(
         error_bound: run.u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e))),
         u: run.u.map(T::to_f64),
     })
+}
+
+/// That no load vanished or lost digits where the scalar has no smaller numbers: an answer of zeros would look like one.
+fn check_load<T: Scalar>(task: &Task, load: &DVector<T>) -> Result<(), InputError> {
+    /// Relative error of a load that is within the scalar's range is 6e-8 in the coarsest, f32.
+    const ROUNDED: f64 = 1e-6;
+    let lost = |(x, y): &(&f64, &T)| {
+        y.to_f64().is_finite() && (y.to_f64() - **x).abs() > ROUNDED * x.abs()
+    };
+    match task.scene.load.iter().zip(load.iter()).find(lost) {
+        None => Ok(()),
+        Some((x, _)) => {
+            let what =
+                format!("the force {x:e} is too small to represent in {}", task.arithmetic.scalar);
+            Err(InputError::new("loads", what, "choose other units, or use --scalar f64"))
+        }
+    }
 }
 
 /// That the matrices fit in memory, and exact numbers in a bearable time.

@@ -4,6 +4,7 @@
 
 pub mod audit;
 pub mod comparison;
+pub mod extremes;
 pub mod files;
 pub mod folder;
 pub mod json;

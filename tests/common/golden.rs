@@ -10,34 +10,40 @@ use super::tolerances::{GOLDEN, GOLDEN_FLOOR};
 /// Compares `text` with `golden/<folder>/<name>.snap`; `cargo insta review` (or INSTA_UPDATE=always) changes it.
 #[track_caller]
 pub fn assert_golden(folder: &str, name: &str, text: &str) {
+    assert_golden_by(folder, name, text, same_text);
+}
+
+/// The same under another rule of what is the same: the golden text, then the value.
+#[track_caller]
+pub fn assert_golden_by(folder: &str, name: &str, text: &str, same: fn(&str, &str) -> bool) {
     let mut settings = Settings::clone_current();
     settings.set_snapshot_path(Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(folder));
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
-    settings.set_comparator(Box::new(Toleranced));
+    settings.set_comparator(Box::new(Toleranced(same)));
     settings.bind(|| insta::assert_snapshot!(name, text));
 }
 
-/// Words equal to the letter, floats (a `.` or an exponent in them) within `GOLDEN` of the largest float of their line, or
-/// within `GOLDEN_FLOOR`.
-pub struct Toleranced;
+/// Two texts under a rule.
+struct Toleranced(fn(&str, &str) -> bool);
 
 impl Comparator for Toleranced {
     fn matches(&self, reference: &Snapshot, test: &Snapshot) -> bool {
         match (reference.contents(), test.contents()) {
             (SnapshotContents::Text(a), SnapshotContents::Text(b)) => {
-                same_text(&a.to_string(), &b.to_string())
+                (self.0)(&a.to_string(), &b.to_string())
             }
             _ => false,
         }
     }
 
     fn dyn_clone(&self) -> Box<dyn Comparator> {
-        Box::new(Toleranced)
+        Box::new(Toleranced(self.0))
     }
 }
 
-/// Whether two texts are the same under the rule of [`Toleranced`].
+/// Words equal to the letter, floats (a `.` or an exponent in them) within `GOLDEN` of the largest float of their line, or
+/// within `GOLDEN_FLOOR`.
 pub fn same_text(expected: &str, value: &str) -> bool {
     let (expected, value) = (expected.trim_end(), value.trim_end());
     expected.lines().count() == value.lines().count()

@@ -253,3 +253,15 @@ pub fn assert_near(what: &str, value: f64, expected: f64, scale: f64, tolerance:
         tolerance.reason
     );
 }
+
+/// Right digits in a cell of `extremes`.
+pub const EXTREME_DIGITS: Tolerance = tolerance(
+    2.0,
+    "the LU library sums in another order on another processor: an error may be some times larger or smaller by chance, and a digit is cut off",
+);
+
+/// The exponent of a breaking point of `extremes`.
+pub const EXTREME_DECADES: Tolerance = tolerance(
+    2.0,
+    "a digit more or less moves the point where three are left by a decade; it is bisected to half of one, and rounded",
+);

@@ -1,0 +1,66 @@
+//! `plane-contact extremes`.
+
+use std::path::PathBuf;
+
+use plane_contact::error::{Error, InputError};
+use plane_contact::extremes::{Generator, generators, measure};
+use plane_contact::report::{extremes as report, files};
+
+use super::{print, waiting};
+
+/// Sweep magnitudes until something gives, every answer held against exact numbers.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Each generator sweeps one magnitude. A cell is exact, a number of right digits, WRONG (an answer without a right digit, or another
+contact), or refused (and by which error). A way gives where it is refused or keeps fewer than 3 digits; that point is bisected.
+
+Examples:
+  plane-contact extremes
+  plane-contact extremes offset steep-edge
+  plane-contact extremes --list
+  plane-contact extremes lengths --json --out out/lengths")]
+pub struct Args {
+    /// Generators [default: all].
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// List the generators.
+    #[arg(long)]
+    list: bool,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    /// Folder for extremes.txt, extremes.json and a picture for each generator.
+    #[arg(long, value_name = "DIR", default_value = "out/extremes")]
+    out: PathBuf,
+}
+
+pub fn run(args: &Args) -> Result<(), Error> {
+    let chosen = chosen(generators(), &args.names)?;
+    if args.list {
+        return print(&report::list(&chosen));
+    }
+    let spinner = waiting("sweeping");
+    let measured = measure(&chosen);
+    spinner.finish_and_clear();
+    let (text, json) = (report::text(&measured), report::json(&measured));
+    files::write(&args.out.join("extremes.txt"), &text)?;
+    files::write(&args.out.join("extremes.json"), &json)?;
+    for of in &measured {
+        files::write(&args.out.join(format!("{}.svg", of.name)), &report::picture(of))?;
+    }
+    print(if args.json { &json } else { &text })
+}
+
+/// The generators of these names, in the order of the list; all of them where no name is given.
+fn chosen(all: Vec<Generator>, names: &[String]) -> Result<Vec<Generator>, InputError> {
+    if let Some(unknown) = names.iter().find(|name| all.iter().all(|g| g.name != **name)) {
+        let known: Vec<&str> = all.iter().map(|g| g.name).collect();
+        return Err(InputError::new(
+            "NAME",
+            format!("there is no generator {unknown:?}"),
+            format!("the generators are {}", known.join(", ")),
+        ));
+    }
+    let is_chosen = |g: &Generator| names.is_empty() || names.iter().any(|name| name == g.name);
+    Ok(all.into_iter().filter(is_chosen).collect())
+}
