@@ -10,6 +10,7 @@ use faer::{MatRef, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
 use super::dense::{Factors, Native, Singular, backward_error};
+use super::error_bound::inverse_norm;
 use crate::scalar::Scalar;
 
 /// Displacements under a load of the size of the stiffness beyond which a matrix counts as singular, both scaled to a unit diagonal:
@@ -140,10 +141,19 @@ impl<T: Native> SparseCholesky<T> {
         };
         let cholesky = SparseCholesky { matrix, factors };
         match probe(&cholesky.factors, &cholesky.matrix.diagonal()) {
-            Some((_, size)) if size.is_finite() && size < UNBOUNDED / T::EPSILON => Ok(cholesky),
             None => Ok(cholesky),
-            Some((column, size)) => Err(Singular { column, pivot: 1.0 / size }),
+            Some((column, size)) => match size.max(cholesky.largest_motion()) {
+                size if size.is_finite() && size < UNBOUNDED / T::EPSILON => Ok(cholesky),
+                size => Err(Singular { column, pivot: 1.0 / size }),
+            },
         }
+    }
+
+    /// The largest motion under loads of 1, both scaled to a unit diagonal: what no single trial load is sure to find.
+    fn largest_motion(&self) -> f64 {
+        let scale = self.matrix.diagonal().map(|d| d.to_f64().sqrt());
+        let ones = DVector::from_element(scale.len(), 1.0);
+        inverse_norm(&Scaled { factors: &self.factors, scale }, &ones)
     }
 
     /// The solution x of A x = `b`.
@@ -160,6 +170,19 @@ impl<T: Native> SparseCholesky<T> {
 impl<T: Native> Factors<T> for SparseCholesky<T> {
     fn solve(&self, b: &DVector<T>) -> DVector<T> {
         SparseCholesky::solve(self, b)
+    }
+}
+
+/// The factors of A scaled to a unit diagonal.
+struct Scaled<'a, T: Native> {
+    factors: &'a Llt<usize, T>,
+    scale: DVector<f64>,
+}
+
+impl<T: Native> Factors<f64> for Scaled<'_, T> {
+    fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
+        let load = b.component_mul(&self.scale).map(T::from_f64);
+        solve(self.factors, &load).map(Scalar::to_f64).component_mul(&self.scale)
     }
 }
 
