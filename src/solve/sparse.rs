@@ -14,8 +14,8 @@ use super::error_bound::inverse_norm;
 use crate::scalar::Scalar;
 
 /// Displacements under a load of the size of the stiffness beyond which a matrix counts as singular, both scaled to a unit diagonal:
-/// this over the scalar's epsilon (1e13 in f64).
-const UNBOUNDED: f64 = 1e13 * f64::EPSILON;
+/// this over the scalar's epsilon (5e14 in f64).
+const UNBOUNDED: f64 = 0.1;
 
 /// What is added to a unit diagonal to see how a singular matrix moves, in units of the scalar's epsilon (1e-10 in f64).
 const SHIFT: f64 = 1e-10 / f64::EPSILON;
