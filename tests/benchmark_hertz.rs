@@ -63,18 +63,13 @@ fn at_4_000_equations_within_one_percent() {
     }
 }
 
-/// Known: the peak of the benchmark's own load stays 0.8 % below Hertz's at any mesh, for the cylinder is no half plane: the miss goes with the half
-/// width over the radius, 0.124, and at a tenth of the load it is a third.
 #[test]
 fn at_30_000_equations_within_half_a_percent() {
-    let [half_width, peak] = over_hertz(59, LOAD, |_| ());
-    assert_near("half width", half_width, 1.0, 1.0, &HERTZ_FINE);
-    assert_near("peak pressure", peak, 0.9923, 1.0, &KNOWN_CURVATURE);
-    let [half_width, small] = over_hertz(59, LOAD / 10.0, |_| ());
-    assert_near("half width, a tenth of the load", half_width, 1.0, 1.0, &HERTZ_FINE);
-    assert_near("peak pressure, a tenth of the load", small, 1.0, 1.0, &HERTZ_FINE);
-    let scaled = 1.0 - (1.0 - peak) / 10.0_f64.sqrt();
-    assert_near("the miss goes with the half width", small, scaled, 1.0, &KNOWN_CURVATURE);
+    for load in [LOAD, LOAD / 10.0] {
+        let [half_width, peak] = over_hertz(59, load, |_| ());
+        assert_near("half width", half_width, 1.0, 1.0, &HERTZ_FINE);
+        assert_near("peak pressure", peak, 1.0, 1.0, &HERTZ_FINE);
+    }
 }
 
 /// Known: in the current shape the surfaces have shortened by 1 to 3 % under the pressure, so the cylinder is more curved; Hertz's theory leaves
@@ -84,5 +79,5 @@ fn in_the_current_shape_the_peak_is_higher() {
     let current = over_hertz(40, LOAD, |m| m.geometry = Geometry::Current);
     let initial = over_hertz(40, LOAD, |m| m.geometry = Geometry::Initial);
     assert_near("half width", current[0] / initial[0], 0.9914, 1.0, &KNOWN_CURVATURE);
-    assert_near("peak", current[1] / initial[1], 1.0152, 1.0, &KNOWN_CURVATURE);
+    assert_near("peak", current[1] / initial[1], 1.0083, 1.0, &KNOWN_CURVATURE);
 }

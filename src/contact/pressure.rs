@@ -36,8 +36,8 @@ pub struct Surface<'a> {
     pub sheet: &'a Worksheet<f64>,
     /// Thickness, length.
     pub thickness: f64,
-    /// The last shape: R x 4.
-    pub node_n: &'a Table<f64>,
+    /// The shape in which contact is measured: R x 4.
+    pub measured_in: &'a Table<f64>,
     /// What each entry of `cnt` faces in it.
     pub pairings: &'a [Option<Pairing>],
     /// By entry of `cnt`, 1 = in contact.
@@ -53,7 +53,7 @@ impl Surface<'_> {
     /// A target edge that bounds no triangle.
     pub fn nodes(&self) -> Result<Vec<ContactNode>, InputError> {
         let surfaces = Surfaces::new(self.sheet)?;
-        let lengths = [&self.sheet.node, self.node_n].map(|shape| surfaces.tributary(shape));
+        let lengths = [&self.sheet.node, self.measured_in].map(|shape| surfaces.tributary(shape));
         let arcs = arcs(self.sheet, &self.sheet.node);
         let node = |i: usize| {
             let pairing = self.pairings[i].as_ref()?;

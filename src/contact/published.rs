@@ -386,7 +386,7 @@ impl<'a, T: Rung> Run<'a, T> {
             sheet,
             thickness: scene.thickness,
             pairings: &Surfaces::new(sheet)?.pairings(Coupling::Nts, &node_n),
-            node_n: &node_n,
+            measured_in: &node_n,
             dy: last.dy.as_slice(),
             reaction: &(self.stiffness.times(&self.u) - &self.load).map(T::to_f64),
         };

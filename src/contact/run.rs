@@ -172,10 +172,11 @@ fn converged(
     let factored = steps.len();
     let last = steps.into_iter().next_back().expect("an equilibrium takes an iteration");
     let (dy, pairings) = (closed(&last), &last.after.pairings);
+    let current = scene.contact.measures_current_shape();
     let surface = Surface {
         sheet: &sheet,
         thickness: scene.thickness,
-        node_n: &last.after.node_n,
+        measured_in: if current { &last.after.node_n } else { &sheet.node },
         pairings,
         dy: &dy,
         reaction: &last.reaction,

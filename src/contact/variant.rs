@@ -73,6 +73,13 @@ pub struct Model {
     pub status: StatusRule,
 }
 
+impl Model {
+    /// Whether `unilateral` measures contact in the current shape; else in the initial one: a node that sticks stays at the place that it faced there.
+    pub(super) fn measures_current_shape(&self) -> bool {
+        (self.friction, self.geometry) == (Friction::None, Geometry::Current)
+    }
+}
+
 impl Variant {
     /// The paper's own: those that search with `c_cnt`.
     pub const OF_THE_PAPER: &'static [Variant] =

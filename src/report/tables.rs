@@ -218,12 +218,17 @@ fn iterations(scene: &Scene, outcome: &Outcome) -> String {
             short(it.max_displacement),
             short(it.eq1_residual),
             short(it.target_force),
-            format!("{:.1} %", 100.0 * it.target_force / fx.hypot(fy).max(f64::MIN_POSITIVE)),
+            share(it.target_force, fx.hypot(fy)),
             format!("{:.0e}", it.solve_residual),
             state(&it.cycle),
         ]
     });
     aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+}
+
+/// A force as part of the load; `-` without a load, where an overlap alone may press.
+fn share(force: f64, load: f64) -> String {
+    if load == 0.0 { "-".into() } else { format!("{:.1} %", 100.0 * force / load) }
 }
 
 fn state(cycle: &Option<Cycle>) -> String {

@@ -16,12 +16,9 @@ use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::surfaces::{Placed, Surfaces, point};
+use super::surfaces::{FACING, Placed, Surfaces, point};
 use super::{Pairing, Vector, dot};
 use crate::mathcad::array::Table;
-
-/// Cosine between a contact edge's normal and the reverse of a target edge's, beyond which the two do not face each other.
-const FACING: f64 = 0.1;
 
 /// A shorter overlap, of the contact edge's length, is rounding.
 const ROUNDING: f64 = 1e-12;

@@ -2,6 +2,9 @@
 //!
 //! The normal turns along an edge from the mean of the normals that meet at its first node to that at its second: else a node that comes to
 //! rest at a bend of a curved target would jump between its two edges for ever.
+//!
+//! Past the surface's end a node rests on the last edge's line as far as [`HANGING`], though its gap be closed: else one that rests there would be let go
+//! because it is closed, and taken back because it then penetrates, for ever.
 
 use std::collections::{HashMap, HashSet};
 
@@ -15,28 +18,30 @@ const ROUNDING: f64 = 1e-9;
 /// Cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a smooth surface: 30 degrees.
 const BEND: f64 = 0.866;
 
+/// How far past the end of the surface a node still rests on it, of the last edge's length: mortar's tolerance for a node off the target. Edges
+/// that lie flush slide by their strain.
+const HANGING: f64 = 0.05;
+
 /// For each entry of `cnt` its foot on the nearest target edge.
 pub(super) fn pairings(surfaces: &Surfaces, node_n: &Table<f64>) -> Vec<Option<Pairing>> {
     let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(node_n)).collect();
     let normals = normals(surfaces, &target);
+    let free = surfaces.free_ends();
     let tributary = surfaces.tributary(node_n);
     let mut met = HashSet::new();
     let entries = surfaces.nodes.iter().zip(tributary);
     entries
         .map(|(&node, length)| {
-            let foot = nearest(&target, point(node_n, node)).filter(|_| met.insert(node))?;
+            let facing = (0..target.len()).filter(|&k| surfaces.face(node, k));
+            let candidates = facing.map(|k| (k, &target[k], free[k]));
+            let foot = nearest(candidates, point(node_n, node)).filter(|_| met.insert(node))?;
             let edge = &surfaces.target[foot.edge];
             let xi = foot.along.clamp(0.0, 1.0);
             let [a, b] = normals[foot.edge];
             let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
-            Some(Pairing {
-                node,
-                edge: edge.number,
-                weights: vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)],
-                gap: foot.outside * dot(normal, target[foot.edge].normal),
-                normal,
-                length,
-            })
+            let weights = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
+            let gap = foot.outside * dot(normal, target[foot.edge].normal);
+            Some(Pairing { node, edge: edge.number, weights, normal, gap, length })
         })
         .collect()
 }
@@ -48,15 +53,19 @@ struct Foot {
     outside: f64,
 }
 
-/// The foot on the nearest edge. None where the point has passed the end of the surface: where it lies further beyond an edge than
-/// away from it.
-fn nearest(target: &[Placed], p: Vector) -> Option<Foot> {
+/// The foot on the nearest of `candidates`: edges, and which of their ends end the surface. None where the point has passed the end of the
+/// surface: where it lies further beyond an edge than away from it.
+fn nearest<'a>(
+    candidates: impl Iterator<Item = (usize, &'a Placed, [bool; 2])>,
+    p: Vector,
+) -> Option<Foot> {
     let mut nearest: Option<(f64, Foot)> = None;
-    for (edge, placed) in target.iter().enumerate() {
+    for (edge, placed, free) in candidates {
         let (along, outside) = (placed.along(p), placed.outside(p));
         let beyond = (along - along.clamp(0.0, 1.0)).abs() * placed.length;
         let distance = outside.hypot(beyond);
-        let on_it = beyond <= outside.abs() || beyond <= ROUNDING * placed.length;
+        let past = if free[usize::from(along > 0.5)] { HANGING } else { ROUNDING };
+        let on_it = beyond <= outside.abs() || beyond <= past * placed.length;
         if on_it && nearest.as_ref().is_none_or(|(least, _)| distance < *least) {
             nearest = Some((distance, Foot { edge, along, outside }));
         }
