@@ -8,7 +8,7 @@
 //! | [`Annulus`], [`Hole`] | Lamé's and Kirsch's closed forms |
 //! | [`Cook`], [`Ellipse`] | a displacement; a stress (NAFEMS LE1) |
 //!
-//! Every mesh is made of rows of nodes, joined two by two by triangles ([`builder`]): the same parameters give the same bytes.
+//! Every mesh is made of rows of nodes, joined two by two by triangles (`builder.rs`): the same parameters give the same bytes.
 
 mod annulus;
 mod blocks;

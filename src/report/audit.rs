@@ -8,7 +8,7 @@ use crate::audit::listings::Which;
 use crate::audit::readings::Effect;
 use crate::audit::variants::{End, VariantRow};
 use crate::audit::{Audit, Converged, FindingRow};
-use crate::contact::{BodySummary, ContactNode, Cycle};
+use crate::contact::{BodySummary, ContactNode, Cycle, Variant};
 use crate::scene::Scene;
 
 /// The tables.
@@ -121,7 +121,10 @@ fn variants(rows: &[VariantRow]) -> String {
             vec![
                 row.variant.to_string(),
                 in_contact.last().map_or(String::new(), usize::to_string),
-                state(cycle),
+                match row.variant {
+                    Variant::Unilateral => "in equilibrium".into(),
+                    _ => state(cycle),
+                },
                 format!("{:.1} %", 100.0 * target_share),
                 short(*eq1_residual),
                 stresses.join(", "),
