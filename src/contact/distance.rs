@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::outcome::{Outcome, max_displacement};
 use super::pairing::Coupling;
-use super::run::{Outcome, run};
+use super::run::run;
 use super::stiffness::Stiffness;
 use super::summary::summaries;
 use super::variant::Variant;
@@ -51,11 +52,11 @@ pub fn reference(scene: &Scene, reading: &Reading) -> Result<Outcome, Error> {
 pub fn distance(scene: &Scene, outcome: &Outcome, converged: &Outcome) -> Distance {
     let difference = &outcome.u - &converged.u;
     let stiffness = Stiffness::new(&converged.sheet);
-    let displacement = super::max_displacement(&difference);
+    let displacement = max_displacement(&difference);
     let bodies = summaries(scene, outcome).into_iter().zip(summaries(scene, converged));
     Distance {
         displacement,
-        displacement_relative: over(displacement, super::max_displacement(&converged.u)),
+        displacement_relative: over(displacement, max_displacement(&converged.u)),
         energy_relative: over(
             stiffness.energy_norm(&difference),
             stiffness.energy_norm(&converged.u),

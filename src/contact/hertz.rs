@@ -12,9 +12,9 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
+use super::outcome::Outcome;
 use super::pairing::{Coupling, Pairing, Surfaces};
 use super::pressure::arcs;
-use super::run::Outcome;
 use crate::mirror::{Plane, Worksheet};
 
 /// Gaps may leave the parabola by this part of the parabola's height at the edge of contact.

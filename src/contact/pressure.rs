@@ -4,7 +4,7 @@ use nalgebra::DVector;
 use serde::Serialize;
 
 use super::pairing::{Pairing, Surfaces};
-use super::unilateral::normal_force;
+use super::support::normal_force;
 use crate::error::InputError;
 use crate::mathcad::array::Table;
 use crate::mirror::Worksheet;

@@ -8,15 +8,14 @@
 use nalgebra::DVector;
 
 use super::elimination::{Elimination, Tie, interpolations, sum, ties};
+use super::outcome::{Cycle, Iteration, Outcome, free_stiffness, max_displacement, shape, states};
 use super::pairing::{Coupling, Surfaces};
 use super::pressure::{ContactNode, Surface};
-use super::run::{
-    Cycle, Iteration, Outcome, Task, free_stiffness, max_displacement, shape, states,
-};
 use super::sparse::Sparse;
 use super::status::{self, StatusRule};
 use super::stiffness::Stiffness;
 use super::support::{against_load, support};
+use super::task::Task;
 use super::variant::Variant;
 use crate::error::{Error, InputError, SingularMatrix};
 use crate::mathcad::array::Table;

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::run::Task;
+use super::task::Task;
 use super::variant::Variant;
 use crate::scalar::{Bounded, F64x2, Scalar};
 use crate::solve::{

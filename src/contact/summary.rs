@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::run::Outcome;
+use super::outcome::Outcome;
 use crate::scene::{Body, Scene};
 
 /// The largest values of a body.

@@ -3,6 +3,8 @@
 use nalgebra::DVector;
 
 use super::elimination::{Motion, Tie, sum};
+use super::pairing::Pairing;
+use crate::mirror::Worksheet;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 
@@ -48,6 +50,17 @@ pub(super) fn along<T: Scalar>(normal: [T; 2], free: [bool; 2], force: [T; 2]) -
         [true, false] => force[0] / normal[0],
         [false, false] => T::zero(),
     }
+}
+
+/// A contact force's component along the normal, force: where S holds one direction of the node, from the other one.
+pub(super) fn normal_force(
+    sheet: &Worksheet<f64>,
+    pairing: &Pairing,
+    reaction: &DVector<f64>,
+) -> f64 {
+    let first = 2 * pairing.node - 2;
+    let free = [0, 1].map(|d| sheet.S[first + d + 1] == 0);
+    along(pairing.normal, free, [reaction[first], reaction[first + 1]])
 }
 
 /// The reactions taken against the direction of the load, force.

@@ -22,10 +22,10 @@ use std::collections::HashMap;
 use nalgebra::DVector;
 
 use super::elimination::{Elimination, HeldAlongNormal, Motion, Tie};
+use super::outcome::{Cycle, shape};
 use super::pairing::{Pairing, Surfaces};
-use super::run::{Cycle, shape};
 use super::stiffness::Stiffness;
-use super::support::along;
+use super::support::normal_force;
 use super::variant::Friction;
 use crate::error::InputError;
 use crate::mathcad::array::Table;
@@ -143,10 +143,7 @@ struct Memory {
 
 impl<'a> Problem<'a> {
     fn new(scene: &'a Scene, sheet: &'a Worksheet<f64>) -> Result<Self, InputError> {
-        let load = DVector::from_fn(2 * sheet.R(), |e, _| match sheet.S[e + 1] {
-            1 => 0.0,
-            _ => scene.load[e],
-        });
+        let load = scene.free_load();
         Ok(Problem {
             scene,
             sheet,
@@ -322,17 +319,6 @@ fn no_equilibrium(steps: &[Step]) -> InputError {
         ),
         "see whether the loads pull a body off its target, slide it off the target's end or turn it over; restrain its turning where friction would",
     )
-}
-
-/// A contact force's component along the normal, force: where S holds one direction of the node, from the other one.
-pub(super) fn normal_force(
-    sheet: &Worksheet<f64>,
-    pairing: &Pairing,
-    reaction: &DVector<f64>,
-) -> f64 {
-    let first = 2 * pairing.node - 2;
-    let free = [0, 1].map(|d| sheet.S[first + d + 1] == 0);
-    along(pairing.normal, free, [reaction[first], reaction[first + 1]])
 }
 
 /// The nodes whose gaps are closed at the start: those that touch or penetrate, else those with the least gap.

@@ -52,8 +52,7 @@ fn last_state(scene: &Scene, outcome: &Outcome) -> Option<DVector<Bounded>> {
     let ties = outcome.iterations.last()?.ties.iter().map(|tie| tie.map(Bounded::from_f64));
     let t = Elimination::with_normals(&sheet, &ties.collect::<Vec<_>>()).ok()?;
     let stiffness = Stiffness::new(&sheet);
-    let load = |e: usize| if sheet.S[e + 1] == 1 { 0.0 } else { scene.load[e] };
-    let load = DVector::from_fn(scene.load.len(), |e, _| Bounded::from_f64(load(e)));
+    let load = scene.free_load().map(Bounded::from_f64);
     let (matrix, b) = (stiffness.reduced(&t), t.load(&(load - stiffness.times(t.shift()))));
     let factors = SparseCholesky::new(matrix.map(|a| a.to_f64())).ok()?;
     let x = factors.solve(&b.map(Scalar::to_f64));

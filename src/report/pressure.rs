@@ -1,6 +1,7 @@
 //! The contact pressure along the contact surface, several runs in one picture.
 
 use super::picture::{Axis, Series, Style, chart};
+use super::tables::with_unit;
 use crate::contact::{ContactNode, Hertz, Outcome, Variant};
 use crate::scene::Scene;
 
@@ -25,15 +26,11 @@ pub fn picture(scene: &Scene, runs: &[&Outcome]) -> String {
             hertz.half_width, hertz.peak, hertz.radius
         ));
     }
-    let x = label("distance along the contact surface", &scene.units.length);
-    let y = label("contact pressure", &scene.units.stress);
+    let x = with_unit("distance along the contact surface", &scene.units.length);
+    let y = with_unit("contact pressure", &scene.units.stress);
     let axis = |label| Axis { label, logarithmic: false };
     let title = format!("{}: contact pressure", scene.title);
     chart(&title, [axis(&x), axis(&y)], &series, &captions)
-}
-
-fn label(quantity: &str, unit: &str) -> String {
-    if unit.is_empty() { quantity.into() } else { format!("{quantity}, {unit}") }
 }
 
 /// The stretch of the surface that any run has in contact, with a margin; all of it where none has.

@@ -39,7 +39,7 @@ fn is_number(cell: &str) -> bool {
 }
 
 /// `name (unit)`, or the name alone where the scene names no unit.
-fn with_unit(name: &str, unit: &str) -> String {
+pub(super) fn with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.into() } else { format!("{name}, {unit}") }
 }
 

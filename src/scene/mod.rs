@@ -173,6 +173,14 @@ impl Scene {
         self.sheet.c_tll = c_tll;
     }
 
+    /// The load on all 2R equations, 0 at restrained ones, force.
+    pub fn free_load(&self) -> DVector<f64> {
+        DVector::from_fn(self.load.len(), |e, _| match self.sheet.S[e + 1] {
+            1 => 0.0,
+            _ => self.load[e],
+        })
+    }
+
     /// Sum of the loads, force.
     pub fn total_load(&self) -> [f64; 2] {
         [0, 1].map(|direction| self.load.iter().skip(direction).step_by(2).sum())

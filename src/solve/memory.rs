@@ -4,9 +4,6 @@ use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
 use crate::error::InputError;
 
-/// Matrices of (2R)² numbers that a solution holds at once: `K`, the matrix of the iteration, its LU factors.
-pub const OF_A_SOLUTION: usize = 3;
-
 /// Bytes of `matrices` dense matrices for `r` nodes.
 pub fn needed(r: usize, matrices: usize) -> u128 {
     let equations = 2 * r as u128;

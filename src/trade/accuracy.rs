@@ -143,7 +143,7 @@ fn amplification(
 ) -> Option<f64> {
     let t = Elimination::new(sheet, ties);
     let matrix = Stiffness::new(sheet).reduced(&t);
-    let b = t.load(&free_load(scene, sheet));
+    let b = t.load(&scene.free_load());
     let factors = SparseCholesky::new(matrix.clone()).ok()?;
     let x = match u {
         Some(u) => DVector::from_fn(t.size(), |k, _| u[t.equation(k)]),
@@ -158,11 +158,6 @@ fn amplification(
     }
     let amplified = inverse_norm(&factors as &dyn Factors<f64>, &w);
     if amplified == 0.0 { Some(0.0) } else { Some(amplified / x.amax() / (t.size() as f64).sqrt()) }
-}
-
-/// The load, 0 where S holds.
-fn free_load(scene: &Scene, sheet: &Worksheet<f64>) -> DVector<f64> {
-    DVector::from_fn(2 * sheet.R(), |e, _| if sheet.S[e + 1] == 1 { 0.0 } else { scene.load[e] })
 }
 
 fn unmet(accuracy: f64, attempts: &[Attempt]) -> InputError {
