@@ -5,9 +5,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use plane_contact::audit::listings::{self, Which, settings};
-use plane_contact::mirror::{Reading, c_cnt};
-use plane_contact::scene::Scene;
+use plane_contact::paper::listings::{self, Which, settings};
+use plane_contact::paper::mirror::{Reading, c_cnt};
+use plane_contact::problem::scene::Scene;
 
 /// A command, how often it runs, and what it should keep to.
 struct Case {

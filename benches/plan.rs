@@ -6,13 +6,14 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use clap::Parser;
-use plane_contact::benchmark::Kind;
-use plane_contact::contact::{Variant, max_displacement, run_in};
-use plane_contact::mirror::Reading;
-use plane_contact::plan::{Machine, Plan};
-use plane_contact::scene::Scene;
-use plane_contact::scene::symmetry::half;
-use plane_contact::solve::{Arithmetic, Solver};
+use plane_contact::answer::contact::{max_displacement, run_in};
+use plane_contact::numbers::solve::{Arithmetic, Solver};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use plane_contact::problem::scene::symmetry::half;
+use plane_contact::studies::benchmark::Kind;
+use plane_contact::studies::plan::{Machine, Plan};
 
 /// A scene, or the words of `mesh` that make it; variant and solver where they are not the scene's.
 type Case = (&'static str, Option<Variant>, Option<Solver>);

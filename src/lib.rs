@@ -2,15 +2,15 @@
 //! (A. M. Filipov, M. V. Khomenko, «Решение плоской контактной задачи методом конечных элементов»).
 //!
 //! Two layers, each checked against the other bit for bit: the **listing**, text executed with Mathcad's semantics
-//! ([`mathcad`]), and the **mirror**, the same in Rust, line by line ([`mirror`]).
+//! ([`paper::mathcad`]), and the **mirror**, the same in Rust, line by line ([`paper::mirror`]).
 //!
 //! | paper | text | Rust |
 //! |---|---|---|
-//! | fig. 2, `c_cnt` | `listings/c_cnt.txt` | [`mirror::c_cnt`](fn@mirror::c_cnt) |
-//! | fig. 3, `Km` | `listings/Km.txt` | [`mirror::Km`](fn@mirror::Km) |
-//! | eq. (1) | - | [`contact::Elimination`] |
-//! | "20 iterations" | - | [`contact::run`](fn@contact::run) |
-//! | `Ae`, `B`, `D`, stresses: not printed | - | [`element`] |
+//! | fig. 2, `c_cnt` | `listings/c_cnt.txt` | [`paper::mirror::c_cnt`](fn@paper::mirror::c_cnt) |
+//! | fig. 3, `Km` | `listings/Km.txt` | [`paper::mirror::Km`](fn@paper::mirror::Km) |
+//! | eq. (1) | - | [`answer::contact::Elimination`] |
+//! | "20 iterations" | - | [`answer::contact::run`](fn@answer::contact::run) |
+//! | `Ae`, `B`, `D`, stresses: not printed | - | [`problem::element`] |
 //! | fig. 4, fig. 5 | - | [`report::picture`] |
 //!
 //! From a scene to a result:
@@ -25,20 +25,12 @@
 //! The table of symbols, with shapes and units, is in `README.md`.
 #![forbid(unsafe_code)]
 
-pub mod audit;
-pub mod benchmark;
-pub mod calculix;
+pub mod answer;
 mod choices;
-pub mod contact;
-pub mod element;
 pub mod error;
-pub mod error_bars;
-pub mod extremes;
-pub mod mathcad;
-pub mod mirror;
-pub mod plan;
+pub mod files;
+pub mod numbers;
+pub mod paper;
+pub mod problem;
 pub mod report;
-pub mod scalar;
-pub mod scene;
-pub mod solve;
-pub mod trade;
+pub mod studies;

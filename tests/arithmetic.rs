@@ -5,9 +5,9 @@ mod common;
 use common::tolerances::{DOUBLE_DOUBLE, Tolerance};
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
-use plane_contact::mirror::{Cause, Reading, c_cnt};
-use plane_contact::scalar::{Exact, F64x2, Scalar, rational, scope};
-use plane_contact::scene::Scene;
+use plane_contact::numbers::scalar::{Exact, F64x2, Scalar, rational, scope};
+use plane_contact::paper::mirror::{Cause, Reading, c_cnt};
+use plane_contact::problem::scene::Scene;
 use proptest::prelude::*;
 
 /// A float of any sign whose size is within 2^±`range`.

@@ -10,7 +10,7 @@ mod common;
 
 use common::recovery::{node_at, solved};
 use common::tolerances::{COOK, assert_near};
-use plane_contact::benchmark::Cook;
+use plane_contact::studies::benchmark::Cook;
 
 /// Divisions and displacement.
 const KNOWN: [(usize, f64); 6] =

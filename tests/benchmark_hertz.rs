@@ -16,8 +16,9 @@ mod common;
 
 use common::recovery::solved_by;
 use common::tolerances::{HERTZ_COARSE, HERTZ_FINE, HERTZ_PRINTED, KNOWN_CURVATURE, assert_near};
-use plane_contact::benchmark::Hertz;
-use plane_contact::contact::{Coupling, Geometry, Model, Outcome};
+use plane_contact::answer::contact::Outcome;
+use plane_contact::problem::modelling::{ContactModel, Coupling, Geometry};
+use plane_contact::studies::benchmark::Hertz;
 
 const HALF_WIDTH: f64 = 6.2146;
 const PEAK: f64 = 3585.36;
@@ -40,7 +41,7 @@ fn fitted(outcome: &Outcome) -> [f64; 2] {
 }
 
 /// Half width and peak over Hertz's at `load`, N/mm.
-fn over_hertz(size: usize, load: f64, change: impl Fn(&mut Model)) -> [f64; 2] {
+fn over_hertz(size: usize, load: f64, change: impl Fn(&mut ContactModel)) -> [f64; 2] {
     let hertz = Hertz { size, load, ..Hertz::default() };
     let (_, outcome) = solved_by(hertz.generate(), change);
     let [half_width, peak] = fitted(&outcome);

@@ -13,7 +13,7 @@ mod common;
 
 use common::recovery::{extrapolated, node_at, solved};
 use common::tolerances::{KIRSCH, assert_near};
-use plane_contact::benchmark::Hole;
+use plane_contact::studies::benchmark::Hole;
 
 /// sigma_x at (0, 1) and sigma_y at (1, 0).
 fn at_the_hole(around: usize, outer: f64) -> [f64; 2] {

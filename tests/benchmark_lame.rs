@@ -14,9 +14,9 @@ mod common;
 
 use common::recovery::{extrapolated, node_at, order, solved};
 use common::tolerances::{LAME_DISPLACEMENT, LAME_ORDER, LAME_STRESS, assert_near};
-use plane_contact::benchmark::Annulus;
-use plane_contact::contact::Outcome;
-use plane_contact::scene::Mesh;
+use plane_contact::answer::contact::Outcome;
+use plane_contact::problem::scene::Mesh;
+use plane_contact::studies::benchmark::Annulus;
 
 fn annulus(n: usize) -> (Mesh, Outcome) {
     solved(Annulus { radial: n, around: 2 * n }.generate())

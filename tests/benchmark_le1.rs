@@ -14,7 +14,7 @@ mod common;
 
 use common::recovery::{averaged, extrapolated, node_at, solved};
 use common::tolerances::{LE1_GRID, LE1_LIMIT, assert_near};
-use plane_contact::benchmark::Ellipse;
+use plane_contact::studies::benchmark::Ellipse;
 
 const LIMIT: f64 = 92.7;
 

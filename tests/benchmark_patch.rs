@@ -11,8 +11,9 @@ mod common;
 
 use common::recovery::solved_by;
 use common::tolerances::{KNOWN_NTS, PATCH_TEST, assert_near};
-use plane_contact::benchmark::Blocks;
-use plane_contact::contact::{Coupling, Outcome};
+use plane_contact::answer::contact::Outcome;
+use plane_contact::problem::modelling::Coupling;
+use plane_contact::studies::benchmark::Blocks;
 
 const P: f64 = 6.3;
 

@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 
 use common::recovery::solved;
 use common::tolerances::{PUNCH, assert_near};
-use plane_contact::benchmark::Punch;
-use plane_contact::contact::Outcome;
+use plane_contact::answer::contact::Outcome;
+use plane_contact::studies::benchmark::Punch;
 
 /// As far as this the corner's last nodes do not show.
 const AWAY: f64 = 0.75;

@@ -11,8 +11,9 @@ mod common;
 
 use common::recovery::solved_by;
 use common::tolerances::{PATCH_TEST, assert_near};
-use plane_contact::benchmark::PunchPatch;
-use plane_contact::contact::{Coupling, Outcome};
+use plane_contact::answer::contact::Outcome;
+use plane_contact::problem::modelling::Coupling;
+use plane_contact::studies::benchmark::PunchPatch;
 
 fn punch(coupling: Coupling) -> Outcome {
     solved_by(PunchPatch::default().generate(), |model| model.coupling = coupling).1

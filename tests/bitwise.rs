@@ -7,15 +7,16 @@
 mod common;
 
 use nalgebra::SMatrix;
-use plane_contact::audit::listings::{self, Which, settings};
-use plane_contact::element;
-use plane_contact::mathcad::array::{Column, Table};
-use plane_contact::mathcad::{Cause as MathcadCause, Failure as MathcadFailure};
-use plane_contact::mirror::{
-    Cause, Failure, Km, LoopPlace, NodeTable, Order, Pairs, Plane, Reading, RestraintIndex, Wedge,
+use plane_contact::paper::listings::{self, Which, settings};
+use plane_contact::paper::mathcad::array::{Column, Table};
+use plane_contact::paper::mathcad::{Cause as MathcadCause, Failure as MathcadFailure};
+use plane_contact::paper::mirror::{
+    Cause, Failure, Km, LoopPlace, NodeTable, Order, Pairs, Reading, RestraintIndex, Wedge,
     Worksheet, c_cnt,
 };
-use plane_contact::scene::{SCENES, Scene};
+use plane_contact::problem::element;
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::scene::{SCENES, Scene};
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 

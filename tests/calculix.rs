@@ -7,10 +7,13 @@ use std::process::{Command, Output};
 use common::golden::assert_golden;
 use common::tolerances::{CCX_PRINTS, PENALTY, PENALTY_STRESS, assert_near};
 use common::{build, solve};
-use plane_contact::calculix::{Comparison, Contact, Fields, Pair, Part, Problem, deck, parse, run};
-use plane_contact::contact::{self, Coupling, Friction, Geometry, Model, Outcome, Variant};
-use plane_contact::mirror::Reading;
-use plane_contact::scene::Scene;
+use plane_contact::answer::contact::{self, Outcome};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
+use plane_contact::problem::scene::Scene;
+use plane_contact::studies::calculix::{
+    Comparison, Contact, Fields, Pair, Part, Problem, deck, parse, run,
+};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -209,13 +212,22 @@ fn ccx_solves_the_same_equations() {
 }
 
 /// Every way to model contact under `unilateral`.
-fn models() -> Vec<Model> {
+fn models() -> Vec<ContactModel> {
     let mut models = Vec::new();
     for &coupling in Coupling::ALL {
         for &geometry in Geometry::ALL {
-            models.push(Model { coupling, friction: Friction::None, geometry, ..Model::default() });
+            models.push(ContactModel {
+                coupling,
+                friction: Friction::None,
+                geometry,
+                ..ContactModel::default()
+            });
         }
-        models.push(Model { coupling, friction: Friction::Stick, ..Model::default() });
+        models.push(ContactModel {
+            coupling,
+            friction: Friction::Stick,
+            ..ContactModel::default()
+        });
     }
     models
 }
@@ -236,7 +248,7 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
         return;
     }
     for (name, mut scene) in scenes() {
-        scene.contact = Model { friction: Friction::None, ..Model::default() };
+        scene.contact = ContactModel { friction: Friction::None, ..ContactModel::default() };
         let outcome = outcome(&scene, Variant::Unilateral);
         let pair = Pair::new(&outcome.sheet, None, Friction::None);
         let part = Part { contact: Contact::Pair(pair), share: 1.0 };

@@ -99,9 +99,10 @@ fn floats_read_back_to_the_same_bits() {
     let folder = TempDir::new().unwrap();
     let printed = succeeds(folder.path(), &["solve", "fig1", "--json"]);
     let result: Value = serde_json::from_str(&printed).unwrap();
-    let scene = plane_contact::scene::Scene::open("fig1").unwrap();
-    let reading = plane_contact::mirror::Reading::default();
-    let outcome = plane_contact::contact::run(&scene, scene.variant, &reading, |_| ()).unwrap();
+    let scene = plane_contact::problem::scene::Scene::open("fig1").unwrap();
+    let reading = plane_contact::paper::mirror::Reading::default();
+    let outcome =
+        plane_contact::answer::contact::run(&scene, scene.variant, &reading, |_| ()).unwrap();
     for (n, u) in result["u"].as_array().unwrap().iter().enumerate() {
         assert_eq!(u[0].as_f64().unwrap().to_bits(), outcome.u[2 * n].to_bits());
         assert_eq!(u[1].as_f64().unwrap().to_bits(), outcome.u[2 * n + 1].to_bits());

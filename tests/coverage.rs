@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 
 use common::golden::assert_golden;
 use common::shipped_scenes;
-use plane_contact::audit::listings::{self, Which, settings};
-use plane_contact::mathcad::{Coverage, Listing};
-use plane_contact::mirror::{Reading, c_cnt};
+use plane_contact::paper::listings::{self, Which, settings};
+use plane_contact::paper::mathcad::{Coverage, Listing};
+use plane_contact::paper::mirror::{Reading, c_cnt};
 
 /// Operands that can never be the only false one, on any scene:
 /// - c_cnt 17, 18: ct = 0 leaves yt = 0 (lines 9, 10), so that yt < 0 is false too;

@@ -18,11 +18,13 @@ use common::{build, solve as solve_embedded};
 use fields::{CANTILEVER, CONSTANT, Field, KIRSCH, LAME, LINEAR, polynomial};
 use meshes::{Cut, Grid, annulus, beam, elem_table, holed_plate, node_table, rectangle};
 use nalgebra::Vector2;
-use plane_contact::contact::{Outcome, Variant, run};
-use plane_contact::element::State;
-use plane_contact::error_bars::discretisation::{Discretisation, LargestVonMises};
-use plane_contact::mirror::{Plane, Reading};
-use plane_contact::scene::Scene;
+use plane_contact::answer::contact::{Outcome, run};
+use plane_contact::answer::estimates::discretisation::{Discretisation, LargestVonMises};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::element::State;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
 use serde_json::json;
 
 struct Benchmark {

@@ -5,8 +5,8 @@ mod common;
 
 use common::tolerances::{ELEMENT, PATCH, RIGID, assert_near};
 use nalgebra::{Matrix3, SVector};
-use plane_contact::element::{B, Corners, D, State, area};
-use plane_contact::mirror::Plane;
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::element::{B, Corners, D, State, area};
 use proptest::prelude::*;
 
 /// Triangles in a box of size 10, counter-clockwise, not thinner than 1 in 100.

@@ -5,16 +5,15 @@ mod common;
 use common::shipped_scenes;
 use common::tolerances::{BAR_WIDTH_OF_ROUNDING, Tolerance};
 use nalgebra::DVector;
-use plane_contact::benchmark::Blocks;
-use plane_contact::contact::{
-    Coupling, Elimination, Friction, Outcome, Stiffness, Tie, Variant, run, run_in,
-};
-use plane_contact::element;
-use plane_contact::error_bars::arithmetic::{displacement_bound, stress_bounds};
-use plane_contact::mirror::Reading;
-use plane_contact::scalar::{Exact, Scalar, scope};
-use plane_contact::scene::Scene;
-use plane_contact::solve::{Arithmetic, Ldlt, ScalarName, Solver};
+use plane_contact::answer::contact::{Elimination, Outcome, Stiffness, Tie, run, run_in};
+use plane_contact::answer::estimates::arithmetic::{displacement_bound, stress_bounds};
+use plane_contact::numbers::scalar::{Exact, Scalar, scope};
+use plane_contact::numbers::solve::{Arithmetic, Ldlt, ScalarName, Solver};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::element;
+use plane_contact::problem::modelling::{Coupling, Friction, Variant};
+use plane_contact::problem::scene::Scene;
+use plane_contact::studies::benchmark::Blocks;
 
 /// Exact numbers are for scenes of this many equations at most, in a test.
 const EQUATIONS: usize = 80;

@@ -6,8 +6,8 @@ use std::sync::LazyLock;
 
 use common::golden::assert_golden_by;
 use common::tolerances::{EXTREME_DECADES, EXTREME_DIGITS};
-use plane_contact::extremes::{Measured, Verdict, generators, measure};
 use plane_contact::report::extremes as report;
+use plane_contact::studies::extremes::{Measured, Verdict, generators, measure};
 
 static MEASURED: LazyLock<Vec<Measured>> = LazyLock::new(|| measure(&generators()));
 

@@ -9,11 +9,12 @@ use std::fmt::Write as _;
 use common::build;
 use common::golden::{assert_golden, number};
 use common::tolerances::{FINDING, assert_near};
-use plane_contact::audit::Case;
-use plane_contact::audit::findings::{FINDINGS, Finding, Measured, Verdict};
-use plane_contact::contact::{Variant, run};
-use plane_contact::mirror::{Km, Reading, c_cnt};
-use plane_contact::scene::{FINDING_SCENES, SCENES, Scene};
+use plane_contact::answer::contact::run;
+use plane_contact::paper::mirror::{Km, Reading, c_cnt};
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::{FINDING_SCENES, SCENES, Scene};
+use plane_contact::studies::audit::Case;
+use plane_contact::studies::audit::findings::{FINDINGS, Finding, Measured, Verdict};
 use serde_json::{Value, json};
 
 fn finding(id: &str) -> &'static Finding {

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use plane_contact::scene::gmsh::{GmshError, read};
-use plane_contact::scene::{Element, Mesh, Node, PhysicalName};
+use plane_contact::problem::scene::gmsh::{GmshError, read};
+use plane_contact::problem::scene::{Element, Mesh, Node, PhysicalName};
 use proptest::prelude::*;
 use proptest::sample::Index;
 

@@ -6,10 +6,11 @@ use std::fmt::Write as _;
 
 use common::golden::{assert_golden, number, same_text};
 use common::solve;
-use plane_contact::contact::{Outcome, Variant};
-use plane_contact::mathcad::array::Table;
-use plane_contact::mirror::{Km, Pairs, Reading, Worksheet, c_cnt};
-use plane_contact::scene::{SCENES, Scene};
+use plane_contact::answer::contact::Outcome;
+use plane_contact::paper::mathcad::array::Table;
+use plane_contact::paper::mirror::{Km, Pairs, Reading, Worksheet, c_cnt};
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::{SCENES, Scene};
 
 #[test]
 fn integers_are_exact_and_floats_within_the_tolerance_of_their_line() {

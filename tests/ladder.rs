@@ -8,15 +8,16 @@ use common::tolerances::{
 use common::{build, scene_json, shipped_scenes};
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
-use plane_contact::contact::{Outcome, Variant, run, run_in};
-use plane_contact::error::Error;
-use plane_contact::mirror::Reading;
-use plane_contact::scalar::{Bounded, Exact, F64x2, Scalar, scope};
-use plane_contact::scene::Scene;
-use plane_contact::solve::{
+use plane_contact::answer::contact::{Outcome, run, run_in};
+use plane_contact::answer::error::Error;
+use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
+use plane_contact::numbers::solve::{
     Arithmetic, DenseLu, Inputs, Ldlt, Rung, ScalarName, Solver, SparseSymmetric,
     conjugate_gradients, inverse_norm, lift, solve_dense,
 };
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
 use proptest::prelude::*;
 
 const PUBLISHED: [Variant; 3] = [Variant::Printed, Variant::Tied, Variant::Stepped];

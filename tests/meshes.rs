@@ -7,11 +7,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::process::{Command, Output};
 
 use common::tolerances::{CHORDS, STRAIGHT, Tolerance, assert_near};
-use plane_contact::benchmark::{
+use plane_contact::problem::element;
+use plane_contact::problem::scene::{Mesh, gmsh};
+use plane_contact::studies::benchmark::{
     Annulus, Benchmark, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch,
 };
-use plane_contact::element;
-use plane_contact::scene::{Mesh, gmsh};
 use tempfile::TempDir;
 
 /// A kind with the area of each body and the length of each group of edges.

@@ -3,12 +3,12 @@
 mod common;
 
 use common::{build, scene_json};
-use plane_contact::contact::Variant;
-use plane_contact::mirror::Reading;
-use plane_contact::plan::{Idle, Plan, Storage};
+use plane_contact::numbers::solve::{Arithmetic, Solver, memory};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan::line;
-use plane_contact::scene::Scene;
-use plane_contact::solve::{Arithmetic, Solver, memory};
+use plane_contact::studies::plan::{Idle, Plan, Storage};
 use serde_json::json;
 
 fn plan_of(scene: &Scene, variant: Variant, solver: Option<Solver>) -> Plan {
@@ -137,7 +137,8 @@ fn a_body_that_nothing_moves_is_found() {
     assert_eq!(idle, [None, None, Some(Idle::NoLoadNoContact)]);
     assert_eq!(plan.equations.idle, 2);
     let outcome =
-        plane_contact::contact::run(&scene, Variant::Tied, &Reading::default(), |_| ()).unwrap();
+        plane_contact::answer::contact::run(&scene, Variant::Tied, &Reading::default(), |_| ())
+            .unwrap();
     assert!(outcome.u.iter().skip(36).all(|u| *u == 0.0), "and it does not move");
 }
 

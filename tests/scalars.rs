@@ -3,8 +3,8 @@
 mod common;
 
 use common::tolerances::{SINGLE, SINGLE_GAP, assert_near};
-use plane_contact::mirror::{Km, Reading, c_cnt};
-use plane_contact::scene::Scene;
+use plane_contact::paper::mirror::{Km, Reading, c_cnt};
+use plane_contact::problem::scene::Scene;
 
 #[test]
 fn f32_follows_f64() {

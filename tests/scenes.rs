@@ -4,7 +4,7 @@ mod common;
 
 use common::{build, scene_json};
 use plane_contact::error::InputError;
-use plane_contact::mirror::Reading;
+use plane_contact::paper::mirror::Reading;
 use serde_json::{Value, json};
 
 /// What is said of `fig1` once `change` has been made.
@@ -52,8 +52,9 @@ fn fields() {
 #[test]
 fn text_that_is_no_scene() {
     let parse = |text: &str| {
-        let error =
-            plane_contact::scene::Scene::build("test", text.as_bytes(), |_| Err("no".into()));
+        let error = plane_contact::problem::scene::Scene::build("test", text.as_bytes(), |_| {
+            Err("no".into())
+        });
         error.expect_err("refused")
     };
     says(&parse("{"), "the scene file", &["EOF", "line 1"]);
@@ -234,7 +235,7 @@ fn orphans() {
     scene["drop_orphans"] = json!(true);
     let dropped = build(&scene).expect("the orphan is dropped");
     assert_eq!(dropped.dropped, [5]);
-    let same = |s: &plane_contact::scene::Scene| s.worksheet(&Reading::default()).unwrap();
+    let same = |s: &plane_contact::problem::scene::Scene| s.worksheet(&Reading::default()).unwrap();
     let mut original = scene_json("fig1");
     original["restraints"].as_array_mut().unwrap().swap(1, 2);
     assert_eq!(same(&dropped), same(&build(&original).unwrap()));
@@ -268,7 +269,8 @@ fn names_tags_and_lists_are_one() {
     let mut scene = scene_json("fig1");
     scene["contact"]["cnt"] = json!(20);
     scene["contact"]["trg"] = json!("10");
-    let sheet = |s: &plane_contact::scene::Scene| s.worksheet(&Reading::default()).unwrap();
+    let sheet =
+        |s: &plane_contact::problem::scene::Scene| s.worksheet(&Reading::default()).unwrap();
     assert_eq!(sheet(&build(&scene).unwrap()), sheet(&by_list));
 }
 
@@ -281,7 +283,7 @@ fn a_name_belongs_to_one_group() {
     let scene = r#"{"mesh": "m.msh", "plane": "strain", "materials": {"body": {"E": 1, "nu": 0}},
         "restraints": [{"on": "top", "fix": ["x", "y"]}]}"#;
     let read = |mesh: String| {
-        plane_contact::scene::Scene::build("test", scene.as_bytes(), move |_| {
+        plane_contact::problem::scene::Scene::build("test", scene.as_bytes(), move |_| {
             Ok(mesh.clone().into())
         })
     };

@@ -3,13 +3,15 @@
 mod common;
 
 use common::tolerances::{FOOT, assert_near};
-use plane_contact::audit::statuses::{Measurement, Row, measure};
-use plane_contact::contact::{
-    Operations, Outcome, StatusRule, TargetSurface, Variant, pairs, run, shape, statuses, summaries,
+use plane_contact::answer::contact::{
+    Operations, Outcome, TargetSurface, pairs, run, shape, statuses, summaries,
 };
-use plane_contact::mathcad::array::{Column, Table};
-use plane_contact::mirror::{Cause, NodeTable, Plane, Reading, Worksheet, c_cnt};
-use plane_contact::scene::Scene;
+use plane_contact::paper::mathcad::array::{Column, Table};
+use plane_contact::paper::mirror::{Cause, NodeTable, Reading, Worksheet, c_cnt};
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::modelling::{StatusRule, Variant};
+use plane_contact::problem::scene::Scene;
+use plane_contact::studies::audit::statuses::{Measurement, Row, measure};
 
 const C: f64 = 0.001;
 

@@ -4,15 +4,17 @@ mod common;
 
 use common::build;
 use common::tolerances::{HALF, LAME_ENERGY_ORDER, assert_near};
-use plane_contact::benchmark::Annulus;
-use plane_contact::contact::{Outcome, Variant, run};
-use plane_contact::error::{Error, InputError};
-use plane_contact::mirror::Reading;
+use plane_contact::answer::contact::{Outcome, run};
+use plane_contact::answer::error::Error;
+use plane_contact::error::InputError;
+use plane_contact::numbers::solve::ScalarName;
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use plane_contact::problem::scene::symmetry::half;
 use plane_contact::report::trade as report;
-use plane_contact::scene::Scene;
-use plane_contact::scene::symmetry::half;
-use plane_contact::solve::ScalarName;
-use plane_contact::trade::{self, Knob, Options, Order, Trade, pareto, solve_to};
+use plane_contact::studies::benchmark::Annulus;
+use plane_contact::studies::trade::{self, Knob, Options, Order, Trade, pareto, solve_to};
 use serde_json::{Value, json};
 
 fn measured(scene: &Scene, only: &[Knob]) -> Trade {
@@ -151,7 +153,8 @@ fn a_finer_scene_keeps_its_nodes_area_load_and_surfaces() {
         assert_eq!(after.M(), 4 * before.M());
         assert_eq!(after.trg.rows(), 2 * before.trg.rows(), "{name}");
         assert_eq!(after.cnt.rows(), 2 * before.cnt.rows() - 1, "{name}");
-        let area = |sheet: &plane_contact::mirror::Worksheet<f64>| sheet.Ae.iter().sum::<f64>();
+        let area =
+            |sheet: &plane_contact::paper::mirror::Worksheet<f64>| sheet.Ae.iter().sum::<f64>();
         assert_near("area", area(&after), area(&before), area(&before), &HALF);
         let (load, total) = (scene.total_load(), finer.total_load());
         assert_near("load", total[1], load[1], load[1], &HALF);

@@ -6,30 +6,38 @@ use common::build;
 use common::tolerances::{
     BALANCE, COMPLEMENTARITY, CURRENT_LENGTHS, FAR_FROM_THE_ORIGIN, FORCE_OF_A_SLOPE, assert_near,
 };
-use plane_contact::benchmark::{Blocks, Hertz, Punch, PunchPatch};
-use plane_contact::contact::{
-    Coupling, Friction, Geometry, Model, Outcome, Variant, distance, reference, run,
-};
-use plane_contact::error::Error;
-use plane_contact::mirror::Reading;
-use plane_contact::scene::{SCENES, Scene};
+use plane_contact::answer::contact::{Outcome, distance, reference, run};
+use plane_contact::answer::error::Error;
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
+use plane_contact::problem::scene::{SCENES, Scene};
+use plane_contact::studies::benchmark::{Blocks, Hertz, Punch, PunchPatch};
 use serde_json::json;
 
 /// The most iterations that an equilibrium may take.
 const ITERATIONS: usize = 12;
 
-fn models() -> Vec<Model> {
+fn models() -> Vec<ContactModel> {
     let mut models = Vec::new();
     for &coupling in Coupling::ALL {
-        models.push(Model { coupling, friction: Friction::Stick, ..Model::default() });
+        models.push(ContactModel {
+            coupling,
+            friction: Friction::Stick,
+            ..ContactModel::default()
+        });
         for &geometry in Geometry::ALL {
-            models.push(Model { coupling, friction: Friction::None, geometry, ..Model::default() });
+            models.push(ContactModel {
+                coupling,
+                friction: Friction::None,
+                geometry,
+                ..ContactModel::default()
+            });
         }
     }
     models
 }
 
-fn solve(scene: &Scene, model: Model) -> Outcome {
+fn solve(scene: &Scene, model: ContactModel) -> Outcome {
     let mut scene = scene.clone();
     scene.contact = model;
     run(&scene, Variant::Unilateral, &Reading::default(), |_| ()).expect("there is an equilibrium")
@@ -46,7 +54,7 @@ fn size(outcome: &Outcome) -> f64 {
 }
 
 /// Force balance, complementarity, no node that pulls, none that penetrates, few iterations.
-fn assert_equilibrium(name: &str, scene: &Scene, model: Model) {
+fn assert_equilibrium(name: &str, scene: &Scene, model: ContactModel) {
     let outcome = solve(scene, model);
     let what = |of: &str| format!("{name}, {model:?}: {of}");
     let last = outcome.iterations.last().unwrap();
@@ -111,7 +119,7 @@ fn every_model_ends_in_equilibrium_on_the_benchmarks() {
 fn current_and_initial_shape_agree_as_displacements_vanish() {
     let scene =
         Hertz { size: 20, load: 35.0, ..Hertz::default() }.generate().unwrap().scene().unwrap();
-    let of = |geometry| solve(&scene, Model { geometry, ..scene.contact });
+    let of = |geometry| solve(&scene, ContactModel { geometry, ..scene.contact });
     let (current, initial) = (of(Geometry::Current), of(Geometry::Initial));
     let peak = |outcome: &Outcome| outcome.contact[0].pressure;
     assert_near("peak", peak(&current), peak(&initial), peak(&initial), &CURRENT_LENGTHS);

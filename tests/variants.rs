@@ -4,9 +4,10 @@ mod common;
 
 use common::tolerances::{BALANCE, CLOSED_FORM, MIRRORED, RESIDUAL, assert_near};
 use common::{build, scene_json, solve};
-use plane_contact::contact::{Outcome, Variant, run};
-use plane_contact::mirror::{Reading, c_cnt};
-use plane_contact::scene::Scene;
+use plane_contact::answer::contact::{Outcome, run};
+use plane_contact::paper::mirror::{Reading, c_cnt};
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
 use serde_json::{Value, json};
 
 /// GOAL: two blocks under uniform pressure, each in uniaxial strain.

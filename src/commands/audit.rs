@@ -2,13 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use plane_contact::audit::findings::{FINDINGS, Finding};
-use plane_contact::audit::{Audit, Case, FindingRow, audit};
-use plane_contact::contact::{Outcome, Variant};
-use plane_contact::error::{Error, InputError};
-use plane_contact::error_bars::ErrorBars;
-use plane_contact::report::{audit as report, files, folder, pressure};
-use plane_contact::scene::Scene;
+use plane_contact::answer::contact::Outcome;
+use plane_contact::answer::error::Error;
+use plane_contact::answer::estimates::ErrorBars;
+use plane_contact::error::InputError;
+use plane_contact::files;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::{audit as report, folder, pressure};
+use plane_contact::studies::audit::findings::{FINDINGS, Finding};
+use plane_contact::studies::audit::{Audit, Case, FindingRow, audit};
 
 use super::{print, waiting};
 

@@ -1,9 +1,9 @@
 //! `plane-contact c-cnt`.
 
-use plane_contact::error::Error;
-use plane_contact::mirror::c_cnt;
+use plane_contact::answer::error::Error;
+use plane_contact::paper::mirror::c_cnt;
+use plane_contact::problem::scene::Scene;
 use plane_contact::report::{json, tables};
-use plane_contact::scene::Scene;
 
 use super::{ReadingArg, print};
 

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use plane_contact::calculix::{self, Comparison, Fields};
-use plane_contact::error::Error;
+use plane_contact::answer::error::Error;
 use plane_contact::report::comparison::{self as report, Compared};
+use plane_contact::studies::calculix::{self, Comparison, Fields};
 
 use super::export::{Code, DeckArgs};
 use super::{print, waiting};

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use plane_contact::calculix::{Contact, ContactKind, Pair, Part, Problem, deck};
-use plane_contact::contact::{self, Outcome, Variant};
-use plane_contact::error::Error;
-use plane_contact::report::files;
-use plane_contact::scene::Scene;
+use plane_contact::answer::contact::{self, Outcome};
+use plane_contact::answer::error::Error;
+use plane_contact::files;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use plane_contact::studies::calculix::{Contact, ContactKind, Pair, Part, Problem, deck};
 
 use super::{ModelArgs, ReadingArg, print, waiting};
 

@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
-use plane_contact::error::{Error, InputError};
-use plane_contact::extremes::{Generator, generators, measure};
-use plane_contact::report::{extremes as report, files};
+use plane_contact::answer::error::Error;
+use plane_contact::error::InputError;
+use plane_contact::files;
+use plane_contact::report::extremes as report;
+use plane_contact::studies::extremes::{Generator, generators, measure};
 
 use super::{print, waiting};
 

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use plane_contact::error::Error;
-use plane_contact::mathcad::array::Table;
-use plane_contact::mirror::{Km, c_cnt};
-use plane_contact::report::{files, matrix_market};
-use plane_contact::scene::Scene;
-use plane_contact::solve::memory;
+use plane_contact::answer::error::Error;
+use plane_contact::files;
+use plane_contact::numbers::solve::memory;
+use plane_contact::paper::mathcad::array::Table;
+use plane_contact::paper::mirror::{Km, c_cnt};
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::matrix_market;
 
 use super::{ReadingArg, print};
 

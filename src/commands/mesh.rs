@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use plane_contact::benchmark::Kind;
-use plane_contact::error::Error;
+use plane_contact::answer::error::Error;
+use plane_contact::studies::benchmark::Kind;
 
 use super::print;
 

@@ -17,9 +17,9 @@ use std::io::Write;
 use std::time::Duration;
 
 use indicatif::ProgressBar;
-use plane_contact::contact::{Coupling, Friction, Geometry, Model, StatusRule};
-use plane_contact::error::Error;
-use plane_contact::mirror::Reading;
+use plane_contact::answer::error::Error;
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule};
 
 /// The option that all commands share.
 #[derive(clap::Args)]
@@ -54,7 +54,7 @@ pub struct ModelArgs {
 
 impl ModelArgs {
     /// Puts what is given in place of what `model` has.
-    pub fn apply(&self, model: &mut Model) {
+    pub fn apply(&self, model: &mut ContactModel) {
         model.coupling = self.coupling.unwrap_or(model.coupling);
         model.friction = self.friction.unwrap_or(model.friction);
         model.geometry = self.geometry.unwrap_or(model.geometry);

@@ -1,11 +1,11 @@
 //! `plane-contact plan`.
 
-use plane_contact::contact::Variant;
-use plane_contact::error::Error;
-use plane_contact::plan::{Machine, Plan};
+use plane_contact::answer::error::Error;
+use plane_contact::numbers::solve::memory;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
-use plane_contact::scene::Scene;
-use plane_contact::solve::memory;
+use plane_contact::studies::plan::{Machine, Plan};
 
 use super::solve::ArithmeticArgs;
 use super::{ModelArgs, ReadingArg, print};

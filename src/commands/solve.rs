@@ -4,14 +4,15 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use plane_contact::contact::{self, Coupling, Outcome, Variant};
-use plane_contact::error::Error;
-use plane_contact::error_bars::ErrorBars;
-use plane_contact::plan::Plan;
+use plane_contact::answer::contact::{self, Outcome};
+use plane_contact::answer::error::Error;
+use plane_contact::answer::estimates::ErrorBars;
+use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
+use plane_contact::problem::modelling::{Coupling, Variant};
+use plane_contact::problem::scene::Scene;
 use plane_contact::report::{self, folder, tables};
-use plane_contact::scene::Scene;
-use plane_contact::solve::{Arithmetic, Inputs, ScalarName, Solver};
-use plane_contact::trade::solve_to;
+use plane_contact::studies::plan::Plan;
+use plane_contact::studies::trade::solve_to;
 
 use super::{ModelArgs, ReadingArg, print};
 

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use plane_contact::audit::statuses::measure;
-use plane_contact::error::Error;
-use plane_contact::report::{files, statuses as report};
+use plane_contact::answer::error::Error;
+use plane_contact::files;
+use plane_contact::report::statuses as report;
+use plane_contact::studies::audit::statuses::measure;
 
 use super::{print, waiting};
 

@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
-use plane_contact::audit::listings::{Which, settings};
-use plane_contact::audit::trace::{self, Trace};
-use plane_contact::error::{Error, InputError};
-use plane_contact::mathcad::Listing;
-use plane_contact::mathcad::array::Table;
-use plane_contact::mirror::{Reading, Worksheet, c_cnt};
+use plane_contact::answer::error::Error;
+use plane_contact::error::InputError;
+use plane_contact::paper::listings::{Which, settings};
+use plane_contact::paper::mathcad::Listing;
+use plane_contact::paper::mathcad::array::Table;
+use plane_contact::paper::mirror::{Reading, Worksheet, c_cnt};
+use plane_contact::problem::scene::Scene;
 use plane_contact::report::trace as report;
-use plane_contact::scene::Scene;
+use plane_contact::studies::audit::trace::{self, Trace};
 
 use super::{ReadingArg, print};
 

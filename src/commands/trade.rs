@@ -5,11 +5,12 @@ use std::process::Command;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use plane_contact::contact;
-use plane_contact::error::{Error, InputError};
+use plane_contact::answer::contact;
+use plane_contact::answer::error::Error;
+use plane_contact::error::InputError;
+use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
-use plane_contact::scene::Scene;
-use plane_contact::trade::{self, Knob, Options, Trial, peak};
+use plane_contact::studies::trade::{self, Knob, Options, Trial, peak};
 
 use super::{ReadingArg, print};
 

@@ -3,13 +3,14 @@
 use serde_json::json;
 
 use super::tables::{aligned, short};
-use crate::audit::findings::{Finding, Measured};
-use crate::audit::listings::Which;
-use crate::audit::readings::Effect;
-use crate::audit::variants::{End, VariantRow};
-use crate::audit::{Audit, Converged, FindingRow};
-use crate::contact::{BodySummary, ContactNode, Cycle, Variant};
-use crate::scene::Scene;
+use crate::answer::contact::{BodySummary, ContactNode, Cycle};
+use crate::paper::listings::Which;
+use crate::problem::modelling::Variant;
+use crate::problem::scene::Scene;
+use crate::studies::audit::findings::{Finding, Measured};
+use crate::studies::audit::readings::Effect;
+use crate::studies::audit::variants::{End, VariantRow};
+use crate::studies::audit::{Audit, Converged, FindingRow};
 
 /// The tables.
 pub fn text(audit: &Audit, scene: &Scene) -> String {

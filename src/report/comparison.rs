@@ -5,13 +5,15 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::folder;
 use super::tables::{aligned, short};
-use super::{files, folder};
-use crate::calculix::{Comparison, Contact, Difference, Pair};
-use crate::contact::Variant;
 use crate::error::InputError;
-use crate::mirror::{Plane, Worksheet};
-use crate::scene::Scene;
+use crate::files;
+use crate::paper::mirror::Worksheet;
+use crate::problem::element::Plane;
+use crate::problem::modelling::Variant;
+use crate::problem::scene::Scene;
+use crate::studies::calculix::{Comparison, Contact, Difference, Pair};
 
 /// How many nodes are listed.
 const WORST: usize = 10;

@@ -2,7 +2,7 @@
 
 use super::picture::{Axis, Series, Style, chart};
 use super::tables::aligned;
-use crate::extremes::{Break, Column, Generator, Measured, Verdict};
+use crate::studies::extremes::{Break, Column, Generator, Measured, Verdict};
 
 /// The generators' names.
 pub fn list(generators: &[Generator]) -> String {

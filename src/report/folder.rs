@@ -4,14 +4,15 @@ use std::path::Path;
 
 use super::picture::{self, Contact, Drawing, Field};
 use super::vtu::{Data, VtuMesh, vtu};
-use super::{files, json, pressure};
-use crate::contact::Outcome;
-use crate::element::State;
+use super::{json, pressure};
+use crate::answer::contact::Outcome;
+use crate::answer::estimates::ErrorBars;
 use crate::error::InputError;
-use crate::error_bars::ErrorBars;
-use crate::mirror::Worksheet;
-use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::files;
+use crate::paper::mirror::Worksheet;
+use crate::problem::element::State;
+use crate::problem::scene::Scene;
+use crate::studies::plan::Plan;
 
 /// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu`, `result.json` and, with contact, `pressure.svg` to
 /// `folder`; gives back the content of `result.json`. `converged` is the answer that the run is measured against,

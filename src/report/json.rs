@@ -3,15 +3,15 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::contact::{
-    BodySummary, ContactNode, Coupling, Cycle, Distance, Friction, Geometry, Hertz, Iteration,
-    Outcome, StatusRule, distance, summaries,
+use crate::answer::contact::{
+    BodySummary, ContactNode, Cycle, Distance, Hertz, Iteration, Outcome, distance, summaries,
 };
-use crate::error_bars::ErrorBars;
-use crate::mirror::{Pairs, Reading};
-use crate::plan::Plan;
-use crate::scene::{Scene, Units};
-use crate::solve::Arithmetic;
+use crate::answer::estimates::ErrorBars;
+use crate::numbers::solve::Arithmetic;
+use crate::paper::mirror::{Pairs, Reading};
+use crate::problem::modelling::{Coupling, Friction, Geometry, StatusRule};
+use crate::problem::scene::{Scene, Units};
+use crate::studies::plan::Plan;
 
 /// The content of `result.json`.
 #[derive(Serialize)]

@@ -5,7 +5,6 @@
 pub mod audit;
 pub mod comparison;
 pub mod extremes;
-pub mod files;
 pub mod folder;
 pub mod json;
 pub mod matrix_market;

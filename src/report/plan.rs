@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::tables::{aligned, short};
-use crate::plan::{BodyPlan, ContactPlan, MARGIN, Machine, Plan};
+use crate::studies::plan::{BodyPlan, ContactPlan, MARGIN, Machine, Plan};
 
 /// The plan in one line: the same on every machine.
 pub fn line(plan: &Plan) -> String {

@@ -2,8 +2,9 @@
 
 use super::picture::{Axis, Series, Style, chart};
 use super::tables::with_unit;
-use crate::contact::{ContactNode, Hertz, Outcome, Variant};
-use crate::scene::Scene;
+use crate::answer::contact::{ContactNode, Hertz, Outcome};
+use crate::problem::modelling::Variant;
+use crate::problem::scene::Scene;
 
 /// How far beyond the outermost node in contact the picture shows, of the width of the contact.
 const MARGIN: f64 = 0.25;

@@ -2,8 +2,8 @@
 
 use super::picture::{Axis, Series, Style, chart};
 use super::tables::aligned;
-use crate::audit::statuses::{Measurement, Row};
-use crate::contact::StatusRule;
+use crate::problem::modelling::StatusRule;
+use crate::studies::audit::statuses::{Measurement, Row};
 
 /// Two tables: wrong statuses by depth, operations by size.
 pub fn text(measured: &Measurement) -> String {

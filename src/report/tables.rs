@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use crate::contact::{self, ContactNode, Cycle, Iteration, Outcome, Variant, summaries};
-use crate::error_bars::ErrorBars;
-use crate::mirror::{Pairs, Worksheet};
-use crate::scene::Scene;
+use crate::answer::contact::{self, ContactNode, Cycle, Iteration, Outcome, summaries};
+use crate::answer::estimates::ErrorBars;
+use crate::paper::mirror::{Pairs, Worksheet};
+use crate::problem::modelling::Variant;
+use crate::problem::scene::Scene;
 
 use super::uncertain::uncertain;
 

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 use serde_json::{Value as Json, json};
 
 use super::json::pairs_value;
-use crate::audit::listings::Which;
-use crate::audit::trace::{Access, MOST_STEPS, Product, Step, Trace, text_of};
-use crate::mathcad::Listing;
-use crate::mathcad::array::Table;
-use crate::mirror::{Pairs, Worksheet};
+use crate::paper::listings::Which;
+use crate::paper::mathcad::Listing;
+use crate::paper::mathcad::array::Table;
+use crate::paper::mirror::{Pairs, Worksheet};
+use crate::studies::audit::trace::{Access, MOST_STEPS, Product, Step, Trace, text_of};
 
 /// The trace as text: the steps turn by turn, what `trace()` wrote, and what came out.
 pub fn text(trace: &Trace, listing: &Listing, sheet: &Worksheet<f64>) -> String {

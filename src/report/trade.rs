@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use super::files;
 use super::picture::{Axis, Series, Style, chart};
 use super::tables::aligned;
 use crate::error::InputError;
-use crate::trade::{Order, Reached, Row, Section, Trade};
+use crate::files;
+use crate::studies::trade::{Order, Reached, Row, Section, Trade};
 
 /// The columns of `trade.csv`.
 pub const COLUMNS: [&str; 18] = [

@@ -5,9 +5,10 @@ pub mod golden;
 pub mod recovery;
 pub mod tolerances;
 
-use plane_contact::contact::{Outcome, Variant, run};
-use plane_contact::mirror::Reading;
-use plane_contact::scene::{SCENES, Scene};
+use plane_contact::answer::contact::{Outcome, run};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::{SCENES, Scene};
 use serde_json::Value;
 
 /// Runs an embedded scene under the default reading.

@@ -3,12 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Matrix3, Vector3};
-use plane_contact::benchmark::Benchmark;
-use plane_contact::contact::{Model, Outcome, Variant, run};
-use plane_contact::element;
+use plane_contact::answer::contact::{Outcome, run};
 use plane_contact::error::InputError;
-use plane_contact::mirror::Reading;
-use plane_contact::scene::{Element, Mesh};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::element;
+use plane_contact::problem::modelling::{ContactModel, Variant};
+use plane_contact::problem::scene::{Element, Mesh};
+use plane_contact::studies::benchmark::Benchmark;
 
 /// Generates a benchmark and runs the variant `unilateral`.
 pub fn solved(benchmark: Result<Benchmark, InputError>) -> (Mesh, Outcome) {
@@ -18,7 +19,7 @@ pub fn solved(benchmark: Result<Benchmark, InputError>) -> (Mesh, Outcome) {
 /// The same with contact modelled otherwise.
 pub fn solved_by(
     benchmark: Result<Benchmark, InputError>,
-    change: impl Fn(&mut Model),
+    change: impl Fn(&mut ContactModel),
 ) -> (Mesh, Outcome) {
     let benchmark = benchmark.expect("the parameters are in range");
     let mut scene = benchmark.scene().expect("generated scenes are sound");

@@ -1,7 +1,7 @@
 //! Stress fields that are known exactly, without body force and compatible.
 
 use nalgebra::Vector3;
-use plane_contact::mirror::Plane;
+use plane_contact::problem::element::Plane;
 
 /// sigma_x, sigma_y, tau_xy.
 pub type Stress = Vector3<f64>;

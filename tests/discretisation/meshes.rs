@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Vector2;
-use plane_contact::scene::Scene;
+use plane_contact::problem::scene::Scene;
 use serde_json::{Value, json};
 
 use super::common::build;

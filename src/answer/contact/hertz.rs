@@ -1,0 +1,132 @@
+//! Hertz's pressure for the scene at hand, where its surfaces are such that Hertz's theory speaks of them.
+//!
+//! ```text
+//!   p(s) = p0 sqrt(1 − (s/a)²)    a² = 4 P R / (π E*)    p0 = 2 P / (π a)    1/E* = Σ (1 − ν²)/E
+//! ```
+//!
+//! R, the relative radius, comes from the gaps of the initial shape: g(s) = g0 + s²/(2R) near the first point of contact.
+//!
+//! Source: K. L. Johnson, *Contact Mechanics*, sections 4.2(c), eq. (4.43) to (4.45).
+
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+use super::outcome::Outcome;
+use super::pairing::{Pairing, Surfaces};
+use super::pressure::arcs;
+use crate::paper::mirror::Worksheet;
+use crate::problem::element::Plane;
+use crate::problem::modelling::Coupling;
+
+/// Gaps may leave the parabola by this part of the parabola's height at the edge of contact.
+const PARABOLA: f64 = 0.05;
+
+/// A half width beyond this part of the relative radius is beyond the theory.
+const SHALLOW: f64 = 0.3;
+
+/// Fewer nodes than this in the half width show no curve.
+const FEWEST: usize = 3;
+
+/// Hertz's line contact.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Hertz {
+    /// Relative radius, length.
+    pub radius: f64,
+    /// Half width of the contact, length.
+    pub half_width: f64,
+    /// Peak pressure, stress.
+    pub peak: f64,
+    /// Where the peak stands along the contact surface, length.
+    pub centre: f64,
+}
+
+impl Hertz {
+    /// Hertz's contact for the load that the contact surface of `outcome` carries. Nothing where the surfaces are no parabola there, the contact is
+    /// too wide for the theory, or too few nodes lie in it.
+    pub fn of(outcome: &Outcome, thickness: f64) -> Option<Self> {
+        let sheet = &outcome.sheet;
+        let pairings = Surfaces::new(sheet).ok()?.pairings(Coupling::Nts, &sheet.node);
+        let gaps = gaps(sheet, &pairings);
+        let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
+        let at_an_end = first.entry == gaps[0].entry || first.entry == gaps[gaps.len() - 1].entry;
+        // Half a scene that is symmetric about the first point of contact carries half the load.
+        let sides = if at_an_end { 2.0 } else { 1.0 };
+        let load = sides * normal_load(outcome)? / thickness;
+        let modulus = modulus(sheet, &pairings[first.entry].clone()?)?;
+        let centre = first.arc;
+        // The half width decides which gaps count for the radius: once around is enough to settle it.
+        let mut half_width = 0.25 * (gaps[gaps.len() - 1].arc - gaps[0].arc);
+        let mut radius = 0.0;
+        for _ in 0..20 {
+            radius = fit(&gaps, centre, first.gap, half_width)?;
+            half_width = (4.0 * load * radius / (PI * modulus)).sqrt();
+        }
+        let contact = Hertz { radius, half_width, peak: 2.0 * load / (PI * half_width), centre };
+        (half_width < SHALLOW * radius && contact.fits(&gaps, first.gap)).then_some(contact)
+    }
+
+    /// Pressure at distance `arc` along the contact surface, stress.
+    pub fn pressure(&self, arc: f64) -> f64 {
+        let s = (arc - self.centre) / self.half_width;
+        self.peak * (1.0 - s * s).max(0.0).sqrt()
+    }
+
+    fn fits(&self, gaps: &[Gap], least: f64) -> bool {
+        let height = self.half_width * self.half_width / (2.0 * self.radius);
+        let within = gaps.iter().filter(|g| (g.arc - self.centre).abs() <= self.half_width);
+        let off = |g: &Gap| {
+            let s = g.arc - self.centre;
+            (g.gap - least - s * s / (2.0 * self.radius)).abs()
+        };
+        within.clone().count() >= FEWEST && within.map(off).fold(0.0, f64::max) <= PARABOLA * height
+    }
+}
+
+/// A contact node's place and gap in the initial shape.
+struct Gap {
+    /// Index in `cnt`, from 0.
+    entry: usize,
+    arc: f64,
+    gap: f64,
+}
+
+fn gaps(sheet: &Worksheet<f64>, pairings: &[Option<Pairing>]) -> Vec<Gap> {
+    let faced = pairings.iter().zip(arcs(sheet, &sheet.node)).enumerate();
+    let gap = |(entry, (p, arc)): (usize, (&Option<Pairing>, f64))| {
+        p.as_ref().map(|p| Gap { entry, arc, gap: p.gap })
+    };
+    faced.filter_map(gap).collect()
+}
+
+/// The relative radius from the gaps within `reach` of `centre`, by least squares; nothing where they do not open.
+fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
+    let within = gaps.iter().filter(|g| (g.arc - centre).abs() <= reach);
+    let (mut above, mut below) = (0.0, 0.0);
+    for g in within {
+        let square = (g.arc - centre).powi(2);
+        above += square * square;
+        below += square * (g.gap - least);
+    }
+    (below > 0.0 && above > 0.0).then(|| above / (2.0 * below))
+}
+
+/// Sum of the normal forces of the contact nodes, force.
+fn normal_load(outcome: &Outcome) -> Option<f64> {
+    let forces = outcome.contact.iter().filter(|c| c.dy == 1).map(|c| c.force);
+    Some(forces.sum::<f64>()).filter(|load| *load > 0.0)
+}
+
+/// E*, stress, of the two materials at a contact node.
+fn modulus(sheet: &Worksheet<f64>, pairing: &Pairing) -> Option<f64> {
+    let compliance = |node: usize| {
+        let n =
+            (1..=sheet.M()).find(|&n| (0..3).any(|k| sheet.EL[(n, sheet.ind_1 + k)] == node))?;
+        let nu = match sheet.plane {
+            Plane::Strain => sheet.nu[n],
+            Plane::Stress => 0.0,
+        };
+        Some((1.0 - nu * nu) / sheet.E[n])
+    };
+    Some(1.0 / (compliance(pairing.node)? + compliance(pairing.weights[0].0)?))
+}

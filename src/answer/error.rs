@@ -1,0 +1,60 @@
+//! Why a run ended without a result, by blame: the input's, the published algorithm's.
+
+use crate::error::InputError;
+use crate::paper::mathcad;
+use crate::paper::mirror::Failure;
+
+/// Why a command ended without a result.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The input breaks a condition: exit status 2.
+    #[error("{0}")]
+    Input(#[from] InputError),
+    /// A listing fails as printed: exit status 3, an audit result.
+    #[error("the published algorithm fails as printed: {0}")]
+    Listing(#[from] Failure),
+    /// A listing fails as it is executed: exit status 3, an audit result.
+    #[error("the published algorithm fails as printed: {0}")]
+    Execution(#[from] Box<mathcad::Failure>),
+    /// The matrix of an iteration cannot be solved: exit status 3, an audit result.
+    #[error("{0}")]
+    Singular(#[from] SingularMatrix),
+}
+
+impl Error {
+    /// The exit status that tells who is to blame.
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Error::Input(_) => 2,
+            Error::Listing(_) | Error::Execution(_) | Error::Singular(_) => 3,
+        }
+    }
+}
+
+/// A matrix with no unique solution.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "variant {variant} cannot go on: iteration {iteration}: the matrix is singular at node {node}{body}, direction \
+     {direction} (pivot {pivot:e}); {} in contact, and {}",
+    match .in_contact { 0 => "no node is".into(), 1 => "1 node is".into(), n => format!("{n} nodes are") },
+    match .in_contact {
+        0 => "the restraints alone do not hold the body",
+        _ => "that does not hold the body (finding K6), or to the last digit it does not",
+    }
+)]
+pub struct SingularMatrix {
+    /// Name of the variant.
+    pub variant: &'static str,
+    /// Iteration, from 1.
+    pub iteration: usize,
+    /// Node of the equation whose pivot vanished.
+    pub node: usize,
+    /// `x` or `y`.
+    pub direction: char,
+    /// The pivot, force/length.
+    pub pivot: f64,
+    /// Number of contact nodes with dy = 1.
+    pub in_contact: usize,
+    /// ` of body "stamp"`, where a body is known.
+    pub body: String,
+}

@@ -1,0 +1,75 @@
+//! What elimination asks of a number. By reference: rational numbers are not `Copy`.
+
+use dashu_ratio::RBig;
+
+use crate::numbers::scalar::{F64x2, Scalar};
+
+/// A number that matrices are eliminated in.
+pub trait Field: Clone {
+    /// Distance of 1 from the next larger number; 0 where arithmetic is exact.
+    const EPSILON: f64;
+
+    /// 0.
+    fn zero() -> Self;
+
+    /// The `f64` nearest to |x|.
+    fn size(&self) -> f64;
+
+    /// Whether it is exactly 0.
+    fn vanishes(&self) -> bool;
+
+    /// self · other.
+    fn times(&self, other: &Self) -> Self;
+
+    /// self / other, `other` not 0.
+    fn over(&self, other: &Self) -> Self;
+
+    /// self ← self − a · b.
+    fn subtract_product(&mut self, a: &Self, b: &Self);
+}
+
+impl Field for F64x2 {
+    const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
+
+    fn zero() -> Self {
+        F64x2::from_f64(0.0)
+    }
+    fn size(&self) -> f64 {
+        self.to_f64().abs()
+    }
+    fn vanishes(&self) -> bool {
+        *self == <Self as Field>::zero()
+    }
+    fn times(&self, other: &Self) -> Self {
+        *self * *other
+    }
+    fn over(&self, other: &Self) -> Self {
+        *self / *other
+    }
+    fn subtract_product(&mut self, a: &Self, b: &Self) {
+        *self -= *a * *b;
+    }
+}
+
+impl Field for RBig {
+    const EPSILON: f64 = 0.0;
+
+    fn zero() -> Self {
+        RBig::ZERO
+    }
+    fn size(&self) -> f64 {
+        self.to_f64().value().abs()
+    }
+    fn vanishes(&self) -> bool {
+        self.is_zero()
+    }
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+    fn over(&self, other: &Self) -> Self {
+        self / other
+    }
+    fn subtract_product(&mut self, a: &Self, b: &Self) {
+        *self -= a * b;
+    }
+}

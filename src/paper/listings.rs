@@ -1,0 +1,214 @@
+//! The paper's listings, executed as they stand on the arrays of a scene.
+
+use std::fmt;
+
+use crate::paper::mathcad::array::{Column, Table};
+use crate::paper::mathcad::settings::Conjunction;
+use crate::paper::mathcad::value::Array;
+use crate::paper::mathcad::{
+    Cause, Edit, Failure, Limits, Listing, Observer, ParseError, Runner, Settings, Value,
+};
+use crate::paper::mirror::{
+    LoopPlace, NodeTable, Order, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
+};
+use crate::problem::element;
+
+/// One of the paper's two listings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// Fig. 2.
+    CCnt,
+    /// Fig. 3.
+    Km,
+}
+
+/// Limits of an execution: 16 million steps, and what arrays of the size of MJS ask for (a step an entry and operation).
+fn limits(sheet: &Worksheet<f64>) -> Limits {
+    let matrix = 4 * sheet.R() as u64 * sheet.R() as u64;
+    Limits { steps: (1 << 24) + 8 * matrix, entries: 1 << 27, ..Limits::default() }
+}
+
+/// What an execution leaves besides the values: the lines that `trace` wrote.
+pub type Traced<T> = Result<(T, Vec<String>), Box<Failure>>;
+
+impl Which {
+    /// The name in the print.
+    pub fn name(self) -> &'static str {
+        match self {
+            Which::CCnt => "c_cnt",
+            Which::Km => "Km",
+        }
+    }
+
+    /// The text of record.
+    pub fn text(self) -> &'static str {
+        match self {
+            Which::CCnt => include_str!("../../listings/c_cnt.txt"),
+            Which::Km => include_str!("../../listings/Km.txt"),
+        }
+    }
+
+    /// The listing whose text begins like one of the paper's.
+    pub fn of(text: &str) -> Option<Which> {
+        let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty())?;
+        [Which::CCnt, Which::Km].into_iter().find(|w| header.trim_start().starts_with(w.name()))
+    }
+
+    /// The listing under a reading: the text of record with the reading's edits.
+    pub fn under(self, reading: &Reading) -> Listing {
+        let listing =
+            Listing::parse(self.name(), self.text()).expect("the text of record is sound");
+        edits(self, reading).into_iter().fold(listing, |listing, edit| {
+            let edit = Edit::parse(edit).expect("the edits of listings/readings are sound");
+            edit.apply(&listing).expect("the edits of listings/readings fit the text of record")
+        })
+    }
+
+    /// Another text in place of the listing.
+    ///
+    /// # Errors
+    /// Where the text leaves the notation.
+    pub fn edited(self, text: &str) -> Result<Listing, ParseError> {
+        Listing::parse(self.name(), text)
+    }
+}
+
+impl fmt::Display for Which {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The edits that a reading makes to a listing's text. R4 is a setting of the worksheet.
+fn edits(which: Which, reading: &Reading) -> Vec<&'static str> {
+    let mut edits = Vec::new();
+    match which {
+        Which::CCnt => {
+            if reading.r5 == NodeTable::NodeN {
+                edits.push(include_str!("../../listings/readings/R5-node_n.edit"));
+            }
+            // It only moves lines, so it comes after the edit that rewrites two of them.
+            if reading.r1 == LoopPlace::Inside {
+                edits.push(include_str!("../../listings/readings/R1-inside.edit"));
+            }
+        }
+        Which::Km => {
+            if reading.r2 == RestraintIndex::Printed {
+                edits.push(include_str!("../../listings/readings/R2-printed.edit"));
+            }
+            match reading.r3 {
+                Wedge::Collect => {}
+                Wedge::PerNode => {
+                    edits.push(include_str!("../../listings/readings/R3-per-node.edit"))
+                }
+                Wedge::Nested => edits.push(include_str!("../../listings/readings/R3-nested.edit")),
+            }
+        }
+    }
+    edits
+}
+
+/// The worksheet's settings under a reading: R4.
+pub fn settings(reading: &Reading) -> Settings {
+    let conjunction = match reading.r4 {
+        Order::Guarded => Conjunction::Guarded,
+        Order::LeftToRight => Conjunction::LeftToRight,
+        Order::Eager => Conjunction::Eager,
+    };
+    Settings { conjunction, ..Settings::default() }
+}
+
+/// Executes `c_cnt` on the shape `node_n`.
+///
+/// # Errors
+/// The failure that stopped the listing.
+pub fn c_cnt<O: Observer>(
+    listing: &Listing,
+    settings: &Settings,
+    sheet: &Worksheet<f64>,
+    node_n: &Table<f64>,
+    observer: &mut O,
+) -> Traced<Pairs<f64>> {
+    let mut runner = listing.runner(settings, &limits(sheet));
+    define(&mut runner, sheet);
+    let outcome = runner.call_observed(&[Value::from(node_n)], observer)?;
+    let column = |name: &'static str| -> Result<Column<f64>, Box<Failure>> {
+        let local = outcome.locals.get(name).and_then(|value| Column::try_from(value).ok());
+        local.ok_or_else(|| unexpected(listing, "a column", name))
+    };
+    let whole = |name: &'static str| -> Result<Column<usize>, Box<Failure>> {
+        let column = column(name)?;
+        if column.iter().any(|x| *x < 0.0 || x.fract() != 0.0) {
+            return Err(unexpected(listing, "whole numbers", name));
+        }
+        Ok(column.map(|x| x as usize))
+    };
+    let pairs = Pairs {
+        ct: whole("ct")?,
+        yt: column("yt")?,
+        dy: whole("dy")?,
+        k_cnt: Table::try_from(&outcome.value)
+            .map_err(|_| unexpected(listing, "an array", "value of the program"))?,
+    };
+    Ok((pairs, outcome.trace_output))
+}
+
+/// Executes `Km` on the contact pairs `k_cnt`.
+///
+/// # Errors
+/// The failure that stopped the listing.
+pub fn km<O: Observer>(
+    listing: &Listing,
+    settings: &Settings,
+    sheet: &Worksheet<f64>,
+    k_cnt: &Table<f64>,
+    observer: &mut O,
+) -> Traced<Table<f64>> {
+    let mut runner = listing.runner(settings, &limits(sheet));
+    define(&mut runner, sheet);
+    let outcome = runner.call_observed(&[Value::from(k_cnt)], observer)?;
+    let matrix = Table::try_from(&outcome.value)
+        .map_err(|_| unexpected(listing, "an array", "value of the program"))?;
+    Ok((matrix, outcome.trace_output))
+}
+
+/// An edited listing that ends without what the paper's listing computes.
+fn unexpected(listing: &Listing, expected: &'static str, name: &str) -> Box<Failure> {
+    let last = listing.lines().last();
+    Box::new(Failure {
+        listing: listing.name().into(),
+        line: last.map_or(1, |line| line.printed),
+        column: 1,
+        text: name.into(),
+        statement: last.map_or(String::new(), |line| line.text.clone()),
+        cause: Cause::Kind { expected, found: format!("something else in {name}") },
+    })
+}
+
+/// Defines what stands on the worksheet above the listings.
+fn define(runner: &mut Runner, sheet: &Worksheet<f64>) {
+    let gradients = sheet.B.iter().map(|b| Value::from(Array::from_fn(3, 6, |i, j| b[(i, j)])));
+    runner
+        .define("node", &sheet.node)
+        .define("elem", &sheet.elem)
+        .define("EL", &sheet.EL)
+        .define("trg", &sheet.trg)
+        .define("cnt", &sheet.cnt)
+        .define("c_tll", sheet.c_tll)
+        .define("ind_1", sheet.ind_1)
+        .define("R", sheet.R())
+        .define("M", sheet.M())
+        .define("S", &sheet.S)
+        .define("Ae", &sheet.Ae)
+        .define("B", gradients.collect::<Value>())
+        .define("E", &sheet.E)
+        .define("ν", &sheet.nu);
+    let plane = sheet.plane;
+    runner.define_function("D", move |arguments| match arguments {
+        [Value::Number(e), Value::Number(nu)] => {
+            let d = element::D(plane, *e, *nu);
+            Ok(Array::from_fn(3, 3, |i, j| d[(i, j)]).into())
+        }
+        _ => Err("D takes an elastic modulus and a Poisson's ratio".into()),
+    });
+}

@@ -1,0 +1,172 @@
+//! Hostile listings end in errors: no hang, no overflowing stack, no exhausted memory.
+
+use proptest::prelude::*;
+
+use super::{failure, program};
+use crate::paper::mathcad::{Array, Cause, Limits, Listing, Settings, Value};
+
+fn refusal(body: &str) -> String {
+    Listing::parse("f", &format!("f(x) :=\n{body}"))
+        .err()
+        .map_or_else(|| panic!("was read"), |error| error.message)
+}
+
+#[test]
+fn deep_brackets() {
+    for (open, close) in
+        [("(", ")"), ("|", "|"), ("v[", "]"), ("max(", ")"), ("1 + (", ")"), ("−(", ")")]
+    {
+        let deep = |n: usize| format!("  {}1{}", open.repeat(n), close.repeat(n));
+        let limits = Limits { characters: usize::MAX, ..Limits::default() };
+        let text = format!("f(x) :=\n{}", deep(100_000));
+        assert!(Listing::parse_within("f", &text, &limits).is_err(), "{open}");
+        assert!(Listing::parse("f", &text).is_err(), "{open}");
+        assert!(Listing::parse("f", &format!("f(x) :=\n{}", deep(31))).is_ok(), "{open}");
+    }
+}
+
+#[test]
+fn long_chains() {
+    for link in ["1 + ", "−", "1·", "1 < ", "1 ∧ ", "x[1] ", "(", "|"] {
+        let text = format!("f(x) :=\n  {}1", link.repeat(100_000));
+        assert!(Listing::parse("f", &text).is_err(), "{link}");
+    }
+    assert_eq!(
+        refusal(&format!("  {}1", "1 + ".repeat(400))),
+        "found operators and brackets more than 64 deep"
+    );
+    assert_eq!(
+        refusal(&format!("  1{}", "ᵀ".repeat(1_000))),
+        "found operators and brackets more than 64 deep"
+    );
+    assert_eq!(
+        refusal(&format!("  {}", "1".repeat(9_999))),
+        "found 9999 characters, expected at most 2000"
+    );
+}
+
+#[test]
+fn deep_blocks() {
+    let lines: String = (1..1_000).map(|level| format!("{:1$}if 1\n", "", 2 * level)).collect();
+    assert_eq!(refusal(&lines), "found blocks more than 64 deep");
+    assert_eq!(refusal(&"  x\n".repeat(5_000)), "found 5001 lines, expected at most 1000");
+}
+
+fn limited(body: &str) -> &'static str {
+    match failure(body) {
+        Cause::Limit { of, .. } => of,
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn huge_arrays() {
+    let index = "1".to_string() + &"0".repeat(18);
+    let held = "numbers held at once";
+    assert_eq!(limited(&format!("a[{index}] ← 1")), held);
+    assert_eq!(limited(&format!("a[{index},{index}] ← 1")), held);
+    assert_eq!(limited(&format!("a[1{}] ← 1", "0".repeat(300))), held);
+    assert_eq!(limited("identity(1000000)"), held);
+    assert_eq!(limited("a ← identity(8000)\nb ← identity(8000)"), held);
+    assert!(matches!(failure(&format!("v[{index}]")), Cause::IndexOutside { .. }));
+}
+
+/// The cause under small limits.
+fn under(limits: &Limits, body: &str) -> Cause {
+    let listing = program(body);
+    listing.runner(&Settings::default(), limits).call(&[Value::Number(5.0)]).unwrap_err().cause
+}
+
+#[test]
+fn endless_loops() {
+    let limits = Limits { steps: 100_000, ..Limits::default() };
+    let steps = Cause::Limit { limit: 100_000, of: "steps" };
+    assert_eq!(under(&limits, &format!("for i ∈ 1 .. 1{}\n  x", "0".repeat(300))), steps);
+    assert_eq!(under(&limits, "for i ∈ 1 .. 9999\n  for j ∈ 1 .. 9999\n    a[j] ← i"), steps);
+    assert_eq!(
+        under(&limits, "for i ∈ 1 .. 9999\n  a[1,i] ← 1"),
+        steps,
+        "growth that moves the array each time"
+    );
+    assert_eq!(
+        under(&limits, "a ← identity(100)\nfor i ∈ 1 .. 9999\n  b ← a\n  a[1,1] ← i"),
+        steps,
+        "copies"
+    );
+    assert_eq!(under(&limits, "a ← identity(50)\nfor i ∈ 1 .. 9999\n  a·a"), steps, "products");
+    assert_eq!(
+        under(&limits, "for i ∈ 1 .. 99999999\n  1 = 0 ∧ rows(identity(8000)) = 1"),
+        steps,
+        "behind a false operand"
+    );
+}
+
+#[test]
+fn endless_output() {
+    let limits = Limits { entries: 10_000, ..Limits::default() };
+    let held = Cause::Limit { limit: 10_000, of: "numbers held at once" };
+    assert_eq!(under(&limits, "for i ∈ 1 .. 99999999\n  trace(i)"), held);
+    assert_eq!(under(&limits, "y ← trace(1)\nfor i ∈ 1 .. 99\n  y ← trace(y, y)"), held);
+    assert_eq!(under(&limits, "for i ∈ 1 .. 99999999\n  a[i] ← i"), held);
+}
+
+/// Words of the notation, some of them in listings that make sense.
+const WORDS: [&str; 40] = [
+    "x",
+    "v",
+    "m",
+    "a",
+    "i",
+    "1",
+    "2",
+    "0",
+    "0.5",
+    "9999999",
+    " ",
+    " ",
+    "   ",
+    "(",
+    ")",
+    "[",
+    "]",
+    ",",
+    "|",
+    "ᵀ",
+    " + ",
+    " − ",
+    "−",
+    "·",
+    " / ",
+    " < ",
+    " = ",
+    " ∧ ",
+    " ← ",
+    " if ",
+    "for i ∈ ",
+    "if ",
+    " .. ",
+    "\n",
+    "\n  ",
+    "\n    ",
+    "rows(",
+    "identity(",
+    "trace(",
+    "v[i]",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_text_ends(words in proptest::collection::vec(0..WORDS.len(), 0..40)) {
+        let body: String = words.into_iter().map(|k| WORDS[k]).collect();
+        let limits = Limits { steps: 10_000, entries: 10_000, ..Limits::default() };
+        if let Ok(listing) = Listing::parse("f", &format!("f(x) :=\n  {body}")) {
+            let mut worksheet = listing.runner(&Settings::default(), &limits);
+            worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
+            let _ = worksheet.call(&[Value::Number(5.0)]);
+            let again = Listing::parse("f", &listing.spelled());
+            prop_assert_eq!(again.map(|again| again.spelled()), Ok(listing.spelled()));
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! From text to syntax tree and back.
+
+use super::value;
+use crate::paper::mathcad::edit::EditError;
+use crate::paper::mathcad::{Edit, Listing, ParseError};
+
+const LISTINGS: [(&str, &str); 2] = [
+    ("c_cnt", include_str!("../../../../listings/c_cnt.txt")),
+    ("Km", include_str!("../../../../listings/Km.txt")),
+];
+
+fn without_spaces(text: &str) -> String {
+    text.lines().map(|line| line.replace(' ', "") + "\n").collect()
+}
+
+#[test]
+fn the_paper_s_listings_read_and_print_back() {
+    for (name, text) in LISTINGS {
+        let listing = Listing::parse(name, text).unwrap_or_else(|error| panic!("{error}"));
+        let printed: String = text
+            .lines()
+            .filter(|line| !line.starts_with('#'))
+            .map(|line| format!("{line}\n"))
+            .collect();
+        assert_eq!(listing.to_string(), printed, "the lines, byte for byte");
+        assert_eq!(
+            without_spaces(&listing.spelled()),
+            without_spaces(&printed),
+            "the tree, but for spaces"
+        );
+        let again =
+            Listing::parse(name, &listing.spelled()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(again.spelled(), listing.spelled(), "what is spelled reads the same again");
+    }
+}
+
+#[test]
+fn lines_count_without_headers() {
+    let listing = Listing::parse("f", "# one\n# two\nf(x) :=\n\n  x\n").unwrap();
+    let numbers: Vec<_> = listing.lines().iter().map(|line| (line.printed, line.in_file)).collect();
+    assert_eq!(numbers, [(1, 3), (2, 5)]);
+}
+
+#[test]
+fn rows_are_separated_by_spaces() {
+    assert_eq!(value("(0 0 0 0 0 0)ᵀ"), "0; 0; 0; 0; 0; 0");
+    assert_eq!(value("(x − 1   x + 2)"), "4 7");
+    assert_eq!(value("(x   −1)"), "5 -1");
+    assert_eq!(value("(x −1)"), "4", "one space and a sign: a difference");
+    assert_eq!(value("(v[1] v[2] (x) 3)"), "1 2 5 3");
+    assert_eq!(value("(|x| 1 |x|   |x|)"), "5 1 5 5");
+    assert_eq!(value("(x max(1, 2) x)"), "5 2 5");
+    assert_eq!(value("(  x   )"), "5");
+    assert_eq!(value("(x (2))"), "5 2", "a name and, behind a space, brackets: no call");
+}
+
+#[test]
+fn operators_bind_as_in_mathcad() {
+    assert_eq!(value("2 + 3·4 − 6 / 3"), "12");
+    assert_eq!(value("10 − 4 − 3"), "3");
+    assert_eq!(value("8 / 4 / 2"), "1");
+    assert_eq!(value("−x + 1"), "-4");
+    assert_eq!(value("2·−x"), "-10");
+    assert_eq!(value("1 < 2 ∧ 2 − 1 = 1"), "1");
+    assert_eq!(value("|1 − |x − 7||"), "1");
+    assert_eq!(value("2*3 - 1"), "5", "ASCII signs");
+    assert_eq!(value("v·2ᵀ"), "2; 4; 6");
+}
+
+fn refused(text: &str) -> ParseError {
+    Listing::parse("f", text).err().unwrap_or_else(|| panic!("{text:?} was read"))
+}
+
+#[test]
+fn errors_point_at_line_and_column() {
+    let error = refused("# header\nf(x) :=\n  y ← 1\n  z ← y[1\n  z");
+    assert_eq!((error.line, error.file_line, error.column), (3, 4, 10));
+    assert_eq!(
+        error.message,
+        "found the end of the line, expected `,` or `]` or `ᵀ` or `∧` or a comparison or an operator"
+    );
+    let shown = error.to_string();
+    assert!(shown.starts_with("f, line 3 (line 4 of the file), column 10: found"), "{shown}");
+    assert!(shown.ends_with("      z ← y[1\n             ^"), "{shown}");
+}
+
+#[test]
+fn errors_say_what_was_expected() {
+    let message = |text| refused(&format!("f(x) :=\n{text}")).message;
+    assert_eq!(message("  x ← )"), "found `)`, expected an operand");
+    assert_eq!(message("  for 1 ∈ 1 .. 2\n    x"), "found `1`, expected a name");
+    assert_eq!(message("  for i ∈ 1 .. 2"), "expected an indented line below");
+    assert_eq!(message("  x ← 1\n      x"), "found 6 spaces of indentation, expected 2");
+    assert_eq!(message("   x"), "found an odd space, expected two for each level");
+    assert_eq!(message("  x\nx"), "found a line beside the header, expected it indented");
+    assert_eq!(message("  x ? 1"), "found \"?\", which is no part of the notation");
+    assert_eq!(message("  \tx"), "found \"\\t\", which is no part of the notation");
+    assert_eq!(
+        message("  x < 1 < 2"),
+        "found `<`, expected `ᵀ` or an operator",
+        "comparisons do not chain"
+    );
+    assert_eq!(message(&format!("  {}", "9".repeat(400))), "found a number too large");
+}
+
+#[test]
+fn hostile_text_never_breaks_the_reader() {
+    for text in [
+        "",
+        "#",
+        "f(",
+        "f(x) :=",
+        "ᵀ",
+        "f(x) :=\n  x[",
+        "f(x) :=\n  (",
+        "f(x) :=\n  |x",
+        "f(x) :=\n  x]]",
+        ":=",
+    ] {
+        refused(text);
+    }
+}
+
+#[test]
+fn an_edit_keeps_printed_numbers() {
+    let listing = Listing::parse("f", "f(x) :=\n  y ← x\n  z ← y\n  z").unwrap();
+    let edit = Edit::parse(
+        "# Because.\nf lines 2-3:\n 2  \x20 y ← x\n 3    for i ∈ 1 .. 2\n 2      y ← y + 1\n",
+    )
+    .unwrap();
+    let edited = edit.apply(&listing).unwrap();
+    assert_eq!(edit.reason, "Because.\n");
+    assert_eq!(edited.lines().iter().map(|line| line.printed).collect::<Vec<_>>(), [1, 2, 3, 2, 4]);
+    assert_eq!(edited.to_string(), "f(x) :=\n  y ← x\n  for i ∈ 1 .. 2\n    y ← y + 1\n  z\n");
+}
+
+#[test]
+fn an_edit_must_fit_its_listing() {
+    let listing = Listing::parse("f", "f(x) :=\n  x").unwrap();
+    let error = |text| Edit::parse(text).and_then(|edit| edit.apply(&listing)).err();
+    assert!(
+        matches!(error("g line 2:\n 2    x"), Some(EditError::NoSuchLines { .. })),
+        "another listing"
+    );
+    assert!(
+        matches!(error("f lines 2-3:\n 2    x"), Some(EditError::NoSuchLines { .. })),
+        "too few lines"
+    );
+    assert!(matches!(error("f lines 3-2:"), Some(EditError::NoSuchLines { .. })), "turned round");
+    assert!(matches!(error("f line 2:\n 2    x ←"), Some(EditError::Parse(_))));
+    assert!(matches!(error("f line x:"), Some(EditError::Format { line: 1, .. })));
+    assert!(matches!(error(" 2    x"), Some(EditError::Format { line: 1, .. })));
+    assert!(matches!(error("f line 2:\nx"), Some(EditError::Format { line: 2, .. })));
+}

@@ -1,0 +1,62 @@
+//! Watching a run.
+
+use super::program;
+use crate::paper::mathcad::observe::{Executed, OperandCoverage};
+use crate::paper::mathcad::{Array, Coverage, Limits, Observer, Recorder, Settings, Value};
+
+/// v = (1 2 3)ᵀ, x = 5.
+fn observe(lines: &str, observer: &mut impl Observer) {
+    let listing = program(lines);
+    let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+    worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
+    worksheet.call_observed(&[Value::Number(5.0)], observer).unwrap();
+}
+
+fn show(executed: &Executed) -> String {
+    let mut text = executed.line.to_string();
+    for (mark, accesses) in [("", &executed.reads), ("← ", &executed.writes)] {
+        for access in accesses {
+            text += &format!(" {mark}{}{:?}={}", access.name, access.subscripts, access.value);
+        }
+    }
+    text
+}
+
+#[test]
+fn the_recorder_hands_over_each_statement() {
+    let mut shown = vec![];
+    observe(
+        "for i ∈ 1 .. 2\n  a[i,i+1] ← v[v[i]] + x",
+        &mut Recorder::new(|executed| shown.push(show(executed))),
+    );
+    let expected = [
+        "2 ← i[]=1",
+        "3 i[]=1 v[1]=1 v[1]=1 x[]=5 i[]=1 i[]=1 ← a[1, 2]=6",
+        "2 ← i[]=2",
+        "3 i[]=2 v[2]=2 v[2]=2 x[]=5 i[]=2 i[]=2 ← a[2, 3]=7",
+    ];
+    assert_eq!(shown, expected);
+}
+
+#[test]
+fn coverage_counts_lines_and_conditions() {
+    let mut coverage = Coverage::default();
+    observe("for i ∈ 1 .. 3\n  y ← i if v[i] > 1\nif x < 0\n  y ← 0\ny", &mut coverage);
+    assert_eq!(coverage.lines.into_iter().collect::<Vec<_>>(), [(2, 1), (3, 3), (4, 1), (6, 1)]);
+    let conditions: Vec<_> =
+        coverage.conditions.into_iter().map(|(k, c)| (k, c.text, c.held, c.failed)).collect();
+    assert_eq!(conditions, [(3, "v[i] > 1".into(), 2, 1), (4, "x < 0".into(), 0, 1)]);
+}
+
+#[test]
+fn coverage_tells_which_operand_decided() {
+    let mut coverage = Coverage::default();
+    // i = 1: all true. i = 2: the second alone is false. i = 3: two are false, neither alone. v[0] and v[−1] fail.
+    observe("for i ∈ 1 .. 3\n  x > 4 ∧ i < 2 ∧ i < 3\nv[0] = 1 ∧ x < 0", &mut coverage);
+    let operand =
+        |text: &str, admitted, refused| OperandCoverage { text: text.into(), admitted, refused };
+    let first = &coverage.conjunctions[&(3, 0)];
+    assert_eq!(*first, [operand("x > 4", 1, 0), operand("i < 2", 1, 1), operand("i < 3", 1, 0)]);
+    assert_eq!(coverage.conjunctions[&(4, 0)], [operand("v[0] = 1", 0, 0), operand("x < 0", 0, 0)]);
+    assert!(first[0].decisive() && !first[0].decided_both_ways() && first[1].decided_both_ways());
+}

@@ -1,0 +1,287 @@
+//! Each rule of `README.md` beside the interpreter, on the smallest listing that shows it.
+
+use super::{failure, failure_under, outcome, program, value, value_under};
+use crate::paper::mathcad::failure::Subscripts;
+use crate::paper::mathcad::{
+    Cause, Conjunction, Descending, LastIf, Limits, Settings, Value, ZeroOverZero,
+};
+
+fn with(change: impl FnOnce(&mut Settings)) -> Settings {
+    let mut settings = Settings::default();
+    change(&mut settings);
+    settings
+}
+
+#[test]
+fn origin() {
+    assert_eq!(value("v[1]"), "1");
+    let from_zero = with(|s| s.origin = 0);
+    assert_eq!(value_under(&from_zero, "v[2]"), "3");
+    assert_eq!(value_under(&from_zero, "a[2] ← 7\na"), "0; 0; 7");
+    assert_eq!(value_under(&with(|s| s.origin = -1), "v[−1]"), "1");
+}
+
+#[test]
+fn assignment_creates_and_grows_arrays() {
+    assert_eq!(value("a[3] ← 7\na"), "0; 0; 7");
+    assert_eq!(value("a[2,3] ← 7\na"), "0 0 0; 0 0 7");
+    assert_eq!(value("a[1,1] ← 1\na[2,1] ← 2\na[1,2] ← 3\na"), "1 3; 2 0");
+    assert_eq!(value("a[2] ← 1\na[1,2] ← 3\na"), "0 3; 1 0");
+    assert_eq!(value("a[2,1] ← 1\na[2]"), "1", "a matrix of one column is a column");
+    assert_eq!(value("v[5] ← 9\nrows(v)"), "5");
+}
+
+#[test]
+fn reading_outside_is_an_error() {
+    let subscripts = Subscripts { row: 4.0, col: None };
+    assert_eq!(
+        failure("v[4]"),
+        Cause::IndexOutside { name: "v".into(), subscripts, rows: 3, cols: 1 }
+    );
+    let message = outcome("y ← 1 + v[x − 1]", &Settings::default()).unwrap_err().to_string();
+    let expected = "f, line 2: This array index is invalid for this array. v[4] of 3 x 1 entries. \
+                    In `v[x − 1]`, column 9 of `y ← 1 + v[x − 1]`.";
+    assert_eq!(message, expected);
+    assert!(matches!(failure("m[1,3]"), Cause::IndexOutside { cols: 2, .. }));
+    assert!(matches!(failure("m[1]"), Cause::IndexOutside { .. }), "a matrix takes two subscripts");
+    assert!(matches!(failure("m[1] ← 0"), Cause::IndexOutside { .. }), "also in writing");
+    let below = Cause::IndexBelowOrigin {
+        name: "v".into(),
+        subscripts: Subscripts { row: 0.0, col: None },
+        origin: 1,
+    };
+    assert_eq!(failure("v[0]"), below);
+    assert_eq!(failure("v[0] ← 1"), below);
+    assert!(below.to_string().starts_with("This array index is invalid for this array."));
+}
+
+#[test]
+fn subscripts_are_whole() {
+    assert!(matches!(failure("v[1.5]"), Cause::IndexNotWhole { .. }));
+    assert!(matches!(failure("v[3 / 2] ← 1"), Cause::IndexNotWhole { .. }));
+    assert!(matches!(failure("v[v]"), Cause::Kind { .. }));
+    assert!(matches!(failure("x[1]"), Cause::Kind { .. }), "a number has no entries");
+    assert!(matches!(failure("x[1] ← 2"), Cause::Kind { .. }));
+}
+
+#[test]
+fn arrays_are_values() {
+    assert_eq!(value("w ← v\nw[1] ← 9\nv"), "1; 2; 3");
+    assert_eq!(value("w ← v\nv[1] ← 9\nw"), "1; 2; 3");
+    assert_eq!(value("w ← v\nw[1] ← 9\nw"), "9; 2; 3");
+}
+
+#[test]
+fn writes_to_the_worksheet_s_names_are_local() {
+    let listing = program("v[1] ← v[1] + x\nv");
+    let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+    worksheet.define("v", crate::paper::mathcad::Array::column(vec![1.0, 2.0]));
+    for _ in 0..2 {
+        let outcome = worksheet.call(&[Value::Number(5.0)]).unwrap();
+        assert_eq!(outcome.value.to_string(), "6; 2");
+        assert_eq!(outcome.locals.keys().collect::<Vec<_>>(), ["v"]);
+    }
+}
+
+#[test]
+fn a_program_is_worth_its_last_statement() {
+    assert_eq!(value("1\n2"), "2");
+    assert_eq!(value("y ← 3"), "3");
+    assert_eq!(value("for i ∈ 1 .. 3\n  10·i"), "30");
+    assert_eq!(value("if x > 0\n  7"), "7");
+    assert_eq!(value("7\ny ← 1 if x < 0"), "7", "the one before");
+    assert_eq!(value_under(&with(|s| s.last_if = LastIf::Zero), "7\ny ← 1 if x < 0"), "0");
+    assert_eq!(failure("y ← 1 if x < 0"), Cause::NoValue);
+}
+
+#[test]
+fn division_by_zero() {
+    assert_eq!(failure("x / 0"), Cause::Singularity { numerator: 5.0, denominator: 0.0 });
+    assert_eq!(failure("0 / 0"), Cause::Singularity { numerator: 0.0, denominator: 0.0 });
+    let zero = with(|s| s.zero_over_zero = ZeroOverZero::Zero);
+    assert_eq!(value_under(&zero, "0 / 0"), "0");
+    assert!(matches!(failure_under(&zero, "x / 0"), (2, Cause::Singularity { .. })));
+    let words =
+        "Found a singularity while evaluating this expression. You may be dividing by zero. 5/0.";
+    assert_eq!(failure("x / 0").to_string(), words);
+}
+
+#[test]
+fn overflow() {
+    let huge = format!("y ← 1{}\n", "0".repeat(200));
+    assert_eq!(failure(&format!("{huge}y·y")), Cause::Overflow { result: f64::INFINITY });
+    assert_eq!(failure(&format!("{huge}y·−y")), Cause::Overflow { result: f64::NEG_INFINITY });
+    assert!(matches!(failure(&format!("{huge}v·y·y")), Cause::Overflow { .. }), "in arrays too");
+    assert_eq!(value(&format!("{huge}1 / y / y")), "0", "underflow is none");
+}
+
+#[test]
+fn comparisons() {
+    let comparisons = "(1 < 2   2 < 1   1 ≤ 1   2 > 1   1 ≥ 2   1 = 1   1 ≠ 1)";
+    assert_eq!(value(comparisons), "1 0 1 1 0 1 0");
+    let close = "y ← 1 + 1 / 10000000000000\n(y = 1   y ≠ 1   y > 1   y ≤ 1   1 < y   1 ≥ y)";
+    assert_eq!(value(close), "0 1 1 0 1 0", "exact");
+    let relative = with(|s| s.exact_boolean = false);
+    assert_eq!(value_under(&relative, close), "1 0 0 1 0 1", "to 1e-12");
+    assert_eq!(value_under(&relative, "(0 = 0   1 = −1   1 = 1.0001)"), "1 0 0");
+}
+
+#[test]
+fn tiny_numbers_compare_as_zero_if_asked_to() {
+    let tiny = format!("y ← 1 / 1{}\n(y = 0   y > 0)", "0".repeat(308));
+    assert_eq!(value(&tiny), "0 1");
+    assert_eq!(value_under(&with(|s| s.tiny_is_zero = true), &tiny), "1 0");
+}
+
+#[test]
+fn conjunction_guarded() {
+    assert_eq!(value("v[0] > 0 ∧ x < 0"), "0", "a false operand decides, though another failed");
+    assert_eq!(value("x < 0 ∧ v[0] > 0"), "0");
+    assert_eq!(value("x > 0 ∧ v[1] > 0 ∧ 2"), "1");
+    assert!(
+        matches!(failure("v[0] > 0 ∧ x > 0"), Cause::IndexBelowOrigin { .. }),
+        "no operand is false"
+    );
+    assert!(
+        matches!(failure("v[9] > 0 ∧ v[0] > 0"), Cause::IndexOutside { .. }),
+        "the first failure stands"
+    );
+}
+
+#[test]
+fn conjunction_left_to_right() {
+    let settings = with(|s| s.conjunction = Conjunction::LeftToRight);
+    assert_eq!(value_under(&settings, "x < 0 ∧ v[0] > 0"), "0");
+    assert!(matches!(
+        failure_under(&settings, "v[0] > 0 ∧ x < 0"),
+        (2, Cause::IndexBelowOrigin { .. })
+    ));
+}
+
+#[test]
+fn conjunction_eager() {
+    let settings = with(|s| s.conjunction = Conjunction::Eager);
+    assert_eq!(value_under(&settings, "x < 0 ∧ v[1] > 0"), "0");
+    assert!(matches!(
+        failure_under(&settings, "x < 0 ∧ v[0] > 0"),
+        (2, Cause::IndexBelowOrigin { .. })
+    ));
+}
+
+#[test]
+fn descending_ranges() {
+    let lines = "n ← 0\nfor i ∈ 1 .. 0\n  n ← n + 1\n  a[n] ← i\nn";
+    let run = outcome(lines, &Settings::default()).unwrap();
+    assert_eq!((run.value.to_string(), run.locals["a"].to_string()), ("2".into(), "1; 0".into()));
+    assert_eq!(value_under(&with(|s| s.descending = Descending::Empty), lines), "0");
+}
+
+#[test]
+fn loops() {
+    assert_eq!(value("for i ∈ 1 .. 3\n  y ← i\ni"), "3", "the variable keeps its last value");
+    assert_eq!(
+        value("n ← 3\ny ← 0\nfor i ∈ 1 .. n\n  n ← 9\n  y ← y + 1\ny"),
+        "3",
+        "the range is fixed on entry"
+    );
+    let nested = "y ← 0\nfor i ∈ 1 .. 3\n  for i ∈ 1 .. 2\n    y ← y + i\n(y   i)";
+    assert_eq!(value(nested), "9 2", "an inner loop leaves the outer range alone");
+    assert_eq!(value("y ← 0\nfor i ∈ 1 .. 2.5\n  y ← i\ny"), "2");
+    assert_eq!(
+        value("y ← 7\nfor i ∈ 1 .. 3 if x < 0\n  y ← i\ny"),
+        "7",
+        "the condition guards the loop"
+    );
+    assert_eq!(
+        value("y ← 7\nfor i ∈ 1 .. 3 if x > 0\n  y ← i\n  x ← −1\ny"),
+        "3",
+        "and is asked once"
+    );
+}
+
+#[test]
+fn names() {
+    assert_eq!(failure("y"), Cause::Undefined { name: "y".into() });
+    assert_eq!(failure("y[1]"), Cause::Undefined { name: "y".into() });
+    assert_eq!(failure("g(1)"), Cause::Undefined { name: "g".into() });
+    assert_eq!(
+        failure_under(&Settings::default(), "y ← 1\n\nz"),
+        (3, Cause::Undefined { name: "z".into() })
+    );
+}
+
+#[test]
+fn functions() {
+    assert_eq!(value("rows(v)"), "3");
+    assert_eq!(value("rows(m)"), "2");
+    assert_eq!(value("(min(v)   max(v)   min(4, m, 2)   max(m, 9))"), "1 3 1 9");
+    assert_eq!(value("identity(2)"), "1 0; 0 1");
+    assert_eq!(value("identity(2)·0"), "0 0; 0 0");
+    assert!(matches!(failure("rows(x)"), Cause::Kind { .. }));
+    assert!(matches!(failure("rows(v, v)"), Cause::Arguments { expected: 1, found: 2 }));
+    assert!(matches!(failure("identity(1.5)"), Cause::Kind { .. }));
+    assert!(matches!(failure("min()"), Cause::Kind { .. }));
+}
+
+#[test]
+fn functions_from_outside() {
+    let listing = program("y ← D(x, 2)\nD(y, 0)");
+    let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+    worksheet.define_function("D", |arguments| match arguments {
+        [Value::Number(x), Value::Number(y)] if *y > 0.0 => Ok(Value::Number(x * y)),
+        _ => Err("y must be above 0".into()),
+    });
+    let failure = worksheet.call(&[Value::Number(3.0)]).unwrap_err();
+    assert_eq!(
+        failure.cause,
+        Cause::Function { name: "D".into(), message: "y must be above 0".into() }
+    );
+    assert_eq!((failure.line, failure.text.as_str()), (3, "D(y, 0)"));
+    assert_eq!(worksheet.call(&[]).unwrap_err().cause, Cause::Arguments { expected: 1, found: 0 });
+}
+
+#[test]
+fn trace_prints_and_returns_a_string() {
+    let run = outcome("trace(x)\ny ← trace(v[2], 0.5)\ny", &Settings::default()).unwrap();
+    assert_eq!(run.trace_output, ["5", "2 0.5"]);
+    assert_eq!(run.value, Value::Text("2 0.5".into()));
+}
+
+#[test]
+fn matrices() {
+    assert_eq!(value("m·m"), "7 10; 15 22");
+    assert_eq!(value("mᵀ"), "1 3; 2 4");
+    assert_eq!(value("vᵀ"), "1 2 3");
+    assert_eq!(value("vᵀ·v"), "14");
+    assert_eq!(value("v·v"), "14", "two columns: the scalar product");
+    assert_eq!(value("v·vᵀ"), "1 2 3; 2 4 6; 3 6 9");
+    assert_eq!(value("2·m − m + m / 2"), "1.5 3; 4.5 6");
+    assert_eq!(value("m + 1"), "2 3; 4 5");
+    assert_eq!(value("−m"), "-1 -2; -3 -4");
+    assert!(matches!(failure("m·v"), Cause::Sizes { .. }));
+    assert!(matches!(failure("m + v"), Cause::Sizes { .. }));
+    assert!(matches!(failure("1 / m"), Cause::Kind { .. }));
+    assert!(matches!(failure("|v|"), Cause::Kind { .. }));
+    assert!(matches!(failure("v < 1"), Cause::Kind { .. }));
+    assert!(matches!(failure("a[1] ← v"), Cause::Kind { .. }));
+}
+
+#[test]
+fn arrays_of_arrays_are_read() {
+    let listing = program("B[2]·x");
+    let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+    worksheet.define("B", [1.0, 2.0].map(Value::from).into_iter().collect::<Value>());
+    assert_eq!(worksheet.call(&[Value::Number(5.0)]).unwrap().value, Value::Number(10.0));
+}
+
+#[test]
+fn every_operation_rounds_on_its_own() {
+    // A fused multiply-add would give 2^-54 - 2^-108 ... of the exact square instead of the rounded one's 0.
+    let lines = "y ← 1 + 1 / 134217728\ny·y − (1 + 2 / 134217728)";
+    assert_eq!(value(lines), "0");
+    // 0.1 + 0.2 + 0.3 from the left is 0.6000000000000001, from the right 0.6.
+    assert_eq!(value("0.1 + 0.2 + 0.3"), "0.6000000000000001");
+    assert_eq!(value("(0.1   0.2   0.3)·(1   1   1)ᵀ"), "0.6000000000000001");
+    // The sum of a product starts from its first term: -0, where 0 + -0 is 0.
+    assert_eq!(value("(0   0)·(−1   −1)ᵀ"), "-0");
+}

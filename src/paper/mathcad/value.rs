@@ -1,0 +1,260 @@
+//! The values of a listing: numbers, arrays, arrays of arrays and strings.
+
+use std::fmt;
+use std::rc::Rc;
+
+use thiserror::Error;
+
+use super::array::{Column, Table};
+use crate::numbers::scalar::Scalar;
+
+/// A value of a listing. Copying one is cheap: arrays are shared until one of the copies is written to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A matrix or column of numbers.
+    Array(Rc<Array>),
+    /// A column of values, such as the element matrices `B`. It comes from outside; a listing can read it only.
+    Nested(Rc<[Value]>),
+    /// A string: what `trace` returns.
+    Text(Rc<str>),
+}
+
+/// A matrix of numbers, a column when `cols` is 1. Stored by rows, so that a new row does not move the others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Array {
+    rows: usize,
+    cols: usize,
+    entries: Vec<f64>,
+}
+
+impl Array {
+    /// The array whose entry in row `i` and column `j`, from 0, is `entry(i, j)`.
+    pub fn from_fn(rows: usize, cols: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Self {
+        let entries = (0..rows * cols).map(|k| entry(k / cols, k % cols)).collect();
+        Array { rows, cols, entries }
+    }
+
+    /// The column of the given numbers.
+    pub fn column(entries: Vec<f64>) -> Self {
+        Array { rows: entries.len(), cols: 1, entries }
+    }
+
+    /// The row of the given numbers.
+    pub fn row(entries: Vec<f64>) -> Self {
+        Array { rows: 1, cols: entries.len(), entries }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Number of columns.
+    pub fn cols(&self) -> usize {
+        self.cols
+    }
+
+    /// The numbers row by row.
+    pub fn entries(&self) -> &[f64] {
+        &self.entries
+    }
+
+    /// The numbers row by row, to be changed in place.
+    pub fn entries_mut(&mut self) -> &mut [f64] {
+        &mut self.entries
+    }
+
+    /// The entry in row `i` and column `j`, from 0, if there is one.
+    pub fn get(&self, i: usize, j: usize) -> Option<f64> {
+        (i < self.rows && j < self.cols).then(|| self.entries[i * self.cols + j])
+    }
+
+    /// Writes an entry that [`Array::get`] finds.
+    pub fn set(&mut self, i: usize, j: usize, value: f64) {
+        self.entries[i * self.cols + j] = value;
+    }
+
+    /// How many entries [`Array::grow`] would add.
+    pub fn missing(&self, i: usize, j: usize) -> usize {
+        if i < self.rows && j < self.cols {
+            return 0;
+        }
+        let (rows, cols) = (self.rows.max(i.saturating_add(1)), self.cols.max(j.saturating_add(1)));
+        rows.saturating_mul(cols) - self.entries.len()
+    }
+
+    /// Makes room for row `i` and column `j`, from 0; new entries are 0.
+    pub fn grow(&mut self, i: usize, j: usize) {
+        let (rows, cols) = (self.rows.max(i + 1), self.cols.max(j + 1));
+        if cols != self.cols {
+            self.widen(cols);
+        }
+        self.entries.resize(rows * cols, 0.0);
+        self.rows = rows;
+    }
+
+    /// Makes a row a column, or a column a row.
+    pub fn turn(&mut self) {
+        std::mem::swap(&mut self.rows, &mut self.cols);
+    }
+
+    fn widen(&mut self, cols: usize) {
+        let old = std::mem::take(&mut self.entries);
+        self.entries = vec![0.0; self.rows * cols];
+        for (i, row) in old.chunks_exact(self.cols.max(1)).enumerate() {
+            self.entries[i * cols..i * cols + self.cols].copy_from_slice(row);
+        }
+        self.cols = cols;
+    }
+}
+
+impl Value {
+    /// How many numbers the value holds.
+    pub fn len(&self) -> usize {
+        match self {
+            Value::Number(_) => 1,
+            Value::Array(a) => a.entries.len(),
+            Value::Nested(v) => v.iter().map(Value::len).sum(),
+            Value::Text(t) => t.len() / size_of::<f64>() + 1,
+        }
+    }
+
+    /// True for an array without entries.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Rows and columns.
+    pub fn size(&self) -> (usize, usize) {
+        match self {
+            Value::Array(a) => (a.rows, a.cols),
+            Value::Nested(v) => (v.len(), 1),
+            Value::Number(_) | Value::Text(_) => (1, 1),
+        }
+    }
+
+    /// The number, if the value is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Value::Number(x) => Some(*x),
+            _ => None,
+        }
+    }
+
+    /// What the value is, for messages.
+    pub fn kind(&self) -> String {
+        match self {
+            Value::Number(x) => format!("the number {x}"),
+            Value::Array(a) => format!("a {} x {} array", a.rows, a.cols),
+            Value::Nested(v) => format!("a column of {} arrays", v.len()),
+            Value::Text(_) => "a string".into(),
+        }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Number(x) => write!(f, "{x}"),
+            Value::Text(t) => f.write_str(t),
+            Value::Nested(_) => f.write_str(&self.kind()),
+            Value::Array(a) => {
+                for (i, row) in a.entries.chunks(a.cols.max(1)).enumerate() {
+                    let row: Vec<_> = row.iter().map(f64::to_string).collect();
+                    write!(f, "{}{}", if i == 0 { "" } else { "; " }, row.join(" "))?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Self {
+        Value::Number(x)
+    }
+}
+
+impl From<usize> for Value {
+    fn from(n: usize) -> Self {
+        Value::Number(n as f64)
+    }
+}
+
+impl From<Array> for Value {
+    fn from(a: Array) -> Self {
+        Value::Array(Rc::new(a))
+    }
+}
+
+impl<T: Scalar> From<&Table<T>> for Value {
+    fn from(table: &Table<T>) -> Self {
+        let m = table.as_matrix();
+        Array::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)].to_f64()).into()
+    }
+}
+
+impl From<&Table<usize>> for Value {
+    fn from(table: &Table<usize>) -> Self {
+        Value::from(&table.map(|n| n as f64))
+    }
+}
+
+impl<T: Scalar> From<&Column<T>> for Value {
+    fn from(column: &Column<T>) -> Self {
+        Array::column(column.iter().map(|x| x.to_f64()).collect()).into()
+    }
+}
+
+impl From<&Column<usize>> for Value {
+    fn from(column: &Column<usize>) -> Self {
+        Value::from(&column.map(|n| n as f64))
+    }
+}
+
+/// A column of values.
+impl FromIterator<Value> for Value {
+    fn from_iter<I: IntoIterator<Item = Value>>(values: I) -> Self {
+        Value::Nested(values.into_iter().collect())
+    }
+}
+
+/// A value is not of the shape asked for.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("expected {expected}, found {found}")]
+pub struct ShapeError {
+    /// The shape asked for.
+    pub expected: &'static str,
+    /// What the value is.
+    pub found: String,
+}
+
+impl ShapeError {
+    fn new(expected: &'static str, found: &Value) -> Self {
+        ShapeError { expected, found: found.kind() }
+    }
+}
+
+impl<T: Scalar> TryFrom<&Value> for Table<T> {
+    type Error = ShapeError;
+    fn try_from(value: &Value) -> Result<Self, ShapeError> {
+        let Value::Array(a) = value else {
+            return Err(ShapeError::new("an array", value));
+        };
+        Ok(Table::from_fn(a.rows, a.cols, |i, j| T::from_f64(a.entries[(i - 1) * a.cols + j - 1])))
+    }
+}
+
+impl<T: Scalar> TryFrom<&Value> for Column<T> {
+    type Error = ShapeError;
+    fn try_from(value: &Value) -> Result<Self, ShapeError> {
+        match value {
+            Value::Array(a) if a.cols == 1 => {
+                Ok(Column::from_vec(a.entries.iter().map(|&x| T::from_f64(x)).collect()))
+            }
+            _ => Err(ShapeError::new("a column", value)),
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! The paper's two listings in Rust, line by line: dense, 1-based, in the printed order of operations.
+//!
+//! Speed never enters here. Above every piece stands its listing line, quoted as `//# <line> <text>` from `listings/`;
+//! a test compares each quote byte for byte and checks that each line is mirrored once.
+//!
+//! ```text
+//!            6 *-----* 7      elem[e,6], elem[e,7]: the two nodes of target edge e
+//!               \  ^
+//!      line 10:  \ | yt       vertical distance, target line minus contact node: > 0 when the line is above the node
+//!                 \|
+//!                  o cnt[i1]
+//! ```
+
+#![allow(non_snake_case, reason = "the paper's own names")]
+
+mod c_cnt;
+mod failure;
+mod km;
+mod reading;
+mod worksheet;
+
+pub use c_cnt::{Pairs, c_cnt};
+pub use failure::{Cause, Failure};
+pub use km::Km;
+pub use reading::{
+    LoopPlace, NodeTable, Order, Reading, RestraintIndex, Schedule, ToleranceUnit, Wedge,
+};
+pub use worksheet::Worksheet;

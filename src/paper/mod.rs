@@ -1,0 +1,5 @@
+//! The paper: its listings as text and in Rust, Mathcad's semantics, its readings and its arrays.
+
+pub mod listings;
+pub mod mathcad;
+pub mod mirror;

@@ -1,0 +1,156 @@
+//! The three-node triangle of constant strain (CST): what the paper calls `Ae`, `B` and `D`, and does not print.
+//!
+//! ```text
+//!              3
+//!             / \        nodes counter-clockwise: area > 0
+//!            /   \       displacements in the order u1 v1 u2 v2 u3 v3
+//!           1-----2      strains in the order e_xx e_yy g_xy (engineering shear)
+//! ```
+//!
+//! Source: O. C. Zienkiewicz, R. L. Taylor, *The Finite Element Method*, vol. 1, the three-node triangle.
+#![allow(non_snake_case, reason = "the paper's own names")]
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::choices;
+use crate::numbers::scalar::Scalar;
+
+choices! {
+    /// The plane problem behind `D` (reading R6: the paper does not print which).
+    Plane {
+        /// Plane strain.
+        Strain = "strain",
+        /// Plane stress.
+        Stress = "stress",
+    }
+}
+
+/// Corner coordinates of a triangle, counted from 0.
+pub type Corners<T> = [[T; 2]; 3];
+
+/// Signed area of the triangle, length²: negative when its corners run clockwise.
+pub fn area<T: Scalar>(p: &Corners<T>) -> T {
+    let two = T::one() + T::one();
+    ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1])) / two
+}
+
+/// Strain matrix, 3 x 6, 1/length: strains = B · displacements. The triangle's area must not be zero.
+pub fn B<T: Scalar>(p: &Corners<T>) -> SMatrix<T, 3, 6> {
+    let double_area = area(p) + area(p);
+    let mut b = SMatrix::zeros();
+    for k in 0..3 {
+        let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+        let dx = (p[next][1] - p[last][1]) / double_area;
+        let dy = (p[last][0] - p[next][0]) / double_area;
+        b[(0, 2 * k)] = dx;
+        b[(1, 2 * k + 1)] = dy;
+        b[(2, 2 * k)] = dy;
+        b[(2, 2 * k + 1)] = dx;
+    }
+    b
+}
+
+/// Elasticity matrix, 3 x 3, stress: stresses = D · strains.
+pub fn D<T: Scalar>(plane: Plane, E: T, nu: T) -> SMatrix<T, 3, 3> {
+    let (zero, one) = (T::zero(), T::one());
+    let two = one + one;
+    let (factor, diagonal, shear) = match plane {
+        Plane::Strain => (E / ((one + nu) * (one - two * nu)), one - nu, (one - two * nu) / two),
+        Plane::Stress => (E / (one - nu * nu), one, (one - nu) / two),
+    };
+    SMatrix::from_row_slice(&[
+        factor * diagonal,
+        factor * nu,
+        zero, //
+        factor * nu,
+        factor * diagonal,
+        zero, //
+        zero,
+        zero,
+        factor * shear,
+    ])
+}
+
+/// What an element carries: one value for the whole of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// sigma_x, sigma_y, tau_xy, stress.
+    pub sigma: SVector<f64, 3>,
+    /// e_xx, e_yy, g_xy.
+    pub epsilon: SVector<f64, 3>,
+    /// Von Mises stress.
+    pub von_mises_stress: f64,
+    /// Von Mises strain.
+    pub von_mises_strain: f64,
+}
+
+impl State {
+    /// Strains, stresses and their von Mises values from the element's six displacements.
+    ///
+    /// The paper gives no formula for either von Mises value. Stress: sqrt(3/2 s:s) of the stress deviator, with
+    /// sigma_z = nu (sigma_x + sigma_y) in plane strain. Strain: sqrt(2/3 e:e) of the strain deviator, with
+    /// e_zz = −nu/(1 − nu) (e_xx + e_yy) in plane stress.
+    ///
+    /// Each is computed in T and rounded once on the way out; of exact numbers the von Mises values are the nearest `f64`.
+    pub fn new<T: Scalar>(
+        plane: Plane,
+        E: T,
+        nu: T,
+        B: &SMatrix<T, 3, 6>,
+        u: &SVector<T, 6>,
+    ) -> Self {
+        let two = T::one() + T::one();
+        let three = two + T::one();
+        let (u, common) = T::over_common(u.as_slice().to_vec());
+        let epsilon = B * SVector::<T, 6>::from_vec(u);
+        let sigma = D(plane, E, nu) * epsilon;
+        let sigma_z = match plane {
+            Plane::Strain => nu * (sigma[0] + sigma[1]),
+            Plane::Stress => T::zero(),
+        };
+        let epsilon_z = out_of_plane_strain(plane, nu, &epsilon);
+        State {
+            sigma: sigma.map(|s| (s / common).to_f64()),
+            epsilon: epsilon.map(|e| (e / common).to_f64()),
+            von_mises_stress: deviator_norm(
+                three / two,
+                [sigma[0], sigma[1], sigma_z, sigma[2]],
+                common,
+            ),
+            von_mises_strain: deviator_norm(
+                two / three,
+                [epsilon[0], epsilon[1], epsilon_z, epsilon[2] / two],
+                common,
+            ),
+        }
+    }
+}
+
+/// Von Mises strain by the other formula in use (R10): that of the stress, on strains, divided by 1 + nu.
+pub fn von_mises_strain_by_stress_formula(plane: Plane, nu: f64, e: &SVector<f64, 3>) -> f64 {
+    let e_zz = out_of_plane_strain(plane, nu, e);
+    deviator_norm(1.5, [e[0], e[1], e_zz, e[2] / 2.0], 1.0) / (1.0 + nu)
+}
+
+/// e_zz: 0 in plane strain, −nu/(1 − nu) (e_xx + e_yy) in plane stress.
+fn out_of_plane_strain<T: Scalar>(plane: Plane, nu: T, e: &SVector<T, 3>) -> T {
+    match plane {
+        Plane::Strain => T::zero(),
+        Plane::Stress => -nu / (T::one() - nu) * (e[0] + e[1]),
+    }
+}
+
+/// sqrt(factor · d:d) of the deviator d of a symmetric tensor, its components xx, yy, zz, xy over `common`; scaled, so that no square
+/// overflows or vanishes.
+fn deviator_norm<T: Scalar>(factor: T, tensor: [T; 4], common: T) -> f64 {
+    let (two, three) = (T::one() + T::one(), T::one() + T::one() + T::one());
+    let largest = tensor.into_iter().fold(T::zero(), |m, x| m.max(x.abs()));
+    if largest == T::zero() {
+        return 0.0;
+    }
+    let scale = T::scale(largest);
+    let [xx, yy, zz, xy] = tensor.map(|x| x / scale);
+    let square = |x: T| x * x;
+    let squares = square(xx - yy) + square(yy - zz) + square(zz - xx);
+    T::scaled_root(factor, scale / common, squares / three + two * xy * xy)
+}

@@ -1,0 +1,110 @@
+//! What can be run, and how contact is modelled beyond what the paper prints.
+
+use serde::de::{self, Deserializer};
+use serde::{Deserialize, Serialize};
+
+use crate::choices;
+
+choices! {
+    /// A variant: how the contact pairs enter the equations, and what load an iteration carries.
+    #[derive(Default)]
+    Variant {
+        /// Eq. (1) on increments: equal steps of the load, the shape updated after each.
+        #[default]
+        Stepped = "stepped",
+        /// Eq. (1) imposed on total displacements.
+        Tied = "tied",
+        /// `Km` exactly as printed.
+        Printed = "printed",
+        /// Gaps closed along the normal, released where they would pull: the converged answer.
+        Unilateral = "unilateral",
+    }
+}
+
+choices! {
+    /// What a contact node may do along the target's tangent, under `unilateral`.
+    #[derive(Default)]
+    Friction {
+        /// It follows the target, as eq. (1) asks.
+        #[default]
+        Stick = "stick",
+        /// It slides.
+        None = "0",
+    }
+}
+
+impl<'de> Deserialize<'de> for Friction {
+    /// Reads `0` or `"stick"`.
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        let text = match serde_json::Value::deserialize(d)? {
+            serde_json::Value::String(text) => text,
+            other => other.to_string(),
+        };
+        text.parse()
+            .map_err(|_| de::Error::custom(format!("friction {text} is neither 0 nor \"stick\"")))
+    }
+}
+
+choices! {
+    /// The shape in which `unilateral` measures normals, weights and gaps of nodes that slide.
+    #[derive(Default)]
+    Geometry {
+        /// The current one.
+        #[default]
+        Current = "current",
+        /// The initial one: the theory of small displacements, as Hertz's.
+        Initial = "initial",
+    }
+}
+
+choices! {
+    /// How a contact node is bound to the target surface.
+    #[derive(Default)]
+    Coupling {
+        /// Node to segment: to the two nodes of one edge, as `c_cnt` does.
+        #[default]
+        Nts = "nts",
+        /// Mortar with dual multipliers: to the nodes of all edges that its own edges cover.
+        Mortar = "mortar",
+    }
+}
+
+choices! {
+    /// How the status of a contact node is decided.
+    #[derive(Default)]
+    StatusRule {
+        /// Lines 16 to 18 of `c_cnt` as printed.
+        #[default]
+        Signs = "signs",
+        /// Line 16, and the text's other remedy: a side of the node's triangles crosses the target surface.
+        Intersection = "intersection",
+        /// The signed distance to the nearest target edge is c_tll or less, and the node at most c_tll past the surface's end.
+        Projection = "projection",
+    }
+}
+
+/// How contact is modelled, beyond what the paper prints.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct ContactModel {
+    /// How a contact node is bound to the target surface.
+    pub coupling: Coupling,
+    /// What it may do along the tangent.
+    pub friction: Friction,
+    /// The shape in which contact is measured.
+    pub geometry: Geometry,
+    /// How `tied` and `stepped` decide who is in contact.
+    pub status: StatusRule,
+}
+
+impl ContactModel {
+    /// Whether `unilateral` measures contact in the current shape; else in the initial one: a node that sticks stays at the place that it faced there.
+    pub fn measures_current_shape(&self) -> bool {
+        (self.friction, self.geometry) == (Friction::None, Geometry::Current)
+    }
+}
+
+impl Variant {
+    /// The paper's own: those that search with `c_cnt`.
+    pub const OF_THE_PAPER: &'static [Variant] =
+        &[Variant::Stepped, Variant::Tied, Variant::Printed];
+}

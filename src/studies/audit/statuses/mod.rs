@@ -1,0 +1,140 @@
+//! The paper's own trade measured: "the second option appears preferable from the point of view of the volume of computation".
+//!
+//! On random scenes whose statuses are known, for each status rule: how many contact nodes it gets wrong, by how deep the stamp
+//! jumped, and how many operations it takes, by the number of nodes. The listing's count is the mirror's, whose `∧` on line 7 stops early:
+//! the least that Mathcad can do.
+//!
+//! What projection gets wrong lies at the target's ends: its flank is no target edge, so under a sloping last edge a node beside the
+//! target may stand over the surface, and one inside past its end.
+
+mod counted;
+mod drawn;
+
+use fastrand::Rng;
+use serde::Serialize;
+
+use crate::answer::contact::{Operations, Statuses, statuses};
+use crate::paper::mirror::{Reading, c_cnt};
+use crate::problem::modelling::StatusRule;
+use counted::{Counted, counting};
+use drawn::{Drawn, Kind, draw};
+
+/// Depths of the jump, in c_tll. Target edges are about 250 c_tll long: the last sinks whole elements.
+const DEPTHS: [f64; 6] = [0.5, 2.0, 8.0, 32.0, 128.0, 512.0];
+/// Number of target edges where the depth is varied.
+const EDGES: usize = 16;
+/// Numbers of target edges where the operations are counted, and the depth there: no element sinks whole.
+const SIZES: [usize; 6] = [8, 16, 32, 64, 128, 256];
+const DEPTH: f64 = 4.0;
+/// Operations of lines 22 to 30 for a node in contact: all rules share them, none is charged for them.
+const WEIGHTS: u64 = 12;
+
+/// What was measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Measurement {
+    /// Scenes of each row.
+    pub scenes: usize,
+    /// The seed that they come from.
+    pub seed: u64,
+    /// Wrong statuses by depth and orientation.
+    pub by_depth: Vec<Row>,
+    /// Operations by size, both orientations together.
+    pub by_size: Vec<Row>,
+}
+
+/// The scenes of one kind.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// Number of target edges of a scene.
+    pub edges: usize,
+    /// Depth of the jump, in c_tll.
+    pub depth: f64,
+    /// `below` or `above` the stamp, or `both`: where the target lies.
+    pub target: &'static str,
+    /// Contact nodes of all its scenes.
+    pub nodes: usize,
+    /// Those truly in contact.
+    pub touching: usize,
+    /// What each rule made of them.
+    pub rules: Vec<Score>,
+}
+
+/// What a rule made of the scenes of a row.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Score {
+    /// The rule.
+    pub rule: StatusRule,
+    /// Nodes in contact that it takes for apart.
+    pub missed: usize,
+    /// Nodes apart that it takes for in contact.
+    pub false_contacts: usize,
+    /// Operations on lengths: search and status, without the weights.
+    pub operations: u64,
+}
+
+/// Measures on `scenes` scenes for each depth and orientation, and for each size. The same seed gives the same numbers.
+pub fn measure(scenes: usize, seed: u64) -> Measurement {
+    let mut rng = Rng::with_seed(seed);
+    let mut row = |edges, depth, target: &'static str| {
+        let mut row = Row::new(edges, depth, target);
+        for k in 0..scenes {
+            let above = if target == "both" { k % 2 == 1 } else { target == "above" };
+            row.add(&draw(&mut rng, Kind { edges, depth, above }));
+        }
+        row
+    };
+    let depths = DEPTHS.iter().flat_map(|depth| [(*depth, "below"), (*depth, "above")]);
+    let by_depth = depths.map(|(depth, target)| row(EDGES, depth, target)).collect();
+    let by_size = SIZES.iter().map(|edges| row(*edges, DEPTH, "both")).collect();
+    Measurement { scenes, seed, by_depth, by_size }
+}
+
+impl Row {
+    fn new(edges: usize, depth: f64, target: &'static str) -> Self {
+        let score =
+            |rule: &StatusRule| Score { rule: *rule, missed: 0, false_contacts: 0, operations: 0 };
+        let rules = StatusRule::ALL.iter().map(score).collect();
+        Row { edges, depth, target, nodes: 0, touching: 0, rules }
+    }
+
+    fn add(&mut self, scene: &Drawn) {
+        self.nodes += scene.touching.len();
+        self.touching += scene.touching.iter().filter(|touching| **touching).count();
+        let printed = printed_operations(scene);
+        for score in &mut self.rules {
+            score.add(scene, printed);
+        }
+    }
+}
+
+impl Score {
+    /// Share of wrong statuses among `nodes`.
+    pub fn wrong_share(&self, nodes: usize) -> f64 {
+        (self.missed + self.false_contacts) as f64 / nodes.max(1) as f64
+    }
+
+    fn add(&mut self, scene: &Drawn, printed: u64) {
+        let operations = Operations::default();
+        let found = found(self.rule, scene, &operations);
+        for (dy, touching) in found.dy.iter().zip(&scene.touching) {
+            self.missed += usize::from(*touching && *dy == 0);
+            self.false_contacts += usize::from(!*touching && *dy == 1);
+        }
+        let of_listing = if self.rule == StatusRule::Projection { 0 } else { printed };
+        self.operations += of_listing + operations.count();
+    }
+}
+
+fn found(rule: StatusRule, scene: &Drawn, operations: &Operations) -> Statuses {
+    let sheet = &scene.sheet;
+    statuses(rule, sheet, &Reading::default(), &sheet.node, operations)
+        .expect("no target edge is drawn vertical")
+}
+
+/// The operations of `c_cnt`'s lines 1 to 18.
+fn printed_operations(scene: &Drawn) -> u64 {
+    let sheet = scene.sheet.cast::<Counted>();
+    let (pairs, operations) = counting(|| c_cnt(&sheet, &Reading::default(), &sheet.node));
+    let pairs = pairs.expect("no target edge is drawn vertical");
+    operations - WEIGHTS * pairs.dy.iter().sum::<usize>() as u64
+}

@@ -1,0 +1,152 @@
+//! What a listing reads and writes as it runs, line by line, by contact node (`c_cnt`) or by element (`Km`).
+
+use serde::Serialize;
+use serde_json::Value as Json;
+
+use crate::paper::listings::{self, Which};
+use crate::paper::mathcad::array::Table;
+use crate::paper::mathcad::observe::{Executed, Named};
+use crate::paper::mathcad::{Failure, Listing, Recorder, Settings, Value};
+use crate::paper::mirror::{Pairs, Worksheet};
+
+/// An execution of a listing.
+pub struct Trace {
+    /// The listing.
+    pub which: Which,
+    /// Its statements in order of execution, each with the turn of the outer loop that it belongs to.
+    pub steps: Vec<Step>,
+    /// The lines that the listing's own `trace` wrote.
+    pub output: Vec<String>,
+    /// What came out, or the failure that stopped it.
+    pub result: Result<Product, Box<Failure>>,
+}
+
+/// What a listing computes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Product {
+    /// Of `c_cnt`.
+    Pairs(Pairs<f64>),
+    /// Of `Km`.
+    Matrix(Table<f64>),
+}
+
+/// A statement executed.
+pub struct Step {
+    /// The contact node's place in `cnt`, or the element's row in `EL`; nothing outside those loops.
+    pub turn: Option<usize>,
+    /// The printed line.
+    pub line: usize,
+    /// What was read, in order.
+    pub reads: Vec<Access>,
+    /// What was written.
+    pub writes: Vec<Access>,
+}
+
+/// A name or entry, and its value.
+#[derive(Clone, Debug, Serialize)]
+pub struct Access {
+    /// `ct[3]`.
+    pub name: String,
+    /// Its value.
+    pub value: Json,
+}
+
+/// Statements kept at most: what comes after is executed, but not shown.
+pub const MOST_STEPS: usize = 200_000;
+
+/// Executes `listing` (as `which`) on the arrays `sheet`: `c_cnt` on the initial shape, `Km` on the contact pairs `k_cnt`. Only the
+/// turns that `wanted` asks for are kept.
+pub fn trace(
+    which: Which,
+    listing: &Listing,
+    settings: &Settings,
+    sheet: &Worksheet<f64>,
+    k_cnt: &Table<f64>,
+    wanted: impl Fn(usize) -> bool,
+) -> Trace {
+    let mut steps = Vec::new();
+    let mut turn = None;
+    let outcome = {
+        let mut recorder = Recorder::new(|done: &Executed| {
+            let text = text_of(listing, done.line);
+            if let Some(begun) = turn_begun(which, text, done) {
+                turn = begun;
+            }
+            if turn.is_none_or(&wanted) && steps.len() < MOST_STEPS {
+                steps.push(Step::new(turn, done));
+            }
+        });
+        run(which, listing, settings, sheet, k_cnt, &mut recorder)
+    };
+    let (result, output) = match outcome {
+        Ok((product, output)) => (Ok(product), output),
+        Err(failure) => (Err(failure), vec![]),
+    };
+    Trace { which, steps, output, result }
+}
+
+/// Executes a listing and tells what came out.
+///
+/// # Errors
+/// The failure that stopped it.
+pub fn run<O: crate::paper::mathcad::Observer>(
+    which: Which,
+    listing: &Listing,
+    settings: &Settings,
+    sheet: &Worksheet<f64>,
+    k_cnt: &Table<f64>,
+    observer: &mut O,
+) -> listings::Traced<Product> {
+    match which {
+        Which::CCnt => listings::c_cnt(listing, settings, sheet, &sheet.node, observer)
+            .map(|(pairs, output)| (Product::Pairs(pairs), output)),
+        Which::Km => listings::km(listing, settings, sheet, k_cnt, observer)
+            .map(|(matrix, output)| (Product::Matrix(matrix), output)),
+    }
+}
+
+/// The text of a printed line.
+pub fn text_of(listing: &Listing, printed: usize) -> &str {
+    listing.lines().iter().find(|line| line.printed == printed).map_or("", |line| &line.text)
+}
+
+/// Whether a `for` line begins another turn: over the contact nodes, over the elements, or over something else (none).
+fn turn_begun(which: Which, text: &str, done: &Executed) -> Option<Option<usize>> {
+    let range = text.strip_prefix("for ")?;
+    let written = done.writes.first().and_then(|written| written.value.number())?;
+    let outer = match which {
+        Which::CCnt => range.starts_with("i1 ") && range.contains("rows(cnt)"),
+        Which::Km => range.starts_with("n "),
+    };
+    let other = which == Which::CCnt && range.starts_with("i1 ");
+    if outer { Some(Some(written as usize)) } else { other.then_some(None) }
+}
+
+impl Step {
+    fn new(turn: Option<usize>, done: &Executed) -> Self {
+        let all = |named: &[Named]| named.iter().map(Access::new).collect();
+        Step { turn, line: done.line, reads: all(&done.reads), writes: all(&done.writes) }
+    }
+}
+
+impl Access {
+    fn new(named: &Named) -> Self {
+        let subscripts: Vec<String> = named.subscripts.iter().map(i64::to_string).collect();
+        let name = match subscripts.as_slice() {
+            [] => named.name.clone(),
+            some => format!("{}[{}]", named.name, some.join(",")),
+        };
+        Access { name, value: json(&named.value) }
+    }
+}
+
+/// A number as a number, a small array as its entries (a matrix as its rows), anything else by its kind.
+fn json(value: &Value) -> Json {
+    match value {
+        Value::Number(x) => Json::from(*x),
+        Value::Array(a) if a.entries().len() > 36 => Json::from(value.kind()),
+        Value::Array(a) if a.cols() == 1 => Json::from(a.entries()),
+        Value::Array(a) => a.entries().chunks(a.cols().max(1)).map(Json::from).collect(),
+        other => Json::from(other.kind()),
+    }
+}

@@ -1,0 +1,58 @@
+//! Displacements and stresses.
+
+use crate::answer::contact::Outcome;
+use crate::problem::element::Plane;
+
+/// Displacements and stresses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fields {
+    /// x and y of each node, length.
+    pub u: Vec<[f64; 2]>,
+    /// sigma_x, sigma_y, sigma_z, tau_xy, tau_xz, tau_yz of each triangle, stress.
+    pub sigma: Vec<[f64; 6]>,
+}
+
+impl Fields {
+    /// Zero at `nodes` nodes and in `triangles` triangles.
+    pub fn zero(nodes: usize, triangles: usize) -> Self {
+        Fields { u: vec![[0.0; 2]; nodes], sigma: vec![[0.0; 6]; triangles] }
+    }
+
+    /// The result of a run by this program.
+    pub fn of(outcome: &Outcome) -> Self {
+        let sheet = &outcome.sheet;
+        let states = outcome.elements.iter().zip(sheet.nu.iter());
+        let stresses = states.map(|(state, nu)| {
+            let [x, y, xy] = state.sigma.into();
+            let z = match sheet.plane {
+                Plane::Strain => nu * (x + y),
+                Plane::Stress => 0.0,
+            };
+            [x, y, z, xy, 0.0, 0.0]
+        });
+        Fields {
+            sigma: stresses.collect(),
+            u: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
+        }
+    }
+
+    /// Adds `share` times `other`.
+    pub fn add(&mut self, share: f64, other: &Fields) {
+        let add = |a: &mut f64, b: &f64| *a += share * b;
+        let (u, other_u) = (self.u.as_flattened_mut(), other.u.as_flattened());
+        u.iter_mut().zip(other_u).for_each(|(a, b)| add(a, b));
+        let (sigma, other_sigma) = (self.sigma.as_flattened_mut(), other.sigma.as_flattened());
+        sigma.iter_mut().zip(other_sigma).for_each(|(a, b)| add(a, b));
+    }
+
+    /// Von Mises stress of each triangle.
+    pub fn von_mises(&self) -> Vec<f64> {
+        self.sigma.iter().map(von_mises).collect()
+    }
+}
+
+fn von_mises(s: &[f64; 6]) -> f64 {
+    let normal = (s[0] - s[1]).powi(2) + (s[1] - s[2]).powi(2) + (s[2] - s[0]).powi(2);
+    let shear = s[3].powi(2) + s[4].powi(2) + s[5].powi(2);
+    (normal / 2.0 + 3.0 * shear).sqrt()
+}

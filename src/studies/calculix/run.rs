@@ -1,0 +1,89 @@
+//! A run of `ccx`.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use super::deck::deck;
+use super::fields::Fields;
+use super::problem::{Part, Problem};
+use super::results::parse;
+use crate::error::InputError;
+use crate::files;
+use crate::paper::mirror::Worksheet;
+use crate::problem::scene::Scene;
+
+/// How many of the last lines of a failed run are shown.
+const TAIL: usize = 12;
+
+/// What a run gave.
+pub struct Ran {
+    /// The version that `ccx` says it is.
+    pub version: String,
+    /// Its results.
+    pub fields: Fields,
+}
+
+/// Runs `program` on a deck for each part and sums the results with the parts' shares.
+///
+/// # Errors
+/// No such program; one that fails, with the last lines of its output; results that cannot be read; a pair whose surfaces bound
+/// no triangle.
+pub fn run(
+    program: &str,
+    scene: &Scene,
+    sheet: &Worksheet<f64>,
+    parts: &[Part],
+) -> Result<Ran, InputError> {
+    let version = version(program)?;
+    let mut fields = Fields::zero(sheet.R(), sheet.M());
+    for Part { contact, share } in parts {
+        let printed = print(program, &deck(&Problem { scene, sheet, contact })?)?;
+        fields.add(*share, &parse(&printed, sheet.R(), sheet.M())?);
+    }
+    Ok(Ran { version, fields })
+}
+
+/// What `program` prints to its `.dat` file for `deck`, in a temporary folder.
+fn print(program: &str, deck: &str) -> Result<String, InputError> {
+    let folder = tempfile::tempdir().map_err(|why| {
+        let what = format!("no temporary folder can be made: {why}");
+        InputError::new("the temporary folder", what, "set TMPDIR to a place that can be written")
+    })?;
+    files::write(&folder.path().join("job.inp"), deck)?;
+    let output = start(program, &["job"], folder.path())?;
+    let said = text(&output);
+    if !output.status.success() || said.contains("*ERROR") {
+        return Err(failed(program, &format!("failed ({})", output.status), &said));
+    }
+    std::fs::read_to_string(folder.path().join("job.dat"))
+        .map_err(|why| failed(program, &format!("left no results ({why})"), &said))
+}
+
+/// The last word of `ccx -v`: "This is Version 2.20".
+fn version(program: &str) -> Result<String, InputError> {
+    let output = start(program, &["-v"], Path::new("."))?;
+    Ok(text(&output).split_whitespace().last().unwrap_or("unknown").to_string())
+}
+
+/// One thread: sums of several come in any order.
+fn start(program: &str, args: &[&str], folder: &Path) -> Result<Output, InputError> {
+    let mut command = Command::new(program);
+    command.args(args).current_dir(folder).env("OMP_NUM_THREADS", "1");
+    command.output().map_err(|why| {
+        let what = format!("{program} cannot be started: {why}");
+        let mend = "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name its program with --ccx";
+        InputError::new("ccx", what, mend)
+    })
+}
+
+fn text(output: &Output) -> String {
+    let both = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+    both.concat()
+}
+
+fn failed(program: &str, how: &str, said: &str) -> InputError {
+    let lines: Vec<&str> = said.lines().filter(|line| !line.trim().is_empty()).collect();
+    let tail = lines[lines.len().saturating_sub(TAIL)..].join("\n  ");
+    let what = format!("{program} {how}; the end of its output:\n  {tail}");
+    InputError::new("ccx", what, "export the deck and run it by hand, or choose another penalty")
+}

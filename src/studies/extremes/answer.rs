@@ -1,0 +1,150 @@
+//! The answer of a run with all its digits, and how far it is from another.
+
+use dashu_ratio::RBig;
+use serde_json::Value;
+
+use super::verdict::Verdict;
+use crate::answer::contact::{Outcome, run_in};
+use crate::answer::error::Error;
+use crate::numbers::solve::{Arithmetic, ScalarName, Solver};
+use crate::paper::mirror::Reading;
+use crate::problem::modelling::Variant;
+use crate::problem::scene::Scene;
+
+/// What is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Displacements, relative to the largest of their body.
+    Displacement,
+    /// Von Mises stresses, relative to the largest.
+    Mises,
+}
+
+/// An answer.
+pub struct Answer {
+    /// Displacements of the 2R equations, length.
+    pub u: Vec<RBig>,
+    /// Von Mises stresses.
+    mises: Vec<f64>,
+    /// Who is in contact at the end.
+    dy: Vec<usize>,
+    /// Equations of each body.
+    bodies: Vec<Vec<usize>>,
+}
+
+/// The scene of a file's text; it has no file beside it.
+///
+/// # Errors
+/// Anything wrong with the scene.
+pub fn build(json: &Value) -> Result<Scene, Error> {
+    Ok(Scene::build("extreme", json.to_string().as_bytes(), |_| Err("no file".into()))?)
+}
+
+/// Runs `variant` on `json` in `scalar`, by its own solver unless another is given.
+///
+/// # Errors
+/// Those of the scene and of the run.
+pub fn solve(
+    json: &Value,
+    variant: Variant,
+    scalar: ScalarName,
+    solver: Option<Solver>,
+) -> Result<Answer, Error> {
+    let scene = build(json)?;
+    let arithmetic = Arithmetic { scalar, solver, ..Arithmetic::default() };
+    let outcome = run_in(&scene, variant, &Reading::default(), arithmetic, |_| ())?;
+    Ok(Answer::new(&scene, &outcome))
+}
+
+impl Answer {
+    /// The answer of a run. Exact displacements come with 40 digits.
+    pub fn new(scene: &Scene, outcome: &Outcome) -> Self {
+        let decimal = |text: &String| RBig::from_str_decimal(text).expect("digits of a number");
+        let value = |x: &f64| RBig::try_from(*x).expect("a run's displacements are finite");
+        let equations = |n: &usize| [2 * n - 2, 2 * n - 1];
+        Answer {
+            u: match &outcome.digits {
+                Some(digits) => digits.iter().map(decimal).collect(),
+                None => outcome.u.iter().map(value).collect(),
+            },
+            mises: outcome.elements.iter().map(|state| state.von_mises_stress).collect(),
+            dy: outcome.iterations.last().map_or(vec![], |it| it.pairs.dy.as_slice().to_vec()),
+            bodies: scene
+                .bodies
+                .iter()
+                .map(|b| b.nodes.iter().flat_map(equations).collect())
+                .collect(),
+        }
+    }
+
+    /// The answer with its displacements times `factor`.
+    pub fn times(mut self, factor: f64) -> Self {
+        let factor = RBig::try_from(factor).expect("a power of two");
+        self.u.iter_mut().for_each(|u| *u = &*u * &factor);
+        self
+    }
+
+    /// This answer against the `exact` one: another contact state is wrong, whatever the displacements.
+    pub fn against(&self, exact: &Answer, quantity: Quantity) -> Verdict {
+        if self.dy != exact.dy {
+            return Verdict::of_status(false);
+        }
+        self.beside(exact, quantity)
+    }
+
+    /// The same, whoever is in contact.
+    pub fn beside(&self, exact: &Answer, quantity: Quantity) -> Verdict {
+        match quantity {
+            Quantity::Displacement => {
+                let of_body = |equations: &Vec<usize>| self.error(exact, equations);
+                Verdict::of_error(exact.bodies.iter().map(of_body).fold(0.0, f64::max))
+            }
+            Quantity::Mises => {
+                let pairs = self.mises.iter().zip(&exact.mises);
+                let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                Verdict::of_error(error / exact.mises.iter().fold(0.0, |m: f64, x| m.max(*x)))
+            }
+        }
+    }
+
+    /// Largest error over the largest displacement of a body; infinite where the exact one is 0 and this is not.
+    fn error(&self, exact: &Answer, equations: &[usize]) -> f64 {
+        let abs = |x: RBig| if x < RBig::ZERO { -x } else { x };
+        let largest = |x: &dyn Fn(usize) -> RBig| {
+            equations.iter().map(|&e| abs(x(e))).max().unwrap_or(RBig::ZERO)
+        };
+        let (error, size) =
+            (largest(&|e| &self.u[e] - &exact.u[e]), largest(&|e| exact.u[e].clone()));
+        match () {
+            _ if error.is_zero() => 0.0,
+            _ if size.is_zero() => f64::INFINITY,
+            _ => (error / size).to_f64().value(),
+        }
+    }
+}
+
+/// Runs `variant` on `json` in `scalar` and compares it with the exact run.
+pub fn against_exact(
+    json: &Value,
+    variant: Variant,
+    scalar: ScalarName,
+    solver: Option<Solver>,
+    quantity: Quantity,
+) -> Verdict {
+    match solve(json, variant, scalar, solver) {
+        Err(error) => error.into(),
+        Ok(answer) => compared(&answer, json, variant, quantity),
+    }
+}
+
+/// `answer` against the exact run of `variant` on `json`; `unilateral` has no exact run and is compared with `tied`, which is its
+/// answer where nothing opens.
+pub fn compared(answer: &Answer, json: &Value, variant: Variant, quantity: Quantity) -> Verdict {
+    let unilateral = variant == Variant::Unilateral;
+    let exact = if unilateral { Variant::Tied } else { variant };
+    match solve(json, exact, ScalarName::Exact, None) {
+        Ok(exact) if unilateral && answer.dy != exact.dy => Verdict::Unknown,
+        Ok(exact) => answer.against(&exact, quantity),
+        Err(_) => Verdict::Wrong("exact refuses"),
+    }
+}

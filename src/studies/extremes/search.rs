@@ -1,0 +1,132 @@
+//! The search of `c_cnt` alone: one contact node and one target edge, in a shape that displacements led to.
+
+use nalgebra::DVector;
+use serde_json::{Value, json};
+
+use super::answer::build;
+use super::verdict::Verdict;
+use crate::answer::contact::shape;
+use crate::answer::error::Error;
+use crate::numbers::scalar::{Exact, Scalar, scope};
+use crate::paper::mirror::{Reading, c_cnt};
+
+/// The target edge from `a` to `b`, the contact node `n`, and how far each has moved.
+#[derive(Clone, Copy, Debug)]
+pub struct Search {
+    pub a: [f64; 2],
+    pub b: [f64; 2],
+    pub n: [f64; 2],
+    pub moved: [[f64; 2]; 3],
+    pub c_tll: f64,
+}
+
+/// Gap and weight in the scalar, and the status.
+pub struct Difference<T> {
+    gap: T,
+    weight: T,
+    dy: usize,
+}
+
+impl Search {
+    /// As printed: c_cnt under R5 = node_n, which takes weights from the current shape too.
+    pub fn printed<T: Scalar>(&self) -> Result<Difference<T>, Error> {
+        let scene = build(&self.json())?;
+        let reading: Reading = "R5=node_n".parse().expect("a reading");
+        let sheet = scene.worksheet(&reading)?.cast::<T>();
+        let mut u = vec![T::zero(); 2 * sheet.R()];
+        for (k, node) in [1, 2, 4].into_iter().enumerate() {
+            for d in [0, 1] {
+                u[2 * node - 2 + d] = T::from_f64(self.moved[k][d]);
+            }
+        }
+        let pairs = c_cnt(&sheet, &reading, &shape(&sheet, &DVector::from_vec(u)))?;
+        Ok(Difference { gap: pairs.yt[1], weight: pairs.k_cnt[(4, 2)], dy: pairs.dy[1] })
+    }
+
+    /// The remedy: distance along the normal and weight by projection, over the edge length, from coordinates about `origin`.
+    pub fn projected<T: Scalar>(&self, origin: [f64; 2]) -> Difference<T> {
+        let at = |p: [f64; 2], u: [f64; 2]| {
+            [0, 1].map(|d| T::from_f64(p[d] - origin[d]) + T::from_f64(u[d]))
+        };
+        let [ua, ub, un] = self.moved;
+        let (a, b, n) = (at(self.a, ua), at(self.b, ub), at(self.n, un));
+        let ([ex, ey], [rx, ry]) = (minus(b, a), minus(n, a));
+        let square = ex * ex + ey * ey;
+        // The cross product over the edge length is the gap; over it once more, the gap in edge lengths.
+        let gap = (ry * ex - rx * ey) / square;
+        let weight = T::one() - (rx * ex + ry * ey) / square;
+        Difference { gap, weight, dy: usize::from(Scalar::abs(gap) < T::from_f64(self.c_tll)) }
+    }
+
+    fn json(&self) -> Value {
+        let [[ax, ay], [bx, by], [nx, ny]] = [self.a, self.b, self.n];
+        // A corner to the right of the edge, and two to the left of the contact node.
+        let (ex, ey) = (bx - ax, by - ay);
+        let nodes = [
+            [ax, ay],
+            [bx, by],
+            [ax + ex + ey, ay + ey - ex],
+            [nx, ny],
+            [nx + ex - ey, ny + ey + ex],
+            [nx - ex - ey, ny - ey + ex],
+        ];
+        let nodes: Vec<Value> =
+            nodes.iter().enumerate().map(|(k, [x, y])| json!([k + 1, x, y, 0.0])).collect();
+        json!({
+            "plane": "strain",
+            "node": nodes,
+            "elem": [[1, 1, 2, 10, 10, 1, 2], [2, 2, 2, 1, 1, 1, 3, 2], [3, 2, 2, 2, 2, 4, 5, 6]],
+            "materials": { "1": { "E": 4.0, "nu": 0.0 }, "2": { "E": 4.0, "nu": 0.0 } },
+            "restraints": [
+                { "on": 1, "fix": ["x", "y"] },
+                { "node": 5, "fix": ["x", "y"] },
+                { "node": 6, "fix": ["x", "y"] }
+            ],
+            "contact": { "cnt": [4], "trg": [1], "c_tll": self.c_tll }
+        })
+    }
+}
+
+fn minus<T: Scalar>([ax, ay]: [T; 2], [bx, by]: [T; 2]) -> [T; 2] {
+    [ax - bx, ay - by]
+}
+
+/// What is compared of a search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    Gap,
+    Weight,
+    Status,
+}
+
+/// The printed formulas in `T`, or the projected ones about an origin, against the same in exact numbers.
+pub fn against_exact<T: Scalar>(search: &Search, of: Of, projected: Option<[f64; 2]>) -> Verdict {
+    scope(|| {
+        let (found, exact) = match projected {
+            Some(origin) => {
+                (Ok(search.projected::<T>(origin)), Ok(search.projected::<Exact>([0.0, 0.0])))
+            }
+            None => (search.printed::<T>(), search.printed::<Exact>()),
+        };
+        match (found, exact) {
+            (Err(error), _) => error.into(),
+            (_, Err(_)) => Verdict::Wrong("exact refuses"),
+            (Ok(found), Ok(exact)) => found.against(&exact, of),
+        }
+    })
+}
+
+impl<T: Scalar> Difference<T> {
+    fn against(&self, exact: &Difference<Exact>, of: Of) -> Verdict {
+        let error = |x: T, y: Exact| match (x.to_rational(), y.to_rational()) {
+            (Some(x), Some(y)) => (x - y).to_f64().value().abs(),
+            _ => f64::NAN,
+        };
+        match of {
+            Of::Status => Verdict::of_status(self.dy == exact.dy),
+            Of::Gap => Verdict::of_error(error(self.gap, exact.gap)),
+            Of::Weight if self.dy != exact.dy => Verdict::of_status(false),
+            Of::Weight => Verdict::of_error(error(self.weight, exact.weight)),
+        }
+    }
+}

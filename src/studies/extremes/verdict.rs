@@ -1,0 +1,90 @@
+//! What comes of one problem at one magnitude.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::answer::error::Error;
+
+/// What a run was worth against the exact answer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "verdict", content = "detail", rename_all = "lowercase")]
+pub enum Verdict {
+    /// No error at all.
+    Exact,
+    /// Digits that are right.
+    Digits(f64),
+    /// An answer without a right digit, and in what: a silent wrong answer.
+    Wrong(&'static str),
+    /// No answer, and by which error.
+    Refused(String),
+    /// An answer that no exact one stands beside: `unilateral` where a node opens.
+    Unknown,
+}
+
+impl Verdict {
+    /// From the relative error of an answer.
+    pub fn of_error(error: f64) -> Self {
+        match () {
+            _ if error.is_nan() => Verdict::Wrong("NaN"),
+            _ if error == 0.0 => Verdict::Exact,
+            _ if error > 0.1 => Verdict::Wrong("no digit"),
+            _ => Verdict::Digits(-error.log10()),
+        }
+    }
+
+    /// From who is in contact.
+    pub fn of_status(same: bool) -> Self {
+        if same { Verdict::Exact } else { Verdict::Wrong("contact") }
+    }
+
+    /// No more digits than the scalar carries: an error may be less than its rounding by chance.
+    pub fn at_most(self, carried: f64) -> Self {
+        match self {
+            Verdict::Digits(digits) => Verdict::Digits(digits.min(carried)),
+            other => other,
+        }
+    }
+
+    /// Digits kept, at most `carried`; nothing of a run that was refused, or that nothing stands beside.
+    pub fn digits(&self, carried: f64) -> Option<f64> {
+        match self {
+            Verdict::Exact => Some(carried),
+            Verdict::Digits(digits) => Some(digits.min(carried)),
+            Verdict::Wrong(_) => Some(0.0),
+            Verdict::Refused(_) | Verdict::Unknown => None,
+        }
+    }
+
+    /// Whether it is refused, or has fewer than `least` digits.
+    pub fn gives(&self, least: f64) -> bool {
+        match self {
+            Verdict::Refused(_) => true,
+            _ => self.digits(f64::INFINITY).is_some_and(|digits| digits < least),
+        }
+    }
+}
+
+impl From<Error> for Verdict {
+    /// The error in a few words: its kind and its place.
+    fn from(error: Error) -> Self {
+        Verdict::Refused(match error {
+            Error::Input(error) => format!("input: {}", error.place),
+            Error::Listing(failure) => format!("{} line {}", failure.listing, failure.line),
+            Error::Execution(_) => "the listing".into(),
+            Error::Singular(_) => "singular".into(),
+        })
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Verdict::Exact => f.write_str("exact"),
+            Verdict::Digits(digits) => write!(f, "{:.0}", digits.floor()),
+            Verdict::Wrong(why) => write!(f, "WRONG ({why})"),
+            Verdict::Refused(why) => write!(f, "refused ({why})"),
+            Verdict::Unknown => f.write_str("?"),
+        }
+    }
+}

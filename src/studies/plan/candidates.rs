@@ -1,0 +1,73 @@
+//! Which contact nodes can meet which target edges: a test of boxes.
+//!
+//! ```text
+//!        o node            the edge's box, grown on all sides by c_tll + MARGIN · (its length);
+//!     +-------------+      a node inside it is a candidate for the edge
+//!     |   a         |
+//!     |     \__     |
+//!     |         b   |
+//!     +-------------+
+//! ```
+
+use serde::Serialize;
+
+use crate::paper::mirror::Worksheet;
+
+/// How far a node may move, in lengths of the edge: one that moves further passes over half of it in one step, which the contact search is not
+/// made for either.
+pub const MARGIN: f64 = 0.5;
+
+/// Contact nodes and target edges, and the pairs of them that can meet in the initial shape.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Candidates {
+    /// Entries of `cnt`.
+    pub nodes: usize,
+    /// Target edges.
+    pub edges: usize,
+    /// Pairs of a node and an edge that can meet.
+    pub pairs: usize,
+    /// Nodes that can meet an edge.
+    pub near: usize,
+    /// Of those, nodes within c_tll of an edge.
+    pub touching: usize,
+}
+
+impl Candidates {
+    /// The candidates of a scene; nothing without contact.
+    pub fn find(sheet: &Worksheet<f64>) -> Option<Self> {
+        let at = |n: usize| [sheet.node[(n, 2)], sheet.node[(n, 3)]];
+        let edges: Vec<[[f64; 2]; 2]> =
+            sheet.trg.iter().map(|&e| [6, 7].map(|column| at(sheet.elem[(e, column)]))).collect();
+        let met = |&n: &usize| edges.iter().filter(|edge| near(at(n), edge, sheet.c_tll)).count();
+        let of_node: Vec<usize> = sheet.cnt.iter().map(met).collect();
+        let touches = |p| edges.iter().any(|edge| distance(p, edge) <= sheet.c_tll);
+        (!of_node.is_empty()).then(|| Candidates {
+            nodes: of_node.len(),
+            edges: edges.len(),
+            pairs: of_node.iter().sum(),
+            near: of_node.iter().filter(|met| **met > 0).count(),
+            touching: sheet.cnt.iter().filter(|n| touches(at(**n))).count(),
+        })
+    }
+
+    /// Pairs that the search as printed walks at every call: all.
+    pub fn all(&self) -> usize {
+        self.nodes * self.edges
+    }
+}
+
+/// Whether `p` lies in the box of `edge`, grown.
+fn near(p: [f64; 2], [a, b]: &[[f64; 2]; 2], c_tll: f64) -> bool {
+    let margin = c_tll + MARGIN * (b[0] - a[0]).hypot(b[1] - a[1]);
+    [0, 1].into_iter().all(|d| {
+        let (low, high) = (a[d].min(b[d]) - margin, a[d].max(b[d]) + margin);
+        (low..=high).contains(&p[d])
+    })
+}
+
+/// From `p` to the nearest point of an edge, length.
+fn distance(p: [f64; 2], [a, b]: &[[f64; 2]; 2]) -> f64 {
+    let ([dx, dy], [px, py]) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let along = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
+    (px - along * dx).hypot(py - along * dy)
+}

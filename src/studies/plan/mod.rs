@@ -1,0 +1,233 @@
+//! What a run will build and what it leaves out, and what that costs, before any of it is done.
+//!
+//! ```text
+//!  scene --+--> bodies, equations, contact candidates      counted
+//!          +--> symmetry, what nothing moves               recognised
+//!          +--> factors, by their pattern (solve::FactorSize)
+//!                  +--> bytes, operations --> seconds (Machine)
+//! ```
+
+mod bodies;
+mod candidates;
+mod cost;
+mod machine;
+
+use serde::Serialize;
+
+pub use bodies::{BodyPlan, Idle};
+pub use candidates::{Candidates, MARGIN};
+pub use cost::{Bytes, Cost, Work};
+pub use machine::Machine;
+
+use crate::answer::contact::dense_matrices;
+use crate::choices;
+use crate::error::InputError;
+use crate::numbers::solve::{Arithmetic, FactorSize, ScalarName, Solver, memory};
+use crate::paper::mirror::{Reading, Worksheet};
+use crate::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
+use crate::problem::scene::Scene;
+use crate::problem::scene::symmetry::half;
+
+choices! {
+    /// How the matrices of a run are kept.
+    Storage {
+        /// Every entry.
+        Dense = "dense",
+        /// The entries that are not 0.
+        Sparse = "sparse",
+    }
+}
+
+/// What a run will build.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Plan {
+    /// Name of the scene.
+    pub scene: String,
+    /// What will be run.
+    pub variant: Variant,
+    /// Nodes, R.
+    pub nodes: usize,
+    /// Triangles, M.
+    pub triangles: usize,
+    /// The bodies.
+    pub bodies: Vec<BodyPlan>,
+    /// The equations.
+    pub equations: Equations,
+    /// The contact; none where the scene has none.
+    pub contact: Option<ContactPlan>,
+    /// The number type.
+    pub scalar: ScalarName,
+    /// The solver.
+    pub solver: Solver,
+    /// How its matrices are kept.
+    pub storage: Storage,
+    /// What one factorisation takes.
+    pub factors: FactorSize,
+    /// What the run takes.
+    pub cost: Cost,
+    /// Nodes of the mesh file that belong to no triangle and were dropped.
+    pub orphans: usize,
+    /// Half of the scene, where it is its own mirror image about a vertical line.
+    pub half: Option<HalfPlan>,
+}
+
+/// The equations: 2R.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Equations {
+    /// All.
+    pub all: usize,
+    /// Restrained.
+    pub restrained: usize,
+    /// Free, before ties take out those of nodes in contact.
+    pub free: usize,
+    /// Of those in the matrix: all where `Km` is built as printed, 1 on the diagonal of a restrained one.
+    pub solved: usize,
+    /// Free ones of bodies that nothing moves.
+    pub idle: usize,
+}
+
+/// Half of a symmetric scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct HalfPlan {
+    /// Where the line of symmetry stands: x, length.
+    pub at: f64,
+    /// Nodes of the half, those on the line among them.
+    pub nodes: usize,
+}
+
+/// The contact.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ContactPlan {
+    /// How a node is bound to the target; `printed`: by `Km` as printed.
+    pub coupling: Coupling,
+    /// What it may do along the tangent, under `unilateral`.
+    pub friction: Friction,
+    /// How `tied` and `stepped` decide who is in contact.
+    pub status: StatusRule,
+    /// Who can meet whom.
+    pub candidates: Candidates,
+}
+
+impl Plan {
+    /// The plan of `variant` on `scene` in `arithmetic`. Neither a matrix is built nor an equation solved.
+    ///
+    /// # Errors
+    /// A Poisson's ratio that R6 does not allow; a rung that is not there.
+    pub fn new(
+        scene: &Scene,
+        variant: Variant,
+        reading: &Reading,
+        arithmetic: Arithmetic,
+    ) -> Result<Self, InputError> {
+        arithmetic.check()?;
+        let sheet = scene.worksheet(reading)?;
+        let bodies = bodies::plan(scene, &sheet, variant);
+        let solver = solver(variant, arithmetic);
+        let equations = equations(&sheet, variant, &bodies);
+        let contact = contact(&sheet, scene.contact);
+        let dense = dense_matrices(variant, arithmetic);
+        let sparse = FactorSize::sparse_cholesky(equations.free, pattern(&sheet).into_iter());
+        let factors = match solver {
+            Solver::DenseLu => FactorSize::dense_lu(equations.solved),
+            Solver::DenseCholesky => FactorSize::dense_cholesky(equations.solved),
+            _ => sparse,
+        };
+        let work = Work {
+            scene,
+            sheet: &sheet,
+            variant,
+            arithmetic,
+            dense,
+            factors,
+            sparse,
+            candidates: contact.as_ref().map(|contact| &contact.candidates),
+        };
+        Ok(Plan {
+            scene: scene.name.clone(),
+            variant,
+            nodes: sheet.R(),
+            triangles: sheet.M(),
+            cost: work.cost(),
+            bodies,
+            equations,
+            contact,
+            scalar: arithmetic.scalar,
+            solver,
+            storage: if dense > 0 { Storage::Dense } else { Storage::Sparse },
+            factors,
+            orphans: scene.dropped.len(),
+            half: half(scene).map(|half| HalfPlan { at: half.at, nodes: half.nodes.len() }),
+        })
+    }
+
+    /// Whether half of the scene has the same solution. Under the other variants it has not: the print's search goes along the surface in one
+    /// direction, and gives a symmetric scene an answer that is not symmetric.
+    pub fn half_would_do(&self) -> bool {
+        self.half.is_some() && (self.contact.is_none() || self.variant == Variant::Unilateral)
+    }
+
+    /// That what the run holds in dense matrices fits in `free` bytes: what `solve` asks before it starts.
+    ///
+    /// # Errors
+    /// It does not.
+    pub fn check_memory(&self, free: Option<u128>) -> Result<(), InputError> {
+        memory::check(self.nodes, self.cost.dense_matrices, free)
+    }
+}
+
+/// The solver: `unilateral` has its own.
+fn solver(variant: Variant, arithmetic: Arithmetic) -> Solver {
+    match variant {
+        Variant::Unilateral => Solver::SparseCholesky,
+        _ => arithmetic.solver(),
+    }
+}
+
+fn equations(sheet: &Worksheet<f64>, variant: Variant, bodies: &[BodyPlan]) -> Equations {
+    let all = 2 * sheet.R();
+    let restrained = sheet.S.iter().filter(|s| **s == 1).count();
+    let free = all - restrained;
+    let idle = bodies.iter().filter(|body| body.idle.is_some()).map(|body| body.free).sum();
+    let solved = if variant == Variant::Printed { all } else { free };
+    Equations { all, restrained, free, solved, idle }
+}
+
+fn contact(sheet: &Worksheet<f64>, model: ContactModel) -> Option<ContactPlan> {
+    let ContactModel { coupling, friction, status, .. } = model;
+    let candidates = Candidates::find(sheet)?;
+    Some(ContactPlan { coupling, friction, status, candidates })
+}
+
+/// Row and column, from 0, of the entries of K on the free equations, lower triangle. Contact is left out: it changes a few.
+fn pattern(sheet: &Worksheet<f64>) -> Vec<(usize, usize)> {
+    let mut number = Vec::with_capacity(sheet.S.rows());
+    let mut free = 0..;
+    for s in sheet.S.iter() {
+        number.push(if *s == 0 { free.next() } else { None });
+    }
+    let equations = |node: usize| [2 * node - 2, 2 * node - 1].map(|e| number[e]);
+    let mut entries = Vec::new();
+    for (n, neighbours) in neighbours(sheet).into_iter().enumerate() {
+        for i in equations(n + 1).into_iter().flatten() {
+            let columns = neighbours.iter().flat_map(|m| equations(*m)).flatten();
+            entries.extend(columns.filter(|j| *j <= i).map(|j| (i, j)));
+        }
+    }
+    entries
+}
+
+/// For each node the nodes up to itself that share a triangle with it, itself among them.
+fn neighbours(sheet: &Worksheet<f64>) -> Vec<Vec<usize>> {
+    let mut of_node: Vec<Vec<usize>> = (1..=sheet.R()).map(|n| vec![n]).collect();
+    for n in 1..=sheet.M() {
+        let corners = [0, 1, 2].map(|k| sheet.EL[(n, sheet.ind_1 + k)]);
+        for a in corners {
+            of_node[a - 1].extend(corners.into_iter().filter(|b| *b < a));
+        }
+    }
+    for neighbours in &mut of_node {
+        neighbours.sort_unstable();
+        neighbours.dedup();
+    }
+    of_node
+}
