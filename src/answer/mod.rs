@@ -1,5 +1,28 @@
-//! The answer: runs of a variant on a problem, and how far their numbers may be from the truth.
+//! The answer: a request, its solution, and how far its numbers may be from the truth.
 
 pub mod contact;
+mod distance;
+mod elimination;
+mod equations;
 pub mod error;
 pub mod estimates;
+mod hertz;
+mod published;
+mod request;
+mod solution;
+mod solve;
+mod sparse;
+mod stiffness;
+mod summary;
+mod support;
+mod unilateral;
+
+pub use distance::{BodyDistance, Distance, distance};
+pub use elimination::{Constraint, Elimination, Motion};
+pub use hertz::Hertz;
+pub use request::Request;
+pub use solution::{Cycle, Detail, Published, Solution, Step, Unilateral, max_displacement};
+pub use solve::{reference, reference_request, solve};
+pub use sparse::dense_matrices;
+pub use stiffness::Stiffness;
+pub use summary::{BodySummary, summaries};

@@ -13,6 +13,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::choices;
+use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
 
 choices! {
@@ -22,6 +23,24 @@ choices! {
         Strain = "strain",
         /// Plane stress.
         Stress = "stress",
+    }
+}
+
+impl Plane {
+    /// Checks that `nu` is a Poisson's ratio of the plane problem.
+    ///
+    /// # Errors
+    /// It is outside (-1, 0.5) in plane strain, (-1, 1) in plane stress.
+    pub fn check_poisson(self, nu: f64, place: &str) -> Result<(), InputError> {
+        let (below, name) = match self {
+            Plane::Strain => (0.5, "plane strain"),
+            Plane::Stress => (1.0, "plane stress"),
+        };
+        if nu > -1.0 && nu < below {
+            return Ok(());
+        }
+        let what = format!("nu = {nu} is outside (-1, {below}) in {name}");
+        Err(InputError::new(place, what, "give a Poisson's ratio inside"))
     }
 }
 

@@ -3,12 +3,12 @@
 //! ```text
 //!        normal ^         o p            distance > 0: p is outside the target
 //!               |         :
-//!     a *-------+---------x------* b     x: the foot of p; xi counts from elem[edge,6] = a to elem[edge,7] = b
+//!     a *-------+---------x------* b     x: the point closest to p; xi counts from elem[edge,6] = a to elem[edge,7] = b
 //!        . . . . target . . . .
 //!
 //!     convex corner   o p          concave corner      \ o p /
 //!                    :                                  \ : /
-//!               ----*               the foot is on       \:/
+//!               ----*               it is on             \:/
 //!             . . . .\              either edge           *
 //!             . target\                                 target
 //! ```
@@ -19,17 +19,16 @@
 use robust::{Coord, orient2d};
 
 use super::operations::Operations;
-use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::Worksheet;
+use crate::problem::model::{EdgeId, Model, NodeId};
 
 /// The place on the target surface that is nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foot {
-    /// `elem` number of the target edge.
-    pub edge: usize,
+pub struct ClosestPoint {
+    /// The target edge.
+    pub edge: EdgeId,
     /// Place on it: 0 at its first node, 1 at its second.
     pub xi: f64,
-    /// Distance to the foot, length: > 0 outside the target, < 0 inside. Past the end of the surface the edge's line is the border.
+    /// Distance to it, length: > 0 outside the target, < 0 inside. Past the end of the surface the edge's line is the border.
     pub distance: f64,
     /// Unit normal of the edge, out of the target.
     pub normal: [f64; 2],
@@ -46,8 +45,8 @@ pub struct TargetSurface {
 /// A target edge in a shape.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
-    /// Its `elem` number.
-    number: usize,
+    /// Which of the model's edges it is.
+    id: EdgeId,
     /// Its two ends, in the order of `elem`.
     pub ends: [[f64; 2]; 2],
     length: f64,
@@ -58,44 +57,47 @@ pub(super) struct Edge {
 }
 
 impl TargetSurface {
-    /// The target surface of `sheet` in the shape `node_n` (R x 4). An edge that bounds no triangle, or whose triangle has no area, has
-    /// no inner side and is left out.
-    pub fn new(sheet: &Worksheet<f64>, node_n: &Table<f64>) -> Self {
-        let nodes = |e: usize| [6, 7].map(|column| sheet.elem[(e, column)]);
-        let shared = |node: usize| sheet.trg.iter().filter(|e| nodes(**e).contains(&node)).count();
-        let edge = |&number: &usize| {
-            let ends = nodes(number).map(|n| place(node_n, n));
-            let inner = orient(ends[0], ends[1], place(node_n, third(sheet, nodes(number))?));
+    /// The target surface of `model` in a shape, the coordinates of each node. An edge that bounds no triangle, or whose triangle has no
+    /// area, has no inner side and is left out.
+    pub fn new(model: &Model, shape: &[[f64; 2]]) -> Self {
+        let shared =
+            |node: NodeId| model.target_edges().filter(|e| e.nodes.contains(&node)).count();
+        let place = |n: NodeId| shape[n.index()];
+        let edge = |&id: &EdgeId| {
+            let nodes = model.edge(id).nodes;
+            let ends = nodes.map(place);
+            let third = model.sides.beside(nodes).first()?.third;
+            let inner = orient(ends[0], ends[1], place(third));
             let length = (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1]);
-            let free = nodes(number).map(|n| shared(n) == 1);
-            let edge = Edge { number, ends, length, inner: inner.signum(), free };
+            let free = nodes.map(|n| shared(n) == 1);
+            let edge = Edge { id, ends, length, inner: inner.signum(), free };
             (inner != 0.0).then_some(edge)
         };
-        TargetSurface { edges: sheet.trg.iter().filter_map(edge).collect() }
+        TargetSurface { edges: model.contact.target.iter().filter_map(edge).collect() }
     }
 
-    /// The foot of `p`; nothing where the surface has no edge.
-    pub fn nearest(&self, p: [f64; 2]) -> Option<Foot> {
+    /// The point closest to `p`; nothing where the surface has no edge.
+    pub fn nearest(&self, p: [f64; 2]) -> Option<ClosestPoint> {
         self.nearest_counted(p, &Operations::default())
     }
 
     /// As [`nearest`](Self::nearest), counting operations. Every edge is looked at: as clear as the listing's own search, and the two
     /// can be compared.
-    pub fn nearest_counted(&self, p: [f64; 2], operations: &Operations) -> Option<Foot> {
+    pub fn nearest_counted(&self, p: [f64; 2], operations: &Operations) -> Option<ClosestPoint> {
         operations.add(self.edges.len() as u64);
         let measured = self.edges.iter().map(|edge| edge.measure(p, operations));
         measured
             .reduce(|best, next| if next.nearer_than(&best) { next } else { best })
-            .map(Near::foot)
+            .map(Near::closest)
     }
 }
 
 /// An edge as seen from a point.
 struct Near<'e> {
     edge: &'e Edge,
-    /// Place of the foot, before it is held to the edge: below 0 and above 1 past the ends.
+    /// Place of the closest point, before it is kept to the edge: below 0 and above 1 past the ends.
     t: f64,
-    /// Distance to the foot, without sign.
+    /// Distance to it, without sign.
     distance: f64,
     /// Distance to the edge's line, > 0 outside.
     line: f64,
@@ -107,11 +109,11 @@ impl Near<'_> {
         self.distance < other.distance || tie && self.line.abs() > other.line.abs()
     }
 
-    fn foot(self) -> Foot {
-        let Edge { number, length, free, .. } = *self.edge;
+    fn closest(self) -> ClosestPoint {
+        let Edge { id, length, free, .. } = *self.edge;
         let past = [-self.t, self.t - 1.0].map(|t| t.max(0.0) * length);
-        Foot {
-            edge: number,
+        ClosestPoint {
+            edge: id,
             xi: self.t.clamp(0.0, 1.0),
             distance: if self.line < 0.0 { -self.distance } else { self.distance },
             normal: self.edge.normal(),
@@ -149,18 +151,6 @@ impl Edge {
     pub fn side(&self, p: [f64; 2]) -> f64 {
         self.inner * orient(self.ends[0], self.ends[1], p)
     }
-}
-
-/// The third node of the triangle that has `edge` as a side.
-fn third(sheet: &Worksheet<f64>, edge: [usize; 2]) -> Option<usize> {
-    let nodes = |n: usize| [0, 1, 2].map(|k| sheet.EL[(n, sheet.ind_1 + k)]);
-    let triangle = (1..=sheet.M()).map(nodes).find(|t| edge.iter().all(|n| t.contains(n)))?;
-    triangle.into_iter().find(|n| !edge.contains(n))
-}
-
-/// A node's place in a shape.
-pub(super) fn place(node_n: &Table<f64>, n: usize) -> [f64; 2] {
-    [node_n[(n, 2)], node_n[(n, 3)]]
 }
 
 /// Twice the area of a, b, c with its exact sign: > 0 where c lies to the left of the way from a to b.

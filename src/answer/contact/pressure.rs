@@ -1,23 +1,23 @@
 //! What the contact surface carries at the end of a run, whatever the variant: the reaction of the stamp's equations, K u − F.
 
 use nalgebra::DVector;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::pairing::{Pairing, Surfaces};
-use super::support::normal_force;
-use crate::error::InputError;
-use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::Worksheet;
+use super::pairing::Pairing;
+use super::surface::Surfaces;
+use crate::answer::support::normal_force;
+use crate::problem::model::{Model, NodeId};
 
 /// A contact node at the end of a run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactNode {
-    /// Its number.
-    pub node: usize,
+    /// The node.
+    pub node: NodeId,
     /// Distance from the first contact node along the undeformed contact surface, length.
     pub arc: f64,
-    /// 1 = in contact by the variant's own rule.
-    pub dy: usize,
+    /// Whether it is in contact by the variant's own rule.
+    #[serde(rename = "dy", with = "as_number")]
+    pub in_contact: bool,
     /// Distance from the target along its normal, length; < 0 where the node penetrates.
     pub gap: f64,
     /// Force on the node along the normal, force; < 0 where it pulls.
@@ -30,54 +30,63 @@ pub struct ContactNode {
     pub friction_needed: Option<f64>,
 }
 
-/// The contact surface at the end of a run.
-pub struct Surface<'a> {
-    /// The paper's arrays.
-    pub sheet: &'a Worksheet<f64>,
-    /// Thickness, length.
-    pub thickness: f64,
-    /// The shape in which contact is measured: R x 4.
-    pub measured_in: &'a Table<f64>,
-    /// What each entry of `cnt` faces in it.
+/// `dy` in files: 1 or 0.
+mod as_number {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(value: &bool, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_u8(u8::from(*value))
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<bool, D::Error> {
+        Ok(u8::deserialize(deserializer)? == 1)
+    }
+}
+
+/// What is known of the contact surface at the end of a run.
+pub struct Traction<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// Its surfaces.
+    pub surfaces: &'a Surfaces,
+    /// The shape in which contact is measured: coordinates of each node, length.
+    pub measured_in: &'a [[f64; 2]],
+    /// What each entry of the contact surface faces in it.
     pub pairings: &'a [Option<Pairing>],
-    /// By entry of `cnt`, 1 = in contact.
-    pub dy: &'a [usize],
+    /// Whether each entry is in contact.
+    pub in_contact: &'a [bool],
     /// K u − F, force.
     pub reaction: &'a DVector<f64>,
 }
 
-impl Surface<'_> {
-    /// The contact nodes that face the target, in the order of `cnt`.
-    ///
-    /// # Errors
-    /// A target edge that bounds no triangle.
-    pub fn nodes(&self) -> Result<Vec<ContactNode>, InputError> {
-        let surfaces = Surfaces::new(self.sheet)?;
-        let lengths = [&self.sheet.node, self.measured_in].map(|shape| surfaces.tributary(shape));
-        let arcs = arcs(self.sheet, &self.sheet.node);
+impl Traction<'_> {
+    /// The contact nodes that face the target, in order along the surface.
+    pub fn nodes(&self) -> Vec<ContactNode> {
+        let lengths =
+            [&self.model.nodes[..], self.measured_in].map(|shape| self.surfaces.tributary(shape));
+        let arcs = arcs(self.model);
         let node = |i: usize| {
             let pairing = self.pairings[i].as_ref()?;
             let stretch = lengths[1][i] / lengths[0][i];
-            Some(self.node(pairing, arcs[i], self.dy[i], over(pairing.length, stretch)))
+            Some(self.node(pairing, arcs[i], self.in_contact[i], over(pairing.length, stretch)))
         };
-        Ok((0..self.pairings.len()).filter_map(node).collect())
+        (0..self.pairings.len()).filter_map(node).collect()
     }
 
     /// A contact node that stands for `length` of the undeformed surface.
-    fn node(&self, pairing: &Pairing, arc: f64, dy: usize, length: f64) -> ContactNode {
-        let (sheet, reaction) = (self.sheet, self.reaction);
-        let first = 2 * pairing.node - 2;
+    fn node(&self, pairing: &Pairing, arc: f64, in_contact: bool, length: f64) -> ContactNode {
+        let [rx, ry] = pairing.node.of(self.reaction);
         let [nx, ny] = pairing.normal;
-        let held = sheet.S[first + 1] == 1 || sheet.S[first + 2] == 1;
-        let normal = normal_force(sheet, pairing, reaction);
+        let normal = normal_force(self.model, pairing, self.reaction);
         // Of a node that a restraint holds the part along the tangent cannot be told from the restraint's own.
-        let tangent = if held { 0.0 } else { nx * reaction[first + 1] - ny * reaction[first] };
-        let area = length * self.thickness;
-        let presses = dy == 1 && normal > 0.0;
+        let restrained = self.model.restraints_of(pairing.node).contains(&true);
+        let tangent = if restrained { 0.0 } else { nx * ry - ny * rx };
+        let area = length * self.model.thickness;
+        let presses = in_contact && normal > 0.0;
         ContactNode {
             node: pairing.node,
             arc,
-            dy,
+            in_contact,
             gap: pairing.gap,
             force: normal,
             pressure: over(normal, area),
@@ -92,14 +101,14 @@ fn over(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
-/// Distance of each entry of `cnt` from the first along the polyline, length.
-pub(super) fn arcs(sheet: &Worksheet<f64>, node: &Table<f64>) -> Vec<f64> {
-    let at = |i1: usize| [2, 3].map(|column| node[(sheet.cnt[i1], column)]);
+/// Distance of each entry of the contact surface from the first along the undeformed surface, length.
+pub(in crate::answer) fn arcs(model: &Model) -> Vec<f64> {
+    let at = |i: usize| model.at(model.contact.nodes[i]);
     let mut arc = 0.0;
-    (1..=sheet.cnt.rows())
-        .map(|i1| {
-            if i1 > 1 {
-                let ([ax, ay], [bx, by]) = (at(i1 - 1), at(i1));
+    (0..model.contact.nodes.len())
+        .map(|i| {
+            if i > 0 {
+                let ([ax, ay], [bx, by]) = (at(i - 1), at(i));
                 arc += (bx - ax).hypot(by - ay);
             }
             arc

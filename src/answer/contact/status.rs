@@ -21,117 +21,124 @@
 //! What the remedy cannot see: a node whose elements have sunk in whole (no side of theirs is cut), and a node beside the target
 //! whose side runs through the target's flank, which is no target edge, and out through the surface.
 
-use super::nearest::{Edge, TargetSurface, orient, place};
+use super::nearest::{Edge, TargetSurface, orient};
 use super::operations::Operations;
-use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mirror::{
-    Cause, Failure, LoopPlace, NodeTable, Order, Pairs, Reading, Worksheet, c_cnt,
-};
+use crate::numbers::scalar::Scalar;
+use crate::paper::door::{self, ContactStatus, NodeToSegment};
+use crate::paper::mirror::{Failure, Order, Reading, c_cnt};
+use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::StatusRule;
 
-/// Target edges and statuses, by contact node.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Statuses {
-    /// `elem` number of the target edge: `c_cnt`'s, and where it found none for a node in contact, the nearest; under *projection* the
-    /// nearest for each node, 0 past the surface's end.
-    pub ct: Column<usize>,
-    /// `c_cnt`'s yt; under *projection* minus the signed distance to the nearest edge: > 0 inside the target. Length.
-    pub yt: Column<f64>,
-    /// 1 = in contact.
-    pub dy: Column<usize>,
-}
-
-/// The contact pairs in the shape `node_n` (R x 4), statuses by `rule`. The weights are those of lines 21 to 30 of `c_cnt`.
+/// Who is in contact in a shape, the coordinates of each node, by `rule`.
+///
+/// Under *signs* edges and distances are `c_cnt`'s. Under *intersection* too, and where it found no edge for a node in contact, the edge is
+/// the nearest. Under *projection* the edge is the nearest one, none past the surface's end, and the distance minus the signed distance to
+/// it: > 0 inside the target.
 ///
 /// # Errors
-/// Where the lines of `c_cnt` that the rule keeps fail as printed: all of them under *signs*; 1 to 16 under *intersection*, and 19 to 30
-/// under both other rules: the weights of a vertical edge.
-pub fn pairs(
-    rule: StatusRule,
-    sheet: &Worksheet<f64>,
-    reading: &Reading,
-    node_n: &Table<f64>,
-) -> Result<Pairs<f64>, Failure> {
-    if rule == StatusRule::Signs {
-        return c_cnt(sheet, reading, node_n);
-    }
-    let Statuses { ct, yt, dy } = statuses(rule, sheet, reading, node_n, &Operations::default())?;
-    let node = match reading.r5 {
-        NodeTable::Node => &sheet.node,
-        NodeTable::NodeN => node_n,
-    };
-    let k_cnt = weights(sheet, reading.r1, node, &ct, &dy)?;
-    Ok(Pairs { ct, yt, dy, k_cnt })
-}
-
-/// Target edges and statuses alone, counting the operations beside those of `c_cnt`.
-///
-/// # Errors
-/// Where the lines of `c_cnt` that the rule keeps fail as printed; never under *projection*.
+/// Where the lines of `c_cnt` that the rule keeps fail as printed: all of them under *signs*, 1 to 16 under *intersection*.
 pub fn statuses(
     rule: StatusRule,
-    sheet: &Worksheet<f64>,
+    model: &Model,
     reading: &Reading,
-    node_n: &Table<f64>,
+    shape: &[[f64; 2]],
+) -> Result<Vec<ContactStatus>, Failure> {
+    statuses_counted(rule, model, reading, shape, &Operations::default())
+}
+
+/// The same, counting the operations beside those of `c_cnt`.
+///
+/// # Errors
+/// Those of [`statuses`].
+pub fn statuses_counted(
+    rule: StatusRule,
+    model: &Model,
+    reading: &Reading,
+    shape: &[[f64; 2]],
     operations: &Operations,
-) -> Result<Statuses, Failure> {
-    let surface = || TargetSurface::new(sheet, node_n);
+) -> Result<Vec<ContactStatus>, Failure> {
+    let printed = |reading: &Reading| {
+        let sheet = door::worksheet(model, |x| x);
+        let pairs = c_cnt(&sheet, reading, &door::node_n(model, shape))?;
+        Ok(door::statuses(model, &pairs))
+    };
+    let surface = || TargetSurface::new(model, shape);
     match rule {
-        StatusRule::Signs => {
-            let Pairs { ct, yt, dy, .. } = c_cnt(sheet, reading, node_n)?;
-            Ok(Statuses { ct, yt, dy })
-        }
+        StatusRule::Signs => printed(reading),
         StatusRule::Intersection => {
             // The sign rule takes no part: a false operand keeps its lines from failing.
-            let reading = Reading { r4: Order::Guarded, ..*reading };
-            let printed = c_cnt(sheet, &reading, node_n)?;
-            Ok(by_intersection(sheet, node_n, &surface(), printed, operations))
+            let printed = printed(&Reading { r4: Order::Guarded, ..*reading })?;
+            Ok(by_intersection(model, shape, &surface(), printed, operations))
         }
-        StatusRule::Projection => Ok(by_projection(sheet, node_n, &surface(), operations)),
+        StatusRule::Projection => Ok(by_projection(model, shape, &surface(), operations)),
     }
+}
+
+/// The places of the nodes in contact on their target edges, with the weights of lines 22 and 23 of `c_cnt`. `x`: the x coordinate of
+/// each node in the shape that weights come from (R5).
+///
+/// # Errors
+/// Where line 22 fails as printed: the weights of a vertical edge.
+pub fn places<T: Scalar>(
+    model: &Model,
+    statuses: &[ContactStatus],
+    x: impl Fn(NodeId) -> T,
+) -> Result<Vec<NodeToSegment<T>>, Failure> {
+    let in_contact = statuses.iter().enumerate().filter(|(_, status)| status.in_contact);
+    in_contact
+        .map(|(k, status)| {
+            let edge = model.edge(status.edge.expect("a node in contact has an edge"));
+            door::on_edge(status.node, edge.nodes, &x).map_err(|cause| {
+                let [a, b] = edge.nodes;
+                let values: [(&str, &dyn std::fmt::Display); 3] = [
+                    ("i1", &(k + 1)),
+                    ("ct[i1]", &edge.number),
+                    ("denominator", &(x(b) - x(a)).to_f64()),
+                ];
+                Failure::new("c_cnt", 22, cause, &values)
+            })
+        })
+        .collect()
 }
 
 fn by_intersection(
-    sheet: &Worksheet<f64>,
-    node_n: &Table<f64>,
+    model: &Model,
+    shape: &[[f64; 2]],
     surface: &TargetSurface,
-    printed: Pairs<f64>,
+    mut statuses: Vec<ContactStatus>,
     operations: &Operations,
-) -> Statuses {
-    let Pairs { mut ct, yt, mut dy, .. } = printed;
-    for i1 in 1..=sheet.cnt.rows() {
+) -> Vec<ContactStatus> {
+    for status in &mut statuses {
         operations.add(1);
-        let near = ct[i1] > 0 && yt[i1].abs() < sheet.c_tll;
-        let inside = near || intersects(sheet, node_n, surface, sheet.cnt[i1], operations);
-        dy[i1] = usize::from(inside);
-        if inside && ct[i1] == 0 {
-            let foot = surface.nearest_counted(place(node_n, sheet.cnt[i1]), operations);
-            ct[i1] = foot.expect("a surface that is crossed has an edge").edge;
+        let near = status.edge.is_some() && status.distance.abs() < model.contact.tolerance;
+        status.in_contact = near || intersects(model, shape, surface, status.node, operations);
+        if status.in_contact && status.edge.is_none() {
+            let closest = surface.nearest_counted(shape[status.node.index()], operations);
+            status.edge = Some(closest.expect("a surface that is crossed has an edge").edge);
         }
     }
-    Statuses { ct, yt, dy }
+    statuses
 }
 
 /// Whether a side at contact node `n` leads out of the target.
 fn intersects(
-    sheet: &Worksheet<f64>,
-    node_n: &Table<f64>,
+    model: &Model,
+    shape: &[[f64; 2]],
     surface: &TargetSurface,
-    n: usize,
+    n: NodeId,
     operations: &Operations,
 ) -> bool {
-    let c = place(node_n, n);
-    sides(sheet, n).into_iter().any(|q| {
-        let q = place(node_n, q);
+    let c = shape[n.index()];
+    sides(model, n).into_iter().any(|q| {
+        let q = shape[q.index()];
         surface.edges.iter().map(|edge| crossing(edge, c, q, operations)).sum::<i32>() > 0
     })
 }
 
 /// The nodes that share a triangle with node `n`, in order.
-fn sides(sheet: &Worksheet<f64>, n: usize) -> Vec<usize> {
-    let nodes = |m: usize| [0, 1, 2].map(|k| sheet.EL[(m, sheet.ind_1 + k)]);
-    let triangles = (1..=sheet.M()).map(nodes).filter(|t| t.contains(&n));
-    let mut others: Vec<usize> = triangles.flatten().filter(|other| *other != n).collect();
+fn sides(model: &Model, n: NodeId) -> Vec<NodeId> {
+    let triangles = model.triangles.iter().map(|t| t.nodes).filter(|t| t.contains(&n));
+    let mut others: Vec<NodeId> = triangles.flatten().filter(|other| *other != n).collect();
     others.sort_unstable();
     others.dedup();
     others
@@ -168,79 +175,28 @@ fn apart(one: [[f64; 2]; 2], other: [[f64; 2]; 2], operations: &Operations) -> b
 }
 
 fn by_projection(
-    sheet: &Worksheet<f64>,
-    node_n: &Table<f64>,
+    model: &Model,
+    shape: &[[f64; 2]],
     surface: &TargetSurface,
     operations: &Operations,
-) -> Statuses {
-    let rows = sheet.cnt.rows();
-    let (mut ct, mut dy) = (Column::filled(rows, 0), Column::filled(rows, 0));
-    let mut yt = Column::filled(rows, 0.0);
-    for i1 in 1..=rows {
-        let Some(foot) = surface.nearest_counted(place(node_n, sheet.cnt[i1]), operations) else {
-            continue;
+) -> Vec<ContactStatus> {
+    let tolerance = model.contact.tolerance;
+    let status = |&node: &NodeId| {
+        let apart = ContactStatus { node, edge: None, distance: 0.0, in_contact: false };
+        let Some(closest) = surface.nearest_counted(shape[node.index()], operations) else {
+            return apart;
         };
         operations.add(2);
-        yt[i1] = 0.0 - foot.distance;
-        if foot.beyond <= sheet.c_tll {
-            ct[i1] = foot.edge;
-            dy[i1] = usize::from(foot.distance <= sheet.c_tll);
+        let distance = 0.0 - closest.distance;
+        match closest.beyond <= tolerance {
+            true => ContactStatus {
+                node,
+                edge: Some(closest.edge),
+                distance,
+                in_contact: closest.distance <= tolerance,
+            },
+            false => ContactStatus { distance, ..apart },
         }
-    }
-    Statuses { ct, yt, dy }
-}
-
-/// `k_cnt` from target edges and statuses: lines 11 to 30 of `c_cnt` under reading R1, `node` being the shape that R5 names.
-fn weights(
-    sheet: &Worksheet<f64>,
-    r1: LoopPlace,
-    node: &Table<f64>,
-    ct: &Column<usize>,
-    dy: &Column<usize>,
-) -> Result<Table<f64>, Failure> {
-    let mut k_cnt = Table::filled(sheet.R(), 4, 0.0);
-    for row in 1..=sheet.R() {
-        for column in 1..=4 {
-            k_cnt[(row, column)] = 0.0;
-        }
-        if r1 == LoopPlace::Beside && row < sheet.R() {
-            continue;
-        }
-        for i1 in (1..=ct.rows()).filter(|&i1| dy[i1] == 1) {
-            link(sheet, node, (i1, ct[i1]), &mut k_cnt)?;
-        }
-    }
-    Ok(k_cnt)
-}
-
-/// Lines 21 to 30 of `c_cnt` for contact node `i1` and target edge `e`.
-fn link(
-    sheet: &Worksheet<f64>,
-    node: &Table<f64>,
-    (i1, e): (usize, usize),
-    k_cnt: &mut Table<f64>,
-) -> Result<(), Failure> {
-    let (c, a, b) = (sheet.cnt[i1], sheet.elem[(e, 6)], sheet.elem[(e, 7)]);
-    let x = |n: usize| node[(n, 2)];
-    let length = x(b) - x(a);
-    let failure = |cause| {
-        let values: [(&str, &dyn std::fmt::Display); 3] =
-            [("i1", &i1), ("ct[i1]", &e), ("denominator", &length)];
-        Failure::new("c_cnt", 22, cause, &values)
     };
-    if length == 0.0 {
-        return Err(failure(Cause::Singularity));
-    }
-    let (k1, k2) = (1.0 - (x(c) - x(a)) / length, 1.0 - (x(b) - x(c)) / length);
-    if !(k1 + k2).is_finite() {
-        return Err(failure(Cause::Overflow));
-    }
-    for (node, weight) in [(a, k1), (b, k2)] {
-        let own = if node == a { 1 } else { 3 };
-        k_cnt[(c, own)] = node as f64;
-        k_cnt[(c, own + 1)] += weight;
-        k_cnt[(node, 1)] = c as f64;
-        k_cnt[(node, 2)] += weight;
-    }
-    Ok(())
+    model.contact.nodes.iter().map(status).collect()
 }

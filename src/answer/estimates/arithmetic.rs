@@ -7,54 +7,54 @@
 
 use nalgebra::{DVector, SVector};
 
-use crate::answer::contact::{self, Elimination, Outcome, Stiffness};
+use crate::answer::{Elimination, Request, Solution, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::numbers::solve::{Arithmetic, ScalarName, Solver, SparseCholesky, error_bound};
-use crate::paper::mirror::Worksheet;
-use crate::problem::element::D;
 use crate::problem::element::Plane;
+use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
 
 /// Roundings in a von Mises value from its stresses, in units of 2^-53.
 const ROUNDINGS: f64 = 32.0;
 
-/// A bound on the largest error of an entry of `outcome.u`, length; infinite where nothing is known.
-pub fn displacement_bound(scene: &Scene, outcome: &Outcome) -> f64 {
-    let again = match outcome.variant {
-        Variant::Unilateral => last_state(scene, outcome),
-        _ => bounded_run(scene, outcome),
+/// A bound on the largest error of an entry of the displacements, length; infinite where nothing is known.
+pub fn displacement_bound(solution: &Solution) -> f64 {
+    let again = match solution.request.variant {
+        Variant::Unilateral => last_state(solution),
+        _ => bounded_run(solution),
     };
     again.map_or(f64::INFINITY, |u| {
-        let off = |e: usize| (u[e].to_f64() - outcome.u[e]).abs() + u[e].error();
-        (0..u.len()).map(off).fold(0.0, f64::max)
+        let error = |e: usize| (u[e].to_f64() - solution.u[e]).abs() + u[e].error();
+        (0..u.len()).map(error).fold(0.0, f64::max)
     })
 }
 
 /// The run again, with a bound on each displacement.
-fn bounded_run(scene: &Scene, outcome: &Outcome) -> Option<DVector<Bounded>> {
-    let solver = match outcome.variant {
+fn bounded_run(solution: &Solution) -> Option<DVector<Bounded>> {
+    let solver = match solution.request.variant {
         Variant::Printed => Solver::DenseLu,
         _ => Solver::SparseCholesky,
     };
     let arithmetic = Arithmetic {
         scalar: ScalarName::Bounded,
         solver: Some(solver),
-        inputs: outcome.arithmetic.inputs,
+        inputs: solution.request.arithmetic.inputs,
         ..Arithmetic::default()
     };
-    let run = contact::run_in(scene, outcome.variant, &outcome.reading, arithmetic, |_| ()).ok()?;
+    let request = Request { arithmetic, ..solution.request.clone() };
+    let run = solve(&request, &mut |_| ()).ok()?;
     let bound = run.error_bound?;
     Some(run.u.map(|u| Bounded::new(u, bound)))
 }
 
 /// The equilibrium of the last contact state of `unilateral`, with a bound on each displacement.
-fn last_state(scene: &Scene, outcome: &Outcome) -> Option<DVector<Bounded>> {
-    let sheet = outcome.sheet.recomputed(Bounded::from_f64, scene.thickness);
-    let ties = outcome.iterations.last()?.ties.iter().map(|tie| tie.map(Bounded::from_f64));
-    let t = Elimination::with_normals(&sheet, &ties.collect::<Vec<_>>()).ok()?;
-    let stiffness = Stiffness::new(&sheet);
-    let load = scene.free_load().map(Bounded::from_f64);
+fn last_state(solution: &Solution) -> Option<DVector<Bounded>> {
+    let model = &*solution.model;
+    let constraints = solution.last().constraints.iter().map(|c| c.map(Bounded::from_f64));
+    let constraints: Vec<_> = constraints.collect();
+    let t = Elimination::with_normals(&model.restrained, &constraints).ok()?;
+    let stiffness = Stiffness::new(model, Bounded::from_f64);
+    let load = model.free_load().map(Bounded::from_f64);
     let (matrix, b) = (stiffness.reduced(&t), t.load(&(load - stiffness.times(t.shift()))));
     let factors = SparseCholesky::new(matrix.map(|a| a.to_f64())).ok()?;
     let x = factors.solve(&b.map(Scalar::to_f64));
@@ -63,25 +63,24 @@ fn last_state(scene: &Scene, outcome: &Outcome) -> Option<DVector<Bounded>> {
 }
 
 /// For each triangle a bound on the error of its von Mises stress where displacements are known to `displacement`; stress.
-pub fn stress_bounds(outcome: &Outcome, thickness: f64, displacement: f64) -> Vec<f64> {
-    let sheet = outcome.sheet.recomputed(Bounded::from_f64, thickness);
-    let u = outcome.u.map(|u| Bounded::new(u, displacement));
-    let of_triangle = |n: usize| {
-        let rounding = ROUNDINGS * f64::EPSILON / 2.0 * outcome.elements[n - 1].von_mises_stress;
-        von_mises_bound(&sheet, n, &u) + rounding
-    };
-    (1..=sheet.M()).map(of_triangle).collect()
+pub fn stress_bounds(solution: &Solution, displacement: f64) -> Vec<f64> {
+    let model = &*solution.model;
+    let u = solution.u.map(|u| Bounded::new(u, displacement));
+    let stresses = Stiffness::new(model, Bounded::from_f64).stresses(&u);
+    let triangles = model.triangles.iter().zip(&stresses).zip(&solution.elements);
+    triangles
+        .map(|((triangle, stress), state)| {
+            let rounding = ROUNDINGS * f64::EPSILON / 2.0 * state.von_mises_stress;
+            von_mises_bound(model, triangle.material.nu, stress) + rounding
+        })
+        .collect()
 }
 
 /// Of two stresses the von Mises values differ by at most the von Mises value of their difference: it is a seminorm.
-fn von_mises_bound(sheet: &Worksheet<Bounded>, n: usize, u: &DVector<Bounded>) -> f64 {
-    let of_element = SVector::<Bounded, 6>::from_fn(|k, _| {
-        u[2 * sheet.EL[(n, sheet.ind_1 + k / 2)] - 2 + k % 2]
-    });
-    let sigma = D(sheet.plane, sheet.E[n], sheet.nu[n]) * (sheet.B[n] * of_element);
-    let [x, y, xy] = [0, 1, 2].map(|k| sigma[k].error());
-    let z = match sheet.plane {
-        Plane::Strain => sheet.nu[n].to_f64().abs() * (x + y),
+fn von_mises_bound(model: &Model, nu: f64, stress: &SVector<Bounded, 3>) -> f64 {
+    let [x, y, xy] = [0, 1, 2].map(|k| stress[k].error());
+    let z = match model.plane {
+        Plane::Strain => nu.abs() * (x + y),
         Plane::Stress => 0.0,
     };
     let squares = (x + y).powi(2) + (y + z).powi(2) + (z + x).powi(2);

@@ -28,9 +28,8 @@ use nalgebra::Matrix3;
 
 use super::patches::Patches;
 use super::recovery::{Stress, recover};
-use crate::paper::mirror::Worksheet;
-use crate::problem::element::Plane;
-use crate::problem::element::State;
+use crate::problem::element::{self, Plane, State};
+use crate::problem::model::{Model, Triangle, TriangleId};
 
 /// By how much d_e may underrate the true error near the largest stress: it is an estimate, not a bound. The bar was chosen among
 /// twelve on the benchmarks and 400 random polynomial fields (1.62 would have held them all), then tried on 4,000 other fields, on
@@ -48,8 +47,8 @@ pub struct Discretisation {
     pub stress_errors: Vec<f64>,
     /// Energy norm of the solution, sqrt(∫ sigma_hᵀ D⁻¹ sigma_h dV): sqrt(force·length).
     pub energy_norm: f64,
-    /// Triangles of parts too small to say anything of their error: rows of `EL`, from 1.
-    pub unrecovered: Vec<usize>,
+    /// Triangles of parts too small to say anything of their error.
+    pub unrecovered: Vec<TriangleId>,
 }
 
 /// The largest von Mises stress of a body, and how far the true one may be from it.
@@ -57,8 +56,8 @@ pub struct Discretisation {
 pub struct LargestVonMises {
     /// The largest of its triangles, stress.
     pub value: f64,
-    /// The triangle that has it: row of `EL`, from 1.
-    pub at: usize,
+    /// The triangle that has it.
+    pub at: TriangleId,
     /// The largest of the recovered stresses: as a rule nearer to the truth than `value`. Stress.
     pub recovered: f64,
     /// The true largest value is expected within `value` ± `bar`; infinite where nothing is known. Stress.
@@ -66,27 +65,29 @@ pub struct LargestVonMises {
 }
 
 impl Discretisation {
-    /// The error of a solution, estimated.
-    ///
-    /// Given: the worksheet and the state of each row of its `EL`.
-    pub fn new(sheet: &Worksheet<f64>, elements: &[State]) -> Self {
-        let patches = Patches::new(sheet);
+    /// The error of a solution, estimated from the state of each triangle.
+    pub fn new(model: &Model, elements: &[State]) -> Self {
+        let patches = Patches::new(model);
         let stresses: Vec<Stress> = elements.iter().map(|state| state.sigma).collect();
         let at_sites = recover(&patches, &stresses);
-        let known = |n: &usize| patches.corners[n - 1].iter().all(|&s| at_sites[s].is_some());
-        let corners =
-            |n: usize| patches.corners[n - 1].map(|site| at_sites[site].unwrap_or(stresses[n - 1]));
-        let recovered: Vec<[Stress; 3]> = (1..=sheet.M()).map(corners).collect();
-        let error = |n: usize| recovered[n - 1].map(|s| s - stresses[n - 1]);
-        let stress_error =
-            |n: usize| if known(&n) { largest(sheet, n, &error(n)) } else { f64::INFINITY };
-        let triangles = 1..=sheet.M();
-        let norms = triangles.clone().map(|n| energy_norm(sheet, n, &[stresses[n - 1]; 3]));
+        let known = |k: usize| patches.corners[k].iter().all(|&s| at_sites[s].is_some());
+        let corners = |k: usize| patches.corners[k].map(|s| at_sites[s].unwrap_or(stresses[k]));
+        let triangles = || model.triangles.iter().enumerate();
+        let recovered: Vec<[Stress; 3]> = (0..stresses.len()).map(corners).collect();
+        let error = |k: usize| recovered[k].map(|s| s - stresses[k]);
+        let stress_error = |(k, triangle): (usize, &Triangle)| match known(k) {
+            true => largest(model.plane, triangle, &error(k)),
+            false => f64::INFINITY,
+        };
+        let norm = |k: usize, triangle: &Triangle, corners: &[Stress; 3]| {
+            let volume = element::area(&model.corners(TriangleId::new(k))) * model.thickness;
+            energy_norm(model.plane, triangle, volume, corners)
+        };
         Discretisation {
-            indicators: triangles.clone().map(|n| energy_norm(sheet, n, &error(n))).collect(),
-            stress_errors: triangles.clone().map(stress_error).collect(),
-            energy_norm: root_of_squares(norms),
-            unrecovered: triangles.filter(|n| !known(n)).collect(),
+            indicators: triangles().map(|(k, t)| norm(k, t, &error(k))).collect(),
+            stress_errors: triangles().map(stress_error).collect(),
+            energy_norm: root_of_squares(triangles().map(|(k, t)| norm(k, t, &[stresses[k]; 3]))),
+            unrecovered: model.triangle_ids().filter(|id| !known(id.index())).collect(),
             recovered,
         }
     }
@@ -119,23 +120,25 @@ impl Discretisation {
 
     /// The largest von Mises stress of a body and its bar.
     ///
-    /// Given: the worksheet, the state of each row of its `EL`, the body's triangles (rows of `EL`, from 1; at least one).
+    /// Given: the state of each triangle; the body's triangles, at least one.
     pub fn largest_von_mises(
         &self,
-        sheet: &Worksheet<f64>,
+        model: &Model,
         elements: &[State],
-        triangles: &[usize],
+        triangles: &[TriangleId],
     ) -> LargestVonMises {
-        let stress = |n: usize| elements[n - 1].von_mises_stress;
-        let higher = |a: usize, b: usize| if stress(b) > stress(a) { b } else { a };
+        let stress = |id: TriangleId| elements[id.index()].von_mises_stress;
+        let higher = |a, b| if stress(b) > stress(a) { b } else { a };
         let at = triangles.iter().copied().reduce(higher).expect("a body has a triangle");
-        let nodes = |n: usize| [0, 1, 2].map(|k| sheet.EL[(n, sheet.ind_1 + k)]);
-        let beside = |n: usize| nodes(n).iter().any(|node| nodes(at).contains(node));
-        let bar = |&n: &usize| {
-            let (here, peak) = (self.stress_errors[n - 1], stress(n) - stress(at));
-            if beside(n) { here } else { here + peak }
+        let nodes = |id: TriangleId| model.triangle(id).nodes;
+        let beside = |id: TriangleId| nodes(id).iter().any(|node| nodes(at).contains(node));
+        let bar = |&id: &TriangleId| {
+            let (here, peak) = (self.stress_errors[id.index()], stress(id) - stress(at));
+            if beside(id) { here } else { here + peak }
         };
-        let recovered = |&n: &usize| largest(sheet, n, &self.recovered[n - 1]);
+        let recovered = |&id: &TriangleId| {
+            largest(model.plane, model.triangle(id), &self.recovered[id.index()])
+        };
         LargestVonMises {
             value: stress(at),
             at,
@@ -145,9 +148,10 @@ impl Discretisation {
     }
 }
 
-/// Largest von Mises value at the corners of triangle n.
-fn largest(sheet: &Worksheet<f64>, n: usize, corners: &[Stress; 3]) -> f64 {
-    corners.iter().map(|s| von_mises(sheet.plane, sheet.nu[n], s)).fold(0.0, f64::max)
+/// Largest von Mises value at the corners of a triangle.
+fn largest(plane: Plane, triangle: &Triangle, corners: &[Stress; 3]) -> f64 {
+    let nu = triangle.material.nu;
+    corners.iter().map(|s| von_mises(plane, nu, s)).fold(0.0, f64::max)
 }
 
 /// Von Mises stress, as in [`State::new`]; scaled, so that no square overflows or vanishes.
@@ -165,18 +169,18 @@ fn von_mises(plane: Plane, nu: f64, stress: &Stress) -> f64 {
     scale * (squares / 2.0 + 3.0 * s[2] * s[2]).sqrt()
 }
 
-/// Energy norm over triangle n of a stress that is linear between its corners: sqrt(force·length).
-fn energy_norm(sheet: &Worksheet<f64>, n: usize, corners: &[Stress; 3]) -> f64 {
+/// Energy norm over a triangle of a stress that is linear between its corners: sqrt(force·length). `volume`: length³.
+fn energy_norm(plane: Plane, triangle: &Triangle, volume: f64, corners: &[Stress; 3]) -> f64 {
     let scale = corners.iter().map(|s| s.amax()).fold(0.0, f64::max);
     if scale == 0.0 {
         return 0.0;
     }
-    let c = compliance(sheet.plane, sheet.nu[n]);
+    let c = compliance(plane, triangle.material.nu);
     let product = |s: Stress| s.dot(&(c * s));
     let [s1, s2, s3] = corners.map(|s| s / scale);
     // Exact for a quadratic: ∫ N_i N_j = A (1 + [i = j]) / 12.
     let mean = (product(s1) + product(s2) + product(s3) + product(s1 + s2 + s3)) / 12.0;
-    scale * (sheet.Ae[n] / sheet.E[n] * mean).sqrt()
+    scale * (volume / triangle.material.e * mean).sqrt()
 }
 
 /// E · D⁻¹, without unit.

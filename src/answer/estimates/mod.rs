@@ -1,8 +1,8 @@
 //! Error bars: how far a printed number may be from the truth. Two a number: what rounding does to it, and what the mesh does.
 //!
 //! ```text
-//!  Worksheet, States --patches--> sites --recovery--> smoothed stresses --discretisation--> eta, bars of the mesh
-//!  Scene, Outcome ----------------------------------------------------- arithmetic --------> bars of rounding
+//!  Model, States --patches-->  sites --recovery--> smoothed stresses --discretisation--> eta, bars of the mesh
+//!  Solution ---------------------------------------------------------- arithmetic --------> bars of rounding
 //! ```
 
 pub mod arithmetic;
@@ -10,10 +10,9 @@ pub mod discretisation;
 mod patches;
 mod recovery;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::answer::contact::Outcome;
-use crate::problem::scene::Scene;
+use super::solution::Solution;
 use discretisation::Discretisation;
 
 /// The error bars of a run.
@@ -28,7 +27,7 @@ pub struct ErrorBars {
 }
 
 /// A body's largest von Mises stress and its bars, stress; infinite where nothing is known.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyBars {
     /// Its name.
     pub name: String,
@@ -44,19 +43,20 @@ pub struct BodyBars {
 
 impl ErrorBars {
     /// The bars of a run.
-    pub fn new(scene: &Scene, outcome: &Outcome) -> Self {
-        let displacement = arithmetic::displacement_bound(scene, outcome);
-        let stress = arithmetic::stress_bounds(outcome, scene.thickness, displacement);
-        let mesh = Discretisation::new(&outcome.sheet, &outcome.elements);
-        let bodies = scene.bodies.iter().map(|body| {
-            let triangles = &body.triangles;
-            let largest = mesh.largest_von_mises(&outcome.sheet, &outcome.elements, triangles);
+    pub fn new(solution: &Solution) -> Self {
+        let model = &*solution.model;
+        let displacement = arithmetic::displacement_bound(solution);
+        let stress = arithmetic::stress_bounds(solution, displacement);
+        let mesh = Discretisation::new(model, &solution.elements);
+        let bodies = model.bodies.iter().map(|body| {
+            let largest = mesh.largest_von_mises(model, &solution.elements, &body.triangles);
+            let rounding = body.triangles.iter().map(|id| stress[id.index()]);
             BodyBars {
                 name: body.name.clone(),
                 value: largest.value,
                 recovered: largest.recovered,
                 mesh: largest.bar,
-                arithmetic: triangles.iter().map(|n| stress[n - 1]).fold(0.0, f64::max),
+                arithmetic: rounding.fold(0.0, f64::max),
             }
         });
         ErrorBars { displacement, bodies: bodies.collect(), mesh }

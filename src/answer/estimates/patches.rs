@@ -7,9 +7,9 @@
 //!   +--a--|--b--+
 //! ```
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 
-use crate::paper::mirror::Worksheet;
+use crate::problem::model::{Model, TriangleId};
 
 /// The triangles around each site; a site is a node as one material sees it. Everything is counted from 0.
 pub struct Patches {
@@ -28,58 +28,61 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// The patches of a worksheet's triangles.
-    pub fn new(sheet: &Worksheet<f64>) -> Self {
-        let (corners, points) = sites(sheet);
-        let around = around(&corners, points.len());
-        let edges = edges(&corners);
-        let mut neighbours = vec![Vec::new(); points.len()];
-        let mut interior = vec![true; points.len()];
-        for (&[a, b], &count) in &edges {
-            neighbours[a].push(b);
-            neighbours[b].push(a);
-            if count == 1 {
-                (interior[a], interior[b]) = (false, false);
+    /// The patches of a model's triangles.
+    pub fn new(model: &Model) -> Self {
+        let (corners, points) = sites(model);
+        let mut patches = Patches {
+            centres: corners
+                .iter()
+                .map(|c| [0, 1].map(|d| c.iter().map(|&s: &usize| points[s][d] / 3.0).sum()))
+                .collect(),
+            around: vec![Vec::new(); points.len()],
+            neighbours: vec![Vec::new(); points.len()],
+            interior: vec![true; points.len()],
+            points,
+            corners,
+        };
+        for id in model.triangle_ids() {
+            patches.add(model, id);
+        }
+        for sites in &mut patches.neighbours {
+            sites.sort_unstable();
+            sites.dedup();
+        }
+        patches
+    }
+
+    /// Adds what triangle `id` tells of its sites.
+    fn add(&mut self, model: &Model, id: TriangleId) {
+        let triangle = model.triangle(id);
+        let sites = self.corners[id.index()];
+        for k in 0..3 {
+            let ends = [k, (k + 1) % 3];
+            let [a, b] = ends.map(|k| sites[k]);
+            self.around[a].push(id.index());
+            self.neighbours[a].push(b);
+            self.neighbours[b].push(a);
+            let beside = model.sides.beside(ends.map(|k| triangle.nodes[k])).iter();
+            let same = |other: TriangleId| model.triangle(other).material == triangle.material;
+            if beside.filter(|other| same(other.triangle)).count() == 1 {
+                (self.interior[a], self.interior[b]) = (false, false);
             }
         }
-        neighbours.iter_mut().for_each(|sites| sites.sort_unstable());
-        let centre = |c: &[usize; 3]| [0, 1].map(|d| c.iter().map(|&s| points[s][d] / 3.0).sum());
-        let centres = corners.iter().map(centre).collect();
-        Patches { points, centres, corners, around, neighbours, interior }
     }
 }
 
-/// The sites of each triangle, and where each site is; numbered as the triangles meet them.
-fn sites(sheet: &Worksheet<f64>) -> (Vec<[usize; 3]>, Vec<[f64; 2]>) {
-    let (mut numbers, mut points) = (BTreeMap::new(), Vec::new());
-    let corners = (1..=sheet.M()).map(|n| {
-        [0, 1, 2].map(|k| {
-            let node = sheet.EL[(n, sheet.ind_1 + k)];
-            let key = (node, sheet.E[n].to_bits(), sheet.nu[n].to_bits());
+/// The sites of each triangle, and where each site is; numbered as the triangles come to them.
+fn sites(model: &Model) -> (Vec<[usize; 3]>, Vec<[f64; 2]>) {
+    let (mut numbers, mut points) = (HashMap::new(), Vec::new());
+    let corners = model.triangles.iter().map(|triangle| {
+        triangle.nodes.map(|node| {
+            let material = triangle.material;
+            let key = (node, material.e.to_bits(), material.nu.to_bits());
             *numbers.entry(key).or_insert_with(|| {
-                points.push([sheet.node[(node, 2)], sheet.node[(node, 3)]]);
+                points.push(model.at(node));
                 points.len() - 1
             })
         })
     });
     (corners.collect(), points)
-}
-
-fn around(corners: &[[usize; 3]], sites: usize) -> Vec<Vec<usize>> {
-    let mut around = vec![Vec::new(); sites];
-    for (triangle, corners) in corners.iter().enumerate() {
-        corners.iter().for_each(|&site| around[site].push(triangle));
-    }
-    around
-}
-
-/// How many triangles of one material each edge bounds; ends ascending.
-fn edges(corners: &[[usize; 3]]) -> BTreeMap<[usize; 2], usize> {
-    let mut count = BTreeMap::new();
-    for [a, b, c] in corners {
-        for [p, q] in [[a, b], [b, c], [c, a]] {
-            *count.entry([*p.min(q), *p.max(q)]).or_insert(0) += 1;
-        }
-    }
-    count
 }

@@ -4,7 +4,6 @@ use nalgebra::SMatrix;
 
 use crate::numbers::scalar::Scalar;
 use crate::paper::mathcad::array::{Column, Table};
-use crate::problem::element;
 use crate::problem::element::Plane;
 
 /// The arrays and variables that the listings use without receiving them as arguments (`READING.md` section 1).
@@ -50,53 +49,5 @@ impl<T: Scalar> Worksheet<T> {
     #[allow(non_snake_case, reason = "the paper's own name")]
     pub fn M(&self) -> usize {
         self.EL.rows()
-    }
-
-    /// The worksheet in another scalar: its numbers by `number`, and `Ae` and `B` computed anew from the coordinates. `thickness` is the
-    /// scene's, length.
-    #[allow(non_snake_case, reason = "the paper's own names")]
-    pub fn recomputed<U: Scalar>(&self, number: impl Fn(T) -> U, thickness: T) -> Worksheet<U> {
-        let node = self.node.map(&number);
-        let corners = |n: usize| {
-            [0, 1, 2].map(|k| [2, 3].map(|column| node[(self.EL[(n, self.ind_1 + k)], column)]))
-        };
-        let (triangles, thickness) = (1..=self.M(), number(thickness));
-        let Ae = triangles.clone().map(|n| element::area(&corners(n)) * thickness).collect();
-        let B = triangles.map(|n| element::B(&corners(n))).collect();
-        Worksheet {
-            Ae: Column::from_vec(Ae),
-            B: Column::from_vec(B),
-            node,
-            elem: self.elem.clone(),
-            EL: self.EL.clone(),
-            trg: self.trg.clone(),
-            cnt: self.cnt.clone(),
-            c_tll: number(self.c_tll),
-            ind_1: self.ind_1,
-            S: self.S.clone(),
-            E: self.E.map(&number),
-            nu: self.nu.map(&number),
-            plane: self.plane,
-        }
-    }
-
-    /// The same worksheet in another scalar, each number rounded once.
-    pub fn cast<U: Scalar>(&self) -> Worksheet<U> {
-        let to = |x: T| U::from_f64(x.to_f64());
-        Worksheet {
-            node: self.node.map(to),
-            elem: self.elem.clone(),
-            EL: self.EL.clone(),
-            trg: self.trg.clone(),
-            cnt: self.cnt.clone(),
-            c_tll: to(self.c_tll),
-            ind_1: self.ind_1,
-            S: self.S.clone(),
-            Ae: self.Ae.map(to),
-            B: self.B.map(|b| b.map(to)),
-            E: self.E.map(to),
-            nu: self.nu.map(to),
-            plane: self.plane,
-        }
     }
 }

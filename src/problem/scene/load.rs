@@ -8,12 +8,18 @@ use super::file::{GroupRef, Load};
 use super::groups;
 use super::mesh::Mesh;
 use crate::error::InputError;
+use crate::problem::model::{NodeId, Sides};
 
 /// Forces on all 2R equations, force; restrained equations included.
 ///
 /// # Errors
 /// A load that names no place or no value, or two; an edge of no triangle or of two; numbers that are not finite.
-pub fn vector(mesh: &Mesh, loads: &[Load], thickness: f64) -> Result<DVector<f64>, InputError> {
+pub fn vector(
+    mesh: &Mesh,
+    sides: &Sides,
+    loads: &[Load],
+    thickness: f64,
+) -> Result<DVector<f64>, InputError> {
     let mut f = DVector::zeros(2 * mesh.nodes.len());
     for (k, load) in loads.iter().enumerate() {
         let place = format!("loads[{k}]");
@@ -29,12 +35,12 @@ pub fn vector(mesh: &Mesh, loads: &[Load], thickness: f64) -> Result<DVector<f64
                 add(&mut f, *n, *force);
             }
             Load { on: Some(on), pressure: Some(p), traction: None, node: None, force: None } => {
-                on_edges(&mut f, mesh, on, thickness, &place, |inward| {
+                on_edges(&mut f, (mesh, sides), on, thickness, &place, |inward| {
                     [p * inward[0], p * inward[1]]
                 })?;
             }
             Load { on: Some(on), traction: Some(t), pressure: None, node: None, force: None } => {
-                on_edges(&mut f, mesh, on, thickness, &place, |_| *t)?;
+                on_edges(&mut f, (mesh, sides), on, thickness, &place, |_| *t)?;
             }
             _ => {
                 return Err(InputError::new(
@@ -55,30 +61,15 @@ pub fn vector(mesh: &Mesh, loads: &[Load], thickness: f64) -> Result<DVector<f64
     Ok(f)
 }
 
-/// For each edge of a triangle, its nodes ascending, the nodes across it.
-type Across = HashMap<[usize; 2], Vec<usize>>;
-
-fn across(mesh: &Mesh) -> Across {
-    let mut across = Across::new();
-    for triangle in mesh.of_dimension(2) {
-        for k in 0..3 {
-            let [a, b, third] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| triangle.nodes[k]);
-            across.entry([a.min(b), a.max(b)]).or_default().push(third);
-        }
-    }
-    across
-}
-
 /// Half of each edge's load on each of its nodes; `traction` is given the unit normal that points into the body.
 fn on_edges(
     f: &mut DVector<f64>,
-    mesh: &Mesh,
+    (mesh, sides): (&Mesh, &Sides),
     on: &GroupRef,
     thickness: f64,
     place: &str,
     traction: impl Fn([f64; 2]) -> [f64; 2],
 ) -> Result<(), InputError> {
-    let across = across(mesh);
     let mut loaded = HashMap::new();
     for edge in groups::members(mesh, 1, on, &format!("{place}.on"))? {
         let [a, b] = [edge.nodes[0], edge.nodes[1]];
@@ -89,7 +80,7 @@ fn on_edges(
             );
             return Err(InputError::new(place, what, "keep one: the load would count twice"));
         }
-        let third = third_node(&across, [a, b], edge.number, place)?;
+        let third = third_node(sides, [a, b], edge.number, place)?;
         let ([ax, ay], [bx, by], [cx, cy]) = (mesh.xy(a), mesh.xy(b), mesh.xy(third));
         let length = (bx - ax).hypot(by - ay);
         let left = [-(by - ay) / length, (bx - ax) / length];
@@ -103,25 +94,26 @@ fn on_edges(
 }
 
 fn add(f: &mut DVector<f64>, node: usize, force: [f64; 2]) {
-    f[2 * node - 2] += force[0];
-    f[2 * node - 1] += force[1];
+    for (dof, force) in NodeId::from_number(node).dofs().into_iter().zip(force) {
+        f[dof.index()] += force;
+    }
 }
 
 /// The node across the edge in the one triangle that it bounds.
 fn third_node(
-    across: &Across,
+    sides: &Sides,
     [a, b]: [usize; 2],
     number: usize,
     place: &str,
 ) -> Result<usize, InputError> {
-    let thirds = across.get(&[a.min(b), a.max(b)]).map_or(&[][..], Vec::as_slice);
-    match thirds {
-        [third] => Ok(*third),
+    let beside = sides.beside([a, b].map(NodeId::from_number));
+    match beside {
+        [one] => Ok(one.third.number()),
         _ => Err(InputError::new(
             place,
             format!(
                 "edge {number} (nodes {a} and {b}) bounds {} triangles: a load needs an edge of exactly one",
-                thirds.len()
+                beside.len()
             ),
             "load an outer edge of a body",
         )),

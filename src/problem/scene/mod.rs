@@ -1,13 +1,11 @@
-//! The scene: what the user gives, checked, and turned into the paper's arrays.
+//! The scene: what the user gives, checked, and turned into a [`Model`].
 //!
 //! ```text
 //!  scene.json --file--> SceneFile --+
-//!                                   +--> Scene (checked) --> Worksheet (the paper's arrays)
+//!                                   +--> Scene (checked): the Model, and what is to be done with it
 //!  strand.msh --gmsh--> Mesh -------+
 //! ```
 
-mod arrays;
-mod body;
 mod check;
 mod embedded;
 mod file;
@@ -25,15 +23,14 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-pub use body::Body;
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use file::{SceneFile, Units};
 pub use mesh::{Element, Mesh, Node, PhysicalName};
 pub use refine::Refined;
 
+use super::model::{self, Edge, Model, NodeId, Row, Sides, Triangle};
+use super::modelling::{ContactModel, Variant};
 use crate::error::InputError;
-use crate::paper::mirror::{Reading, ToleranceUnit, Worksheet};
-use crate::problem::modelling::{ContactModel, Variant};
 
 /// A scene that is known to be sound.
 #[derive(Clone, Debug)]
@@ -44,22 +41,16 @@ pub struct Scene {
     pub title: String,
     /// Unit names.
     pub units: Units,
+    /// The finite element model.
+    pub model: Arc<Model>,
     /// Number of iterations.
     pub iterations: usize,
     /// What is run unless the command line says otherwise.
     pub variant: Variant,
     /// How contact is modelled beyond what the paper prints.
     pub contact: ContactModel,
-    /// Thickness across the plane, length.
-    pub thickness: f64,
-    /// Load on all 2R equations, restrained ones included, force.
-    pub load: DVector<f64>,
-    /// The bodies.
-    pub bodies: Vec<Body>,
     /// Numbers, in the mesh file, of the nodes that were dropped because they belong to no triangle.
     pub dropped: Vec<usize>,
-    /// The paper's arrays under the scene's own plane problem and length unit.
-    sheet: Worksheet<f64>,
     /// What it was built from; nothing of half a scene.
     source: Option<Arc<(SceneFile, Mesh)>>,
 }
@@ -117,18 +108,36 @@ impl Scene {
         mesh: &Mesh,
         dropped: Vec<usize>,
     ) -> Result<Self, InputError> {
-        let numbers = check::Numbers::check(&file)?;
-        let (materials, material_names) = check::materials(mesh, &file)?;
-        let restraints = check::restraints(mesh, &file)?;
-        let bodies = body::find(mesh, &material_names);
-        let (cnt, trg, c_tll) = check::contact(mesh, &file)?;
-        let sheet = arrays::worksheet(mesh, numbers, &materials, restraints, (cnt, trg, c_tll));
-        check::held(mesh, &bodies, &sheet)?;
+        check::numbers(&file)?;
+        let (materials, names) = check::materials(mesh, &file)?;
+        let restrained = check::restraints(mesh, &file)?;
+        let triangles: Vec<Triangle> = mesh
+            .of_dimension(2)
+            .zip(materials)
+            .map(|(element, material)| Triangle { nodes: corners(element), material })
+            .collect();
+        let sides = Sides::new(triangles.iter().map(|triangle| triangle.nodes));
+        let mut model = Model {
+            plane: file.plane,
+            thickness: file.thickness,
+            nodes: mesh.nodes.iter().map(|node| [node.xyz[0], node.xyz[1]]).collect(),
+            z: mesh.nodes[0].xyz[2],
+            edges: mesh.of_dimension(1).map(edge).collect(),
+            contact: check::contact(mesh, &file)?,
+            load: DVector::zeros(2 * mesh.nodes.len()),
+            bodies: model::bodies(mesh.nodes.len(), &triangles, &names),
+            rows: mesh.elements.iter().map(row).collect(),
+            triangles,
+            sides,
+            restrained,
+        };
+        check::restrained_bodies(&model)?;
+        model.load = load::vector(mesh, &model.sides, &file.loads, file.thickness)?;
         Ok(Scene {
             name: name.into(),
-            load: load::vector(mesh, &file.loads, file.thickness)?,
             title: file.title.clone(),
             units: file.units.clone(),
+            model: Arc::new(model),
             iterations: file.iterations,
             variant: file.variant,
             contact: file.contact.as_ref().map_or(ContactModel::default(), |contact| {
@@ -139,64 +148,31 @@ impl Scene {
                     status: contact.status,
                 }
             }),
-            thickness: file.thickness,
-            bodies,
             dropped,
-            sheet,
             source: Some(Arc::new((file, mesh.clone()))),
         })
     }
+}
 
-    /// The paper's arrays under `reading`: R6 sets the plane problem, R8 the unit of c_tol.
-    ///
-    /// # Errors
-    /// A Poisson's ratio that the plane problem of R6 does not allow.
-    pub fn worksheet(&self, reading: &Reading) -> Result<Worksheet<f64>, InputError> {
-        let mut sheet = self.sheet.clone();
-        if let Some(plane) = reading.r6 {
-            sheet.plane = plane;
-            for nu in sheet.nu.iter() {
-                check::poisson(*nu, plane, "--reading R6")?;
-            }
-        }
-        if reading.r8 == ToleranceUnit::Metre {
-            sheet.c_tll *= 1000.0;
-        }
-        Ok(sheet)
-    }
+/// The corners of a triangle of the mesh.
+fn corners(element: &Element) -> [NodeId; 3] {
+    [0, 1, 2].map(|k| NodeId::from_number(element.nodes[k]))
+}
 
-    /// The paper's arrays under the scene's own plane problem and unit.
-    pub(crate) fn sheet(&self) -> &Worksheet<f64> {
-        &self.sheet
-    }
+/// An edge of the mesh.
+fn edge(element: &Element) -> Edge {
+    let nodes = [0, 1].map(|k| NodeId::from_number(element.nodes[k]));
+    Edge { number: element.number, nodes }
+}
 
-    /// Puts another tolerance in place of the scene's own, length.
-    pub fn set_c_tll(&mut self, c_tll: f64) {
-        self.sheet.c_tll = c_tll;
-    }
-
-    /// The load on all 2R equations, 0 at restrained ones, force.
-    pub fn free_load(&self) -> DVector<f64> {
-        DVector::from_fn(self.load.len(), |e, _| match self.sheet.S[e + 1] {
-            1 => 0.0,
-            _ => self.load[e],
-        })
-    }
-
-    /// Sum of the loads, force.
-    pub fn total_load(&self) -> [f64; 2] {
-        [0, 1].map(|direction| self.load.iter().skip(direction).step_by(2).sum())
-    }
-
-    /// The body that carries the target surface; none without contact.
-    pub fn target(&self) -> Option<&Body> {
-        let trg = self.sheet.trg.iter().next()?;
-        self.body_of(self.sheet.elem[(*trg, 6)])
-    }
-
-    /// The body that has node `node`.
-    pub fn body_of(&self, node: usize) -> Option<&Body> {
-        self.bodies.iter().find(|body| body.nodes.binary_search(&node).is_ok())
+/// An element of the mesh file as its table has it.
+fn row(element: &Element) -> Row {
+    Row {
+        number: element.number,
+        kind: element.kind,
+        physical: element.physical.first().copied().unwrap_or(0),
+        geometric: element.geometric,
+        nodes: element.nodes.iter().map(|n| NodeId::from_number(*n)).collect(),
     }
 }
 

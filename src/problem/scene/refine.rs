@@ -14,6 +14,7 @@ use super::Scene;
 use super::file::{SceneFile, Surface};
 use super::mesh::{Element, Mesh, Node};
 use crate::error::InputError;
+use crate::problem::model::NodeId;
 
 /// A finer scene. Nodes keep their numbers, and the triangles 4n − 3 .. 4n (rows of `EL`) are those of triangle n.
 #[derive(Clone, Debug)]
@@ -21,7 +22,7 @@ pub struct Refined {
     /// The scene.
     pub scene: Scene,
     /// The ends of the edge that each new node halves, from node R + 1 on.
-    pub parents: Vec<[usize; 2]>,
+    pub parents: Vec<[NodeId; 2]>,
 }
 
 impl Scene {
@@ -46,8 +47,8 @@ impl Scene {
         let mut scene = Scene::assemble(&self.name, file, &finer, Vec::new())?;
         (scene.variant, scene.contact) = (self.variant, self.contact);
         scene.iterations = self.iterations;
-        scene.set_c_tll(self.sheet.c_tll);
-        Ok(Some(Refined { scene, parents: halves.parents }))
+        let parents = halves.parents.into_iter().map(|ends| ends.map(NodeId::from_number));
+        Ok(Some(Refined { scene, parents: parents.collect() }))
     }
 }
 

@@ -4,12 +4,15 @@
 //! solution is symmetric too, the line moves along itself only, and the half right of it, held in x on the line, has the same one.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::{Body, Scene};
-use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mirror::Worksheet;
+use super::Scene;
+use crate::problem::model::{
+    Body, ContactSurfaces, Dof, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId,
+    unordered,
+};
 
 /// How far from its image's place a node may lie, of the scene's size: mesh generators round as they go.
 const PLACE: f64 = 1e-9;
@@ -22,10 +25,10 @@ const LOAD: f64 = 1e-9;
 pub struct Half {
     /// The half right of the line.
     pub scene: Scene,
-    /// The whole scene's number of each of its nodes.
-    pub nodes: Vec<usize>,
-    /// The whole scene's row of `EL` of each of its triangles.
-    pub triangles: Vec<usize>,
+    /// The whole scene's node for each of its nodes.
+    pub nodes: Vec<NodeId>,
+    /// The whole scene's triangle for each of its triangles.
+    pub triangles: Vec<TriangleId>,
     /// Where the line stands: x, length.
     pub at: f64,
     /// Largest distance of a node from its image's place, length.
@@ -34,195 +37,231 @@ pub struct Half {
 
 /// Half of `scene`; nothing where it is not symmetric about a vertical line.
 pub fn half(scene: &Scene) -> Option<Half> {
-    let mirror = Mirror::new(scene)?;
-    let sheet = &scene.sheet;
+    let mirror = Mirror::new(&scene.model)?;
+    let model = &scene.model;
     let images = mirror.images()?;
     let symmetric =
-        mirror.triangles(&images) && mirror.surfaces(&images) && mirror.conditions(scene, &images);
+        mirror.triangles(&images) && mirror.surfaces(&images) && mirror.conditions(&images);
     if !symmetric {
         return None;
     }
-    let right = |n: usize| mirror.side(n) >= 0;
-    let triangles: Vec<usize> =
-        (1..=sheet.M()).filter(|&n| corners(sheet, n).into_iter().all(right)).collect();
-    let mut nodes: Vec<usize> = triangles.iter().flat_map(|&n| corners(sheet, n)).collect();
+    let right =
+        |id: &TriangleId| model.triangle(*id).nodes.into_iter().all(|node| mirror.side(node) >= 0);
+    let triangles: Vec<TriangleId> = model.triangle_ids().filter(right).collect();
+    let mut nodes: Vec<NodeId> =
+        triangles.iter().flat_map(|id| model.triangle(*id).nodes).collect();
     nodes.sort_unstable();
     nodes.dedup();
-    let departure = nodes.iter().map(|&n| mirror.distance(n, images[n])).fold(0.0, f64::max);
-    let scene = restricted(scene, &mirror, &nodes, &triangles);
+    let departure = nodes.iter().map(|&n| mirror.distance(n, images.of(n))).fold(0.0, f64::max);
+    let model = Restriction::new(&mirror, &nodes, &triangles).model();
+    let scene = Scene { model: Arc::new(model), source: None, ..scene.clone() };
     Some(Half { scene, nodes, triangles, at: mirror.at, departure })
 }
 
-fn corners(sheet: &Worksheet<f64>, n: usize) -> [usize; 3] {
-    [0, 1, 2].map(|k| sheet.EL[(n, sheet.ind_1 + k)])
-}
-
+/// The line about which a model may be symmetric.
 struct Mirror<'a> {
-    sheet: &'a Worksheet<f64>,
-    bodies: &'a [Body],
+    model: &'a Model,
     /// x of the line.
     at: f64,
     /// Below this a distance is none.
     place: f64,
 }
 
+/// The mirror image of each node.
+struct Images(Vec<NodeId>);
+
+impl Images {
+    fn of(&self, node: NodeId) -> NodeId {
+        self.0[node.index()]
+    }
+}
+
 impl<'a> Mirror<'a> {
     /// The only line that can be one; nothing where a triangle lies across it.
-    fn new(scene: &'a Scene) -> Option<Self> {
-        let sheet = &scene.sheet;
-        let range = |column: usize| {
-            let values = (1..=sheet.R()).map(|n| sheet.node[(n, column)]);
+    fn new(model: &'a Model) -> Option<Self> {
+        let range = |axis: usize| {
+            let values = model.nodes.iter().map(|xy| xy[axis]);
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
         };
-        let ((left, right), (low, high)) = (range(2), range(3));
+        let ((left, right), (low, high)) = (range(0), range(1));
         let (at, place) = (left + (right - left) / 2.0, PLACE * (right - left).max(high - low));
-        let mirror = Mirror { sheet, bodies: &scene.bodies, at, place };
-        let across = |n: usize| {
-            let sides = corners(sheet, n).map(|c| mirror.side(c));
+        let mirror = Mirror { model, at, place };
+        let across = |triangle: &Triangle| {
+            let sides = triangle.nodes.map(|node| mirror.side(node));
             sides.contains(&1) && sides.contains(&-1)
         };
-        if (1..=sheet.M()).any(across) { None } else { Some(mirror) }
+        if model.triangles.iter().any(across) { None } else { Some(mirror) }
     }
 
     /// -1 left of the line, 0 on it, 1 right of it.
-    fn side(&self, n: usize) -> i32 {
-        let x = self.sheet.node[(n, 2)] - self.at;
+    fn side(&self, node: NodeId) -> i32 {
+        let x = self.model.at(node)[0] - self.at;
         if x.abs() <= self.place { 0 } else { x.signum() as i32 }
     }
 
     /// From where the image of node `n` should stand to node `m`.
-    fn distance(&self, n: usize, m: usize) -> f64 {
-        let node = &self.sheet.node;
-        (2.0 * self.at - node[(n, 2)] - node[(m, 2)]).hypot(node[(n, 3)] - node[(m, 3)])
+    fn distance(&self, n: NodeId, m: NodeId) -> f64 {
+        let ([nx, ny], [mx, my]) = (self.model.at(n), self.model.at(m));
+        (2.0 * self.at - nx - mx).hypot(ny - my)
     }
 
-    /// The image of each node, from 1 on; nothing where a node has none.
-    fn images(&self) -> Option<Vec<usize>> {
+    /// The image of each node; nothing where a node has none.
+    fn images(&self) -> Option<Images> {
         let cell = |x: f64| (x / (4.0 * self.place)).round() as i64;
-        let mut cells: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
-        let node = &self.sheet.node;
-        for n in 1..=self.sheet.R() {
-            cells.entry([cell(node[(n, 2)]), cell(node[(n, 3)])]).or_default().push(n);
+        let mut cells: HashMap<[i64; 2], Vec<NodeId>> = HashMap::new();
+        for n in self.model.node_ids() {
+            cells.entry(self.model.at(n).map(cell)).or_default().push(n);
         }
-        let body = |n: usize| self.bodies.iter().position(|b| b.nodes.binary_search(&n).is_ok());
-        let image = |n: usize| {
-            let [x, y] = [cell(2.0 * self.at - node[(n, 2)]), cell(node[(n, 3)])];
+        let body = |n: NodeId| self.model.bodies.iter().position(|b| b.has(n));
+        let image = |n: NodeId| {
+            let [x, y] = self.model.at(n);
+            let [x, y] = [cell(2.0 * self.at - x), cell(y)];
             let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x + i, y + j]));
             let near = around.filter_map(|at| cells.get(&at)).flatten().copied();
-            let found: Vec<usize> = near.filter(|&m| self.distance(n, m) <= self.place).collect();
+            let found: Vec<NodeId> = near.filter(|&m| self.distance(n, m) <= self.place).collect();
             // Where bodies touch, two nodes stand at one place: a body on the line is its own image.
             match found.as_slice() {
                 [one] => Some(*one),
                 several => several.iter().copied().find(|&m| body(m) == body(n)),
             }
         };
-        let images: Option<Vec<usize>> = (1..=self.sheet.R()).map(image).collect();
-        let images: Vec<usize> = std::iter::once(0).chain(images?).collect();
-        if (1..images.len()).all(|n| images[images[n]] == n) { Some(images) } else { None }
+        let images = Images(self.model.node_ids().map(image).collect::<Option<_>>()?);
+        let returns = |n: NodeId| images.of(images.of(n)) == n;
+        self.model.node_ids().all(returns).then_some(images)
     }
 
-    /// That triangles and their materials are symmetric.
-    fn triangles(&self, images: &[usize]) -> bool {
-        let sheet = self.sheet;
-        let key = |mut nodes: [usize; 3], n: usize| {
+    /// Whether triangles and their materials are symmetric.
+    fn triangles(&self, images: &Images) -> bool {
+        let key = |mut nodes: [NodeId; 3], triangle: &Triangle| {
             nodes.sort_unstable();
-            (nodes, sheet.E[n].to_bits(), sheet.nu[n].to_bits())
+            (nodes, triangle.material.e.to_bits(), triangle.material.nu.to_bits())
         };
-        let all: HashSet<_> = (1..=sheet.M()).map(|n| key(corners(sheet, n), n)).collect();
-        (1..=sheet.M()).all(|n| all.contains(&key(corners(sheet, n).map(|c| images[c]), n)))
+        let triangles = || self.model.triangles.iter();
+        let all: HashSet<_> = triangles().map(|t| key(t.nodes, t)).collect();
+        triangles().all(|t| all.contains(&key(t.nodes.map(|n| images.of(n)), t)))
     }
 
-    /// That the contact surfaces are, as sets.
-    fn surfaces(&self, images: &[usize]) -> bool {
-        let sheet = self.sheet;
-        let cnt: HashSet<usize> = sheet.cnt.iter().copied().collect();
-        let ends = |e: &usize| [sheet.elem[(*e, 6)], sheet.elem[(*e, 7)]];
-        let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-        let trg: HashSet<[usize; 2]> = sheet.trg.iter().map(|e| sorted(ends(e))).collect();
-        cnt.iter().all(|&n| cnt.contains(&images[n]))
-            && trg.iter().all(|edge| trg.contains(&sorted(edge.map(|n| images[n]))))
+    /// Whether the contact surfaces are, as sets.
+    fn surfaces(&self, images: &Images) -> bool {
+        let contact: HashSet<NodeId> = self.model.contact.nodes.iter().copied().collect();
+        let target: HashSet<[NodeId; 2]> =
+            self.model.target_edges().map(|edge| unordered(edge.nodes)).collect();
+        contact.iter().all(|n| contact.contains(&images.of(*n)))
+            && target.iter().all(|edge| target.contains(&unordered(edge.map(|n| images.of(n)))))
     }
 
-    /// That restraints and loads are.
-    fn conditions(&self, scene: &Scene, images: &[usize]) -> bool {
-        let (held, load) = (&self.sheet.S, &scene.load);
-        let near = LOAD * load.amax();
-        (1..images.len()).all(|n| {
-            let m = images[n];
-            held[2 * n - 1] == held[2 * m - 1]
-                && held[2 * n] == held[2 * m]
-                && (load[2 * n - 2] + load[2 * m - 2]).abs() <= near
-                && (load[2 * n - 1] - load[2 * m - 1]).abs() <= near
+    /// Whether restraints and loads are.
+    fn conditions(&self, images: &Images) -> bool {
+        let model = self.model;
+        let near = LOAD * model.load.amax();
+        model.node_ids().all(|n| {
+            let m = images.of(n);
+            let ([nx, ny], [mx, my]) = (n.of(&model.load), m.of(&model.load));
+            model.restraints_of(n) == model.restraints_of(m)
+                && (nx + mx).abs() <= near
+                && (ny - my).abs() <= near
         })
     }
 }
 
-/// `scene` on some of its nodes and triangles; those on the line are held in x and carry half of their load.
-fn restricted(scene: &Scene, mirror: &Mirror, nodes: &[usize], triangles: &[usize]) -> Scene {
-    let number: HashMap<usize, usize> =
-        nodes.iter().enumerate().map(|(k, n)| (*n, k + 1)).collect();
-    let share = |n: usize| if mirror.side(n) == 0 { 0.5 } else { 1.0 };
-    let load = nodes.iter().flat_map(|&n| {
-        let x = if mirror.side(n) == 0 { 0.0 } else { scene.load[2 * n - 2] };
-        [x, share(n) * scene.load[2 * n - 1]]
-    });
-    let of_body = |body: &Body| Body {
-        name: body.name.clone(),
-        triangles: (1..=triangles.len())
-            .filter(|k| body.triangles.binary_search(&triangles[k - 1]).is_ok())
-            .collect(),
-        nodes: body.nodes.iter().filter_map(|n| number.get(n).copied()).collect(),
-    };
-    let bodies = scene.bodies.iter().map(of_body).filter(|body| !body.triangles.is_empty());
-    Scene {
-        bodies: bodies.collect(),
-        load: DVector::from_iterator(2 * nodes.len(), load),
-        sheet: worksheet(mirror, nodes, triangles, &number),
-        source: None,
-        ..scene.clone()
-    }
+/// A model on some of its nodes and triangles; the nodes on the line are restrained in x and carry half of their load.
+struct Restriction<'a> {
+    mirror: &'a Mirror<'a>,
+    nodes: &'a [NodeId],
+    triangles: &'a [TriangleId],
+    /// The number that each node has in the half.
+    number: HashMap<NodeId, NodeId>,
 }
 
-fn worksheet(
-    mirror: &Mirror,
-    nodes: &[usize],
-    triangles: &[usize],
-    number: &HashMap<usize, usize>,
-) -> Worksheet<f64> {
-    let whole = mirror.sheet;
-    let kept = |e: usize| {
-        let ends = (whole.ind_1..=8).map(|j| whole.elem[(e, j)]).filter(|n| *n != 0);
-        ends.clone().count() > 0 && ends.clone().all(|n| number.contains_key(&n))
-    };
-    let entry = |row: &dyn Fn(usize) -> usize, j: usize| {
-        if j < whole.ind_1 { row(j) } else { number.get(&row(j)).copied().unwrap_or(0) }
-    };
-    let held = nodes
-        .iter()
-        .flat_map(|&n| [if mirror.side(n) == 0 { 1 } else { whole.S[2 * n - 1] }, whole.S[2 * n]]);
-    let cnt = whole.cnt.iter().filter_map(|n| number.get(n).copied()).collect();
-    let trg = whole.trg.iter().copied().filter(|&e| kept(e)).collect();
-    let of = |values: &Column<f64>| {
-        Column::from_vec(triangles.iter().map(|&n| values[n]).collect::<Vec<f64>>())
-    };
-    Worksheet {
-        node: Table::from_fn(nodes.len(), 4, |i, j| match j {
-            1 => i as f64,
-            _ => whole.node[(nodes[i - 1], j)],
-        }),
-        elem: Table::from_fn(whole.elem.rows(), 8, |e, j| {
-            if kept(e) { entry(&|j| whole.elem[(e, j)], j) } else { 0 }
-        }),
-        EL: Table::from_fn(triangles.len(), 8, |n, j| {
-            entry(&|j| whole.EL[(triangles[n - 1], j)], j)
-        }),
-        trg: Column::from_vec(trg),
-        cnt: Column::from_vec(cnt),
-        S: Column::from_vec(held.collect()),
-        Ae: of(&whole.Ae),
-        B: Column::from_vec(triangles.iter().map(|&n| whole.B[n]).collect()),
-        E: of(&whole.E),
-        nu: of(&whole.nu),
-        ..whole.clone()
+impl<'a> Restriction<'a> {
+    fn new(mirror: &'a Mirror<'a>, nodes: &'a [NodeId], triangles: &'a [TriangleId]) -> Self {
+        let number = nodes.iter().copied().zip(NodeId::all(nodes.len())).collect();
+        Restriction { mirror, nodes, triangles, number }
+    }
+
+    fn model(&self) -> Model {
+        let whole = self.mirror.model;
+        let triangles: Vec<Triangle> = self.triangles.iter().map(|id| self.triangle(*id)).collect();
+        let rows: Vec<Row> = whole.rows.iter().filter_map(|row| self.row(row)).collect();
+        let edges = whole.edges.iter().filter_map(|edge| {
+            Some(Edge { nodes: self.renumbered(edge.nodes)?, number: edge.number })
+        });
+        let bodies = whole.bodies.iter().map(|body| self.body(body));
+        Model {
+            nodes: self.nodes.iter().map(|n| whole.at(*n)).collect(),
+            sides: Sides::new(triangles.iter().map(|triangle| triangle.nodes)),
+            triangles,
+            edges: edges.collect(),
+            restrained: self.dofs().map(|dof| self.is_restrained(dof)).collect(),
+            load: DVector::from_iterator(2 * self.nodes.len(), self.dofs().map(|d| self.load(d))),
+            bodies: bodies.filter(|body| !body.triangles.is_empty()).collect(),
+            contact: self.contact(),
+            rows,
+            ..whole.clone()
+        }
+    }
+
+    fn dofs(&self) -> impl Iterator<Item = Dof> {
+        self.nodes.iter().flat_map(|n| n.dofs())
+    }
+
+    fn on_line(&self, dof: Dof) -> bool {
+        self.mirror.side(dof.node()) == 0
+    }
+
+    fn is_restrained(&self, dof: Dof) -> bool {
+        dof.direction() == 0 && self.on_line(dof) || self.mirror.model.is_restrained(dof)
+    }
+
+    fn load(&self, dof: Dof) -> f64 {
+        let whole = self.mirror.model.load[dof.index()];
+        match (self.on_line(dof), dof.direction()) {
+            (true, 0) => 0.0,
+            (true, _) => 0.5 * whole,
+            (false, _) => whole,
+        }
+    }
+
+    /// Nodes under their new numbers; nothing where one is not in the half.
+    fn renumbered<const N: usize>(&self, nodes: [NodeId; N]) -> Option<[NodeId; N]> {
+        let inside = nodes.iter().all(|n| self.number.contains_key(n));
+        inside.then(|| nodes.map(|n| self.number[&n]))
+    }
+
+    fn triangle(&self, id: TriangleId) -> Triangle {
+        let triangle = self.mirror.model.triangle(id);
+        let nodes = self.renumbered(triangle.nodes).expect("the half has its triangles' nodes");
+        Triangle { nodes, ..*triangle }
+    }
+
+    fn row(&self, row: &Row) -> Option<Row> {
+        let nodes: Option<_> = row.nodes.iter().map(|n| self.number.get(n).copied()).collect();
+        Some(Row { nodes: nodes?, ..row.clone() })
+    }
+
+    fn body(&self, body: &Body) -> Body {
+        let triangles = TriangleId::all(self.triangles.len()).zip(self.triangles);
+        Body {
+            name: body.name.clone(),
+            triangles: triangles
+                .filter(|(_, whole)| body.triangles.binary_search(whole).is_ok())
+                .map(|(half, _)| half)
+                .collect(),
+            nodes: body.nodes.iter().filter_map(|n| self.number.get(n).copied()).collect(),
+        }
+    }
+
+    fn contact(&self) -> ContactSurfaces {
+        let whole = self.mirror.model;
+        let kept: Vec<EdgeId> = (0..whole.edges.len())
+            .map(EdgeId::new)
+            .filter(|id| self.renumbered(whole.edge(*id).nodes).is_some())
+            .collect();
+        let place = |id: &EdgeId| kept.binary_search(id).ok().map(EdgeId::new);
+        ContactSurfaces {
+            nodes: whole.contact.nodes.iter().filter_map(|n| self.number.get(n).copied()).collect(),
+            target: whole.contact.target.iter().filter_map(place).collect(),
+            tolerance: whole.contact.tolerance,
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Node to segment: the foot of each contact node on the nearest target edge.
+//! Node to segment: the point closest to each contact node on the nearest target edge.
 //!
 //! The normal turns along an edge from the mean of the normals that meet at its first node to that at its second: else a node that comes to
 //! rest at a bend of a curved target would jump between its two edges for ever.
@@ -8,11 +8,11 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::surfaces::{Placed, Surfaces, point};
-use super::{Pairing, Vector, dot};
-use crate::paper::mathcad::array::Table;
+use super::pairing::{Pairing, Vector, dot};
+use super::surface::{Placed, Surfaces};
+use crate::problem::model::NodeId;
 
-/// How far beyond the end of an edge a foot still counts as on it, of the edge's length: rounding.
+/// How far beyond the end of an edge a closest point still counts as on it, of the edge's length: rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// Cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a smooth surface: 30 degrees.
@@ -22,44 +22,46 @@ const BEND: f64 = 0.866;
 /// that lie flush slide by their strain.
 const HANGING: f64 = 0.05;
 
-/// For each entry of `cnt` its foot on the nearest target edge.
-pub(super) fn pairings(surfaces: &Surfaces, node_n: &Table<f64>) -> Vec<Option<Pairing>> {
-    let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(node_n)).collect();
+/// For each entry of the contact surface its closest point on the nearest target edge.
+pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
+    let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
     let normals = normals(surfaces, &target);
     let free = surfaces.free_ends();
-    let tributary = surfaces.tributary(node_n);
-    let mut met = HashSet::new();
+    let tributary = surfaces.tributary(shape);
+    let mut listed = HashSet::new();
     let entries = surfaces.nodes.iter().zip(tributary);
     entries
         .map(|(&node, length)| {
             let facing = (0..target.len()).filter(|&k| surfaces.face(node, k));
             let candidates = facing.map(|k| (k, &target[k], free[k]));
-            let foot = nearest(candidates, point(node_n, node)).filter(|_| met.insert(node))?;
-            let edge = &surfaces.target[foot.edge];
-            let xi = foot.along.clamp(0.0, 1.0);
-            let [a, b] = normals[foot.edge];
+            let closest =
+                nearest(candidates, shape[node.index()]).filter(|_| listed.insert(node))?;
+            let edge = &surfaces.target[closest.edge];
+            let xi = closest.along.clamp(0.0, 1.0);
+            let [a, b] = normals[closest.edge];
             let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
-            let weights = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
-            let gap = foot.outside * dot(normal, target[foot.edge].normal);
-            Some(Pairing { node, edge: edge.number, weights, normal, gap, length })
+            let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
+            let gap = closest.outside * dot(normal, target[closest.edge].normal);
+            let edge = edge.id.expect("a target edge is one of the model's");
+            Some(Pairing { node, edge, masters, normal, gap, length })
         })
         .collect()
 }
 
-/// The foot of a point on an edge.
-struct Foot {
+/// The point of an edge closest to a point.
+struct Closest {
     edge: usize,
     along: f64,
     outside: f64,
 }
 
-/// The foot on the nearest of `candidates`: edges, and which of their ends end the surface. None where the point has passed the end of the
+/// The closest point on the nearest of `candidates`: edges, and which of their ends end the surface. None where the point has passed the end of the
 /// surface: where it lies further beyond an edge than away from it.
 fn nearest<'a>(
     candidates: impl Iterator<Item = (usize, &'a Placed, [bool; 2])>,
     p: Vector,
-) -> Option<Foot> {
-    let mut nearest: Option<(f64, Foot)> = None;
+) -> Option<Closest> {
+    let mut nearest: Option<(f64, Closest)> = None;
     for (edge, placed, free) in candidates {
         let (along, outside) = (placed.along(p), placed.outside(p));
         let beyond = (along - along.clamp(0.0, 1.0)).abs() * placed.length;
@@ -67,19 +69,19 @@ fn nearest<'a>(
         let past = if free[usize::from(along > 0.5)] { HANGING } else { ROUNDING };
         let on_it = beyond <= outside.abs() || beyond <= past * placed.length;
         if on_it && nearest.as_ref().is_none_or(|(least, _)| distance < *least) {
-            nearest = Some((distance, Foot { edge, along, outside }));
+            nearest = Some((distance, Closest { edge, along, outside }));
         }
     }
-    nearest.map(|(_, foot)| foot)
+    nearest.map(|(_, closest)| closest)
 }
 
 /// The normals at the two nodes of each target edge: the mean over the edges that meet there, where they meet in a bend.
 fn normals(surfaces: &Surfaces, target: &[Placed]) -> Vec<[Vector; 2]> {
-    let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut at_node: HashMap<NodeId, Vec<usize>> = HashMap::new();
     for (k, edge) in surfaces.target.iter().enumerate() {
         edge.nodes.iter().for_each(|n| at_node.entry(*n).or_default().push(k));
     }
-    let mean = |k: usize, node: usize| {
+    let mean = |k: usize, node: NodeId| {
         let own = target[k].normal;
         let normals = at_node[&node].iter().map(|&other| target[other].normal);
         let bend = normals.filter(|normal| dot(*normal, own) > BEND);

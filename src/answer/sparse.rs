@@ -1,8 +1,7 @@
-//! The sparse rungs of `tied` and `stepped`: nothing dense is built for them.
+//! The sparse solvers of `tied` and `stepped`: nothing dense is built for them.
 
 use nalgebra::DVector;
 
-use super::task::Task;
 use crate::numbers::scalar::{Bounded, F64x2, Scalar};
 use crate::numbers::solve::{
     Arithmetic, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky, SparseSymmetric,
@@ -59,12 +58,5 @@ pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
         (Variant::Printed, _) => 1,
         _ if sparse => 0,
         _ => 2,
-    }
-}
-
-impl Task<'_> {
-    /// Dense matrices that it holds at once.
-    pub(super) fn dense_matrices(&self) -> usize {
-        dense_matrices(self.variant, self.arithmetic)
     }
 }

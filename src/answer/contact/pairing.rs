@@ -6,27 +6,23 @@
 //!        target surface    a *-------+-------* b
 //! ```
 //!
-//! Node to segment ([`nts`]) takes the foot of c on the nearest edge: two weights. Mortar ([`mortar`]) averages over the stretch of
+//! Node to segment ([`nts`]) takes the point of the nearest edge that is closest to c: two weights. Mortar ([`mortar`]) averages over the stretch of
 //! the target that c's edges cover: more weights, and constant pressure passes exactly.
 
-mod mortar;
-mod nts;
-mod surfaces;
-
-pub use surfaces::Surfaces;
-
-use crate::paper::mathcad::array::Table;
+use super::surface::Surfaces;
+use super::{mortar, nts};
+use crate::problem::model::{EdgeId, NodeId};
 use crate::problem::modelling::Coupling;
 
 /// What a contact node faces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pairing {
     /// The contact node.
-    pub node: usize,
-    /// `elem` number of the target edge that it faces; of several the one it covers most.
-    pub edge: usize,
-    /// Target nodes and weights; they sum to 1.
-    pub weights: Vec<(usize, f64)>,
+    pub node: NodeId,
+    /// The target edge that it faces; of several the one it covers most.
+    pub edge: EdgeId,
+    /// The target nodes that it would follow, the master nodes, and their weights; they sum to 1.
+    pub masters: Vec<(NodeId, f64)>,
     /// Unit normal, out of the target.
     pub normal: [f64; 2],
     /// Distance from the target along the normal, length; < 0 where the node penetrates.
@@ -37,32 +33,32 @@ pub struct Pairing {
 
 impl Pairing {
     /// n·(v_c − Σ w v_t) of a vector field: of places the gap, of displacements what it opens by.
-    pub fn opening(&self, of_node: impl Fn(usize) -> [f64; 2]) -> f64 {
+    pub fn opening(&self, of_node: impl Fn(NodeId) -> [f64; 2]) -> f64 {
         let at = of_node(self.node);
         // Differences from the node, so that no digits are lost far from the origin.
-        let from = |mate: usize| dot(minus(at, of_node(mate)), self.normal);
-        self.weights.iter().map(|&(mate, w)| w * from(mate)).sum()
+        let from = |master: NodeId| dot(minus(at, of_node(master)), self.normal);
+        self.masters.iter().map(|&(master, w)| w * from(master)).sum()
     }
 }
 
 impl Surfaces {
-    /// For each entry of `cnt` what it faces in the shape `node_n` (R x 4). Nothing for a node that faces no edge, and for a node's second
-    /// entry.
-    pub fn pairings(&self, coupling: Coupling, node_n: &Table<f64>) -> Vec<Option<Pairing>> {
+    /// For each entry of the contact surface what it faces in a shape, the coordinates of each node. Nothing for a node that faces no
+    /// edge, and for a node's second entry.
+    pub fn pairings(&self, coupling: Coupling, shape: &[[f64; 2]]) -> Vec<Option<Pairing>> {
         match coupling {
-            Coupling::Nts => nts::pairings(self, node_n),
-            Coupling::Mortar => mortar::pairings(self, node_n),
+            Coupling::Nts => nts::pairings(self, shape),
+            Coupling::Mortar => mortar::pairings(self, shape),
         }
     }
 }
 
 /// A point or vector of the plane.
-type Vector = [f64; 2];
+pub(super) type Vector = [f64; 2];
 
-fn dot(a: Vector, b: Vector) -> f64 {
+pub(super) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn minus(a: Vector, b: Vector) -> Vector {
+pub(super) fn minus(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1]]
 }

@@ -10,13 +10,12 @@
 
 use std::f64::consts::PI;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::outcome::Outcome;
-use super::pairing::{Pairing, Surfaces};
-use super::pressure::arcs;
-use crate::paper::mirror::Worksheet;
+use super::contact::{Pairing, Surfaces, arcs};
+use super::solution::Solution;
 use crate::problem::element::Plane;
+use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Coupling;
 
 /// Gaps may leave the parabola by this part of the parabola's height at the edge of contact.
@@ -29,7 +28,7 @@ const SHALLOW: f64 = 0.3;
 const FEWEST: usize = 3;
 
 /// Hertz's line contact.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hertz {
     /// Relative radius, length.
     pub radius: f64,
@@ -42,18 +41,18 @@ pub struct Hertz {
 }
 
 impl Hertz {
-    /// Hertz's contact for the load that the contact surface of `outcome` carries. Nothing where the surfaces are no parabola there, the contact is
+    /// Hertz's contact for the load that the contact surface of `solution` carries. Nothing where the surfaces are no parabola there, the contact is
     /// too wide for the theory, or too few nodes lie in it.
-    pub fn of(outcome: &Outcome, thickness: f64) -> Option<Self> {
-        let sheet = &outcome.sheet;
-        let pairings = Surfaces::new(sheet).ok()?.pairings(Coupling::Nts, &sheet.node);
-        let gaps = gaps(sheet, &pairings);
+    pub fn of(solution: &Solution) -> Option<Self> {
+        let model = &*solution.model;
+        let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
+        let gaps = gaps(model, &pairings);
         let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
         let at_an_end = first.entry == gaps[0].entry || first.entry == gaps[gaps.len() - 1].entry;
         // Half a scene that is symmetric about the first point of contact carries half the load.
         let sides = if at_an_end { 2.0 } else { 1.0 };
-        let load = sides * normal_load(outcome)? / thickness;
-        let modulus = modulus(sheet, &pairings[first.entry].clone()?)?;
+        let load = sides * normal_load(solution)? / model.thickness;
+        let modulus = modulus(model, pairings[first.entry].as_ref()?)?;
         let centre = first.arc;
         // The half width decides which gaps count for the radius: once around is enough to settle it.
         let mut half_width = 0.25 * (gaps[gaps.len() - 1].arc - gaps[0].arc);
@@ -85,14 +84,14 @@ impl Hertz {
 
 /// A contact node's place and gap in the initial shape.
 struct Gap {
-    /// Index in `cnt`, from 0.
+    /// Its place in the contact surface.
     entry: usize,
     arc: f64,
     gap: f64,
 }
 
-fn gaps(sheet: &Worksheet<f64>, pairings: &[Option<Pairing>]) -> Vec<Gap> {
-    let faced = pairings.iter().zip(arcs(sheet, &sheet.node)).enumerate();
+fn gaps(model: &Model, pairings: &[Option<Pairing>]) -> Vec<Gap> {
+    let faced = pairings.iter().zip(arcs(model)).enumerate();
     let gap = |(entry, (p, arc)): (usize, (&Option<Pairing>, f64))| {
         p.as_ref().map(|p| Gap { entry, arc, gap: p.gap })
     };
@@ -112,21 +111,19 @@ fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
 }
 
 /// Sum of the normal forces of the contact nodes, force.
-fn normal_load(outcome: &Outcome) -> Option<f64> {
-    let forces = outcome.contact.iter().filter(|c| c.dy == 1).map(|c| c.force);
-    Some(forces.sum::<f64>()).filter(|load| *load > 0.0)
+fn normal_load(solution: &Solution) -> Option<f64> {
+    Some(solution.in_contact().map(|c| c.force).sum::<f64>()).filter(|load| *load > 0.0)
 }
 
 /// E*, stress, of the two materials at a contact node.
-fn modulus(sheet: &Worksheet<f64>, pairing: &Pairing) -> Option<f64> {
-    let compliance = |node: usize| {
-        let n =
-            (1..=sheet.M()).find(|&n| (0..3).any(|k| sheet.EL[(n, sheet.ind_1 + k)] == node))?;
-        let nu = match sheet.plane {
-            Plane::Strain => sheet.nu[n],
+fn modulus(model: &Model, pairing: &Pairing) -> Option<f64> {
+    let compliance = |node: NodeId| {
+        let triangle = model.triangles.iter().find(|triangle| triangle.nodes.contains(&node))?;
+        let nu = match model.plane {
+            Plane::Strain => triangle.material.nu,
             Plane::Stress => 0.0,
         };
-        Some((1.0 - nu * nu) / sheet.E[n])
+        Some((1.0 - nu * nu) / triangle.material.e)
     };
-    Some(1.0 / (compliance(pairing.node)? + compliance(pairing.weights[0].0)?))
+    Some(1.0 / (compliance(pairing.node)? + compliance(pairing.masters[0].0)?))
 }

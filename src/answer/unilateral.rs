@@ -1,4 +1,4 @@
-//! The converged answer: gaps closed along the target's normal, no node that pulls, none that penetrates.
+//! The reference solution: gaps closed along the target's normal, no node that pulls, none that penetrates.
 //!
 //! ```text
 //!   gap g_i = n_i·(x_i − Σ w_ij x_j)       in contact   g_i = 0, pressure ≥ 0
@@ -7,8 +7,9 @@
 //!
 //! A primal-dual active set: each iteration measures normals, weights and gaps in the current shape, closes the gaps of the set, and
 //! takes as the next set the nodes that press or penetrate. It ends when the set repeats and the gaps stay closed as the shape
-//! settles. The shape is the current one, or the initial one for small displacements. Friction is none (the node slides along the tangent) or sticks: then both components follow the target,
-//! as eq. (1) asks, and the node stays at the place of the target that it faced in the initial shape.
+//! settles. The shape is the current one, or the initial one for small displacements. Friction is none (the node slides along the
+//! tangent) or sticks: then both components follow the target, as eq. (1) asks, and the node stays at the place of the target that
+//! it faced in the initial shape.
 //!
 //! A set that came before, other than the last, would return for ever. From then on one node changes at a time, the last along `cnt` of those
 //! that should: that ends for every problem with one solution (K. G. Murty's least-index rule, Opsearch 11 (1974)). Where the set
@@ -18,20 +19,20 @@
 //! Comput. Oper. Res. 21 (1994) 587-596 (the fall-back).
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::elimination::{Elimination, HeldAlongNormal, Motion, Tie};
-use super::outcome::{Cycle, shape};
-use super::pairing::{Pairing, Surfaces};
+use super::contact::{ContactNode, Pairing, Surfaces, Traction};
+use super::elimination::{Constraint, Elimination, Motion, RestrainedAlongNormal};
+use super::request::Request;
+use super::solution::{self, Cycle, Detail, Solution, Step, max_displacement};
 use super::stiffness::Stiffness;
-use super::support::normal_force;
+use super::support::{against_load, normal_force, support};
 use crate::error::InputError;
 use crate::numbers::solve::{SparseCholesky, SparseSymmetric};
-use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::Worksheet;
-use crate::problem::modelling::Friction;
-use crate::problem::scene::Scene;
+use crate::problem::model::{Dof, Model};
+use crate::problem::modelling::{Friction, Geometry};
 
 /// Gaps below this, of the size of the scene, are closed.
 const CLOSED: f64 = 5e-13;
@@ -53,76 +54,74 @@ const STANDING: f64 = 1e-9;
 /// Iterations beyond one for each contact node after which no equilibrium is taken to exist.
 const PATIENCE: usize = 100;
 
-/// One iteration: the set that was closed and what came of it.
-pub struct Step {
-    /// Its number, from 1.
-    pub k: usize,
-    /// The shape that it started from and what contact nodes face in it.
-    pub before: Place,
-    /// Whether each entry of `cnt` was closed.
-    pub closed: Vec<bool>,
-    /// What closed them.
-    pub ties: Vec<Tie>,
-    /// Where this set was closed before.
-    pub cycle: Option<Cycle>,
-    /// Displacements, 2R, length.
-    pub u: DVector<f64>,
-    /// K u − F: forces of contact and restraints, 2R, force.
-    pub reaction: DVector<f64>,
-    /// Relative residual of the solution.
-    pub residual: f64,
-    /// The shape that it led to.
-    pub after: Place,
-    /// The largest gap of a closed node or penetration of another one in that shape, length.
-    pub violation: f64,
-}
-
 /// A shape and what each contact node faces in it.
 #[derive(Clone)]
-pub struct Place {
-    /// R x 4.
-    pub node_n: Table<f64>,
-    /// For each entry of `cnt`.
-    pub pairings: Vec<Option<Pairing>>,
+struct Place {
+    /// Coordinates of each node, length.
+    shape: Vec<[f64; 2]>,
+    /// For each entry of the contact surface.
+    pairings: Vec<Option<Pairing>>,
+}
+
+/// One iteration: the set that was closed and what came of it.
+struct Iteration {
+    k: usize,
+    /// Where it started from.
+    before: Place,
+    /// Whether each entry of the contact surface was closed.
+    closed: Vec<bool>,
+    /// What closed them.
+    constraints: Vec<Constraint>,
+    /// Where this set was closed before.
+    cycle: Option<Cycle>,
+    /// Displacements by degree of freedom, length.
+    u: DVector<f64>,
+    /// K u − F: forces of contact and restraints, force.
+    reaction: DVector<f64>,
+    /// Relative residual of the solution.
+    residual: f64,
+    /// Where it led to.
+    after: Place,
+    /// The largest gap of a closed node or penetration of another one in that shape, length.
+    violation: f64,
 }
 
 /// Finds the equilibrium; `watch` is called after each iteration. The last step is the answer.
 ///
 /// # Errors
-/// Contact and restraints that do not hold the bodies; a contact node held along the normal; loads that pull a body away.
-pub fn unilateral(
-    scene: &Scene,
-    sheet: &Worksheet<f64>,
-    mut watch: impl FnMut(&Step),
-) -> Result<Vec<Step>, InputError> {
-    let problem = Problem::new(scene, sheet)?;
+/// Contact and restraints that do not hold the bodies; a contact node restrained along the normal; loads that pull a body away.
+pub(super) fn unilateral(
+    request: &Request,
+    watch: &mut dyn FnMut(&Step),
+) -> Result<Solution, InputError> {
+    let model = request.model()?;
+    let problem = Problem::new(request, &model)?;
     let mut memory = Memory::default();
     let mut steps: Vec<Step> = Vec::new();
-    let mut place = problem.place(&DVector::zeros(2 * sheet.R()));
+    let mut place = problem.place(&DVector::zeros(model.dofs()));
     let mut set = first_set(&place.pairings, problem.closed);
-    let limit = PATIENCE + sheet.cnt.rows();
+    let limit = PATIENCE + model.contact.nodes.len();
     while steps.len() < limit {
-        let step = problem.close(steps.len() + 1, place, set, &mut memory)?;
+        let iteration = problem.close(steps.len() + 1, place, set, &mut memory)?;
+        let step = problem.step(&iteration);
         watch(&step);
-        let next = problem.next(&step, &mut memory);
-        place = step.after.clone();
         steps.push(step);
-        match next {
-            Some(next) => set = next,
-            None => return Ok(steps),
+        match problem.next(&iteration, &mut memory) {
+            Some(next) => (set, place) = (next, iteration.after),
+            None => return Ok(problem.solution(&model, steps, iteration)),
         }
     }
     Err(no_equilibrium(&steps))
 }
 
 struct Problem<'a> {
-    scene: &'a Scene,
-    sheet: &'a Worksheet<f64>,
+    request: &'a Request,
+    model: &'a Model,
     stiffness: Stiffness,
     surfaces: Surfaces,
     /// Gaps below this are closed, length.
     closed: f64,
-    /// The load, 0 at restrained equations.
+    /// The load, 0 at restrained degrees of freedom.
     load: DVector<f64>,
 }
 
@@ -130,59 +129,64 @@ struct Problem<'a> {
 enum Solved {
     /// Displacements, and the relative residual.
     Moved { u: DVector<f64>, residual: f64 },
-    /// Nothing holds this equation; how soft springs everywhere let the load move the bodies, 2R.
-    Free { equation: usize, motion: Option<DVector<f64>> },
+    /// Nothing holds this degree of freedom; how soft springs everywhere let the load move the bodies.
+    Free { dof: Dof, motion: Option<DVector<f64>> },
 }
 
 /// The sets that were closed, each with the last iteration that closed it; and whether one came back.
 #[derive(Default)]
 struct Memory {
-    met: HashMap<Vec<bool>, usize>,
+    visited: HashMap<Vec<bool>, usize>,
     one_at_a_time: bool,
 }
 
 impl<'a> Problem<'a> {
-    fn new(scene: &'a Scene, sheet: &'a Worksheet<f64>) -> Result<Self, InputError> {
-        let load = scene.free_load();
+    fn new(request: &'a Request, model: &'a Model) -> Result<Self, InputError> {
         Ok(Problem {
-            scene,
-            sheet,
-            stiffness: Stiffness::new(sheet),
-            surfaces: Surfaces::new(sheet)?,
-            closed: CLOSED * size(sheet),
-            load,
+            request,
+            model,
+            stiffness: Stiffness::new(model, |x| x),
+            surfaces: Surfaces::new(model)?,
+            closed: CLOSED * size(model),
+            load: model.free_load(),
         })
+    }
+
+    /// Whether contact is measured in the current shape; else in the initial one: a node that sticks stays at the place that it faced
+    /// there.
+    fn measures_current_shape(&self) -> bool {
+        let contact = self.request.contact;
+        (contact.friction, contact.geometry) == (Friction::None, Geometry::Current)
     }
 
     /// Where contact is measured after displacements `u`.
     fn place(&self, u: &DVector<f64>) -> Place {
-        let (node_n, coupling) = (shape(self.sheet, u), self.scene.contact.coupling);
-        if self.scene.contact.measures_current_shape() {
-            let pairings = self.surfaces.pairings(coupling, &node_n);
-            return Place { node_n, pairings };
+        let (shape, coupling) = (self.model.shape(u), self.request.contact.coupling);
+        if self.measures_current_shape() {
+            let pairings = self.surfaces.pairings(coupling, &shape);
+            return Place { shape, pairings };
         }
-        let mut pairings = self.surfaces.pairings(coupling, &self.sheet.node);
+        let mut pairings = self.surfaces.pairings(coupling, &self.model.nodes);
         for pairing in pairings.iter_mut().flatten() {
-            // What a tie closes: over a bend the distance from the face is another.
-            pairing.gap = pairing.opening(|n| [self.sheet.node[(n, 2)], self.sheet.node[(n, 3)]])
-                + pairing.opening(|n| [u[2 * n - 2], u[2 * n - 1]]);
+            // What a constraint closes: over a bend the distance from the face is another.
+            pairing.gap = pairing.opening(|n| self.model.at(n)) + pairing.opening(|n| n.of(u));
         }
-        Place { node_n, pairings }
+        Place { shape, pairings }
     }
 
     /// The next set; nothing once set and shape have settled.
-    fn next(&self, step: &Step, memory: &mut Memory) -> Option<Vec<bool>> {
+    fn next(&self, step: &Iteration, memory: &mut Memory) -> Option<Vec<bool>> {
         let wanted = self.wanted(step);
         if wanted == step.closed {
             return (step.violation > self.closed).then_some(wanted);
         }
-        memory.one_at_a_time |= memory.met.contains_key(&wanted);
+        memory.one_at_a_time |= memory.visited.contains_key(&wanted);
         Some(if memory.one_at_a_time { last_change(&step.closed, &wanted) } else { wanted })
     }
 
     /// The nodes that press or penetrate.
-    fn wanted(&self, step: &Step) -> Vec<bool> {
-        let presses = |p: &Pairing| normal_force(self.sheet, p, &step.reaction) >= 0.0;
+    fn wanted(&self, step: &Iteration) -> Vec<bool> {
+        let presses = |p: &Pairing| normal_force(self.model, p, &step.reaction) >= 0.0;
         let deep = if step.k == 1 { FIRST_GROWTH * step.violation } else { 0.0 }.max(self.closed);
         let penetrates = |p: &Pairing| p.gap < -deep;
         let faced = step.before.pairings.iter().zip(&step.after.pairings).zip(&step.closed);
@@ -211,31 +215,31 @@ impl<'a> Problem<'a> {
         place: Place,
         mut set: Vec<bool>,
         memory: &mut Memory,
-    ) -> Result<Step, InputError> {
-        let (ties, u, residual) = loop {
-            let ties = self.ties(&place.pairings, &set);
-            match self.solve(&ties)? {
-                Solved::Moved { u, residual } => break (ties, u, residual),
-                Solved::Free { equation, motion } => {
-                    let met = motion.and_then(|u| first_met(&set, &place.pairings, &u));
-                    if let Some(i) = met {
+    ) -> Result<Iteration, InputError> {
+        let (constraints, u, residual) = loop {
+            let constraints = self.constraints(&place.pairings, &set);
+            match self.solve(&constraints)? {
+                Solved::Moved { u, residual } => break (constraints, u, residual),
+                Solved::Free { dof, motion } => {
+                    let first = motion.and_then(|u| first_closed(&set, &place.pairings, &u));
+                    if let Some(i) = first {
                         set[i] = true;
                     } else if !enlarge(&mut set, &place.pairings) {
-                        return Err(self.not_held(&place.pairings, equation));
+                        return Err(self.not_held(&place.pairings, dof));
                     }
                 }
             }
         };
-        let before = memory.met.insert(set.clone(), k);
+        let before = memory.visited.insert(set.clone(), k);
         let cycle = before.map(|first| Cycle { length: k - first, members: (first..k).collect() });
-        let reaction = self.stiffness.times(&u) - &self.scene.load;
+        let reaction = self.stiffness.times(&u) - &self.model.load;
         let after = self.place(&u);
         let violation = self.violation(&after.pairings, &set);
-        Ok(Step {
+        Ok(Iteration {
             k,
             before: place,
             closed: set,
-            ties,
+            constraints,
             cycle,
             u,
             reaction,
@@ -245,15 +249,16 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Displacements under `ties`.
-    fn solve(&self, ties: &[Tie]) -> Result<Solved, InputError> {
-        let t = Elimination::with_normals(self.sheet, ties).map_err(held_along_normal)?;
+    /// Displacements under `constraints`.
+    fn solve(&self, constraints: &[Constraint]) -> Result<Solved, InputError> {
+        let t = Elimination::with_normals(&self.model.restrained, constraints)
+            .map_err(restrained_along_normal)?;
         let reduced = self.stiffness.reduced(&t);
         let cholesky = match SparseCholesky::new(reduced.clone()) {
             Ok(cholesky) => cholesky,
             Err(singular) => {
-                let equation = t.equation(singular.column);
-                return Ok(Solved::Free { equation, motion: self.free_motion(&t, &reduced) });
+                let dof = t.dof(singular.column);
+                return Ok(Solved::Free { dof, motion: self.free_motion(&t, &reduced) });
             }
         };
         let f = t.load(&(&self.load - self.stiffness.times(t.shift())));
@@ -261,7 +266,7 @@ impl<'a> Problem<'a> {
         Ok(Solved::Moved { u: t.expand(&q), residual: cholesky.residual(&q, &f) })
     }
 
-    /// Where the load moves bodies that nothing but soft springs holds: the motion that the ties leave free, 2R.
+    /// Where the load moves bodies that nothing but soft springs holds: the motion that the constraints leave free.
     fn free_motion(&self, t: &Elimination, k: &SparseSymmetric) -> Option<DVector<f64>> {
         let diagonal = k.diagonal();
         let springs = (0..k.size()).map(|i| (i, i, SOFT * diagonal[i]));
@@ -270,22 +275,72 @@ impl<'a> Problem<'a> {
         Some(t.expand(&q) - t.shift())
     }
 
-    fn ties(&self, pairings: &[Option<Pairing>], set: &[bool]) -> Vec<Tie> {
+    fn constraints(&self, pairings: &[Option<Pairing>], set: &[bool]) -> Vec<Constraint> {
         let closed = pairings.iter().zip(set).filter(|(_, closed)| **closed);
-        closed.filter_map(|(p, _)| p.as_ref()).map(|p| self.tie(p)).collect()
+        closed.filter_map(|(p, _)| p.as_ref()).map(|p| self.constraint(p)).collect()
     }
 
     /// What closes the gap of a pairing.
-    fn tie(&self, pairing: &Pairing) -> Tie {
-        let closing = -pairing.opening(|n| [self.sheet.node[(n, 2)], self.sheet.node[(n, 3)]]);
-        let motion = match self.scene.contact.friction {
+    fn constraint(&self, pairing: &Pairing) -> Constraint {
+        let closing = -pairing.opening(|n| self.model.at(n));
+        let motion = match self.request.contact.friction {
             Friction::None => Motion::Along(pairing.normal, closing),
             Friction::Stick => Motion::Both(pairing.normal.map(|n| closing * n)),
         };
-        Tie { node: pairing.node, weights: pairing.weights.clone(), motion }
+        Constraint { node: pairing.node, masters: pairing.masters.clone(), motion }
     }
 
-    fn not_held(&self, pairings: &[Option<Pairing>], equation: usize) -> InputError {
+    /// An iteration as a step of the solution.
+    fn step(&self, iteration: &Iteration) -> Step {
+        let Iteration { k, before, closed, constraints, cycle, u, reaction, .. } = iteration;
+        let support = support(self.model, &self.model.restrained, constraints, reaction);
+        Step {
+            k: *k,
+            shape: before.shape.clone(),
+            constraints: constraints.clone(),
+            in_contact: closed.iter().filter(|closed| **closed).count(),
+            max_displacement: max_displacement(u),
+            cycle: cycle.clone(),
+            target_force: against_load(self.model, support),
+            solve_residual: iteration.residual,
+            detail: Detail::Unilateral(solution::Unilateral {
+                closed: closed.clone(),
+                pairings: before.pairings.clone(),
+                violation: iteration.violation,
+            }),
+        }
+    }
+
+    /// The answer, the last iteration.
+    fn solution(&self, model: &Arc<Model>, steps: Vec<Step>, last: Iteration) -> Solution {
+        Solution {
+            request: self.request.clone(),
+            model: Arc::clone(model),
+            contact: self.contact(&last),
+            elements: self.stiffness.states(&last.u),
+            factored: steps.len(),
+            steps,
+            u: last.u,
+            digits: None,
+            error_bound: None,
+        }
+    }
+
+    /// The contact surface at the end.
+    fn contact(&self, last: &Iteration) -> Vec<ContactNode> {
+        let current = self.measures_current_shape();
+        let traction = Traction {
+            model: self.model,
+            surfaces: &self.surfaces,
+            measured_in: if current { &last.after.shape } else { &self.model.nodes },
+            pairings: &last.after.pairings,
+            in_contact: &last.closed,
+            reaction: &last.reaction,
+        };
+        traction.nodes()
+    }
+
+    fn not_held(&self, pairings: &[Option<Pairing>], dof: Dof) -> InputError {
         if pairings.iter().all(Option::is_none) {
             return InputError::new(
                 "contact.cnt, contact.trg",
@@ -293,9 +348,9 @@ impl<'a> Problem<'a> {
                 "name surfaces that face each other; list cnt in order along its surface",
             );
         }
-        let (node, direction) = (equation / 2 + 1, ["x", "y"][equation % 2]);
-        let body =
-            self.scene.body_of(node).map_or(String::new(), |b| format!(" of body {:?}", b.name));
+        let (node, direction) = (dof.node(), dof.axis());
+        let body = self.model.body_of(node);
+        let body = body.map_or(String::new(), |b| format!(" of body {:?}", b.name));
         InputError::new(
             "restraints, contact.friction",
             format!("node {node}{body} can move in {direction} with every contact node in contact"),
@@ -338,10 +393,10 @@ fn last_change(before: &[bool], wanted: &[bool]) -> Vec<bool> {
 }
 
 /// Of the nodes outside `set` the one whose gap the motion `u` closes first.
-fn first_met(set: &[bool], pairings: &[Option<Pairing>], u: &DVector<f64>) -> Option<usize> {
+fn first_closed(set: &[bool], pairings: &[Option<Pairing>], u: &DVector<f64>) -> Option<usize> {
     let time = |(i, p): (usize, &Option<Pairing>)| {
         let p = p.as_ref().filter(|_| !set[i])?;
-        let closing = -p.opening(|n| [u[2 * n - 2], u[2 * n - 1]]);
+        let closing = -p.opening(|n| n.of(u));
         (closing > STANDING * u.amax()).then(|| (p.gap.max(0.0) / closing, i))
     };
     let times = pairings.iter().enumerate().filter_map(time);
@@ -362,23 +417,23 @@ fn enlarge(set: &mut [bool], pairings: &[Option<Pairing>]) -> bool {
     !others.is_empty()
 }
 
-/// The larger extent of the scene, or what its coordinates can resolve of it; length.
-fn size(sheet: &Worksheet<f64>) -> f64 {
-    let [width, height] = [2, 3].map(|column| {
-        let values = (1..=sheet.R()).map(|n| sheet.node[(n, column)]);
+/// The larger extent of the model, or what its coordinates can resolve of it; length.
+fn size(model: &Model) -> f64 {
+    let [width, height] = [0, 1].map(|axis| {
+        let values = model.nodes.iter().map(|xy| xy[axis]);
         let (least, most) =
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
         most - least
     });
     // A gap in the current shape is a difference of coordinates: it has no digits below theirs.
-    let farthest = (1..=sheet.R()).flat_map(|n| [2, 3].map(|column| sheet.node[(n, column)].abs()));
+    let farthest = model.nodes.as_flattened().iter().map(|x| x.abs());
     width.max(height).max(RESOLVED * farthest.fold(0.0, f64::max))
 }
 
-fn held_along_normal(held: HeldAlongNormal) -> InputError {
+fn restrained_along_normal(restrained: RestrainedAlongNormal) -> InputError {
     InputError::new(
         "restraints, contact.cnt",
-        format!("contact node {} is restrained along the normal of the contact", held.node),
+        format!("contact node {} is restrained along the normal of the contact", restrained.node),
         "let the body that is held there carry the target surface, or restrain the node in the other direction",
     )
 }

@@ -16,9 +16,9 @@ use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::surfaces::{FACING, Placed, Surfaces, point};
-use super::{Pairing, Vector, dot};
-use crate::paper::mathcad::array::Table;
+use super::pairing::{Pairing, Vector, dot};
+use super::surface::{FACING, Placed, Surfaces};
+use crate::problem::model::{EdgeId, NodeId};
 
 /// A shorter overlap, of the contact edge's length, is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -26,23 +26,23 @@ const ROUNDING: f64 = 1e-12;
 /// A contact node that covers less than this share of what its edges could cover is off the target.
 const COVERED: f64 = 0.05;
 
-/// For each entry of `cnt` the average of the target over what its edges cover.
-pub(super) fn pairings(surfaces: &Surfaces, node_n: &Table<f64>) -> Vec<Option<Pairing>> {
-    let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(node_n)).collect();
-    let mut gathered: HashMap<usize, Gathered> = HashMap::new();
+/// For each entry of the contact surface the average of the target over what its edges cover.
+pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
+    let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
+    let mut gathered: HashMap<NodeId, Gathered> = HashMap::new();
     for edge in &surfaces.contact {
-        let covered = cover(&edge.place(node_n), &target);
+        let covered = cover(&edge.place(shape), &target);
         let Some(integrals) = Integrals::over(&covered) else { continue };
         for (k, node) in edge.nodes.into_iter().enumerate() {
             gathered.entry(node).or_default().add(k, &integrals, &covered, surfaces, &target);
         }
     }
-    let tributary = surfaces.tributary(node_n);
+    let tributary = surfaces.tributary(shape);
     let entries = surfaces.nodes.iter().zip(tributary);
     entries
         .map(|(node, tributary)| {
             let gathered = gathered.remove(node).filter(|g| g.length >= COVERED * tributary)?;
-            Some(gathered.pairing(*node, node_n))
+            Some(gathered.pairing(*node, shape))
         })
         .collect()
 }
@@ -141,13 +141,13 @@ impl Integrals {
 #[derive(Default)]
 struct Gathered {
     /// M_ij by target node, length.
-    mates: BTreeMap<usize, f64>,
+    masters: BTreeMap<NodeId, f64>,
     /// D_i, length.
     length: f64,
     /// ∫ φ_i n, length.
     normal: Vector,
     /// Length covered, by target edge.
-    edges: BTreeMap<usize, f64>,
+    edges: BTreeMap<EdgeId, f64>,
 }
 
 impl Gathered {
@@ -164,12 +164,15 @@ impl Gathered {
         for stretch in covered {
             let edge = &surfaces.target[stretch.edge];
             let normal = target[stretch.edge].normal;
-            *self.edges.entry(edge.number).or_insert(0.0) += stretch.to - stretch.from;
+            *self
+                .edges
+                .entry(edge.id.expect("a target edge is one of the model's"))
+                .or_insert(0.0) += stretch.to - stretch.from;
             for (xi, weight) in gauss(stretch) {
                 let psi = weight * (integrals.dual * phi(xi))[k];
                 let eta = (xi - stretch.ends[0]) / (stretch.ends[1] - stretch.ends[0]);
-                *self.mates.entry(edge.nodes[0]).or_insert(0.0) += psi * (1.0 - eta);
-                *self.mates.entry(edge.nodes[1]).or_insert(0.0) += psi * eta;
+                *self.masters.entry(edge.nodes[0]).or_insert(0.0) += psi * (1.0 - eta);
+                *self.masters.entry(edge.nodes[1]).or_insert(0.0) += psi * eta;
                 for d in [0, 1] {
                     self.normal[d] += weight * phi(xi)[k] * normal[d];
                 }
@@ -177,15 +180,15 @@ impl Gathered {
         }
     }
 
-    fn pairing(self, node: usize, node_n: &Table<f64>) -> Pairing {
+    fn pairing(self, node: NodeId, shape: &[Vector]) -> Pairing {
         let size = self.normal[0].hypot(self.normal[1]);
         let normal = [self.normal[0] / size, self.normal[1] / size];
-        let weights: Vec<(usize, f64)> =
-            self.mates.into_iter().map(|(mate, m)| (mate, m / self.length)).collect();
+        let masters: Vec<(NodeId, f64)> =
+            self.masters.into_iter().map(|(master, m)| (master, m / self.length)).collect();
         let most = self.edges.iter().reduce(|a, b| if b.1 > a.1 { b } else { a });
         let edge = *most.expect("a node that covers something covers an edge").0;
-        let mut pairing = Pairing { node, edge, weights, normal, gap: 0.0, length: self.length };
-        pairing.gap = pairing.opening(|n| point(node_n, n));
+        let mut pairing = Pairing { node, edge, masters, normal, gap: 0.0, length: self.length };
+        pairing.gap = pairing.opening(|n| shape[n.index()]);
         pairing
     }
 }

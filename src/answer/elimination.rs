@@ -1,0 +1,245 @@
+//! Contact by elimination: u = T q + s, and Tᵀ K T on the free equations q.
+//!
+//! ```text
+//!   eq. (1): u_c = k1·u_a + k2·u_b         a row of T has
+//!                                            one 1        a free equation
+//!     a *-----o-----* b                      weights      an equation of a contact node in contact
+//!             c                              nothing      a restrained equation
+//! ```
+//!
+//! A constraint that closes a gap g along a normal n, n·(u_c − Σ w u_t) = −g, leaves the contact node one free motion, along the
+//! tangent, and moves it by s = −g·n.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::numbers::scalar::Scalar;
+use crate::paper::door::NodeToSegment;
+use crate::problem::model::{Dof, NodeId};
+
+/// What binds a contact node in contact to the target: a constraint on its displacements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constraint<T = f64> {
+    /// The contact node.
+    pub node: NodeId,
+    /// The target's nodes that it follows, the master nodes, and their weights.
+    pub masters: Vec<(NodeId, T)>,
+    /// Which of its motions are bound, and where to.
+    pub motion: Motion<T>,
+}
+
+/// The motions of a contact node that a constraint binds. Lengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion<T = f64> {
+    /// Both components: u_c = Σ w u_t + shift. Eq. (1) where the shift is 0.
+    Both([T; 2]),
+    /// Along a unit normal only: n·u_c = Σ w n·u_t + shift.
+    Along([T; 2], T),
+}
+
+impl<T: Scalar> Constraint<T> {
+    /// The same constraint in other numbers.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Constraint<U> {
+        Constraint {
+            node: self.node,
+            masters: self.masters.iter().map(|&(master, w)| (master, to(w))).collect(),
+            motion: match self.motion {
+                Motion::Both(shift) => Motion::Both(shift.map(&to)),
+                Motion::Along(normal, shift) => Motion::Along(normal.map(&to), to(shift)),
+            },
+        }
+    }
+}
+
+impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {
+    /// Eq. (1): u_c = Σ w u_t.
+    fn from(bound: NodeToSegment<T>) -> Self {
+        let motion = Motion::Both([T::zero(), T::zero()]);
+        Constraint { node: bound.node, masters: bound.masters.to_vec(), motion }
+    }
+}
+
+/// The matrix T, for each degree of freedom its weights on the equations that remain, and the shift s, length.
+pub struct Elimination<T = f64> {
+    rows: Vec<Vec<(usize, T)>>,
+    shift: DVector<T>,
+    /// For each equation that remains the degree of freedom that it was.
+    free: Vec<Dof>,
+}
+
+/// A contact node that its restraints keep from following its constraint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RestrainedAlongNormal {
+    /// The contact node.
+    pub node: NodeId,
+}
+
+/// A component of a normal below which a motion across it cannot follow the normal.
+const ACROSS: f64 = 1e-6;
+
+impl<T: Scalar> Elimination<T> {
+    /// T under eq. (1) for `constraints`. `restrained`: by degree of freedom; a component that is restrained stays so and is not
+    /// constrained.
+    pub fn new(restrained: &[bool], constraints: &[Constraint<T>]) -> Self {
+        Elimination::with_normals(restrained, constraints)
+            .expect("constraints of both components have no normal")
+    }
+
+    /// T and s for constraints of either motion.
+    ///
+    /// # Errors
+    /// A contact node that is to follow a normal along which it is restrained.
+    pub fn with_normals(
+        restrained: &[bool],
+        constraints: &[Constraint<T>],
+    ) -> Result<Self, RestrainedAlongNormal> {
+        let size = restrained.len();
+        let mut constrained = vec![false; size / 2];
+        constraints.iter().for_each(|constraint| constrained[constraint.node.index()] = true);
+        let mut t = Elimination {
+            rows: vec![Vec::new(); size],
+            shift: DVector::from_element(size, T::zero()),
+            free: Vec::new(),
+        };
+        let free = |dof: &Dof| !restrained[dof.index()] && !constrained[dof.node().index()];
+        for dof in Dof::all(size).filter(free) {
+            t.rows[dof.index()] = vec![(t.add(dof), T::one())];
+        }
+        for constraint in constraints {
+            let restrained = constraint.node.dofs().map(|dof| restrained[dof.index()]);
+            match constraint.motion {
+                Motion::Both(shift) => t.bind_both(constraint, restrained, shift),
+                Motion::Along(normal, shift) => {
+                    t.bind_along(constraint, restrained, normal, shift)?;
+                }
+            }
+        }
+        Ok(t)
+    }
+
+    /// Adds an equation that remains; returns its place.
+    fn add(&mut self, dof: Dof) -> usize {
+        self.free.push(dof);
+        self.free.len() - 1
+    }
+
+    fn bind_both(&mut self, constraint: &Constraint<T>, restrained: [bool; 2], shift: [T; 2]) {
+        for dof in constraint.node.dofs() {
+            let direction = dof.direction();
+            if restrained[direction] {
+                continue;
+            }
+            let mut normal = [T::zero(), T::zero()];
+            normal[direction] = T::one();
+            self.rows[dof.index()] = self.target_motion(constraint, normal, T::one());
+            self.shift[dof.index()] = shift[direction];
+        }
+    }
+
+    fn bind_along(
+        &mut self,
+        constraint: &Constraint<T>,
+        restrained: [bool; 2],
+        [nx, ny]: [T; 2],
+        shift: T,
+    ) -> Result<(), RestrainedAlongNormal> {
+        let ([x, y], across) = (constraint.node.dofs(), T::from_f64(ACROSS));
+        let mut follow = |dof: Dof, factor: T| {
+            self.rows[dof.index()] = self.target_motion(constraint, [nx, ny], factor);
+            self.shift[dof.index()] = shift * factor;
+        };
+        match restrained {
+            [false, false] => {
+                follow(x, nx);
+                follow(y, ny);
+                let slide = self.add(if Scalar::abs(nx) > Scalar::abs(ny) { y } else { x });
+                self.rows[x.index()].push((slide, -ny));
+                self.rows[y.index()].push((slide, nx));
+            }
+            [true, false] if Scalar::abs(ny) > across => follow(y, T::one() / ny),
+            [false, true] if Scalar::abs(nx) > across => follow(x, T::one() / nx),
+            _ => return Err(RestrainedAlongNormal { node: constraint.node }),
+        }
+        Ok(())
+    }
+
+    /// `factor` · Σ w n·u_t on the equations that remain.
+    fn target_motion(
+        &self,
+        constraint: &Constraint<T>,
+        normal: [T; 2],
+        factor: T,
+    ) -> Vec<(usize, T)> {
+        let mut row = Vec::new();
+        for &(master, weight) in &constraint.masters {
+            for dof in master.dofs() {
+                let along = normal[dof.direction()];
+                if !along.is_zero() {
+                    let motion = &self.rows[dof.index()];
+                    row.extend(motion.iter().map(|&(p, w)| (p, factor * along * weight * w)));
+                }
+            }
+        }
+        row
+    }
+
+    /// Number of equations that remain.
+    pub fn size(&self) -> usize {
+        self.free.len()
+    }
+
+    /// The row of T of a degree of freedom: equations that remain, from 0, and their weights.
+    pub fn row(&self, dof: Dof) -> &[(usize, T)] {
+        &self.rows[dof.index()]
+    }
+
+    /// Tᵀ K T of a dense K.
+    pub fn matrix(&self, k: &DMatrix<T>) -> DMatrix<T> {
+        let mut reduced = DMatrix::from_element(self.size(), self.size(), T::zero());
+        for (j, column) in self.rows.iter().enumerate().filter(|(_, row)| !row.is_empty()) {
+            for (i, row) in self.rows.iter().enumerate() {
+                let value = k[(i, j)];
+                if value.is_zero() {
+                    continue;
+                }
+                for &(p, wp) in row {
+                    for &(q, wq) in column {
+                        reduced[(p, q)] += wp * value * wq;
+                    }
+                }
+            }
+        }
+        reduced
+    }
+
+    /// Tᵀ f.
+    pub fn load(&self, f: &DVector<T>) -> DVector<T> {
+        let mut reduced = DVector::from_element(self.size(), T::zero());
+        for (row, value) in self.rows.iter().zip(f.iter()) {
+            for &(p, w) in row {
+                reduced[p] += w * *value;
+            }
+        }
+        reduced
+    }
+
+    /// T q + s: the displacements of all degrees of freedom.
+    pub fn expand(&self, q: &DVector<T>) -> DVector<T> {
+        let of_row = |row: &Vec<(usize, T)>| sum(row.iter().map(|&(p, w)| w * q[p]));
+        DVector::from_fn(self.rows.len(), |e, _| of_row(&self.rows[e]) + self.shift[e])
+    }
+
+    /// s: the displacements of all degrees of freedom where those that remain are 0, length.
+    pub fn shift(&self) -> &DVector<T> {
+        &self.shift
+    }
+
+    /// The degree of freedom that became column `column` of the reduced matrix.
+    pub fn dof(&self, column: usize) -> Dof {
+        self.free[column]
+    }
+}
+
+/// The sum of `terms`, 0 of none; begun with the first, as a sum of floats is.
+pub(super) fn sum<T: Scalar>(terms: impl Iterator<Item = T>) -> T {
+    terms.reduce(|sum, term| sum + term).unwrap_or(T::zero())
+}

@@ -1,0 +1,214 @@
+//! The equations of an iteration of a published variant: A(c)·u = f, built and solved.
+
+use nalgebra::DVector;
+
+use super::elimination::{Constraint, Elimination};
+use super::error::{Error, SingularMatrix};
+use super::request::Request;
+use super::sparse::Sparse;
+use super::stiffness::Stiffness;
+use super::support::support;
+use crate::error::InputError;
+use crate::numbers::scalar::Scalar;
+use crate::numbers::solve::{self, Rung, Solver, SparseSymmetric, Unsolved};
+use crate::paper::door;
+use crate::paper::mathcad::array::Table;
+use crate::paper::mirror::{Km, Pairs, RestraintIndex, Schedule, Worksheet};
+use crate::problem::model::{Dof, Model};
+use crate::problem::modelling::Variant;
+
+/// How the matrix of an iteration comes about.
+enum Assembly<T> {
+    /// By `Km` with the contact pairs.
+    Printed,
+    /// By elimination from `Km` without contact and without restraints.
+    Dense(Table<T>),
+    /// By elimination from the triangles; solved by the function.
+    Sparse(Sparse<T>),
+}
+
+/// What every iteration of a run solves, but for the contact state.
+pub(super) struct Equations<'a, T> {
+    request: &'a Request,
+    model: &'a Model,
+    sheet: &'a Worksheet<T>,
+    assembly: Assembly<T>,
+    /// The stiffness by triangles.
+    pub stiffness: Stiffness<T>,
+    /// By degree of freedom, whether the run takes it for restrained.
+    restrained: Vec<bool>,
+    /// The whole load, force.
+    load: DVector<T>,
+    /// The load that one iteration carries, 0 at restrained equations.
+    f: DVector<T>,
+    /// The whole load over the load of one iteration.
+    share: T,
+}
+
+/// What comes of an iteration's own load.
+#[derive(Clone)]
+pub(super) struct Solved<T> {
+    /// Displacements by degree of freedom, length.
+    pub u: DVector<T>,
+    /// Relative residual.
+    pub residual: f64,
+    /// What supports the target, force.
+    pub support: [T; 2],
+}
+
+impl<'a, T: Rung> Equations<'a, T> {
+    /// The equations of `request`. `load`: the whole load by degree of freedom; `sparse` solves where sparse Cholesky is asked for.
+    ///
+    /// # Errors
+    /// An overflow of the stiffness.
+    pub fn new(
+        request: &'a Request,
+        model: &'a Model,
+        sheet: &'a Worksheet<T>,
+        load: DVector<T>,
+        sparse: Option<Sparse<T>>,
+        number: &dyn Fn(f64) -> T,
+    ) -> Result<Self, Error> {
+        let share = match request.schedule() {
+            Schedule::Total => T::one(),
+            Schedule::Stepped => T::from_number(request.iterations),
+        };
+        let restrained = restrained(model, request);
+        let f = DVector::from_fn(load.len(), |e, _| match restrained[e] {
+            true => T::zero(),
+            false => load[e] / share,
+        });
+        let sparse = sparse.filter(|_| request.arithmetic.solver() == Solver::SparseCholesky);
+        let assembly = match (request.variant, sparse) {
+            (Variant::Printed, _) => Assembly::Printed,
+            (_, Some(solve)) => Assembly::Sparse(solve),
+            (_, None) => Assembly::Dense(door::free_stiffness(sheet, &request.reading)?),
+        };
+        let stiffness = Stiffness::new(model, number);
+        Ok(Equations { request, model, sheet, assembly, stiffness, restrained, load, f, share })
+    }
+
+    /// Solves A(c)·u = f in iteration `k`.
+    ///
+    /// # Errors
+    /// A singular matrix, a solver that does not converge, an overflow of `Km`.
+    pub fn solve(
+        &self,
+        pairs: &Pairs<T>,
+        constraints: &[Constraint<T>],
+        k: usize,
+    ) -> Result<Solved<T>, Error> {
+        let (solver, tol) = (self.request.arithmetic.solver(), self.request.arithmetic.tol);
+        match &self.assembly {
+            Assembly::Printed => {
+                let solved = T::sweep(|| {
+                    let matrix = Km(self.sheet, &self.request.reading, &pairs.k_cnt)?.into_matrix();
+                    let solved = T::solve(matrix, &self.f, solver, tol);
+                    solved.map_err(|why| self.unsolved(why, pairs, k, Dof::new))
+                })?;
+                Ok(self.solved(solved.residual, solved.x, &[]))
+            }
+            Assembly::Dense(matrix) => self.eliminate(pairs, constraints, k, |t, f| {
+                Ok(T::solve(t.matrix(matrix.as_matrix()), f, solver, tol))
+            }),
+            Assembly::Sparse(solve) => {
+                self.eliminate(pairs, constraints, k, |t, f| Ok(solve(self.reduced(t)?, f)))
+            }
+        }
+    }
+
+    /// Solves Tᵀ K T q = Tᵀ f by `solve`.
+    fn eliminate(
+        &self,
+        pairs: &Pairs<T>,
+        constraints: &[Constraint<T>],
+        k: usize,
+        solve: impl Fn(
+            &Elimination<T>,
+            &DVector<T>,
+        ) -> Result<Result<solve::Solved<T>, Unsolved>, Error>,
+    ) -> Result<Solved<T>, Error> {
+        let t = Elimination::new(&self.model.restrained, constraints);
+        let solved = T::sweep(|| {
+            let solved = solve(&t, &t.load(&self.f))?;
+            solved.map_err(|why| self.unsolved(why, pairs, k, |column| t.dof(column)))
+        })?;
+        Ok(self.solved(solved.residual, t.expand(&solved.x), constraints))
+    }
+
+    /// Tᵀ K T without a dense K.
+    ///
+    /// # Errors
+    /// An overflow, in the words of `Km`.
+    fn reduced(&self, t: &Elimination<T>) -> Result<SparseSymmetric<T>, Error> {
+        let matrix = self.stiffness.reduced(t);
+        if matrix.entries().any(|(_, _, value)| !Scalar::is_finite(value)) {
+            door::free_stiffness(self.sheet, &self.request.reading)?;
+        }
+        Ok(matrix)
+    }
+
+    /// K u − F of the whole load: forces of contact and restraints, force.
+    pub fn reaction(&self, u: &DVector<T>) -> DVector<T> {
+        self.stiffness.times(u) - &self.load
+    }
+
+    fn solved(&self, residual: f64, u: DVector<T>, constraints: &[Constraint<T>]) -> Solved<T> {
+        let load = self.load.map(|f| f / self.share);
+        let force = self.stiffness.times(&u) - load;
+        let support = support(self.model, &self.restrained, constraints, &force);
+        Solved { residual, support, u }
+    }
+
+    /// Why there is no solution, in words; `dof` gives the degree of freedom of a column.
+    fn unsolved(
+        &self,
+        why: Unsolved,
+        pairs: &Pairs<T>,
+        iteration: usize,
+        dof: impl Fn(usize) -> Dof,
+    ) -> Error {
+        let stopped = match why {
+            Unsolved::Singular(s) => {
+                return self.singular_matrix(pairs, iteration, dof(s.column), s.pivot).into();
+            }
+            Unsolved::NotConverged(stopped) => stopped,
+        };
+        let what = format!(
+            "{} in {} stopped after {} iterations at a relative residual of {:e}",
+            self.request.arithmetic.solver(),
+            self.request.arithmetic.scalar,
+            stopped.iterations,
+            stopped.residual
+        );
+        InputError::new("--solver, --tol", what, "give a larger --tol or another solver").into()
+    }
+
+    fn singular_matrix(
+        &self,
+        pairs: &Pairs<T>,
+        iteration: usize,
+        dof: Dof,
+        pivot: f64,
+    ) -> SingularMatrix {
+        let body = self.model.body_of(dof.node());
+        SingularMatrix {
+            variant: self.request.variant.name(),
+            iteration,
+            node: dof.node().number(),
+            direction: dof.axis(),
+            pivot,
+            in_contact: pairs.dy.iter().sum(),
+            body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
+        }
+    }
+}
+
+/// The degrees of freedom that are restrained: the model's, but under reading R2 = printed, where `Km` reads the restraint of y in place of
+/// that of x, those that `Km` takes for restrained.
+fn restrained(model: &Model, request: &Request) -> Vec<bool> {
+    let by_km =
+        request.variant == Variant::Printed && request.reading.r2 == RestraintIndex::Printed;
+    let read = |dof: Dof| if by_km { dof.node().y() } else { dof };
+    model.all_dofs().map(|dof| model.is_restrained(read(dof))).collect()
+}

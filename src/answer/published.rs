@@ -1,0 +1,337 @@
+//! The iterations that the paper describes: `printed`, `tied`, `stepped`.
+//!
+//! - total load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·U = F; node_n = node + U.
+//! - stepped load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n = node + U.
+//!
+//! A(c) is Km(c) under `printed`, else Tᵀ·K·T on the free equations, K being Km without contact and without restraints.
+
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use super::contact::{ContactNode, Surfaces, Traction, status};
+use super::elimination::{Constraint, sum};
+use super::equations::{Equations, Solved};
+use super::error::Error;
+use super::request::Request;
+use super::solution::{Cycle, Detail, Published, Solution, Step, max_displacement};
+use super::sparse::{Sparse, dense_matrices};
+use super::support::against_load;
+use crate::error::InputError;
+use crate::numbers::scalar::Scalar;
+use crate::numbers::solve::{Inputs, Rung, ScalarName, cost, memory};
+use crate::paper::door::{self, NodeToSegment};
+use crate::paper::mathcad::array::Table;
+use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet, c_cnt};
+use crate::problem::model::{Model, NodeId};
+use crate::problem::modelling::{Coupling, StatusRule, Variant};
+
+/// Solves a request for one of the variants that the paper describes. `sparse` solves where sparse Cholesky is asked for; without it that
+/// solver gets a dense matrix too.
+///
+/// # Errors
+/// The published algorithm failing as printed, a matrix that cannot be solved, a dense matrix that does not fit.
+pub(super) fn published<T: Rung>(
+    request: &Request,
+    sparse: Option<Sparse<T>>,
+    watch: &mut dyn FnMut(&Step),
+) -> Result<Solution, Error> {
+    let model = request.model()?;
+    check_size::<T>(request, &model)?;
+    let number = |x: f64| match request.arithmetic.inputs {
+        Inputs::Binary => T::from_f64(x),
+        Inputs::Decimal => T::from_decimal(x),
+    };
+    let sheet = door::worksheet(&model, number);
+    let load = model.load.map(number);
+    check_load(request, &model, &load)?;
+    let mut run = Run::new(request, &model, &sheet, load, sparse, &number)?;
+    let mut steps: Vec<Step> = Vec::new();
+    for k in 1..=request.iterations {
+        let step = run.iterate(k)?;
+        watch(&step);
+        steps.push(step);
+    }
+    let in_contact = steps.last().expect("a request has an iteration").statuses();
+    Ok(Solution {
+        contact: run.contact(&in_contact)?,
+        elements: run.equations.stiffness.states(&run.u),
+        factored: run.visited.len(),
+        digits: T::zero().digits().and_then(|_| run.u.iter().map(|u| u.to_rational()).collect()),
+        error_bound: run.u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e))),
+        u: run.u.map(T::to_f64),
+        request: request.clone(),
+        model: Arc::clone(&model),
+        steps,
+    })
+}
+
+/// Checks that no load vanished or lost digits where the scalar has no smaller numbers: an answer of zeros would look like one.
+fn check_load<T: Scalar>(
+    request: &Request,
+    model: &Model,
+    load: &DVector<T>,
+) -> Result<(), InputError> {
+    /// Relative error of a load that is within the scalar's range is 6e-8 in the coarsest, f32.
+    const ROUNDED: f64 = 1e-6;
+    let lost = |(x, y): &(&f64, &T)| {
+        y.to_f64().is_finite() && (y.to_f64() - **x).abs() > ROUNDED * x.abs()
+    };
+    match model.load.iter().zip(load.iter()).find(lost) {
+        None => Ok(()),
+        Some((x, _)) => {
+            let scalar = request.arithmetic.scalar;
+            let what = format!("the force {x:e} is too small to represent in {scalar}");
+            Err(InputError::new("loads", what, "choose other units, or use --scalar f64"))
+        }
+    }
+}
+
+/// Checks that the matrices fit in memory, and exact numbers in a bearable time.
+fn check_size<T: Rung>(request: &Request, model: &Model) -> Result<(), InputError> {
+    // Of the numbers' own size, in units of an f64.
+    let matrices = dense_matrices(request.variant, request.arithmetic)
+        * size_of::<T>().div_ceil(size_of::<f64>());
+    memory::check(model.nodes.len(), matrices, memory::free())?;
+    if request.arithmetic.scalar != ScalarName::Exact {
+        return Ok(());
+    }
+    cost::check(model.free_dofs(), request.reading.r5 == NodeTable::NodeN, request.iterations)
+}
+
+/// What an iteration needs of those before it.
+struct Run<'a, T> {
+    request: &'a Request,
+    model: &'a Model,
+    sheet: &'a Worksheet<T>,
+    /// How the equations of an iteration come about and are solved.
+    equations: Equations<'a, T>,
+    /// What mortar needs of the surfaces; nothing under `nts`.
+    surfaces: Option<Surfaces>,
+    /// Total displacements.
+    u: DVector<T>,
+    /// What supports the target so far.
+    support: [T; 2],
+    /// Contact states visited, each with its solution and the last iteration that visited it. The load of an iteration is always
+    /// the same, so a state that came before has the same matrix and the same solution: nothing is factored again.
+    visited: Vec<Visited<T>>,
+}
+
+/// A contact state, all of k_cnt and the weights of the constraints, and what came of it.
+struct Visited<T> {
+    pairs: Pairs<T>,
+    constraints: Vec<Constraint<T>>,
+    /// The last iteration that visited it.
+    k: usize,
+    solved: Solved<T>,
+}
+
+/// What an iteration found before it solved anything.
+struct Found<T> {
+    node_n: Table<T>,
+    pairs: Pairs<T>,
+    constraints: Vec<Constraint<T>>,
+    /// The place of each contact node in contact on its target edge: what eq. (1) is measured by.
+    places: Vec<NodeToSegment<T>>,
+}
+
+impl<'a, T: Rung> Run<'a, T> {
+    fn new(
+        request: &'a Request,
+        model: &'a Model,
+        sheet: &'a Worksheet<T>,
+        load: DVector<T>,
+        sparse: Option<Sparse<T>>,
+        number: &dyn Fn(f64) -> T,
+    ) -> Result<Self, Error> {
+        let mortar = request.contact.coupling == Coupling::Mortar;
+        let equations = Equations::new(request, model, sheet, load, sparse, number)?;
+        let surfaces = match mortar && request.variant != Variant::Printed {
+            true => Some(mortar_surfaces(request, model)?),
+            false => None,
+        };
+        Ok(Run {
+            request,
+            model,
+            sheet,
+            equations,
+            surfaces,
+            u: DVector::from_element(model.dofs(), T::zero()),
+            support: [T::zero(), T::zero()],
+            visited: Vec::new(),
+        })
+    }
+
+    fn iterate(&mut self, k: usize) -> Result<Step, Error> {
+        let found = self.search()?;
+        let before = self.visited.iter().position(|visited| visited.is(&found));
+        let (cycle, solved) = match before.map(|at| self.visited.swap_remove(at)) {
+            Some(visited) => {
+                let cycle = Cycle { length: k - visited.k, members: (visited.k..k).collect() };
+                (Some(cycle), visited.solved)
+            }
+            None => (None, self.equations.solve(&found.pairs, &found.constraints, k)?),
+        };
+        self.advance(&solved);
+        let step = self.step(k, &found, cycle, &solved);
+        let Found { pairs, constraints, .. } = found;
+        self.visited.push(Visited { pairs, constraints, k, solved });
+        Ok(step)
+    }
+
+    /// Searches contact in the shape reached.
+    fn search(&self) -> Result<Found<T>, Error> {
+        let node_n = door::moved(self.sheet, &self.u);
+        let reading = &self.request.reading;
+        if !self.model.has_contact() {
+            // Without contact nothing of contact is built: `c_cnt` is not called.
+            let pairs = Pairs::none(self.sheet.R());
+            return Ok(Found { node_n, pairs, constraints: Vec::new(), places: Vec::new() });
+        }
+        let rule = self.request.contact.status;
+        if rule == StatusRule::Signs || self.request.variant == Variant::Printed {
+            let pairs = c_cnt(self.sheet, reading, &node_n)?;
+            let places = door::on_edges(self.sheet, &pairs, reading, &node_n);
+            let linked = door::linked(self.sheet, &pairs);
+            let constraints = self.constraints(linked, &node_n);
+            return Ok(Found { node_n, pairs, constraints, places });
+        }
+        self.search_by(rule, node_n)
+    }
+
+    /// Searches contact by a rule that is not the listing's: it decides in f64, and so are the weights of eq. (1).
+    fn search_by(&self, rule: StatusRule, node_n: Table<T>) -> Result<Found<T>, Error> {
+        let (model, reading) = (self.model, &self.request.reading);
+        let shape = door::shape(&node_n);
+        let statuses = status::statuses(rule, model, reading, &shape)?;
+        let weights_from = match reading.r5 {
+            NodeTable::Node => &model.nodes,
+            NodeTable::NodeN => &shape,
+        };
+        let mut linked: Vec<NodeToSegment<T>> = Vec::new();
+        for place in status::places(model, &statuses, |n| weights_from[n.index()][0])? {
+            if linked.iter().all(|other| other.node != place.node) {
+                linked.push(place.map(T::from_f64));
+            }
+        }
+        let node = door::weights_from(self.sheet, reading, &node_n);
+        let places = status::places(model, &statuses, |n| node[(n.number(), 2)])?;
+        let constraints = self.constraints(linked, &node_n);
+        let pairs = door::pairs(model, &statuses).map(T::from_f64);
+        Ok(Found { node_n, pairs, constraints, places })
+    }
+
+    /// Eq. (1) for the nodes in contact: the weights that were found, or mortar's for the nodes whose edges cover the target.
+    fn constraints(&self, linked: Vec<NodeToSegment<T>>, node_n: &Table<T>) -> Vec<Constraint<T>> {
+        let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
+        let Some(surfaces) = &self.surfaces else { return constraints };
+        let shape = door::shape(door::weights_from(self.sheet, &self.request.reading, node_n));
+        let pairings = surfaces.pairings(Coupling::Mortar, &shape);
+        for pairing in pairings.into_iter().flatten() {
+            let bound = constraints.iter_mut().filter(|bound| bound.node == pairing.node);
+            for constraint in bound {
+                let masters = pairing.masters.iter().map(|(master, w)| (*master, T::from_f64(*w)));
+                constraint.masters = masters.collect();
+            }
+        }
+        constraints
+    }
+
+    /// From one shape to the next.
+    fn advance(&mut self, solved: &Solved<T>) {
+        match self.request.schedule() {
+            Schedule::Total => (self.u, self.support) = (solved.u.clone(), solved.support),
+            Schedule::Stepped => {
+                self.u += &solved.u;
+                self.support = [0, 1].map(|d| self.support[d] + solved.support[d]);
+            }
+        }
+    }
+
+    fn step(&self, k: usize, found: &Found<T>, cycle: Option<Cycle>, solved: &Solved<T>) -> Step {
+        let Found { node_n, pairs, constraints, places } = found;
+        let bound: &[Constraint<T>] = match self.request.variant {
+            Variant::Printed => &[],
+            _ => constraints,
+        };
+        let residual = |u: &DVector<T>| match &self.surfaces {
+            Some(_) => eq1_residual(constraints.iter().map(|c| (c.node, &c.masters[..])), u),
+            None => eq1_residual(places.iter().map(|p| (p.node, &p.masters[..])), u),
+        };
+        Step {
+            k,
+            shape: door::shape(node_n),
+            constraints: bound.iter().map(|bound| bound.map(T::to_f64)).collect(),
+            in_contact: pairs.dy.iter().sum(),
+            max_displacement: max_displacement(&self.u),
+            cycle,
+            target_force: against_load(self.model, self.support.map(T::to_f64)),
+            solve_residual: solved.residual,
+            detail: Detail::Published(Published {
+                pairs: pairs.map(T::to_f64),
+                eq1_residual: residual(&self.u),
+                eq1_residual_step: residual(&solved.u),
+            }),
+        }
+    }
+
+    /// The contact surface at the end.
+    fn contact(&self, in_contact: &[bool]) -> Result<Vec<ContactNode>, InputError> {
+        if !self.model.has_contact() {
+            return Ok(Vec::new());
+        }
+        let surfaces = Surfaces::new(self.model)?;
+        let shape = door::shape(&door::moved(self.sheet, &self.u));
+        let traction = Traction {
+            model: self.model,
+            surfaces: &surfaces,
+            pairings: &surfaces.pairings(Coupling::Nts, &shape),
+            measured_in: &shape,
+            in_contact,
+            reaction: &self.equations.reaction(&self.u).map(T::to_f64),
+        };
+        Ok(traction.nodes())
+    }
+}
+
+impl<T: Scalar> Visited<T> {
+    /// Whether this is the state that was `found`.
+    fn is(&self, found: &Found<T>) -> bool {
+        let same_weights = |a: &Constraint<T>, b: &Constraint<T>| {
+            let mut masters = a.masters.iter().zip(&b.masters);
+            a.node == b.node
+                && a.masters.len() == b.masters.len()
+                && masters.all(|(a, b)| a.0 == b.0 && a.1.same(b.1))
+        };
+        let [mine, theirs] = [&self.pairs, &found.pairs].map(|pairs| pairs.k_cnt.as_matrix());
+        let mut entries = mine.iter().zip(theirs.iter());
+        entries.all(|(a, b)| a.same(*b))
+            && self.constraints.len() == found.constraints.len()
+            && self.constraints.iter().zip(&found.constraints).all(|(a, b)| same_weights(a, b))
+    }
+}
+
+/// What mortar needs of the surfaces: its integrals are taken in `f64`.
+fn mortar_surfaces(request: &Request, model: &Model) -> Result<Surfaces, InputError> {
+    if request.arithmetic.scalar == ScalarName::F64 {
+        return Surfaces::new(model);
+    }
+    let what = format!("mortar coupling does not run in {}", request.arithmetic.scalar);
+    Err(InputError::new("--scalar", what, "use f64, or --coupling nts"))
+}
+
+/// Largest component of u_cont − u_targ over contact nodes, u_targ interpolated between their master nodes.
+fn eq1_residual<'a, T: Scalar>(
+    bound: impl Iterator<Item = (NodeId, &'a [(NodeId, T)])>,
+    u: &DVector<T>,
+) -> f64 {
+    let mut largest = T::zero();
+    for (node, masters) in bound {
+        for direction in [0, 1] {
+            let component = |node: NodeId| node.of(u)[direction];
+            let target = sum(masters.iter().map(|&(master, k)| k * component(master)));
+            largest = largest.max((component(node) - target).abs());
+        }
+    }
+    largest.to_f64()
+}

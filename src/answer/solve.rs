@@ -1,0 +1,84 @@
+//! A request, solved: the variant that is asked for, in the numbers that are asked for.
+
+use super::error::Error;
+use super::published::published;
+use super::request::Request;
+use super::solution::{Solution, Step};
+use super::sparse;
+use super::unilateral::unilateral;
+use crate::error::InputError;
+use crate::numbers::scalar::{self, Bounded, Exact, F64x2};
+use crate::numbers::solve::{ScalarName, Solver};
+use crate::problem::element::State;
+use crate::problem::modelling::{Coupling, Variant};
+
+/// Solves `request`; `watch` is called after each step.
+///
+/// # Errors
+/// The published algorithm failing as printed; a matrix that cannot be solved; a dense matrix that does not fit in memory; a solver that the
+/// scalar does not have; exact numbers on a scene too large for them; under `unilateral` bodies that contact and restraints do not hold.
+pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
+    request.arithmetic.check()?;
+    let solution = match (request.variant, request.arithmetic.scalar) {
+        (Variant::Unilateral, _) => {
+            check_unilateral(request)?;
+            unilateral(request, watch)?
+        }
+        (_, ScalarName::F64) => published::<f64>(request, Some(sparse::cholesky), watch)?,
+        (_, ScalarName::F32) => published::<f32>(request, Some(sparse::cholesky), watch)?,
+        (_, ScalarName::F64x2) => published::<F64x2>(request, Some(sparse::ldlt), watch)?,
+        (_, ScalarName::Bounded) => published::<Bounded>(request, Some(sparse::bounded), watch)?,
+        (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(request, None, watch))?,
+    };
+    check_finite(&solution)?;
+    Ok(solution)
+}
+
+/// Solves what runs are measured against, the reference solution: `unilateral` with mortar, everything else as `request` has it.
+///
+/// # Errors
+/// Those of [`solve`].
+pub fn reference(request: &Request) -> Result<Solution, Error> {
+    solve(&reference_request(request), &mut |_| ())
+}
+
+/// The request that [`reference`] solves.
+pub fn reference_request(request: &Request) -> Request {
+    let mut reference = Request { arithmetic: Default::default(), ..request.clone() };
+    reference.contact.coupling = Coupling::Mortar;
+    reference.variant(Variant::Unilateral)
+}
+
+/// Checks that `unilateral` is asked for in f64 by sparse Cholesky.
+fn check_unilateral(request: &Request) -> Result<(), InputError> {
+    let arithmetic = request.arithmetic;
+    if arithmetic.scalar != ScalarName::F64 {
+        let what =
+            format!("unilateral does not run in {}: normals take square roots", arithmetic.scalar);
+        return Err(InputError::new("--scalar", what, "use f64, or another variant"));
+    }
+    match arithmetic.solver {
+        None | Some(Solver::SparseCholesky) => Ok(()),
+        Some(other) => {
+            let what = format!("unilateral does not solve by {other}");
+            Err(InputError::new("--solver", what, "use sparse-cholesky, or another variant"))
+        }
+    }
+}
+
+/// Checks that every displacement, stress and strain can be represented.
+fn check_finite(solution: &Solution) -> Result<(), InputError> {
+    let of_element = |s: &State| (s.von_mises_stress + s.von_mises_strain).is_finite();
+    let of_step = |step: &Step| {
+        let sizes = [step.max_displacement, step.contact_residual(), step.target_force];
+        (sizes.iter().sum::<f64>() + step.solve_residual).is_finite()
+    };
+    if solution.u.iter().all(|x| x.is_finite())
+        && solution.elements.iter().all(of_element)
+        && solution.steps.iter().all(of_step)
+    {
+        return Ok(());
+    }
+    let what = "the displacements or stresses are too large to represent";
+    Err(InputError::new("loads, materials, mesh", what, "choose other units"))
+}

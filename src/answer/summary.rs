@@ -1,0 +1,54 @@
+//! The largest values of each body.
+
+use serde::{Deserialize, Serialize};
+
+use super::solution::Solution;
+use crate::problem::model::{Body, TriangleId};
+
+/// The largest values of a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodySummary {
+    /// The body.
+    pub name: String,
+    /// Number of its nodes.
+    pub nodes: usize,
+    /// Number of its triangles.
+    pub triangles: usize,
+    /// Largest |u| of a node, length.
+    pub max_displacement: f64,
+    /// Largest von Mises stress.
+    pub max_von_mises_stress: f64,
+    /// The triangle that has it.
+    pub at: TriangleId,
+    /// Centre of that triangle, length.
+    pub centre: [f64; 2],
+    /// Largest von Mises strain.
+    pub max_von_mises_strain: f64,
+}
+
+/// One summary a body.
+pub fn summaries(solution: &Solution) -> Vec<BodySummary> {
+    solution.model.bodies.iter().map(|body| summary(body, solution)).collect()
+}
+
+fn summary(body: &Body, solution: &Solution) -> BodySummary {
+    let state = |id: TriangleId| &solution.elements[id.index()];
+    let stress = |id: TriangleId| state(id).von_mises_stress;
+    let at =
+        body.triangles.iter().copied().reduce(|a, b| if stress(b) > stress(a) { b } else { a });
+    let at = at.expect("a body has a triangle");
+    let length = |[x, y]: [f64; 2]| x.hypot(y);
+    let moved = body.nodes.iter().map(|n| length(n.of(&solution.u)));
+    let strains = body.triangles.iter().map(|&id| state(id).von_mises_strain);
+    let corners = solution.model.corners(at);
+    BodySummary {
+        name: body.name.clone(),
+        nodes: body.nodes.len(),
+        triangles: body.triangles.len(),
+        max_displacement: moved.fold(0.0, f64::max),
+        max_von_mises_stress: stress(at),
+        at,
+        centre: [0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 3.0),
+        max_von_mises_strain: strains.fold(0.0, f64::max),
+    }
+}

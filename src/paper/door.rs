@@ -1,0 +1,246 @@
+//! The one door between the finite element model, which counts from 0 by types of its own, and the paper's tables, which count from 1.
+//!
+//! ```text
+//!   Model ------- worksheet -----> node, elem, EL, trg, cnt, S, ... --> c_cnt, Km
+//!   Shape ------- node_n --------> node_n
+//!   ContactStatus, NodeToSegment <---- statuses, linked, on_edges ----- Pairs (ct, yt, dy, k_cnt)
+//! ```
+#![allow(non_snake_case, reason = "the paper's own names")]
+
+use nalgebra::DVector;
+
+use super::mathcad::array::{Column, Table};
+use super::mirror::{Cause, Failure, Km, NodeTable, Pairs, Reading, ToleranceUnit, Worksheet};
+use crate::error::InputError;
+use crate::numbers::scalar::{Scalar, Subscript};
+use crate::problem::element;
+use crate::problem::model::{EdgeId, Model, NodeId, TriangleId};
+
+/// The column of `EL` and `elem` where nodes start.
+const IND_1: usize = 6;
+
+/// `model` under a reading: R6 sets the plane problem, R8 the unit of the tolerance.
+///
+/// # Errors
+/// A Poisson's ratio that the plane problem of R6 does not allow.
+pub fn under(mut model: Model, reading: &Reading) -> Result<Model, InputError> {
+    if let Some(plane) = reading.r6 {
+        model.plane = plane;
+        for triangle in &model.triangles {
+            plane.check_poisson(triangle.material.nu, "--reading R6")?;
+        }
+    }
+    if reading.r8 == ToleranceUnit::Metre {
+        model.contact.tolerance *= 1000.0;
+    }
+    Ok(model)
+}
+
+/// The paper's tables of a model. Each number goes through `number`; `Ae` and `B` are computed from the coordinates in T.
+pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Worksheet<T> {
+    let elem = elem(model);
+    let triangles = model.rows.iter().filter(|row| row.kind == 2).map(|row| row.number);
+    let triangles: Vec<usize> = triangles.collect();
+    let thickness = number(model.thickness);
+    let corners: Vec<element::Corners<T>> =
+        model.triangle_ids().map(|id| model.corners(id).map(|p| p.map(&number))).collect();
+    let target = model.target_edges().map(|edge| edge.number);
+    let contact = model.contact.nodes.iter().map(|node| node.number());
+    let of = |f: &dyn Fn(TriangleId) -> f64| {
+        Column::from_vec(model.triangle_ids().map(|id| number(f(id))).collect())
+    };
+    Worksheet {
+        node: node_n(model, &model.nodes).map(&number),
+        EL: Table::from_fn(triangles.len(), 8, |n, j| elem[(triangles[n - 1], j)]),
+        elem,
+        trg: Column::from_vec(target.collect()),
+        cnt: Column::from_vec(contact.collect()),
+        c_tll: number(model.contact.tolerance),
+        ind_1: IND_1,
+        S: Column::from_vec(model.restrained.iter().map(|s| usize::from(*s)).collect()),
+        Ae: Column::from_vec(corners.iter().map(|p| element::area(p) * thickness).collect()),
+        B: Column::from_vec(corners.iter().map(element::B).collect()),
+        E: of(&|id| model.triangle(id).material.e),
+        nu: of(&|id| model.triangle(id).material.nu),
+        plane: model.plane,
+    }
+}
+
+/// The table `elem`: number, type, number of tags, physical tag, geometric tag, nodes; 0 past a row's end.
+fn elem(model: &Model) -> Table<usize> {
+    let last = model.rows.last().map_or(0, |row| row.number);
+    let mut elem = Table::filled(last, 8, 0);
+    for row in &model.rows {
+        let head = [row.number, row.kind, 2, row.physical, row.geometric];
+        let nodes = row.nodes.iter().map(|node| node.number());
+        for (j, value) in head.into_iter().chain(nodes).enumerate() {
+            elem[(row.number, j + 1)] = value;
+        }
+    }
+    elem
+}
+
+/// The node table of a shape, the coordinates of each node: number, x, y, z; R x 4.
+pub fn node_n(model: &Model, shape: &[[f64; 2]]) -> Table<f64> {
+    Table::from_fn(shape.len(), 4, |i, j| match j {
+        1 => i as f64,
+        2 | 3 => shape[i - 1][j - 2],
+        _ => model.z,
+    })
+}
+
+/// node_n = node + U: R x 4, length. `u`: displacements by degree of freedom.
+pub fn moved<T: Scalar>(sheet: &Worksheet<T>, u: &DVector<T>) -> Table<T> {
+    let mut node_n = sheet.node.clone();
+    for node in NodeId::all(sheet.R()) {
+        let [x, y] = node.of(u);
+        node_n[(node.number(), 2)] += x;
+        node_n[(node.number(), 3)] += y;
+    }
+    node_n
+}
+
+/// The coordinates of each node in the shape of a node table.
+pub fn shape<T: Scalar>(node_n: &Table<T>) -> Vec<[f64; 2]> {
+    let place = |n: usize| [2, 3].map(|column| node_n[(n, column)].to_f64());
+    (1..=node_n.rows()).map(place).collect()
+}
+
+/// `Km` without contact and without restraints: 2R x 2R, force/length.
+///
+/// # Errors
+/// An overflow.
+pub fn free_stiffness<T: Scalar>(
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+) -> Result<Table<T>, Failure> {
+    let free = Worksheet { S: Column::filled(2 * sheet.R(), 0), ..sheet.clone() };
+    Km(&free, reading, &Table::filled(sheet.R(), 4, T::zero()))
+}
+
+/// What `c_cnt` finds for a contact node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactStatus<T = f64> {
+    /// The contact node.
+    pub node: NodeId,
+    /// Its target edge; none where the search found none.
+    pub edge: Option<EdgeId>,
+    /// Vertical distance target line minus contact node, length; 0 without a target edge.
+    pub distance: T,
+    /// Whether it is in contact.
+    pub in_contact: bool,
+}
+
+/// The statuses that `pairs` holds, in the order of the contact surface.
+pub fn statuses<T: Scalar>(model: &Model, pairs: &Pairs<T>) -> Vec<ContactStatus<T>> {
+    let place = |number: usize| {
+        let at = model.edges.binary_search_by_key(&number, |edge| edge.number);
+        EdgeId::new(at.expect("ct names an edge of the mesh"))
+    };
+    let status = |(k, node): (usize, &NodeId)| ContactStatus {
+        node: *node,
+        edge: Some(pairs.ct[k + 1]).filter(|number| *number > 0).map(place),
+        distance: pairs.yt[k + 1],
+        in_contact: pairs.dy[k + 1] == 1,
+    };
+    model.contact.nodes.iter().enumerate().map(status).collect()
+}
+
+/// Statuses that another rule than the listing's decided, in the listing's arrays; `k_cnt` stays 0.
+pub fn pairs(model: &Model, statuses: &[ContactStatus]) -> Pairs<f64> {
+    let number = |status: &ContactStatus| status.edge.map_or(0, |edge| model.edge(edge).number);
+    Pairs {
+        ct: Column::from_vec(statuses.iter().map(number).collect()),
+        yt: Column::from_vec(statuses.iter().map(|status| status.distance).collect()),
+        dy: Column::from_vec(statuses.iter().map(|s| usize::from(s.in_contact)).collect()),
+        ..Pairs::none(model.nodes.len())
+    }
+}
+
+/// A contact node and the place of the target that it is bound to: two nodes of an edge and their weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeToSegment<T = f64> {
+    /// The contact node.
+    pub node: NodeId,
+    /// The target nodes and their weights.
+    pub masters: [(NodeId, T); 2],
+}
+
+impl<T: Scalar> NodeToSegment<T> {
+    /// The same in other numbers.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> NodeToSegment<U> {
+        let masters = self.masters.map(|(master, weight)| (master, to(weight)));
+        NodeToSegment { node: self.node, masters }
+    }
+}
+
+/// The contact nodes with dy = 1, each once, with what columns 1 to 4 of its row of k_cnt say.
+pub fn linked<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>) -> Vec<NodeToSegment<T>> {
+    let mut found: Vec<NodeToSegment<T>> = Vec::new();
+    for i1 in (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1) {
+        let n = sheet.cnt[i1];
+        let node = NodeId::from_number(n);
+        if found.iter().all(|other| other.node != node) {
+            let master = |column: usize| {
+                let number = pairs.k_cnt[(n, column)].at();
+                (NodeId::from_number(number), pairs.k_cnt[(n, column + 1)])
+            };
+            found.push(NodeToSegment { node, masters: [master(1), master(3)] });
+        }
+    }
+    found
+}
+
+/// The weights of `node` on a target edge as lines 22 and 23 of `c_cnt` have them before they are added up in k_cnt: they sum to 1
+/// whatever the reading does to k_cnt. `x`: the x coordinate of each node in the shape that weights come from (R5).
+///
+/// # Errors
+/// Where line 22 fails as printed: a vertical edge, an overflow.
+pub fn on_edge<T: Scalar>(
+    node: NodeId,
+    edge: [NodeId; 2],
+    x: impl Fn(NodeId) -> T,
+) -> Result<NodeToSegment<T>, Cause> {
+    let [a, b] = edge;
+    let length = x(b) - x(a);
+    if length == T::zero() {
+        return Err(Cause::Singularity);
+    }
+    let k1 = T::one() - (x(node) - x(a)) / length;
+    let k2 = T::one() - (x(b) - x(node)) / length;
+    if !Scalar::is_finite(k1 + k2) {
+        return Err(Cause::Overflow);
+    }
+    Ok(NodeToSegment { node, masters: [(a, k1), (b, k2)] })
+}
+
+/// The contact nodes with dy = 1 on their target edges: [`on_edge`] for each.
+pub fn on_edges<T: Scalar>(
+    sheet: &Worksheet<T>,
+    pairs: &Pairs<T>,
+    reading: &Reading,
+    node_n: &Table<T>,
+) -> Vec<NodeToSegment<T>> {
+    let node = weights_from(sheet, reading, node_n);
+    let x = |n: NodeId| node[(n.number(), 2)];
+    let in_contact = (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1);
+    in_contact
+        .map(|i1| {
+            let ends = [6, 7].map(|j| NodeId::from_number(sheet.elem[(pairs.ct[i1], j)]));
+            let found = on_edge(NodeId::from_number(sheet.cnt[i1]), ends, x);
+            found.unwrap_or_else(|_| panic!("c_cnt flags no node over a vertical edge"))
+        })
+        .collect()
+}
+
+/// The shape that weights come from: R5.
+pub fn weights_from<'a, T: Scalar>(
+    sheet: &'a Worksheet<T>,
+    reading: &Reading,
+    node_n: &'a Table<T>,
+) -> &'a Table<T> {
+    match reading.r5 {
+        NodeTable::Node => &sheet.node,
+        NodeTable::NodeN => node_n,
+    }
+}

@@ -1,0 +1,115 @@
+//! Bodies: the parts of a mesh that share no node, and whether something holds each.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::ids::{NodeId, TriangleId};
+use super::{Model, Triangle};
+
+/// A part of the mesh that shares no node with another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// The names of its materials, joined by `+`; numbered where two bodies would share it.
+    pub name: String,
+    /// Its triangles, ascending.
+    pub triangles: Vec<TriangleId>,
+    /// Its nodes, ascending.
+    pub nodes: Vec<NodeId>,
+}
+
+impl Body {
+    /// Whether `node` is one of its nodes.
+    pub fn has(&self, node: NodeId) -> bool {
+        self.nodes.binary_search(&node).is_ok()
+    }
+}
+
+/// The bodies that `triangles` on `nodes` nodes make, by their lowest node. `material` names the material of each triangle.
+pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[String]) -> Vec<Body> {
+    let lowest = lowest_nodes(nodes, triangles);
+    let mut found: Vec<(NodeId, Body)> = Vec::new();
+    for (id, triangle) in TriangleId::all(triangles.len()).zip(triangles) {
+        let key = lowest[triangle.nodes[0].index()];
+        let at = found.iter().position(|(other, _)| *other == key).unwrap_or_else(|| {
+            let nodes = NodeId::all(nodes).filter(|n| lowest[n.index()] == key).collect();
+            found.push((key, Body { name: String::new(), triangles: Vec::new(), nodes }));
+            found.len() - 1
+        });
+        found[at].1.triangles.push(id);
+    }
+    found.sort_by_key(|(key, _)| *key);
+    let mut bodies: Vec<Body> = found.into_iter().map(|(_, body)| body).collect();
+    for body in &mut bodies {
+        body.name = joined(body.triangles.iter().map(|id| &material[id.index()]));
+    }
+    number_equal_names(&mut bodies);
+    bodies
+}
+
+/// For each node the lowest node of its body.
+fn lowest_nodes(nodes: usize, triangles: &[Triangle]) -> Vec<NodeId> {
+    let mut root: Vec<usize> = (0..nodes).collect();
+    fn lowest(root: &mut [usize], mut n: usize) -> usize {
+        while root[n] != n {
+            root[n] = root[root[n]];
+            n = root[n];
+        }
+        n
+    }
+    for triangle in triangles {
+        for pair in triangle.nodes.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(|n| lowest(&mut root, n.index()));
+            root[a.max(b)] = a.min(b);
+        }
+    }
+    (0..nodes).map(|n| NodeId::new(lowest(&mut root, n))).collect()
+}
+
+fn joined<'a>(names: impl Iterator<Item = &'a String>) -> String {
+    let mut distinct: Vec<&str> = Vec::new();
+    for name in names {
+        if !distinct.contains(&name.as_str()) {
+            distinct.push(name);
+        }
+    }
+    distinct.join("+")
+}
+
+fn number_equal_names(bodies: &mut [Body]) {
+    let names: Vec<String> = bodies.iter().map(|b| b.name.clone()).collect();
+    for (k, body) in bodies.iter_mut().enumerate() {
+        if names.iter().filter(|n| **n == body.name).count() > 1 {
+            let before = names[..k].iter().filter(|n| **n == body.name).count();
+            body.name = format!("{} {}", body.name, before + 1);
+        }
+    }
+}
+
+/// How what has these nodes can still move, as a rigid body, under its restraints alone, in words; nothing where it cannot.
+pub fn freedom(model: &Model, nodes: &[NodeId]) -> Option<&'static str> {
+    let count = nodes.len() as f64;
+    let points = || nodes.iter().map(|&n| model.at(n));
+    let sum = points().fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
+    let centre = [sum[0] / count, sum[1] / count];
+    let size = points().map(|[x, y]| (x - centre[0]).hypot(y - centre[1])).fold(0.0, f64::max);
+    // The three rigid motions' components at each restraint; they leave none free when their Gram matrix has full rank.
+    let mut gram = Matrix3::zeros();
+    for &n in nodes {
+        let [x, y] = model.at(n);
+        let motions = [
+            Vector3::new(1.0, 0.0, -(y - centre[1]) / size),
+            Vector3::new(0.0, 1.0, (x - centre[0]) / size),
+        ];
+        for (restrained, motion) in model.restraints_of(n).into_iter().zip(motions) {
+            if restrained {
+                gram += motion * motion.transpose();
+            }
+        }
+    }
+    let stiffness = gram.symmetric_eigenvalues();
+    match () {
+        _ if gram[(0, 0)] == 0.0 => Some("move in x"),
+        _ if gram[(1, 1)] == 0.0 => Some("move in y"),
+        _ if stiffness.min() <= 1e-12 * stiffness.max() => Some("rotate"),
+        _ => None,
+    }
+}
