@@ -1,4 +1,5 @@
-//! CalculiX: its decks, its results, and what it computes where `ccx` is installed. Where `REQUIRE_CCX` is set it must be.
+//! CalculiX: its decks, its results, and what it computes where `ccx` is installed. Where
+//! `REQUIRE_CCX` is set it must be.
 
 mod common;
 
@@ -7,8 +8,7 @@ use std::process::{Command, Output};
 use common::golden::assert_golden;
 use common::tolerances::{CCX_PRINTS, PENALTY, PENALTY_STRESS, assert_near};
 use common::{build, solve};
-use plane_contact::answer::contact::{self, Outcome};
-use plane_contact::paper::mirror::Reading;
+use plane_contact::answer::{self, Request, Solution};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::{
@@ -26,39 +26,41 @@ fn ccx_is_there() -> bool {
     there
 }
 
-fn last_deck(scene: &Scene, outcome: &Outcome, parts: &[Part]) -> String {
+fn last_deck(scene: &Scene, solution: &Solution, parts: &[Part]) -> String {
     let contact = &parts.last().unwrap().contact;
-    deck(&Problem { scene, sheet: &outcome.sheet, contact }).unwrap()
+    deck(&Problem { scene, model: &solution.model, contact }).unwrap()
 }
 
 #[test]
 fn decks_of_fig1() {
     for variant in [Variant::Tied, Variant::Unilateral] {
-        let (scene, outcome) = solve("fig1", variant);
-        let parts = Contact::parts(&outcome).unwrap();
-        assert_golden("fig1", &format!("calculix-{variant}"), &last_deck(&scene, &outcome, &parts));
+        let (scene, solution) = solve("fig1", variant);
+        let parts = Contact::parts(&solution).unwrap();
+        let text = last_deck(&scene, &solution, &parts);
+        assert_golden("fig1", &format!("calculix-{variant}"), &text);
     }
-    let (scene, outcome) = solve("fig1", Variant::Tied);
-    let pair = |friction| Contact::Pair(Pair::new(&outcome.sheet, Some(1e7), friction));
+    let (scene, solution) = solve("fig1", Variant::Tied);
+    let pair = |friction| Contact::Pair(Pair::new(&solution.model, Some(1e7), friction));
     let of =
-        |friction| last_deck(&scene, &outcome, &[Part { contact: pair(friction), share: 1.0 }]);
+        |friction| last_deck(&scene, &solution, &[Part { contact: pair(friction), share: 1.0 }]);
     assert_golden("fig1", "calculix-pair", &of(Friction::Stick));
     assert!(of(Friction::Stick).contains("*FRICTION"));
     assert!(!of(Friction::None).contains("*FRICTION"));
 }
 
-/// A run with stepped load is the sum of its contact states, each with its share; one with total load is its last iteration.
+/// A solution with stepped load is the sum of its contact states, each with its share; one with
+/// total load is its last step.
 #[test]
 fn the_shares_of_the_parts_sum_to_one() {
     for (variant, several) in [(Variant::Tied, false), (Variant::Stepped, true)] {
-        let (_, outcome) = solve("strand", variant);
-        let parts = Contact::parts(&outcome).unwrap();
+        let (_, solution) = solve("strand", variant);
+        let parts = Contact::parts(&solution).unwrap();
         assert_eq!(parts.len() > 1, several);
         let sum: f64 = parts.iter().map(|part| part.share).sum();
         assert!((sum - 1.0).abs() < 1e-12, "{sum}");
     }
-    let (_, outcome) = solve("fig1", Variant::Printed);
-    let error = Contact::parts(&outcome).err().expect("printed ties nothing");
+    let (_, solution) = solve("fig1", Variant::Printed);
+    let error = Contact::parts(&solution).err().expect("printed ties nothing");
     assert!(error.what.contains("no equations"), "{error}");
 }
 
@@ -67,8 +69,9 @@ fn printed_results_read_back() {
     let fields = parse(PRINTED, 13, 9).unwrap();
     assert_eq!(fields.u[9], [0.0, 0.0]);
     assert_eq!(fields.u[12], [0.0, -2.015804e-4]);
-    let (scene, outcome) = solve("fig1", Variant::Tied);
-    assert_same(&Comparison::new(&scene, Fields::of(&outcome), fields), "fig1 as stored");
+    let (_, solution) = solve("fig1", Variant::Tied);
+    let comparison = Comparison::new(&solution.model, Fields::of(&solution), fields);
+    assert_same(&comparison, "fig1 as stored");
 }
 
 #[test]
@@ -101,7 +104,8 @@ fn assert_same(comparison: &Comparison, what: &str) {
     assert_near(&name, stress.difference, 0.0, stress.scale, &CCX_PRINTS);
 }
 
-/// A block of `nx` by `ny` cells of two triangles on 0 .. 2 by `y0` .. `y0` + 1; its nodes follow `first`.
+/// A block of `nx` by `ny` cells of two triangles on 0 .. 2 by `y0` .. `y0` + 1; its nodes follow
+/// `first`.
 struct Block {
     nx: usize,
     ny: usize,
@@ -143,7 +147,8 @@ impl Block {
 
 /// GOAL: two blocks whose nodes do not match, every kind of row in the equations.
 /// MESH: 2 x 1 mm each, 10 x 5 and 7 x 4 cells of two triangles.
-/// BOUNDARY CONDITIONS: bottom held in y, one corner of each block in x; the top is pushed down and aside, and so is a contact node.
+/// BOUNDARY CONDITIONS: bottom restrained in y, one corner of each block in x; the top is pushed
+/// down and aside, and so is a contact node.
 /// PARAMETERS: E = 30000 and 210000 MPa, nu = 0.2 and 0.3, thickness 0.7 mm.
 fn blocks_that_do_not_match() -> Value {
     let below = Block { nx: 10, ny: 5, y0: 0.0, first: 1 };
@@ -191,8 +196,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     ]
 }
 
-fn outcome(scene: &Scene, variant: Variant) -> Outcome {
-    contact::run(scene, variant, &Reading::default(), |_| ()).unwrap()
+fn solution(scene: &Scene, variant: Variant) -> Solution {
+    answer::solve(&Request::new(scene).variant(variant), &mut |_| ()).unwrap()
 }
 
 #[test]
@@ -234,10 +239,10 @@ fn models() -> Vec<ContactModel> {
 
 #[track_caller]
 fn assert_equations(name: &str, scene: &Scene, variant: Variant) {
-    let outcome = outcome(scene, variant);
-    let parts = Contact::parts(&outcome).unwrap();
-    let ran = run("ccx", scene, &outcome.sheet, &parts).unwrap();
-    let comparison = Comparison::new(scene, Fields::of(&outcome), ran.fields);
+    let solution = solution(scene, variant);
+    let parts = Contact::parts(&solution).unwrap();
+    let ran = run("ccx", scene, &solution.model, &parts).unwrap();
+    let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
     assert_same(&comparison, &format!("{name} {variant}"));
 }
 
@@ -249,11 +254,11 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
     }
     for (name, mut scene) in scenes() {
         scene.contact = ContactModel { friction: Friction::None, ..ContactModel::default() };
-        let outcome = outcome(&scene, Variant::Unilateral);
-        let pair = Pair::new(&outcome.sheet, None, Friction::None);
+        let solution = solution(&scene, Variant::Unilateral);
+        let pair = Pair::new(&solution.model, None, Friction::None);
         let part = Part { contact: Contact::Pair(pair), share: 1.0 };
-        let ran = run("ccx", &scene, &outcome.sheet, &[part]).unwrap();
-        let comparison = Comparison::new(&scene, Fields::of(&outcome), ran.fields);
+        let ran = run("ccx", &scene, &solution.model, &[part]).unwrap();
+        let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
         let (u, stress) = (comparison.displacement.largest, comparison.stress.largest);
         eprintln!("{name}: displacement {:.1e}, stress {:.1e}", u.relative, stress.relative);
         assert_near(&format!("{name}, node {}", u.at), u.difference, 0.0, u.scale, &PENALTY);
@@ -288,9 +293,9 @@ fn fails(folder: &TempDir, args: &[&str], words: &[&str]) {
 fn export_writes_the_deck() {
     let folder = TempDir::new().unwrap();
     let printed = command(&folder, &["export", "fig1", "--to", "calculix", "--variant", "tied"]);
-    let (scene, outcome) = solve("fig1", Variant::Tied);
-    let parts = Contact::parts(&outcome).unwrap();
-    assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &outcome, &parts));
+    let (scene, solution) = solve("fig1", Variant::Tied);
+    let parts = Contact::parts(&solution).unwrap();
+    assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &solution, &parts));
     let args = ["export", "fig1", "--to", "calculix", "--contact", "pair", "--out", "deck.inp"];
     assert!(command(&folder, &args).stdout.is_empty());
     let text = std::fs::read_to_string(folder.path().join("deck.inp")).unwrap();

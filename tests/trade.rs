@@ -4,11 +4,12 @@ mod common;
 
 use common::build;
 use common::tolerances::{HALF, LAME_ENERGY_ORDER, assert_near};
-use plane_contact::answer::contact::{Outcome, run};
 use plane_contact::answer::error::Error;
+use plane_contact::answer::{Request, Solution, solve};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::ScalarName;
-use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::element;
+use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::problem::scene::symmetry::half;
@@ -19,18 +20,20 @@ use serde_json::{Value, json};
 
 fn measured(scene: &Scene, only: &[Knob]) -> Trade {
     let options = Options { runs: 1, only: only.to_vec() };
-    trade::measure(scene, &Reading::default(), &options, |_| None, |_| ()).expect("it is measured")
+    let request = Request::new(scene);
+    trade::measure(&request, &options, |_| None, |_| ()).expect("it is measured")
 }
 
 fn open(name: &str) -> Scene {
     Scene::open(name).expect("embedded scenes are sound")
 }
 
-fn solved(scene: &Scene, variant: Variant) -> Outcome {
-    run(scene, variant, &Reading::default(), |_| ()).expect("the variant runs")
+fn solved(scene: &Scene, variant: Variant) -> Solution {
+    solve(&Request::new(scene).variant(variant), &mut |_| ()).expect("the variant runs")
 }
 
-/// A square under pressure, symmetric about x = `at`: two triangles left and right of it; `changed` edits the scene file.
+/// A square under pressure, symmetric about x = `at`: two triangles left and right of it; `changed`
+/// edits the scene file.
 fn square(at: f64, changed: impl Fn(&mut Value)) -> Result<Scene, InputError> {
     let mut scene = json!({
         "plane": "strain",
@@ -77,8 +80,9 @@ fn every_knob_has_its_rows_and_every_row_its_columns() {
         assert_eq!(section.rows.is_empty(), none, "{}", section.knob);
         assert!(!section.answers.is_empty(), "{}", section.knob);
         for row in &section.rows {
-            assert!(row.failure.is_some() != row.seconds.is_some(), "{}", row.rung);
-            assert!(row.seconds.is_none() || row.error.is_some(), "{}: {}", section.knob, row.rung);
+            let (knob, label) = (section.knob, &row.label);
+            assert!(row.failure.is_some() != row.seconds.is_some(), "{label}");
+            assert!(row.seconds.is_none() || row.error.is_some(), "{knob}: {label}");
             assert!(row.runs == 1 && row.equations > 0);
         }
         let ran = section.rows.iter().any(|row| row.error.is_some());
@@ -121,11 +125,11 @@ fn the_picture_is_xml() {
 }
 
 #[test]
-fn errors_fall_up_the_ladder() {
+fn errors_fall_with_precision() {
     let trade = measured(&open("fig1"), &[Knob::Arithmetic]);
-    let error = |rung: &str| {
-        let row = trade.sections[0].rows.iter().find(|row| row.rung == rung);
-        row.and_then(|row| row.error).expect("the rung ran").displacement
+    let error = |label: &str| {
+        let row = trade.sections[0].rows.iter().find(|row| row.label == label);
+        row.and_then(|row| row.error).expect("the trial ran").displacement
     };
     assert!(error("f32") > error("f64"));
     assert!(error("f64") >= error("f64x2"));
@@ -149,16 +153,17 @@ fn a_finer_scene_keeps_its_nodes_area_load_and_surfaces() {
     for name in ["fig1", "two-blocks", "strand"] {
         let scene = open(name);
         let finer = scene.refined().unwrap().expect("a whole scene").scene;
-        let [before, after] = [&scene, &finer].map(|s| s.worksheet(&Reading::default()).unwrap());
-        assert_eq!(after.M(), 4 * before.M());
-        assert_eq!(after.trg.rows(), 2 * before.trg.rows(), "{name}");
-        assert_eq!(after.cnt.rows(), 2 * before.cnt.rows() - 1, "{name}");
-        let area =
-            |sheet: &plane_contact::paper::mirror::Worksheet<f64>| sheet.Ae.iter().sum::<f64>();
-        assert_near("area", area(&after), area(&before), area(&before), &HALF);
-        let (load, total) = (scene.total_load(), finer.total_load());
+        let [before, after] = [&scene.model, &finer.model];
+        assert_eq!(after.triangles.len(), 4 * before.triangles.len());
+        assert_eq!(after.contact.target.len(), 2 * before.contact.target.len(), "{name}");
+        assert_eq!(after.contact.nodes.len(), 2 * before.contact.nodes.len() - 1, "{name}");
+        let area = |model: &Model| {
+            model.triangle_ids().map(|id| element::area(&model.corners(id))).sum::<f64>()
+        };
+        assert_near("area", area(after), area(before), area(before), &HALF);
+        let (load, total) = (before.total_load(), after.total_load());
         assert_near("load", total[1], load[1], load[1], &HALF);
-        assert_eq!(finer.bodies.len(), scene.bodies.len());
+        assert_eq!(after.bodies.len(), before.bodies.len());
     }
 }
 
@@ -168,14 +173,14 @@ fn half_is_whole(scene: &Scene, variant: Variant) {
     let (whole, of_half) = (solved(scene, variant), solved(&half.scene, variant));
     let scale = whole.u.amax();
     for (k, n) in half.nodes.iter().enumerate() {
+        let (u, expected) = (NodeId::new(k).of(&of_half.u), n.of(&whole.u));
         for d in [0, 1] {
-            let (u, expected) = (of_half.u[2 * k + d], whole.u[2 * n - 2 + d]);
-            assert_near(&format!("node {n}"), u, expected, scale, &HALF);
+            assert_near(&format!("node {n}"), u[d], expected[d], scale, &HALF);
         }
     }
-    for (k, n) in half.triangles.iter().enumerate() {
+    for (state, n) in of_half.elements.iter().zip(&half.triangles) {
         let (stress, expected) =
-            (of_half.elements[k].von_mises_stress, whole.elements[n - 1].von_mises_stress);
+            (state.von_mises_stress, whole.elements[n.index()].von_mises_stress);
         assert_near(&format!("triangle {n}"), stress, expected, expected.max(1.0), &HALF);
     }
 }
@@ -224,13 +229,13 @@ fn everything_but_times_is_reproducible() {
 }
 
 #[test]
-fn an_accuracy_takes_the_cheapest_rung_that_meets_it() {
-    let scene = open("fig1");
-    let reach = |accuracy| solve_to(&scene, Variant::Tied, &Reading::default(), accuracy);
+fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
+    let request = Request::new(&open("fig1")).variant(Variant::Tied);
+    let reach = |accuracy| solve_to(&request, accuracy);
     for (accuracy, scalar) in
         [(1e-2, ScalarName::F32), (1e-10, ScalarName::Bounded), (1e-20, ScalarName::F64x2)]
     {
-        let reached = reach(accuracy).expect("a rung meets it");
+        let reached = reach(accuracy).expect("a precision meets it");
         let last = reached.attempts.last().expect("an attempt");
         assert_eq!(last.arithmetic.scalar, scalar, "{accuracy:e}: {:?}", reached.attempts);
         assert!(last.found.expect("it ran") <= accuracy);
@@ -243,18 +248,16 @@ fn an_accuracy_takes_the_cheapest_rung_that_meets_it() {
     }
 }
 
-/// The true error, against f64x2, is within the bar of every rung that is taken.
+/// The true error, against f64x2, is within the bar of every precision that is taken.
 #[test]
 fn the_bar_of_an_accuracy_holds() {
     for name in ["fig1", "two-blocks", "strand"] {
-        let scene = open(name);
-        let reach = |accuracy| {
-            solve_to(&scene, Variant::Tied, &Reading::default(), accuracy).expect("a rung meets it")
-        };
-        let best = reach(1e-18).outcome.u;
+        let request = Request::new(&open(name)).variant(Variant::Tied);
+        let reach = |accuracy| solve_to(&request, accuracy).expect("a precision meets it");
+        let best = reach(1e-18).solution.u;
         for accuracy in [0.5, 1e-6, 1e-8] {
             let reached = reach(accuracy);
-            let error = (&reached.outcome.u - &best).amax() / best.amax();
+            let error = (&reached.solution.u - &best).amax() / best.amax();
             let bar = reached.attempts.last().and_then(|a| a.found).expect("it ran");
             assert!(error <= bar && bar <= accuracy, "{name}: {error:e}, {bar:e}, {accuracy:e}");
         }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::fields::Fields;
-use crate::problem::scene::{Body, Scene};
+use crate::problem::model::{Body, Model, NodeId, TriangleId};
 
 /// Two results of one model, node by node and triangle by triangle.
 pub struct Comparison {
@@ -14,28 +14,29 @@ pub struct Comparison {
     /// Von Mises stress of each triangle, by this program and by CalculiX.
     pub von_mises: [Vec<f64>; 2],
     /// Displacements, by node.
-    pub displacement: Difference,
-    /// Stresses, by triangle: the largest component of sigma_x, sigma_y, tau_xy; relative to the largest von Mises stress.
-    pub stress: Difference,
+    pub displacement: Difference<NodeId>,
+    /// Stresses, by triangle: the largest component of sigma_x, sigma_y, tau_xy; relative to the
+    /// largest von Mises stress.
+    pub stress: Difference<TriangleId>,
     /// Von Mises stress, by body.
     pub bodies: Vec<BodyStress>,
 }
 
-/// A difference, place by place.
-pub struct Difference {
-    /// At each node or triangle.
-    pub at: Vec<f64>,
+/// A difference, place by place: at nodes or at triangles.
+pub struct Difference<Place> {
+    /// Every place, in order, and the difference there.
+    pub at: Vec<(Place, f64)>,
     /// The largest one.
-    pub largest: Largest,
+    pub largest: Largest<Place>,
     /// Root of the mean square.
     pub rms: f64,
 }
 
 /// The largest difference.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Largest {
-    /// Its node, or its triangle's row of `EL`.
-    pub at: usize,
+pub struct Largest<Place> {
+    /// The node or triangle that has it.
+    pub at: Place,
     /// The difference.
     pub difference: f64,
     /// The largest value by this program.
@@ -56,8 +57,8 @@ pub struct BodyStress {
 }
 
 impl Comparison {
-    /// `ours` beside `theirs`.
-    pub fn new(scene: &Scene, ours: Fields, theirs: Fields) -> Self {
+    /// Puts `ours` beside `theirs`.
+    pub fn new(model: &Model, ours: Fields, theirs: Fields) -> Self {
         let length = |[x, y]: &[f64; 2]| x.hypot(*y);
         let moved = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).hypot(a[1] - b[1]);
         // sigma_x, sigma_y, tau_xy: sigma_z is no unknown of a plane problem.
@@ -67,14 +68,17 @@ impl Comparison {
         let von_mises = [ours.von_mises(), theirs.von_mises()];
         Comparison {
             displacement: Difference::new(
-                ours.u.iter().zip(&theirs.u).map(moved).collect(),
+                model.node_ids().zip(ours.u.iter().zip(&theirs.u).map(moved)).collect(),
                 largest(ours.u.iter().map(length)),
             ),
             stress: Difference::new(
-                ours.sigma.iter().zip(&theirs.sigma).map(stressed).collect(),
+                model
+                    .triangle_ids()
+                    .zip(ours.sigma.iter().zip(&theirs.sigma).map(stressed))
+                    .collect(),
                 largest(von_mises[0].iter().copied()),
             ),
-            bodies: bodies(scene, &von_mises),
+            bodies: bodies(model, &von_mises),
             von_mises,
             ours,
             theirs,
@@ -82,35 +86,35 @@ impl Comparison {
     }
 }
 
-impl Difference {
-    fn new(at: Vec<f64>, scale: f64) -> Self {
-        let node = (0..at.len()).reduce(|a, b| if at[b] > at[a] { b } else { a });
-        let node = node.expect("a mesh has a node and a triangle");
-        let relative = if at[node] == 0.0 { 0.0 } else { at[node] / scale };
-        let squares: f64 = at.iter().map(|x| x * x).sum();
+impl<Place: Copy> Difference<Place> {
+    fn new(at: Vec<(Place, f64)>, scale: f64) -> Self {
+        let larger = |a: (Place, f64), b: (Place, f64)| if b.1 > a.1 { b } else { a };
+        let largest = at.iter().copied().reduce(larger);
+        let (place, difference) = largest.expect("a mesh has a node and a triangle");
+        let relative = if difference == 0.0 { 0.0 } else { difference / scale };
+        let squares: f64 = at.iter().map(|(_, x)| x * x).sum();
         Difference {
-            largest: Largest { at: node + 1, difference: at[node], scale, relative },
+            largest: Largest { at: place, difference, scale, relative },
             rms: (squares / at.len() as f64).sqrt(),
             at,
         }
     }
 
     /// The `count` places where it is largest, the largest first.
-    pub fn worst(&self, count: usize) -> Vec<usize> {
-        let mut places: Vec<usize> = (1..=self.at.len()).collect();
-        places.sort_by(|a, b| self.at[b - 1].total_cmp(&self.at[a - 1]));
-        places.truncate(count);
-        places
+    pub fn worst(&self, count: usize) -> Vec<Place> {
+        let mut at = self.at.clone();
+        at.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+        at.into_iter().take(count).map(|(place, _)| place).collect()
     }
 }
 
-fn bodies(scene: &Scene, von_mises: &[Vec<f64>; 2]) -> Vec<BodyStress> {
+fn bodies(model: &Model, von_mises: &[Vec<f64>; 2]) -> Vec<BodyStress> {
     let row = |body: &Body| {
         let [ours, calculix] =
-            [0, 1].map(|by: usize| largest(body.triangles.iter().map(|n| von_mises[by][n - 1])));
+            von_mises.each_ref().map(|of| largest(body.triangles.iter().map(|id| of[id.index()])));
         BodyStress { name: body.name.clone(), ours, calculix }
     };
-    scene.bodies.iter().map(row).collect()
+    model.bodies.iter().map(row).collect()
 }
 
 fn largest(of: impl Iterator<Item = f64>) -> f64 {

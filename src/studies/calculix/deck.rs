@@ -6,8 +6,8 @@ use super::equation::{Equation, Term};
 use super::number::field;
 use super::problem::{Contact, Pair, Problem};
 use crate::error::InputError;
-use crate::paper::mirror::Worksheet;
 use crate::problem::element::Plane;
+use crate::problem::model::{Dof, Material, Model, NodeId, unordered};
 use crate::problem::modelling::Friction;
 
 /// ccx takes no more terms on a line of an equation.
@@ -17,26 +17,26 @@ const STICKING: f64 = 1000.0;
 /// Stick slope over penalty: the manual advises about a tenth.
 const STICK_SLOPE: f64 = 0.1;
 
-/// The deck of a problem: plane triangles, the whole load in one static step; displacements and stresses go to the `.dat` file, where
-/// ccx prints seven digits (`.frd`: six).
+/// The deck of a problem: plane triangles, the whole load in one static step; displacements and
+/// stresses go to the `.dat` file, where ccx prints seven digits (`.frd`: six).
 ///
 /// # Errors
-/// A pair whose surfaces bound no triangle.
+/// The surfaces of a pair bound no triangle.
 pub fn deck(problem: &Problem) -> Result<String, InputError> {
     let mut text = heading(problem);
-    text += &nodes(problem.sheet);
-    text += &elements(problem);
+    text += &nodes(problem.model);
+    text += &elements(problem.model);
     match problem.contact {
-        Contact::Equations(equations) => text += &equation_cards(problem.sheet, equations),
-        Contact::Pair(_) if problem.sheet.cnt.rows() == 0 => {}
-        Contact::Pair(pair) => text += &pair_cards(problem.sheet, pair)?,
+        Contact::Equations(equations) => text += &equation_cards(problem.model, equations),
+        Contact::Pair(_) if !problem.model.has_contact() => {}
+        Contact::Pair(pair) => text += &pair_cards(problem.model, pair)?,
     }
-    text += &restraints(problem);
+    text += &restraints(problem.model);
     text += &step(problem);
     Ok(text)
 }
 
-/// Comment lines: what the deck is.
+/// Comment lines that say what the deck is.
 fn heading(problem: &Problem) -> String {
     let title: Vec<&str> = problem.scene.title.split_whitespace().collect();
     let title: String = title.join(" ").chars().take(100).collect();
@@ -46,44 +46,45 @@ fn heading(problem: &Problem) -> String {
             format!("contact pair, penalty {penalty:e} stress/length, friction {friction}")
         }
     };
-    format!("** {title}\n** plane {}; contact: {contact}\n", problem.sheet.plane)
+    format!("** {title}\n** plane {}; contact: {contact}\n", problem.model.plane)
 }
 
-fn nodes(sheet: &Worksheet<f64>) -> String {
+fn nodes(model: &Model) -> String {
     let mut text = String::from("*NODE, NSET=NODES\n");
-    for n in 1..=sheet.R() {
-        let [x, y] = [2, 3].map(|axis| field(sheet.node[(n, axis)]));
-        line(&mut text, format!("{n},{x},{y}"));
+    for node in model.node_ids() {
+        let [x, y] = model.at(node).map(field);
+        line(&mut text, format!("{node},{x},{y}"));
     }
     text
 }
 
 /// The triangles of each material, in the order in which the materials come.
-fn elements(problem: &Problem) -> String {
-    let sheet = problem.sheet;
-    let kind = match sheet.plane {
+fn elements(model: &Model) -> String {
+    let kind = match model.plane {
         Plane::Strain => "CPE3",
         Plane::Stress => "CPS3",
     };
     let mut text = String::new();
-    for (k, (e, nu)) in materials(sheet).into_iter().enumerate() {
+    for (k, material) in materials(model).into_iter().enumerate() {
         let name = format!("MATERIAL{}", k + 1);
         line(&mut text, format!("*ELEMENT, TYPE={kind}, ELSET={name}"));
-        for n in (1..=sheet.M()).filter(|&n| (sheet.E[n], sheet.nu[n]) == (e, nu)) {
-            let [a, b, c] = corners(sheet, n);
-            line(&mut text, format!("{n},{a},{b},{c}"));
+        let all = model.triangle_ids().zip(&model.triangles);
+        for (id, triangle) in all.filter(|(_, triangle)| triangle.material == material) {
+            let [a, b, c] = triangle.nodes;
+            line(&mut text, format!("{id},{a},{b},{c}"));
         }
-        line(&mut text, format!("*MATERIAL, NAME={name}\n*ELASTIC\n{},{}", field(e), field(nu)));
+        let [e, nu] = [material.e, material.nu].map(field);
+        line(&mut text, format!("*MATERIAL, NAME={name}\n*ELASTIC\n{e},{nu}"));
         line(&mut text, format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}"));
-        line(&mut text, field(problem.scene.thickness));
+        line(&mut text, field(model.thickness));
     }
     text
 }
 
 /// The distinct materials in order of appearance.
-fn materials(sheet: &Worksheet<f64>) -> Vec<(f64, f64)> {
+fn materials(model: &Model) -> Vec<Material> {
     let mut found = Vec::new();
-    for material in sheet.E.iter().copied().zip(sheet.nu.iter().copied()) {
+    for material in model.triangles.iter().map(|triangle| triangle.material) {
         if !found.contains(&material) {
             found.push(material);
         }
@@ -91,20 +92,18 @@ fn materials(sheet: &Worksheet<f64>) -> Vec<(f64, f64)> {
     found
 }
 
-fn corners(sheet: &Worksheet<f64>, n: usize) -> [usize; 3] {
-    [0, 1, 2].map(|k| sheet.EL[(n, sheet.ind_1 + k)])
-}
-
-/// The equations. ccx knows homogeneous ones only: a constant is the held displacement of a node of its own, in x.
-fn equation_cards(sheet: &Worksheet<f64>, equations: &[Equation]) -> String {
+/// The equations. ccx knows homogeneous ones only: a constant is the prescribed displacement, in x,
+/// of a node of its own.
+fn equation_cards(model: &Model, equations: &[Equation]) -> String {
     let mut text = String::new();
-    let mut own = sheet.R();
+    let mut nodes = model.nodes.len();
     for Equation { terms, constant } in equations {
         let mut terms = terms.clone();
         if *constant != 0.0 {
-            own += 1;
+            let own = NodeId::new(nodes);
+            nodes += 1;
             line(&mut text, format!("*NODE\n{own},0,0\n*BOUNDARY\n{own},1,1,{}", field(-constant)));
-            terms.push(Term { node: own, direction: 0, coefficient: 1.0 });
+            terms.push(Term { dof: own.x(), coefficient: 1.0 });
         }
         line(&mut text, format!("*EQUATION\n{}", terms.len()));
         for some in terms.chunks(TERMS_ON_A_LINE) {
@@ -116,19 +115,21 @@ fn equation_cards(sheet: &Worksheet<f64>, equations: &[Equation]) -> String {
 }
 
 fn term(term: &Term) -> String {
-    format!("{},{},{}", term.node, term.direction + 1, field(term.coefficient))
+    format!("{},{},{}", term.dof.node(), direction(term.dof), field(term.coefficient))
 }
 
-/// The two surfaces and the pair. Both surfaces are made of element faces: with a slave surface of nodes ccx knows no area for a
-/// node.
-fn pair_cards(sheet: &Worksheet<f64>, pair: &Pair) -> Result<String, InputError> {
-    let slave = surface(sheet, "SLAVE", |[a, b]| {
-        let on = |n: usize| sheet.cnt.iter().any(|c| *c == n);
-        on(a) && on(b)
-    })?;
-    let master = surface(sheet, "MASTER", |edge| {
-        let ends = |e: &usize| [sheet.elem[(*e, 6)], sheet.elem[(*e, 7)]];
-        sheet.trg.iter().map(ends).any(|[a, b]| edge == [a, b] || edge == [b, a])
+/// The number by which ccx knows the direction of a degree of freedom: 1 for x, 2 for y.
+fn direction(dof: Dof) -> usize {
+    dof.direction() + 1
+}
+
+/// The two surfaces and the pair. Both surfaces are made of element faces: with a slave surface of
+/// nodes ccx knows no area for a node.
+fn pair_cards(model: &Model, pair: &Pair) -> Result<String, InputError> {
+    let slave =
+        surface(model, "SLAVE", |side| side.iter().all(|node| model.contact.nodes.contains(node)))?;
+    let master = surface(model, "MASTER", |side| {
+        model.target_edges().any(|edge| unordered(edge.nodes) == unordered(side))
     })?;
     let mut text = slave + &master + "*SURFACE INTERACTION, NAME=CONTACT\n";
     line(&mut text, "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR".into());
@@ -142,18 +143,18 @@ fn pair_cards(sheet: &Worksheet<f64>, pair: &Pair) -> Result<String, InputError>
     Ok(text)
 }
 
-/// The faces of triangles whose edges `wanted` takes, as a surface.
+/// The faces of triangles whose sides `wanted` takes, as a surface.
 fn surface(
-    sheet: &Worksheet<f64>,
+    model: &Model,
     name: &str,
-    wanted: impl Fn([usize; 2]) -> bool,
+    wanted: impl Fn([NodeId; 2]) -> bool,
 ) -> Result<String, InputError> {
     let mut text = format!("*SURFACE, NAME={name}, TYPE=ELEMENT\n");
     let mut faces = 0;
-    for n in 1..=sheet.M() {
-        let corners = corners(sheet, n);
+    for (id, triangle) in model.triangle_ids().zip(&model.triangles) {
+        let corners = triangle.nodes;
         for k in (0..3).filter(|&k| wanted([corners[k], corners[(k + 1) % 3]])) {
-            line(&mut text, format!("{n},S{}", k + 1));
+            line(&mut text, format!("{id},S{}", k + 1));
             faces += 1;
         }
     }
@@ -164,30 +165,33 @@ fn surface(
     Ok(text)
 }
 
-/// The displacements that S holds.
-fn restraints(problem: &Problem) -> String {
+/// The displacements that are restrained.
+fn restraints(model: &Model) -> String {
     let mut text = String::from("*BOUNDARY\n");
-    for e in (0..problem.sheet.S.rows()).filter(|&e| problem.sheet.S[e + 1] == 1) {
-        let (node, direction) = (e / 2 + 1, e % 2 + 1);
+    for dof in model.all_dofs().filter(|dof| model.is_restrained(*dof)) {
+        let (node, direction) = (dof.node(), direction(dof));
         line(&mut text, format!("{node},{direction},{direction}"));
     }
     text
 }
 
-/// One static step with the loads on the equations that S leaves free.
+/// One static step with the loads on the displacements that are not restrained.
 fn step(problem: &Problem) -> String {
     let mut text = String::from("*STEP\n*STATIC\n");
     if let Contact::Pair(_) = problem.contact {
-        // A tenth of the load first: from the whole of it at once ccx may settle on another contact zone.
+        // A tenth of the load first: from the whole of it at once ccx may settle on another contact
+        // zone.
         line(&mut text, "0.1,1".into());
     }
-    for (e, force) in problem.scene.load.iter().enumerate() {
-        if *force != 0.0 && problem.sheet.S[e + 1] == 0 {
-            line(&mut text, format!("*CLOAD\n{},{},{}", e / 2 + 1, e % 2 + 1, field(*force)));
+    let model = problem.model;
+    for (dof, force) in model.all_dofs().zip(model.load.iter()) {
+        if *force != 0.0 && !model.is_restrained(dof) {
+            let (node, direction) = (dof.node(), direction(dof));
+            line(&mut text, format!("*CLOAD\n{node},{direction},{}", field(*force)));
         }
     }
     line(&mut text, "*NODE PRINT, NSET=NODES\nU".into());
-    for k in 1..=materials(problem.sheet).len() {
+    for k in 1..=materials(model).len() {
         line(&mut text, format!("*EL PRINT, ELSET=MATERIAL{k}\nS"));
     }
     text + "*END STEP\n"

@@ -1,21 +1,19 @@
 //! Linear equations between displacements.
 
-use crate::answer::contact::{Iteration, Motion, Tie};
-use crate::paper::mirror::Worksheet;
+use crate::answer::{Constraint, Motion, Step};
+use crate::problem::model::{Dof, Model, NodeId};
 
 /// A coefficient on one displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
-    /// The node, from 1.
-    pub node: usize,
-    /// 0 for x, 1 for y.
-    pub direction: usize,
+    /// The displacement.
+    pub dof: Dof,
     /// Its coefficient.
     pub coefficient: f64,
 }
 
-/// Σ coefficient · displacement = constant. The first term is the dependent one: S restrains it nowhere, and no other equation
-/// has it.
+/// Σ coefficient · displacement = constant. The first term is the dependent one: its displacement
+/// is not restrained, and no other equation has it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equation {
     /// The terms, the dependent one first.
@@ -25,65 +23,70 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// What held in an iteration of a run.
-    pub fn of_iteration(sheet: &Worksheet<f64>, iteration: &Iteration) -> Vec<Equation> {
-        iteration.ties.iter().flat_map(|tie| Equation::of_tie(sheet, tie)).collect()
+    /// The equations that bound contact nodes in a step.
+    pub fn of_step(model: &Model, step: &Step) -> Vec<Equation> {
+        let of = |constraint: &Constraint| Equation::of_constraint(model, constraint);
+        step.constraints.iter().flat_map(of).collect()
     }
 
-    /// A tie: an equation along its normal, or one in each direction that S leaves free.
-    pub fn of_tie(sheet: &Worksheet<f64>, tie: &Tie) -> Vec<Equation> {
-        match tie.motion {
-            Motion::Along(normal, shift) => vec![Equation::along(sheet, tie, normal, shift)],
+    /// The equations of a constraint: one along its normal, or one in each direction in which its
+    /// node is not restrained.
+    pub fn of_constraint(model: &Model, constraint: &Constraint) -> Vec<Equation> {
+        match constraint.motion {
+            Motion::Along(normal, shift) => {
+                vec![Equation::along(model, constraint, normal, shift)]
+            }
             Motion::Both(shift) => [[1.0, 0.0], [0.0, 1.0]]
                 .into_iter()
                 .zip(shift)
-                .enumerate()
-                .filter(|(direction, _)| sheet.S[2 * tie.node - 1 + direction] == 0)
-                .map(|(_, (normal, shift))| Equation::along(sheet, tie, normal, shift))
+                .zip(constraint.node.dofs())
+                .filter(|(_, dof)| !model.is_restrained(*dof))
+                .map(|((normal, shift), _)| Equation::along(model, constraint, normal, shift))
                 .collect(),
         }
     }
 
-    /// n·u_c − Σ w n·u_t = `constant`: first the contact node's free components, the larger one of the normal before the other.
-    fn along(sheet: &Worksheet<f64>, tie: &Tie, normal: [f64; 2], constant: f64) -> Equation {
+    /// n·u_c − Σ w n·u_t = `constant`: first those components of the contact node that are not
+    /// restrained, the larger one of the normal before the other.
+    fn along(model: &Model, constraint: &Constraint, normal: [f64; 2], constant: f64) -> Equation {
         let larger = usize::from(normal[1].abs() > normal[0].abs());
         let directions = [larger, 1 - larger].into_iter().filter(|&d| normal[d] != 0.0);
-        let of_node = |node: usize, weight: f64| {
+        let of_node = |node: NodeId, weight: f64| {
             directions.clone().map(move |direction| Term {
-                node,
-                direction,
+                dof: node.dofs()[direction],
                 coefficient: weight * normal[direction],
             })
         };
-        let held = |term: &Term| sheet.S[2 * term.node - 1 + term.direction] == 1;
-        let own = of_node(tie.node, 1.0).filter(|term| !held(term));
-        let mates = tie.weights.iter().filter(|(_, weight)| *weight != 0.0);
-        let mates = mates.flat_map(|&(mate, weight)| of_node(mate, -weight));
-        Equation { terms: own.chain(mates).collect(), constant }
+        let own = of_node(constraint.node, 1.0).filter(|term| !model.is_restrained(term.dof));
+        let masters = constraint.masters.iter().filter(|(_, weight)| *weight != 0.0);
+        let masters = masters.flat_map(|&(master, weight)| of_node(master, -weight));
+        Equation { terms: own.chain(masters).collect(), constant }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::paper::mirror::Reading;
     use crate::problem::scene::Scene;
 
-    /// Terms (node, direction, coefficient) and the constant.
+    /// Terms (number of the node, direction, coefficient) and the constant.
     type Plain = (Vec<(usize, usize, f64)>, f64);
 
-    /// The equations of one tie of node 11 of `two-blocks` (free in x and y) or 10 (held in x).
+    /// The equations of a constraint of node 11 of `two-blocks`, which is free in x and y, or of
+    /// node 10, which is restrained in x.
     fn equations(node: usize, motion: Motion) -> Vec<Plain> {
-        let sheet = Scene::open("two-blocks").unwrap().worksheet(&Reading::default()).unwrap();
-        let tie = Tie { node, weights: vec![(7, 0.25), (8, 0.75), (9, 0.0)], motion };
-        let terms = |equation: &Equation| {
-            equation.terms.iter().map(|t| (t.node, t.direction, t.coefficient)).collect()
-        };
-        Equation::of_tie(&sheet, &tie).iter().map(|e| (terms(e), e.constant)).collect()
+        let masters = [(7, 0.25), (8, 0.75), (9, 0.0)];
+        let masters = masters.map(|(number, weight)| (NodeId::from_number(number), weight));
+        let node = NodeId::from_number(node);
+        let constraint = Constraint { node, masters: masters.to_vec(), motion };
+        let term = |t: &Term| (t.dof.node().number(), t.dof.direction(), t.coefficient);
+        let plain = |e: &Equation| (e.terms.iter().map(term).collect(), e.constant);
+        let scene = Scene::open("two-blocks").unwrap();
+        Equation::of_constraint(&scene.model, &constraint).iter().map(plain).collect()
     }
 
     #[test]
-    fn a_tie_of_both_components_is_an_equation_in_each_free_direction() {
+    fn a_constraint_of_both_components_is_an_equation_in_each_free_direction() {
         let x = (vec![(11, 0, 1.0), (7, 0, -0.25), (8, 0, -0.75)], 0.5);
         let y = (vec![(11, 1, 1.0), (7, 1, -0.25), (8, 1, -0.75)], 2.0);
         assert_eq!(equations(11, Motion::Both([0.5, 2.0])), [x, y]);
@@ -91,13 +94,13 @@ mod tests {
     }
 
     #[test]
-    fn a_tie_along_a_normal_depends_on_its_larger_free_component() {
+    fn a_constraint_along_a_normal_depends_on_its_larger_free_component() {
         let along = |node| equations(node, Motion::Along([0.6, -0.8], 0.1));
-        let mates =
+        let masters =
             [(7, 1, 0.2), (7, 0, -0.15), (8, 1, 0.6000000000000001), (8, 0, -0.44999999999999996)];
-        let free = [&[(11, 1, -0.8), (11, 0, 0.6)], &mates[..]].concat();
+        let free = [&[(11, 1, -0.8), (11, 0, 0.6)], &masters[..]].concat();
         assert_eq!(along(11), [(free, 0.1)]);
-        let held = [&[(10, 1, -0.8)], &mates[..]].concat();
-        assert_eq!(along(10), [(held, 0.1)]);
+        let restrained = [&[(10, 1, -0.8)], &masters[..]].concat();
+        assert_eq!(along(10), [(restrained, 0.1)]);
     }
 }

@@ -1,7 +1,8 @@
 //! Displacements and stresses.
 
-use crate::answer::contact::Outcome;
-use crate::problem::element::Plane;
+use crate::answer::Solution;
+use crate::problem::element::{Plane, State};
+use crate::problem::model::Triangle;
 
 /// Displacements and stresses.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,21 +19,20 @@ impl Fields {
         Fields { u: vec![[0.0; 2]; nodes], sigma: vec![[0.0; 6]; triangles] }
     }
 
-    /// The result of a run by this program.
-    pub fn of(outcome: &Outcome) -> Self {
-        let sheet = &outcome.sheet;
-        let states = outcome.elements.iter().zip(sheet.nu.iter());
-        let stresses = states.map(|(state, nu)| {
+    /// The displacements and stresses of a solution by this program.
+    pub fn of(solution: &Solution) -> Self {
+        let model = &solution.model;
+        let stress = |(state, triangle): (&State, &Triangle)| {
             let [x, y, xy] = state.sigma.into();
-            let z = match sheet.plane {
-                Plane::Strain => nu * (x + y),
+            let z = match model.plane {
+                Plane::Strain => triangle.material.nu * (x + y),
                 Plane::Stress => 0.0,
             };
             [x, y, z, xy, 0.0, 0.0]
-        });
+        };
         Fields {
-            sigma: stresses.collect(),
-            u: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
+            sigma: solution.elements.iter().zip(&model.triangles).map(stress).collect(),
+            u: solution.displacements(),
         }
     }
 

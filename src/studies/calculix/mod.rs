@@ -1,24 +1,28 @@
-//! CalculiX beside this program: an input deck that `ccx` runs unchanged, and its results read back.
+//! CalculiX beside this program: an input deck that `ccx` runs unchanged, and its results read
+//! back.
 //!
 //! ```text
-//!  Scene --> contact::run --> Outcome --> Problem --deck--> job.inp --ccx--> job.dat --parse--> Fields --+
-//!                               |                                                                        +--> Comparison
-//!                               +-------------------------- Fields --------------------------------------+
+//!  Request --solve--> Solution --> Problem --deck--> job.inp --ccx--> job.dat --parse--> Fields
+//!                        |                                                                 |
+//!                        +------------------ Fields ------------------> Comparison <-------+
 //! ```
 //!
-//! | contact    | in the deck                                                  | what is compared                              |
-//! |------------|--------------------------------------------------------------|-----------------------------------------------|
-//! | `equation` | `*EQUATION`: eq. (1) with the weights of an iteration        | the finite elements and the elimination       |
-//! | `pair`     | `*CONTACT PAIR`, node to surface, linear penalty             | the contact algorithms                        |
+//! | contact    | in the deck                                       | what is compared         |
+//! |------------|---------------------------------------------------|--------------------------|
+//! | `equation` | `*EQUATION`: eq. (1) with the weights of a step   | elements and elimination |
+//! | `pair`     | `*CONTACT PAIR`, node to surface, linear penalty  | the contact algorithms   |
 //!
-//! `equation`: what this program and `ccx` solve is the same, so they agree to the seven digits that `ccx` prints. Under a total
-//! load that is one deck, the last iteration's. Under a stepped load the ties change from increment to increment, and no deck can
-//! change its equations: one deck for each contact state that was met, with the whole load, and their sum, each with its share of
-//! the iterations.
+//! `equation`: what this program and `ccx` solve is the same, so they agree to the seven digits
+//! that `ccx` prints. Under a total load that is one deck, the last step's. Under a stepped load
+//! the constraints change from increment to increment, and no deck can change its equations: there
+//! is one deck for each contact state that came, with the whole load, and the solution is their
+//! sum, each with its share of the steps.
 //!
-//! `pair`: they differ by the penalty, by what each takes for contact, and by the normal: `ccx` pushes along that of the target's face,
-//! `unilateral` along one that turns from face to face. On the strand the latter is what is left when the penalty grows: with the
-//! faces' normals in `*EQUATION`s `ccx` has 23.5475 MPa in the block, with a pair of penalty 1e9 MPa/mm 23.5474, `unilateral` 24.10.
+//! `pair`: they differ by the penalty, by what each takes for contact, and by the normal: `ccx`
+//! pushes along that of the target's face, `unilateral` along one that turns from face to face. On
+//! the strand the latter is what is left when the penalty grows: with the faces' normals in
+//! `*EQUATION`s `ccx` has 23.5475 MPa in the block, with a pair of penalty 1e9 MPa/mm 23.5474,
+//! `unilateral` 24.10.
 //!
 //! CPS3 is no oracle for plane stress: its triangles share their change of thickness at nodes.
 //!

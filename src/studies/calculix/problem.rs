@@ -1,10 +1,11 @@
 //! What a deck describes: the scene, and how its bodies touch.
 
 use super::equation::Equation;
-use crate::answer::contact::Outcome;
+use crate::answer::Solution;
 use crate::choices;
 use crate::error::InputError;
-use crate::paper::mirror::{Schedule, Worksheet};
+use crate::paper::mirror::Schedule;
+use crate::problem::model::{Edge, Model};
 use crate::problem::modelling::{Friction, Variant};
 use crate::problem::scene::Scene;
 
@@ -17,12 +18,13 @@ choices! {
         Pair = "pair",
     }
 }
+
 /// What a deck describes.
 pub struct Problem<'a> {
-    /// The scene.
+    /// The scene, which gives the title.
     pub scene: &'a Scene,
-    /// The paper's arrays.
-    pub sheet: &'a Worksheet<f64>,
+    /// The scene's model under the reading that was asked for.
+    pub model: &'a Model,
     /// How the bodies touch.
     pub contact: &'a Contact,
 }
@@ -54,26 +56,27 @@ pub struct Part {
 }
 
 impl Contact {
-    /// The problems whose sum a run is. A run with total load is its last iteration. A run with stepped load is the sum of its
-    /// increments: each contact state that it met, with the whole load, times the share of the iterations that it stood. The last
-    /// iteration's state comes last.
+    /// The problems whose sum a solution is. With total load that is its last step. With stepped
+    /// load it is the sum of the increments: each contact state that came, with the whole load,
+    /// times its share of the steps. The last step's state comes last.
     ///
     /// # Errors
-    /// The variant `printed`, which ties nothing.
-    pub fn parts(outcome: &Outcome) -> Result<Vec<Part>, InputError> {
-        if outcome.variant == Variant::Printed {
+    /// The variant is `printed`, which constrains nothing.
+    pub fn parts(solution: &Solution) -> Result<Vec<Part>, InputError> {
+        if solution.request.variant == Variant::Printed {
             let what = "the variant printed adds stiffness and ties nothing: there are no equations to write";
             let mend = "choose tied, stepped or unilateral, or --contact pair";
             return Err(InputError::new("--variant", what, mend));
         }
-        let carried = match outcome.schedule {
-            Schedule::Total => outcome.iterations.len() - 1..outcome.iterations.len(),
-            Schedule::Stepped => 0..outcome.iterations.len(),
+        let steps = solution.steps.len();
+        let carried = match solution.request.schedule() {
+            Schedule::Total => steps - 1..steps,
+            Schedule::Stepped => 0..steps,
         };
         let share = 1.0 / carried.len() as f64;
         let mut states: Vec<(Vec<Equation>, f64)> = Vec::new();
-        for iteration in &outcome.iterations[carried] {
-            let equations = Equation::of_iteration(&outcome.sheet, iteration);
+        for step in &solution.steps[carried] {
+            let equations = Equation::of_step(&solution.model, step);
             let met = states.iter().position(|(other, _)| *other == equations);
             let before = met.map_or(0.0, |k| states.remove(k).1);
             states.push((equations, before + share));
@@ -84,31 +87,31 @@ impl Contact {
 }
 
 impl Pair {
-    /// Penalty times edge length over elastic modulus, unless a penalty is given: the manual advises 5 to 50 times the modulus,
-    /// in mm. With more, ccx takes many more iterations, and may settle on another contact zone.
+    /// Penalty times edge length over elastic modulus, unless a penalty is given: the manual
+    /// advises 5 to 50 times the modulus, in mm. With more, ccx takes many more iterations, and may
+    /// settle on another contact zone.
     const STIFFNESS: f64 = 10.0;
 
-    /// A pair with `penalty`, or with one that suits the scene: 10 E / h, E the largest modulus and h the mean length of
-    /// the target's edges.
-    pub fn new(sheet: &Worksheet<f64>, penalty: Option<f64>, friction: Friction) -> Self {
+    /// A pair with `penalty`, or with one that suits the model: 10 E / h, E the largest modulus and
+    /// h the mean length of the target's edges.
+    pub fn new(model: &Model, penalty: Option<f64>, friction: Friction) -> Self {
         let suits = || {
-            let modulus = sheet.E.iter().fold(0.0, |m: f64, e| m.max(*e));
-            Self::STIFFNESS * modulus / mean_edge(sheet)
+            let moduli = model.triangles.iter().map(|triangle| triangle.material.e);
+            Self::STIFFNESS * moduli.fold(0.0, f64::max) / mean_edge(model)
         };
         Pair { penalty: penalty.unwrap_or_else(suits), friction }
     }
 }
 
 /// Mean length of the target's edges; 1 where there is none.
-fn mean_edge(sheet: &Worksheet<f64>) -> f64 {
-    let count = sheet.trg.rows();
+fn mean_edge(model: &Model) -> f64 {
+    let count = model.contact.target.len();
     if count == 0 {
         return 1.0;
     }
-    let length = |edge: &usize| {
-        let [a, b] = [6, 7].map(|column| sheet.elem[(*edge, column)]);
-        let [dx, dy] = [2, 3].map(|axis| sheet.node[(b, axis)] - sheet.node[(a, axis)]);
-        dx.hypot(dy)
+    let length = |edge: &Edge| {
+        let [[ax, ay], [bx, by]] = edge.nodes.map(|node| model.at(node));
+        (bx - ax).hypot(by - ay)
     };
-    sheet.trg.iter().map(length).sum::<f64>() / count as f64
+    model.target_edges().map(length).sum::<f64>() / count as f64
 }

@@ -14,12 +14,13 @@ enum Block {
     Other,
 }
 
-/// Reads the displacements of `nodes` nodes and the stresses of `triangles` triangles; of several increments the last.
+/// Reads the displacements of `nodes` nodes and the stresses of `triangles` triangles; of several
+/// increments the last.
 ///
-/// A plane triangle has two integration points across the thickness: their mean.
+/// A plane triangle has two integration points across the thickness: its stress is their mean.
 ///
 /// # Errors
-/// A node or a triangle that is missing; what is no number.
+/// A node or a triangle is missing; something is no number.
 pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields, InputError> {
     let mut u = vec![None; nodes];
     let mut stresses = vec![Points::default(); triangles];
@@ -52,7 +53,7 @@ pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields, Input
 struct Points(Vec<[f64; 6]>);
 
 impl Points {
-    /// Point 1 begins a new increment.
+    /// Adds what is printed of a point; point 1 begins a new increment.
     fn set(&mut self, point: usize, values: [f64; 6]) {
         if point == 1 {
             self.0.clear();
@@ -95,7 +96,8 @@ fn row<const I: usize, const V: usize>(
     Ok((numbers[0], indices, std::array::from_fn(|k| values[k])))
 }
 
-/// A finite number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent has three digits.
+/// A finite number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent has three
+/// digits.
 fn float(word: &str) -> Option<f64> {
     let plain = word.parse::<f64>().ok();
     let short = || {

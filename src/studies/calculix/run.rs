@@ -9,7 +9,7 @@ use super::problem::{Part, Problem};
 use super::results::parse;
 use crate::error::InputError;
 use crate::files;
-use crate::paper::mirror::Worksheet;
+use crate::problem::model::Model;
 use crate::problem::scene::Scene;
 
 /// How many of the last lines of a failed run are shown.
@@ -26,19 +26,15 @@ pub struct Ran {
 /// Runs `program` on a deck for each part and sums the results with the parts' shares.
 ///
 /// # Errors
-/// No such program; one that fails, with the last lines of its output; results that cannot be read; a pair whose surfaces bound
-/// no triangle.
-pub fn run(
-    program: &str,
-    scene: &Scene,
-    sheet: &Worksheet<f64>,
-    parts: &[Part],
-) -> Result<Ran, InputError> {
+/// There is no such program, or it fails, with the last lines of its output; its results cannot be
+/// read; a pair's surfaces bound no triangle.
+pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Result<Ran, InputError> {
     let version = version(program)?;
-    let mut fields = Fields::zero(sheet.R(), sheet.M());
+    let (nodes, triangles) = (model.nodes.len(), model.triangles.len());
+    let mut fields = Fields::zero(nodes, triangles);
     for Part { contact, share } in parts {
-        let printed = print(program, &deck(&Problem { scene, sheet, contact })?)?;
-        fields.add(*share, &parse(&printed, sheet.R(), sheet.M())?);
+        let printed = print(program, &deck(&Problem { scene, model, contact })?)?;
+        fields.add(*share, &parse(&printed, nodes, triangles)?);
     }
     Ok(Ran { version, fields })
 }
@@ -65,7 +61,7 @@ fn version(program: &str) -> Result<String, InputError> {
     Ok(text(&output).split_whitespace().last().unwrap_or("unknown").to_string())
 }
 
-/// One thread: sums of several come in any order.
+/// Starts `program` on one thread: with several, sums come in any order.
 fn start(program: &str, args: &[&str], folder: &Path) -> Result<Output, InputError> {
     let mut command = Command::new(program);
     command.args(args).current_dir(folder).env("OMP_NUM_THREADS", "1");

@@ -1,12 +1,14 @@
-//! Speed against accuracy: what each rung of the ladder and each of the paper's own knobs costs, and what it gives.
+//! Speed against accuracy: what each number type and solver and each of the paper's own knobs
+//! costs, and what it gives.
 //!
 //! ```text
-//!  Knob --trials--> Trial (a scene, a variant, an arithmetic) --measure--> seconds, bytes, Outcome
-//!                                                                            |
-//!          words <-- Section (rows, orders of convergence) <-- errors, pareto, order
+//!  Request, Knob --trials--> Trial --> Request --measure--> seconds, bytes, Solution
+//!                                                              |
+//!  words <-- Section (rows, orders of convergence) <-- errors, pareto, order
 //! ```
 //!
-//! Everything but times, peak memory and the Pareto front, which is drawn from the times, is the same on every run.
+//! Everything but times, peak memory and the Pareto front, which is drawn from the times, is the
+//! same on every run.
 
 mod accuracy;
 mod errors;
@@ -14,14 +16,16 @@ mod measure;
 mod order;
 mod pareto;
 pub mod peak;
+mod rows;
 mod trials;
 mod words;
 
 pub use accuracy::{Attempt, Reached, solve_to};
 pub use errors::Errors;
-pub use measure::{Options, Row, Section, Trade, measure};
+pub use measure::{Options, measure};
 pub use order::Order;
 pub use pareto::pareto;
+pub use rows::{Row, Section, Trade};
 pub use trials::{Against, Setting, Trial, find, trials};
 
 use crate::choices;
@@ -35,7 +39,7 @@ choices! {
         Solver = "solver",
         /// The element size.
         Mesh = "mesh",
-        /// The tolerance of `c_cnt`.
+        /// The tolerance of the contact search.
         Tolerance = "c_tll",
         /// The number of iterations, or of steps.
         Iterations = "iterations",

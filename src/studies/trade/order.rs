@@ -1,7 +1,9 @@
-//! The order of convergence, from a ladder of meshes each of half the element size of the one before, the true answer unknown.
+//! The order of convergence, from meshes each of half the element size of the one before, the true
+//! answer being unknown.
 //!
-//! Where the error is C·h^p, differences between neighbours d_l = |q_l − q_(l+1)| fall by 2^p from mesh to mesh, whatever the
-//! truth: p is the slope of a line fitted to log2 d_l, and what is left beyond the finest mesh is d_last / (2^p − 1).
+//! Where the error is C·h^p, differences between neighbours d_l = |q_l − q_(l+1)| fall by 2^p from
+//! mesh to mesh, whatever the truth: p is the slope of a line fitted to log2 d_l, and what is left
+//! beyond the finest mesh is d_last / (2^p − 1).
 
 use serde::Serialize;
 
@@ -10,18 +12,20 @@ use serde::Serialize;
 pub struct Order {
     /// What converges.
     pub quantity: &'static str,
-    /// Differences between neighbouring meshes, relative to the finest one's value, the coarsest first.
+    /// Differences between neighbouring meshes, relative to the finest one's value, the coarsest
+    /// first.
     pub differences: Vec<f64>,
     /// p; nothing where differences do not fall, or are fewer than two.
     pub order: Option<f64>,
-    /// How far the farthest difference lies from the fitted line, as a factor; nothing of two, which every line passes through.
+    /// How far the farthest difference lies from the fitted line, as a factor; nothing of two,
+    /// which a line always passes through.
     pub scatter: Option<f64>,
     /// Estimated relative error of the finest mesh.
     pub left: Option<f64>,
 }
 
 impl Order {
-    /// Fits p.
+    /// Fits p to `differences`.
     pub fn fit(quantity: &'static str, differences: Vec<f64>) -> Self {
         let falling = differences.len() > 1
             && differences.windows(2).all(|d| d[1] < d[0])

@@ -1,7 +1,7 @@
 //! The most memory that a process held.
 
-/// Most bytes that this process had in memory at once, its program included; nothing where the system (Linux: `VmHWM` of
-/// `/proc/self/status`) does not tell.
+/// Most bytes that this process had in memory at once, its program included; nothing where the
+/// system (Linux: `VmHWM` of `/proc/self/status`) does not tell.
 pub fn of_this_process() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -1,20 +1,23 @@
 //! What is tried of each knob.
 
 use super::Knob;
+use crate::answer::Request;
 use crate::error::InputError;
 use crate::numbers::solve::{Arithmetic, ScalarName, Solver, cost};
-use crate::paper::mirror::{NodeTable, Reading};
+use crate::paper::mirror::NodeTable;
 use crate::problem::modelling::{Coupling, StatusRule, Variant};
 use crate::problem::scene::{Scene, symmetry};
 
 /// Seconds beyond which exact numbers are left out.
 const EXACT: f64 = 10.0;
 
-/// Equations beyond which no finer mesh is tried, and meshes that are tried at most.
+/// Degrees of freedom beyond which no finer mesh is tried.
 const EQUATIONS: usize = 150_000;
+
+/// How many meshes are tried at most.
 const MESHES: usize = 5;
 
-/// The tolerances, in the scene's unit of length.
+/// The tolerances of the contact search, in the scene's unit of length.
 const TOLERANCES: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 
 /// The numbers of iterations.
@@ -23,12 +26,13 @@ const ITERATIONS: [usize; 9] = [1, 2, 5, 10, 20, 40, 80, 160, 320];
 /// The variants whose knobs are turned.
 const TURNED: [Variant; 2] = [Variant::Tied, Variant::Stepped];
 
-/// How a trial's scene differs from the scene.
+/// How a trial's request differs from the one whose knobs are turned, beside variant and
+/// arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Setting {
     /// Not at all.
     Own,
-    /// `c_tll`, length.
+    /// The tolerance of the contact search, length.
     Tolerance(f64),
     /// The number of iterations.
     Iterations(usize),
@@ -36,17 +40,17 @@ pub enum Setting {
     Status(StatusRule),
     /// The coupling.
     Coupling(Coupling),
-    /// Its mesh, refined so many times.
+    /// The scene with its mesh refined so many times.
     Refined(usize),
-    /// Half of it.
+    /// Half of the scene.
     Half,
 }
 
 /// What a trial's error is measured against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Against {
-    /// The converged answer on the same mesh.
-    Converged,
+    /// The reference solution on the same mesh.
+    Reference,
     /// Another trial of the same knob, by place.
     Trial(usize),
 }
@@ -56,13 +60,13 @@ pub enum Against {
 pub struct Trial {
     /// The knob that is turned.
     pub knob: Knob,
-    /// Where it stands.
-    pub rung: String,
+    /// Where it stands, in words.
+    pub label: String,
     /// What is run.
     pub variant: Variant,
     /// In which numbers, by which solver.
     pub arithmetic: Arithmetic,
-    /// On what.
+    /// What else its request has.
     pub setting: Setting,
     /// What its error is measured against.
     pub against: Against,
@@ -71,31 +75,33 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// The scene that it runs on.
+    /// What it asks for, where everything but the knob is as `request` has it.
     ///
     /// # Errors
-    /// A scene that cannot be refined or halved.
-    pub fn scene(&self, scene: &Scene) -> Result<Scene, InputError> {
-        let mut scene = scene.clone();
+    /// The scene cannot be refined or halved.
+    pub fn request(&self, request: &Request) -> Result<Request, InputError> {
+        let mut request = request.clone().variant(self.variant).arithmetic(self.arithmetic);
         match self.setting {
             Setting::Own => (),
-            Setting::Tolerance(c_tll) => scene.set_c_tll(c_tll),
-            Setting::Iterations(iterations) => scene.iterations = iterations,
-            Setting::Status(rule) => scene.contact.status = rule,
-            Setting::Coupling(coupling) => scene.contact.coupling = coupling,
+            Setting::Tolerance(tolerance) => request.tolerance = Some(tolerance),
+            Setting::Iterations(iterations) => request.iterations = iterations,
+            Setting::Status(rule) => request.contact.status = rule,
+            Setting::Coupling(coupling) => request.contact.coupling = coupling,
             Setting::Refined(times) => {
                 for _ in 0..times {
-                    scene = scene.refined()?.ok_or_else(no_mesh)?.scene;
+                    request.scene = request.scene.refined()?.ok_or_else(no_mesh)?.scene;
                 }
             }
-            Setting::Half => scene = symmetry::half(&scene).ok_or_else(no_half)?.scene,
+            Setting::Half => {
+                request.scene = symmetry::half(&request.scene).ok_or_else(no_half)?.scene;
+            }
         }
-        Ok(scene)
+        Ok(request)
     }
 
     /// Knob, variant and place: a name that no other trial has.
     pub fn name(&self) -> String {
-        format!("{}/{}/{}", self.knob, self.variant, self.rung)
+        format!("{}/{}/{}", self.knob, self.variant, self.label)
     }
 }
 
@@ -109,103 +115,117 @@ fn no_half() -> InputError {
 }
 
 /// The trial of that name ([`Trial::name`]).
-pub fn find(scene: &Scene, reading: &Reading, name: &str) -> Option<Trial> {
-    let all = Knob::ALL.iter().flat_map(|knob| trials(scene, reading, *knob));
+pub fn find(request: &Request, name: &str) -> Option<Trial> {
+    let all = Knob::ALL.iter().flat_map(|knob| trials(request, *knob));
     all.into_iter().find(|trial| trial.name() == name)
 }
 
-/// Everything to measure of a knob; nothing where the scene does not have it.
-pub fn trials(scene: &Scene, reading: &Reading, knob: Knob) -> Vec<Trial> {
-    let contact = scene.target().is_some();
+/// Everything to measure of a knob of `request`; nothing where its scene does not have the knob.
+pub fn trials(request: &Request, knob: Knob) -> Vec<Trial> {
+    let contact = request.scene.model.target().is_some();
     match knob {
-        Knob::Arithmetic => arithmetic(scene, reading),
-        Knob::Solver => solvers(scene),
-        Knob::Mesh => meshes(scene),
-        Knob::Symmetry => halves(scene, contact),
+        Knob::Arithmetic => arithmetic(request),
+        Knob::Solver => solvers(request),
+        Knob::Mesh => meshes(&request.scene),
+        Knob::Symmetry => halves(request, contact),
         _ if !contact => Vec::new(),
-        Knob::Tolerance => turned(knob, tolerances(scene)),
-        Knob::Iterations => turned(knob, iterations(scene)),
-        Knob::Status => turned(knob, statuses(scene)),
-        Knob::Coupling => couplings(scene),
+        Knob::Tolerance => turned(knob, tolerances(request)),
+        Knob::Iterations => turned(knob, iterations(request)),
+        Knob::Status => turned(knob, statuses(request)),
+        Knob::Coupling => couplings(request),
     }
 }
 
-/// The quickest rung that rounds as little as Mathcad does: that in which knobs are turned.
+/// The quickest arithmetic that rounds as little as Mathcad does: that in which knobs are turned.
 fn quick() -> Arithmetic {
-    rung(ScalarName::F64, Solver::SparseCholesky)
+    sparse(ScalarName::F64)
 }
 
-fn rung(scalar: ScalarName, solver: Solver) -> Arithmetic {
+/// Numbers of type `scalar`, solved by sparse Cholesky.
+pub(super) fn sparse(scalar: ScalarName) -> Arithmetic {
+    by(scalar, Solver::SparseCholesky)
+}
+
+/// Conjugate gradients in f64 that stop at a relative residual of `tol`.
+pub(super) fn cg(tol: f64) -> Arithmetic {
+    Arithmetic { tol: Some(tol), ..by(ScalarName::F64, Solver::Cg) }
+}
+
+fn by(scalar: ScalarName, solver: Solver) -> Arithmetic {
     Arithmetic { scalar, solver: Some(solver), ..Arithmetic::default() }
 }
 
-/// The variant on which rungs are measured: the scene's; `unilateral` has one rung only.
-fn of_the_ladder(scene: &Scene) -> Variant {
-    if scene.variant == Variant::Unilateral { Variant::Stepped } else { scene.variant }
+/// The variant on which arithmetics are measured: that of the request; `unilateral` has one
+/// arithmetic only.
+fn measured_variant(request: &Request) -> Variant {
+    if request.variant == Variant::Unilateral { Variant::Stepped } else { request.variant }
 }
 
 /// Seconds that exact numbers may take.
-pub(super) fn exact_seconds(scene: &Scene, reading: &Reading) -> f64 {
-    let free = scene.sheet().S.iter().filter(|s| **s == 0).count();
-    cost::seconds(free, reading.r5 == NodeTable::NodeN, scene.iterations)
+pub(super) fn exact_seconds(request: &Request) -> f64 {
+    let growing = request.reading.r5 == NodeTable::NodeN;
+    cost::seconds(request.scene.model.free_dofs(), growing, request.iterations)
 }
 
-fn arithmetic(scene: &Scene, reading: &Reading) -> Vec<Trial> {
+fn arithmetic(request: &Request) -> Vec<Trial> {
     use {ScalarName::*, Solver::*};
-    let mut rungs = vec![
-        ("f32", rung(F32, SparseCholesky)),
-        ("f32 factors refined in f64", rung(F64, Refined)),
-        ("f64", rung(F64, SparseCholesky)),
-        ("f64 with a bound", rung(Bounded, SparseCholesky)),
-        ("f64 factors refined in f64x2", rung(F64x2, Refined)),
-        ("f64x2", rung(F64x2, SparseCholesky)),
+    let mut arithmetics = vec![
+        ("f32", sparse(F32)),
+        ("f32 factors refined in f64", by(F64, Refined)),
+        ("f64", sparse(F64)),
+        ("f64 with a bound", sparse(Bounded)),
+        ("f64 factors refined in f64x2", by(F64x2, Refined)),
+        ("f64x2", sparse(F64x2)),
     ];
-    if exact_seconds(scene, reading) <= EXACT {
-        rungs.push(("exact", rung(Exact, SparseCholesky)));
+    if exact_seconds(request) <= EXACT {
+        arithmetics.push(("exact", sparse(Exact)));
     }
-    ladder(Knob::Arithmetic, of_the_ladder(scene), rungs)
+    against_the_last(Knob::Arithmetic, request, arithmetics)
 }
 
-fn solvers(scene: &Scene) -> Vec<Trial> {
+fn solvers(request: &Request) -> Vec<Trial> {
     use {ScalarName::*, Solver::*};
-    let cg = |tol: f64| Arithmetic { tol: Some(tol), ..rung(F64, Cg) };
-    let rungs = vec![
-        ("dense-lu", rung(F64, DenseLu)),
-        ("dense-cholesky", rung(F64, DenseCholesky)),
-        ("sparse-cholesky", rung(F64, SparseCholesky)),
+    let arithmetics = vec![
+        ("dense-lu", by(F64, DenseLu)),
+        ("dense-cholesky", by(F64, DenseCholesky)),
+        ("sparse-cholesky", sparse(F64)),
         ("cg to 1e-4", cg(1e-4)),
         ("cg to 1e-6", cg(1e-6)),
         ("cg to 1e-8", cg(1e-8)),
         ("cg to 1e-10", cg(1e-10)),
         ("cg to 1e-12", cg(1e-12)),
-        ("cg to 16 eps", rung(F64, Cg)),
-        ("f64x2 to compare", rung(F64x2, SparseCholesky)),
+        ("cg to 16 eps", by(F64, Cg)),
+        ("f64x2 to compare", sparse(F64x2)),
     ];
-    ladder(Knob::Solver, of_the_ladder(scene), rungs)
+    against_the_last(Knob::Solver, request, arithmetics)
 }
 
-/// Rungs of one variant, measured against the last.
-fn ladder(knob: Knob, variant: Variant, rungs: Vec<(&str, Arithmetic)>) -> Vec<Trial> {
-    let against = Against::Trial(rungs.len() - 1);
-    let trial = |(rung, arithmetic): (&str, Arithmetic)| Trial {
+/// Arithmetics of one variant, measured against the last.
+fn against_the_last(
+    knob: Knob,
+    request: &Request,
+    arithmetics: Vec<(&str, Arithmetic)>,
+) -> Vec<Trial> {
+    let against = Against::Trial(arithmetics.len() - 1);
+    let trial = |(label, arithmetic): (&str, Arithmetic)| Trial {
         knob,
-        rung: rung.into(),
-        variant,
+        label: label.into(),
+        variant: measured_variant(request),
         arithmetic,
         setting: Setting::Own,
         against,
         own: false,
     };
-    rungs.into_iter().map(trial).collect()
+    arithmetics.into_iter().map(trial).collect()
 }
 
 /// Meshes under `unilateral`, which keeps no dense matrix.
 fn meshes(scene: &Scene) -> Vec<Trial> {
-    let equations = |times: usize| (2 * scene.sheet().R()) << (2 * times);
+    let equations = |times: usize| scene.model.dofs() << (2 * times);
     let count = (1..MESHES).take_while(|times| equations(*times) <= EQUATIONS).count() + 1;
     let trial = |times: usize| Trial {
         knob: Knob::Mesh,
-        rung: format!("h / {}", 1 << times),
+        label: format!("h / {}", 1 << times),
         variant: Variant::Unilateral,
         arithmetic: quick(),
         setting: Setting::Refined(times),
@@ -221,20 +241,20 @@ fn turned(knob: Knob, places: Vec<(String, Setting, bool)>) -> Vec<Trial> {
 }
 
 fn under(knob: Knob, variant: Variant, places: &[(String, Setting, bool)]) -> Vec<Trial> {
-    let trial = |(rung, setting, own): &(String, Setting, bool)| Trial {
+    let trial = |(label, setting, own): &(String, Setting, bool)| Trial {
         knob,
-        rung: rung.clone(),
+        label: label.clone(),
         variant,
         arithmetic: quick(),
         setting: *setting,
-        against: Against::Converged,
+        against: Against::Reference,
         own: *own,
     };
     places.iter().map(trial).collect()
 }
 
-fn tolerances(scene: &Scene) -> Vec<(String, Setting, bool)> {
-    let own = scene.sheet().c_tll;
+fn tolerances(request: &Request) -> Vec<(String, Setting, bool)> {
+    let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
     let mut values = TOLERANCES.to_vec();
     if !values.contains(&own) {
         values.push(own);
@@ -244,24 +264,25 @@ fn tolerances(scene: &Scene) -> Vec<(String, Setting, bool)> {
     values.into_iter().map(place).collect()
 }
 
-fn iterations(scene: &Scene) -> Vec<(String, Setting, bool)> {
+fn iterations(request: &Request) -> Vec<(String, Setting, bool)> {
+    let own = request.iterations;
     let mut values = ITERATIONS.to_vec();
     // One more than the scene's shows what a cycle of two does.
-    values.extend([scene.iterations, scene.iterations + 1]);
+    values.extend([own, own + 1]);
     values.sort_unstable();
     values.dedup();
-    let place = |n: usize| (n.to_string(), Setting::Iterations(n), n == scene.iterations);
+    let place = |n: usize| (n.to_string(), Setting::Iterations(n), n == own);
     values.into_iter().map(place).collect()
 }
 
-fn statuses(scene: &Scene) -> Vec<(String, Setting, bool)> {
-    let own = scene.contact.status;
+fn statuses(request: &Request) -> Vec<(String, Setting, bool)> {
+    let own = request.contact.status;
     let place = |rule: &StatusRule| (rule.to_string(), Setting::Status(*rule), *rule == own);
     StatusRule::ALL.iter().map(place).collect()
 }
 
-fn couplings(scene: &Scene) -> Vec<Trial> {
-    let own = scene.contact.coupling;
+fn couplings(request: &Request) -> Vec<Trial> {
+    let own = request.contact.coupling;
     let place = |c: &Coupling| (c.to_string(), Setting::Coupling(*c), *c == own);
     let places: Vec<_> = Coupling::ALL.iter().map(place).collect();
     let variants = TURNED.into_iter().chain([Variant::Unilateral]);
@@ -269,17 +290,17 @@ fn couplings(scene: &Scene) -> Vec<Trial> {
 }
 
 /// The whole scene, then its half, under each variant.
-fn halves(scene: &Scene, contact: bool) -> Vec<Trial> {
-    if symmetry::half(scene).is_none() {
+fn halves(request: &Request, contact: bool) -> Vec<Trial> {
+    if symmetry::half(&request.scene).is_none() {
         return Vec::new();
     }
-    let own = [of_the_ladder(scene)];
+    let own = [measured_variant(request)];
     let all = [Variant::Tied, Variant::Stepped, Variant::Unilateral];
     let variants: &[Variant] = if contact { &all } else { &own };
     let trial = |(k, variant): (usize, &Variant)| {
-        let trial = |rung: &str, setting, own| Trial {
+        let trial = |label: &str, setting, own| Trial {
             knob: Knob::Symmetry,
-            rung: rung.into(),
+            label: label.into(),
             variant: *variant,
             arithmetic: quick(),
             setting,

@@ -1,10 +1,12 @@
 //! What the tables say, in sentences. No time stands in them: the same on every run.
 
-use super::measure::Row;
+use super::Knob;
+use super::errors::Errors;
 use super::order::Order;
-use super::trials::exact_seconds;
-use super::{Errors, Knob};
-use crate::paper::mirror::Reading;
+use super::rows::Row;
+use super::trials::{cg, exact_seconds, sparse};
+use crate::answer::Request;
+use crate::numbers::solve::{ScalarName, Solver};
 use crate::problem::modelling::Variant;
 use crate::problem::scene::{Scene, symmetry};
 
@@ -12,18 +14,13 @@ use crate::problem::scene::{Scene, symmetry};
 const NOTICEABLE: f64 = 0.01;
 
 /// The answers to a knob's questions.
-pub fn answers(
-    scene: &Scene,
-    reading: &Reading,
-    knob: Knob,
-    rows: &[Row],
-    orders: &[Order],
-) -> Vec<String> {
+pub fn answers(request: &Request, knob: Knob, rows: &[Row], orders: &[Order]) -> Vec<String> {
+    let scene = &request.scene;
     if rows.is_empty() {
         return vec![nothing(knob).into()];
     }
     match knob {
-        Knob::Arithmetic => arithmetic(scene, reading, rows),
+        Knob::Arithmetic => arithmetic(request, rows),
         Knob::Solver => solver(rows),
         Knob::Mesh => mesh(rows, orders),
         Knob::Tolerance => by_variant(rows, |variant, rows| tolerance(scene, variant, rows)),
@@ -47,7 +44,7 @@ fn by_variant(rows: &[Row], of: impl Fn(Variant, &[&Row]) -> Option<String>) -> 
     Variant::ALL.iter().filter_map(sentence).collect()
 }
 
-/// `0.12 %`, or a power of ten where that is shorter.
+/// A share in percent: `0.12 %`, or a power of ten where that is shorter.
 fn percent(x: f64) -> String {
     match 100.0 * x {
         0.0 => "0 %".into(),
@@ -69,32 +66,32 @@ fn both(errors: &Errors) -> String {
     )
 }
 
-fn arithmetic(scene: &Scene, reading: &Reading, rows: &[Row]) -> Vec<String> {
-    let error = |rung: &str| {
-        let row = rows.iter().find(|row| row.rung == rung)?;
+fn arithmetic(request: &Request, rows: &[Row]) -> Vec<String> {
+    let error = |scalar: ScalarName| {
+        let row = rows.iter().find(|row| row.arithmetic == sparse(scalar))?;
         row.error.map(|e| e.displacement)
     };
     let mut sentences = Vec::new();
-    if let (Some(single), Some(double)) = (error("f32"), error("f64")) {
+    if let (Some(single), Some(double)) = (error(ScalarName::F32), error(ScalarName::F64)) {
         sentences.push(format!(
             "Rounding moves displacements by {single:.0e} of the largest in f32, by {double:.0e} in f64; below 1e-16 nothing shows, for \
              rows are compared in f64."
         ));
     }
-    if error("exact").is_none() {
-        let seconds = exact_seconds(scene, reading);
+    if error(ScalarName::Exact).is_none() {
+        let seconds = exact_seconds(request);
         sentences.push(format!("Exact numbers were left out: they may take {seconds:.0e} s here."));
     }
     sentences
 }
 
 fn solver(rows: &[Row]) -> Vec<String> {
-    let errors = |of: &dyn Fn(&Row) -> bool| {
-        let of_rows = rows.iter().filter(|row| of(row) && row.rung != "f64x2 to compare");
-        of_rows.filter_map(|row| row.error.map(|e| e.displacement)).fold(0.0, f64::max)
-    };
-    let direct = errors(&|row| !row.rung.starts_with("cg"));
-    let loose = rows.iter().find(|row| row.rung == "cg to 1e-4").and_then(|row| row.error);
+    // The row in f64x2 is what the others are measured against.
+    let direct = rows.iter().filter(|row| {
+        row.arithmetic.scalar == ScalarName::F64 && row.arithmetic.solver() != Solver::Cg
+    });
+    let direct = direct.filter_map(|row| row.error.map(|e| e.displacement)).fold(0.0, f64::max);
+    let loose = rows.iter().find(|row| row.arithmetic == cg(1e-4)).and_then(|row| row.error);
     let mut sentences =
         vec![format!("Direct solvers differ by {direct:.0e} of the largest displacement at most.")];
     if let Some(loose) = loose {
@@ -153,9 +150,9 @@ fn tolerance(scene: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
     let far = format!(
         " From the converged answer: {} at {}, {} at {}.",
         from(own),
-        own.rung,
+        own.label,
         from(rows[0]),
-        rows[0].rung
+        rows[0].label
     );
     let unit = &scene.units.length;
     let above = rows.iter().rev().find(|row| !row.own).and_then(|row| row.change);
@@ -164,8 +161,8 @@ fn tolerance(scene: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
     });
     Some(format!(
         "{variant}: c_tll = {} {unit} {verdict} small enough: going down to {} moves {}.{far}{above}",
-        own.rung,
-        rows[0].rung,
+        own.label,
+        rows[0].label,
         both(&most)
     ))
 }
@@ -184,14 +181,14 @@ fn iterations(variant: Variant, rows: &[&Row]) -> Option<String> {
     let far = |row: &Row| row.error.map_or("-".into(), |e| percent(e.displacement));
     Some(format!(
         "{variant}: {} iterations {verdict}: {state}; one more moves {}; {} of them move {}. From the converged answer: {} at {}, {} at {}.",
-        own.rung,
+        own.label,
         both(&next),
-        last.rung,
+        last.label,
         both(&change),
         far(own),
-        own.rung,
+        own.label,
         far(last),
-        last.rung
+        last.label
     ))
 }
 
@@ -201,11 +198,11 @@ fn nearest(variant: Variant, rows: &[&Row]) -> Option<String> {
     let best = ran.min_by(|a, b| error(a).unwrap_or(0.0).total_cmp(&error(b).unwrap_or(0.0)))?;
     let listed: Vec<String> = rows
         .iter()
-        .filter_map(|row| error(row).map(|e| format!("{} {}", row.rung, percent(e))))
+        .filter_map(|row| error(row).map(|e| format!("{} {}", row.label, percent(e))))
         .collect();
     let all_same = rows.iter().filter_map(|row| error(row)).all(|e| Some(e) == error(best));
     let verdict =
-        if all_same { "all the same".into() } else { format!("{} is nearest", best.rung) };
+        if all_same { "all the same".into() } else { format!("{} is nearest", best.label) };
     Some(format!("{variant}: {verdict} ({} from the converged answer).", listed.join(", ")))
 }
 

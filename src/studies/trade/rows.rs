@@ -1,0 +1,75 @@
+//! The tables that a measurement fills.
+
+use serde::Serialize;
+
+use super::Knob;
+use super::errors::Errors;
+use super::order::Order;
+use crate::numbers::solve::Arithmetic;
+use crate::problem::modelling::Variant;
+
+/// Speed against accuracy on a scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Trade {
+    /// The scene.
+    pub scene: String,
+    /// Number of its nodes.
+    pub nodes: usize,
+    /// Number of its triangles.
+    pub triangles: usize,
+    /// How many times each trial was run.
+    pub runs: usize,
+    /// What came of each knob.
+    pub sections: Vec<Section>,
+}
+
+/// What came of a knob.
+#[derive(Clone, Debug, Serialize)]
+pub struct Section {
+    /// The knob.
+    pub knob: Knob,
+    /// What errors are measured against, in words.
+    pub against: &'static str,
+    /// Its trials.
+    pub rows: Vec<Row>,
+    /// Orders of convergence, of the element size only.
+    pub orders: Vec<Order>,
+    /// What the rows say, in words.
+    pub answers: Vec<String>,
+}
+
+/// What came of a trial. Times and peaks are this machine's.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Where the knob stood, in words.
+    #[serde(rename = "rung")]
+    pub label: String,
+    /// What was run.
+    pub variant: Variant,
+    /// In which numbers and by which solver; not in the files, where the label tells it.
+    #[serde(skip)]
+    pub arithmetic: Arithmetic,
+    /// Number of degrees of freedom, restrained ones included.
+    pub equations: usize,
+    /// Number of nodes in contact at the end.
+    pub in_contact: Option<usize>,
+    /// Iterations after which the contact state at the end returns; 1 = settled.
+    pub cycle: Option<usize>,
+    /// Median of the times, s.
+    pub seconds: Option<f64>,
+    /// How many times it was run.
+    pub runs: usize,
+    /// The most memory of a process that did nothing else, bytes.
+    pub peak_bytes: Option<u64>,
+    /// How far it is from what the section measures against; nothing of a failure.
+    pub error: Option<Errors>,
+    /// How far it is from the same variant where the scene has the knob; nothing where the scene
+    /// has none of the places.
+    pub change: Option<Errors>,
+    /// Whether the scene has the knob here.
+    pub own: bool,
+    /// Whether no other row of the section is quicker and nearer.
+    pub pareto: bool,
+    /// Why it has no result.
+    pub failure: Option<String>,
+}
