@@ -1,4 +1,5 @@
-//! The iterations that the paper describes (`READING.md` section 6): `printed`, `tied`, `stepped`.
+//! The iterations that the paper describes, `printed`, `tied` and `stepped`
+//! (`listings/READING.md`, section 6).
 //!
 //! - total load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·U = F; node_n = node + U.
 //! - stepped load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n = node + U.

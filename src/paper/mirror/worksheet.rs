@@ -7,7 +7,7 @@ use crate::paper::mathcad::array::{Column, Table};
 use crate::problem::element;
 use crate::problem::element::Plane;
 
-/// The arrays and variables that the listings use without receiving them as arguments (`READING.md` section 1).
+/// The arrays and variables that the listings use without receiving them as arguments (`listings/READING.md`, section 1).
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, reason = "the paper's own names")]
 pub struct Worksheet<T> {
