@@ -50,7 +50,7 @@ enum Trial {
     StrainFormula,
 }
 
-/// Every other reading on a scene, in the order of `READING.md`.
+/// Every other reading on a scene, in the order of `listings/READING.md`, section 4.
 pub fn effects(case: &Case) -> Vec<Effect> {
     let own = case.published_variant();
     let plane = match case.model().plane {

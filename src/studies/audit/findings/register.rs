@@ -1,4 +1,4 @@
-//! The findings.
+//! The findings (`listings/READING.md`, section 5).
 
 use super::{Finding, search, status, stiffness, weights};
 
