@@ -11,7 +11,9 @@ mod common {
     pub mod tolerances;
 }
 
+mod architecture;
 mod bitwise;
+mod citations;
 mod coverage;
 mod findings;
 mod golden;
