@@ -1,5 +1,6 @@
 //! The answer: a request, its solution, and how far its numbers may be from the truth.
 
+mod assessment;
 pub mod contact;
 mod distance;
 mod elimination;
@@ -17,6 +18,7 @@ mod summary;
 mod support;
 mod unilateral;
 
+pub use assessment::{Assessment, Measured};
 pub use distance::{BodyDistance, Distance, distance};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;

@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::contact::Outcome;
 use plane_contact::answer::error::Error;
-use plane_contact::answer::estimates::ErrorBars;
+use plane_contact::answer::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::modelling::Variant;
@@ -65,13 +64,10 @@ fn explain(args: &Args, finding: &Finding) -> Result<(), Error> {
         Some(scene) => Scene::open(scene)?,
         None => finding.scene(),
     };
-    let case = Case::new(scene)?;
+    let case = Case::new(scene);
     let measured = finding.measure(&case);
     if let Some(out) = &args.out {
-        files::write(
-            &out.join(format!("{}.svg", finding.id)),
-            &folder::mesh_picture(&case.scene, &case.sheet),
-        )?;
+        files::write(&out.join(format!("{}.svg", finding.id)), &folder::mesh_picture(&case.scene))?;
     }
     if args.json {
         let row = FindingRow::new(finding, &measured);
@@ -81,7 +77,7 @@ fn explain(args: &Args, finding: &Finding) -> Result<(), Error> {
 }
 
 fn whole(args: &Args) -> Result<(), Error> {
-    let case = Case::new(Scene::open(args.scene.as_deref().unwrap_or("strand"))?)?;
+    let case = Case::new(Scene::open(args.scene.as_deref().unwrap_or("strand"))?);
     let spinner = waiting("auditing");
     let found = audit(&case);
     spinner.finish_and_clear();
@@ -97,22 +93,22 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     files::write(&out.join("audit.txt"), text)?;
     files::write(&out.join("audit.json"), json)?;
     for (finding, _) in &audit.findings {
-        let own = Case::new(finding.scene())?;
-        let picture = folder::mesh_picture(&own.scene, &own.sheet);
+        let own = Case::new(finding.scene());
+        let picture = folder::mesh_picture(&own.scene);
         files::write(&out.join("findings").join(format!("{}.svg", finding.id)), &picture)?;
     }
+    let reference = case.model().target().and_then(|_| case.reference().as_ref().ok());
     for variant in Variant::ALL {
-        if let Ok(outcome) = case.run(*variant) {
-            let converged = case.scene.target().and_then(|_| case.converged().as_ref().ok());
-            let bars = ErrorBars::new(&case.scene, outcome);
-            folder::write(&out.join(variant.name()), &case.scene, outcome, &bars, converged, None)?;
+        if let Ok(solution) = case.run(*variant) {
+            let assessment = Assessment::against(solution, reference);
+            folder::write(&out.join(variant.name()), solution, &assessment, None)?;
         }
     }
-    let runs: Vec<&Outcome> =
-        Variant::ALL.iter().filter_map(|v| case.run(*v).as_ref().ok()).collect();
-    if case.scene.target().is_some() {
-        let runs: Vec<&Outcome> = runs.into_iter().chain(case.converged().as_ref().ok()).collect();
-        files::write(&out.join("pressure.svg"), &pressure::picture(&case.scene, &runs))?;
+    let own = Variant::ALL.iter().filter_map(|v| case.run(*v).as_ref().ok());
+    let runs: Vec<&Solution> = own.chain(reference).collect();
+    if let Some(last) = runs.last().filter(|_| case.model().target().is_some()) {
+        let picture = pressure::picture(&case.scene, &runs, Hertz::of(last).as_ref());
+        files::write(&out.join("pressure.svg"), &picture)?;
     }
     Ok(())
 }

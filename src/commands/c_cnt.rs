@@ -1,7 +1,8 @@
 //! `plane-contact c-cnt`.
 
+use plane_contact::answer::Request;
 use plane_contact::answer::error::Error;
-use plane_contact::paper::mirror::c_cnt;
+use plane_contact::paper::door::Call;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{json, tables};
 
@@ -31,7 +32,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Error> {
     let reading = args.reading.reading.0;
     let scene = Scene::open(&args.scene)?;
-    let sheet = scene.worksheet(&reading)?;
-    let pairs = c_cnt(&sheet, &reading, &sheet.node)?;
-    print(&if args.json { json::pairs(&pairs) } else { tables::pairs(&scene, &sheet, &pairs) })
+    let model = Request::new(&scene).reading(reading).model()?;
+    let call = Call::c_cnt(&model, &reading, &model.nodes)?;
+    print(&if args.json { json::pairs(&call.pairs) } else { tables::pairs(&scene, &model, &call) })
 }

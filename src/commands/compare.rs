@@ -41,21 +41,21 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let Code::Calculix = args.with;
-    let scene = args.deck.scene()?;
-    let outcome = args.deck.solve(&scene)?;
-    let parts = args.deck.parts(&scene, &outcome)?;
+    let solution = args.deck.solve()?;
+    let parts = args.deck.parts(&solution)?;
+    let (scene, model) = (&solution.request.scene, &solution.model);
     let spinner = waiting("running ccx");
-    let ran = calculix::run(&args.ccx, &scene, &outcome.sheet, &parts);
+    let ran = calculix::run(&args.ccx, scene, model, &parts);
     spinner.finish_and_clear();
     let ran = ran?;
     let compared = Compared {
-        scene: &scene,
-        sheet: &outcome.sheet,
-        variant: outcome.variant,
+        scene,
+        model,
+        variant: solution.request.variant,
         contact: &parts.last().expect("a run has an iteration").contact,
         decks: parts.len(),
         version: &ran.version,
-        comparison: &Comparison::new(&scene, Fields::of(&outcome), ran.fields),
+        comparison: &Comparison::new(model, Fields::of(&solution), ran.fields),
     };
     finish(args, &compared)
 }

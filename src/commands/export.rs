@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::contact::{self, Outcome};
 use plane_contact::answer::error::Error;
+use plane_contact::answer::{self, Request, Solution};
 use plane_contact::files;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
@@ -72,28 +72,26 @@ fn penalty(text: &str) -> Result<f64, String> {
 }
 
 impl DeckArgs {
-    /// The scene with the contact model that is asked for.
-    pub fn scene(&self) -> Result<Scene, Error> {
-        let mut scene = Scene::open(&self.scene)?;
-        self.model.apply(&mut scene.contact);
-        Ok(scene)
-    }
-
     /// The run that is compared.
-    pub fn solve(&self, scene: &Scene) -> Result<Outcome, Error> {
+    pub fn solve(&self) -> Result<Solution, Error> {
+        let scene = Scene::open(&self.scene)?;
+        let request = Request::new(&scene)
+            .contact(self.model.over(scene.contact))
+            .variant(self.variant.unwrap_or(scene.variant))
+            .reading(self.reading.reading.0);
         let spinner = waiting("solving");
-        let variant = self.variant.unwrap_or(scene.variant);
-        let outcome = contact::run(scene, variant, &self.reading.reading.0, |_| ());
+        let solution = answer::solve(&request, &mut |_| ());
         spinner.finish_and_clear();
-        outcome
+        solution
     }
 
     /// The problems whose sum is the run; the last iteration's comes last.
-    pub fn parts(&self, scene: &Scene, outcome: &Outcome) -> Result<Vec<Part>, Error> {
+    pub fn parts(&self, solution: &Solution) -> Result<Vec<Part>, Error> {
         match self.contact {
-            ContactKind::Equation => Ok(Contact::parts(outcome)?),
+            ContactKind::Equation => Ok(Contact::parts(solution)?),
             ContactKind::Pair => {
-                let pair = Pair::new(&outcome.sheet, self.penalty, scene.contact.friction);
+                let friction = solution.request.contact.friction;
+                let pair = Pair::new(&solution.model, self.penalty, friction);
                 Ok(vec![Part { contact: Contact::Pair(pair), share: 1.0 }])
             }
         }
@@ -102,11 +100,11 @@ impl DeckArgs {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let Code::Calculix = args.to;
-    let scene = args.deck.scene()?;
-    let outcome = args.deck.solve(&scene)?;
-    let parts = args.deck.parts(&scene, &outcome)?;
+    let solution = args.deck.solve()?;
+    let parts = args.deck.parts(&solution)?;
     let last = parts.last().expect("a run has an iteration");
-    let text = deck(&Problem { scene: &scene, sheet: &outcome.sheet, contact: &last.contact })?;
+    let (scene, model) = (&solution.request.scene, &solution.model);
+    let text = deck(&Problem { scene, model, contact: &last.contact })?;
     match &args.out {
         Some(path) => Ok(files::write(path, &text)?),
         None => print(&text),

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
+use plane_contact::answer::Request;
 use plane_contact::answer::error::Error;
 use plane_contact::files;
 use plane_contact::numbers::solve::memory;
-use plane_contact::paper::mathcad::array::Table;
-use plane_contact::paper::mirror::{Km, c_cnt};
+use plane_contact::paper::door::Call;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::matrix_market;
 
@@ -44,15 +44,15 @@ enum CoupledBy {
 pub fn run(args: &Args) -> Result<(), Error> {
     let reading = args.reading.reading.0;
     let scene = Scene::open(&args.scene)?;
-    let sheet = scene.worksheet(&reading)?;
-    memory::check(sheet.R(), 1, memory::free())?;
-    let k_cnt = match args.coupled_by {
-        CoupledBy::CCnt => c_cnt(&sheet, &reading, &sheet.node)?.k_cnt,
-        CoupledBy::None => Table::filled(sheet.R(), 4, 0.0),
+    let model = Request::new(&scene).reading(reading).model()?;
+    memory::check(model.nodes.len(), 1, memory::free())?;
+    let call = match args.coupled_by {
+        CoupledBy::CCnt => Call::c_cnt(&model, &reading, &model.nodes)?,
+        CoupledBy::None => Call::without_contact(&model),
     };
-    let matrix = Km(&sheet, &reading, &k_cnt)?;
+    let matrix = call.km(&reading)?;
     let comment = format!("MJS of scene {}: equation 2n-1 is x of node n, 2n is y", scene.name);
-    let text = matrix_market::matrix_market(matrix.as_matrix(), &comment);
+    let text = matrix_market::matrix_market(&matrix, &comment);
     match &args.matrix_market {
         Some(path) => Ok(files::write(path, &text)?),
         None => print(&text),

@@ -53,12 +53,14 @@ pub struct ModelArgs {
 }
 
 impl ModelArgs {
-    /// Puts what is given in place of what `model` has.
-    pub fn apply(&self, model: &mut ContactModel) {
-        model.coupling = self.coupling.unwrap_or(model.coupling);
-        model.friction = self.friction.unwrap_or(model.friction);
-        model.geometry = self.geometry.unwrap_or(model.geometry);
-        model.status = self.status.unwrap_or(model.status);
+    /// What is given, and for the rest what `scene` has.
+    pub fn over(&self, scene: ContactModel) -> ContactModel {
+        ContactModel {
+            coupling: self.coupling.unwrap_or(scene.coupling),
+            friction: self.friction.unwrap_or(scene.friction),
+            geometry: self.geometry.unwrap_or(scene.geometry),
+            status: self.status.unwrap_or(scene.status),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! `plane-contact plan`.
 
+use plane_contact::answer::Request;
 use plane_contact::answer::error::Error;
 use plane_contact::numbers::solve::memory;
 use plane_contact::problem::modelling::Variant;
@@ -40,10 +41,13 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Error> {
-    let mut scene = Scene::open(&args.scene)?;
-    args.model.apply(&mut scene.contact);
-    let variant = args.variant.unwrap_or(scene.variant);
-    let plan = Plan::new(&scene, variant, &args.reading.reading.0, args.arithmetic.arithmetic())?;
+    let scene = Scene::open(&args.scene)?;
+    let request = Request::new(&scene)
+        .contact(args.model.over(scene.contact))
+        .variant(args.variant.unwrap_or(scene.variant))
+        .reading(args.reading.reading.0)
+        .arithmetic(args.arithmetic.arithmetic());
+    let plan = Plan::new(&request)?;
     let machine = Machine::measure();
     if args.json {
         return print(&report::json(&plan, machine));

@@ -4,11 +4,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use plane_contact::answer::contact::{self, Outcome};
 use plane_contact::answer::error::Error;
-use plane_contact::answer::estimates::ErrorBars;
+use plane_contact::answer::{self, Assessment, Request, Solution, Step};
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
-use plane_contact::problem::modelling::{Coupling, Variant};
+use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{self, folder, tables};
 use plane_contact::studies::plan::Plan;
@@ -85,64 +84,41 @@ impl ArithmeticArgs {
 }
 
 pub fn run(args: &Args) -> Result<(), Error> {
-    let mut scene = Scene::open(&args.scene)?;
-    args.model.apply(&mut scene.contact);
-    let variant = args.variant.unwrap_or(scene.variant);
-    let (outcome, accuracy) = solve(args, &scene, variant)?;
-    let plan = Plan::new(&scene, variant, &outcome.reading, outcome.arithmetic)?;
-    let default = || PathBuf::from("out").join(format!("{}-{variant}", scene.name));
+    let scene = Scene::open(&args.scene)?;
+    let request = Request::new(&scene)
+        .contact(args.model.over(scene.contact))
+        .variant(args.variant.unwrap_or(scene.variant))
+        .reading(args.reading.reading.0)
+        .arithmetic(args.arithmetic.arithmetic());
+    let (solution, accuracy) = solve(args, &request)?;
+    let plan = Plan::new(&solution.request)?;
+    let default = || PathBuf::from("out").join(format!("{}-{}", scene.name, request.variant));
     let out = args.out.clone().unwrap_or_else(default);
-    let other = converged(&scene, &outcome);
-    let converged = match &other {
-        None if scene.target().is_some() => Some(Ok(&outcome)),
-        other => other.as_ref().map(Result::as_ref),
-    };
-    let found = converged.and_then(Result::ok);
-    let bars = ErrorBars::new(&scene, &outcome);
-    let result = folder::write(&out, &scene, &outcome, &bars, found, Some(&plan))?;
+    let assessment = Assessment::new(&solution);
+    let result = folder::write(&out, &solution, &assessment, Some(&plan))?;
     if args.json {
         eprint!("{accuracy}");
         return print(&result);
     }
-    let tables = tables::solution(&scene, &outcome)
-        + &tables::error_bars(&scene, &outcome, &bars)
-        + &distance(&scene, &outcome, converged)
+    let tables = tables::solution(&solution, &assessment)
+        + &tables::error_bars(&solution, &assessment)
+        + &tables::distance(&solution, &assessment)
         + &accuracy;
     let plan = report::plan::line(&plan);
     print(&format!("{tables}\n{plan}\nWritten to {}\n", out.display()))
 }
 
-/// The run, and under `--accuracy` how the rung was found.
-fn solve(args: &Args, scene: &Scene, variant: Variant) -> Result<(Outcome, String), Error> {
-    let reading = &args.reading.reading.0;
+/// The solution, and under `--accuracy` how its precision was found.
+fn solve(args: &Args, request: &Request) -> Result<(Solution, String), Error> {
     if let Some(asked) = args.accuracy {
-        let reached = solve_to(scene, variant, reading, asked)?;
+        let reached = solve_to(request, asked)?;
         let words = report::trade::reached(&reached, asked);
-        return Ok((reached.outcome, words));
+        return Ok((reached.solution, words));
     }
-    let progress = progress(scene.iterations);
-    let watch = |_: &contact::Iteration| progress.inc(1);
-    let outcome = contact::run_in(scene, variant, reading, args.arithmetic.arithmetic(), watch)?;
+    let progress = progress(request.iterations);
+    let solution = answer::solve(request, &mut |_: &Step| progress.inc(1))?;
     progress.finish_and_clear();
-    Ok((outcome, String::new()))
-}
-
-/// The converged answer, or why there is none; nothing without contact, and where `outcome` is that answer itself.
-fn converged(scene: &Scene, outcome: &Outcome) -> Option<Result<Outcome, Error>> {
-    let same = (outcome.variant, outcome.model.coupling) == (Variant::Unilateral, Coupling::Mortar);
-    scene.target().filter(|_| !same).map(|_| contact::reference(scene, &outcome.reading))
-}
-
-fn distance(
-    scene: &Scene,
-    outcome: &Outcome,
-    converged: Option<Result<&Outcome, &Error>>,
-) -> String {
-    match converged {
-        None => String::new(),
-        Some(Ok(converged)) => tables::distance(scene, outcome, converged),
-        Some(Err(why)) => format!("\nNo converged answer to measure this against: {why}\n"),
-    }
+    Ok((solution, String::new()))
 }
 
 /// A bar on standard error; it shows only in a terminal.

@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
+use plane_contact::answer::Request;
 use plane_contact::answer::error::Error;
 use plane_contact::error::InputError;
+use plane_contact::paper::door::Call;
 use plane_contact::paper::listings::{Which, settings};
 use plane_contact::paper::mathcad::Listing;
-use plane_contact::paper::mathcad::array::Table;
-use plane_contact::paper::mirror::{Reading, Worksheet, c_cnt};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::trace as report;
 use plane_contact::studies::audit::trace::{self, Trace};
@@ -55,19 +57,19 @@ struct Chosen {
 pub fn run(args: &Args) -> Result<(), Error> {
     let reading = args.reading.reading.0;
     let scene = Scene::open(&args.scene)?;
-    let sheet = scene.worksheet(&reading)?;
+    let model = Request::new(&scene).reading(reading).model()?;
     let chosen = choose(&args.listing, &reading)?;
-    let k_cnt = linked(&sheet, &reading, chosen.which)?;
-    let turns = turns(chosen.which, &sheet, &k_cnt, args.node)?;
+    let call = linked(&model, &reading, chosen.which)?;
+    let turns = turns(chosen.which, &model, &call, args.node)?;
     let wanted = |turn: usize| turns.contains(&turn);
     let settings = settings(&reading);
-    let trace = trace::trace(chosen.which, &chosen.listing, &settings, &sheet, &k_cnt, wanted);
+    let trace = trace::trace(chosen.which, &chosen.listing, &settings, &call, wanted);
     if args.json {
         print(&report::json(&trace, &chosen.listing, &scene.name))?;
     } else {
-        print(&report::text(&trace, &chosen.listing, &sheet))?;
+        print(&report::text(&trace, &chosen.listing, &model))?;
     }
-    finish(trace, &chosen, args, &sheet, &k_cnt)
+    finish(trace, &chosen, args, &model, &call)
 }
 
 /// Tells what an edit changed, or why the listing stopped.
@@ -75,8 +77,8 @@ fn finish(
     trace: Trace,
     chosen: &Chosen,
     args: &Args,
-    sheet: &Worksheet<f64>,
-    k_cnt: &Table<f64>,
+    model: &Model,
+    call: &Call,
 ) -> Result<(), Error> {
     let reading = args.reading.reading.0;
     match trace.result {
@@ -87,8 +89,8 @@ fn finish(
         Err(failure) => Err(Error::Execution(failure)),
         Ok(product) if chosen.edited && !args.json => {
             let printed = chosen.which.under(&reading);
-            match trace::run(chosen.which, &printed, &settings(&reading), sheet, k_cnt, &mut ()) {
-                Ok((printed, _)) => print(&report::changes(&printed, &product, sheet)),
+            match trace::run(chosen.which, &printed, &settings(&reading), call, &mut ()) {
+                Ok((printed, _)) => print(&report::changes(&printed, &product, model)),
                 Err(why) => {
                     print(&format!("\nThe edited listing runs; as printed it fails: {why}\n"))
                 }
@@ -119,33 +121,33 @@ fn choose(name: &str, reading: &Reading) -> Result<Chosen, Error> {
 }
 
 /// The contact pairs that Km receives: those of c_cnt at the initial shape.
-fn linked(sheet: &Worksheet<f64>, reading: &Reading, which: Which) -> Result<Table<f64>, Error> {
+fn linked(model: &Model, reading: &Reading, which: Which) -> Result<Call, Error> {
     match which {
-        Which::CCnt => Ok(Table::filled(sheet.R(), 4, 0.0)),
-        Which::Km => Ok(c_cnt(sheet, reading, &sheet.node)?.k_cnt),
+        Which::CCnt => Ok(Call::without_contact(model)),
+        Which::Km => Ok(Call::c_cnt(model, reading, &model.nodes)?),
     }
 }
 
-/// The turns to show.
+/// The turns that are shown: of `c_cnt` over the contact nodes, of `Km` over the triangles.
 fn turns(
     which: Which,
-    sheet: &Worksheet<f64>,
-    k_cnt: &Table<f64>,
+    model: &Model,
+    call: &Call,
     node: Option<usize>,
 ) -> Result<Vec<usize>, Error> {
-    let nodes = |n: usize| (0..3).map(move |k| sheet.EL[(n, sheet.ind_1 + k)]);
-    let turns: Vec<usize> = match (which, node) {
-        (Which::CCnt, None) => (1..=sheet.cnt.rows()).collect(),
-        (Which::CCnt, Some(node)) => {
-            (1..=sheet.cnt.rows()).filter(|&i1| sheet.cnt[i1] == node).collect()
-        }
-        (Which::Km, None) => {
-            let is_linked = |n: usize| k_cnt.row(n).any(|x| *x != 0.0);
-            (1..=sheet.M()).filter(|&n| nodes(n).any(is_linked)).collect()
-        }
-        (Which::Km, Some(node)) => {
-            (1..=sheet.M()).filter(|&n| nodes(n).any(|m| m == node)).collect()
-        }
+    let entries = |is: &dyn Fn(NodeId) -> bool| -> Vec<usize> {
+        let nodes = model.contact.nodes.iter().enumerate().filter(|(_, n)| is(**n));
+        nodes.map(|(k, _)| k + 1).collect()
+    };
+    let triangles = |is: &dyn Fn(NodeId) -> bool| -> Vec<usize> {
+        let with = model.triangle_ids().filter(|id| model.triangle(*id).nodes.into_iter().any(is));
+        with.map(|id| id.number()).collect()
+    };
+    let turns = match (which, node) {
+        (Which::CCnt, None) => entries(&|_| true),
+        (Which::CCnt, Some(node)) => entries(&|n| n.number() == node),
+        (Which::Km, None) => triangles(&|n| call.row(n).iter().any(|x| *x != 0.0)),
+        (Which::Km, Some(node)) => triangles(&|n| n.number() == node),
     };
     if !turns.is_empty() {
         return Ok(turns);

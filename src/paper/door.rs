@@ -7,14 +7,16 @@
 //! ```
 #![allow(non_snake_case, reason = "the paper's own names")]
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::mathcad::array::{Column, Table};
-use super::mirror::{Cause, Failure, Km, NodeTable, Pairs, Reading, ToleranceUnit, Worksheet};
+use super::mirror::{
+    Cause, Failure, Km, NodeTable, Pairs, Reading, ToleranceUnit, Worksheet, c_cnt,
+};
 use crate::error::InputError;
-use crate::numbers::scalar::{Scalar, Subscript};
+use crate::numbers::scalar::Scalar;
 use crate::problem::element;
-use crate::problem::model::{EdgeId, Model, NodeId, TriangleId};
+use crate::problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
 
 /// The column of `EL` and `elem` where nodes start.
 const IND_1: usize = 6;
@@ -39,8 +41,7 @@ pub fn under(mut model: Model, reading: &Reading) -> Result<Model, InputError> {
 /// The paper's tables of a model. Each number goes through `number`; `Ae` and `B` are computed from the coordinates in T.
 pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Worksheet<T> {
     let elem = elem(model);
-    let triangles = model.rows.iter().filter(|row| row.kind == 2).map(|row| row.number);
-    let triangles: Vec<usize> = triangles.collect();
+    let triangles: Vec<usize> = model.rows.iter().filter_map(triangle_number).collect();
     let thickness = number(model.thickness);
     let corners: Vec<element::Corners<T>> =
         model.triangle_ids().map(|id| model.corners(id).map(|p| p.map(&number))).collect();
@@ -71,13 +72,23 @@ fn elem(model: &Model) -> Table<usize> {
     let last = model.rows.last().map_or(0, |row| row.number);
     let mut elem = Table::filled(last, 8, 0);
     for row in &model.rows {
-        let head = [row.number, row.kind, 2, row.physical, row.geometric];
-        let nodes = row.nodes.iter().map(|node| node.number());
+        let (kind, nodes) = match &row.element {
+            Element::Point(node) => (15, std::slice::from_ref(node)),
+            Element::Edge(id) => (1, &model.edge(*id).nodes[..]),
+            Element::Triangle(id) => (2, &model.triangle(*id).nodes[..]),
+        };
+        let head = [row.number, kind, 2, row.physical, row.geometric];
+        let nodes = nodes.iter().map(|node| node.number());
         for (j, value) in head.into_iter().chain(nodes).enumerate() {
             elem[(row.number, j + 1)] = value;
         }
     }
     elem
+}
+
+/// The number of a row that is a triangle.
+fn triangle_number(row: &Row) -> Option<usize> {
+    matches!(row.element, Element::Triangle(_)).then_some(row.number)
 }
 
 /// The node table of a shape, the coordinates of each node: number, x, y, z; R x 4.
@@ -242,5 +253,47 @@ pub fn weights_from<'a, T: Scalar>(
     match reading.r5 {
         NodeTable::Node => &sheet.node,
         NodeTable::NodeN => node_n,
+    }
+}
+
+/// One call of `c_cnt` on a model in a shape: what it is given and what it finds.
+pub struct Call {
+    /// The worksheet's tables.
+    pub sheet: Worksheet<f64>,
+    /// What it finds, in its own arrays.
+    pub pairs: Pairs<f64>,
+    /// The same by contact node.
+    pub statuses: Vec<ContactStatus>,
+}
+
+impl Call {
+    /// Calls `c_cnt` in a shape, the coordinates of each node, under `reading`.
+    ///
+    /// # Errors
+    /// Where the listing fails as printed.
+    pub fn c_cnt(model: &Model, reading: &Reading, shape: &[[f64; 2]]) -> Result<Self, Failure> {
+        let sheet = worksheet(model, |x| x);
+        let pairs = c_cnt(&sheet, reading, &node_n(model, shape))?;
+        let statuses = statuses(model, &pairs);
+        Ok(Call { sheet, pairs, statuses })
+    }
+
+    /// No pair at all: what `Km` is given to build the matrix without contact.
+    pub fn without_contact(model: &Model) -> Self {
+        let pairs = Pairs::none(model.nodes.len());
+        Call { sheet: worksheet(model, |x| x), pairs, statuses: Vec::new() }
+    }
+
+    /// Calls `Km` with what `c_cnt` found: `MJS`, a row and a column for each degree of freedom, force/length.
+    ///
+    /// # Errors
+    /// An overflow.
+    pub fn km(&self, reading: &Reading) -> Result<DMatrix<f64>, Failure> {
+        Ok(Km(&self.sheet, reading, &self.pairs.k_cnt)?.into_matrix())
+    }
+
+    /// The row of `k_cnt` of a node: mate, weight, mate, weight.
+    pub fn row(&self, node: NodeId) -> [f64; 4] {
+        std::array::from_fn(|j| self.pairs.k_cnt[(node.number(), j + 1)])
     }
 }

@@ -3,7 +3,8 @@
 use serde_json::json;
 
 use super::tables::{aligned, short};
-use crate::answer::contact::{BodySummary, ContactNode, Cycle};
+use crate::answer::contact::ContactNode;
+use crate::answer::{BodySummary, Cycle};
 use crate::paper::listings::Which;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;

@@ -9,8 +9,8 @@ use super::folder;
 use super::tables::{aligned, short};
 use crate::error::InputError;
 use crate::files;
-use crate::paper::mirror::Worksheet;
 use crate::problem::element::Plane;
+use crate::problem::model::{Model, NodeId, Triangle, TriangleId};
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 use crate::studies::calculix::{Comparison, Contact, Difference, Pair};
@@ -22,8 +22,8 @@ const WORST: usize = 10;
 pub struct Compared<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// The paper's arrays.
-    pub sheet: &'a Worksheet<f64>,
+    /// The model that was solved.
+    pub model: &'a Model,
     /// What this program ran.
     pub variant: Variant,
     /// How the deck has the bodies touch; the last of several decks.
@@ -51,16 +51,16 @@ pub fn text(compared: &Compared) -> String {
 }
 
 fn heading(compared: &Compared) -> String {
-    let Compared { scene, sheet, variant, version, .. } = compared;
+    let Compared { scene, model, variant, version, .. } = compared;
     let mut text = format!(
         "scene {}, variant {variant}, beside CalculiX {version}; plane {}; {} nodes, {} triangles\n",
         scene.name,
-        sheet.plane,
-        sheet.R(),
-        sheet.M()
+        model.plane,
+        model.nodes.len(),
+        model.triangles.len()
     );
     text += &contact(compared);
-    if sheet.plane == Plane::Stress {
+    if model.plane == Plane::Stress {
         text += "\nPlane stress: CalculiX lets triangles share their thickness at nodes, and so differs.";
     }
     text
@@ -89,7 +89,7 @@ fn contact(compared: &Compared) -> String {
 }
 
 fn differences(compared: &Compared) -> String {
-    let Compared { scene, sheet, comparison, .. } = compared;
+    let Compared { scene, model, comparison, .. } = compared;
     let head = ["of", "largest", "relative", "of the largest", "at", "at x, y", "rms"];
     let row = |name: &str, unit: &str, kind: &str, difference: &Difference, at: [f64; 2]| {
         let largest = difference.largest;
@@ -106,8 +106,8 @@ fn differences(compared: &Compared) -> String {
     let (u, s) = (&comparison.displacement, &comparison.stress);
     aligned(&[
         head.map(String::from).to_vec(),
-        row("displacement", &scene.units.length, "node", u, place(sheet, u.largest.at)),
-        row("stress", &scene.units.stress, "triangle", s, centre(sheet, s.largest.at)),
+        row("displacement", &scene.units.length, "node", u, place(model, u.largest.at)),
+        row("stress", &scene.units.stress, "triangle", s, centre(model, s.largest.at)),
     ])
 }
 
@@ -125,11 +125,11 @@ fn bodies(comparison: &Comparison) -> String {
 }
 
 fn worst(compared: &Compared) -> String {
-    let Compared { sheet, comparison, .. } = compared;
+    let Compared { model, comparison, .. } = compared;
     let head =
         ["node", "x, y", "u_x here", "u_y here", "u_x CalculiX", "u_y CalculiX", "difference"];
     let rows = comparison.displacement.worst(WORST).into_iter().map(|n| {
-        let ([x, y], u) = (place(sheet, n), comparison.ours.u[n - 1]);
+        let ([x, y], u) = (place(model, n), comparison.ours.u[n - 1]);
         let cells = u.iter().chain(&comparison.theirs.u[n - 1]);
         let mut row = vec![n.to_string(), format!("{x:.3}, {y:.3}")];
         // + 0: no component is −0.
@@ -142,14 +142,14 @@ fn worst(compared: &Compared) -> String {
 
 /// `compare.json`: everything.
 pub fn json(compared: &Compared) -> String {
-    let Compared { scene, sheet, comparison, .. } = compared;
+    let Compared { scene, model, comparison, .. } = compared;
     let difference = |of: &Difference| json!({ "largest": of.largest, "rms": of.rms });
     let document = json!({
         "scene": scene.name,
         "title": scene.title,
         "variant": compared.variant,
         "calculix": compared.version,
-        "plane": sheet.plane,
+        "plane": model.plane,
         "contact": contact_value(compared.contact),
         "decks": compared.decks,
         "units": scene.units,
@@ -223,11 +223,11 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String, InputError> {
 /// The largest difference of displacement at a triangle's corners.
 fn difference_picture(compared: &Compared) -> String {
     let comparison = compared.comparison;
-    let of_triangle = |n: usize| {
-        let at = corners(compared.sheet, n).map(|node| comparison.displacement.at[node - 1]);
+    let of_triangle = |triangle: &Triangle| {
+        let at = triangle.nodes.map(|node| comparison.displacement.at[node.index()]);
         at.into_iter().fold(0.0, f64::max)
     };
-    let values: Vec<f64> = (1..=compared.sheet.M()).map(of_triangle).collect();
+    let values: Vec<f64> = compared.model.triangles.iter().map(of_triangle).collect();
     let unit = &compared.scene.units.length;
     picture(compared, "difference of displacements", unit, &values, &comparison.ours.u)
 }
@@ -246,7 +246,6 @@ fn picture(
     let title = format!("{} ({}, {kind})", compared.scene.title, compared.variant);
     folder::field_picture(
         compared.scene,
-        compared.sheet,
         &title,
         &super::picture::Field { quantity, unit, values, displacement: u },
     )
@@ -288,19 +287,15 @@ fn plane(sigma: &[f64; 6]) -> [f64; 3] {
     [sigma[0], sigma[1], sigma[3]]
 }
 
-/// x and y of a node.
-fn place(sheet: &Worksheet<f64>, node: usize) -> [f64; 2] {
-    [2, 3].map(|axis| sheet.node[(node, axis)])
+/// x and y of a node, by its number.
+fn place(model: &Model, node: usize) -> [f64; 2] {
+    model.at(NodeId::from_number(node))
 }
 
-/// The centre of a triangle.
-fn centre(sheet: &Worksheet<f64>, n: usize) -> [f64; 2] {
-    let corners = corners(sheet, n).map(|node| place(sheet, node));
+/// The centre of a triangle, by its number.
+fn centre(model: &Model, triangle: usize) -> [f64; 2] {
+    let corners = model.corners(TriangleId::from_number(triangle));
     [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0)
-}
-
-fn corners(sheet: &Worksheet<f64>, n: usize) -> [usize; 3] {
-    [0, 1, 2].map(|k| sheet.EL[(n, sheet.ind_1 + k)])
 }
 
 /// `, unit`, or nothing where the scene names none.

@@ -5,72 +5,67 @@ use std::path::Path;
 use super::picture::{self, Contact, Drawing, Field};
 use super::vtu::{Data, VtuMesh, vtu};
 use super::{json, pressure};
-use crate::answer::contact::Outcome;
 use crate::answer::estimates::ErrorBars;
+use crate::answer::{Assessment, Solution};
 use crate::error::InputError;
 use crate::files;
-use crate::paper::mirror::Worksheet;
 use crate::problem::element::State;
+use crate::problem::model::{Model, NodeId};
 use crate::problem::scene::Scene;
 use crate::studies::plan::Plan;
 
 /// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu`, `result.json` and, with contact, `pressure.svg` to
-/// `folder`; gives back the content of `result.json`. `converged` is the answer that the run is measured against,
-/// `plan` the plan that it followed.
+/// `folder`; gives back the content of `result.json`. `plan` is the plan that the run followed.
 ///
 /// # Errors
 /// A file that cannot be written.
 pub fn write(
     folder: &Path,
-    scene: &Scene,
-    outcome: &Outcome,
-    bars: &ErrorBars,
-    converged: Option<&Outcome>,
+    solution: &Solution,
+    assessment: &Assessment,
     plan: Option<&Plan>,
 ) -> Result<String, InputError> {
-    let shown = Shown::new(scene, &outcome.sheet);
-    let displacement: Vec<[f64; 2]> =
-        outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect();
-    let title = format!("{} ({})", scene.title, outcome.variant);
+    let scene = &solution.request.scene;
+    let shown = Shown::new(&solution.model);
+    let displacement = solution.displacements();
+    let title = format!("{} ({})", scene.title, solution.request.variant);
     let drawing = Drawing { title: &title, ..shown.drawing(scene) };
     let field = |quantity, unit, values: &[f64]| {
         picture::field(&drawing, &Field { quantity, unit, values, displacement: &displacement })
     };
-    let stress = values(outcome, |s| s.von_mises_stress);
-    let strain = values(outcome, |s| s.von_mises_strain);
+    let stress = values(solution, |s| s.von_mises_stress);
+    let strain = values(solution, |s| s.von_mises_strain);
     let files = [
         ("mesh.svg", picture::mesh(&drawing)),
         ("von_mises_stress.svg", field("von Mises stress", &scene.units.stress, &stress)),
         ("von_mises_strain.svg", field("von Mises strain", "1", &strain)),
-        ("fields.vtu", shown.vtu(outcome, bars)),
+        ("fields.vtu", shown.vtu(solution, &assessment.estimates)),
     ];
     files.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))?;
-    if !outcome.contact.is_empty() {
-        let runs: Vec<&Outcome> = std::iter::once(outcome).chain(converged).collect();
-        files::write(&folder.join("pressure.svg"), &pressure::picture(scene, &runs))?;
+    if !solution.contact.is_empty() {
+        let measured = assessment.measure();
+        let reference = measured.map(|measured| &*measured.reference);
+        let runs: Vec<&Solution> = std::iter::once(solution).chain(reference).collect();
+        let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
+        files::write(&folder.join("pressure.svg"), &pressure::picture(scene, &runs, hertz))?;
     }
-    let result = json::result(scene, outcome, bars, converged, plan);
+    let result = json::result(solution, assessment, plan);
     files::write(&folder.join("result.json"), &result)?;
     Ok(result)
 }
 
-fn values(outcome: &Outcome, of: impl Fn(&State) -> f64) -> Vec<f64> {
-    outcome.elements.iter().map(of).collect()
+fn values(solution: &Solution, of: impl Fn(&State) -> f64) -> Vec<f64> {
+    solution.elements.iter().map(of).collect()
 }
 
 /// The mesh of a scene as a picture.
-pub fn mesh_picture(scene: &Scene, sheet: &Worksheet<f64>) -> String {
-    picture::mesh(&Shown::new(scene, sheet).drawing(scene))
+pub fn mesh_picture(scene: &Scene) -> String {
+    picture::mesh(&Shown::new(&scene.model).drawing(scene))
 }
 
 /// A field on the deformed mesh of a scene as a picture.
-pub fn field_picture(
-    scene: &Scene,
-    sheet: &Worksheet<f64>,
-    title: &str,
-    field: &Field<'_>,
-) -> String {
-    let shown = Shown::new(scene, sheet);
+pub fn field_picture(scene: &Scene, title: &str, field: &Field<'_>) -> String {
+    let shown = Shown::new(&scene.model);
     picture::field(&Drawing { title, ..shown.drawing(scene) }, field)
 }
 
@@ -85,18 +80,15 @@ struct Shown {
 }
 
 impl Shown {
-    fn new(scene: &Scene, sheet: &Worksheet<f64>) -> Self {
-        let (region, region_names) = regions(scene, sheet.M());
-        let ends = |e: &usize| [sheet.elem[(*e, 6)] - 1, sheet.elem[(*e, 7)] - 1];
+    fn new(model: &Model) -> Self {
+        let (region, region_names) = regions(model);
         Shown {
-            points: (1..=sheet.R()).map(|n| [sheet.node[(n, 2)], sheet.node[(n, 3)]]).collect(),
-            triangles: (1..=sheet.M())
-                .map(|n| [0, 1, 2].map(|k| sheet.EL[(n, sheet.ind_1 + k)] - 1))
-                .collect(),
+            points: model.nodes.clone(),
+            triangles: model.triangles.iter().map(|t| t.nodes.map(NodeId::index)).collect(),
             region,
             region_names,
-            contact_nodes: sheet.cnt.iter().map(|n| n - 1).collect(),
-            target_edges: sheet.trg.iter().map(ends).collect(),
+            contact_nodes: model.contact.nodes.iter().map(|n| n.index()).collect(),
+            target_edges: model.target_edges().map(|e| e.nodes.map(NodeId::index)).collect(),
         }
     }
 
@@ -109,19 +101,19 @@ impl Shown {
             region: &self.region,
             region_names: &self.region_names,
             length_unit: &scene.units.length,
-            contact: scene.target().map(|_| contact),
+            contact: scene.model.target().map(|_| contact),
         }
     }
 
-    fn vtu(&self, outcome: &Outcome, bars: &ErrorBars) -> String {
+    fn vtu(&self, solution: &Solution, bars: &ErrorBars) -> String {
         let error = bars.mesh.error_map();
         let flat = |of: &dyn Fn(&State) -> [f64; 3]| -> Vec<f64> {
-            outcome.elements.iter().flat_map(of).collect()
+            solution.elements.iter().flat_map(of).collect()
         };
         let sigma = flat(&|s| s.sigma.into());
         let epsilon = flat(&|s| s.epsilon.into());
-        let stress = values(outcome, |s| s.von_mises_stress);
-        let strain = values(outcome, |s| s.von_mises_strain);
+        let stress = values(solution, |s| s.von_mises_stress);
+        let strain = values(solution, |s| s.von_mises_strain);
         let body: Vec<f64> = self.region.iter().map(|r| *r as f64).collect();
         vtu(&VtuMesh {
             points: &self.points,
@@ -129,7 +121,7 @@ impl Shown {
             point_data: &[Data {
                 name: "displacement",
                 components: 2,
-                values: outcome.u.as_slice(),
+                values: solution.u.as_slice(),
             }],
             cell_data: &[
                 Data { name: "sigma_x sigma_y tau_xy", components: 3, values: &sigma },
@@ -144,14 +136,14 @@ impl Shown {
 }
 
 /// The region of each triangle, 0 the target, then the other bodies; and the regions' names.
-fn regions(scene: &Scene, triangles: usize) -> (Vec<usize>, Vec<String>) {
-    let target = scene.target().unwrap_or(&scene.bodies[0]);
-    let others = scene.bodies.iter().filter(|body| body.name != target.name);
-    let mut region = vec![0; triangles];
+fn regions(model: &Model) -> (Vec<usize>, Vec<String>) {
+    let target = model.target().unwrap_or(&model.bodies[0]);
+    let others = model.bodies.iter().filter(|body| body.name != target.name);
+    let mut region = vec![0; model.triangles.len()];
     let mut names = Vec::new();
     for (k, body) in std::iter::once(target).chain(others).enumerate() {
         names.push(body.name.clone());
-        body.triangles.iter().for_each(|n| region[n - 1] = k);
+        body.triangles.iter().for_each(|id| region[id.index()] = k);
     }
     (region, names)
 }

@@ -3,14 +3,14 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::answer::contact::{
-    BodySummary, ContactNode, Cycle, Distance, Hertz, Iteration, Outcome, distance, summaries,
-};
+use crate::answer::contact::ContactNode;
 use crate::answer::estimates::ErrorBars;
-use crate::numbers::solve::Arithmetic;
+use crate::answer::{Assessment, BodySummary, Cycle, Distance, Hertz, Solution, Step};
+use crate::numbers::scalar::rational;
+use crate::numbers::solve::{Arithmetic, ScalarName};
 use crate::paper::mirror::{Pairs, Reading};
 use crate::problem::modelling::{Coupling, Friction, Geometry, StatusRule};
-use crate::problem::scene::{Scene, Units};
+use crate::problem::scene::Units;
 use crate::studies::plan::Plan;
 
 /// The content of `result.json`.
@@ -39,20 +39,20 @@ struct Document<'a> {
     /// Numbers, in the mesh file, of nodes that were dropped.
     dropped: &'a [usize],
     iterations: Vec<Row<'a>>,
-    bodies: Vec<BodySummary>,
+    bodies: &'a [BodySummary],
     /// The contact surface at the end.
     contact: &'a [ContactNode],
     /// Hertz's contact, where his theory applies.
-    hertz: Option<Hertz>,
+    hertz: Option<&'a Hertz>,
     /// How far its numbers may be from the truth.
     error_bars: Value,
     /// How far the run is from the converged answer; none without contact, and where there is none.
-    distance: Option<Distance>,
+    distance: Option<&'a Distance>,
     /// Displacement of each node, length.
     u: Vec<[f64; 2]>,
     /// The same with all digits, where the scalar has more than an f64.
     #[serde(skip_serializing_if = "Option::is_none")]
-    u_digits: Option<Vec<&'a [String]>>,
+    u_digits: Option<Vec<Vec<String>>>,
     elements: Vec<ElementRow>,
 }
 
@@ -60,7 +60,7 @@ struct Document<'a> {
 struct Row<'a> {
     k: usize,
     in_contact: usize,
-    dy: &'a [usize],
+    dy: Vec<u8>,
     max_displacement: f64,
     cycle: &'a Option<Cycle>,
     eq1_residual: f64,
@@ -79,40 +79,46 @@ struct ElementRow {
     von_mises_strain: f64,
 }
 
-/// `result.json` of a run that followed `plan`; `converged` is the answer that it is measured against.
-pub fn result(
-    scene: &Scene,
-    outcome: &Outcome,
-    bars: &ErrorBars,
-    converged: Option<&Outcome>,
-    plan: Option<&Plan>,
-) -> String {
+/// `result.json` of a run that followed `plan`.
+pub fn result(solution: &Solution, assessment: &Assessment, plan: Option<&Plan>) -> String {
+    let request = &solution.request;
+    let (scene, contact) = (&request.scene, request.contact);
     let document = Document {
         scene: &scene.name,
         title: &scene.title,
-        variant: outcome.variant.name(),
-        reading: reading(outcome),
-        coupling: outcome.model.coupling,
-        friction: outcome.model.friction,
-        geometry: outcome.model.geometry,
-        status: outcome.model.status,
+        variant: request.variant.name(),
+        reading: reading(solution),
+        coupling: contact.coupling,
+        friction: contact.friction,
+        geometry: contact.geometry,
+        status: contact.status,
         units: &scene.units,
-        arithmetic: Some(outcome.arithmetic).filter(|a| !a.is_default()),
-        error_bound: outcome.error_bound.filter(|bound| bound.is_finite()),
+        arithmetic: Some(request.arithmetic).filter(|a| !a.is_default()),
+        error_bound: solution.error_bound.filter(|bound| bound.is_finite()),
         plan: plan.map(super::plan::line),
-        load: scene.total_load(),
+        load: solution.model.total_load(),
         dropped: &scene.dropped,
-        iterations: outcome.iterations.iter().map(row).collect(),
-        bodies: summaries(scene, outcome),
-        contact: &outcome.contact,
-        hertz: Hertz::of(outcome, scene.thickness),
-        error_bars: error_bars(bars),
-        distance: converged.map(|converged| distance(scene, outcome, converged)),
-        u: outcome.u.as_slice().chunks(2).map(|u| [u[0], u[1]]).collect(),
-        u_digits: outcome.digits.as_ref().map(|digits| digits.chunks(2).collect()),
-        elements: elements(outcome),
+        iterations: solution.steps.iter().map(row).collect(),
+        bodies: &assessment.bodies,
+        contact: &solution.contact,
+        hertz: assessment.hertz.as_ref(),
+        error_bars: error_bars(&assessment.estimates),
+        distance: assessment.measure().map(|measured| &measured.distance),
+        u: solution.displacements(),
+        u_digits: digits(solution),
+        elements: elements(solution),
     };
     serde_json::to_string(&document).expect("the document has string keys only") + "\n"
+}
+
+/// Displacements of each node in decimal, where the scalar has more digits than an `f64`.
+fn digits(solution: &Solution) -> Option<Vec<Vec<String>>> {
+    let digits = match solution.request.arithmetic.scalar {
+        ScalarName::Exact => 40,
+        _ => 32,
+    };
+    let of_node = |u: &[_]| u.iter().map(|u| rational::decimal(u, digits)).collect();
+    Some(solution.digits.as_ref()?.chunks(2).map(of_node).collect())
 }
 
 /// Null stands for a bar that is not known.
@@ -132,30 +138,30 @@ fn error_bars(bars: &ErrorBars) -> Value {
 }
 
 /// All eight readings as they were in force.
-fn reading(outcome: &Outcome) -> Value {
-    let Reading { r1, r2, r3, r4, r5, r8, .. } = outcome.reading;
+fn reading(solution: &Solution) -> Value {
+    let Reading { r1, r2, r3, r4, r5, r8, .. } = solution.request.reading;
     json!({
         "R1": r1, "R2": r2, "R3": r3, "R4": r4, "R5": r5,
-        "R6": outcome.sheet.plane, "R7": outcome.schedule, "R8": r8,
+        "R6": solution.model.plane, "R7": solution.request.schedule(), "R8": r8,
     })
 }
 
-fn row(iteration: &Iteration) -> Row<'_> {
+fn row(step: &Step) -> Row<'_> {
     Row {
-        k: iteration.k,
-        in_contact: iteration.in_contact,
-        dy: iteration.pairs.dy.as_slice(),
-        max_displacement: iteration.max_displacement,
-        cycle: &iteration.cycle,
-        eq1_residual: iteration.eq1_residual,
-        eq1_residual_step: iteration.eq1_residual_step,
-        target_force: iteration.target_force,
-        solve_residual: iteration.solve_residual,
+        k: step.k,
+        in_contact: step.in_contact,
+        dy: step.statuses().into_iter().map(u8::from).collect(),
+        max_displacement: step.max_displacement,
+        cycle: &step.cycle,
+        eq1_residual: step.contact_residual(),
+        eq1_residual_step: step.contact_residual_step(),
+        target_force: step.target_force,
+        solve_residual: step.solve_residual,
     }
 }
 
-fn elements(outcome: &Outcome) -> Vec<ElementRow> {
-    let rows = outcome.elements.iter().enumerate();
+fn elements(solution: &Solution) -> Vec<ElementRow> {
+    let rows = solution.elements.iter().enumerate();
     rows.map(|(k, state)| ElementRow {
         n: k + 1,
         sigma: state.sigma.into(),

@@ -2,7 +2,8 @@
 
 use super::picture::{Axis, Series, Style, chart};
 use super::tables::with_unit;
-use crate::answer::contact::{ContactNode, Hertz, Outcome};
+use crate::answer::contact::ContactNode;
+use crate::answer::{Hertz, Solution};
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 
@@ -12,16 +13,15 @@ const MARGIN: f64 = 0.25;
 /// Points of Hertz's curve.
 const POINTS: usize = 101;
 
-/// Pressure against distance along the undeformed contact surface: a curve a run, and Hertz's where his theory applies to the last.
-pub fn picture(scene: &Scene, runs: &[&Outcome]) -> String {
+/// Pressure against distance along the undeformed contact surface: a curve a run, and `hertz`'s.
+pub fn picture(scene: &Scene, runs: &[&Solution], hertz: Option<&Hertz>) -> String {
     let [from, to] = shown(runs);
     let mut series: Vec<Series> = runs.iter().map(|run| curve(run, [from, to])).collect();
-    let hertz = runs.last().and_then(|run| Hertz::of(run, scene.thickness));
     let mut captions = vec![String::from(
         "Pressure of a node: the reaction of its equations, K u − F, along the target's normal, over the length that the node stands for.",
     )];
     if let Some(hertz) = hertz {
-        series.push(hertz_curve(&hertz, [from, to]));
+        series.push(hertz_curve(hertz, [from, to]));
         captions.push(format!(
             "Hertz: half width {:.4}, peak {:.5}, relative radius {:.4}.",
             hertz.half_width, hertz.peak, hertz.radius
@@ -35,12 +35,12 @@ pub fn picture(scene: &Scene, runs: &[&Outcome]) -> String {
 }
 
 /// The stretch of the surface that any run has in contact, with a margin; all of it where none has.
-fn shown(runs: &[&Outcome]) -> [f64; 2] {
+fn shown(runs: &[&Solution]) -> [f64; 2] {
     let nodes = || runs.iter().flat_map(|run| &run.contact);
     let extent = |nodes: &mut dyn Iterator<Item = &ContactNode>| {
         nodes.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], c| [a.min(c.arc), b.max(c.arc)])
     };
-    let [from, to] = extent(&mut nodes().filter(|c| c.dy == 1));
+    let [from, to] = extent(&mut nodes().filter(|c| c.in_contact));
     if from < to {
         let margin = MARGIN * (to - from);
         [from - margin, to + margin]
@@ -49,7 +49,7 @@ fn shown(runs: &[&Outcome]) -> [f64; 2] {
     }
 }
 
-fn curve(run: &Outcome, [from, to]: [f64; 2]) -> Series {
+fn curve(run: &Solution, [from, to]: [f64; 2]) -> Series {
     let shown = run.contact.iter().filter(|c| from <= c.arc && c.arc <= to);
     Series {
         name: name(run),
@@ -59,12 +59,13 @@ fn curve(run: &Outcome, [from, to]: [f64; 2]) -> Series {
 }
 
 /// The run in words: its variant, and its coupling where that is not `c_cnt`'s.
-pub fn name(run: &Outcome) -> String {
-    match run.variant {
-        Variant::Printed => run.variant.to_string(),
-        Variant::Tied | Variant::Stepped => format!("{}, {}", run.variant, run.model.coupling),
+pub fn name(run: &Solution) -> String {
+    let (variant, contact) = (run.request.variant, run.request.contact);
+    match variant {
+        Variant::Printed => variant.to_string(),
+        Variant::Tied | Variant::Stepped => format!("{variant}, {}", contact.coupling),
         Variant::Unilateral => {
-            format!("{}, {}, friction {}", run.variant, run.model.coupling, run.model.friction)
+            format!("{variant}, {}, friction {}", contact.coupling, contact.friction)
         }
     }
 }

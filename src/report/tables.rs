@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use crate::answer::contact::{self, ContactNode, Cycle, Iteration, Outcome, summaries};
-use crate::answer::estimates::ErrorBars;
-use crate::paper::mirror::{Pairs, Worksheet};
+use crate::answer::contact::ContactNode;
+use crate::answer::{Assessment, BodySummary, Cycle, Solution, Step, max_displacement};
+use crate::paper::door::Call;
+use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 
@@ -69,14 +70,16 @@ fn dropped(scene: &Scene) -> String {
 }
 
 /// The tables of `solve`.
-pub fn solution(scene: &Scene, outcome: &Outcome) -> String {
-    let mut text = format!("{} ({})\n{}", scene.title, heading(scene, outcome), dropped(scene));
-    text += &format!("\nIterations\n{}", iterations(scene, outcome));
-    if let Some(last) = outcome.iterations.last().filter(|_| scene.target().is_some()) {
-        text += &format!("\nIn contact at the end: {}\n", contact_list(&outcome.sheet, last));
+pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
+    let scene = &solution.request.scene;
+    let mut text = format!("{} ({})\n{}", scene.title, heading(solution), dropped(scene));
+    text += &format!("\nIterations\n{}", iterations(solution));
+    if solution.model.target().is_some() {
+        let nodes = contact_list(&solution.model, solution.last());
+        text += &format!("\nIn contact at the end: {nodes}\n");
     }
-    text += &format!("\nBodies\n{}", bodies(scene, outcome));
-    let carrying: Vec<&ContactNode> = outcome.contact.iter().filter(|c| c.dy == 1).collect();
+    text += &format!("\nBodies\n{}", bodies(scene, &assessment.bodies));
+    let carrying: Vec<&ContactNode> = solution.in_contact().collect();
     if !carrying.is_empty() {
         text += &format!("\nContact surface\n{}", contact_surface(scene, &carrying));
     }
@@ -108,8 +111,9 @@ fn contact_surface(scene: &Scene, nodes: &[&ContactNode]) -> String {
 }
 
 /// The error bars of a run.
-pub fn error_bars(scene: &Scene, outcome: &Outcome, bars: &ErrorBars) -> String {
-    let largest = contact::max_displacement(&outcome.u);
+pub fn error_bars(solution: &Solution, assessment: &Assessment) -> String {
+    let (scene, bars) = (&solution.request.scene, &assessment.estimates);
+    let largest = max_displacement(&solution.u);
     let moved = [(bars.displacement, "arithmetic")];
     let mut text = format!(
         "\nError bars\n  largest |u|: {}\n",
@@ -131,14 +135,20 @@ pub fn error_bars(scene: &Scene, outcome: &Outcome, bars: &ErrorBars) -> String 
     text + "\n"
 }
 
-/// How far a run is from the converged answer.
-pub fn distance(scene: &Scene, outcome: &Outcome, converged: &Outcome) -> String {
-    let of = contact::distance(scene, outcome, converged);
+/// How far a run is from the converged answer; why there is none.
+pub fn distance(solution: &Solution, assessment: &Assessment) -> String {
+    let measured = match &assessment.reference {
+        None => return String::new(),
+        Some(Err(why)) => return format!("\nNo converged answer to measure this against: {why}\n"),
+        Some(Ok(measured)) => measured,
+    };
+    let scene = &solution.request.scene;
+    let (of, reference) = (&measured.distance, &measured.reference);
     let percent = |x: f64| format!("{:.2} %", 100.0 * x);
     let mut text = format!(
         "\nDistance to the converged answer ({}; {} in contact)\n",
-        super::pressure::name(converged),
-        converged.contact.iter().filter(|c| c.dy == 1).count()
+        super::pressure::name(reference),
+        reference.in_contact().count()
     );
     let head = ["", "this run", "converged", "difference"].map(String::from).to_vec();
     let displacement = vec![
@@ -153,11 +163,11 @@ pub fn distance(scene: &Scene, outcome: &Outcome, converged: &Outcome) -> String
         "-".into(),
         percent(of.energy_relative),
     ];
-    let bodies = of.bodies.into_iter().map(|body| {
+    let bodies = of.bodies.iter().map(|body| {
         vec![
             with_unit(&format!("von Mises stress, {}", body.name), &scene.units.stress),
             short(body.von_mises_stress),
-            short(body.converged),
+            short(body.reference),
             percent(body.relative),
         ]
     });
@@ -165,29 +175,30 @@ pub fn distance(scene: &Scene, outcome: &Outcome, converged: &Outcome) -> String
     text
 }
 
-fn heading(scene: &Scene, outcome: &Outcome) -> String {
+fn heading(solution: &Solution) -> String {
+    let (request, model) = (&solution.request, &solution.model);
     let heading = format!(
         "scene {}, variant {}: {} load, plane {}; {} nodes, {} triangles; {} matrices factored",
-        scene.name,
-        outcome.variant,
-        outcome.schedule,
-        outcome.sheet.plane,
-        outcome.sheet.R(),
-        outcome.sheet.M(),
-        outcome.factored
+        request.scene.name,
+        request.variant,
+        request.schedule(),
+        model.plane,
+        model.nodes.len(),
+        model.triangles.len(),
+        solution.factored
     );
-    heading + &arithmetic(scene, outcome)
+    heading + &arithmetic(solution)
 }
 
 /// In which numbers a run was done, unless in those of every run; and how far they lead.
-fn arithmetic(scene: &Scene, outcome: &Outcome) -> String {
-    let done = outcome.arithmetic;
+fn arithmetic(solution: &Solution) -> String {
+    let done = solution.request.arithmetic;
     let mut text = match done.is_default() {
         true => String::new(),
         false => format!("\nin {} by {}, inputs {}", done.scalar, done.solver(), done.inputs),
     };
-    if let Some(bound) = outcome.error_bound {
-        let unit = &scene.units.length;
+    if let Some(bound) = solution.error_bound {
+        let unit = &solution.request.scene.units.length;
         text += &match bound.is_finite() {
             true => format!("; rounding moves no displacement by more than {bound:.1e} {unit}"),
             false => "; how far rounding leads is not known".into(),
@@ -196,14 +207,14 @@ fn arithmetic(scene: &Scene, outcome: &Outcome) -> String {
     text
 }
 
-fn iterations(scene: &Scene, outcome: &Outcome) -> String {
-    let units = &scene.units;
-    let [fx, fy] = scene.total_load();
+fn iterations(solution: &Solution) -> String {
+    let units = &solution.request.scene.units;
+    let [fx, fy] = solution.model.total_load();
     let head = vec![
         "k".into(),
         "in contact".into(),
         with_unit("largest |u|", &units.length),
-        match outcome.variant {
+        match solution.request.variant {
             Variant::Unilateral => with_unit("gap or overlap left", &units.length),
             _ => with_unit("eq. (1), total u", &units.length),
         },
@@ -212,16 +223,16 @@ fn iterations(scene: &Scene, outcome: &Outcome) -> String {
         "residual".into(),
         "contact state".into(),
     ];
-    let rows = outcome.iterations.iter().map(|it| {
+    let rows = solution.steps.iter().map(|step| {
         vec![
-            it.k.to_string(),
-            it.in_contact.to_string(),
-            short(it.max_displacement),
-            short(it.eq1_residual),
-            short(it.target_force),
-            share(it.target_force, fx.hypot(fy)),
-            format!("{:.0e}", it.solve_residual),
-            state(&it.cycle),
+            step.k.to_string(),
+            step.in_contact.to_string(),
+            short(step.max_displacement),
+            short(step.contact_residual()),
+            short(step.target_force),
+            share(step.target_force, fx.hypot(fy)),
+            format!("{:.0e}", step.solve_residual),
+            state(&step.cycle),
         ]
     });
     aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
@@ -240,16 +251,13 @@ fn state(cycle: &Option<Cycle>) -> String {
     }
 }
 
-/// Node numbers of the contact nodes with dy = 1.
-fn contact_list(sheet: &Worksheet<f64>, iteration: &Iteration) -> String {
-    let nodes: Vec<String> = (1..=sheet.cnt.rows())
-        .filter(|&i1| iteration.pairs.dy[i1] == 1)
-        .map(|i1| sheet.cnt[i1].to_string())
-        .collect();
+/// Numbers of the contact nodes in contact.
+fn contact_list(model: &Model, step: &Step) -> String {
+    let nodes: Vec<String> = step.contact_set(model).iter().map(NodeId::to_string).collect();
     if nodes.is_empty() { "no node".into() } else { format!("nodes {}", nodes.join(", ")) }
 }
 
-fn bodies(scene: &Scene, outcome: &Outcome) -> String {
+fn bodies(scene: &Scene, bodies: &[BodySummary]) -> String {
     let units = &scene.units;
     let head = vec![
         "body".into(),
@@ -260,9 +268,9 @@ fn bodies(scene: &Scene, outcome: &Outcome) -> String {
         "at x, y".into(),
         "von Mises strain".into(),
     ];
-    let rows = summaries(scene, outcome).into_iter().map(|body| {
+    let rows = bodies.iter().map(|body| {
         vec![
-            body.name,
+            body.name.clone(),
             body.nodes.to_string(),
             body.triangles.to_string(),
             short(body.max_displacement),
@@ -275,37 +283,35 @@ fn bodies(scene: &Scene, outcome: &Outcome) -> String {
 }
 
 /// The table of `c-cnt`: contact nodes first, then the rows of k_cnt that are not zero.
-pub fn pairs(scene: &Scene, sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> String {
+pub fn pairs(scene: &Scene, model: &Model, call: &Call) -> String {
     let head = ["i1", "cnt", "ct", "yt", "dy"].map(String::from).to_vec();
-    let rows = (1..=sheet.cnt.rows()).map(|i1| {
+    let rows = call.statuses.iter().enumerate().map(|(k, status)| {
         vec![
-            i1.to_string(),
-            sheet.cnt[i1].to_string(),
-            pairs.ct[i1].to_string(),
-            short(pairs.yt[i1]),
-            pairs.dy[i1].to_string(),
+            (k + 1).to_string(),
+            status.node.to_string(),
+            status.edge.map_or(0, |edge| model.edge(edge).number).to_string(),
+            short(status.distance),
+            u8::from(status.in_contact).to_string(),
         ]
     });
     let found = aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>());
     let head = ["node", "mate", "weight", "mate", "weight", "surface"].map(String::from).to_vec();
-    let linked = (1..=sheet.R()).filter(|&n| pairs.k_cnt.row(n).any(|x| *x != 0.0));
-    let rows: Vec<Vec<String>> = linked.map(|n| k_cnt_row(sheet, pairs, n)).collect();
+    let linked = model.node_ids().filter(|n| call.row(*n).iter().any(|x| *x != 0.0));
+    let rows: Vec<Vec<String>> = linked.map(|n| links(model, call, n)).collect();
     let count = rows.len();
     let links = aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>());
     format!(
         "{}Contact nodes (c_tll = {})\n{found}\nk_cnt: {count} of {} rows are not zero\n{links}",
         dropped(scene),
-        sheet.c_tll,
-        sheet.R()
+        model.contact.tolerance,
+        model.nodes.len()
     )
 }
 
-fn k_cnt_row(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, n: usize) -> Vec<String> {
-    let surface = if sheet.cnt.iter().any(|c| *c == n) { "contact" } else { "target" };
-    let cells = pairs
-        .k_cnt
-        .row(n)
-        .enumerate()
-        .map(|(j, x)| if j % 2 == 0 { format!("{x:.0}") } else { short(*x) });
-    std::iter::once(n.to_string()).chain(cells).chain([surface.to_string()]).collect()
+/// A row of k_cnt.
+fn links(model: &Model, call: &Call, node: NodeId) -> Vec<String> {
+    let surface = if model.contact.nodes.contains(&node) { "contact" } else { "target" };
+    let cell = |(j, x): (usize, f64)| if j % 2 == 0 { format!("{x:.0}") } else { short(x) };
+    let cells = call.row(node).into_iter().enumerate().map(cell);
+    std::iter::once(node.to_string()).chain(cells).chain([surface.to_string()]).collect()
 }

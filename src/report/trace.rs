@@ -8,14 +8,15 @@ use super::json::pairs_value;
 use crate::paper::listings::Which;
 use crate::paper::mathcad::Listing;
 use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::{Pairs, Worksheet};
+use crate::paper::mirror::Pairs;
+use crate::problem::model::{Model, TriangleId};
 use crate::studies::audit::trace::{Access, MOST_STEPS, Product, Step, Trace, text_of};
 
 /// The trace as text: the steps turn by turn, what `trace()` wrote, and what came out.
-pub fn text(trace: &Trace, listing: &Listing, sheet: &Worksheet<f64>) -> String {
+pub fn text(trace: &Trace, listing: &Listing, model: &Model) -> String {
     let mut text = String::new();
     for turn in turns(trace) {
-        writeln!(text, "\n{}", heading(trace.which, turn, sheet)).expect("a String takes any text");
+        writeln!(text, "\n{}", heading(trace.which, turn, model)).expect("a String takes any text");
         let steps: Vec<&Step> = trace.steps.iter().filter(|s| s.turn == Some(turn)).collect();
         let (kept, skipped) = without_missed_edges(trace.which, listing, &steps);
         for step in kept {
@@ -72,17 +73,17 @@ fn turns(trace: &Trace) -> Vec<usize> {
     turns
 }
 
-fn heading(which: Which, turn: usize, sheet: &Worksheet<f64>) -> String {
+fn heading(which: Which, turn: usize, model: &Model) -> String {
     match which {
         Which::CCnt => format!(
             "contact node {} (i1 = {turn} of {})",
-            sheet.cnt.get(turn).copied().unwrap_or(0),
-            sheet.cnt.rows()
+            model.contact.nodes.get(turn - 1).map_or(0, |node| node.number()),
+            model.contact.nodes.len()
         ),
         Which::Km => {
-            let nodes: Vec<String> =
-                (0..3).map(|k| sheet.EL[(turn, sheet.ind_1 + k)].to_string()).collect();
-            format!("element n = {turn} of {} (nodes {})", sheet.M(), nodes.join(", "))
+            let triangle = model.triangle(TriangleId::from_number(turn));
+            let nodes = triangle.nodes.map(|node| node.to_string()).join(", ");
+            format!("element n = {turn} of {} (nodes {nodes})", model.triangles.len())
         }
     }
 }
@@ -204,9 +205,9 @@ fn entries(matrix: &Table<f64>, of: impl Fn(usize, usize) -> f64) -> Vec<(usize,
 }
 
 /// What an edited listing changes against the listing as printed.
-pub fn changes(printed: &Product, edited: &Product, sheet: &Worksheet<f64>) -> String {
+pub fn changes(printed: &Product, edited: &Product, model: &Model) -> String {
     let lines = match (printed, edited) {
-        (Product::Pairs(a), Product::Pairs(b)) => pair_changes(a, b, sheet),
+        (Product::Pairs(a), Product::Pairs(b)) => pair_changes(a, b, model),
         (Product::Matrix(a), Product::Matrix(b))
             if (a.rows(), a.cols()) == (b.rows(), b.cols()) =>
         {
@@ -228,7 +229,7 @@ pub fn changes(printed: &Product, edited: &Product, sheet: &Worksheet<f64>) -> S
     }
 }
 
-fn pair_changes(a: &Pairs<f64>, b: &Pairs<f64>, sheet: &Worksheet<f64>) -> Vec<String> {
+fn pair_changes(a: &Pairs<f64>, b: &Pairs<f64>, model: &Model) -> Vec<String> {
     let mut lines = Vec::new();
     let mut compare = |what: String, a: Option<f64>, b: Option<f64>| {
         if a.map(f64::to_bits) != b.map(f64::to_bits) {
@@ -236,14 +237,14 @@ fn pair_changes(a: &Pairs<f64>, b: &Pairs<f64>, sheet: &Worksheet<f64>) -> Vec<S
             lines.push(format!("{what}: {} as printed, {} edited", show(a), show(b)));
         }
     };
-    for i1 in 1..=sheet.cnt.rows() {
+    for (k, node) in model.contact.nodes.iter().enumerate() {
         let number = |n: Option<&usize>| n.map(|n| *n as f64);
-        let node = sheet.cnt[i1];
+        let i1 = k + 1;
         compare(format!("ct[{i1}] (node {node})"), number(a.ct.get(i1)), number(b.ct.get(i1)));
         compare(format!("yt[{i1}] (node {node})"), a.yt.get(i1).copied(), b.yt.get(i1).copied());
         compare(format!("dy[{i1}] (node {node})"), number(a.dy.get(i1)), number(b.dy.get(i1)));
     }
-    for n in 1..=sheet.R() {
+    for n in 1..=model.nodes.len() {
         for j in 1..=4 {
             let entry = |p: &Pairs<f64>| p.k_cnt.get(n, j).copied();
             compare(format!("k_cnt[{n},{j}]"), entry(a), entry(b));

@@ -1,19 +1,12 @@
-//! Golden files: `golden/<scene>/<name>.snap`, exact for integers and words, toleranced for floats.
+//! Golden files, `golden/<folder>/<name>.snap`, under any rule of what is the same.
 
 use std::path::Path;
 
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Settings, Snapshot};
 
-use super::tolerances::{GOLDEN, GOLDEN_FLOOR};
-
-/// Compares `text` with `golden/<folder>/<name>.snap`; `cargo insta review` (or INSTA_UPDATE=always) changes it.
-#[track_caller]
-pub fn assert_golden(folder: &str, name: &str, text: &str) {
-    assert_golden_by(folder, name, text, same_text);
-}
-
-/// The same under another rule of what is the same: the golden text, then the value.
+/// Compares `text` with `golden/<folder>/<name>.snap` under a rule of what is the same, which gets
+/// the golden text, then the value; `cargo insta review` (or INSTA_UPDATE=always) changes the file.
 #[track_caller]
 pub fn assert_golden_by(folder: &str, name: &str, text: &str, same: fn(&str, &str) -> bool) {
     let mut settings = Settings::clone_current();
@@ -40,47 +33,4 @@ impl Comparator for Toleranced {
     fn dyn_clone(&self) -> Box<dyn Comparator> {
         Box::new(Toleranced(self.0))
     }
-}
-
-/// Words equal to the letter, floats (a `.` or an exponent in them) within `GOLDEN` of the largest float of their line, or
-/// within `GOLDEN_FLOOR`.
-pub fn same_text(expected: &str, value: &str) -> bool {
-    let (expected, value) = (expected.trim_end(), value.trim_end());
-    expected.lines().count() == value.lines().count()
-        && expected.lines().zip(value.lines()).all(|(e, v)| same_line(e, v))
-}
-
-fn same_line(expected: &str, value: &str) -> bool {
-    let scale = expected.split_whitespace().filter_map(float).fold(0.0, |m: f64, x| m.max(x.abs()));
-    expected.split_whitespace().count() == value.split_whitespace().count()
-        && expected
-            .split_whitespace()
-            .zip(value.split_whitespace())
-            .all(|(e, v)| same_word(e, v, scale))
-}
-
-fn same_word(expected: &str, value: &str, scale: f64) -> bool {
-    if expected == value {
-        return true;
-    }
-    // A float that came out as exactly 0 is printed without a point.
-    let number = |word: &str| if word == "0" { Some(0.0) } else { float(word) };
-    let (Some(e), Some(v)) = (number(expected), number(value)) else { return false };
-    let (error, limit) = ((e - v).abs(), GOLDEN_FLOOR.limit.max(GOLDEN.limit * scale));
-    if error > limit {
-        eprintln!(
-            "value {v:e}, expected {e:e}, error {error:e}, limit {limit:e} ({})",
-            GOLDEN.reason
-        );
-    }
-    error <= limit
-}
-
-fn float(word: &str) -> Option<f64> {
-    if word.contains(['.', 'e']) { word.parse().ok() } else { None }
-}
-
-/// A float for a golden file: 12 significant digits, 0 as `0`.
-pub fn number(x: f64) -> String {
-    if x == 0.0 { "0".into() } else { format!("{x:.11e}") }
 }

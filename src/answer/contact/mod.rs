@@ -5,6 +5,7 @@ mod nearest;
 mod nts;
 mod operations;
 mod pairing;
+mod pairings;
 mod pressure;
 pub mod status;
 mod surface;

@@ -6,13 +6,10 @@
 //!        target surface    a *-------+-------* b
 //! ```
 //!
-//! Node to segment ([`nts`]) takes the point of the nearest edge that is closest to c: two weights. Mortar ([`mortar`]) averages over the stretch of
-//! the target that c's edges cover: more weights, and constant pressure passes exactly.
+//! Node to segment (`nts.rs`) takes the point of the nearest edge that is closest to c: two weights. Mortar (`mortar.rs`) averages
+//! over the stretch of the target that c's edges cover: more weights, and constant pressure passes exactly.
 
-use super::surface::Surfaces;
-use super::{mortar, nts};
 use crate::problem::model::{EdgeId, NodeId};
-use crate::problem::modelling::Coupling;
 
 /// What a contact node faces.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,17 +35,6 @@ impl Pairing {
         // Differences from the node, so that no digits are lost far from the origin.
         let from = |master: NodeId| dot(minus(at, of_node(master)), self.normal);
         self.masters.iter().map(|&(master, w)| w * from(master)).sum()
-    }
-}
-
-impl Surfaces {
-    /// For each entry of the contact surface what it faces in a shape, the coordinates of each node. Nothing for a node that faces no
-    /// edge, and for a node's second entry.
-    pub fn pairings(&self, coupling: Coupling, shape: &[[f64; 2]]) -> Vec<Option<Pairing>> {
-        match coupling {
-            Coupling::Nts => nts::pairings(self, shape),
-            Coupling::Mortar => mortar::pairings(self, shape),
-        }
     }
 }
 

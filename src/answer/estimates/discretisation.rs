@@ -18,7 +18,7 @@
 //! ```
 //!
 //! the second term being for a peak that the mesh hides elsewhere. |recovered maximum − maximum| is no bar: on the benchmarks
-//! of `tests/discretisation.rs` it is some half of the true error, and on coarse meshes about zero. The price is a wide bar: there
+//! of `tests/numbers/discretisation.rs` it is some half of the true error, and on coarse meshes about zero. The price is a wide bar: there
 //! it is 2.6 to 10 times the true error as a rule, and more where that error is small by luck. What none of this can do: at a
 //! re-entrant corner, under a point load or at the edge of a sticking contact the true stress has no largest value, and no bar
 //! holds it; nor does a triangle see the error that such a place sends to it from afar.

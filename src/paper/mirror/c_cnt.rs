@@ -1,4 +1,4 @@
-//! Listing `c_cnt` (fig. 2): the contact pairs.
+//! Listing `c_cnt` (fig. 2): the contact pairs (`listings/READING.md`, section 2).
 
 use super::failure::{Cause, Failure};
 use super::reading::{LoopPlace, NodeTable, Order, Reading};

@@ -1,4 +1,4 @@
-//! Listing `Km` (fig. 3): the global stiffness matrix.
+//! Listing `Km` (fig. 3): the global stiffness matrix (`listings/READING.md`, section 3).
 //!
 //! ```text
 //!                V[1]  V[2]   ...   V[6]

@@ -73,8 +73,8 @@ choices! {
     }
 }
 
-/// One choice for each ambiguity of the print (`shared/READING.md`, section 4). R6 and R7 are what the scene and the
-/// variant say, unless given here.
+/// One choice for each ambiguity of the print (`listings/READING.md`, section 4). R6 and R7 are
+/// what the scene and the variant say, unless given here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading {
     /// R1: weights loop beside the zeroing loop, or inside it.

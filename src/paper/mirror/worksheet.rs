@@ -6,7 +6,8 @@ use crate::numbers::scalar::Scalar;
 use crate::paper::mathcad::array::{Column, Table};
 use crate::problem::element::Plane;
 
-/// The arrays and variables that the listings use without receiving them as arguments (`READING.md` section 1).
+/// The arrays and variables that the listings use without receiving them as arguments
+/// (`listings/READING.md`, section 1).
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, reason = "the paper's own names")]
 pub struct Worksheet<T> {
@@ -26,7 +27,7 @@ pub struct Worksheet<T> {
     pub ind_1: usize,
     /// Restraints: entry 2n−1 for x and 2n for y of node n, 1 = fixed. 2R.
     pub S: Column<usize>,
-    /// Element areas times the scene's thickness: length³, and with the paper's thickness of 1 its areas. M.
+    /// Element areas times the scene's thickness, length³: the paper's areas where that is 1. M.
     pub Ae: Column<T>,
     /// Strain matrices. M of 3 x 6, 1/length.
     pub B: Column<SMatrix<T, 3, 6>>,

@@ -54,18 +54,27 @@ pub struct ContactSurfaces {
 }
 
 /// An element as the mesh file has it: the row of a table that no computation needs but the paper's.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
     /// Its number.
     pub number: usize,
-    /// Gmsh's element type: 15 point, 1 edge, 2 triangle.
-    pub kind: usize,
     /// Tag of the first physical group that it belongs to; 0 where it belongs to none.
     pub physical: usize,
     /// Tag of its geometric entity.
     pub geometric: usize,
-    /// Its nodes.
-    pub nodes: Vec<NodeId>,
+    /// What it is.
+    pub element: Element,
+}
+
+/// What an element of the mesh file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Element {
+    /// A point.
+    Point(NodeId),
+    /// An edge of the model.
+    Edge(EdgeId),
+    /// A triangle of the model.
+    Triangle(TriangleId),
 }
 
 /// The finite element model. Lengths, forces and stresses in any consistent unit.

@@ -28,7 +28,7 @@ pub use file::{SceneFile, Units};
 pub use mesh::{Element, Mesh, Node, PhysicalName};
 pub use refine::Refined;
 
-use super::model::{self, Edge, Model, NodeId, Row, Sides, Triangle};
+use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Variant};
 use crate::error::InputError;
 
@@ -126,7 +126,7 @@ impl Scene {
             contact: check::contact(mesh, &file)?,
             load: DVector::zeros(2 * mesh.nodes.len()),
             bodies: model::bodies(mesh.nodes.len(), &triangles, &names),
-            rows: mesh.elements.iter().map(row).collect(),
+            rows: rows(mesh),
             triangles,
             sides,
             restrained,
@@ -165,15 +165,21 @@ fn edge(element: &Element) -> Edge {
     Edge { number: element.number, nodes }
 }
 
-/// An element of the mesh file as its table has it.
-fn row(element: &Element) -> Row {
-    Row {
+/// The elements of the mesh file as rows of its table.
+fn rows(mesh: &Mesh) -> Vec<Row> {
+    let (mut edges, mut triangles) = (0.., 0..);
+    let mut next = |element: &Element| match element.kind {
+        1 => model::Element::Edge(EdgeId::new(edges.next().expect("there are numbers"))),
+        2 => model::Element::Triangle(TriangleId::new(triangles.next().expect("as above"))),
+        _ => model::Element::Point(NodeId::from_number(element.nodes[0])),
+    };
+    let row = |element: &Element| Row {
         number: element.number,
-        kind: element.kind,
         physical: element.physical.first().copied().unwrap_or(0),
         geometric: element.geometric,
-        nodes: element.nodes.iter().map(|n| NodeId::from_number(*n)).collect(),
-    }
+        element: next(element),
+    };
+    mesh.elements.iter().map(row).collect()
 }
 
 /// Reads an ordinary file: a device would never end.

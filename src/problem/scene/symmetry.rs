@@ -10,8 +10,8 @@ use nalgebra::DVector;
 
 use super::Scene;
 use crate::problem::model::{
-    Body, ContactSurfaces, Dof, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId,
-    unordered,
+    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Model, NodeId, Row, Sides, Triangle,
+    TriangleId, unordered,
 };
 
 /// How far from its image's place a node may lie, of the scene's size: mesh generators round as they go.
@@ -169,20 +169,25 @@ struct Restriction<'a> {
     mirror: &'a Mirror<'a>,
     nodes: &'a [NodeId],
     triangles: &'a [TriangleId],
-    /// The number that each node has in the half.
+    /// The whole model's edges that are in the half.
+    edges: Vec<EdgeId>,
+    /// The node of the half that each node is.
     number: HashMap<NodeId, NodeId>,
 }
 
 impl<'a> Restriction<'a> {
     fn new(mirror: &'a Mirror<'a>, nodes: &'a [NodeId], triangles: &'a [TriangleId]) -> Self {
-        let number = nodes.iter().copied().zip(NodeId::all(nodes.len())).collect();
-        Restriction { mirror, nodes, triangles, number }
+        let number: HashMap<NodeId, NodeId> =
+            nodes.iter().copied().zip(NodeId::all(nodes.len())).collect();
+        let whole = mirror.model;
+        let inside = |id: &EdgeId| whole.edge(*id).nodes.iter().all(|n| number.contains_key(n));
+        let edges = EdgeId::all(whole.edges.len()).filter(inside).collect();
+        Restriction { mirror, nodes, triangles, edges, number }
     }
 
     fn model(&self) -> Model {
         let whole = self.mirror.model;
         let triangles: Vec<Triangle> = self.triangles.iter().map(|id| self.triangle(*id)).collect();
-        let rows: Vec<Row> = whole.rows.iter().filter_map(|row| self.row(row)).collect();
         let edges = whole.edges.iter().filter_map(|edge| {
             Some(Edge { nodes: self.renumbered(edge.nodes)?, number: edge.number })
         });
@@ -196,7 +201,7 @@ impl<'a> Restriction<'a> {
             load: DVector::from_iterator(2 * self.nodes.len(), self.dofs().map(|d| self.load(d))),
             bodies: bodies.filter(|body| !body.triangles.is_empty()).collect(),
             contact: self.contact(),
-            rows,
+            rows: whole.rows.iter().filter_map(|row| self.row(row)).collect(),
             ..whole.clone()
         }
     }
@@ -234,9 +239,21 @@ impl<'a> Restriction<'a> {
         Triangle { nodes, ..*triangle }
     }
 
+    /// A row of the mesh file under its new numbers; nothing where its element is not in the half.
     fn row(&self, row: &Row) -> Option<Row> {
-        let nodes: Option<_> = row.nodes.iter().map(|n| self.number.get(n).copied()).collect();
-        Some(Row { nodes: nodes?, ..row.clone() })
+        let element = match row.element {
+            Element::Point(node) => Element::Point(*self.number.get(&node)?),
+            Element::Edge(id) => Element::Edge(self.edge(id)?),
+            Element::Triangle(id) => {
+                Element::Triangle(TriangleId::new(self.triangles.binary_search(&id).ok()?))
+            }
+        };
+        Some(Row { element, ..*row })
+    }
+
+    /// The place that an edge has in the half.
+    fn edge(&self, id: EdgeId) -> Option<EdgeId> {
+        self.edges.binary_search(&id).ok().map(EdgeId::new)
     }
 
     fn body(&self, body: &Body) -> Body {
@@ -252,16 +269,11 @@ impl<'a> Restriction<'a> {
     }
 
     fn contact(&self) -> ContactSurfaces {
-        let whole = self.mirror.model;
-        let kept: Vec<EdgeId> = (0..whole.edges.len())
-            .map(EdgeId::new)
-            .filter(|id| self.renumbered(whole.edge(*id).nodes).is_some())
-            .collect();
-        let place = |id: &EdgeId| kept.binary_search(id).ok().map(EdgeId::new);
+        let whole = &self.mirror.model.contact;
         ContactSurfaces {
-            nodes: whole.contact.nodes.iter().filter_map(|n| self.number.get(n).copied()).collect(),
-            target: whole.contact.target.iter().filter_map(place).collect(),
-            tolerance: whole.contact.tolerance,
+            nodes: whole.nodes.iter().filter_map(|n| self.number.get(n).copied()).collect(),
+            target: whole.target.iter().filter_map(|id| self.edge(*id)).collect(),
+            tolerance: whole.tolerance,
         }
     }
 }

@@ -1,48 +1,53 @@
-//! What an audit looks at: a scene, its arrays under the default reading, and a run of each variant.
+//! What an audit looks at: a scene, and a run of each variant under the default reading.
 
 use std::sync::{Arc, OnceLock};
 
-use crate::answer::contact::{self, Outcome};
 use crate::answer::error::Error;
-use crate::paper::mirror::{Failure, Pairs, Reading, Worksheet, c_cnt};
+use crate::answer::{Request, Solution, reference, solve};
+use crate::paper::door::Call;
+use crate::paper::mirror::{Failure, Reading};
+use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 
 /// A run, or why there is none.
-pub type Run = Result<Outcome, Arc<Error>>;
+pub type Run = Result<Solution, Arc<Error>>;
 
 /// A scene under audit. Runs are made when they are first asked for, once.
 pub struct Case {
     /// The scene.
     pub scene: Scene,
-    /// Its arrays under the default reading.
-    pub sheet: Worksheet<f64>,
     runs: [OnceLock<Run>; Variant::ALL.len()],
-    converged: OnceLock<Run>,
+    reference: OnceLock<Run>,
 }
 
 impl Case {
     /// The case of a scene.
-    ///
-    /// # Errors
-    /// A scene that the default reading does not allow.
-    pub fn new(scene: Scene) -> Result<Self, Error> {
-        let sheet = scene.worksheet(&Reading::default())?;
-        Ok(Case { scene, sheet, runs: Default::default(), converged: OnceLock::new() })
+    pub fn new(scene: Scene) -> Self {
+        Case { scene, runs: Default::default(), reference: OnceLock::new() }
+    }
+
+    /// The model, as it is under the default reading.
+    pub fn model(&self) -> &Model {
+        &self.scene.model
+    }
+
+    /// What is asked for under the default reading.
+    pub fn request(&self, variant: Variant) -> Request {
+        Request::new(&self.scene).variant(variant)
     }
 
     /// The run of a variant under the default reading.
     pub fn run(&self, variant: Variant) -> &Run {
         let at = Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant");
-        self.runs[at].get_or_init(|| {
-            contact::run(&self.scene, variant, &Reading::default(), |_| ()).map_err(Arc::new)
-        })
+        let run = || solve(&self.request(variant), &mut |_| ()).map_err(Arc::new);
+        self.runs[at].get_or_init(run)
     }
 
-    /// The converged answer that runs are measured against.
-    pub fn converged(&self) -> &Run {
-        self.converged
-            .get_or_init(|| contact::reference(&self.scene, &Reading::default()).map_err(Arc::new))
+    /// The reference solution that runs are measured against.
+    pub fn reference(&self) -> &Run {
+        let run = || reference(&Request::new(&self.scene)).map_err(Arc::new);
+        self.reference.get_or_init(run)
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.
@@ -55,7 +60,7 @@ impl Case {
     ///
     /// # Errors
     /// Where the listing fails as printed.
-    pub fn initial(&self) -> Result<Pairs<f64>, Failure> {
-        c_cnt(&self.sheet, &Reading::default(), &self.sheet.node)
+    pub fn initial(&self) -> Result<Call, Failure> {
+        Call::c_cnt(self.model(), &Reading::default(), &self.model().nodes)
     }
 }

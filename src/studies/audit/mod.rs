@@ -9,7 +9,8 @@ pub mod variants;
 
 pub use case::Case;
 
-use crate::answer::contact::{BodySummary, ContactNode, summaries};
+use crate::answer::contact::ContactNode;
+use crate::answer::{BodySummary, summaries};
 use crate::problem::modelling::{ContactModel, Friction};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -54,21 +55,24 @@ pub struct Converged {
 }
 
 fn converged(case: &Case) -> Option<Converged> {
-    case.scene.target()?;
-    let outcome = case.converged().as_ref().ok()?;
+    case.model().target()?;
+    let reference = case.reference().as_ref().ok()?;
     Some(Converged {
-        model: outcome.model,
-        in_contact: outcome.contact.iter().filter(|node| node.dy == 1).count(),
-        bodies: summaries(&case.scene, outcome),
+        model: reference.request.contact,
+        in_contact: reference.in_contact().count(),
+        bodies: summaries(reference),
     })
 }
 
 fn sticking(case: &Case) -> Vec<ContactNode> {
-    if case.scene.target().is_none() || case.scene.contact.friction == Friction::None {
-        return Vec::new();
+    match case.reference() {
+        Ok(reference)
+            if case.model().target().is_some() && case.scene.contact.friction != Friction::None =>
+        {
+            reference.in_contact().cloned().collect()
+        }
+        _ => Vec::new(),
     }
-    let converged = case.converged().as_ref().map_or(&[][..], |outcome| &outcome.contact);
-    converged.iter().filter(|node| node.dy == 1).cloned().collect()
 }
 
 /// A finding's row for machines.

@@ -4,16 +4,16 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use crate::answer::contact::{Outcome, run};
 use crate::answer::error::Error;
+use crate::answer::{Detail, Solution, max_displacement, solve};
+use crate::paper::door::{self, Call};
 use crate::paper::listings::{self, Which};
 use crate::paper::mathcad::array::Table;
 use crate::paper::mathcad::settings::{Descending, LastIf, ZeroOverZero};
 use crate::paper::mathcad::{Failure, Settings};
-use crate::paper::mirror::{Km, Order, Pairs, Reading, c_cnt};
-use crate::problem::element;
-use crate::problem::element::Plane;
-use crate::problem::modelling::Variant;
+use crate::paper::mirror::{Km, Order, Pairs, Reading};
+use crate::problem::element::{self, Plane};
+use crate::problem::modelling::{StatusRule, Variant};
 
 /// What another reading changes.
 #[derive(Clone, Debug, Serialize)]
@@ -50,10 +50,10 @@ enum Trial {
     StrainFormula,
 }
 
-/// Every other reading on a scene, in the order of `READING.md`.
+/// Every other reading on a scene, in the order of `listings/READING.md`, section 4.
 pub fn effects(case: &Case) -> Vec<Effect> {
     let own = case.published_variant();
-    let plane = match case.sheet.plane {
+    let plane = match case.model().plane {
         Plane::Strain => "R6=stress",
         Plane::Stress => "R6=strain",
     };
@@ -100,10 +100,10 @@ struct Initial {
 }
 
 fn initial(case: &Case, reading: &Reading) -> Result<Initial, Error> {
-    let sheet = case.scene.worksheet(reading)?;
-    let pairs = c_cnt(&sheet, reading, &sheet.node)?;
-    let matrix = Km(&sheet, reading, &pairs.k_cnt)?;
-    Ok(Initial { pairs, matrix })
+    let model = case.request(case.scene.variant).reading(*reading).model()?;
+    let call = Call::c_cnt(&model, reading, &model.nodes)?;
+    let matrix = Km(&call.sheet, reading, &call.pairs.k_cnt)?;
+    Ok(Initial { pairs: call.pairs, matrix })
 }
 
 /// The mirror under `text`, beside the mirror under the default reading.
@@ -127,12 +127,12 @@ fn mirror(
         Err(why) => return effect.failed(&why),
     };
     let effect = Effect { statuses, entries, ..effect };
-    let other = match run(&case.scene, variant, &reading, |_| ()) {
+    let other = match solve(&case.request(variant).reading(reading), &mut |_| ()) {
         Ok(other) => other,
         Err(why) => return effect.failed(&why),
     };
     match case.run(variant) {
-        Ok(outcome) => Effect { displacement: Some(largest_difference(outcome, &other)), ..effect },
+        Ok(own) => Effect { displacement: Some(largest_difference(own, &other)), ..effect },
         Err(why) => effect.failed(&format!("under the default reading: {why}")),
     }
 }
@@ -142,15 +142,19 @@ fn mirror(
 fn conjunction(case: &Case, id: &'static str, lines: &'static str, r4: Order) -> Effect {
     let variant = case.published_variant();
     let effect = Effect::none(id, format!("R4 = {r4}"), lines, variant.name().into());
-    let outcome = match case.run(variant) {
-        Ok(outcome) => outcome,
+    let solution = match case.run(variant) {
+        Ok(solution) => solution,
         Err(why) => return effect.failed(why),
     };
     let reading = Reading { r4, ..Reading::default() };
-    for it in &outcome.iterations {
-        match c_cnt(&case.sheet, &reading, &it.node_n) {
-            Err(why) => return effect.failed(&format!("iteration {}: {why}", it.k)),
-            Ok(pairs) => assert_eq!(pairs, it.pairs, "the order of evaluation changes no value"),
+    for step in &solution.steps {
+        let call = match Call::c_cnt(&solution.model, &reading, &step.shape) {
+            Err(why) => return effect.failed(&format!("iteration {}: {why}", step.k)),
+            Ok(call) => call,
+        };
+        if case.scene.contact.status == StatusRule::Signs {
+            let Detail::Published(own) = &step.detail else { unreachable!("a published variant") };
+            assert_eq!(call.pairs, own.pairs, "the order of evaluation changes no value");
         }
     }
     Effect { statuses: Some(0), entries: Some(0), displacement: Some(0.0), ..effect }
@@ -198,13 +202,13 @@ fn worksheet(
 
 /// The two listings, executed at the initial shape.
 fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
-    let (sheet, reading) = (&case.sheet, Reading::default());
-    let pairs = if sheet.cnt.rows() == 0 {
-        // Without contact nothing of contact is built: `c_cnt` is not called.
-        Pairs::none(sheet.R())
-    } else {
+    let (sheet, reading) = (&door::worksheet(case.model(), |x| x), Reading::default());
+    let pairs = if case.model().has_contact() {
         let listing = Which::CCnt.under(&reading);
         listings::c_cnt(&listing, settings, sheet, &sheet.node, &mut ())?.0
+    } else {
+        // Without contact nothing of contact is built: `c_cnt` is not called.
+        Pairs::none(sheet.R())
     };
     let listing = Which::Km.under(&reading);
     let (matrix, _) = listings::km(&listing, settings, sheet, &pairs.k_cnt, &mut ())?;
@@ -217,12 +221,12 @@ fn strain_formula(case: &Case, id: &'static str, lines: &'static str) -> Effect 
     let effect = Effect::none(id, "stress formula / (1 + nu)".into(), lines, what.into());
     match case.run(case.published_variant()) {
         Err(why) => effect.failed(why),
-        Ok(outcome) => {
-            let sheet = &outcome.sheet;
-            let other = outcome.elements.iter().zip(sheet.nu.iter()).map(|(state, nu)| {
-                (state.von_mises_strain
-                    - element::von_mises_strain_by_stress_formula(sheet.plane, *nu, &state.epsilon))
-                .abs()
+        Ok(solution) => {
+            let model = &*solution.model;
+            let other = solution.elements.iter().zip(&model.triangles).map(|(state, triangle)| {
+                let (nu, epsilon) = (triangle.material.nu, &state.epsilon);
+                let other = element::von_mises_strain_by_stress_formula(model.plane, nu, epsilon);
+                (state.von_mises_strain - other).abs()
             });
             Effect { displacement: Some(other.fold(0.0, f64::max)), ..effect }
         }
@@ -265,6 +269,6 @@ fn changed_entries(a: &Table<f64>, b: &Table<f64>) -> usize {
 }
 
 /// Largest |u| between two displacement fields, length.
-pub fn largest_difference(a: &Outcome, b: &Outcome) -> f64 {
-    crate::answer::contact::max_displacement(&(&a.u - &b.u))
+pub fn largest_difference(a: &Solution, b: &Solution) -> f64 {
+    max_displacement(&(&a.u - &b.u))
 }

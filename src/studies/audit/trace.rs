@@ -3,11 +3,12 @@
 use serde::Serialize;
 use serde_json::Value as Json;
 
+use crate::paper::door::Call;
 use crate::paper::listings::{self, Which};
 use crate::paper::mathcad::array::Table;
 use crate::paper::mathcad::observe::{Executed, Named};
 use crate::paper::mathcad::{Failure, Listing, Recorder, Settings, Value};
-use crate::paper::mirror::{Pairs, Worksheet};
+use crate::paper::mirror::Pairs;
 
 /// An execution of a listing.
 pub struct Trace {
@@ -54,14 +55,13 @@ pub struct Access {
 /// Statements kept at most: what comes after is executed, but not shown.
 pub const MOST_STEPS: usize = 200_000;
 
-/// Executes `listing` (as `which`) on the arrays `sheet`: `c_cnt` on the initial shape, `Km` on the contact pairs `k_cnt`. Only the
-/// turns that `wanted` asks for are kept.
+/// Executes `listing` (as `which`) on the tables of `call`: `c_cnt` on the initial shape, `Km` on the contact pairs that were found. Only
+/// the turns that `wanted` asks for are kept.
 pub fn trace(
     which: Which,
     listing: &Listing,
     settings: &Settings,
-    sheet: &Worksheet<f64>,
-    k_cnt: &Table<f64>,
+    call: &Call,
     wanted: impl Fn(usize) -> bool,
 ) -> Trace {
     let mut steps = Vec::new();
@@ -76,7 +76,7 @@ pub fn trace(
                 steps.push(Step::new(turn, done));
             }
         });
-        run(which, listing, settings, sheet, k_cnt, &mut recorder)
+        run(which, listing, settings, call, &mut recorder)
     };
     let (result, output) = match outcome {
         Ok((product, output)) => (Ok(product), output),
@@ -93,14 +93,13 @@ pub fn run<O: crate::paper::mathcad::Observer>(
     which: Which,
     listing: &Listing,
     settings: &Settings,
-    sheet: &Worksheet<f64>,
-    k_cnt: &Table<f64>,
+    call: &Call,
     observer: &mut O,
 ) -> listings::Traced<Product> {
     match which {
-        Which::CCnt => listings::c_cnt(listing, settings, sheet, &sheet.node, observer)
+        Which::CCnt => listings::c_cnt(listing, settings, &call.sheet, &call.sheet.node, observer)
             .map(|(pairs, output)| (Product::Pairs(pairs), output)),
-        Which::Km => listings::km(listing, settings, sheet, k_cnt, observer)
+        Which::Km => listings::km(listing, settings, &call.sheet, &call.pairs.k_cnt, observer)
             .map(|(matrix, output)| (Product::Matrix(matrix), output)),
     }
 }

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use crate::answer::contact::{BodySummary, Cycle, Distance, Outcome, distance, summaries};
+use crate::answer::{BodySummary, Cycle, Distance, Solution, distance, summaries};
+use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
 
 /// What a variant comes to on a scene.
@@ -26,7 +27,7 @@ pub enum End {
         /// Contact nodes with dy = 1 at each iteration.
         in_contact: Vec<usize>,
         /// The contact nodes themselves at the last one.
-        contact_set: Vec<usize>,
+        contact_set: Vec<NodeId>,
         /// Force that reaches the target at the end, against the load applied.
         target_share: f64,
         /// Residual of eq. (1) at the end, total displacements, length.
@@ -40,7 +41,7 @@ pub enum End {
         /// The largest friction coefficient that a node in contact would need not to slide.
         friction_needed: Option<f64>,
         /// Contact nodes in contact that pull.
-        pulling: Vec<usize>,
+        pulling: Vec<NodeId>,
     },
     /// The published algorithm fails.
     Failure {
@@ -53,7 +54,7 @@ pub enum End {
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
     let row = |variant: &Variant| {
         let end = match case.run(*variant) {
-            Ok(outcome) => end(case, outcome),
+            Ok(solution) => end(case, solution),
             Err(why) => End::Failure { failure: why.to_string() },
         };
         VariantRow { variant: *variant, end }
@@ -61,25 +62,23 @@ pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
     Variant::ALL.par_iter().map(row).collect()
 }
 
-fn end(case: &Case, outcome: &Outcome) -> End {
-    let last = outcome.iterations.last().expect("a run has an iteration");
-    let [fx, fy] = case.scene.total_load();
+fn end(case: &Case, solution: &Solution) -> End {
+    let (model, last) = (&*solution.model, solution.last());
+    let [fx, fy] = model.total_load();
     let load = fx.hypot(fy);
-    let cnt = &outcome.sheet.cnt;
-    let pulling = outcome.contact.iter().filter(|c| c.dy == 1 && c.force < 0.0);
+    let needed = solution.contact.iter().filter_map(|c| c.friction_needed);
     End::Result {
-        in_contact: outcome.iterations.iter().map(|it| it.in_contact).collect(),
-        contact_set: (1..=cnt.rows()).filter(|&i| last.pairs.dy[i] == 1).map(|i| cnt[i]).collect(),
+        in_contact: solution.steps.iter().map(|step| step.in_contact).collect(),
+        contact_set: last.contact_set(model),
         target_share: if load == 0.0 { 0.0 } else { last.target_force / load },
-        eq1_residual: last.eq1_residual,
+        eq1_residual: last.contact_residual(),
         cycle: last.cycle.clone(),
-        bodies: summaries(&case.scene, outcome),
-        distance: case
-            .scene
+        bodies: summaries(solution),
+        distance: model
             .target()
-            .and_then(|_| case.converged().as_ref().ok())
-            .map(|converged| distance(&case.scene, outcome, converged)),
-        friction_needed: outcome.contact.iter().filter_map(|c| c.friction_needed).reduce(f64::max),
-        pulling: pulling.map(|c| c.node).collect(),
+            .and_then(|_| case.reference().as_ref().ok())
+            .map(|reference| distance(solution, reference)),
+        friction_needed: needed.reduce(f64::max),
+        pulling: solution.in_contact().filter(|c| c.force < 0.0).map(|c| c.node).collect(),
     }
 }

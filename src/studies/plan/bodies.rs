@@ -3,9 +3,8 @@
 use serde::Serialize;
 
 use crate::choices;
-use crate::paper::mirror::Worksheet;
+use crate::problem::model::{Body, Model};
 use crate::problem::modelling::Variant;
-use crate::problem::scene::{Body, Scene};
 
 choices! {
     /// Why nothing moves a body: its displacements are exactly 0.
@@ -36,16 +35,17 @@ pub struct BodyPlan {
     pub idle: Option<Idle>,
 }
 
-/// The bodies of `scene`.
-pub fn plan(scene: &Scene, sheet: &Worksheet<f64>, variant: Variant) -> Vec<BodyPlan> {
-    scene.bodies.iter().map(|body| of_body(scene, sheet, variant, body)).collect()
+/// The bodies of a model.
+pub fn plan(model: &Model, variant: Variant) -> Vec<BodyPlan> {
+    model.bodies.iter().map(|body| of_body(model, variant, body)).collect()
 }
 
-fn of_body(scene: &Scene, sheet: &Worksheet<f64>, variant: Variant, body: &Body) -> BodyPlan {
-    let equations = body.nodes.iter().flat_map(|n| [2 * n - 1, 2 * n]);
-    let free: Vec<usize> = equations.filter(|&e| sheet.S[e] == 0).collect();
-    let loaded = free.iter().any(|e| scene.load[e - 1] != 0.0);
-    let in_contact = touched(sheet, body);
+fn of_body(model: &Model, variant: Variant, body: &Body) -> BodyPlan {
+    let dofs = body.nodes.iter().flat_map(|n| n.dofs());
+    let free: Vec<usize> =
+        dofs.filter(|dof| !model.is_restrained(*dof)).map(|dof| dof.index()).collect();
+    let loaded = free.iter().any(|e| model.load[*e] != 0.0);
+    let in_contact = touched(model, body);
     let idle = match (free.is_empty(), loaded, in_contact) {
         (true, ..) => Some(Idle::Restrained),
         (_, true, _) => None,
@@ -62,8 +62,8 @@ fn of_body(scene: &Scene, sheet: &Worksheet<f64>, variant: Variant, body: &Body)
     }
 }
 
-/// Whether an entry of `cnt` or an end of a target edge lies on it.
-fn touched(sheet: &Worksheet<f64>, body: &Body) -> bool {
-    let ends = sheet.trg.iter().flat_map(|&e| [sheet.elem[(e, 6)], sheet.elem[(e, 7)]]);
-    sheet.cnt.iter().copied().chain(ends).any(|n| body.nodes.binary_search(&n).is_ok())
+/// Whether an entry of the contact surface or an end of a target edge lies on it.
+fn touched(model: &Model, body: &Body) -> bool {
+    let ends = model.target_edges().flat_map(|edge| edge.nodes);
+    model.contact.nodes.iter().copied().chain(ends).any(|n| body.has(n))
 }

@@ -11,7 +11,7 @@
 
 use serde::Serialize;
 
-use crate::paper::mirror::Worksheet;
+use crate::problem::model::{Edge, Model};
 
 /// How far a node may move, in lengths of the edge: one that moves further passes over half of it in one step, which the contact search is not
 /// made for either.
@@ -20,7 +20,7 @@ pub const MARGIN: f64 = 0.5;
 /// Contact nodes and target edges, and the pairs of them that can meet in the initial shape.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Candidates {
-    /// Entries of `cnt`.
+    /// Entries of the contact surface.
     pub nodes: usize,
     /// Target edges.
     pub edges: usize,
@@ -33,20 +33,21 @@ pub struct Candidates {
 }
 
 impl Candidates {
-    /// The candidates of a scene; nothing without contact.
-    pub fn find(sheet: &Worksheet<f64>) -> Option<Self> {
-        let at = |n: usize| [sheet.node[(n, 2)], sheet.node[(n, 3)]];
-        let edges: Vec<[[f64; 2]; 2]> =
-            sheet.trg.iter().map(|&e| [6, 7].map(|column| at(sheet.elem[(e, column)]))).collect();
-        let met = |&n: &usize| edges.iter().filter(|edge| near(at(n), edge, sheet.c_tll)).count();
-        let of_node: Vec<usize> = sheet.cnt.iter().map(met).collect();
-        let touches = |p| edges.iter().any(|edge| distance(p, edge) <= sheet.c_tll);
+    /// The candidates of a model; nothing without contact.
+    pub fn find(model: &Model) -> Option<Self> {
+        let tolerance = model.contact.tolerance;
+        let ends = |edge: &Edge| edge.nodes.map(|node| model.at(node));
+        let edges: Vec<[[f64; 2]; 2]> = model.target_edges().map(ends).collect();
+        let points = || model.contact.nodes.iter().map(|node| model.at(*node));
+        let near = |p| edges.iter().filter(|edge| near(p, edge, tolerance)).count();
+        let of_node: Vec<usize> = points().map(near).collect();
+        let touches = |p: &[f64; 2]| edges.iter().any(|edge| distance(*p, edge) <= tolerance);
         (!of_node.is_empty()).then(|| Candidates {
             nodes: of_node.len(),
             edges: edges.len(),
             pairs: of_node.iter().sum(),
-            near: of_node.iter().filter(|met| **met > 0).count(),
-            touching: sheet.cnt.iter().filter(|n| touches(at(**n))).count(),
+            near: of_node.iter().filter(|count| **count > 0).count(),
+            touching: points().filter(touches).count(),
         })
     }
 

@@ -7,21 +7,17 @@ use serde::Serialize;
 
 use super::candidates::Candidates;
 use super::machine::Machine;
-use crate::numbers::solve::{Arithmetic, FactorSize, ScalarName, cost};
-use crate::paper::mirror::Worksheet;
+use crate::answer::Request;
+use crate::numbers::solve::{FactorSize, ScalarName, cost};
+use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Variant};
-use crate::problem::scene::Scene;
 
 /// What is to be done.
 pub struct Work<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// Its worksheet.
-    pub sheet: &'a Worksheet<f64>,
-    /// What is run.
-    pub variant: Variant,
-    /// In which numbers.
-    pub arithmetic: Arithmetic,
+    /// What is asked for.
+    pub request: &'a Request,
+    /// The model.
+    pub model: &'a Model,
     /// Dense matrices held at once.
     pub dense: usize,
     /// One factorisation of the run.
@@ -137,18 +133,18 @@ impl Work<'_> {
     }
 
     fn states(&self) -> usize {
-        let most = match self.variant {
+        let most = match self.request.variant {
             Variant::Unilateral => return self.converging(),
             Variant::Printed => states::PRINTED,
             Variant::Stepped => states::STEPPED,
             Variant::Tied => states::TIED,
         };
-        if self.settled() { 1 } else { most.min(self.scene.iterations) }
+        if self.settled() { 1 } else { most.min(self.request.iterations) }
     }
 
     /// Iterations that the converged answer takes.
     fn converging(&self) -> usize {
-        match (self.candidates, self.scene.contact.friction) {
+        match (self.candidates, self.request.contact.friction) {
             (Some(found), Friction::None) => 1 + (found.near - found.touching) / states::NODES,
             _ if self.settled() => 1,
             _ => states::STICKING,
@@ -161,30 +157,30 @@ impl Work<'_> {
     }
 
     fn reference_states(&self) -> usize {
-        let same =
-            self.variant == Variant::Unilateral && self.scene.contact.coupling == Coupling::Mortar;
+        let same = self.request.variant == Variant::Unilateral
+            && self.request.contact.coupling == Coupling::Mortar;
         if self.candidates.is_none() || same { 0 } else { self.converging() }
     }
 
     /// Iterations of which something is kept.
     fn kept(&self) -> usize {
-        let own = match self.variant {
+        let own = match self.request.variant {
             Variant::Unilateral => self.states(),
-            _ => self.scene.iterations,
+            _ => self.request.iterations,
         };
         own + self.reference_states()
     }
 
     /// Size of a number, in units of an `f64`.
     fn width(&self) -> usize {
-        match self.arithmetic.scalar {
+        match self.request.arithmetic.scalar {
             ScalarName::F32 | ScalarName::F64 => 1,
             _ => 2,
         }
     }
 
     fn bytes(&self) -> Bytes {
-        let (r, m) = (self.sheet.R() as f64, self.sheet.M() as f64);
+        let (r, m) = (self.model.nodes.len() as f64, self.model.triangles.len() as f64);
         let [each, most] = bytes::FREED[usize::from(self.candidates.is_some())];
         let freed = (each * m).min(most);
         Bytes {
@@ -197,14 +193,14 @@ impl Work<'_> {
 
     /// K is 2R x 2R, the others have the equations that are solved.
     fn dense_bytes(&self) -> f64 {
-        let size = match self.arithmetic.scalar {
+        let size = match self.request.arithmetic.scalar {
             ScalarName::F32 => 4.0,
             ScalarName::F64 => 8.0,
             _ => 16.0,
         };
         let square = |n: usize| size * (n as f64).powi(2);
-        let (all, solved) = (2 * self.sheet.R(), self.factors.equations);
-        match (self.dense, self.variant) {
+        let (all, solved) = (2 * self.model.nodes.len(), self.factors.equations);
+        match (self.dense, self.request.variant) {
             (0, _) => 0.0,
             (matrices, Variant::Printed) => {
                 (matrices as f64 * square(all)).max(bytes::PRINTED_BAR * (all as f64).powi(2))
@@ -215,9 +211,9 @@ impl Work<'_> {
 
     /// Processor time on [`Machine::REFERENCE`].
     fn seconds(&self) -> f64 {
-        let m = self.sheet.M() as f64;
+        let m = self.model.triangles.len() as f64;
         let sparse = seconds::ASSEMBLE * m + seconds::SPARSE * self.sparse.operations;
-        let own = match (self.arithmetic.scalar, self.dense) {
+        let own = match (self.request.arithmetic.scalar, self.dense) {
             (ScalarName::Exact, _) => self.exact_seconds(),
             (ScalarName::F64x2, _) => seconds::DOUBLE_DOUBLE * sparse,
             (_, 0) => sparse,
@@ -232,7 +228,7 @@ impl Work<'_> {
 
     /// One contact state with dense matrices.
     fn dense_seconds(&self) -> f64 {
-        let entries = (2.0 * self.sheet.R() as f64).powi(2);
+        let entries = (2.0 * self.model.nodes.len() as f64).powi(2);
         seconds::DENSE * self.factors.operations + seconds::SCAN * entries
     }
 

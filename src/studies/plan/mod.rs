@@ -19,13 +19,12 @@ pub use candidates::{Candidates, MARGIN};
 pub use cost::{Bytes, Cost, Work};
 pub use machine::Machine;
 
-use crate::answer::contact::dense_matrices;
+use crate::answer::{Request, dense_matrices};
 use crate::choices;
 use crate::error::InputError;
 use crate::numbers::solve::{Arithmetic, FactorSize, ScalarName, Solver, memory};
-use crate::paper::mirror::{Reading, Worksheet};
+use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
-use crate::problem::scene::Scene;
 use crate::problem::scene::symmetry::half;
 
 choices! {
@@ -109,34 +108,29 @@ pub struct ContactPlan {
 }
 
 impl Plan {
-    /// The plan of `variant` on `scene` in `arithmetic`. Neither a matrix is built nor an equation solved.
+    /// The plan of `request`. Neither a matrix is built nor an equation solved.
     ///
     /// # Errors
     /// A Poisson's ratio that R6 does not allow; a rung that is not there.
-    pub fn new(
-        scene: &Scene,
-        variant: Variant,
-        reading: &Reading,
-        arithmetic: Arithmetic,
-    ) -> Result<Self, InputError> {
+    pub fn new(request: &Request) -> Result<Self, InputError> {
+        let Request { scene, variant, arithmetic, .. } = request;
+        let (variant, arithmetic) = (*variant, *arithmetic);
         arithmetic.check()?;
-        let sheet = scene.worksheet(reading)?;
-        let bodies = bodies::plan(scene, &sheet, variant);
+        let model = &*request.model()?;
+        let bodies = bodies::plan(model, variant);
         let solver = solver(variant, arithmetic);
-        let equations = equations(&sheet, variant, &bodies);
-        let contact = contact(&sheet, scene.contact);
+        let equations = equations(model, variant, &bodies);
+        let contact = contact(model, request.contact);
         let dense = dense_matrices(variant, arithmetic);
-        let sparse = FactorSize::sparse_cholesky(equations.free, pattern(&sheet).into_iter());
+        let sparse = FactorSize::sparse_cholesky(equations.free, pattern(model).into_iter());
         let factors = match solver {
             Solver::DenseLu => FactorSize::dense_lu(equations.solved),
             Solver::DenseCholesky => FactorSize::dense_cholesky(equations.solved),
             _ => sparse,
         };
         let work = Work {
-            scene,
-            sheet: &sheet,
-            variant,
-            arithmetic,
+            request,
+            model,
             dense,
             factors,
             sparse,
@@ -145,8 +139,8 @@ impl Plan {
         Ok(Plan {
             scene: scene.name.clone(),
             variant,
-            nodes: sheet.R(),
-            triangles: sheet.M(),
+            nodes: model.nodes.len(),
+            triangles: model.triangles.len(),
             cost: work.cost(),
             bodies,
             equations,
@@ -183,32 +177,28 @@ fn solver(variant: Variant, arithmetic: Arithmetic) -> Solver {
     }
 }
 
-fn equations(sheet: &Worksheet<f64>, variant: Variant, bodies: &[BodyPlan]) -> Equations {
-    let all = 2 * sheet.R();
-    let restrained = sheet.S.iter().filter(|s| **s == 1).count();
-    let free = all - restrained;
+fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations {
+    let (all, free) = (model.dofs(), model.free_dofs());
     let idle = bodies.iter().filter(|body| body.idle.is_some()).map(|body| body.free).sum();
     let solved = if variant == Variant::Printed { all } else { free };
-    Equations { all, restrained, free, solved, idle }
+    Equations { all, restrained: all - free, free, solved, idle }
 }
 
-fn contact(sheet: &Worksheet<f64>, model: ContactModel) -> Option<ContactPlan> {
-    let ContactModel { coupling, friction, status, .. } = model;
-    let candidates = Candidates::find(sheet)?;
+fn contact(model: &Model, modelled: ContactModel) -> Option<ContactPlan> {
+    let ContactModel { coupling, friction, status, .. } = modelled;
+    let candidates = Candidates::find(model)?;
     Some(ContactPlan { coupling, friction, status, candidates })
 }
 
 /// Row and column, from 0, of the entries of K on the free equations, lower triangle. Contact is left out: it changes a few.
-fn pattern(sheet: &Worksheet<f64>) -> Vec<(usize, usize)> {
-    let mut number = Vec::with_capacity(sheet.S.rows());
+fn pattern(model: &Model) -> Vec<(usize, usize)> {
     let mut free = 0..;
-    for s in sheet.S.iter() {
-        number.push(if *s == 0 { free.next() } else { None });
-    }
-    let equations = |node: usize| [2 * node - 2, 2 * node - 1].map(|e| number[e]);
+    let place = |restrained: &bool| if *restrained { None } else { free.next() };
+    let place: Vec<Option<usize>> = model.restrained.iter().map(place).collect();
+    let equations = |node: NodeId| node.dofs().map(|dof| place[dof.index()]);
     let mut entries = Vec::new();
-    for (n, neighbours) in neighbours(sheet).into_iter().enumerate() {
-        for i in equations(n + 1).into_iter().flatten() {
+    for (node, neighbours) in model.node_ids().zip(neighbours(model)) {
+        for i in equations(node).into_iter().flatten() {
             let columns = neighbours.iter().flat_map(|m| equations(*m)).flatten();
             entries.extend(columns.filter(|j| *j <= i).map(|j| (i, j)));
         }
@@ -217,12 +207,11 @@ fn pattern(sheet: &Worksheet<f64>) -> Vec<(usize, usize)> {
 }
 
 /// For each node the nodes up to itself that share a triangle with it, itself among them.
-fn neighbours(sheet: &Worksheet<f64>) -> Vec<Vec<usize>> {
-    let mut of_node: Vec<Vec<usize>> = (1..=sheet.R()).map(|n| vec![n]).collect();
-    for n in 1..=sheet.M() {
-        let corners = [0, 1, 2].map(|k| sheet.EL[(n, sheet.ind_1 + k)]);
-        for a in corners {
-            of_node[a - 1].extend(corners.into_iter().filter(|b| *b < a));
+fn neighbours(model: &Model) -> Vec<Vec<NodeId>> {
+    let mut of_node: Vec<Vec<NodeId>> = model.node_ids().map(|n| vec![n]).collect();
+    for triangle in &model.triangles {
+        for a in triangle.nodes {
+            of_node[a.index()].extend(triangle.nodes.into_iter().filter(|b| *b < a));
         }
     }
     for neighbours in &mut of_node {

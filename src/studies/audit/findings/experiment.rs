@@ -1,11 +1,14 @@
 //! What the measures share: the shapes that a case meets, and how an experiment on them is summed up.
 
 use super::{Measured, Verdict};
-use crate::answer::contact::{self};
-use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::{Failure, Km, Pairs, Reading, Worksheet};
+use crate::paper::door::Call;
+use crate::paper::mirror::{Failure, Reading};
+use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
 use crate::studies::audit::Case;
+
+/// A shape: coordinates of each node, length.
+pub(super) type Shape = [[f64; 2]];
 
 /// A list in a detail names this many at most.
 const SHOWN: usize = 6;
@@ -41,12 +44,12 @@ impl Measured {
 /// ones the largest number. A shape at which a listing fails shows nothing.
 pub(super) fn at_shapes(
     case: &Case,
-    experiment: impl Fn(&Table<f64>) -> Result<Measured, Failure>,
+    experiment: impl Fn(&Shape) -> Result<Measured, Failure>,
 ) -> Measured {
     let mut heaviest: Option<Measured> = None;
-    for (name, node_n) in shapes(case) {
+    for (name, shape) in shapes(case) {
         let mut here =
-            experiment(&node_n).unwrap_or_else(|failure| Measured::nothing(failure.to_string()));
+            experiment(&shape).unwrap_or_else(|failure| Measured::nothing(failure.to_string()));
         here.detail = format!("{name}: {}", here.detail);
         let weight = |m: &Measured| (m.verdict, m.number.abs());
         if heaviest.as_ref().is_none_or(|most| weight(&here) > weight(most)) {
@@ -56,44 +59,51 @@ pub(super) fn at_shapes(
     heaviest.expect("every case has its initial shape")
 }
 
-fn shapes(case: &Case) -> Vec<(String, Table<f64>)> {
-    let mut shapes = vec![("initial shape".to_string(), case.sheet.node.clone())];
+fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
+    let mut shapes = vec![("initial shape".to_string(), case.model().nodes.clone())];
     for variant in Variant::OF_THE_PAPER {
-        if let Ok(outcome) = case.run(*variant) {
-            let node_n = contact::shape(&case.sheet, &outcome.u);
-            shapes.push((format!("last shape of {variant}"), node_n));
+        if let Ok(solution) = case.run(*variant) {
+            let shape = solution.model.shape(&solution.u);
+            shapes.push((format!("last shape of {variant}"), shape));
         }
     }
     shapes
 }
 
-/// The first shape, of those that a case meets, with a node in contact, and its pairs.
-pub(super) fn first_in_contact(case: &Case) -> Option<(Table<f64>, Pairs<f64>)> {
-    shapes(case).into_iter().find_map(|(_, node_n)| {
-        let pairs = c_cnt(&case.sheet, &node_n).ok()?;
-        let in_contact = pairs.dy.iter().any(|dy| *dy == 1);
-        in_contact.then_some((node_n, pairs))
+/// What `c_cnt` finds in the first shape, of those that a case comes to, with a node in contact.
+pub(super) fn first_in_contact(case: &Case) -> Option<Call> {
+    shapes(case).into_iter().find_map(|(_, shape)| {
+        let call = c_cnt(case.model(), &shape).ok()?;
+        call.statuses.iter().any(|status| status.in_contact).then_some(call)
     })
 }
 
 /// `c_cnt` under the default reading.
-pub(super) fn c_cnt(sheet: &Worksheet<f64>, node_n: &Table<f64>) -> Result<Pairs<f64>, Failure> {
-    crate::paper::mirror::c_cnt(sheet, &Reading::default(), node_n)
+pub(super) fn c_cnt(model: &Model, shape: &Shape) -> Result<Call, Failure> {
+    Call::c_cnt(model, &Reading::default(), shape)
 }
 
-/// `Km` of the pairs found in `node_n`, under the default reading.
-pub(super) fn mjs(sheet: &Worksheet<f64>, node_n: &Table<f64>) -> Result<Table<f64>, Failure> {
-    Km(sheet, &Reading::default(), &c_cnt(sheet, node_n)?.k_cnt)
+/// `Km` of the pairs found in a shape, under the default reading.
+pub(super) fn mjs(model: &Model, shape: &Shape) -> Result<nalgebra::DMatrix<f64>, Failure> {
+    c_cnt(model, shape)?.km(&Reading::default())
 }
 
-/// The contact nodes (by i1) of which `is` is true, each in `words`.
+/// The entries of the contact surface of which `is` is true, each in `words`.
 pub(super) fn contact_nodes(
-    sheet: &Worksheet<f64>,
+    model: &Model,
     is: impl Fn(usize) -> bool,
     words: impl Fn(usize) -> String,
 ) -> Vec<String> {
-    (1..=sheet.cnt.rows())
-        .filter(|&i1| is(i1))
-        .map(|i1| format!("node {}: {}", sheet.cnt[i1], words(i1)))
-        .collect()
+    let entries = model.contact.nodes.iter().enumerate().filter(|(i, _)| is(*i));
+    entries.map(|(i, node)| format!("node {node}: {}", words(i))).collect()
+}
+
+/// The number of an entry's target edge in the mesh file, 0 without one: the listing's `ct`.
+pub(super) fn ct(model: &Model, call: &Call, i: usize) -> usize {
+    call.statuses[i].edge.map_or(0, |edge| model.edge(edge).number)
+}
+
+/// 1 where an entry is in contact, else 0: the listing's `dy`.
+pub(super) fn dy(call: &Call, i: usize) -> usize {
+    usize::from(call.statuses[i].in_contact)
 }

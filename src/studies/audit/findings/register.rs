@@ -1,4 +1,4 @@
-//! The findings.
+//! The findings (`listings/READING.md`, section 5).
 
 use super::{Finding, search, status, stiffness, weights};
 
@@ -22,7 +22,7 @@ pub const FINDINGS: &[Finding] = &[
         why: "the order of trg, which the text never mentions, decides which edge a node near a joint is tied to",
         repair: "keep the edge with the smallest distance",
         number: "contact nodes with another target edge once trg is reversed",
-        measure: search::reversed_trg,
+        measure: search::reversed_target,
     },
     Finding {
         id: "C3",
@@ -132,7 +132,7 @@ pub const FINDINGS: &[Finding] = &[
         why: "a scene and its mirror image have different answers",
         repair: "what repairs C7 and K2",
         number: "entries of MJS that change once cnt is reversed",
-        measure: weights::reversed_cnt,
+        measure: weights::reversed_contact,
     },
     Finding {
         id: "C14",

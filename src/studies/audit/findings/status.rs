@@ -1,32 +1,32 @@
 //! Findings of the contact status: c_cnt 15-18.
 
-use super::experiment::{at_shapes, c_cnt, contact_nodes};
+use super::experiment::{Shape, at_shapes, c_cnt, contact_nodes, dy};
 use super::geometry::inner_sign;
 use super::{Measured, Verdict};
-use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::{self, Cause, Order, Pairs, Reading, Worksheet};
+use crate::paper::door::Call;
+use crate::paper::mirror::{Cause, Order, Reading};
+use crate::problem::model::{Model, NodeId};
 use crate::studies::audit::Case;
 
-/// `node_n` with every y changed by `f(node, y)`.
-fn with_y(node_n: &Table<f64>, f: impl Fn(usize, f64) -> f64) -> Table<f64> {
-    let mut changed = node_n.clone();
-    for n in 1..=node_n.rows() {
-        changed[(n, 3)] = f(n, node_n[(n, 3)]);
-    }
-    changed
+/// A shape with every y changed by `f(node, y)`.
+fn with_y(shape: &Shape, f: impl Fn(NodeId, f64) -> f64) -> Vec<[f64; 2]> {
+    NodeId::all(shape.len()).zip(shape).map(|(node, [x, y])| [*x, f(node, *y)]).collect()
 }
 
 /// C4: the scene upside down. Only nodes that keep their target edge count: C1 is kept out.
 pub(super) fn upside_down(case: &Case) -> Measured {
-    at_shapes(case, |node_n| {
-        let as_is = c_cnt(&case.sheet, node_n)?;
-        let mirrored = c_cnt(&case.sheet, &with_y(node_n, |_, y| -y))?;
+    at_shapes(case, |shape| {
+        let as_is = c_cnt(case.model(), shape)?;
+        let mirrored = c_cnt(case.model(), &with_y(shape, |_, y| -y))?;
         Ok(Measured::count(&contact_nodes(
-            &case.sheet,
-            |i1| as_is.ct[i1] == mirrored.ct[i1] && as_is.dy[i1] != mirrored.dy[i1],
-            |i1| {
-                let (yt, dy, other) = (as_is.yt[i1], as_is.dy[i1], mirrored.dy[i1]);
-                format!("yt {yt:.3e} dy {dy}, upside down dy {other}")
+            case.model(),
+            |i| {
+                let (own, other) = (as_is.statuses[i], mirrored.statuses[i]);
+                own.edge == other.edge && own.in_contact != other.in_contact
+            },
+            |i| {
+                let yt = as_is.statuses[i].distance;
+                format!("yt {yt:.3e} dy {}, upside down dy {}", dy(&as_is, i), dy(&mirrored, i))
             },
         )))
     })
@@ -34,37 +34,39 @@ pub(super) fn upside_down(case: &Case) -> Measured {
 
 /// C5: of runs of two or more neighbours deeper inside than c_tll, those that are not flagged.
 pub(super) fn deep_runs(case: &Case) -> Measured {
-    let sheet = &case.sheet;
-    at_shapes(case, |node_n| {
-        let pairs = c_cnt(sheet, node_n)?;
-        let deep = |i1: usize| {
-            let sign =
-                pairs.ct.get(i1).filter(|ct| **ct > 0).and_then(|e| inner_sign(sheet, node_n, *e));
-            sign.is_some_and(|sign| sign * pairs.yt[i1] >= sheet.c_tll.max(f64::MIN_POSITIVE))
+    let model = case.model();
+    at_shapes(case, |shape| {
+        let call = c_cnt(model, shape)?;
+        let least = model.contact.tolerance.max(f64::MIN_POSITIVE);
+        let deep = |i: usize| {
+            let Some(status) = call.statuses.get(i) else { return false };
+            let sign = status.edge.and_then(|edge| inner_sign(model, shape, edge));
+            sign.is_some_and(|sign| sign * status.distance >= least)
         };
+        let beside = |i: usize| i.checked_sub(1).is_some_and(deep) || deep(i + 1);
         Ok(Measured::count(&contact_nodes(
-            sheet,
-            |i1| pairs.dy[i1] == 0 && deep(i1) && (deep(i1 - 1) || deep(i1 + 1)),
-            |i1| format!("yt {:.3e} dy 0", pairs.yt[i1]),
+            model,
+            |i| !call.statuses[i].in_contact && deep(i) && beside(i),
+            |i| format!("yt {:.3e} dy 0", call.statuses[i].distance),
         )))
     })
 }
 
 /// C8: c_tll = 0: nodes on their edge that are not flagged.
 pub(super) fn strictly_less(case: &Case) -> Measured {
-    let sheet = Worksheet { c_tll: 0.0, ..case.sheet.clone() };
-    at_shapes(case, |node_n| {
-        let pairs = c_cnt(&sheet, node_n)?;
-        let touches = |i1: usize| pairs.ct[i1] > 0 && pairs.yt[i1] == 0.0;
-        let words = |i1: usize| format!("yt {:.3e} dy {}", pairs.yt[i1], pairs.dy[i1]);
-        if (1..=sheet.cnt.rows()).any(|i1| touches(i1) && pairs.dy[i1] == 1) {
-            return Ok(Measured {
-                verdict: Verdict::Contradicted,
-                ..Measured::count(&contact_nodes(&sheet, touches, words))
-            });
+    let mut model = case.model().clone();
+    model.contact.tolerance = 0.0;
+    at_shapes(case, |shape| {
+        let call = c_cnt(&model, shape)?;
+        let touches =
+            |i: usize| call.statuses[i].edge.is_some() && call.statuses[i].distance == 0.0;
+        let flagged = |i: usize| call.statuses[i].in_contact;
+        let words = |i: usize| format!("yt {:.3e} dy {}", call.statuses[i].distance, dy(&call, i));
+        let mut measured = Measured::count(&contact_nodes(&model, touches, words));
+        if (0..call.statuses.len()).any(|i| touches(i) && flagged(i)) {
+            return Ok(Measured { verdict: Verdict::Contradicted, ..measured });
         }
-        let mut measured = Measured::count(&contact_nodes(&sheet, touches, words));
-        let by_sign = Measured::count(&contact_nodes(&sheet, |i1| pairs.dy[i1] == 1, words));
+        let by_sign = Measured::count(&contact_nodes(&model, flagged, words));
         measured.detail += &format!("; flagged by lines 17-18: {}", by_sign.detail);
         Ok(measured)
     })
@@ -73,12 +75,13 @@ pub(super) fn strictly_less(case: &Case) -> Measured {
 /// C10: `∧` evaluated from left to right, at the initial shape.
 pub(super) fn left_to_right(case: &Case) -> Measured {
     let reading = Reading { r4: Order::LeftToRight, ..Reading::default() };
-    let Ok(pairs) = case.initial() else {
+    let Ok(call) = case.initial() else {
         return Measured::nothing("c_cnt fails before line 18");
     };
-    let Some(&first) = pairs.yt.get(1) else { return Measured::nothing("no contact node") };
-    let stops = mirror::c_cnt(&case.sheet, &reading, &case.sheet.node);
-    match stops {
+    let Some(first) = call.statuses.first().map(|status| status.distance) else {
+        return Measured::nothing("no contact node");
+    };
+    match Call::c_cnt(case.model(), &reading, &case.model().nodes) {
         Err(f) if f.line == 18 && f.cause == Cause::InvalidIndex => {
             Measured::holds_if(true, first, f.to_string())
         }
@@ -93,21 +96,24 @@ pub(super) fn left_to_right(case: &Case) -> Measured {
 
 /// C11: nodes that lie on their edge but for rounding, moved up and down by as much: whose status follows?
 pub(super) fn rounding_noise(case: &Case) -> Measured {
-    let sheet = &case.sheet;
-    at_shapes(case, |node_n| {
-        let pairs = c_cnt(sheet, node_n)?;
-        let noise = noise(node_n);
-        let on_edge = |i1: usize| pairs.ct[i1] > 0 && pairs.yt[i1].abs() <= noise;
-        let moved = |by: f64| {
-            let touching = |n| (1..=sheet.cnt.rows()).any(|i1| sheet.cnt[i1] == n && on_edge(i1));
-            with_y(node_n, |n, y| if touching(n) { y + by } else { y })
+    let model = case.model();
+    at_shapes(case, |shape| {
+        let call = c_cnt(model, shape)?;
+        let noise = noise(shape);
+        let on_edge =
+            |i: usize| call.statuses[i].edge.is_some() && call.statuses[i].distance.abs() <= noise;
+        let touching = |node: NodeId| {
+            let mut entries = model.contact.nodes.iter().enumerate();
+            entries.any(|(i, other)| *other == node && on_edge(i))
         };
-        let (up, down) = (c_cnt(sheet, &moved(2.0 * noise))?, c_cnt(sheet, &moved(-2.0 * noise))?);
+        let moved = |by: f64| with_y(shape, |node, y| if touching(node) { y + by } else { y });
+        let up = c_cnt(model, &moved(2.0 * noise))?;
+        let down = c_cnt(model, &moved(-2.0 * noise))?;
         Ok(Measured::count(&contact_nodes(
-            sheet,
-            |i1| !on_edge(i1) && up.dy[i1] != down.dy[i1],
-            |i1| {
-                let (yt, up, down) = (pairs.yt[i1], up.dy[i1], down.dy[i1]);
+            model,
+            |i| !on_edge(i) && up.statuses[i].in_contact != down.statuses[i].in_contact,
+            |i| {
+                let (yt, up, down) = (call.statuses[i].distance, dy(&up, i), dy(&down, i));
                 format!("yt {yt:.3e}, dy {up} or {down} as its neighbour moves by ±{noise:.0e}")
             },
         )))
@@ -115,31 +121,29 @@ pub(super) fn rounding_noise(case: &Case) -> Measured {
 }
 
 /// What rounding may leave of a difference of coordinates: yt takes some ten operations.
-fn noise(node_n: &Table<f64>) -> f64 {
-    let largest = node_n.as_matrix().columns(1, 2).amax();
+fn noise(shape: &Shape) -> f64 {
+    let largest = shape.as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     16.0 * f64::EPSILON * largest
 }
 
 /// C15: nodes flagged only because a neighbour that is itself within c_tll has yt > 0.
 pub(super) fn touching_neighbour(case: &Case) -> Measured {
-    let sheet = &case.sheet;
-    at_shapes(case, |node_n| {
-        let pairs = c_cnt(sheet, node_n)?;
+    let model = case.model();
+    at_shapes(case, |shape| {
+        let call = c_cnt(model, shape)?;
         Ok(Measured::count(&contact_nodes(
-            sheet,
-            |i1| by_touching_neighbour(sheet, &pairs, i1),
-            |i1| format!("yt {:.3e} dy 1", pairs.yt[i1]),
+            model,
+            |i| by_touching_neighbour(model, &call, i),
+            |i| format!("yt {:.3e} dy 1", call.statuses[i].distance),
         )))
     })
 }
 
-fn by_touching_neighbour(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, i1: usize) -> bool {
-    let beside = [i1.checked_sub(1), Some(i1 + 1)];
-    let above: Vec<f64> = beside
-        .into_iter()
-        .filter_map(|i| pairs.yt.get(i?).copied())
-        .filter(|yt| *yt > 0.0)
-        .collect();
-    let apart = pairs.dy[i1] == 1 && pairs.yt[i1] <= -sheet.c_tll;
-    apart && above.iter().all(|yt| *yt < sheet.c_tll)
+fn by_touching_neighbour(model: &Model, call: &Call, i: usize) -> bool {
+    let tolerance = model.contact.tolerance;
+    let beside = [i.checked_sub(1), Some(i + 1)].into_iter().flatten();
+    let mut above =
+        beside.filter_map(|i| Some(call.statuses.get(i)?.distance)).filter(|yt| *yt > 0.0);
+    let apart = call.statuses[i].in_contact && call.statuses[i].distance <= -tolerance;
+    apart && above.all(|yt| yt < tolerance)
 }

@@ -1,101 +1,99 @@
 //! Findings of the stiffness matrix, `Km`, and of the iterations.
 
+use nalgebra::DMatrix;
+
 use super::experiment::{ROUNDING, at_shapes, c_cnt, contact_nodes, first_in_contact, mjs};
 use super::geometry::away;
 use super::{Measured, Verdict};
-use crate::answer::contact::{Elimination, free_stiffness, max_displacement, ties};
+use crate::answer::{Constraint, Detail, Elimination, Solution, max_displacement};
 use crate::numbers::solve::DenseLu;
-use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mirror::{Failure, Km, Pairs, Reading, Worksheet};
+use crate::paper::door::{self, Call, NodeToSegment};
+use crate::paper::mirror::{Failure, Reading};
+use crate::problem::model::{Body, Model, NodeId, TriangleId};
 use crate::problem::modelling::Variant;
-use crate::problem::scene::Body;
 use crate::studies::audit::Case;
 
 /// K1: entries of MJS that join two bodies, at the first shape with contact.
 pub(super) fn nothing_joins(case: &Case) -> Measured {
-    let Some((node_n, _)) = first_in_contact(case) else { return Measured::nothing("no contact") };
-    let mjs = match mjs(&case.sheet, &node_n) {
+    let Some(call) = first_in_contact(case) else { return Measured::nothing("no contact") };
+    let mjs = match call.km(&Reading::default()) {
         Ok(mjs) => mjs,
         Err(failure) => return Measured::nothing(failure.to_string()),
     };
-    let joins: usize = case.scene.bodies.iter().map(|body| joins(&mjs, body)).sum();
+    let joins: usize = case.model().bodies.iter().map(|body| joins(&mjs, body)).sum();
     let verdict = if joins == 0 { Verdict::Holds } else { Verdict::Contradicted };
     Measured { verdict, number: joins as f64, detail: target_moves(case) }
 }
 
 /// Entries of `mjs` in a row of `body` and a column of another.
-fn joins(mjs: &Table<f64>, body: &Body) -> usize {
-    let mut of_body = vec![false; mjs.rows()];
-    for n in &body.nodes {
-        of_body[2 * n - 2] = true;
-        of_body[2 * n - 1] = true;
-    }
-    let columns = mjs.as_matrix().column_iter().zip(&of_body).filter(|(_, inside)| !**inside);
+fn joins(mjs: &DMatrix<f64>, body: &Body) -> usize {
+    let mut of_body = vec![false; mjs.nrows()];
+    body.nodes.iter().flat_map(|n| n.dofs()).for_each(|dof| of_body[dof.index()] = true);
+    let columns = mjs.column_iter().zip(&of_body).filter(|(_, inside)| !**inside);
     columns
         .map(|(c, _)| c.iter().zip(&of_body).filter(|(x, row)| **row && **x != 0.0).count())
         .sum()
 }
 
 fn target_moves(case: &Case) -> String {
-    let (Ok(outcome), Some(target)) = (case.run(Variant::Printed), case.scene.target()) else {
+    let (Ok(solution), Some(target)) = (case.run(Variant::Printed), case.model().target()) else {
         return "printed does not run".into();
     };
-    let moved = target.nodes.iter().map(|n| outcome.u.rows(2 * n - 2, 2).norm());
-    let (moved, most) = (moved.fold(0.0, f64::max), max_displacement(&outcome.u));
+    let norm = |n: &NodeId| solution.u.rows(n.x().index(), 2).norm();
+    let moved = target.nodes.iter().map(norm).fold(0.0, f64::max);
+    let most = max_displacement(&solution.u);
     format!("printed: the target moves by {moved:e}, the stamp by {most:.3e}")
 }
 
-/// The weights of the linked nodes of triangle `n`, in its order: pair 1 or 2 of k_cnt.
-fn linked(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, n: usize, pair: usize) -> Vec<f64> {
-    (1..=3)
-        .map(|i1| sheet.EL[(n, i1 + sheet.ind_1 - 1)])
-        .filter(|node| pairs.k_cnt[(*node, 2 * pair - 1)] > 0.0)
-        .map(|node| pairs.k_cnt[(node, 2 * pair)])
-        .collect()
+/// The weights of the linked nodes of a triangle, in its order: pair 1 or 2 of k_cnt.
+fn linked(model: &Model, call: &Call, id: TriangleId, pair: usize) -> Vec<f64> {
+    let nodes = model.triangle(id).nodes;
+    let of_pair = nodes.into_iter().map(|node| {
+        let row = call.row(node);
+        (row[2 * pair - 2], row[2 * pair - 1])
+    });
+    of_pair.filter(|(mate, _)| *mate > 0.0).map(|(_, weight)| weight).collect()
 }
 
 /// The additions (triangle, pair) of which `is` is true of the weights of the linked nodes, each in words.
-fn additions(
-    sheet: &Worksheet<f64>,
-    pairs: &Pairs<f64>,
-    is: impl Fn(&[f64]) -> bool,
-) -> Vec<(usize, String)> {
-    let all = (1..=sheet.M()).flat_map(|n| [1, 2].map(|pair| (n, pair)));
-    all.map(|(n, pair)| (n, pair, linked(sheet, pairs, n, pair)))
+fn additions(model: &Model, call: &Call, is: impl Fn(&[f64]) -> bool) -> Vec<(TriangleId, String)> {
+    let all = model.triangle_ids().flat_map(|id| [1, 2].map(|pair| (id, pair)));
+    all.map(|(id, pair)| (id, pair, linked(model, call, id, pair)))
         .filter(|(_, _, weights)| is(weights))
-        .map(|(n, pair, weights)| (n, format!("triangle {n}, pair {pair}: weights {weights:?}")))
+        .map(|(id, pair, weights)| (id, format!("triangle {id}, pair {pair}: weights {weights:?}")))
         .collect()
 }
 
 /// K2: triangles with two linked nodes of different weight.
 pub(super) fn one_weight_for_all(case: &Case) -> Measured {
-    at_shapes(case, |node_n| {
-        let pairs = c_cnt(&case.sheet, node_n)?;
-        let mut found = additions(&case.sheet, &pairs, |w| w.windows(2).any(|w| w[0] != w[1]));
-        found.dedup_by_key(|(n, _)| *n);
+    at_shapes(case, |shape| {
+        let call = c_cnt(case.model(), shape)?;
+        let mut found = additions(case.model(), &call, |w| w.windows(2).any(|w| w[0] != w[1]));
+        found.dedup_by_key(|(id, _)| *id);
         Ok(Measured::count(&found.into_iter().map(|(_, words)| words).collect::<Vec<_>>()))
     })
 }
 
 /// K7: additions whose last weight is 0 while another is not.
 pub(super) fn switched_off(case: &Case) -> Measured {
-    at_shapes(case, |node_n| {
-        let pairs = c_cnt(&case.sheet, node_n)?;
+    at_shapes(case, |shape| {
+        let call = c_cnt(case.model(), shape)?;
         let off = |w: &[f64]| w.last() == Some(&0.0) && w.iter().any(|k| *k != 0.0);
-        let found = additions(&case.sheet, &pairs, off);
+        let found = additions(case.model(), &call, off);
         Ok(Measured::count(&found.into_iter().map(|(_, words)| words).collect::<Vec<_>>()))
     })
 }
 
-/// K3: the 1 of a held equation outside the range of the other diagonal entries.
+/// K3: the 1 of a restrained equation outside the range of the other diagonal entries.
 pub(super) fn ones_on_the_diagonal(case: &Case) -> Measured {
-    at_shapes(case, |node_n| {
-        let diagonal = mjs(&case.sheet, node_n)?.as_matrix().diagonal();
-        let range = |held: usize| {
-            let of = diagonal.iter().zip(case.sheet.S.iter()).filter(|(_, s)| **s == held);
+    at_shapes(case, |shape| {
+        let diagonal = mjs(case.model(), shape)?.diagonal();
+        let range = |restrained: bool| {
+            let entries = diagonal.iter().zip(&case.model().restrained);
+            let of = entries.filter(|(_, is)| **is == restrained);
             of.fold((f64::INFINITY, 0.0_f64), |(low, high), (x, _)| (low.min(*x), high.max(*x)))
         };
-        let ((low, high), (held, _)) = (range(0), range(1));
+        let ((low, high), (held, _)) = (range(false), range(true));
         let detail = format!("held: {held}, others {low:.4e} to {high:.4e}");
         let outside = held < low || (held > high && held.is_finite());
         Ok(Measured::holds_if(outside, high.max(held) / low.min(held), detail))
@@ -104,22 +102,23 @@ pub(super) fn ones_on_the_diagonal(case: &Case) -> Measured {
 
 /// K8: the smallest diagonal entry of MJS.
 pub(super) fn stiffness_taken_away(case: &Case) -> Measured {
-    at_shapes(case, |node_n| {
-        let diagonal = mjs(&case.sheet, node_n)?.as_matrix().diagonal();
+    at_shapes(case, |shape| {
+        let diagonal = mjs(case.model(), shape)?.diagonal();
         let (at, smallest) = diagonal.argmin();
         let detail = format!("node {}, direction {}", at / 2 + 1, ["x", "y"][at % 2]);
         Ok(Measured::holds_if(smallest < 0.0, smallest, detail))
     })
 }
 
-/// K4: rows of zeros that one node without a triangle adds, free or held.
+/// K4: rows of zeros that one node without a triangle adds, free or restrained.
 pub(super) fn orphan(case: &Case) -> Measured {
-    let zero_rows = |orphans: usize, held: usize| -> Result<usize, Failure> {
-        let sheet = with_orphans(&case.sheet, orphans, held);
-        let mjs = Km(&sheet, &Reading::default(), &Table::filled(sheet.R(), 4, 0.0))?;
-        Ok((1..=mjs.rows()).filter(|&i| mjs.row(i).all(|x| *x == 0.0)).count())
+    let zero_rows = |orphans: usize, restrained: bool| -> Result<usize, Failure> {
+        let model = with_orphans(case.model(), orphans, restrained);
+        let mjs = Call::without_contact(&model).km(&Reading::default())?;
+        Ok(mjs.row_iter().filter(|row| row.iter().all(|x| *x == 0.0)).count())
     };
-    let counted = zero_rows(0, 0).and_then(|own| Ok((own, zero_rows(1, 0)?, zero_rows(1, 1)?)));
+    let counted =
+        zero_rows(0, false).and_then(|own| Ok((own, zero_rows(1, false)?, zero_rows(1, true)?)));
     match counted {
         Ok((own, free, held)) => Measured {
             verdict: if free == own + 2 { Verdict::Holds } else { Verdict::Contradicted },
@@ -132,31 +131,26 @@ pub(super) fn orphan(case: &Case) -> Measured {
     }
 }
 
-/// The arrays with nodes added that belong to no triangle; `held` is their S.
-fn with_orphans(sheet: &Worksheet<f64>, orphans: usize, held: usize) -> Worksheet<f64> {
-    let last = sheet.R();
-    let node = |n: usize, j: usize| if n <= last { sheet.node[(n, j)] } else { n as f64 };
-    let mut held_too = sheet.S.as_slice().to_vec();
-    held_too.extend(vec![held; 2 * orphans]);
-    Worksheet {
-        node: Table::from_fn(last + orphans, 4, node),
-        S: Column::from_vec(held_too),
-        ..sheet.clone()
-    }
+/// The model with nodes added that belong to no triangle, restrained or not.
+fn with_orphans(model: &Model, orphans: usize, restrained: bool) -> Model {
+    let mut model = model.clone();
+    model.nodes.extend(vec![[0.0; 2]; orphans]);
+    model.restrained.extend(vec![restrained; 2 * orphans]);
+    model
 }
 
 /// K5: the cycle in which `tied` ends.
 pub(super) fn cycle(case: &Case) -> Measured {
-    let iterations = match case.run(Variant::Tied) {
-        Ok(outcome) => &outcome.iterations,
+    let steps = match case.run(Variant::Tied) {
+        Ok(solution) => &solution.steps,
         Err(error) => return Measured::nothing(error.to_string()),
     };
-    let Some(cycle) = iterations.last().and_then(|it| it.cycle.as_ref()) else {
-        return Measured::nothing(format!("no state came back in {} iterations", iterations.len()));
+    let Some(cycle) = steps.last().and_then(|step| step.cycle.as_ref()) else {
+        return Measured::nothing(format!("no state came back in {} iterations", steps.len()));
     };
-    let counts = cycle.members.iter().map(|k| iterations[k - 1].in_contact);
+    let counts = cycle.members.iter().map(|k| steps[k - 1].in_contact);
     let detail = format!("nodes in contact: {:?}", counts.collect::<Vec<_>>());
-    let entered = iterations.iter().any(|it| it.pairs.dy != iterations[0].pairs.dy);
+    let entered = steps.iter().any(|step| step.statuses() != steps[0].statuses());
     let verdict = match cycle.length {
         1 if entered => Verdict::Contradicted,
         1 => Verdict::DoesNotArise,
@@ -167,45 +161,52 @@ pub(super) fn cycle(case: &Case) -> Measured {
 
 /// K9: nodes that eq. (1) holds on the target with a pull, at the end of `stepped`.
 pub(super) fn pulls(case: &Case) -> Measured {
-    let sheet = &case.sheet;
-    let (outcome, k) =
-        match (case.run(Variant::Stepped), free_stiffness(sheet, &Reading::default())) {
-            (Ok(outcome), Ok(k)) => (outcome, k),
-            (Err(error), _) => return Measured::nothing(error.to_string()),
-            (_, Err(failure)) => return Measured::nothing(failure.to_string()),
-        };
-    let Some(last) = outcome.iterations.last() else { return Measured::nothing("no iteration") };
-    // What eq. (1) adds at each equation; at a held one it cannot be told from the support's reaction.
-    let tie = k.as_matrix() * &outcome.u - &case.scene.load;
-    let rounding = ROUNDING * tie.amax();
-    let push = |i1: usize| {
-        let away = away(sheet, &sheet.node, last.pairs.ct[i1]).unwrap_or_default();
-        let equation = |direction: usize| 2 * sheet.cnt[i1] - 1 + direction;
-        let free = [0, 1].into_iter().filter(|&d| sheet.S[equation(d)] == 0);
-        free.map(|d| tie[equation(d) - 1] * away[d]).sum::<f64>()
+    let model = case.model();
+    let free = door::free_stiffness(&door::worksheet(model, |x| x), &Reading::default());
+    let (solution, k) = match (case.run(Variant::Stepped), free) {
+        (Ok(solution), Ok(k)) => (solution, k),
+        (Err(error), _) => return Measured::nothing(error.to_string()),
+        (_, Err(failure)) => return Measured::nothing(failure.to_string()),
+    };
+    // What eq. (1) adds at each equation; at a restrained one it cannot be told from the support's reaction.
+    let force = k.as_matrix() * &solution.u - &model.load;
+    let rounding = ROUNDING * force.amax();
+    let statuses = last_statuses(solution);
+    let push = |i: usize| {
+        let away = statuses[i].edge.and_then(|edge| away(model, &model.nodes, edge));
+        let away = away.unwrap_or_default();
+        let free = statuses[i].node.dofs().into_iter().filter(|dof| !model.is_restrained(*dof));
+        free.map(|dof| force[dof.index()] * away[dof.direction()]).sum::<f64>()
     };
     Measured::count(&contact_nodes(
-        sheet,
-        |i1| last.pairs.dy[i1] == 1 && push(i1) < -rounding,
-        |i1| format!("held with {:.3e}", -push(i1)),
+        model,
+        |i| statuses[i].in_contact && push(i) < -rounding,
+        |i| format!("held with {:.3e}", -push(i)),
     ))
+}
+
+/// What `c_cnt` found in the last step of a published variant.
+fn last_statuses(solution: &Solution) -> Vec<door::ContactStatus> {
+    match &solution.last().detail {
+        Detail::Published(step) => door::statuses(&solution.model, &step.pairs),
+        Detail::Unilateral(_) => Vec::new(),
+    }
 }
 
 /// K6: the stamp released from its restraints, eq. (1) on one and on two of its nodes in contact.
 pub(super) fn hinge(case: &Case) -> Measured {
-    let Some((_, pairs)) = first_in_contact(case) else { return Measured::nothing("no contact") };
-    let k = match free_stiffness(&case.sheet, &Reading::default()) {
+    let Some(call) = first_in_contact(case) else { return Measured::nothing("no contact") };
+    let k = match door::free_stiffness(&call.sheet, &Reading::default()) {
         Ok(k) => k,
         Err(failure) => return Measured::nothing(failure.to_string()),
     };
-    let released = released(case, case.sheet.cnt[1]);
+    let bound = door::linked(&call.sheet, &call.pairs);
+    let restrained = released(case.model(), case.model().contact.nodes[0]);
     // Nothing where the scene has not so many nodes in contact.
     let singular = [1, 2].map(|count| {
-        let few = first_ties(&case.sheet, &pairs, count)?;
-        Some(
-            DenseLu::new(Elimination::new(&released, &ties(&released, &few)).matrix(k.as_matrix()))
-                .is_err(),
-        )
+        let few: Vec<Constraint> =
+            bound.get(..count)?.iter().map(|bound: &NodeToSegment| (*bound).into()).collect();
+        Some(DenseLu::new(Elimination::new(&restrained, &few).matrix(k.as_matrix())).is_err())
     });
     let most = singular.iter().rposition(|singular| *singular == Some(true)).map_or(0, |at| at + 1);
     let [one, two] = singular.map(|singular| match singular {
@@ -218,27 +219,11 @@ pub(super) fn hinge(case: &Case) -> Measured {
     Measured { verdict, number: most as f64, detail }
 }
 
-/// The arrays with the body of `node` held by nothing.
-fn released(case: &Case, node: usize) -> Worksheet<f64> {
-    let mut sheet = case.sheet.clone();
-    for n in case.scene.body_of(node).into_iter().flat_map(|body| &body.nodes) {
-        sheet.S[2 * n - 1] = 0;
-        sheet.S[2 * n] = 0;
+/// The restraints with the body of `node` held by nothing.
+fn released(model: &Model, node: NodeId) -> Vec<bool> {
+    let mut restrained = model.restrained.clone();
+    for dof in model.body_of(node).into_iter().flat_map(|body| &body.nodes).flat_map(|n| n.dofs()) {
+        restrained[dof.index()] = false;
     }
-    sheet
-}
-
-/// The pairs with only the first `count` different contact nodes in contact; nothing where there are fewer.
-fn first_ties(sheet: &Worksheet<f64>, pairs: &Pairs<f64>, count: usize) -> Option<Pairs<f64>> {
-    let mut few = pairs.clone();
-    let mut kept: Vec<usize> = Vec::new();
-    for i1 in (1..=pairs.dy.rows()).filter(|&i1| pairs.dy[i1] == 1) {
-        let node = sheet.cnt[i1];
-        if kept.len() < count && !kept.contains(&node) {
-            kept.push(node);
-        } else if !kept.contains(&node) {
-            few.dy[i1] = 0;
-        }
-    }
-    (kept.len() == count).then_some(few)
+    restrained
 }

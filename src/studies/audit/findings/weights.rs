@@ -2,9 +2,9 @@
 
 use super::Measured;
 use super::experiment::{ROUNDING, at_shapes, c_cnt, contact_nodes, mjs};
-use crate::answer::contact::ties;
-use crate::paper::mathcad::array::Column;
-use crate::paper::mirror::{Pairs, Worksheet};
+use crate::answer::{Detail, Step};
+use crate::paper::door::{Call, linked, worksheet};
+use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Variant;
 use crate::studies::audit::Case;
 
@@ -12,13 +12,12 @@ use crate::studies::audit::Case;
 pub(super) fn outside_the_edge(case: &Case) -> Measured {
     let mut furthest = Measured::nothing("every weight lies in [0, 1]");
     for variant in Variant::OF_THE_PAPER {
-        let Ok(outcome) = case.run(*variant) else { continue };
-        for it in &outcome.iterations {
-            for tie in ties(&case.sheet, &it.pairs) {
-                let [k1, k2] = [0, 1].map(|k: usize| tie.weights[k].1);
+        let Ok(solution) = case.run(*variant) else { continue };
+        for step in &solution.steps {
+            for (node, [k1, k2]) in weights(&solution.model, step) {
                 let outside = [k1, k2].map(|k| (k - 1.0).max(-k)).into_iter().fold(0.0, f64::max);
                 if outside > furthest.number {
-                    let (k, node) = (it.k, tie.node);
+                    let k = step.k;
                     let detail = format!("{variant}, iteration {k}: node {node}: {k1:.4}, {k2:.4}");
                     furthest = Measured::holds_if(true, outside, detail);
                 }
@@ -28,26 +27,38 @@ pub(super) fn outside_the_edge(case: &Case) -> Measured {
     furthest
 }
 
+/// The two weights of each node in contact that `c_cnt` found in a step.
+fn weights(model: &Model, step: &Step) -> Vec<(NodeId, [f64; 2])> {
+    let Detail::Published(found) = &step.detail else { return Vec::new() };
+    if found.pairs.k_cnt.as_matrix().iter().all(|x| *x == 0.0) {
+        // Another status rule than the listing's: its weights stand in the constraints.
+        let pair = |masters: &[(NodeId, f64)]| [0, 1].map(|k| masters[k].1);
+        return step.constraints.iter().map(|bound| (bound.node, pair(&bound.masters))).collect();
+    }
+    let linked = linked(&worksheet(model, |x| x), &found.pairs);
+    linked.into_iter().map(|bound| (bound.node, bound.masters.map(|(_, k)| k))).collect()
+}
+
 /// C7: target nodes that stand for two or more contact nodes.
 pub(super) fn forgotten_mates(case: &Case) -> Measured {
-    let sheet = &case.sheet;
-    at_shapes(case, |node_n| {
-        let pairs = c_cnt(sheet, node_n)?;
-        let mates = mates(sheet, &pairs);
-        let shared = (1..=sheet.R()).filter(|n| mates[n - 1].len() > 1).map(|n| {
-            let row: Vec<String> = pairs.k_cnt.row(n).map(f64::to_string).collect();
-            format!("node {n}: mates {:?}, k_cnt {}", mates[n - 1], row.join(" "))
+    let model = case.model();
+    at_shapes(case, |shape| {
+        let call = c_cnt(model, shape)?;
+        let mates = mates(model, &call);
+        let shared = model.node_ids().filter(|n| mates[n.index()].len() > 1).map(|n| {
+            let row: Vec<String> = call.row(n).iter().map(f64::to_string).collect();
+            format!("node {n}: mates {:?}, k_cnt {}", mates[n.index()], row.join(" "))
         });
         Ok(Measured::count(&shared.collect::<Vec<_>>()))
     })
 }
 
-/// For each node the contact nodes that are tied to it.
-fn mates(sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> Vec<Vec<usize>> {
-    let mut mates = vec![Vec::new(); sheet.R()];
-    for tie in ties(sheet, pairs) {
-        for (mate, _) in tie.weights {
-            mates[mate - 1].push(tie.node);
+/// For each node the numbers of the contact nodes that are bound to it.
+fn mates(model: &Model, call: &Call) -> Vec<Vec<usize>> {
+    let mut mates = vec![Vec::new(); model.nodes.len()];
+    for bound in linked(&call.sheet, &call.pairs) {
+        for (master, _) in bound.masters {
+            mates[master.index()].push(bound.node.number());
         }
     }
     mates
@@ -55,34 +66,36 @@ fn mates(sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> Vec<Vec<usize>> {
 
 /// C12: the sum of the weights of a node that `cnt` lists more than once.
 pub(super) fn listed_twice(case: &Case) -> Measured {
-    let sheet = &case.sheet;
-    at_shapes(case, |node_n| {
-        let pairs = c_cnt(sheet, node_n)?;
-        let times = |n: usize| sheet.cnt.iter().filter(|c| **c == n).count();
-        let sum = |n: usize| pairs.k_cnt[(n, 2)] + pairs.k_cnt[(n, 4)];
+    let model = case.model();
+    at_shapes(case, |shape| {
+        let call = c_cnt(model, shape)?;
+        let node = |i: usize| model.contact.nodes[i];
+        let times = |n: NodeId| model.contact.nodes.iter().filter(|c| **c == n).count();
+        let sum = |n: NodeId| {
+            let [_, k1, _, k2] = call.row(n);
+            k1 + k2
+        };
         let twice = contact_nodes(
-            sheet,
-            |i1| times(sheet.cnt[i1]) > 1 && pairs.dy[i1] == 1,
-            |i1| {
-                format!(
-                    "listed {} times, weights sum to {}",
-                    times(sheet.cnt[i1]),
-                    sum(sheet.cnt[i1])
-                )
+            model,
+            |i| times(node(i)) > 1 && call.statuses[i].in_contact,
+            |i| {
+                let (times, sum) = (times(node(i)), sum(node(i)));
+                format!("listed {times} times, weights sum to {sum}")
             },
         );
-        let largest = ties(sheet, &pairs).iter().map(|tie| sum(tie.node)).fold(0.0, f64::max);
+        let linked = linked(&call.sheet, &call.pairs);
+        let largest = linked.iter().map(|bound| sum(bound.node)).fold(0.0, f64::max);
         Ok(Measured { number: largest, ..Measured::count(&twice) })
     })
 }
 
 /// C13: `cnt` in reverse: entries of MJS that change by more than rounding.
-pub(super) fn reversed_cnt(case: &Case) -> Measured {
-    let reversed = case.sheet.cnt.as_slice().iter().rev().copied().collect();
-    let reversed = Worksheet { cnt: Column::from_vec(reversed), ..case.sheet.clone() };
-    at_shapes(case, |node_n| {
-        let as_is = mjs(&case.sheet, node_n)?.into_matrix();
-        let change = mjs(&reversed, node_n)?.into_matrix() - &as_is;
+pub(super) fn reversed_contact(case: &Case) -> Measured {
+    let mut reversed = case.model().clone();
+    reversed.contact.nodes.reverse();
+    at_shapes(case, |shape| {
+        let as_is = mjs(case.model(), shape)?;
+        let change = mjs(&reversed, shape)? - &as_is;
         let rounding = ROUNDING * as_is.amax();
         let changed = change.iter().filter(|x| x.abs() > rounding).count();
         let detail = format!("the largest change is {:.3e} of {:.3e}", change.amax(), as_is.amax());

@@ -7,13 +7,14 @@
 //!     target  *                  None is drawn between.
 //! ```
 
-#![allow(non_snake_case, reason = "the paper's own names")]
-
 use fastrand::Rng;
+use nalgebra::DVector;
 
-use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mirror::Worksheet;
 use crate::problem::element::Plane;
+use crate::problem::model::{
+    ContactSurfaces, Edge, EdgeId, Element, Material, Model, NodeId, Row, Sides, Triangle,
+    TriangleId,
+};
 
 /// The text's c_tol.
 pub const C_TLL: f64 = 0.001;
@@ -37,8 +38,8 @@ pub struct Kind {
 
 /// A scene and the statuses of its contact nodes.
 pub struct Drawn {
-    /// The arrays that `c_cnt` reads; `node` is the shape after the jump.
-    pub sheet: Worksheet<f64>,
+    /// The model in the shape after the jump.
+    pub model: Model,
     /// Whether each contact node is in contact.
     pub touching: Vec<bool>,
 }
@@ -48,8 +49,8 @@ pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
     let surface = surface(rng, kind.edges);
     let (stamp, touching) = stamp(rng, &surface, kind);
     let turned = rng.bool();
-    let sheet = worksheet(&surface, &stamp, WIDTH / kind.edges as f64, turned);
-    Drawn { sheet: if kind.above { upside_down(sheet) } else { sheet }, touching }
+    let model = model(&surface, &stamp, WIDTH / kind.edges as f64, turned, kind.above);
+    Drawn { model, touching }
 }
 
 /// A number between `low` and `high`.
@@ -118,63 +119,53 @@ fn stamp(rng: &mut Rng, surface: &[[f64; 2]], kind: Kind) -> (Vec<[f64; 2]>, Vec
     (nodes, touching)
 }
 
-/// Both bodies as strips of triangles under the surface and over the contact nodes.
-fn worksheet(surface: &[[f64; 2]], stamp: &[[f64; 2]], size: f64, turned: bool) -> Worksheet<f64> {
+/// Both bodies as strips of triangles under the surface and over the contact nodes; where the target is `above`, mirrored in y.
+fn model(surface: &[[f64; 2]], stamp: &[[f64; 2]], size: f64, turned: bool, above: bool) -> Model {
     let (m, n) = (surface.len(), stamp.len());
     let bottom = surface.iter().map(|p| [p[0], BOTTOM]);
     let top = stamp.iter().map(|p| [p[0], p[1] + size]);
-    let points: Vec<[f64; 2]> =
-        surface.iter().copied().chain(bottom).chain(stamp.iter().copied()).chain(top).collect();
-    let edges = (1..m).map(|j| if turned { vec![j + 1, j] } else { vec![j, j + 1] });
-    let triangles: Vec<Vec<usize>> =
-        strip(m + 1, 1, m).chain(strip(2 * m + 1, 2 * m + n + 1, n)).collect();
-    let rows: Vec<Vec<usize>> = edges.chain(triangles.iter().cloned()).collect();
-    let row = |k: usize, j: usize| match j {
-        1 => k,
-        2 => rows[k - 1].len() - 1,
-        3 => 2,
-        4 | 5 => 1,
-        _ => rows[k - 1].get(j - 6).copied().unwrap_or(0),
+    let points = surface.iter().copied().chain(bottom).chain(stamp.iter().copied()).chain(top);
+    let nodes: Vec<[f64; 2]> =
+        points.map(|[x, y]| if above { [x, 0.0 - y] } else { [x, y] }).collect();
+    let edge = |j: usize| Edge {
+        number: j + 1,
+        nodes: if turned { [j + 1, j] } else { [j, j + 1] }.map(NodeId::new),
     };
-    let (R, M) = (points.len(), triangles.len());
-    Worksheet {
-        node: Table::from_fn(R, 4, |i, j| match j {
-            1 => i as f64,
-            4 => 0.0,
-            _ => points[i - 1][j - 2],
-        }),
-        elem: Table::from_fn(rows.len(), 8, row),
-        EL: Table::from_fn(M, 8, |k, j| row(m - 1 + k, j)),
-        trg: Column::from_vec((1..m).collect()),
-        cnt: Column::from_vec((2 * m + 1..=2 * m + n).collect()),
-        c_tll: C_TLL,
-        ind_1: 6,
-        // What `Km` reads is not read here.
-        S: Column::filled(2 * R, 0),
-        Ae: Column::filled(M, 0.0),
-        B: Column::filled(M, nalgebra::SMatrix::zeros()),
-        E: Column::filled(M, 0.0),
-        nu: Column::filled(M, 0.0),
+    // What no contact search reads.
+    let material = Material { e: 0.0, nu: 0.0 };
+    let triangles: Vec<Triangle> = strip(m, 0, m)
+        .chain(strip(2 * m, 2 * m + n, n))
+        .map(|[a, b, c]| if above { [a, c, b] } else { [a, b, c] })
+        .map(|nodes| Triangle { nodes: nodes.map(NodeId::new), material })
+        .collect();
+    let elements = EdgeId::all(m - 1)
+        .map(Element::Edge)
+        .chain(TriangleId::all(triangles.len()).map(Element::Triangle));
+    let row = |(k, element)| Row { number: k + 1, physical: 1, geometric: 1, element };
+    Model {
         plane: Plane::Strain,
+        thickness: 1.0,
+        z: 0.0,
+        sides: Sides::new(triangles.iter().map(|triangle| triangle.nodes)),
+        edges: (0..m - 1).map(edge).collect(),
+        restrained: vec![false; 2 * nodes.len()],
+        load: DVector::zeros(2 * nodes.len()),
+        bodies: Vec::new(),
+        contact: ContactSurfaces {
+            nodes: (2 * m..2 * m + n).map(NodeId::new).collect(),
+            target: EdgeId::all(m - 1).collect(),
+            tolerance: C_TLL,
+        },
+        rows: elements.enumerate().map(row).collect(),
+        triangles,
+        nodes,
     }
 }
 
 /// Counter-clockwise triangles between a lower and an upper row of `n` nodes that start at `lower` and `upper`.
-fn strip(lower: usize, upper: usize, n: usize) -> impl Iterator<Item = Vec<usize>> {
+fn strip(lower: usize, upper: usize, n: usize) -> impl Iterator<Item = [usize; 3]> {
     (1..n).flat_map(move |j| {
         let (a, b) = (lower + j - 1, upper + j - 1);
-        [vec![a, a + 1, b], vec![a + 1, b + 1, b]]
+        [[a, a + 1, b], [a + 1, b + 1, b]]
     })
-}
-
-/// The scene mirrored in y.
-fn upside_down(mut sheet: Worksheet<f64>) -> Worksheet<f64> {
-    for n in 1..=sheet.R() {
-        sheet.node[(n, 3)] = 0.0 - sheet.node[(n, 3)];
-    }
-    for m in 1..=sheet.M() {
-        let (second, third) = (sheet.EL[(m, 7)], sheet.EL[(m, 8)]);
-        (sheet.EL[(m, 7)], sheet.EL[(m, 8)]) = (third, second);
-    }
-    sheet
 }

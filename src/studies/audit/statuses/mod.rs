@@ -13,7 +13,10 @@ mod drawn;
 use fastrand::Rng;
 use serde::Serialize;
 
-use crate::answer::contact::{Operations, Statuses, statuses};
+use crate::answer::contact::Operations;
+use crate::answer::contact::status::statuses_counted;
+use crate::numbers::scalar::Scalar;
+use crate::paper::door;
 use crate::paper::mirror::{Reading, c_cnt};
 use crate::problem::modelling::StatusRule;
 use counted::{Counted, counting};
@@ -115,25 +118,21 @@ impl Score {
 
     fn add(&mut self, scene: &Drawn, printed: u64) {
         let operations = Operations::default();
-        let found = found(self.rule, scene, &operations);
-        for (dy, touching) in found.dy.iter().zip(&scene.touching) {
-            self.missed += usize::from(*touching && *dy == 0);
-            self.false_contacts += usize::from(!*touching && *dy == 1);
+        let (model, reading) = (&scene.model, Reading::default());
+        let found = statuses_counted(self.rule, model, &reading, &model.nodes, &operations)
+            .expect("no target edge is drawn vertical");
+        for (status, touching) in found.iter().zip(&scene.touching) {
+            self.missed += usize::from(*touching && !status.in_contact);
+            self.false_contacts += usize::from(!*touching && status.in_contact);
         }
         let of_listing = if self.rule == StatusRule::Projection { 0 } else { printed };
         self.operations += of_listing + operations.count();
     }
 }
 
-fn found(rule: StatusRule, scene: &Drawn, operations: &Operations) -> Statuses {
-    let sheet = &scene.sheet;
-    statuses(rule, sheet, &Reading::default(), &sheet.node, operations)
-        .expect("no target edge is drawn vertical")
-}
-
 /// The operations of `c_cnt`'s lines 1 to 18.
 fn printed_operations(scene: &Drawn) -> u64 {
-    let sheet = scene.sheet.cast::<Counted>();
+    let sheet = door::worksheet(&scene.model, Counted::from_f64);
     let (pairs, operations) = counting(|| c_cnt(&sheet, &Reading::default(), &sheet.node));
     let pairs = pairs.expect("no target edge is drawn vertical");
     operations - WEIGHTS * pairs.dy.iter().sum::<usize>() as u64

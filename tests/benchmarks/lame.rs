@@ -1,0 +1,59 @@
+//! SOURCE: G. Lamé; S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 28.
+//!
+//! GOAL: a thick-walled cylinder under internal pressure: u(ri) = 0.00613333 mm, hoop stress at the bore 16.6667 MPa;
+//! displacements of second order.
+//!
+//! MESH: a quarter, n x 2n cells of polar coordinates, each cut into two triangles; n = 4, 8, 16, 32, 64.
+//!
+//! BOUNDARY CONDITIONS: 10 MPa on the bore, the axes held across themselves. ri = 10 mm, ro = 20 mm, E = 30000 MPa, nu = 0.2,
+//! plane strain.
+//!
+//! Measured where the quarter's diagonal meets the bore. Stress: extrapolated (`common::recovery`).
+
+use crate::common::recovery::{extrapolated, node_at, order, solved};
+use crate::common::tolerances::{LAME_DISPLACEMENT, LAME_ORDER, LAME_STRESS, assert_near};
+use plane_contact::answer::contact::Outcome;
+use plane_contact::problem::scene::Mesh;
+use plane_contact::studies::benchmark::Annulus;
+
+fn annulus(n: usize) -> (Mesh, Outcome) {
+    solved(Annulus { radial: n, around: 2 * n }.generate())
+}
+
+/// The closed form's radial displacement, mm.
+fn exact(r: f64) -> f64 {
+    let (p, [a2, b2], e, nu) = (10.0, [100.0, 400.0], 30000.0, 0.2);
+    (1.0 + nu) * p * a2 / (e * (b2 - a2)) * ((1.0 - 2.0 * nu) * r + b2 / r)
+}
+
+/// Root mean square of the displacements' error over the nodes, mm.
+fn error(mesh: &Mesh, outcome: &Outcome) -> f64 {
+    let squares = mesh.nodes.iter().map(|node| {
+        let ([x, y, _], first) = (node.xyz, 2 * node.number - 2);
+        let r = x.hypot(y);
+        let [ex, ey] = [x, y].map(|c| exact(r) * c / r);
+        (outcome.u[first] - ex).powi(2) + (outcome.u[first + 1] - ey).powi(2)
+    });
+    (squares.sum::<f64>() / mesh.nodes.len() as f64).sqrt()
+}
+
+#[test]
+fn displacements_converge_with_order_2() {
+    let errors = [4, 8, 16, 32].map(|n| {
+        let (mesh, outcome) = annulus(n);
+        error(&mesh, &outcome)
+    });
+    for pair in errors.windows(2) {
+        assert_near("order", order(pair[0], pair[1]), 2.0, 1.0, &LAME_ORDER);
+    }
+}
+
+#[test]
+fn the_bore_has_its_displacement_and_hoop_stress() {
+    let (mesh, outcome) = annulus(64);
+    let bore = node_at(&mesh, [50f64.sqrt(); 2]);
+    let u = outcome.u[2 * bore - 2].hypot(outcome.u[2 * bore - 1]);
+    assert_near("u", u, 0.00613333, 0.00613333, &LAME_DISPLACEMENT);
+    let [xx, yy, xy] = extrapolated(&mesh, &outcome, bore);
+    assert_near("hoop stress", (xx + yy) / 2.0 - xy, 16.6667, 16.6667, &LAME_STRESS);
+}

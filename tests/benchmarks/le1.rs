@@ -1,0 +1,41 @@
+//! SOURCE: NAFEMS, The Standard NAFEMS Benchmarks, TNSB rev. 3, 1990, test LE1.
+//!
+//! GOAL: sigma_y = 92.7 MPa at (2, 0) of an elliptic membrane.
+//!
+//! MESH: a quarter, n x n cells, cut into two triangles each; n = 8, 16, 32, 64. Nodes stand at equal parametric angles of both ellipses
+//! and at equal parts of the lines between: (2 cos t, sin t) to (3.25 cos t, 2.75 sin t).
+//!
+//! BOUNDARY CONDITIONS: 10 MPa outward on the outer ellipse, the axes held across themselves. E = 210000 MPa, nu = 0.3, thickness 0.1 m,
+//! plane stress.
+//!
+//! Stresses: averaged, as other programs give them on the same meshes; extrapolated, which comes near the limit (`common::recovery`).
+
+use crate::common::recovery::{averaged, extrapolated, node_at, solved};
+use crate::common::tolerances::{LE1_GRID, LE1_LIMIT, assert_near};
+use plane_contact::studies::benchmark::Ellipse;
+
+const LIMIT: f64 = 92.7;
+
+/// Divisions and averaged sigma_y.
+const KNOWN: [(usize, f64); 4] = [(8, 62.56), (16, 76.97), (32, 85.05), (64, 89.06)];
+
+#[test]
+fn averaged_stress_climbs_towards_the_limit_as_known() {
+    for (n, expected) in KNOWN {
+        let (mesh, outcome) = solved(Ellipse { n }.generate());
+        let place = node_at(&mesh, [2.0, 0.0]);
+        let value = averaged(&mesh, &outcome, place)[1];
+        assert_near(&format!("n = {n}"), value, expected, 1.0, &LE1_GRID);
+    }
+}
+
+#[test]
+fn extrapolated_stress_reaches_the_limit() {
+    let values = [8, 16, 32, 64].map(|n| {
+        let (mesh, outcome) = solved(Ellipse { n }.generate());
+        extrapolated(&mesh, &outcome, node_at(&mesh, [2.0, 0.0]))[1]
+    });
+    let errors = values.map(|value| (value - LIMIT).abs());
+    assert!(errors.windows(2).all(|pair| pair[1] < pair[0] / 2.0), "{values:?}");
+    assert_near("sigma_y at n = 64", values[3], LIMIT, LIMIT, &LE1_LIMIT);
+}

@@ -1,0 +1,17 @@
+//! Problems with a known solution, and the meshes that are generated for them.
+
+#[path = "../common"]
+mod common {
+    pub mod recovery;
+    pub mod tolerances;
+}
+
+mod cook;
+mod hertz;
+mod kirsch;
+mod lame;
+mod le1;
+mod meshes;
+mod patch;
+mod punch;
+mod punch_patch;

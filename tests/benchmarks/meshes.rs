@@ -1,0 +1,259 @@
+//! Generated benchmarks: sound scenes, exact sizes, complete groups, files that read back to the same mesh.
+
+use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::process::{Command, Output};
+
+use crate::common::tolerances::{CHORDS, STRAIGHT, Tolerance, assert_near};
+use plane_contact::problem::element;
+use plane_contact::problem::scene::{Mesh, gmsh};
+use plane_contact::studies::benchmark::{
+    Annulus, Benchmark, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch,
+};
+use tempfile::TempDir;
+
+/// A kind with the area of each body and the length of each group of edges.
+struct Case {
+    kind: Kind,
+    tolerance: Tolerance,
+    areas: &'static [(&'static str, f64)],
+    lengths: Vec<(&'static str, f64)>,
+}
+
+fn cases() -> Vec<Case> {
+    vec![
+        Case {
+            kind: Kind::Blocks(Blocks::default()),
+            tolerance: STRAIGHT,
+            areas: &[("lower", 1250.0), ("upper", 1250.0)],
+            lengths: vec![
+                ("bottom", 50.0),
+                ("target", 50.0),
+                ("contact", 50.0),
+                ("top", 50.0),
+                ("lower_left", 25.0),
+                ("upper_left", 25.0),
+            ],
+        },
+        Case {
+            kind: Kind::PunchPatch(PunchPatch::default()),
+            tolerance: STRAIGHT,
+            areas: &[("foundation", 40.0), ("punch", 4.0)],
+            lengths: vec![
+                ("bottom", 8.0),
+                ("foundation_axis", 5.0),
+                ("target", 8.0),
+                ("free_left", 3.0),
+                ("free_right", 3.0),
+                ("contact", 2.0),
+                ("punch_top", 2.0),
+                ("punch_axis", 2.0),
+            ],
+        },
+        Case {
+            kind: Kind::Hertz(Hertz::default()),
+            tolerance: CHORDS,
+            areas: &[("block", 20000.0), ("cylinder", 1250.0 * PI)],
+            lengths: vec![("bottom", 100.0), ("block_axis", 200.0), ("cylinder_axis", 100.0)],
+        },
+        Case {
+            kind: Kind::Punch(Punch::default()),
+            tolerance: CHORDS,
+            areas: &[("foundation", 100.0 * PI), ("punch", 1.0)],
+            lengths: vec![
+                ("outer", 10.0 * PI),
+                ("foundation_axis", 20.0),
+                ("contact", 1.0),
+                ("top", 1.0),
+                ("punch_axis", 1.0),
+            ],
+        },
+        Case {
+            kind: Kind::Annulus(Annulus::default()),
+            tolerance: CHORDS,
+            areas: &[("wall", 75.0 * PI)],
+            lengths: vec![
+                ("inner", 5.0 * PI),
+                ("outer", 10.0 * PI),
+                ("x_axis", 10.0),
+                ("y_axis", 10.0),
+            ],
+        },
+        Case {
+            kind: Kind::Hole(Hole::default()),
+            tolerance: CHORDS,
+            areas: &[("sheet", 6.0 * PI)],
+            lengths: vec![("hole", FRAC_PI_2), ("x_axis", 4.0), ("y_axis", 4.0)],
+        },
+        Case {
+            kind: Kind::Cook(Cook::default()),
+            tolerance: STRAIGHT,
+            areas: &[("membrane", 1440.0)],
+            lengths: vec![("left", 44.0), ("right", 16.0)],
+        },
+        Case {
+            kind: Kind::Ellipse(Ellipse::default()),
+            tolerance: CHORDS,
+            areas: &[("membrane", PI * (3.25 * 2.75 - 2.0) / 4.0)],
+            lengths: vec![("x_axis", 1.25), ("y_axis", 1.75)],
+        },
+    ]
+}
+
+/// Area of each body and length of each group of edges, by name.
+fn sizes(mesh: &Mesh) -> BTreeMap<String, f64> {
+    let mut sizes = BTreeMap::new();
+    for element in &mesh.elements {
+        let name = mesh.names.iter().find(|n| n.tag == element.physical[0]).expect("a named group");
+        let size = match element.kind {
+            2 => element::area(&mesh.corners(element)),
+            _ => {
+                let [a, b] = [0, 1].map(|k| mesh.xy(element.nodes[k]));
+                (b[0] - a[0]).hypot(b[1] - a[1])
+            }
+        };
+        *sizes.entry(name.name.clone()).or_insert(0.0) += size;
+    }
+    sizes
+}
+
+#[test]
+fn every_kind_has_its_bodies_and_its_complete_groups() {
+    for case in cases() {
+        let benchmark = case.kind.generate().expect("the defaults are in range");
+        let sizes = sizes(&benchmark.mesh);
+        for (group, exact) in case.areas.iter().chain(&case.lengths) {
+            let what = format!("{} {group}", benchmark.name);
+            assert_near(&what, sizes[*group], *exact, *exact, &case.tolerance);
+        }
+    }
+}
+
+#[test]
+fn every_kind_is_a_sound_scene() {
+    for case in cases() {
+        let benchmark = case.kind.generate().expect("the defaults are in range");
+        let scene = benchmark.scene().unwrap_or_else(|why| panic!("{}: {why}", benchmark.name));
+        assert_eq!(scene.bodies.len(), case.areas.len());
+        assert!(scene.dropped.is_empty());
+        assert!(scene.total_load().iter().any(|f| *f != 0.0));
+    }
+}
+
+#[test]
+fn the_mesh_file_reads_back_to_the_same_mesh() {
+    for case in cases() {
+        let benchmark = case.kind.generate().expect("the defaults are in range");
+        let read = gmsh::read(benchmark.msh.as_bytes()).expect("the file is sound");
+        assert_eq!(read, benchmark.mesh, "{}", benchmark.name);
+        assert_eq!(case.kind.generate().unwrap(), benchmark, "the same bytes every time");
+    }
+}
+
+#[test]
+fn extreme_parameters_make_sound_scenes() {
+    let kinds = [
+        Kind::Blocks(Blocks { upper: 1, lower: 1 }),
+        Kind::PunchPatch(PunchPatch { punch: 2, foundation: 2, pressure: 1e-3 }),
+        Kind::Hertz(Hertz { size: 4, ..Hertz::default() }),
+        Kind::Hertz(Hertz { size: 7, load: 10.0, ..Hertz::default() }),
+        Kind::Hertz(Hertz { radius: 1.0, load: 1500.0, ..Hertz::default() }),
+        Kind::Punch(Punch { punch: 5, foundation: 4, outer: 2.0 }),
+        Kind::Punch(Punch { outer: 1e4, ..Punch::default() }),
+        Kind::Annulus(Annulus { radial: 1, around: 2 }),
+        Kind::Hole(Hole { around: 2, outer: 1.5 }),
+        Kind::Hole(Hole { around: 3, outer: 1e6 }),
+        Kind::Cook(Cook { n: 1 }),
+        Kind::Ellipse(Ellipse { n: 2 }),
+    ];
+    for kind in kinds {
+        let made = kind.generate().and_then(|benchmark| benchmark.scene());
+        assert!(made.is_ok(), "{kind:?}: {}", made.unwrap_err());
+    }
+}
+
+#[test]
+fn parameters_out_of_range_are_refused_by_name() {
+    let refused = [
+        (Kind::Blocks(Blocks { upper: 0, lower: 1 }), "--upper"),
+        (Kind::Blocks(Blocks { upper: 1, lower: 2001 }), "--lower"),
+        (Kind::PunchPatch(PunchPatch { punch: 3, ..PunchPatch::default() }), "--punch"),
+        (Kind::PunchPatch(PunchPatch { foundation: 0, ..PunchPatch::default() }), "--foundation"),
+        (Kind::PunchPatch(PunchPatch { pressure: 0.0, ..PunchPatch::default() }), "--pressure"),
+        (Kind::Hertz(Hertz { size: 3, ..Hertz::default() }), "--size"),
+        (Kind::Hertz(Hertz { radius: -1.0, ..Hertz::default() }), "--radius"),
+        (Kind::Hertz(Hertz { load: f64::NAN, ..Hertz::default() }), "--load"),
+        (Kind::Hertz(Hertz { load: 1e6, ..Hertz::default() }), "--load"),
+        (Kind::Punch(Punch { punch: 3, ..Punch::default() }), "--punch"),
+        (Kind::Punch(Punch { foundation: 3, ..Punch::default() }), "--foundation"),
+        (Kind::Punch(Punch { outer: 1.0, ..Punch::default() }), "--outer"),
+        (Kind::Annulus(Annulus { radial: 0, around: 2 }), "--radial"),
+        (Kind::Annulus(Annulus { radial: 1, around: 1 }), "--around"),
+        (Kind::Hole(Hole { around: 1, outer: 5.0 }), "--around"),
+        (Kind::Hole(Hole { around: 8, outer: f64::INFINITY }), "--outer"),
+        (Kind::Cook(Cook { n: 0 }), "--n"),
+        (Kind::Ellipse(Ellipse { n: 1 }), "--n"),
+    ];
+    for (kind, option) in refused {
+        let error = kind.generate().expect_err("out of range");
+        assert_eq!(error.place, option, "{error}");
+    }
+}
+
+/// Smallest angle of a triangle, degrees.
+fn least_angle(mesh: &Mesh) -> f64 {
+    let angles = mesh.of_dimension(2).flat_map(|triangle| {
+        let p = mesh.corners(triangle);
+        [0, 1, 2].map(|k| {
+            let [a, b] = [1, 2].map(|s| [0, 1].map(|axis| p[(k + s) % 3][axis] - p[k][axis]));
+            (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).to_degrees()
+        })
+    });
+    angles.fold(180.0, f64::min)
+}
+
+#[test]
+fn hertz_has_well_shaped_triangles_at_both_sizes() {
+    for (size, equations) in [(20, 3500..4500), (59, 28000..32000)] {
+        let Benchmark { mesh, .. } = Hertz { size, ..Hertz::default() }.generate().unwrap();
+        assert!(equations.contains(&(2 * mesh.nodes.len())), "{}", 2 * mesh.nodes.len());
+        assert!(least_angle(&mesh) > 14.0, "{}", least_angle(&mesh));
+    }
+}
+
+#[test]
+fn hertz_has_the_half_width_and_peak_of_its_closed_form() {
+    let hertz = Hertz::default();
+    assert_eq!(format!("{:.4} {:.2}", hertz.half_width(), hertz.peak_pressure()), "6.2146 3585.36");
+}
+
+fn program(folder: &TempDir, args: &[&str]) -> Output {
+    let program = env!("CARGO_BIN_EXE_plane-contact");
+    Command::new(program)
+        .args(args)
+        .current_dir(folder.path())
+        .output()
+        .expect("the program starts")
+}
+
+#[test]
+fn the_program_writes_a_folder_that_it_solves() {
+    let folder = TempDir::new().unwrap();
+    let made = program(&folder, &["mesh", "cook", "--n", "4", "--out", "here/cook"]);
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    assert!(String::from_utf8_lossy(&made.stdout).contains("25 nodes, 32 triangles"));
+    for file in ["scene.json", "cook.msh"] {
+        assert!(folder.path().join("here/cook").join(file).is_file(), "{file}");
+    }
+    let solved = program(&folder, &["solve", "here/cook"]);
+    assert!(solved.status.success(), "{}", String::from_utf8_lossy(&solved.stderr));
+}
+
+#[test]
+fn the_program_refuses_a_parameter_with_status_2() {
+    let folder = TempDir::new().unwrap();
+    let refused = program(&folder, &["mesh", "punch-patch", "--punch", "5"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("--punch"));
+    assert!(!folder.path().join("out").exists(), "nothing is written");
+}

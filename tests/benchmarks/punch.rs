@@ -1,0 +1,41 @@
+//! SOURCE: K. L. Johnson, Contact Mechanics, section 2.8(a).
+//!
+//! GOAL: a flat stiff punch on a half plane, frictionless: p(x) = P / (pi sqrt(a² − x²)) away from the corner.
+//!
+//! MESH: half model, 24 and 48 edges on the half width, graded towards the corner, as far as 20 half widths.
+//!
+//! BOUNDARY CONDITIONS: axis held in x, the outer boundary in both; the punch 10,000 times as stiff as the foundation. a = 1.
+
+use std::f64::consts::PI;
+
+use crate::common::recovery::solved;
+use crate::common::tolerances::{PUNCH, assert_near};
+use plane_contact::answer::contact::Outcome;
+use plane_contact::studies::benchmark::Punch;
+
+/// As far as this the corner's last nodes do not show.
+const AWAY: f64 = 0.75;
+
+fn punch(size: usize) -> Outcome {
+    solved(Punch { punch: size, foundation: size, ..Punch::default() }.generate()).1
+}
+
+#[test]
+fn the_pressure_away_from_the_corner_is_the_closed_form() {
+    let outcome = punch(24);
+    let half_load: f64 = outcome.contact.iter().map(|c| c.force).sum();
+    let near = outcome.contact.iter().filter(|c| c.arc < AWAY);
+    assert!(near.clone().count() > 10);
+    for node in near {
+        let exact = 2.0 * half_load / (PI * (1.0 - node.arc.powi(2)).sqrt());
+        assert_near(&format!("pressure at {}", node.arc), node.pressure, exact, exact, &PUNCH);
+    }
+}
+
+/// At the corner the closed form has no bound, and a finer mesh shows more of it.
+#[test]
+fn the_pressure_at_the_corner_grows_with_the_mesh() {
+    let peak = |size| punch(size).contact.iter().map(|c| c.pressure).fold(0.0, f64::max);
+    let (coarse, fine) = (peak(24), peak(48));
+    assert!(fine > 1.5 * coarse, "{coarse}, {fine}");
+}

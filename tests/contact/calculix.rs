@@ -1,0 +1,346 @@
+//! CalculiX: its decks, its results, and what it computes where `ccx` is installed. Where
+//! `REQUIRE_CCX` is set it must be.
+
+use std::process::{Command, Output};
+
+use crate::common::golden_floats::assert_golden;
+use crate::common::json::build;
+use crate::common::outcome::solve;
+use crate::common::tolerances::{CCX_PRINTS, PENALTY, PENALTY_STRESS, assert_near};
+use plane_contact::answer::{self, Request, Solution};
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
+use plane_contact::problem::scene::Scene;
+use plane_contact::studies::calculix::{
+    Comparison, Contact, Fields, Pair, Part, Problem, deck, parse, run,
+};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// What `ccx` printed for the deck `golden/fig1/calculix-tied.snap`.
+const PRINTED: &str = include_str!("calculix/fig1.dat");
+
+fn ccx_is_there() -> bool {
+    let there = Command::new("ccx").arg("-v").output().is_ok();
+    assert!(there || std::env::var_os("REQUIRE_CCX").is_none(), "ccx is not installed");
+    there
+}
+
+fn last_deck(scene: &Scene, solution: &Solution, parts: &[Part]) -> String {
+    let contact = &parts.last().unwrap().contact;
+    deck(&Problem { scene, model: &solution.model, contact }).unwrap()
+}
+
+#[test]
+fn decks_of_fig1() {
+    for variant in [Variant::Tied, Variant::Unilateral] {
+        let (scene, solution) = solve("fig1", variant);
+        let parts = Contact::parts(&solution).unwrap();
+        let text = last_deck(&scene, &solution, &parts);
+        assert_golden("fig1", &format!("calculix-{variant}"), &text);
+    }
+    let (scene, solution) = solve("fig1", Variant::Tied);
+    let pair = |friction| Contact::Pair(Pair::new(&solution.model, Some(1e7), friction));
+    let of =
+        |friction| last_deck(&scene, &solution, &[Part { contact: pair(friction), share: 1.0 }]);
+    assert_golden("fig1", "calculix-pair", &of(Friction::Stick));
+    assert!(of(Friction::Stick).contains("*FRICTION"));
+    assert!(!of(Friction::None).contains("*FRICTION"));
+}
+
+/// A solution with stepped load is the sum of its contact states, each with its share; one with
+/// total load is its last step.
+#[test]
+fn the_shares_of_the_parts_sum_to_one() {
+    for (variant, several) in [(Variant::Tied, false), (Variant::Stepped, true)] {
+        let (_, solution) = solve("strand", variant);
+        let parts = Contact::parts(&solution).unwrap();
+        assert_eq!(parts.len() > 1, several);
+        let sum: f64 = parts.iter().map(|part| part.share).sum();
+        assert!((sum - 1.0).abs() < 1e-12, "{sum}");
+    }
+    let (_, solution) = solve("fig1", Variant::Printed);
+    let error = Contact::parts(&solution).err().expect("printed ties nothing");
+    assert!(error.what.contains("no equations"), "{error}");
+}
+
+#[test]
+fn printed_results_read_back() {
+    let fields = parse(PRINTED, 13, 9).unwrap();
+    assert_eq!(fields.u[9], [0.0, 0.0]);
+    assert_eq!(fields.u[12], [0.0, -2.015804e-4]);
+    let (_, solution) = solve("fig1", Variant::Tied);
+    let comparison = Comparison::new(&solution.model, Fields::of(&solution), fields);
+    assert_same(&comparison, "fig1 as stored");
+}
+
+#[test]
+fn of_several_increments_the_last_counts() {
+    let earlier = PRINTED.replace("-2.015804E-04", "-9.000000E-04");
+    let fields = parse(&(earlier + PRINTED), 13, 9).unwrap();
+    assert_eq!(fields, parse(PRINTED, 13, 9).unwrap());
+}
+
+#[test]
+fn results_that_are_not_whole_are_refused() {
+    let refused = |text: &str, nodes, words: &str| {
+        let error = parse(text, nodes, 9).unwrap_err();
+        assert!(error.what.contains(words), "{error}");
+    };
+    refused(PRINTED, 14, "node 14 is not in them");
+    refused(PRINTED, 12, "is not understood");
+    refused(&PRINTED[..PRINTED.find(" stresses").unwrap()], 13, "element 1 is not in them");
+    refused(&PRINTED.replace("-2.015804E-04", "NaN"), 13, "NaN");
+    refused("", 13, "node 1 is not in them");
+}
+
+/// Displacements and stresses, each relative to the largest.
+#[track_caller]
+fn assert_same(comparison: &Comparison, what: &str) {
+    let (u, stress) = (&comparison.displacement.largest, &comparison.stress.largest);
+    eprintln!("{what}: displacement {:.1e}, stress {:.1e}", u.relative, stress.relative);
+    assert_near(&format!("{what}, node {}", u.at), u.difference, 0.0, u.scale, &CCX_PRINTS);
+    let name = format!("{what}, triangle {}", stress.at);
+    assert_near(&name, stress.difference, 0.0, stress.scale, &CCX_PRINTS);
+}
+
+/// A block of `nx` by `ny` cells of two triangles on 0 .. 2 by `y0` .. `y0` + 1; its nodes follow
+/// `first`.
+struct Block {
+    nx: usize,
+    ny: usize,
+    y0: f64,
+    first: usize,
+}
+
+impl Block {
+    fn node(&self, i: usize, j: usize) -> usize {
+        self.first + j * (self.nx + 1) + i
+    }
+
+    fn nodes(&self) -> Vec<Value> {
+        let places = (0..=self.ny).flat_map(|j| (0..=self.nx).map(move |i| (i, j)));
+        let row = |(i, j): (usize, usize)| {
+            let [x, y] = [2.0 * i as f64 / self.nx as f64, self.y0 + j as f64 / self.ny as f64];
+            json!([self.node(i, j), x, y, 0.0])
+        };
+        places.map(row).collect()
+    }
+
+    /// Type, tag and nodes of the edges of row `j`.
+    fn row(&self, j: usize, tag: usize) -> Vec<Value> {
+        (0..self.nx)
+            .map(|i| json!([1, 2, tag, tag, self.node(i, j), self.node(i + 1, j)]))
+            .collect()
+    }
+
+    fn triangles(&self, tag: usize) -> Vec<Value> {
+        let cells = (0..self.ny).flat_map(|j| (0..self.nx).map(move |i| (i, j)));
+        let two = |(i, j)| {
+            let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+            let [a, b, c, d] = [a, b, c, d].map(|(i, j)| self.node(i, j));
+            [json!([2, 2, tag, tag, a, b, c]), json!([2, 2, tag, tag, a, c, d])]
+        };
+        cells.flat_map(two).collect()
+    }
+}
+
+/// GOAL: two blocks whose nodes do not match, every kind of row in the equations.
+/// MESH: 2 x 1 mm each, 10 x 5 and 7 x 4 cells of two triangles.
+/// BOUNDARY CONDITIONS: bottom restrained in y, one corner of each block in x; the top is pushed
+/// down and aside, and so is a contact node.
+/// PARAMETERS: E = 30000 and 210000 MPa, nu = 0.2 and 0.3, thickness 0.7 mm.
+fn blocks_that_do_not_match() -> Value {
+    let below = Block { nx: 10, ny: 5, y0: 0.0, first: 1 };
+    let above = Block { nx: 7, ny: 4, y0: 1.0, first: 67 };
+    let nodes = [below.nodes(), above.nodes()].concat();
+    let rows = [
+        below.row(0, 10),
+        below.row(5, 11),
+        above.row(0, 20),
+        above.row(4, 21),
+        below.triangles(1),
+        above.triangles(2),
+    ];
+    let numbered = |(k, row): (usize, Value)| {
+        let mut row = row.as_array().unwrap().clone();
+        row.insert(0, json!(k + 1));
+        Value::from(row)
+    };
+    let elem: Vec<Value> = rows.concat().into_iter().enumerate().map(numbered).collect();
+    json!({
+        "plane": "strain",
+        "thickness": 0.7,
+        "node": nodes,
+        "elem": elem,
+        "materials": { "1": { "E": 30000.0, "nu": 0.2 }, "2": { "E": 210000.0, "nu": 0.3 } },
+        "restraints": [
+            { "on": 10, "fix": ["y"] },
+            { "node": below.node(0, 0), "fix": ["x"] },
+            { "node": above.node(0, 4), "fix": ["x"] }
+        ],
+        "loads": [
+            { "on": 21, "traction": [0.3, -6.3] },
+            { "node": above.node(3, 0), "force": [0.2, -0.9] }
+        ],
+        "contact": { "cnt": 20, "trg": 11, "c_tll": 0.001 },
+        "iterations": 5
+    })
+}
+
+fn scenes() -> Vec<(&'static str, Scene)> {
+    vec![
+        ("two-blocks", Scene::open("two-blocks").unwrap()),
+        ("strand", Scene::open("strand").unwrap()),
+        ("blocks that do not match", build(&blocks_that_do_not_match()).unwrap()),
+    ]
+}
+
+fn solution(scene: &Scene, variant: Variant) -> Solution {
+    answer::solve(&Request::new(scene).variant(variant), &mut |_| ()).unwrap()
+}
+
+#[test]
+fn ccx_solves_the_same_equations() {
+    if !ccx_is_there() {
+        return;
+    }
+    for (name, mut scene) in scenes() {
+        for variant in [Variant::Tied, Variant::Stepped] {
+            assert_equations(name, &scene, variant);
+        }
+        for model in models() {
+            scene.contact = model;
+            assert_equations(&format!("{name} {model:?}"), &scene, Variant::Unilateral);
+        }
+    }
+}
+
+/// Every way to model contact under `unilateral`.
+fn models() -> Vec<ContactModel> {
+    let mut models = Vec::new();
+    for &coupling in Coupling::ALL {
+        for &geometry in Geometry::ALL {
+            models.push(ContactModel {
+                coupling,
+                friction: Friction::None,
+                geometry,
+                ..ContactModel::default()
+            });
+        }
+        models.push(ContactModel {
+            coupling,
+            friction: Friction::Stick,
+            ..ContactModel::default()
+        });
+    }
+    models
+}
+
+#[track_caller]
+fn assert_equations(name: &str, scene: &Scene, variant: Variant) {
+    let solution = solution(scene, variant);
+    let parts = Contact::parts(&solution).unwrap();
+    let ran = run("ccx", scene, &solution.model, &parts).unwrap();
+    let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
+    assert_same(&comparison, &format!("{name} {variant}"));
+}
+
+/// ccx's own contact beside `unilateral` without friction.
+#[test]
+fn ccx_finds_the_same_contact_but_for_its_penalty() {
+    if !ccx_is_there() {
+        return;
+    }
+    for (name, mut scene) in scenes() {
+        scene.contact = ContactModel { friction: Friction::None, ..ContactModel::default() };
+        let solution = solution(&scene, Variant::Unilateral);
+        let pair = Pair::new(&solution.model, None, Friction::None);
+        let part = Part { contact: Contact::Pair(pair), share: 1.0 };
+        let ran = run("ccx", &scene, &solution.model, &[part]).unwrap();
+        let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
+        let (u, stress) = (comparison.displacement.largest, comparison.stress.largest);
+        eprintln!("{name}: displacement {:.1e}, stress {:.1e}", u.relative, stress.relative);
+        assert_near(&format!("{name}, node {}", u.at), u.difference, 0.0, u.scale, &PENALTY);
+        for body in &comparison.bodies {
+            eprintln!("  {}: {} here, {} by ccx", body.name, body.ours, body.calculix);
+            assert_near(&body.name, body.calculix, body.ours, body.ours, &PENALTY_STRESS);
+        }
+    }
+}
+
+fn command(folder: &TempDir, args: &[&str]) -> Output {
+    let program = env!("CARGO_BIN_EXE_plane-contact");
+    Command::new(program)
+        .args(args)
+        .current_dir(folder.path())
+        .output()
+        .expect("the program starts")
+}
+
+#[track_caller]
+fn fails(folder: &TempDir, args: &[&str], words: &[&str]) {
+    let output = command(folder, args);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    for word in words {
+        assert!(said.contains(word), "{word:?}: {said}");
+    }
+    assert!(!folder.path().join("out").exists(), "nothing is written");
+}
+
+#[test]
+fn export_writes_the_deck() {
+    let folder = TempDir::new().unwrap();
+    let printed = command(&folder, &["export", "fig1", "--to", "calculix", "--variant", "tied"]);
+    let (scene, solution) = solve("fig1", Variant::Tied);
+    let parts = Contact::parts(&solution).unwrap();
+    assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &solution, &parts));
+    let args = ["export", "fig1", "--to", "calculix", "--contact", "pair", "--out", "deck.inp"];
+    assert!(command(&folder, &args).stdout.is_empty());
+    let text = std::fs::read_to_string(folder.path().join("deck.inp")).unwrap();
+    assert!(text.contains("friction stick"), "{text}");
+    let printed = ["export", "fig1", "--to", "calculix", "--variant", "printed"];
+    fails(&folder, &printed, &["the variant printed", "--contact pair"]);
+    fails(&folder, &["export", "fig1", "--to", "abaqus"], &["none of calculix"]);
+    let negative = ["export", "fig1", "--to", "calculix", "--penalty=-1"];
+    fails(&folder, &negative, &["it is not positive"]);
+}
+
+#[test]
+fn a_ccx_that_is_missing_or_fails_is_exit_status_2() {
+    let folder = TempDir::new().unwrap();
+    let with = |program: &'static str| {
+        ["compare", "fig1", "--with", "calculix", "--variant", "tied", "--ccx", program]
+    };
+    fails(&folder, &with("./nowhere"), &["cannot be started", "apt-get install calculix-ccx"]);
+    #[cfg(unix)]
+    {
+        fails(&folder, &with("false"), &["false failed (exit status: 1)"]);
+        fails(&folder, &with("true"), &["left no results"]);
+    }
+}
+
+#[test]
+fn compare_prints_tables_and_writes_data_and_pictures() {
+    if !ccx_is_there() {
+        return;
+    }
+    let folder = TempDir::new().unwrap();
+    let compare = ["compare", "fig1", "--with", "calculix", "--variant", "tied"];
+    let tables = String::from_utf8(command(&folder, &compare).stdout).unwrap();
+    for words in ["beside CalculiX 2", "8 equations", "Largest differences", "The worst nodes"] {
+        assert!(tables.contains(words), "{words:?}: {tables}");
+    }
+    let out = folder.path().join("out/fig1-tied-calculix-equation");
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    for picture in ["von_mises_stress.svg", "von_mises_stress_calculix.svg", "difference.svg"] {
+        roxmltree::Document::parse(&read(picture)).expect("the picture is XML");
+    }
+    assert_eq!(read("nodes.csv").lines().count(), 1 + 13);
+    assert_eq!(read("elements.csv").lines().count(), 1 + 9);
+    let printed = command(&folder, &[&compare[..], &["--json"]].concat()).stdout;
+    assert_eq!(String::from_utf8(printed).unwrap(), read("compare.json"), "the same bytes again");
+    let document: Value = serde_json::from_str(&read("compare.json")).unwrap();
+    assert_eq!(document["nodes"].as_array().unwrap().len(), 13);
+    assert_eq!(document["worst_nodes"].as_array().unwrap().len(), 10);
+}

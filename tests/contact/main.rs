@@ -1,0 +1,14 @@
+//! Contact: the converged answer, the status rules, and CalculiX beside them.
+
+#[path = "../common"]
+mod common {
+    pub mod golden;
+    pub mod golden_floats;
+    pub mod json;
+    pub mod outcome;
+    pub mod tolerances;
+}
+
+mod calculix;
+mod status;
+mod unilateral;

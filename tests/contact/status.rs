@@ -1,0 +1,431 @@
+//! The status rules on scenes worked out by hand, and on the paper's example with a wider duct.
+
+use crate::common::tolerances::{FOOT, assert_near};
+use plane_contact::answer::contact::{
+    Operations, Outcome, TargetSurface, pairs, run, shape, statuses, summaries,
+};
+use plane_contact::paper::mathcad::array::{Column, Table};
+use plane_contact::paper::mirror::{Cause, NodeTable, Reading, Worksheet, c_cnt};
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::modelling::{StatusRule, Variant};
+use plane_contact::problem::scene::Scene;
+use plane_contact::studies::audit::statuses::{Measurement, Row, measure};
+
+const C: f64 = 0.001;
+
+/// A target fan under the surface chain, and a stamp triangle over each contact node.
+///
+/// ```text
+///      q1 *---* q2 = contact node + sides
+///          \ /
+///   *-------o---*-------*    chain
+///     \         |     /
+///       `-------*--'         inner
+/// ```
+fn sheet(chain: &[[f64; 2]], contact: &[[f64; 2]], sides: [[f64; 2]; 2]) -> Worksheet<f64> {
+    let (m, n) = (chain.len(), contact.len());
+    let inner = [0.0, -5.0];
+    let corner = |p: &[f64; 2], by: [f64; 2]| [p[0] + by[0], p[1] + by[1]];
+    let corners = contact.iter().flat_map(|p| sides.map(|side| corner(p, side)));
+    let points: Vec<[f64; 2]> = chain
+        .iter()
+        .copied()
+        .chain([inner])
+        .chain(contact.iter().copied())
+        .chain(corners)
+        .collect();
+    let edges = (1..m).map(|j| vec![j, j + 1]);
+    let fan = (1..m).map(|j| vec![m + 1, j + 1, j]);
+    let stamp = (1..=n).map(|i| vec![m + 1 + i, m + n + 2 * i + 1, m + n + 2 * i]);
+    let rows: Vec<Vec<usize>> = edges.chain(fan).chain(stamp).collect();
+    let cell = |k: usize, j: usize| match j {
+        1 => k,
+        2 => rows[k - 1].len() - 1,
+        3..6 => 2,
+        _ => rows[k - 1].get(j - 6).copied().unwrap_or(0),
+    };
+    let triangles = m - 1 + n;
+    Worksheet {
+        node: Table::from_fn(points.len(), 4, |i, j| match j {
+            1 => i as f64,
+            4 => 0.0,
+            _ => points[i - 1][j - 2],
+        }),
+        elem: Table::from_fn(rows.len(), 8, cell),
+        EL: Table::from_fn(triangles, 8, |k, j| cell(m - 1 + k, j)),
+        trg: Column::from_vec((1..m).collect()),
+        cnt: Column::from_vec((m + 2..m + 2 + n).collect()),
+        c_tll: C,
+        ind_1: 6,
+        S: Column::filled(2 * points.len(), 0),
+        Ae: Column::filled(triangles, 0.0),
+        B: Column::filled(triangles, nalgebra::SMatrix::zeros()),
+        E: Column::filled(triangles, 0.0),
+        nu: Column::filled(triangles, 0.0),
+        plane: Plane::Strain,
+    }
+}
+
+/// The shape with every point mapped.
+fn mapped(sheet: &Worksheet<f64>, map: impl Fn([f64; 2]) -> [f64; 2]) -> Table<f64> {
+    let mut node = sheet.node.clone();
+    for n in 1..=sheet.R() {
+        [node[(n, 2)], node[(n, 3)]] = map([sheet.node[(n, 2)], sheet.node[(n, 3)]]);
+    }
+    node
+}
+
+fn turned(degrees: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    move |[x, y]| [cos * x - sin * y, sin * x + cos * y]
+}
+
+fn dy(rule: StatusRule, sheet: &Worksheet<f64>, node_n: &Table<f64>) -> Vec<usize> {
+    let found = statuses(rule, sheet, &Reading::default(), node_n, &Operations::default());
+    found.unwrap_or_else(|failure| panic!("{rule}: {failure}")).dy.as_slice().to_vec()
+}
+
+const UPRIGHT: [[f64; 2]; 2] = [[-0.4, 1.0], [0.4, 1.0]];
+const FLAT: &[[f64; 2]] = &[[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0]];
+const ROOF: &[[f64; 2]] = &[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]];
+const VALLEY: &[[f64; 2]] = &[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]];
+const SLOPE: &[[f64; 2]] = &[[-2.0, -0.4], [2.0, 0.4]];
+
+/// Name, chain, contact node; statuses by signs, intersection, projection.
+type Case = (&'static str, &'static [[f64; 2]], [f64; 2], [usize; 3]);
+
+/// Nodes farther than c_tll from the surface: here line 16 has no say.
+const FAR: &[Case] = &[
+    ("above", FLAT, [0.3, 0.5], [0, 0, 0]),
+    ("deep", FLAT, [0.3, -0.1], [0, 1, 1]),
+    ("deep under a node of the surface", FLAT, [0.0, -0.1], [0, 1, 1]),
+    ("deeper than its element", FLAT, [0.3, -3.0], [0, 0, 1]),
+    ("past the end", FLAT, [1.5, -0.1], [0, 0, 0]),
+    ("past the end, a side through the flank", FLAT, [1.02, -0.1], [0, 1, 0]),
+    ("above a convex corner", ROOF, [0.0, 1.3], [0, 0, 0]),
+    ("beside a convex corner", ROOF, [0.3, 0.9], [0, 0, 0]),
+    ("under a convex corner", ROOF, [0.0, 0.9], [0, 1, 1]),
+    ("above a concave corner", VALLEY, [0.0, 0.3], [0, 0, 0]),
+    ("under a concave corner", VALLEY, [0.0, -0.1], [0, 1, 1]),
+    ("above a slope", SLOPE, [1.0, 0.25], [0, 0, 0]),
+    ("deep under a slope", SLOPE, [1.0, 0.15], [0, 1, 1]),
+];
+
+/// Nodes no farther than c_tll.
+const NEAR: &[Case] = &[
+    ("within c_tll", FLAT, [0.3, 0.0005], [1, 1, 1]),
+    ("on the surface", FLAT, [0.3, 0.0], [1, 1, 1]),
+    ("just inside", FLAT, [0.3, -0.0005], [1, 1, 1]),
+    ("past the end, within c_tll", FLAT, [1.0005, -0.0002], [1, 1, 1]),
+    ("within c_tll of a convex corner", ROOF, [0.0, 1.0005], [1, 1, 1]),
+];
+
+/// The nodes of `NEAR` and `FAR` upright.
+#[test]
+fn each_rule_on_hand_made_scenes() {
+    for (name, chain, node, expected) in NEAR.iter().chain(FAR) {
+        let sheet = sheet(chain, &[*node], UPRIGHT);
+        let found = [StatusRule::Signs, StatusRule::Intersection, StatusRule::Projection]
+            .map(|rule| dy(rule, &sheet, &sheet.node)[0]);
+        assert_eq!(found, *expected, "{name}");
+    }
+}
+
+/// Mirrored in y and turned, statuses by projection stay; so do those by intersection away from line 16's vertical distance (C1, C3).
+#[test]
+fn projection_and_intersection_do_not_depend_on_the_axes() {
+    for (k, (name, chain, node, expected)) in NEAR.iter().chain(FAR).enumerate() {
+        let sheet = sheet(chain, &[*node], UPRIGHT);
+        for degrees in [0.0, 30.0, 90.0, 137.0, 180.0, 270.0, 301.0] {
+            for mirrored in [false, true] {
+                let turn = turned(degrees);
+                let shape = mapped(&sheet, |[x, y]| turn([x, if mirrored { -y } else { y }]));
+                let place = format!("{name}, turned by {degrees}, mirrored {mirrored}");
+                let projection = dy(StatusRule::Projection, &sheet, &shape);
+                assert_eq!(projection, [expected[2]], "{place}");
+                if k >= NEAR.len() {
+                    assert_eq!(
+                        dy(StatusRule::Intersection, &sheet, &shape),
+                        [expected[1]],
+                        "{place}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// C4: node 1 is apart, node 2 inside. The sign rule takes each for the other, and upside down it does not.
+#[test]
+fn the_sign_rule_depends_on_which_way_is_up() {
+    let sheet = sheet(SLOPE, &[[0.8, 0.17], [1.2, 0.23]], UPRIGHT);
+    let upside_down = mapped(&sheet, |[x, y]| [x, -y]);
+    assert_eq!(dy(StatusRule::Signs, &sheet, &sheet.node), [1, 0]);
+    assert_eq!(dy(StatusRule::Signs, &sheet, &upside_down), [0, 1]);
+    for rule in [StatusRule::Intersection, StatusRule::Projection] {
+        for shape in [&sheet.node, &upside_down] {
+            assert_eq!(dy(rule, &sheet, shape), [0, 1], "{rule}");
+        }
+    }
+}
+
+/// C8: with c_tll = 0 a node on its edge is in contact by projection, not by line 16.
+#[test]
+fn without_a_tolerance_a_touching_node_is_in_contact_by_projection() {
+    let sheet = Worksheet { c_tll: 0.0, ..sheet(FLAT, &[[0.3, 0.0]], UPRIGHT) };
+    assert_eq!(dy(StatusRule::Signs, &sheet, &sheet.node), [0]);
+    assert_eq!(dy(StatusRule::Projection, &sheet, &sheet.node), [1]);
+}
+
+/// A vertical edge: line 10, which intersection keeps, divides by zero where the node is in the edge's box; projection knows.
+#[test]
+fn a_vertical_edge_stops_what_keeps_line_10() {
+    let sheet = sheet(&[[-1.0, 0.0], [1.0, 0.0]], &[[0.3, 0.0005]], UPRIGHT);
+    let upright = mapped(&sheet, |[x, y]| [y, -x]);
+    for rule in [StatusRule::Signs, StatusRule::Intersection] {
+        let failure = pairs(rule, &sheet, &Reading::default(), &upright).unwrap_err();
+        assert_eq!((failure.line, failure.cause), (10, Cause::Singularity), "{rule}");
+    }
+    assert_eq!(dy(StatusRule::Projection, &sheet, &upright), [1]);
+    let current: Reading = "R5=node_n".parse().unwrap();
+    let failure = pairs(StatusRule::Projection, &sheet, &current, &upright).unwrap_err();
+    assert_eq!(
+        (failure.line, failure.cause),
+        (22, Cause::Singularity),
+        "its weights are the listing's"
+    );
+}
+
+/// Sharp corners, where one of the two edges has the point on its wrong side, whichever comes first.
+#[test]
+fn the_foot_at_a_corner_has_the_right_side() {
+    let sharp = [[-0.2, 0.0], [0.0, 1.0], [0.2, 0.0]];
+    let notch = [[-0.2, 1.0], [0.0, 0.0], [0.2, 1.0]];
+    for (chain, point, distance) in [
+        (sharp, [-0.1, 1.1], 0.02_f64.sqrt()),
+        (sharp, [0.1, 1.1], 0.02_f64.sqrt()),
+        (notch, [-0.1, -0.1], -0.02_f64.sqrt()),
+        (notch, [0.1, -0.1], -0.02_f64.sqrt()),
+    ] {
+        let one = sheet(&chain, &[[9.0, 9.0]], UPRIGHT);
+        let other = Worksheet { trg: Column::from_vec(vec![2, 1]), ..one.clone() };
+        for sheet in [one, other] {
+            let foot = TargetSurface::new(&sheet, &sheet.node).nearest(point).unwrap();
+            assert_near("distance", foot.distance, distance, 1.0, &FOOT);
+            assert!(foot.beyond == 0.0 && (foot.xi == 0.0 || foot.xi == 1.0), "{foot:?}");
+        }
+    }
+}
+
+/// The foot's edge, place, normal and what lies past the end, turned.
+#[test]
+fn the_foot_of_a_point() {
+    let sheet = sheet(FLAT, &[[9.0, 9.0]], UPRIGHT);
+    for degrees in [0.0, 30.0, 90.0, 200.0] {
+        let turn = turned(degrees);
+        let surface = TargetSurface::new(&sheet, &mapped(&sheet, &turn));
+        for (point, edge, xi, distance, beyond) in [
+            ([0.25, 0.5], 2, 0.25, 0.5, 0.0),
+            ([-0.25, -0.5], 1, 0.75, -0.5, 0.0),
+            ([1.3, 0.4], 2, 1.0, 0.5, 0.3),
+            ([-1.3, -0.4], 1, 0.0, -0.5, 0.3),
+        ] {
+            let foot = surface.nearest(turn(point)).unwrap();
+            assert_eq!(foot.edge, edge);
+            assert_near("xi", foot.xi, xi, 1.0, &FOOT);
+            assert_near("distance", foot.distance, distance, 1.0, &FOOT);
+            assert_near("beyond", foot.beyond, beyond, 1.0, &FOOT);
+            let normal = turn([0.0, 1.0]);
+            assert_near("normal x", foot.normal[0], normal[0], 1.0, &FOOT);
+            assert_near("normal y", foot.normal[1], normal[1], 1.0, &FOOT);
+        }
+    }
+}
+
+#[test]
+fn a_surface_without_an_edge_has_no_foot() {
+    let bare = Worksheet { trg: Column::filled(0, 0), ..sheet(FLAT, &[[0.3, -0.1]], UPRIGHT) };
+    assert_eq!(TargetSurface::new(&bare, &bare.node).nearest([0.0, 0.0]), None);
+    assert_eq!(dy(StatusRule::Projection, &bare, &bare.node), [0]);
+}
+
+/// A deep node, outside every box (C9), gets the nearest edge and the listing's weights at it.
+#[test]
+fn a_lost_node_gets_the_nearest_edge_and_its_weights() {
+    let sheet = sheet(FLAT, &[[0.25, -0.1]], UPRIGHT);
+    let node = sheet.cnt[1];
+    for rule in [StatusRule::Intersection, StatusRule::Projection] {
+        let found = pairs(rule, &sheet, &Reading::default(), &sheet.node).unwrap();
+        assert_eq!(found.ct.as_slice(), [2], "{rule}");
+        assert_eq!(
+            found.k_cnt.row(node).copied().collect::<Vec<_>>(),
+            [2.0, 0.75, 3.0, 0.25],
+            "{rule}"
+        );
+        let mates = [2, 3].map(|n| found.k_cnt.row(n).copied().collect::<Vec<_>>());
+        let own = node as f64;
+        assert_eq!(mates, [[own, 0.75, 0.0, 0.0], [own, 0.25, 0.0, 0.0]], "{rule}");
+    }
+}
+
+/// Where statuses and edges are the listing's, so are the weights, to the last bit, under R1 and R5.
+#[test]
+fn weights_are_those_of_the_listing() {
+    let contact = [[-0.7, 0.0005], [-0.3, -0.0004], [0.2, 0.0], [0.6, 0.0003]];
+    let sheet = sheet(FLAT, &contact, UPRIGHT);
+    let moved = mapped(&sheet, |[x, y]| [1.01 * x, y]);
+    for reading in ["", "R1=inside", "R5=node_n", "R1=inside,R5=node_n"] {
+        let reading: Reading = reading.parse().unwrap();
+        let printed = c_cnt(&sheet, &reading, &moved).unwrap();
+        assert_eq!(printed.dy.as_slice(), [1; 4]);
+        for rule in [StatusRule::Intersection, StatusRule::Projection] {
+            let found = pairs(rule, &sheet, &reading, &moved).unwrap();
+            assert_eq!((&found.ct, &found.dy), (&printed.ct, &printed.dy), "{rule}");
+            assert_eq!(found.k_cnt, printed.k_cnt, "{rule}, {:?}", reading.r5 == NodeTable::Node);
+        }
+    }
+}
+
+/// The paper's example with a duct of radius `duct` instead of 7.7 mm: the block's nodes move outwards along their radius, less and less
+/// to the block's sides, and the stamp is let down so that it touches the duct's lowest point.
+fn wider_duct(duct: f64) -> Scene {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/strand");
+    let mesh = std::fs::read_to_string(format!("{folder}/strand.msh")).unwrap();
+    let scene = std::fs::read(format!("{folder}/scene.json")).unwrap();
+    let original = Scene::open("strand").unwrap();
+    let block = original.target().unwrap();
+    let (before, rest) = mesh.split_once("$Nodes\n").unwrap();
+    let (nodes, after) = rest.split_once("$EndNodes").unwrap();
+    let moved: Vec<String> = nodes.lines().map(|line| moved(line, &block.nodes, duct)).collect();
+    let mesh = format!("{before}$Nodes\n{}\n$EndNodes{after}", moved.join("\n"));
+    Scene::build("wide", &scene, |_| Ok(mesh.clone().into_bytes()))
+        .expect("the wider duct is sound")
+}
+
+fn moved(line: &str, block: &[usize], duct: f64) -> String {
+    let fields: Vec<f64> = line.split(' ').map(|field| field.parse().unwrap()).collect();
+    let [number, x, y, z] = fields[..] else { return line.into() };
+    if !block.contains(&(number as usize)) {
+        return format!("{number} {x} {} {z}", y - (duct - 7.7));
+    }
+    let (radius, side) = (x.hypot(y), 25.0);
+    let border = side * radius / x.abs().max(y.abs());
+    let scale = (border - (border - radius) * (border - duct) / (border - 7.7)) / radius;
+    format!("{number} {} {} {z}", x * scale, y * scale)
+}
+
+fn stepped(rule: StatusRule, scene: &Scene) -> Outcome {
+    let mut scene = scene.clone();
+    scene.contact.status = rule;
+    run(&scene, Variant::Stepped, &Reading::default(), |_| ()).expect("the variant runs")
+}
+
+/// Where a node passes c_tll between two steps the sign rule loses it for a while, its contact set comes and goes, and what bears the load
+/// is pressed harder (C4, C9). By projection the set only grows, and nothing is left inside the block.
+#[test]
+fn in_a_wider_duct_stepped_differs_by_rule() {
+    let counts = |outcome: &Outcome| -> Vec<usize> {
+        outcome.iterations.iter().map(|iteration| iteration.in_contact).collect()
+    };
+    for (duct, by_signs, by_projection) in [
+        (8.0, [2, 2, 3, 3, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5], [3; 4].as_slice()),
+        (8.1, [3, 3, 5, 5, 5, 5, 5, 4, 4, 5, 5, 4, 4, 5, 5, 4, 4, 5, 5, 4], [3; 8].as_slice()),
+    ] {
+        let scene = wider_duct(duct);
+        let [signs, projection] =
+            [StatusRule::Signs, StatusRule::Projection].map(|rule| stepped(rule, &scene));
+        assert_eq!(counts(&signs), by_signs, "{duct}");
+        let found = counts(&projection);
+        let (start, end) = found.split_at(by_projection.len());
+        assert_eq!((start, end), (by_projection, [5].repeat(end.len()).as_slice()), "{duct}");
+        assert_near("deepest node", deepest(&projection), 0.0, 10.0, &FOOT);
+        assert!(deepest(&signs) < -0.2 * C, "{duct}: {}", deepest(&signs));
+        let [more, less] =
+            [&signs, &projection].map(|it| summaries(&scene, it)[0].max_von_mises_stress);
+        assert!(more > 1.05 * less, "{duct}: {more} and {less}");
+    }
+}
+
+/// Smallest signed distance of a contact node at the end.
+fn deepest(outcome: &Outcome) -> f64 {
+    let end = shape(&outcome.sheet, &outcome.u);
+    let surface = TargetSurface::new(&outcome.sheet, &end);
+    let distance = |n: &usize| surface.nearest([end[(*n, 2)], end[(*n, 3)]]).unwrap().distance;
+    outcome.sheet.cnt.iter().map(distance).fold(f64::INFINITY, f64::min)
+}
+
+/// The default status rule is what the paper prints.
+#[test]
+fn signs_are_the_default() {
+    let scene = Scene::open("fig1").unwrap();
+    let printed = run(&scene, Variant::Stepped, &Reading::default(), |_| ()).unwrap();
+    assert_eq!(printed.u, stepped(StatusRule::Signs, &scene).u);
+    assert_eq!(StatusRule::default(), StatusRule::Signs);
+}
+
+/// Nodes, nodes in contact, then for signs, intersection, projection: missed + false, operations. Seed 1, 20 scenes a row.
+const BY_DEPTH: &str = "\
+16 0.5 below: 158 23, 2 + 9 18021, 0 + 0 76401, 0 + 0 80486
+16 0.5 above: 152 21, 1 + 0 17923, 0 + 0 72563, 0 + 1 77288
+16 2 below: 175 23, 21 + 7 20662, 0 + 0 92519, 0 + 0 88966
+16 2 above: 157 28, 6 + 0 18831, 0 + 0 81510, 0 + 0 79786
+16 8 below: 157 33, 29 + 6 18555, 0 + 0 85376, 0 + 0 79846
+16 8 above: 150 30, 18 + 0 18273, 0 + 0 82891, 0 + 0 76206
+16 32 below: 156 50, 50 + 5 18614, 0 + 0 95616, 0 + 0 79314
+16 32 above: 166 63, 57 + 0 19550, 0 + 0 106912, 0 + 1 84394
+16 128 below: 135 100, 98 + 2 15957, 0 + 0 108888, 0 + 0 68640
+16 128 above: 151 100, 98 + 0 17979, 0 + 0 120990, 0 + 1 76732
+16 512 below: 156 122, 122 + 0 17857, 97 + 0 88475, 2 + 4 79338
+16 512 above: 144 126, 126 + 0 16813, 103 + 0 82605, 1 + 2 73260
+";
+const BY_SIZE: &str = "\
+8 4 both: 79 23, 18 + 3 5089, 0 + 0 23038, 0 + 0 19950
+16 4 both: 145 24, 21 + 3 17111, 0 + 0 76502, 0 + 0 73756
+32 4 both: 289 40, 32 + 2 64763, 0 + 0 298806, 0 + 0 294966
+64 4 both: 580 64, 52 + 2 256109, 0 + 0 1183995, 0 + 0 1185778
+128 4 both: 1283 133, 112 + 0 1136451, 2 + 0 5326912, 0 + 0 5250336
+256 4 both: 2115 218, 173 + 4 3647227, 2 + 1 17294498, 0 + 0 17319006
+";
+
+#[test]
+fn the_measurement_is_pinned() {
+    let Measurement { by_depth, by_size, .. } = measure(20, 1);
+    let line = |row: &Row| {
+        let rules = row.rules.iter().map(|score| {
+            format!(", {} + {} {}", score.missed, score.false_contacts, score.operations)
+        });
+        let rules: String = rules.collect();
+        format!(
+            "{} {} {}: {} {}{rules}\n",
+            row.edges, row.depth, row.target, row.nodes, row.touching
+        )
+    };
+    assert_eq!(by_depth.iter().map(line).collect::<String>(), BY_DEPTH);
+    assert_eq!(by_size.iter().map(line).collect::<String>(), BY_SIZE);
+}
+
+#[test]
+fn the_command_prints_tables_or_json() {
+    let run = |args: &[&str]| {
+        let program = env!("CARGO_BIN_EXE_plane-contact");
+        let output = std::process::Command::new(program).args(args).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    let (status, tables) = run(&["statuses", "--scenes", "3"]);
+    assert_eq!(status, Some(0));
+    for words in ["seed 1", "depth / c_tll", "signs", "intersection", "projection", "Operations"] {
+        assert!(tables.contains(words), "{words:?}: {tables}");
+    }
+    let (_, json) = run(&["statuses", "--scenes", "3", "--seed", "7", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!((&json["scenes"], &json["seed"]), (&3.into(), &7.into()));
+    assert_eq!(json["by_depth"][0]["rules"][1]["rule"], "intersection");
+    assert_eq!(run(&["statuses", "--scenes", "0"]).0, Some(2));
+    let folder = tempfile::TempDir::new().unwrap();
+    let picture = folder.path().join("statuses.svg");
+    run(&["statuses", "--scenes", "3", "--picture", picture.to_str().unwrap()]);
+    let svg = std::fs::read_to_string(picture).unwrap();
+    let svg = roxmltree::Document::parse(&svg).expect("the picture is XML");
+    let points = svg.descendants().filter(|node| node.has_tag_name("circle")).count();
+    assert_eq!(points, 36, "6 depths, 3 rules, 2 orientations");
+}

@@ -1,0 +1,276 @@
+//! Citations: what the repository's sources and pages name is there.
+//!
+//! - `listings/READING.md` is cited in sources as `` `listings/READING.md`, section N `` and in no other form; section N exists.
+//! - Every reading and finding that is named has a row in READING.md's tables, and every row is a
+//!   reading, or a finding of the register with its lines and its folder.
+//! - Every page (`*.md`) and every file of the repository that is named is there, and every link of a page
+//!   leads to a file. What was written outside the repository is not cited.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const READING: &str = "listings/READING.md";
+
+/// Folders that are no part of the repository: built files and outputs.
+const SKIPPED: [&str; 3] = ["target", "out", ".git"];
+
+/// Folders at the repository's root in which a named path must exist.
+const FOLDERS: [&str; 5] = ["src/", "tests/", "golden/", "listings/", "benches/"];
+
+/// A text of the repository: its path from the root, with `/`, and its content.
+struct Text {
+    path: String,
+    content: String,
+}
+
+impl Text {
+    fn is_page(&self) -> bool {
+        self.path.ends_with(".md")
+    }
+
+    /// `path:line`, for the words of a failure.
+    fn place(&self, line: usize) -> String {
+        format!("{}:{}", self.path, line + 1)
+    }
+}
+
+/// Every `.rs` and `.md` file but this one, whose examples name what is not there.
+fn texts() -> Vec<Text> {
+    let mut found = Vec::new();
+    walk(Path::new(ROOT), &mut found);
+    let this = Path::new(file!()).file_name().expect("a source file has a name");
+    let mut texts: Vec<Text> = found
+        .into_iter()
+        .filter(|path| path.file_name() != Some(this))
+        .map(|path| {
+            let content = fs::read_to_string(&path).expect("a source is text");
+            let path = path.strip_prefix(ROOT).expect("within the repository");
+            Text { path: path.to_string_lossy().replace('\\', "/"), content }
+        })
+        .collect();
+    texts.sort_by(|a, b| a.path.cmp(&b.path));
+    texts
+}
+
+fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder of the repository") {
+        let path = entry.expect("an entry").path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_dir() && !SKIPPED.contains(&name.as_str()) {
+            walk(&path, found);
+        } else if name.ends_with(".rs") || name.ends_with(".md") {
+            found.push(path);
+        }
+    }
+}
+
+fn reading() -> String {
+    fs::read_to_string(Path::new(ROOT).join(READING)).expect("the readings of record")
+}
+
+/// The numbers of the sections, from their headings: `## 4. Readings`.
+fn sections(reading: &str) -> BTreeSet<usize> {
+    let headings = reading.lines().filter_map(|line| line.strip_prefix("## "));
+    headings.map(|h| h.split('.').next().unwrap().parse().expect("a numbered heading")).collect()
+}
+
+/// The rows of READING.md's tables that begin with an id, and the second cell of each.
+fn rows(reading: &str) -> BTreeMap<String, String> {
+    let mut rows = BTreeMap::new();
+    for line in reading.lines().filter(|line| line.starts_with('|')) {
+        let mut cells = line.split('|').skip(1).map(str::trim);
+        let (id, lines) = (cells.next().unwrap_or(""), cells.next().unwrap_or(""));
+        // A finding's id is a link to its folder; section 7 names findings again, without one.
+        let linked = id.strip_prefix('[').and_then(|id| id.split_once("](../golden/findings/"));
+        let id = match linked {
+            Some((id, target)) => {
+                assert_eq!(target, format!("{id}/README.md)"), "the link of {id}");
+                id
+            }
+            None if id.starts_with('R') && !rows.contains_key(id) => id,
+            None => continue,
+        };
+        if is_id(id) {
+            assert!(rows.insert(id.into(), lines.into()).is_none(), "{id} has two rows");
+        }
+    }
+    rows
+}
+
+/// `R1`, `C15`, `K9`: a letter and a number.
+fn is_id(word: &str) -> bool {
+    let number = word.strip_prefix(['R', 'C', 'K']).unwrap_or("");
+    !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit())
+}
+
+/// The words of a line, in order.
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    line.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
+}
+
+/// The paths that a line names: runs of what paths are made of, without the full stop of a sentence.
+fn paths(line: &str) -> impl Iterator<Item = &str> {
+    line.split(|c: char| !c.is_ascii_alphanumeric() && !"/._-<>*".contains(c))
+        .map(|path| path.trim_end_matches(['.', '-']))
+        // A pattern, such as golden/findings/<id>/, names no single file; an address, none of ours.
+        .filter(|path| !path.contains(['<', '*']) && !path.starts_with("//"))
+}
+
+/// Whether `path` is there, seen from the root or from a folder above `text`.
+fn exists(text: &Text, path: &str) -> bool {
+    let from = Path::new(ROOT).join(&text.path);
+    from.ancestors().skip(1).any(|folder| folder.starts_with(ROOT) && folder.join(path).exists())
+}
+
+/// What is wrong with the citations of `text`.
+fn faults(text: &Text, sections: &BTreeSet<usize>, ids: &BTreeSet<String>) -> Vec<String> {
+    let mut faults = Vec::new();
+    for (at, line) in text.content.lines().enumerate() {
+        let mut fault = |what: String| faults.push(format!("{}: {what}", text.place(at)));
+        if line.contains("shared/") {
+            fault("cites shared/, which is outside the repository".into());
+        }
+        for section in cited_sections(line, text.is_page()) {
+            match section {
+                Some(number) if sections.contains(&number) => (),
+                Some(number) => fault(format!("READING.md has no section {number}")),
+                None => fault(format!("cite READING.md as `{READING}`, section N")),
+            }
+        }
+        for path in paths(line) {
+            let named = path.ends_with(".md") && path != ".md"
+                || FOLDERS.iter().any(|folder| path.starts_with(folder));
+            if named && !exists(text, path) {
+                fault(format!("names {path}, which is not there"));
+            }
+        }
+        if text.is_page() {
+            for target in links(line) {
+                let from = Path::new(ROOT).join(&text.path);
+                if !from.parent().unwrap().join(target).exists() {
+                    fault(format!("links to {target}, which is not there"));
+                }
+            }
+        }
+        for id in words(line).filter(|word| is_id(word) && !ids.contains(*word)) {
+            fault(format!("{id} has no row in READING.md"));
+        }
+    }
+    faults
+}
+
+/// For each mention of READING.md in a line the section that it cites; nothing where a source cites in
+/// another form. A page may name it, or link to it, without a section.
+fn cited_sections(line: &str, page: bool) -> Vec<Option<usize>> {
+    let mut cited = Vec::new();
+    for (at, _) in line.match_indices("READING.md") {
+        let form = line[..at].ends_with("`listings/");
+        let rest = line[at..].strip_prefix("READING.md`, section ").unwrap_or("");
+        let digits = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        match rest[..digits].parse() {
+            Ok(number) if form => cited.push(Some(number)),
+            _ if page => (),
+            _ => cited.push(None),
+        }
+    }
+    cited
+}
+
+/// The targets of a page's links that are files: `[words](target)`.
+fn links(line: &str) -> impl Iterator<Item = &str> {
+    let targets = line.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    targets
+        .filter(|target| !target.contains("://"))
+        .map(|target| target.split('#').next().unwrap())
+        .filter(|target| !target.is_empty())
+}
+
+#[test]
+fn every_citation_leads_somewhere() {
+    let (reading, texts) = (reading(), texts());
+    let (sections, ids) = (sections(&reading), rows(&reading).into_keys().collect());
+    assert!(texts.iter().any(|text| text.path == READING), "the walk reaches {READING}");
+    let faults: Vec<String> = texts.iter().flat_map(|t| faults(t, &sections, &ids)).collect();
+    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
+    // A rule that nothing falls under would never fail.
+    let cited = texts.iter().filter(|text| !text.is_page());
+    let cited = cited.flat_map(|text| text.content.lines());
+    assert!(cited.flat_map(|line| cited_sections(line, false)).count() >= 4);
+}
+
+#[test]
+fn the_sections_are_numbered_from_1() {
+    let sections = sections(&reading());
+    assert_eq!(sections, (1..=sections.len()).collect());
+}
+
+#[test]
+fn the_tables_have_every_reading_and_finding() {
+    let expected = [('R', 10), ('C', 15), ('K', 9)];
+    let expected =
+        expected.iter().flat_map(|(c, last)| (1..=*last).map(move |n| format!("{c}{n}")));
+    let rows = rows(&reading());
+    assert_eq!(rows.keys().cloned().collect::<BTreeSet<_>>(), expected.collect());
+    for id in rows.keys().filter(|id| !id.starts_with('R')) {
+        let folder = Path::new(ROOT).join("golden/findings").join(id);
+        assert!(folder.is_dir(), "golden/findings/{id}");
+    }
+}
+
+/// The lines of a finding are the register's.
+#[test]
+fn the_tables_have_the_lines_of_the_register() {
+    let rows = rows(&reading());
+    let register = Path::new(ROOT).join("src/studies/audit/findings/register.rs");
+    let register = fs::read_to_string(register).expect("the register of findings");
+    let mut findings = 0;
+    for finding in register.split("id: \"").skip(1) {
+        let field = |name: &str, open: &str, close: &str| {
+            let rest = finding.split_once(&format!("{name}: {open}")).expect(name).1;
+            rest.split_once(close).expect(name).0.to_string()
+        };
+        let id = finding.split('"').next().unwrap();
+        let (listing, lines) = (field("listing", "\"", "\""), field("lines", "&[", "]"));
+        let expected = if lines.is_empty() { listing } else { format!("{listing} {lines}") };
+        assert_eq!(rows.get(id), Some(&expected), "{id}");
+        findings += 1;
+    }
+    assert_eq!(findings, rows.keys().filter(|id| !id.starts_with('R')).count());
+}
+
+#[test]
+fn a_wrong_citation_would_be_noticed() {
+    let (sections, ids) = (BTreeSet::from([1, 2]), BTreeSet::from(["C1".to_string()]));
+    let faults = |path: &str, content: &str| {
+        let text = Text { path: path.into(), content: content.into() };
+        faults(&text, &sections, &ids)
+    };
+    for sound in [
+        "//! (`listings/READING.md`, section 2).",
+        "// C1, 15K7, RC1, R, \"listings/README.md\" and golden/findings/<id>/scene.json",
+        "// README.md.",
+    ] {
+        assert_eq!(faults("src/a.rs", sound), [""; 0], "{sound}");
+    }
+    for (wrong, why) in [
+        ("//! (`listings/READING.md`, section 3).", "no section 3"),
+        ("//! (`listings/READING.md` section 2).", "cite READING.md as"),
+        ("//! (`READING.md`, section 2).", "cite READING.md as"),
+        ("// see shared/notes", "outside the repository"),
+        ("// see NOTES.md.", "names NOTES.md"),
+        ("// see src/no/such.rs", "names src/no/such.rs"),
+        ("// finding C2", "C2 has no row"),
+    ] {
+        let found = faults("src/a.rs", wrong);
+        assert!(found.iter().any(|fault| fault.contains(why)), "{wrong}: {found:?}");
+        assert!(found.iter().all(|fault| fault.starts_with("src/a.rs:1: ")), "{found:?}");
+    }
+    let linked = |target: &str| faults("listings/a.md", &format!("[words]({target})"));
+    for sound in ["README.md#Notation", "../src/lib.rs", "https://example.org/a.md", "#here"] {
+        assert_eq!(linked(sound), [""; 0], "{sound}");
+    }
+    assert_eq!(linked("lib.rs").len(), 1);
+    assert!(faults("listings/a.md", "`listings/READING.md`, section 9")[0].contains("section 9"));
+}

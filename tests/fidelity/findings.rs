@@ -1,0 +1,349 @@
+//! The register of findings: each on its own scene, with the number worked out by hand; each on a scene changed so that it
+//! cannot show; all of them on the scenes that the program carries.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use crate::common::golden_floats::assert_golden;
+use crate::common::json::build;
+use crate::common::tolerances::{FINDING, assert_near};
+use crate::golden::number;
+use plane_contact::answer::contact::run;
+use plane_contact::paper::mirror::{Km, Reading, c_cnt};
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::{FINDING_SCENES, SCENES, Scene};
+use plane_contact::studies::audit::Case;
+use plane_contact::studies::audit::findings::{FINDINGS, Finding, Measured, Verdict};
+use serde_json::{Value, json};
+
+fn finding(id: &str) -> &'static Finding {
+    FINDINGS.iter().find(|finding| finding.id == id).expect("an id of the register")
+}
+
+fn scene_json(id: &str) -> Value {
+    let name = format!("findings/{id}");
+    let embedded = FINDING_SCENES.iter().find(|s| s.name == name).expect("a scene for each id");
+    serde_json::from_slice(embedded.scene).expect("scene files are JSON")
+}
+
+/// What finding `id` measures on its scene once `change` has been made.
+fn measured(id: &str, change: impl FnOnce(&mut Value)) -> Measured {
+    let mut json = scene_json(id);
+    change(&mut json);
+    finding(id).measure(&case(&json))
+}
+
+fn case(json: &Value) -> Case {
+    Case::new(build(json).expect("the changed scene is sound")).expect("a sound scene")
+}
+
+/// Moves node `n`.
+fn at(json: &mut Value, n: usize, x: f64, y: f64) {
+    json["node"][n - 1] = json!([n, x, y, 0.0]);
+}
+
+#[track_caller]
+fn shows(id: &str, measured: &Measured, number: f64, words: &[&str]) {
+    assert_eq!(measured.verdict, Verdict::Holds, "{id}: {}", measured.detail);
+    let scale = if number == 0.0 { 1.0 } else { number };
+    assert_near(id, measured.number, number, scale, &FINDING);
+    for word in words {
+        assert!(measured.detail.contains(word), "{id}: {word:?} is not in {:?}", measured.detail);
+    }
+}
+
+/// The README of each scene works these numbers out.
+#[test]
+fn each_finding_holds_on_its_scene() {
+    let expected: [(&str, f64, &[&str]); 24] = [
+        ("C1", 1.0, &["node 4: ct 1 dy 1, turned round ct 0 dy 0"]),
+        ("C2", 1.0, &["node 5: ct 2 dy 0, in reverse ct 1 dy 1"]),
+        ("C3", 1.0, &["node 4: yt -1.500e-1, cos t 0.600, along the normal -9.000e-2"]),
+        (
+            "C4",
+            2.0,
+            &[
+                "node 4: yt -3.000e-1 dy 1, upside down dy 0",
+                "node 5: yt 3.000e-1 dy 0, upside down dy 1",
+            ],
+        ),
+        ("C5", 2.0, &["node 4: yt 3.000e-1 dy 0; node 5: yt 3.000e-1 dy 0"]),
+        ("C6", 0.5, &["node 5: 1.5000, -0.5000"]),
+        ("C7", 2.0, &["node 1: mates [4, 5], k_cnt 5 1 0 0; node 2: mates [4, 5], k_cnt 5 1 0 0"]),
+        (
+            "C8",
+            1.0,
+            &["node 4: yt 0.000e0 dy 0; flagged by lines 17-18: node 5: yt -3.000e-1 dy 1"],
+        ),
+        ("C9", 1.0, &["node 5: inside the target, ct 0 yt 0 dy 0"]),
+        ("C10", -0.05, &["c_cnt, line 18", "index of yt = 0"]),
+        ("C11", 1.0, &["node 5: yt -3.000e-1, dy 0 or 1"]),
+        ("C12", 2.0, &["node 4: listed 2 times, weights sum to 2"]),
+        ("C13", 4.0, &["the largest change is"]),
+        ("C14", 1.0, &["node 4: 0.000e0 from its edge, ct 0"]),
+        ("C15", 1.0, &["node 5: yt -3.000e-1 dy 1"]),
+        ("K1", 0.0, &["the target moves by 0e0"]),
+        ("K2", 1.0, &["triangle 2, pair 1: weights [0.75, 0.25]"]),
+        ("K3", 20000.0, &["held: 1, others 1.0000e4 to 2.0000e4"]),
+        ("K4", 2.0, &["rows of zeros: 0 without the node, 2 with it, 2 where S holds it"]),
+        ("K5", 2.0, &["nodes in contact: [1, 0]"]),
+        ("K6", 1.0, &["one linked node: singular; two: solvable"]),
+        ("K7", 1.0, &["triangle 2, pair 1: weights [0.75, 0.0]"]),
+        ("K8", -7.0, &["node 1, direction y"]),
+        ("K9", 1.0, &["node 4: held with 6.000e-1"]),
+    ];
+    assert_eq!(
+        expected.map(|(id, ..)| id).to_vec(),
+        FINDINGS.iter().map(|f| f.id).collect::<Vec<_>>()
+    );
+    for (id, number, words) in expected {
+        let case = Case::new(finding(id).scene()).expect("a sound scene");
+        shows(id, &finding(id).measure(&case), number, words);
+    }
+}
+
+/// A change of the scene that takes away what the finding needs.
+type Change = fn(&mut Value);
+
+#[test]
+fn each_finding_vanishes_where_its_cause_does() {
+    let changes: [(&str, Change); 22] = [
+        // Over the middle of the edge both boxes hold the node.
+        ("C1", |s| at(s, 4, 0.5, 0.0)),
+        // Over the first edge alone.
+        ("C2", |s| at(s, 5, 0.5, 0.0)),
+        // Beyond c_tll along the normal too: 0.2 · 0.6 = 0.12.
+        ("C3", |s| at(s, 4, 0.3, 0.6)),
+        // Both apart: no change of sign.
+        ("C4", |s| at(s, 5, 1.5, 1.8)),
+        // One node alone inside.
+        ("C5", |s| at(s, 4, 0.5, 0.8)),
+        // Straight down on its own edge.
+        ("C6", |s| s["loads"][0]["force"] = json!([0.0, -0.6])),
+        // One contact node.
+        ("C7", |s| s["contact"]["cnt"] = json!([4])),
+        // No node on the edge.
+        ("C8", |s| at(s, 4, 0.5, 0.75)),
+        // Not deeper than the box.
+        ("C9", |s| at(s, 5, 0.75, -0.09)),
+        // The first node is down.
+        ("C10", |s| at(s, 4, 0.5, -0.05)),
+        // Off its edge by more than rounding.
+        ("C11", |s| at(s, 4, 0.9, 0.29)),
+        ("C12", |s| s["contact"]["cnt"] = json!([4])),
+        ("C13", |s| s["contact"]["cnt"] = json!([4])),
+        // The edge written the other way rises towards −x: its box grows.
+        ("C14", |s| s["elem"][0] = json!([1, 1, 2, 10, 10, 2, 1])),
+        // The touching node a little above its edge.
+        ("C15", |s| at(s, 4, 0.5, 0.55)),
+        // No contact.
+        ("K1", |s| at(s, 5, 0.5, 0.2)),
+        // One node, over the middle: equal weights.
+        ("K2", |s| {
+            at(s, 4, 0.5, 0.0);
+            s["contact"]["cnt"] = json!([4]);
+        }),
+        // A unit in which E = 4.
+        ("K3", |s| s["materials"]["1"]["E"] = json!(4.0)),
+        // The gap closed from the start.
+        ("K5", |s| at(s, 4, 0.5, 0.0)),
+        // Off the edge's end.
+        ("K7", |s| at(s, 5, 0.75, 0.0)),
+        // Inside the edge's ends.
+        ("K8", |s| at(s, 5, 0.75, 0.0)),
+        // Pressed down.
+        ("K9", |s| s["loads"][0]["force"] = json!([0.0, -0.6])),
+    ];
+    for (id, change) in changes {
+        let measured = measured(id, change);
+        assert_eq!(measured.verdict, Verdict::DoesNotArise, "{id}: {}", measured.detail);
+    }
+}
+
+/// Without contact there is nothing for the contact's findings to hold on.
+#[test]
+fn without_contact_no_finding_of_contact_holds() {
+    let case = Case::new(finding("K3").scene()).expect("a sound scene");
+    for finding in FINDINGS.iter().filter(|f| !["K3", "K4"].contains(&f.id)) {
+        let measured = finding.measure(&case);
+        assert_eq!(measured.verdict, Verdict::DoesNotArise, "{}: {}", finding.id, measured.detail);
+    }
+}
+
+/// C3: a vertical edge stops the listing, and then nothing else can be said of the scene's contact.
+#[test]
+fn a_vertical_edge_stops_c_cnt() {
+    let mut json = scene_json("C3");
+    at(&mut json, 2, 0.0, 1.0);
+    at(&mut json, 4, 0.05, 0.5);
+    let case = case(&json);
+    shows("C3", &finding("C3").measure(&case), 0.0, &["c_cnt, line 10", "singularity"]);
+    for finding in FINDINGS.iter().filter(|f| !["C3", "K4"].contains(&f.id)) {
+        assert_ne!(finding.measure(&case).verdict, Verdict::Holds, "{}", finding.id);
+    }
+}
+
+/// C4 is an effect of the sign rule: C1 is kept out, though upside down the edge's box shrinks.
+#[test]
+fn c4_leaves_out_nodes_that_lose_their_edge() {
+    let measured = measured("C4", |s| {
+        at(s, 4, 0.05, 0.05);
+        at(s, 5, 1.5, 1.8);
+    });
+    assert_eq!(measured.verdict, Verdict::DoesNotArise, "{}", measured.detail);
+}
+
+/// C5 with the target above: of three nodes deep inside between two apart, the ends are flagged and the middle is lost.
+#[test]
+fn c5_keeps_the_ends_of_a_run_when_the_target_is_above() {
+    let mut json = scene_json("C5");
+    let places = [(0.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.5, 0.2), (0.75, 1.05), (1.0, 1.3)]
+        .into_iter()
+        .chain([(1.25, 1.55), (1.5, 1.2), (1.0, -1.0)]);
+    json["node"] = (1..).zip(places).map(|(n, (x, y))| json!([n, x, y, 0.0])).collect();
+    let fan = [[1, 1, 2, 3], [2, 9, 5, 4], [2, 9, 6, 5], [2, 9, 7, 6], [2, 9, 8, 7]];
+    let triangles =
+        (2..).zip(fan).map(|(e, [group, a, b, c])| json!([e, 2, 2, group, group, a, b, c]));
+    json["elem"] = std::iter::once(json!([1, 1, 2, 10, 10, 1, 2])).chain(triangles).collect();
+    json["restraints"][1] = json!({ "on": 2, "fix": ["x", "y"] });
+    json["contact"]["cnt"] = json!([4, 5, 6, 7, 8]);
+    shows("C5", &finding("C5").measure(&case(&json)), 1.0, &["node 6: yt -3.000e-1 dy 0"]);
+}
+
+/// C9: over a horizontal edge the sign rule fires at |yt| = c_tll exactly, where line 16 does not, and nowhere else.
+#[test]
+fn c9_the_sign_rule_over_a_horizontal_edge_acts_at_c_tll_exactly() {
+    let dy = |y: f64| {
+        let mut json = scene_json("C9");
+        json["contact"]["c_tll"] = json!(0.125);
+        at(&mut json, 4, 0.25, y);
+        at(&mut json, 5, 0.75, -0.0625);
+        case(&json).initial().expect("c_cnt runs").dy.as_slice().to_vec()
+    };
+    assert_eq!(dy(0.125), [1, 1]);
+    assert_eq!(dy(0.125_f64.next_up()), [0, 1]);
+}
+
+/// C11: one unit in the last place of a coordinate decides on the neighbour.
+#[test]
+fn c11_one_bit_of_a_neighbour_decides() {
+    let dy = |y: f64| {
+        let mut json = scene_json("C11");
+        at(&mut json, 4, 0.9, y);
+        case(&json).initial().expect("c_cnt runs").dy.as_slice().to_vec()
+    };
+    assert_eq!(dy(0.3), [1, 1]);
+    assert_eq!(dy(0.3_f64.next_up()), [1, 0]);
+}
+
+/// C12: eq. (1) with the weights of a node listed twice moves it twice as far as the target below it.
+#[test]
+fn c12_the_stamp_moves_twice_as_far_as_the_target() {
+    let mut json = scene_json("C12");
+    json["restraints"] = json!([{ "node": 3, "fix": ["x", "y"] }, { "node": 1, "fix": ["x"] },
+        { "node": 5, "fix": ["x", "y"] }, { "node": 6, "fix": ["x", "y"] }]);
+    json["loads"] =
+        json!([{ "node": 1, "force": [0.0, -0.02] }, { "node": 2, "force": [0.0, -0.02] }]);
+    json["iterations"] = json!(1);
+    let u = run(&build(&json).unwrap(), Variant::Tied, &Reading::default(), |_| ()).unwrap().u;
+    let target = 0.75 * u[1] + 0.25 * u[3];
+    assert!(target < 0.0);
+    assert_near("v of node 4", u[7], 2.0 * target, target, &FINDING);
+}
+
+/// C13: the order of `cnt` changes the printed displacements too, by more than half.
+#[test]
+fn c13_the_printed_displacements_depend_on_the_order_of_cnt() {
+    let displacements = |cnt: [usize; 2]| {
+        let mut json = scene_json("C13");
+        json["contact"]["cnt"] = json!(cnt);
+        json["loads"] = json!([{ "node": 4, "force": [0.0, -0.01] }]);
+        run(&build(&json).unwrap(), Variant::Printed, &Reading::default(), |_| ()).unwrap().u
+    };
+    let (as_is, reversed) = (displacements([4, 5]), displacements([5, 4]));
+    assert!((as_is - &reversed).amax() > 0.1 * reversed.amax());
+}
+
+/// C14: at the height 2 · c_tll of the falling edge the box vanishes; at other heights it holds the node again.
+#[test]
+fn c14_the_box_vanishes_at_twice_c_tll() {
+    for (height, missed) in [(0.0625, false), (0.125, true), (0.25, false)] {
+        let measured = measured("C14", |s| {
+            s["contact"]["c_tll"] = json!(0.0625);
+            at(s, 1, 0.0, height / 2.0);
+            at(s, 2, 1.0, -height / 2.0);
+            at(s, 4, 0.375, height / 8.0);
+        });
+        assert_eq!(
+            measured.verdict == Verdict::Holds,
+            missed,
+            "height {height}: {}",
+            measured.detail
+        );
+    }
+}
+
+/// K1: MJS of the scene, by hand: 3 from the target's triangle at node 1 plus half of the stamp's at node 5.
+#[test]
+fn k1_the_stamp_is_added_to_the_target_and_the_target_to_the_stamp() {
+    let sheet = finding("K1").scene().worksheet(&Reading::default()).unwrap();
+    let pairs = c_cnt(&sheet, &Reading::default(), &sheet.node).unwrap();
+    let mjs = Km(&sheet, &Reading::default(), &pairs.k_cnt).unwrap();
+    assert_near("MJS[1,1]", mjs[(1, 1)], 3.0 + 0.5 * 1.0, 1.0, &FINDING);
+    assert_near("MJS[2,2]", mjs[(2, 2)], 3.0 + 0.5 * 2.0, 1.0, &FINDING);
+    assert!((1..=4).all(|i| (9..=10).all(|j| mjs[(i, j)] == 0.0 && mjs[(j, i)] == 0.0)));
+    assert_eq!(mjs.as_matrix(), &mjs.as_matrix().transpose(), "MJS stays symmetric");
+}
+
+/// K4 and K6 need nothing but the listing: they hold wherever there is a triangle, or a contact.
+#[test]
+fn k4_and_k6_hold_on_every_scene_with_contact() {
+    for scene in FINDING_SCENES {
+        let case = Case::new(Scene::open(scene.name).unwrap()).unwrap();
+        assert_eq!(finding("K4").measure(&case).number, 2.0, "{}", scene.name);
+    }
+    let apart = measured("K6", |s| {
+        at(s, 4, 0.25, 0.2);
+        at(s, 5, 0.75, 0.2);
+        s["restraints"][1]["fix"] = json!(["x", "y"]);
+        s["restraints"][2]["fix"] = json!(["x", "y"]);
+        s["loads"] = json!([]);
+    });
+    assert_eq!(apart.verdict, Verdict::DoesNotArise, "{}", apart.detail);
+}
+
+/// Every finding on every scene that the program carries; none is contradicted anywhere.
+#[test]
+fn verdicts() {
+    let mut text = String::new();
+    for scene in SCENES {
+        writeln!(text, "{}", scene.name).unwrap();
+        let case = Case::new(Scene::open(scene.name).unwrap()).unwrap();
+        for finding in FINDINGS {
+            let measured = finding.measure(&case);
+            println!("{} {}: {}", scene.name, finding.id, measured.detail);
+            assert_ne!(measured.verdict, Verdict::Contradicted, "{}", finding.id);
+            let (verdict, number) = (measured.verdict.name(), number(measured.number));
+            writeln!(text, "  {}: {verdict}: {number}", finding.id).unwrap();
+        }
+    }
+    assert_golden("findings", "verdicts", &text);
+}
+
+/// Each finding has its folder, with a picture and the numbers by hand, and each folder its finding.
+#[test]
+fn every_folder_is_a_findings() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/findings");
+    let folders: BTreeSet<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap())
+        .filter(|entry| entry.path().is_dir())
+        .map(|entry| entry.file_name().into_string().unwrap())
+        .collect();
+    assert_eq!(folders, FINDINGS.iter().map(|f| f.id.to_string()).collect());
+    for id in folders {
+        for file in ["README.md", "mesh.svg"] {
+            assert!(std::fs::exists(format!("{folder}/{id}/{file}")).unwrap(), "{id}/{file}");
+        }
+    }
+}

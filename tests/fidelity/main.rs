@@ -1,0 +1,21 @@
+//! What holds the listings, the mirror and the golden files together.
+
+#[path = "../common"]
+mod common {
+    pub mod embedded;
+    pub mod golden;
+    pub mod golden_floats;
+    pub mod json;
+    pub mod outcome;
+    pub mod shipped;
+    pub mod tolerances;
+}
+
+mod architecture;
+mod bitwise;
+mod citations;
+mod coverage;
+mod findings;
+mod golden;
+mod listing_quotes;
+mod variants;

@@ -1,0 +1,386 @@
+//! One solve on several rungs: each against exact numbers, and the bound on the error against the error.
+
+use crate::common::embedded::scene_json;
+use crate::common::json::build;
+use crate::common::shipped::shipped_scenes;
+use crate::common::tolerances::{
+    BOUND_WIDTH, LADDER_DOUBLE, LADDER_DOUBLE_DOUBLE, LADDER_SINGLE, NORM_ESTIMATE, Tolerance,
+};
+use dashu_ratio::RBig;
+use nalgebra::{DMatrix, DVector};
+use plane_contact::answer::contact::{Outcome, run, run_in};
+use plane_contact::answer::error::Error;
+use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
+use plane_contact::numbers::solve::{
+    Arithmetic, DenseLu, Inputs, Ldlt, Rung, ScalarName, Solver, SparseSymmetric,
+    conjugate_gradients, inverse_norm, lift, solve_dense,
+};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use proptest::prelude::*;
+
+const PUBLISHED: [Variant; 3] = [Variant::Printed, Variant::Tied, Variant::Stepped];
+
+fn arithmetic(scalar: ScalarName, solver: Option<Solver>) -> Arithmetic {
+    Arithmetic { scalar, solver, ..Arithmetic::default() }
+}
+
+fn solve(scene: &Scene, variant: Variant, arithmetic: Arithmetic) -> Result<Outcome, Error> {
+    run_in(scene, variant, &Reading::default(), arithmetic, |_| ())
+}
+
+/// The displacements with all their digits.
+fn displacements(outcome: &Outcome) -> Vec<RBig> {
+    match &outcome.digits {
+        Some(digits) => digits.iter().map(|d| RBig::from_str_decimal(d).unwrap()).collect(),
+        None => outcome.u.iter().map(|u| RBig::try_from(*u).unwrap()).collect(),
+    }
+}
+
+/// Largest difference of two runs' displacements.
+fn distance(a: &Outcome, b: &Outcome) -> f64 {
+    let pairs = displacements(a).into_iter().zip(displacements(b));
+    pairs.map(|(a, b)| (a - b).to_f64().value().abs()).fold(0.0, f64::max)
+}
+
+/// The shipped scenes that exact numbers solve in a moment.
+fn small_scenes() -> Vec<Scene> {
+    let small = |scene: &Scene| scene.load.len() <= 80;
+    shipped_scenes().into_iter().filter(small).collect()
+}
+
+#[test]
+fn every_rung_leads_to_the_exact_answer() {
+    use ScalarName::{F32, F64, F64x2 as Double};
+    use Solver::{Cg, DenseCholesky, DenseLu, Refined, SparseCholesky};
+    let rungs: [(ScalarName, &[Solver], &Tolerance); 3] = [
+        (F32, &[DenseLu, DenseCholesky, SparseCholesky, Cg], &LADDER_SINGLE),
+        (F64, &[DenseLu, DenseCholesky, SparseCholesky, Cg, Refined], &LADDER_DOUBLE),
+        (Double, &[DenseLu, SparseCholesky, Cg, Refined], &LADDER_DOUBLE_DOUBLE),
+    ];
+    for name in ["fig1", "two-blocks"] {
+        let scene = Scene::open(name).unwrap();
+        for variant in PUBLISHED {
+            let exact = solve(&scene, variant, arithmetic(ScalarName::Exact, None)).unwrap();
+            let size = exact.u.amax();
+            for (scalar, solvers, Tolerance { limit, reason }) in rungs {
+                for &solver in solvers {
+                    let outcome = solve(&scene, variant, arithmetic(scalar, Some(solver))).unwrap();
+                    let error = distance(&outcome, &exact) / size;
+                    assert!(
+                        error <= *limit,
+                        "{name} {variant} {scalar} {solver}: {error:e} > {limit:e} ({reason})"
+                    );
+                    assert_eq!(outcome.factored, exact.factored, "{name} {variant} {scalar}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn both_exact_solvers_give_the_same_digits() {
+    for scene in small_scenes() {
+        for variant in PUBLISHED {
+            let by = |solver| solve(&scene, variant, arithmetic(ScalarName::Exact, Some(solver)));
+            match (by(Solver::DenseLu), by(Solver::SparseCholesky)) {
+                (Ok(a), Ok(b)) => {
+                    assert_eq!(a.digits, b.digits, "{} {variant}", scene.name);
+                    assert_eq!(a.elements, b.elements);
+                    assert!(a.iterations.iter().all(|it| it.solve_residual == 0.0));
+                }
+                (Err(a), Err(b)) => assert_eq!(a.exit_status(), b.exit_status(), "{}", scene.name),
+                (a, b) => panic!("{} {variant}: {:?} and {:?}", scene.name, a.err(), b.err()),
+            }
+        }
+    }
+}
+
+/// GOAL: uniaxial strain of two blocks under pressure p, as written in decimals: v = −p h (1 + nu) (1 − 2 nu) / (E (1 − nu)) of each.
+#[test]
+fn two_blocks_in_decimals_is_its_closed_form_exactly() {
+    let scene = Scene::open("two-blocks").unwrap();
+    let decimals = Arithmetic { inputs: Inputs::Decimal, ..arithmetic(ScalarName::Exact, None) };
+    let outcome = solve(&scene, Variant::Stepped, decimals).unwrap();
+    let number = |text: &str| RBig::from_str_decimal(text).unwrap();
+    let shortening = |e: &str, nu: &str| {
+        let (one, two, nu) = (RBig::ONE, RBig::from(2), number(nu));
+        let modulus = number(e) * (&one - &nu) / ((&one + &nu) * (&one - &two * &nu));
+        number("6.3") * two / modulus
+    };
+    let expected = -(shortening("30000", "0.2") + shortening("210000", "0.3"));
+    let top = RBig::from_str_decimal(&outcome.digits.unwrap()[2 * 18 - 1]).unwrap();
+    // 40 digits are printed.
+    let error = ((top - &expected) / &expected).to_f64().value().abs();
+    assert!(error < 1e-39, "{error:e}");
+    // The stress is p nu / (1 − nu) across and p along: von Mises 6.3 (1 − 2 nu) / (1 − nu), plane strain.
+    let mises =
+        number("6.3") * (RBig::ONE - RBig::from(2) * number("0.2")) / (RBig::ONE - number("0.2"));
+    assert_eq!(outcome.elements[0].von_mises_stress, mises.to_f64().value());
+}
+
+#[test]
+fn f64_with_a_bound_is_f64_and_its_bound_holds() {
+    let mut compared = 0;
+    for scene in small_scenes() {
+        for variant in PUBLISHED {
+            compared += usize::from(bound_holds(&scene, variant));
+        }
+    }
+    assert!(compared > 20, "only {compared} runs were compared");
+}
+
+/// Compares bound and error; false where the scene cannot be run.
+fn bound_holds(scene: &Scene, variant: Variant) -> bool {
+    let Ok(plain) = run(scene, variant, &Reading::default(), |_| ()) else { return false };
+    let Ok(exact) = solve(scene, variant, arithmetic(ScalarName::Exact, None)) else {
+        return false;
+    };
+    let bounded = solve(scene, variant, arithmetic(ScalarName::Bounded, None)).unwrap();
+    assert_eq!(plain.u, bounded.u, "{} {variant}: other bits than f64", scene.name);
+    let statuses =
+        |o: &Outcome| -> Vec<_> { o.iterations.iter().map(|it| it.pairs.dy.clone()).collect() };
+    if statuses(&plain) != statuses(&exact) {
+        return false;
+    }
+    // The exact displacements are printed with 40 digits.
+    let printed = plain.u.amax() * 1e-39;
+    let (bound, error) =
+        (bounded.error_bound.unwrap(), (distance(&plain, &exact) - printed).max(0.0));
+    assert!(error <= bound, "{} {variant}: error {error:e}, bound {bound:e}", scene.name);
+    // An error may be 0 by chance: half a unit in the last place is what is due.
+    let due = error.max(plain.u.amax() * f64::EPSILON / 2.0);
+    let Tolerance { limit, reason } = BOUND_WIDTH;
+    assert!(
+        bound <= limit * due,
+        "{} {variant}: bound {bound:e}, error {error:e} ({reason})",
+        scene.name
+    );
+    true
+}
+
+/// `two-blocks` with its nodes moved by up to a fifth of its edges; those of the interface together and along it, so that they stay in
+/// contact.
+fn disturbed(moves: &[[f64; 2]], moduli: [f64; 2], nu: [f64; 2]) -> Scene {
+    let mut json = scene_json("two-blocks");
+    for (k, [dx, dy]) in moves.iter().enumerate() {
+        let mates: &[usize] = match k {
+            6..=8 => &[k, k + 3],
+            9..=11 => &[],
+            _ => &[k],
+        };
+        for n in mates {
+            let node = &mut json["node"][*n];
+            node[1] = (node[1].as_f64().unwrap() + dx).into();
+            let dy = if mates.len() == 2 { 0.0 } else { *dy };
+            node[2] = (node[2].as_f64().unwrap() + dy).into();
+        }
+    }
+    for (material, (e, nu)) in ["1", "2"].iter().zip(moduli.into_iter().zip(nu)) {
+        json["materials"][*material] = serde_json::json!({ "E": e, "nu": nu });
+    }
+    json["iterations"] = 3.into();
+    build(&json).unwrap()
+}
+
+fn small_moves() -> impl Strategy<Value = Vec<[f64; 2]>> {
+    prop::collection::vec([-0.2..0.2_f64, -0.2..0.2_f64], 18)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_bound_holds_on_random_scenes(
+        moves in small_moves(),
+        moduli in [1e2..1e6_f64, 1e2..1e6_f64],
+        nu in [0.0..0.45_f64, 0.0..0.45_f64],
+    ) {
+        let scene = disturbed(&moves, moduli, nu);
+        // A wholly total load may leave no node in contact, and then the stamp is free.
+        bound_holds(&scene, Variant::Tied);
+        prop_assert!(bound_holds(&scene, Variant::Stepped));
+    }
+}
+
+/// A symmetric positive definite matrix of a random network of springs, some of them to the ground.
+fn springs() -> impl Strategy<Value = (DMatrix<f64>, DVector<f64>)> {
+    (2..14_usize).prop_flat_map(|n| {
+        let spring = (0..n, 0..n, 0.1..10.0_f64);
+        let (springs, load) =
+            (prop::collection::vec(spring, 3 * n), prop::collection::vec(-1.0..1.0_f64, n));
+        (springs, load).prop_map(move |(springs, load)| {
+            let mut a = DMatrix::from_diagonal_element(n, n, 0.01);
+            for (i, j, k) in springs {
+                a[(i, i)] += k;
+                if i != j {
+                    a[(j, j)] += k;
+                    a[(i, j)] -= k;
+                    a[(j, i)] -= k;
+                }
+            }
+            (a, DVector::from_vec(load))
+        })
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn exact_solvers_solve_exactly((a, b) in springs()) {
+        let value = |x: f64| RBig::try_from(x).unwrap();
+        let load: Vec<RBig> = b.iter().map(|x| value(*x)).collect();
+        let x = Ldlt::new(&SparseSymmetric::of_lower(&a).map(|x| value(*x))).unwrap().solve(&load);
+        for i in 0..b.len() {
+            let product: RBig = (0..b.len()).map(|j| value(a[(i, j)]) * &x[j]).fold(RBig::ZERO, |s, p| s + p);
+            prop_assert_eq!(&product, &load[i]);
+        }
+        let sparse = SparseSymmetric::of_lower(&a).map(|x| value(*x) / RBig::from(3));
+        let lifted: Vec<RBig> = lift(&sparse, &load).unwrap().into_iter().map(|x| x / RBig::from(3)).collect();
+        prop_assert_eq!(&lifted, &x);
+        prop_assert_eq!(solve_dense(|i, j| value(a[(i, j)]), load).unwrap(), x);
+    }
+
+    #[test]
+    fn conjugate_gradients_keep_their_tolerance((a, b) in springs(), digits in 3..13_i32) {
+        let (sparse, tol) = (SparseSymmetric::of_lower(&a), 10f64.powi(-digits));
+        let x = conjugate_gradients(&sparse, &b, tol).unwrap().x;
+        prop_assert!(sparse.residual(&x, &b) <= tol);
+    }
+
+    #[test]
+    fn the_norm_of_the_inverse_is_estimated((a, b) in springs()) {
+        let lu = DenseLu::new(a.clone()).unwrap();
+        let w = b.abs();
+        let inverse = a.try_inverse().unwrap().abs();
+        let (norm, estimate) = ((inverse * &w).amax(), inverse_norm(&lu, &w));
+        let Tolerance { limit, reason } = NORM_ESTIMATE;
+        prop_assert!(estimate <= norm * (1.0 + limit), "{} > {} ({})", estimate, norm, reason);
+        prop_assert!(estimate >= norm / 3.0, "{} < {} / 3", estimate, norm);
+    }
+
+    #[test]
+    fn a_bound_encloses_the_exact_result(x in -1e3..1e3_f64, y in -1e3..1e3_f64, z in -1e-3..1e-3_f64) {
+        let value = |x: f64| RBig::try_from(x).unwrap();
+        let [a, b, c] = [x, y, z].map(Bounded::from_f64);
+        let [p, q, r] = [x, y, z].map(value);
+        let three = RBig::from(3);
+        let cases = [
+            ((a + b) * c - a / b, (&p + &q) * &r - &p / &q),
+            (a * b * c + c / (a - b), &p * &q * &r + &r / (&p - &q)),
+            ((a - b) / Bounded::from_f64(3.0) * (a + c), (&p - &q) / &three * (&p + &r)),
+        ];
+        for (bounded, exact) in cases {
+            let error = (value(bounded.to_f64()) - exact).to_f64().value().abs();
+            prop_assert!(error <= bounded.error_bound().unwrap());
+        }
+    }
+}
+
+#[test]
+fn recomputed_in_f64_is_the_worksheet_itself() {
+    for scene in shipped_scenes() {
+        let sheet = scene.worksheet(&Reading::default()).unwrap();
+        assert_eq!(sheet.recomputed(|x| x, scene.thickness), sheet, "{}", scene.name);
+        assert_eq!(sheet.recomputed(f64::from_decimal, scene.thickness), sheet, "{}", scene.name);
+    }
+}
+
+/// Scenes on which f64 fails as printed fail in exact numbers too, at the same line.
+#[test]
+fn what_fails_as_printed_fails_in_exact_numbers() {
+    let mut failed = 0;
+    for scene in small_scenes() {
+        for variant in PUBLISHED {
+            let double = run(&scene, variant, &Reading::default(), |_| ());
+            let exact = solve(&scene, variant, arithmetic(ScalarName::Exact, None));
+            match (double, exact) {
+                (Ok(_), Ok(_)) => (),
+                (Err(Error::Listing(a)), Err(Error::Listing(b))) => {
+                    assert_eq!((a.line, a.cause), (b.line, b.cause), "{}", scene.name);
+                    failed += 1;
+                }
+                (Err(Error::Singular(a)), Err(Error::Singular(b))) => {
+                    assert_eq!(a.iteration, b.iteration, "{} {variant}", scene.name);
+                    assert_eq!(b.pivot, 0.0, "an exact matrix is singular or it is not");
+                    failed += 1;
+                }
+                (a, b) => panic!("{} {variant}: {:?} and {:?}", scene.name, a.err(), b.err()),
+            }
+        }
+    }
+    assert!(failed > 0, "some scene is here to fail");
+}
+
+#[test]
+fn what_the_ladder_does_not_have_is_refused() {
+    let refused = |scene: &str, variant, arithmetic, words: &str| {
+        let error = solve(&Scene::open(scene).unwrap(), variant, arithmetic).unwrap_err();
+        assert_eq!(error.exit_status(), 2);
+        assert!(error.to_string().contains(words), "{error}");
+    };
+    let of = arithmetic;
+    let tied = Variant::Tied;
+    refused("strand", tied, of(ScalarName::Exact, None), "equations in exact numbers");
+    refused("fig1", tied, of(ScalarName::Exact, Some(Solver::Cg)), "cg does not solve in exact");
+    refused(
+        "fig1",
+        tied,
+        of(ScalarName::F32, Some(Solver::Refined)),
+        "refined does not solve in f32",
+    );
+    refused(
+        "fig1",
+        Variant::Unilateral,
+        of(ScalarName::F64x2, None),
+        "unilateral does not run in f64x2",
+    );
+    refused(
+        "fig1",
+        Variant::Unilateral,
+        of(ScalarName::F64, Some(Solver::Cg)),
+        "does not solve by cg",
+    );
+    let direct = Arithmetic { tol: Some(1e-9), ..of(ScalarName::F64, None) };
+    refused("fig1", tied, direct, "it has no tolerance");
+    for tol in [0.0, 1.0, f64::NAN] {
+        let arithmetic = Arithmetic { tol: Some(tol), ..of(ScalarName::F64, Some(Solver::Cg)) };
+        refused("fig1", tied, arithmetic, "is not between 0 and 1");
+    }
+    for solver in [Solver::Cg, Solver::Refined] {
+        let arithmetic = Arithmetic { tol: Some(1e-30), ..of(ScalarName::F64, Some(solver)) };
+        refused("fig1", tied, arithmetic, "stopped after");
+    }
+}
+
+#[test]
+fn a_looser_tolerance_stops_earlier() {
+    let scene = Scene::open("fig1").unwrap();
+    let residual = |tol: f64| {
+        let cg = arithmetic(ScalarName::F64, Some(Solver::Cg));
+        let outcome = solve(&scene, Variant::Tied, Arithmetic { tol: Some(tol), ..cg }).unwrap();
+        outcome.iterations.iter().map(|it| it.solve_residual).fold(0.0, f64::max)
+    };
+    let [loose, tight] = [1e-3, 1e-12].map(residual);
+    assert!(tight <= 1e-12 && 1e-12 < loose && loose <= 1e-3, "{loose:e} {tight:e}");
+}
+
+#[test]
+fn a_singular_matrix_is_told_on_every_rung() {
+    // Two springs in a row that nothing holds.
+    let a = [[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]];
+    fn check<T: Rung>(a: &[[f64; 3]; 3], solvers: &[Solver]) {
+        let matrix = DMatrix::from_fn(3, 3, |i, j| T::from_f64(a[i][j]));
+        let b = DVector::from_fn(3, |i, _| T::from_f64(f64::from(i == 2)));
+        for solver in solvers {
+            assert!(T::solve(matrix.clone(), &b, *solver, None).is_err(), "{solver}");
+        }
+    }
+    use Solver::{Cg, DenseCholesky, DenseLu, Refined, SparseCholesky};
+    check::<f64>(&a, &[DenseLu, DenseCholesky, SparseCholesky, Cg, Refined]);
+    check::<f32>(&a, &[DenseLu, DenseCholesky, SparseCholesky, Cg]);
+    check::<F64x2>(&a, &[DenseLu, SparseCholesky, Cg, Refined]);
+    scope(|| check::<Exact>(&a, &[DenseLu, SparseCholesky]));
+}

@@ -1,0 +1,468 @@
+//! The program from the outside: exit statuses, files, what stands on standard output and error.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn run(folder: &Path, args: &[&str]) -> Output {
+    let program = env!("CARGO_BIN_EXE_plane-contact");
+    Command::new(program).args(args).current_dir(folder).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).expect("UTF-8")
+}
+
+#[track_caller]
+fn succeeds(folder: &Path, args: &[&str]) -> String {
+    let output = run(folder, args);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    text(&output.stdout).to_string()
+}
+
+#[track_caller]
+fn fails(folder: &Path, args: &[&str], status: i32, words: &[&str]) {
+    let output = run(folder, args);
+    assert_eq!(output.status.code(), Some(status), "{}", text(&output.stderr));
+    assert!(output.stdout.is_empty(), "a failure prints nothing on standard output");
+    for word in words {
+        assert!(text(&output.stderr).contains(word), "{word:?}: {}", text(&output.stderr));
+    }
+}
+
+#[test]
+fn solve_prints_tables_and_writes_pictures_and_data() {
+    let folder = TempDir::new().unwrap();
+    let tables = succeeds(folder.path(), &["solve", "fig1", "--variant", "tied"]);
+    for words in [
+        "variant tied",
+        "Iterations",
+        "Bodies",
+        "In contact at the end: nodes 5, 6, 7, 9",
+        "Contact surface",
+        "Error bars",
+        "Distance to the converged answer (unilateral, mortar, friction stick",
+    ] {
+        assert!(tables.contains(words), "{words:?}: {tables}");
+    }
+    let out = folder.path().join("out/fig1-tied");
+    for picture in ["mesh.svg", "von_mises_stress.svg", "von_mises_strain.svg", "pressure.svg"] {
+        let svg = std::fs::read_to_string(out.join(picture)).expect("the picture is there");
+        roxmltree::Document::parse(&svg).expect("the picture is XML");
+    }
+    let vtu = std::fs::read_to_string(out.join("fields.vtu")).unwrap();
+    let vtu = roxmltree::Document::parse(&vtu).expect("the VTU file is XML");
+    let piece = vtu.descendants().find(|n| n.has_tag_name("Piece")).unwrap();
+    assert_eq!(
+        (piece.attribute("NumberOfPoints"), piece.attribute("NumberOfCells")),
+        (Some("13"), Some("9"))
+    );
+    let count = std::fs::read_dir(&out).unwrap().count();
+    assert_eq!(count, 6, "and no temporary file is left");
+}
+
+#[test]
+fn json_is_result_json_and_nothing_else() {
+    let folder = TempDir::new().unwrap();
+    let printed = succeeds(folder.path(), &["solve", "fig1", "--json", "--out", "there"]);
+    assert_eq!(printed, std::fs::read_to_string(folder.path().join("there/result.json")).unwrap());
+    let result: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!((&result["scene"], &result["variant"]), (&"fig1".into(), &"stepped".into()));
+    assert_eq!(result["reading"]["R7"], "stepped");
+    let iterations = result["iterations"].as_array().unwrap();
+    assert_eq!(iterations.len(), 20);
+    for key in [
+        "k",
+        "in_contact",
+        "dy",
+        "max_displacement",
+        "cycle",
+        "eq1_residual",
+        "target_force",
+        "solve_residual",
+    ] {
+        assert!(iterations[0].get(key).is_some(), "{key}");
+    }
+    assert_eq!(iterations[1]["cycle"]["length"], 1);
+    assert_eq!(result["u"].as_array().unwrap().len(), 13);
+    let elements = result["elements"].as_array().unwrap();
+    assert_eq!(elements.len(), 9);
+    for key in ["n", "sigma", "epsilon", "von_mises_stress", "von_mises_strain"] {
+        assert!(elements[0].get(key).is_some(), "{key}");
+    }
+}
+
+#[test]
+fn floats_read_back_to_the_same_bits() {
+    let folder = TempDir::new().unwrap();
+    let printed = succeeds(folder.path(), &["solve", "fig1", "--json"]);
+    let result: Value = serde_json::from_str(&printed).unwrap();
+    let scene = plane_contact::problem::scene::Scene::open("fig1").unwrap();
+    let reading = plane_contact::paper::mirror::Reading::default();
+    let outcome =
+        plane_contact::answer::contact::run(&scene, scene.variant, &reading, |_| ()).unwrap();
+    for (n, u) in result["u"].as_array().unwrap().iter().enumerate() {
+        assert_eq!(u[0].as_f64().unwrap().to_bits(), outcome.u[2 * n].to_bits());
+        assert_eq!(u[1].as_f64().unwrap().to_bits(), outcome.u[2 * n + 1].to_bits());
+    }
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes() {
+    let folder = TempDir::new().unwrap();
+    for out in ["a", "b"] {
+        succeeds(folder.path(), &["solve", "two-blocks", "--out", out]);
+    }
+    for entry in std::fs::read_dir(folder.path().join("a")).unwrap() {
+        let name = entry.unwrap().file_name();
+        let read = |out: &str| std::fs::read(folder.path().join(out).join(&name)).unwrap();
+        assert!(read("a") == read("b"), "{name:?}");
+    }
+}
+
+#[test]
+fn c_cnt_prints_tables_and_json() {
+    let folder = TempDir::new().unwrap();
+    let tables = succeeds(folder.path(), &["c-cnt", "fig1"]);
+    assert!(tables.contains("Contact nodes (c_tll = 0.001)"), "{tables}");
+    assert!(tables.contains("k_cnt: 8 of 13 rows are not zero"), "{tables}");
+    let json: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["c-cnt", "fig1", "--json"])).unwrap();
+    assert_eq!(json["ct"], serde_json::json!([1, 2, 2, 3, 3]));
+    assert_eq!(json["dy"], serde_json::json!([1, 1, 1, 0, 1]));
+    assert_eq!(json["yt"].as_array().unwrap().len(), 5);
+    let rows = json["k_cnt"].as_array().unwrap();
+    assert_eq!(rows.len(), 13);
+    assert!(rows.iter().all(|row| row.as_array().unwrap().len() == 4));
+}
+
+#[test]
+fn km_writes_matrix_market() {
+    let folder = TempDir::new().unwrap();
+    let printed = succeeds(folder.path(), &["km", "fig1"]);
+    succeeds(folder.path(), &["km", "fig1", "--matrix-market", "MJS.mtx"]);
+    assert_eq!(printed, std::fs::read_to_string(folder.path().join("MJS.mtx")).unwrap());
+    let mut lines = printed.lines().filter(|line| !line.starts_with("% "));
+    assert_eq!(lines.next(), Some("%%MatrixMarket matrix coordinate real general"));
+    let size: Vec<usize> = lines.next().unwrap().split(' ').map(|n| n.parse().unwrap()).collect();
+    assert_eq!((size[0], size[1]), (26, 26));
+    let entries: Vec<Vec<&str>> = lines.map(|line| line.split(' ').collect()).collect();
+    assert_eq!(entries.len(), size[2]);
+    let digits =
+        |entry: &str| entry.chars().take_while(|c| *c != 'e').filter(char::is_ascii_digit).count();
+    assert!(entries.iter().all(|entry| digits(entry[2]) == 17));
+    let free = succeeds(folder.path(), &["km", "fig1", "--coupled-by", "none"]);
+    assert_ne!(free, printed);
+}
+
+#[test]
+fn the_published_algorithm_failing_is_exit_status_3() {
+    let folder = TempDir::new().unwrap();
+    let args = ["c-cnt", "fig1", "--reading", "R4=left-to-right"];
+    let words =
+        ["c_cnt, line 18", "This array index is invalid for this array.", "index of yt = 0"];
+    fails(folder.path(), &args, 3, &words);
+    fails(folder.path(), &["solve", "fig1", "--reading", "R4=eager"], 3, &["c_cnt, line 18"]);
+    assert!(!folder.path().join("out").exists(), "nothing is written");
+}
+
+/// A stamp that touches nothing and that nothing holds in y: the matrix of the first iteration is singular.
+#[test]
+fn a_singular_matrix_is_exit_status_3() {
+    let folder = TempDir::new().unwrap();
+    // Without a tolerance line 16 flags no node (C8), and with node 2.4 above the target nor do lines 17 and 18.
+    let scene = include_str!("../../golden/fig1/scene.json")
+        .replace("\"c_tll\": 0.001", "\"c_tll\": 0.0")
+        .replace("[8, 2.3, 0.032,", "[8, 2.3, 0.038,");
+    std::fs::write(folder.path().join("c8.json"), scene).unwrap();
+    for variant in ["printed", "tied", "stepped"] {
+        let words = ["iteration 1", "singular", "no node is in contact", "body \"2\""];
+        fails(folder.path(), &["solve", "c8.json", "--variant", variant], 3, &words);
+    }
+}
+
+#[test]
+fn bad_input_is_exit_status_2_and_loses_no_file() {
+    let folder = TempDir::new().unwrap();
+    fails(
+        folder.path(),
+        &["solve", "nowhere.json"],
+        2,
+        &["nowhere.json", "strand, fig1, two-blocks"],
+    );
+    fails(folder.path(), &["solve", "fig1", "--reading", "R9=x"], 2, &["no such reading"]);
+    fails(
+        folder.path(),
+        &["solve", "fig1", "--reading", "R2=odd-ish"],
+        2,
+        &["none of odd, printed"],
+    );
+    fails(folder.path(), &["solve", "fig1", "--variant", "glued"], 2, &["glued"]);
+    succeeds(folder.path(), &["solve", "two-blocks", "--out", "kept"]);
+    let kept = std::fs::read(folder.path().join("kept/result.json")).unwrap();
+    std::fs::write(folder.path().join("bad.json"), "{ \"plane\": 3 }").unwrap();
+    fails(folder.path(), &["solve", "bad.json", "--out", "kept"], 2, &["field plane", "mend"]);
+    assert_eq!(std::fs::read(folder.path().join("kept/result.json")).unwrap(), kept);
+    std::fs::write(folder.path().join("file"), "").unwrap();
+    fails(folder.path(), &["solve", "fig1", "--out", "file"], 2, &["cannot be written"]);
+}
+
+/// A link is written through, a pipe is written to: neither is replaced.
+#[cfg(unix)]
+#[test]
+fn links_and_pipes_stay_what_they_are() {
+    let folder = TempDir::new().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("real.mtx"), "old").unwrap();
+    std::os::unix::fs::symlink("real.mtx", at("link.mtx")).unwrap();
+    succeeds(folder.path(), &["km", "fig1", "--matrix-market", "link.mtx"]);
+    assert!(std::fs::symlink_metadata(at("link.mtx")).unwrap().is_symlink());
+    assert!(std::fs::read_to_string(at("real.mtx")).unwrap().starts_with("%%MatrixMarket"));
+    let made = Command::new("mkfifo").arg(at("pipe")).status().expect("mkfifo");
+    assert!(made.success());
+    let reader = std::thread::spawn({
+        let pipe = at("pipe");
+        move || std::fs::read_to_string(pipe).unwrap()
+    });
+    succeeds(folder.path(), &["km", "fig1", "--matrix-market", "pipe"]);
+    assert!(reader.join().unwrap().starts_with("%%MatrixMarket"));
+    assert!(!std::fs::metadata(at("pipe")).unwrap().is_file());
+}
+
+/// A scene by path: its mesh is resolved beside it, its name is that of its folder.
+#[test]
+fn a_scene_by_path_reads_its_mesh_beside_it() {
+    let folder = TempDir::new().unwrap();
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/strand");
+    let by_path = succeeds(folder.path(), &["c-cnt", golden.to_str().unwrap(), "--json"]);
+    assert_eq!(by_path, succeeds(folder.path(), &["c-cnt", "strand", "--json"]));
+    std::fs::copy(golden.join("scene.json"), folder.path().join("alone.json")).unwrap();
+    fails(folder.path(), &["c-cnt", "alone.json"], 2, &["strand.msh", "resolved beside the scene"]);
+}
+
+#[test]
+fn trace_shows_what_each_line_read_and_wrote() {
+    let folder = TempDir::new().unwrap();
+    let trace = succeeds(folder.path(), &["trace", "fig1", "--node", "7"]);
+    for words in [
+        "contact node 7 (i1 = 3 of 5)",
+        "17  dy[i1] ← 1 if i1 < rows(cnt) ∧ yt[i1] < 0 ∧ yt[i1+1] > 0 ∧ ct[i1] > 0",
+        "⇒ dy[3] ← 1",
+        "⇒ k_cnt[7,3] ← 3",
+        "(lines 4-7 for 2 more edges: the node is outside their boxes)",
+        "trace() wrote: 1 | 2 | 2 | 3",
+    ] {
+        assert!(trace.contains(words), "{words:?}: {trace}");
+    }
+    let km = succeeds(folder.path(), &["trace", "fig1", "--listing", "Km", "--node", "13"]);
+    assert!(km.contains("element n = 7 of 9 (nodes 7, 13, 12)"), "{km}");
+    let json: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["trace", "fig1", "--json"])).unwrap();
+    assert_eq!(json["result"]["dy"], serde_json::json!([1, 1, 1, 0, 1]));
+    assert!(json["steps"].as_array().unwrap().len() > 100);
+    fails(folder.path(), &["trace", "fig1", "--node", "1"], 2, &["node 1 is no contact node"]);
+}
+
+/// An edited listing runs on the same scene; what it changes is told. Line 18 without its slip on the sign, for example.
+#[test]
+fn trace_runs_an_edited_listing() {
+    let folder = TempDir::new().unwrap();
+    let listing = include_str!("../../listings/c_cnt.txt");
+    let edited = listing.replace("if |yt[i1]| < c_tll", "if |yt[i1]| < 5·c_tll");
+    std::fs::write(folder.path().join("edited.txt"), edited).unwrap();
+    let trace =
+        succeeds(folder.path(), &["trace", "fig1", "--listing", "edited.txt", "--node", "8"]);
+    assert!(trace.contains("dy[4] (node 8): 0 as printed, 1 edited"), "{trace}");
+    std::fs::write(folder.path().join("same.txt"), listing).unwrap();
+    let trace = succeeds(folder.path(), &["trace", "fig1", "--listing", "same.txt"]);
+    assert!(trace.contains("The edit changes nothing on this scene."), "{trace}");
+    std::fs::write(folder.path().join("broken.txt"), listing.replace("dy[i1] ← 0", "dy[i1 ← 0"))
+        .unwrap();
+    fails(
+        folder.path(),
+        &["trace", "fig1", "--listing", "broken.txt"],
+        2,
+        &["line 15", "column", "expected"],
+    );
+    std::fs::write(folder.path().join("stops.txt"), listing.replace("yt[i1] ← 0", "yt[i1] ← 1/0"))
+        .unwrap();
+    fails_after_output(
+        folder.path(),
+        &["trace", "fig1", "--listing", "stops.txt"],
+        2,
+        "singularity",
+    );
+    fails_after_output(
+        folder.path(),
+        &["trace", "fig1", "--reading", "R4=eager"],
+        3,
+        "c_cnt, line 18",
+    );
+    // C10's repair, where the listing as printed stops: the guard first.
+    let line_18 = "yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ i1 ≥ 2 ∧ ct[i1] > 0";
+    let repaired = listing.replace(line_18, "i1 ≥ 2 ∧ yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ ct[i1] > 0");
+    std::fs::write(folder.path().join("repaired.txt"), repaired).unwrap();
+    let args = ["trace", "fig1", "--listing", "repaired.txt", "--reading", "R4=left-to-right"];
+    assert!(
+        succeeds(folder.path(), &args).contains("The edited listing runs; as printed it fails")
+    );
+    fails(folder.path(), &["trace", "fig1", "--listing", "none.txt"], 2, &["cannot be read"]);
+    std::fs::write(folder.path().join("other.txt"), "f(x) :=\n  x\n").unwrap();
+    fails(
+        folder.path(),
+        &["trace", "fig1", "--listing", "other.txt"],
+        2,
+        &["neither c_cnt nor Km"],
+    );
+}
+
+/// Edits that end in something else than the paper's listing does, that never end, or that are no listing: errors, no panic.
+#[test]
+fn trace_survives_hostile_listings() {
+    let folder = TempDir::new().unwrap();
+    let c_cnt = include_str!("../../listings/c_cnt.txt");
+    let traced = |text: &str| {
+        std::fs::write(folder.path().join("listing.txt"), text).unwrap();
+        let output = run(folder.path(), &["trace", "fig1", "--listing", "listing.txt", "--json"]);
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let edited = |from: &str, to: &str| traced(&c_cnt.replace(from, to));
+    let (status, error) = edited("dy[i1] ← 0\n", "dy[i1] ← 0.4\n");
+    assert!(status == Some(2) && error.contains("whole numbers"), "{status:?} {error}");
+    let (status, _) = edited("trace(ct[i1])", "trace(identity(0))");
+    assert_eq!(status, Some(0));
+    let (status, error) = traced("c_cnt(node_n) :=\n  for j ∈ 1 .. 99999999999\n    a ← 1\n");
+    assert!(status == Some(2) && error.contains("limit"), "{status:?} {error}");
+    let sum = vec!["x + 0"; 35].join(", ");
+    let (status, error) =
+        traced(&format!("c_cnt(node_n) :=\n  x[30000000] ← 1\n  a ← min({sum}, 0)\n"));
+    assert!(status == Some(2) && error.contains("limit"), "{status:?} {error}");
+    for matrix in ["MJS[26,1] ← 1", "MJS[30,1] ← 1", "MJS[1,99] ← 1"] {
+        let (status, error) = traced(&format!("Km(c_cnt) :=\n  {matrix}\n  MJS\n"));
+        assert_eq!(status, Some(0), "{error}");
+        let output = run(folder.path(), &["trace", "fig1", "--listing", "listing.txt"]);
+        assert!(
+            text(&output.stdout).contains("the shape of the result"),
+            "{}",
+            text(&output.stdout)
+        );
+    }
+    for nothing in ["", "\u{feff}", "\tc_cnt"] {
+        assert_eq!(traced(nothing).0, Some(2), "{nothing:?}");
+    }
+    assert_eq!(traced(&format!("\u{feff}{c_cnt}")).0, Some(0));
+}
+
+/// A trace that stops shows what came before.
+#[track_caller]
+fn fails_after_output(folder: &Path, args: &[&str], status: i32, words: &str) {
+    let output = run(folder, args);
+    assert_eq!(output.status.code(), Some(status), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("contact node 5"));
+    assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
+}
+
+#[test]
+fn audit_shows_readings_findings_and_variants() {
+    let folder = TempDir::new().unwrap();
+    let tables = succeeds(folder.path(), &["audit", "fig1", "--out", "audit"]);
+    for words in [
+        "1. Readings",
+        "R4 = left-to-right",
+        "fails (",
+        "2. Findings",
+        "K1",
+        "3. Variants",
+        "stepped",
+        "off: beside the converged answer (unilateral, mortar, friction stick)",
+        "4. What friction it takes",
+    ] {
+        assert!(tables.contains(words), "{words:?}: {tables}");
+    }
+    assert_eq!(tables, std::fs::read_to_string(folder.path().join("audit/audit.txt")).unwrap());
+    let json: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["audit", "fig1", "--json"])).unwrap();
+    assert_eq!(json["readings"].as_array().unwrap().len(), 17);
+    assert!(json["findings"].as_array().unwrap().len() >= 16);
+    assert_eq!(json["variants"].as_array().unwrap().len(), 4);
+    assert!(folder.path().join("audit/findings/C4.svg").exists());
+    assert!(folder.path().join("audit/printed/von_mises_stress.svg").exists());
+    let c4 = succeeds(folder.path(), &["audit", "--finding", "c4"]);
+    for words in ["c_cnt 17", "Why it matters", "A repair", "holds"] {
+        assert!(c4.contains(words), "{words:?}: {c4}");
+    }
+    fails(folder.path(), &["audit", "--finding", "Z9"], 2, &["no finding", "C1, C2"]);
+}
+
+/// A scene without contact has an audit and a trace of Km; c_cnt is not called.
+#[test]
+fn a_scene_without_contact_is_audited_too() {
+    let folder = TempDir::new().unwrap();
+    let mut scene: Value =
+        serde_json::from_str(include_str!("../../golden/two-blocks/scene.json")).unwrap();
+    scene.as_object_mut().unwrap().remove("contact");
+    scene["restraints"].as_array_mut().unwrap().push(serde_json::json!({ "on": 20, "fix": ["y"] }));
+    std::fs::write(folder.path().join("plain.json"), scene.to_string()).unwrap();
+    let audit: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["audit", "plain.json", "--json"])).unwrap();
+    let failed = |row: &&Value| !row["failure"].is_null();
+    let rows: Vec<&Value> = audit["readings"].as_array().unwrap().iter().filter(failed).collect();
+    assert_eq!(rows.iter().map(|row| &row["reading"]).collect::<Vec<_>>(), ["ORIGIN = 0"]);
+    fails(folder.path(), &["trace", "plain.json"], 2, &["the scene has no contact"]);
+    fails(
+        folder.path(),
+        &["trace", "plain.json", "--listing", "Km"],
+        2,
+        &["no element has a linked node"],
+    );
+    let km = succeeds(folder.path(), &["trace", "plain.json", "--listing", "Km", "--node", "1"]);
+    assert!(km.contains("element n = 1 of 16"), "{km}");
+}
+
+/// What depends on a reading and what does not, on a scene small enough to know.
+#[test]
+fn audit_of_readings_on_fig1() {
+    let folder = TempDir::new().unwrap();
+    let json: Value =
+        serde_json::from_str(&succeeds(folder.path(), &["audit", "fig1", "--json"])).unwrap();
+    let of = |reading: &str| {
+        let rows = json["readings"].as_array().unwrap();
+        rows.iter()
+            .find(|row| row["reading"] == reading)
+            .unwrap_or_else(|| panic!("{reading}"))
+            .clone()
+    };
+    assert!(of("R2 = printed")["entries"].as_u64().unwrap() > 0);
+    assert!(of("R4 = left-to-right")["failure"].as_str().unwrap().contains("line 18"));
+    assert!(of("ORIGIN = 0")["failure"].as_str().unwrap().contains("index is invalid"));
+    for reading in [
+        "0/0 = 0",
+        "comparisons to 1e-12",
+        "below 1e-307 is 0",
+        "1 .. 0 is empty",
+        "a failed last if is 0",
+    ] {
+        let row = of(reading);
+        assert_eq!(
+            (&row["statuses"], &row["entries"], &row["failure"]),
+            (&0.into(), &0.into(), &Value::Null)
+        );
+    }
+}
+
+#[test]
+fn help_has_examples() {
+    let folder = TempDir::new().unwrap();
+    for args in [
+        &["--help"][..],
+        &["solve", "--help"],
+        &["c-cnt", "--help"],
+        &["km", "--help"],
+        &["trace", "--help"],
+        &["audit", "--help"],
+    ] {
+        assert!(succeeds(folder.path(), args).contains("Examples:"), "{args:?}");
+    }
+}

@@ -1,0 +1,426 @@
+//! Gmsh's mesh files: one mesh in every encoding, against what meshio reads; faulty files; random damage.
+
+use std::fs;
+
+use plane_contact::problem::scene::gmsh::{GmshError, read};
+use plane_contact::problem::scene::{Element, Mesh, Node, PhysicalName};
+use proptest::prelude::*;
+use proptest::sample::Index;
+
+/// `tests/program/gmsh/blocks.geo` as Gmsh saves it.
+const BLOCKS: [&str; 4] =
+    ["blocks-2.2-ascii", "blocks-2.2-binary", "blocks-4.1-ascii", "blocks-4.1-binary"];
+
+/// One triangle, one of whose edges is in a physical group with a reversed orientation.
+const SMALL_2: &str = r#"$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 1 "the body"
+1 7 "base"
+$EndPhysicalNames
+$Nodes
+3
+30 0 1 0
+10 0 0 0
+20 1 0 0
+$EndNodes
+$Elements
+3
+9 2 2 1 4 10 20 30
+8 1 2 -7 -3 20 10
+5 15 0 10
+$EndElements
+"#;
+
+/// The same mesh.
+const SMALL_4: &str = r#"$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 1 "the body"
+1 7 "base"
+$EndPhysicalNames
+$Entities
+0 1 1 0
+-3 0 0 0 1 0 0 1 -7 0
+4 0 0 0 1 1 0 1 1 1 -3
+$EndEntities
+$Nodes
+2 3 10 30
+1 -3 1 2
+20
+10
+1 0 0 0.5
+0 0 0 0.75
+2 4 0 1
+30
+0 1 0
+$EndNodes
+$Elements
+2 2 8 9
+2 4 2 1
+9 10 20 30
+1 -3 1 1
+8 20 10
+$EndElements
+"#;
+
+fn bytes(path: &str) -> Vec<u8> {
+    fs::read(path).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+fn blocks(name: &str) -> Vec<u8> {
+    bytes(&format!("tests/program/gmsh/{name}.msh"))
+}
+
+/// The mesh of [`SMALL_2`]; in version 4.1 it has no element 5.
+fn small() -> Mesh {
+    let node = |number, x, y| Node { number, xyz: [x, y, 0.0] };
+    let element = |number, kind, physical: &[usize], geometric, nodes: &[usize]| Element {
+        number,
+        kind,
+        physical: physical.to_vec(),
+        geometric,
+        nodes: nodes.to_vec(),
+    };
+    let name = |dim, tag, name: &str| PhysicalName { dim, tag, name: name.to_owned() };
+    Mesh {
+        nodes: vec![node(10, 0.0, 0.0), node(20, 1.0, 0.0), node(30, 0.0, 1.0)],
+        elements: vec![
+            element(5, 15, &[], 0, &[10]),
+            element(8, 1, &[7], 3, &[20, 10]),
+            element(9, 2, &[1], 4, &[10, 20, 30]),
+        ],
+        names: vec![name(1, 7, "base"), name(2, 1, "the body")],
+    }
+}
+
+fn small_4() -> Mesh {
+    let mut mesh = small();
+    mesh.elements.remove(0);
+    mesh
+}
+
+/// The text that `tests/program/gmsh/oracle.py` prints of a mesh.
+fn canonical(mesh: &Mesh) -> String {
+    let row = |number| 1 + mesh.nodes.binary_search_by_key(&number, |node| node.number).unwrap();
+    let mut lines: Vec<String> = mesh
+        .nodes
+        .iter()
+        .map(|Node { number, xyz: [x, y, z] }| {
+            format!("node {} {x:.12} {y:.12} {z:.12}", row(*number))
+        })
+        .collect();
+    for element in &mesh.elements {
+        let (dim, kind) = match element.kind {
+            15 => (0, "vertex"),
+            1 => (1, "line"),
+            _ => (2, "triangle"),
+        };
+        let rows: Vec<String> = element.nodes.iter().map(|&node| row(node).to_string()).collect();
+        for name in &mesh.names {
+            if name.dim == dim && element.physical.contains(&name.tag) {
+                lines.push(format!("{}: {kind} {}", name.name, rows.join(" ")));
+            }
+        }
+    }
+    lines.sort();
+    lines.join("\n")
+}
+
+#[test]
+fn all_encodings_are_read_as_meshio_reads_them() {
+    let expected = String::from_utf8(bytes("tests/program/gmsh/expected.txt")).unwrap();
+    let files: Vec<_> = expected.split("\nfile ").skip(1).collect();
+    assert_eq!(files.len(), BLOCKS.len());
+    for (name, expected) in BLOCKS.iter().zip(files) {
+        let (file, expected) = expected.split_once('\n').unwrap();
+        assert_eq!(file, format!("{name}.msh"));
+        assert_eq!(canonical(&read(&blocks(name)).unwrap()), expected.trim_end(), "{file}");
+    }
+}
+
+#[test]
+fn text_and_binary_are_the_same_mesh() {
+    for [text, binary] in [[BLOCKS[0], BLOCKS[1]], [BLOCKS[2], BLOCKS[3]]] {
+        let (text, binary) = (read(&blocks(text)).unwrap(), read(&blocks(binary)).unwrap());
+        assert_eq!((&text.elements, &text.names), (&binary.elements, &binary.names));
+        for (a, b) in text.nodes.iter().zip(&binary.nodes) {
+            assert_eq!(a.number, b.number);
+            // Gmsh writes 16 digits, which may miss the double by some units of the last one.
+            a.xyz.iter().zip(b.xyz).for_each(|(a, b)| {
+                approx::assert_relative_eq!(*a, b, epsilon = 1e-15, max_relative = 1e-15);
+            });
+        }
+    }
+}
+
+#[test]
+fn the_shared_group_of_4_1_stands_beside_each_blocks_own() {
+    let mesh = read(&blocks("blocks-4.1-ascii")).unwrap();
+    let of_kind = |kind| mesh.elements.iter().filter(move |element| element.kind == kind);
+    assert!(of_kind(2).all(|e| e.physical == [1, 3] || e.physical == [2, 3]));
+    assert!(of_kind(1).all(|e| e.physical.len() == 1));
+}
+
+#[test]
+fn numbers_ascend_and_signs_are_dropped() {
+    assert_eq!(read(SMALL_2.as_bytes()), Ok(small()));
+    assert_eq!(read(SMALL_4.as_bytes()), Ok(small_4()));
+}
+
+#[test]
+fn windows_line_ends_and_a_missing_last_one_are_read() {
+    assert_eq!(read(SMALL_2.replace('\n', "\r\n").as_bytes()), Ok(small()));
+    assert_eq!(read(SMALL_4.replace('\n', "\r\n").as_bytes()), Ok(small_4()));
+    assert_eq!(read(SMALL_2.trim_end().as_bytes()), Ok(small()));
+}
+
+#[test]
+fn other_sections_are_skipped() {
+    let comment = "$Comments\n$Nodes of 2 kinds\n$EndComments\n\n$NodeData\n$EndNodeData\n$Nodes\n";
+    assert_eq!(read(SMALL_2.replace("$Nodes\n", comment).as_bytes()), Ok(small()));
+    for name in BLOCKS {
+        let plain = blocks(name);
+        let at = plain.windows(7).position(|window| window == b"$Nodes\n").unwrap();
+        let periodic = b"$Periodic\n\x00\xff\n$End\x80\n$EndPeriodic\n";
+        let longer = [&plain[..at], periodic, &plain[at..]].concat();
+        assert_eq!(read(&longer), read(&plain), "{name}");
+    }
+}
+
+/// Writes binary files in a byte order of choice; Gmsh knows the machine's own only.
+struct Writer {
+    big: bool,
+    bytes: Vec<u8>,
+}
+
+impl Writer {
+    fn text(&mut self, text: &str) {
+        self.bytes.extend(text.as_bytes());
+    }
+
+    fn raw<const N: usize>(&mut self, mut little: [u8; N]) {
+        if self.big {
+            little.reverse();
+        }
+        self.bytes.extend(little);
+    }
+
+    fn ints(&mut self, numbers: &[i32]) {
+        numbers.iter().for_each(|number| self.raw(number.to_le_bytes()));
+    }
+
+    fn sizes(&mut self, numbers: &[u64]) {
+        numbers.iter().for_each(|number| self.raw(number.to_le_bytes()));
+    }
+
+    fn doubles(&mut self, numbers: &[f64]) {
+        numbers.iter().for_each(|number| self.raw(number.to_le_bytes()));
+    }
+
+    fn head(&mut self, version: &str) {
+        self.text(&format!("$MeshFormat\n{version} 1 8\n"));
+        self.ints(&[1]);
+        self.text("\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"the body\"\n1 7 \"base\"\n");
+        self.text("$EndPhysicalNames\n");
+    }
+
+    /// [`SMALL_2`] in binary.
+    fn small_2(&mut self) {
+        self.head("2.2");
+        self.text("$Nodes\n3\n");
+        for (number, x, y) in [(30, 0.0, 1.0), (10, 0.0, 0.0), (20, 1.0, 0.0)] {
+            self.ints(&[number]);
+            self.doubles(&[x, y, 0.0]);
+        }
+        self.text("\n$EndNodes\n$Elements\n3\n");
+        self.ints(&[2, 1, 2, 9, 1, 4, 10, 20, 30]);
+        self.ints(&[1, 1, 2, 8, -7, -3, 20, 10]);
+        self.ints(&[15, 1, 0, 5, 10]);
+        self.text("\n$EndElements\n");
+    }
+
+    /// [`SMALL_4`] in binary.
+    fn small_4(&mut self) {
+        self.head("4.1");
+        self.text("$Entities\n");
+        self.sizes(&[0, 1, 1, 0]);
+        for (tag, physical, bounds) in [(-3, -7, &[][..]), (4, 1, &[-3])] {
+            self.ints(&[tag]);
+            self.doubles(&[0.0; 6]);
+            self.sizes(&[1]);
+            self.ints(&[physical]);
+            self.sizes(&[bounds.len() as u64]);
+            self.ints(bounds);
+        }
+        self.text("\n$EndEntities\n$Nodes\n");
+        self.sizes(&[2, 3, 10, 30]);
+        self.ints(&[1, -3, 1]);
+        self.sizes(&[2, 20, 10]);
+        self.doubles(&[1.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.75]);
+        self.ints(&[2, 4, 0]);
+        self.sizes(&[1, 30]);
+        self.doubles(&[0.0, 1.0, 0.0]);
+        self.text("\n$EndNodes\n$Elements\n");
+        self.sizes(&[2, 2, 8, 9]);
+        self.ints(&[2, 4, 2]);
+        self.sizes(&[1, 9, 10, 20, 30]);
+        self.ints(&[1, -3, 1]);
+        self.sizes(&[1, 8, 20, 10]);
+        self.text("\n$EndElements\n");
+    }
+}
+
+#[test]
+fn both_byte_orders_are_read() {
+    for big in [false, true] {
+        let mut file = Writer { big, bytes: Vec::new() };
+        file.small_2();
+        assert_eq!(read(&file.bytes), Ok(small()), "2.2, big-endian: {big}");
+        let mut file = Writer { big, bytes: Vec::new() };
+        file.small_4();
+        assert_eq!(read(&file.bytes), Ok(small_4()), "4.1, big-endian: {big}");
+    }
+}
+
+/// The error of `text` with its first `from` replaced by `to`.
+fn error_of(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "{from:?} is not in the file");
+    read(text.replacen(from, to, 1).as_bytes()).expect_err(to).to_string()
+}
+
+#[test]
+fn faults_of_2_2_are_named_with_their_line() {
+    #[rustfmt::skip]
+    let faults = [
+        ("$MeshFormat", "$NOD", r#"line 1: found "$NOD", expected $MeshFormat, the first line of a Gmsh mesh (MSH 2.2 or 4.1)"#),
+        ("2.2 0 8", "3 0 8", "line 2: the file has MSH version 3; versions 2.2 and 4.1 can be read: in Gmsh set \
+                              Mesh.MshFileVersion = 4.1 and save the mesh again"),
+        ("2.2 0 8", "2.2 2 8", "line 2: found 2, expected 0 (text) or 1 (binary)"),
+        ("2.2 0 8", "2.2 0 4", "line 2: the file has numbers of 4 bytes, expected 8: save the mesh with a 64-bit Gmsh"),
+        ("2 1 \"the", "4 1 \"the", "line 6: found 4, expected a dimension from 0 to 3"),
+        ("2 1 \"the body\"", "2 1 body", r#"line 6: found "body", expected a name in quotation marks"#),
+        ("1 7 \"base\"", "2 -1 \"base\"", "line 7: the name of the physical surface -1 comes a second time"),
+        ("30 0 1 0", "0 0 1 0", "line 11: found 0, expected a node's number, 1 or more"),
+        ("30 0 1 0", "30 0 one 0", r#"line 11: found "one", expected a node's coordinate"#),
+        ("30 0 1 0", "30 0 NaN 0", "line 11: node 30 has the coordinate NaN, expected a finite number"),
+        ("30 0 1 0", "30 0 -1e999 0", "line 11: node 30 has the coordinate -inf, expected a finite number"),
+        ("20 1 0 0", "10 1 0 0", "line 13: node 10 comes a second time"),
+        ("$Nodes\n3", "$Nodes\n2", r#"line 13: found "20", expected $EndNodes"#),
+        ("$Nodes\n3", "$Nodes\n4", r#"line 14: found "$EndNodes", expected a node's number, 1 or more"#),
+        ("$Nodes\n3", "$Nodes\n3 3", r#"line 10: found "3", expected the end of the line"#),
+        ("$EndNodes", "$EndNodes!", r#"line 14: found "$EndNodes!", expected $EndNodes"#),
+        ("$EndNodes\n", "$EndNodes\nmore\n", r#"line 15: found "more", expected the beginning of a section, such as $Nodes"#),
+        ("$Nodes", "$nodes", "line 21: found the end of the file, expected $Endnodes"),
+        ("9 2 2 1 4 10", "9 3 2 1 4 10", "line 17: element 9 is a four-node quadrangle; only points, two-node edges and \
+                                          three-node triangles can be read: in Gmsh set Mesh.RecombineAll = 0 and \
+                                          Mesh.ElementOrder = 1, and mesh in two dimensions"),
+        ("8 1 2 -7", "9 1 2 -7", "line 18: element 9 comes a second time"),
+        ("4 10 20 30", "4 10 20 40", "line 17: element 9 has the node 40, which is not in $Nodes"),
+        ("9 2 2 1", "9 2 -2 1", "line 17: found -2, expected an element's number of tags"),
+    ];
+    for (from, to, expected) in faults {
+        assert_eq!(error_of(SMALL_2, from, to), expected, "{to:?}");
+    }
+}
+
+#[test]
+fn faults_of_4_1_are_named_with_their_line() {
+    #[rustfmt::skip]
+    let faults = [
+        ("2 4 0 1\n", "2 4 2 1\n", "line 21: found 2, expected 0 or 1 (parametric)"),
+        ("2 4 0 1\n", "4 4 0 1\n", "line 21: found 4, expected an entity's dimension, 0 to 3"),
+        ("2 3 10 30", "2 4 10 30", "line 23: 4 nodes are declared but 3 are given"),
+        ("2 2 8 9", "2 3 8 9", "line 30: 3 elements are declared but 2 are given"),
+        ("1 -3 1 1\n", "1 5 1 1\n", "line 29: the elements are part of the curve 5, which is not in $Entities; if the \
+                                     mesh is partitioned, save it unpartitioned"),
+        ("1 -3 1 1\n", "1 -3 15 1\n", "line 30: element 8 has dimension 0, but it is listed in an entity of dimension 1"),
+        ("1 -7 0", "33 -7 0", "line 11: found 33, expected at most 32 physical groups of an entity"),
+        ("0 1 1 0\n", "0 1 2 0\n", "line 13: found \"$EndEntities\", expected an entity's tag"),
+        ("$EndElements\n", "$EndElements\n$Entities\n", "line 32: found $Entities after $Elements, expected $Entities first"),
+    ];
+    for (from, to, expected) in faults {
+        assert_eq!(error_of(SMALL_4, from, to), expected, "{to:?}");
+    }
+}
+
+#[test]
+fn missing_and_repeated_sections_are_named() {
+    let cut = |text: &str, from: &str, to: &str| {
+        let (start, end) = (text.find(from).unwrap(), text.find(to).unwrap());
+        read((text[..start].to_owned() + &text[end..]).as_bytes())
+    };
+    let message = |result: Result<Mesh, GmshError>| result.unwrap_err().to_string();
+    let no_nodes = cut(SMALL_2, "$Nodes", "$Elements");
+    assert_eq!(
+        message(no_nodes),
+        "line 9: found $Elements, expected $Nodes before it (in Gmsh set Mesh.SaveParametric = 0)"
+    );
+    let no_elements = read(&SMALL_2.as_bytes()[..SMALL_2.find("$Elements").unwrap()]);
+    assert_eq!(message(no_elements), "line 15: the file has no section $Elements");
+    let nodes = &SMALL_2[SMALL_2.find("$Nodes").unwrap()..SMALL_2.find("$Elements").unwrap()];
+    let twice = SMALL_2.to_owned() + nodes;
+    assert_eq!(message(read(twice.as_bytes())), "line 21: a second section $Nodes, expected one");
+    let without_groups = cut(SMALL_4, "$Entities", "$Nodes").unwrap();
+    assert!(without_groups.elements.iter().all(|element| element.physical.is_empty()));
+}
+
+#[test]
+fn a_binary_fault_is_named_with_its_byte() {
+    let mut file = Writer { big: true, bytes: Vec::new() };
+    file.small_2();
+    let at = file.bytes.windows(7).position(|window| window == b"$Nodes\n").unwrap() + 9;
+    file.bytes[at..at + 4].fill(0);
+    let error = read(&file.bytes).unwrap_err().to_string();
+    assert_eq!(error, format!("byte {at}: found 0, expected a node's number, 1 or more"));
+}
+
+#[test]
+fn a_file_cut_anywhere_is_refused() {
+    for name in BLOCKS {
+        let file = blocks(name);
+        // The last byte is the last line's end, which may be missing.
+        for length in 0..file.len() - 1 {
+            assert!(read(&file[..length]).is_err(), "{name}, the first {length} bytes");
+        }
+    }
+}
+
+#[test]
+fn the_strand_is_read() {
+    let mesh = read(&bytes("golden/strand/strand.msh")).unwrap();
+    let of_group = |wanted: &str| {
+        let name = mesh.names.iter().find(|name| name.name == wanted).unwrap();
+        let kind = name.dim; // edges are of type 1, triangles of type 2
+        let inside = |e: &&Element| e.kind == kind && e.physical.contains(&name.tag);
+        mesh.elements.iter().filter(inside).count()
+    };
+    assert_eq!(mesh.nodes.len(), 1111);
+    assert_eq!([of_group("block"), of_group("stamp")], [1396, 618]);
+    assert_eq!([of_group("duct_wall"), of_group("stamp_arc")], [78, 54]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// A damaged file is read or refused, without a panic and without an end.
+    #[test]
+    fn damage_does_no_harm(
+        name in prop::sample::select(&BLOCKS[..]),
+        damage in prop::collection::vec((any::<Index>(), any::<u8>()), 1..8),
+        length in any::<Index>(),
+    ) {
+        let mut file = blocks(name);
+        for (at, byte) in damage {
+            let at = at.index(file.len());
+            file[at] = byte;
+        }
+        let _ = read(&file);
+        file.truncate(length.index(file.len()));
+        let _ = read(&file);
+    }
+}

@@ -1,0 +1,298 @@
+//! Scenes that are refused: what is wrong, where, and how to mend it; and the forms that a scene may take.
+
+use crate::common::embedded::scene_json;
+use crate::common::json::build;
+use plane_contact::error::InputError;
+use plane_contact::paper::mirror::Reading;
+use serde_json::{Value, json};
+
+/// What is said of `fig1` once `change` has been made.
+#[track_caller]
+fn refused(change: impl FnOnce(&mut Value)) -> InputError {
+    let mut scene = scene_json("fig1");
+    change(&mut scene);
+    build(&scene).expect_err("the scene is refused")
+}
+
+/// Asserts that the place and the words of an error hold what they should.
+#[track_caller]
+fn says(error: &InputError, place: &str, words: &[&str]) {
+    assert!(error.place.contains(place), "place: {error}");
+    for word in words {
+        assert!(error.what.contains(word), "{word:?} is missing: {error}");
+    }
+    assert!(!error.mend.is_empty());
+}
+
+fn push(list: &mut Value, value: Value) {
+    list.as_array_mut().expect("a list").push(value);
+}
+
+#[test]
+fn fields() {
+    let e = refused(|s| s["c_tol"] = json!(1.0));
+    says(&e, "c_tol", &["unknown field `c_tol`", "expected one of `title`, `mesh`"]);
+    let e = refused(|s| s["contact"]["c_tll"] = json!("small"));
+    says(&e, "contact.c_tll", &["invalid type: string \"small\", expected f64", "line"]);
+    let e = refused(|s| s["plane"] = json!("strian"));
+    says(&e, "plane", &["\"strian\" is none of strain, stress"]);
+    let e = refused(|s| s["restraints"][1]["fix"] = json!(["z"]));
+    says(&e, "restraints[1].fix[0]", &["unknown variant `z`, expected `x` or `y`"]);
+    let e = refused(|s| s["loads"][0]["on"] = json!([1]));
+    says(&e, "loads[0].on", &["expected the name or the tag of a physical group"]);
+    let e = refused(|s| s["materials"]["1"]["G"] = json!(1));
+    says(&e, "materials.1", &["unknown field `G`, expected `E` or `nu`"]);
+    let e = refused(|s| drop(s.as_object_mut().unwrap().remove("materials")));
+    says(&e, "the scene file", &["missing field `materials`"]);
+    let e = refused(|s| s["variant"] = json!("glued"));
+    says(&e, "variant", &["\"glued\" is none of stepped, tied, printed"]);
+}
+
+#[test]
+fn text_that_is_no_scene() {
+    let parse = |text: &str| {
+        let error = plane_contact::problem::scene::Scene::build("test", text.as_bytes(), |_| {
+            Err("no".into())
+        });
+        error.expect_err("refused")
+    };
+    says(&parse("{"), "the scene file", &["EOF", "line 1"]);
+    says(&parse("[1]"), "field", &["expected a string"]);
+    let whole = scene_json("fig1").to_string();
+    says(&parse(&(whole.clone() + "x")), "the end of the scene file", &["trailing characters"]);
+    says(&parse(&whole.replacen("0.001", "1e999", 1)), "c_tll", &["number out of range"]);
+    let twice = r#"{"plane":"strain","materials":{"1":{"E":1,"nu":0},"1":{"E":2,"nu":0}}}"#;
+    says(&parse(twice), "materials", &["material \"1\" is given twice"]);
+}
+
+#[test]
+fn meshes() {
+    let e = refused(|s| push(&mut s["elem"], json!([19, 2, 2, 1, 1, 1, 10, 99])));
+    says(&e, "element 19", &["node number 99 is beyond R = 13"]);
+    let e = refused(|s| s["node"][12][0] = json!(20.0));
+    says(&e, "nodes", &["node number 20 is beyond R = 13"]);
+    let e = refused(|s| s["node"][12][0] = json!(1.5));
+    says(&e, "node[12]", &["1.5 is no node number"]);
+    let e = refused(|s| s["node"][12][0] = json!(12.0));
+    says(&e, "nodes", &["node 12 is given twice"]);
+    let e = refused(|s| s["node"][12][3] = json!(1.0));
+    says(&e, "nodes", &["the mesh is not plane", "node 13 has z = 1"]);
+    let e = refused(|s| s["elem"][9] = json!([10, 2, 2, 1, 1, 1, 2, 10]));
+    says(&e, "triangles", &["triangle 10 (nodes [1, 2, 10]) runs clockwise", "area is -0.5"]);
+    let e = refused(|s| s["node"][9] = json!([10, 2.0, 0.04, 0.0]));
+    says(&e, "triangles", &["triangle 10 (nodes [1, 10, 2])", "area"]);
+    let e = refused(|s| push(&mut s["elem"], json!([19, 2, 2, 1, 1, 10, 2, 1])));
+    says(&e, "elements", &["triangles 10 and 19 have the same nodes"]);
+    let e = refused(|s| push(&mut s["elem"], json!([19, 1, 2, 1, 1, 2, 2])));
+    says(&e, "elements", &["element 19 names node 2 twice"]);
+    let e = refused(|s| push(&mut s["elem"], json!([18, 1, 2, 1, 1, 1, 2])));
+    says(&e, "elements", &["element 18 is given twice"]);
+    let e = refused(|s| push(&mut s["elem"], json!([1000000, 1, 2, 1, 1, 1, 2])));
+    says(&e, "elements", &["element number 1000000 for 19 elements"]);
+    let e = refused(|s| push(&mut s["elem"], json!([19, 3, 2, 1, 1, 1, 2, 3, 4])));
+    says(&e, "elem[18]", &["type 3 is none of 15 (point), 1 (edge), 2 (triangle)"]);
+    let e = refused(|s| push(&mut s["elem"], json!([19, 1, 3, 1, 1, 1, 2])));
+    says(&e, "elem[18]", &["3 tags", "column 6"]);
+    let e = refused(|s| push(&mut s["elem"], json!([19, 1, 2, 1, 1, 1])));
+    says(&e, "elem[18]", &["type 1 has 2 nodes, not 1"]);
+    let e = refused(|s| push(&mut s["elem"], json!([19, 1])));
+    says(&e, "elem[18]", &["2 entries are too few"]);
+    let e = refused(|s| s["elem"].as_array_mut().unwrap().truncate(9));
+    says(&e, "elements", &["no triangle"]);
+    let e = refused(|s| s["mesh"] = json!("strand.msh"));
+    says(&e, "mesh, node, elem", &["either mesh, or node and elem"]);
+}
+
+#[test]
+fn materials() {
+    let e = refused(|s| s["materials"]["1"]["nu"] = json!(0.5));
+    says(&e, "materials.1.nu", &["nu = 0.5 is outside (-1, 0.5) in plane strain"]);
+    let e = refused(|s| {
+        s["plane"] = json!("stress");
+        s["materials"]["1"]["nu"] = json!(-1.0);
+    });
+    says(&e, "materials.1.nu", &["nu = -1 is outside (-1, 1) in plane stress"]);
+    let e = refused(|s| s["materials"]["2"]["E"] = json!(0.0));
+    says(&e, "materials.2.E", &["E = 0 is not positive"]);
+    let e = refused(|s| drop(s["materials"].as_object_mut().unwrap().remove("2")));
+    says(&e, "materials", &["triangle 14 has no material"]);
+    let e = refused(|s| s["materials"]["3"] = json!({ "E": 1.0, "nu": 0.0 }));
+    says(&e, "materials.3", &["no physical group \"3\" of triangles"]);
+    assert!(e.mend.contains("the mesh's groups of triangles are 1, 2"), "{e}");
+    let mut stress = scene_json("fig1");
+    stress["plane"] = json!("stress");
+    stress["materials"]["1"]["nu"] = json!(0.7);
+    let scene = build(&stress).expect("0.7 is sound in plane stress");
+    let e =
+        scene.worksheet(&"R6=strain".parse::<Reading>().unwrap()).expect_err("not in plane strain");
+    says(&e, "--reading R6", &["nu = 0.7 is outside (-1, 0.5) in plane strain"]);
+}
+
+#[test]
+fn restraints_and_loads() {
+    let e = refused(|s| s["restraints"][0]["on"] = json!("wall"));
+    says(&e, "restraints[0].on", &["no physical group \"wall\""]);
+    let e = refused(|s| s["restraints"][1]["node"] = json!(14));
+    says(&e, "restraints[1].node", &["node number 14 is beyond R = 13"]);
+    let e = refused(|s| s["restraints"][1]["on"] = json!(11));
+    says(&e, "restraints[1]", &["{on, fix} or {node, fix}"]);
+    let e = refused(|s| push(&mut s["loads"], json!({ "on": 21 })));
+    says(&e, "loads[1]", &["{on, pressure}, {on, traction} or {node, force}"]);
+    let e = refused(|s| {
+        push(&mut s["loads"], json!({ "on": 21, "pressure": 1.0, "traction": [0.0, 1.0] }))
+    });
+    says(&e, "loads[1]", &["{on, pressure}, {on, traction} or {node, force}"]);
+    let e = refused(|s| push(&mut s["loads"], json!({ "node": 0, "force": [0.0, 1.0] })));
+    says(&e, "loads[1]", &["node number 0 is beyond R = 13"]);
+    let e = refused(|s| {
+        push(&mut s["elem"], json!([19, 1, 2, 50, 1, 2, 10]));
+        push(&mut s["loads"], json!({ "on": 50, "pressure": 1.0 }));
+    });
+    says(&e, "loads[1]", &["edge 19 (nodes 2 and 10) bounds 2 triangles"]);
+    let e = refused(|s| {
+        push(&mut s["elem"], json!([19, 1, 2, 50, 1, 1, 5]));
+        push(&mut s["loads"], json!({ "on": 50, "pressure": 1.0 }));
+    });
+    says(&e, "loads[1]", &["bounds 0 triangles"]);
+    let e = refused(|s| s["thickness"] = json!(0.0));
+    says(&e, "thickness", &["0 is not positive"]);
+    let e = refused(|s| s["iterations"] = json!(0));
+    says(&e, "iterations", &["0 iterations"]);
+    let e = refused(|s| s["iterations"] = json!(10_000_000));
+    says(&e, "iterations", &["10000000 iterations are outside"]);
+    let e = refused(|s| s["restraints"][1]["fix"] = json!([]));
+    says(&e, "restraints[1].fix", &["fixes no direction"]);
+    let e = refused(|s| push(&mut s["elem"], json!([19, 1, 2, 21, 21, 13, 12])));
+    says(&e, "loads[0]", &["edges 8 and 19 of group 21 are the same"]);
+    let e = refused(|s| s["loads"][0]["pressure"] = json!(1.5e308));
+    says(&e, "loads[0]", &["too large"]);
+}
+
+#[test]
+fn contact() {
+    let e = refused(|s| s["contact"]["cnt"] = json!([5, 6, 2]));
+    says(&e, "contact", &["contact node 2 is also on the target edge 1"]);
+    let e = refused(|s| s["contact"]["cnt"] = json!([5, 77]));
+    says(&e, "contact.cnt", &["node number 77 is beyond R = 13"]);
+    let e = refused(|s| s["contact"]["trg"] = json!([10]));
+    says(&e, "contact.trg", &["elem 10 is no edge"]);
+    let e = refused(|s| s["contact"]["trg"] = json!([]));
+    says(&e, "contact.trg", &["the list is empty"]);
+    let e = refused(|s| s["contact"]["c_tll"] = json!(-0.001));
+    says(&e, "contact.c_tll", &["-0.001 is negative"]);
+    let e = refused(|s| {
+        push(&mut s["elem"], json!([19, 1, 2, 20, 20, 12, 13]));
+        s["contact"]["cnt"] = json!(20);
+    });
+    says(&e, "contact.cnt", &["more than one chain"]);
+}
+
+#[test]
+fn bodies_that_nothing_holds() {
+    let free = |fix: Value| {
+        refused(move |s| {
+            s.as_object_mut().unwrap().remove("contact");
+            s["restraints"] = json!([{ "on": 11, "fix": ["x", "y"] }]);
+            if !fix.is_null() {
+                push(&mut s["restraints"], fix);
+            }
+        })
+    };
+    says(&free(Value::Null), "restraints", &["body \"2\" is held by no contact", "move in x"]);
+    says(&free(json!({ "node": 12, "fix": ["x"] })), "restraints", &["move in y"]);
+    says(&free(json!({ "node": 12, "fix": ["x", "y"] })), "restraints", &["rotate"]);
+    let e = refused(|s| s["restraints"] = json!([{ "on": 11, "fix": ["y"] }]));
+    says(&e, "restraints", &["the bodies that contact joins can still move in x, all together"]);
+    let mut held = scene_json("fig1");
+    held.as_object_mut().unwrap().remove("contact");
+    push(&mut held["restraints"], json!({ "node": 12, "fix": ["x", "y"] }));
+    push(&mut held["restraints"], json!({ "node": 9, "fix": ["y"] }));
+    build(&held).expect("three restraints hold a body");
+}
+
+/// A node in no triangle is named, and dropped only where the scene says so; the scene's node numbers follow.
+#[test]
+fn orphans() {
+    let add = |s: &mut Value| {
+        let nodes = s["node"].as_array_mut().unwrap();
+        for row in nodes.iter_mut().filter(|row| row[0].as_u64().unwrap() > 4) {
+            row[0] = json!(row[0].as_u64().unwrap() + 1);
+        }
+        nodes.insert(4, json!([5, 9.0, 9.0, 0.0]));
+        for row in s["elem"].as_array_mut().unwrap() {
+            for n in &mut row.as_array_mut().unwrap()[5..] {
+                *n = json!(n.as_u64().unwrap() + u64::from(n.as_u64().unwrap() > 4));
+            }
+        }
+        s["contact"]["cnt"] = json!([6, 7, 8, 9, 10]);
+        s["restraints"][1]["node"] = json!(14);
+        s["restraints"][2]["node"] = json!(13);
+    };
+    says(&refused(add), "nodes", &["nodes 5 belong to no triangle", "K4"]);
+    let mut scene = scene_json("fig1");
+    add(&mut scene);
+    scene["drop_orphans"] = json!(true);
+    let dropped = build(&scene).expect("the orphan is dropped");
+    assert_eq!(dropped.dropped, [5]);
+    let same = |s: &plane_contact::problem::scene::Scene| s.worksheet(&Reading::default()).unwrap();
+    let mut original = scene_json("fig1");
+    original["restraints"].as_array_mut().unwrap().swap(1, 2);
+    assert_eq!(same(&dropped), same(&build(&original).unwrap()));
+    scene["loads"] = json!([{ "node": 5, "force": [0.0, -1.0] }]);
+    says(
+        &build(&scene).unwrap_err(),
+        "loads[0].node",
+        &["node 5 belongs to no triangle and was dropped"],
+    );
+}
+
+/// Pressure pushes into the body whatever way the edge runs; thickness multiplies load and stiffness.
+#[test]
+fn loads_are_consistent_and_pressure_pushes_inwards() {
+    let mut scene = scene_json("fig1");
+    let before = build(&scene).unwrap();
+    assert_eq!(before.total_load(), [0.0, -6.3 * 2.5]);
+    assert_eq!((before.load[23], before.load[25]), (-7.875, -7.875));
+    scene["elem"][7] = json!([8, 1, 2, 21, 21, 13, 12]);
+    assert_eq!(build(&scene).unwrap().load, before.load);
+    scene["thickness"] = json!(2.0);
+    scene["loads"] =
+        json!([{ "on": 21, "traction": [0.5, -1.0] }, { "node": 1, "force": [3.0, 4.0] }]);
+    assert_eq!(build(&scene).unwrap().total_load(), [2.5 + 3.0, -5.0 + 4.0]);
+}
+
+/// A group, its tag as a number or as text, and the list of its members say the same.
+#[test]
+fn names_tags_and_lists_are_one() {
+    let by_list = build(&scene_json("fig1")).unwrap();
+    let mut scene = scene_json("fig1");
+    scene["contact"]["cnt"] = json!(20);
+    scene["contact"]["trg"] = json!("10");
+    let sheet =
+        |s: &plane_contact::problem::scene::Scene| s.worksheet(&Reading::default()).unwrap();
+    assert_eq!(sheet(&build(&scene).unwrap()), sheet(&by_list));
+}
+
+/// Two groups of one name: which one a scene means cannot be told.
+#[test]
+fn a_name_belongs_to_one_group() {
+    let mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"top\"\n1 2 \"top\"\n2 3 \"body\"\n\
+        $EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n\
+        $Elements\n3\n1 1 2 1 1 1 2\n2 1 2 2 2 2 3\n3 2 2 3 1 1 2 3\n$EndElements\n";
+    let scene = r#"{"mesh": "m.msh", "plane": "strain", "materials": {"body": {"E": 1, "nu": 0}},
+        "restraints": [{"on": "top", "fix": ["x", "y"]}]}"#;
+    let read = |mesh: String| {
+        plane_contact::problem::scene::Scene::build("test", scene.as_bytes(), move |_| {
+            Ok(mesh.clone().into())
+        })
+    };
+    says(&read(mesh.into()).unwrap_err(), "physical groups", &["1 and 2 are both named \"top\""]);
+    read(mesh.replacen("top", "base", 1)).expect("each name once");
+}
+
+/// R8: c_tol in metres is 1,000 times as much in a scene in mm.
+#[test]
+fn r8_multiplies_the_tolerance() {
+    let scene = build(&scene_json("fig1")).unwrap();
+    assert_eq!(scene.worksheet(&"R8=m".parse::<Reading>().unwrap()).unwrap().c_tll, 1.0);
+}

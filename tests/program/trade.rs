@@ -1,0 +1,263 @@
+//! Speed against accuracy: what is measured, and what it says. No test asserts a time.
+
+use crate::common::json::build;
+use crate::common::tolerances::{HALF, LAME_ENERGY_ORDER, assert_near};
+use plane_contact::answer::error::Error;
+use plane_contact::answer::{Request, Solution, solve};
+use plane_contact::error::InputError;
+use plane_contact::numbers::solve::ScalarName;
+use plane_contact::problem::element;
+use plane_contact::problem::model::{Model, NodeId};
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use plane_contact::problem::scene::symmetry::half;
+use plane_contact::report::trade as report;
+use plane_contact::studies::benchmark::Annulus;
+use plane_contact::studies::trade::{self, Knob, Options, Order, Trade, pareto, solve_to};
+use serde_json::{Value, json};
+
+fn measured(scene: &Scene, only: &[Knob]) -> Trade {
+    let options = Options { runs: 1, only: only.to_vec() };
+    let request = Request::new(scene);
+    trade::measure(&request, &options, |_| None, |_| ()).expect("it is measured")
+}
+
+fn open(name: &str) -> Scene {
+    Scene::open(name).expect("embedded scenes are sound")
+}
+
+fn solved(scene: &Scene, variant: Variant) -> Solution {
+    solve(&Request::new(scene).variant(variant), &mut |_| ()).expect("the variant runs")
+}
+
+/// A square under pressure, symmetric about x = `at`: two triangles left and right of it; `changed`
+/// edits the scene file.
+fn square(at: f64, changed: impl Fn(&mut Value)) -> Result<Scene, InputError> {
+    let mut scene = json!({
+        "plane": "strain",
+        "node": [
+            [1, at - 1.0, 0.0, 0.0], [2, at, 0.0, 0.0], [3, at + 1.0, 0.0, 0.0],
+            [4, at - 1.0, 2.0, 0.0], [5, at, 2.0, 0.0], [6, at + 1.0, 2.0, 0.0]
+        ],
+        "elem": [
+            [1, 1, 2, 10, 1, 4, 5], [2, 1, 2, 10, 1, 5, 6], [3, 1, 2, 11, 1, 1, 2], [4, 1, 2, 11, 1, 2, 3],
+            [5, 2, 2, 1, 1, 1, 2, 5], [6, 2, 2, 1, 1, 1, 5, 4], [7, 2, 2, 1, 1, 2, 3, 5], [8, 2, 2, 1, 1, 3, 6, 5]
+        ],
+        "materials": { "1": { "E": 1000.0, "nu": 0.3 } },
+        "restraints": [{ "on": 11, "fix": ["x", "y"] }],
+        "loads": [{ "on": 10, "pressure": 2.0 }, { "node": 5, "force": [0.0, -1.0] }],
+        "iterations": 1,
+        "variant": "tied"
+    });
+    changed(&mut scene);
+    build(&scene)
+}
+
+#[test]
+fn the_front_is_what_nothing_beats() {
+    let points = [[1.0, 1.0], [2.0, 0.5], [2.0, 0.6], [3.0, 0.5], [0.5, 9.0], [1.0, 1.0]];
+    assert_eq!(pareto(&points), [true, true, false, false, true, true]);
+    assert!(pareto(&[]).is_empty());
+}
+
+#[test]
+fn a_made_up_order_is_found() {
+    let order = Order::fit("x", vec![0.4, 0.1, 0.025]);
+    assert_eq!((order.order, order.scatter), (Some(2.0), Some(1.0)));
+    assert_eq!(order.left, Some(0.025 / 3.0));
+    assert_eq!(Order::fit("x", vec![0.1, 0.2]).order, None);
+    assert_eq!(Order::fit("x", vec![0.1]).order, None);
+}
+
+#[test]
+fn every_knob_has_its_rows_and_every_row_its_columns() {
+    let trade = measured(&open("fig1"), Knob::ALL);
+    assert_eq!(trade.sections.len(), Knob::ALL.len());
+    for section in &trade.sections {
+        let none = section.knob == Knob::Symmetry;
+        assert_eq!(section.rows.is_empty(), none, "{}", section.knob);
+        assert!(!section.answers.is_empty(), "{}", section.knob);
+        for row in &section.rows {
+            let (knob, label) = (section.knob, &row.label);
+            assert!(row.failure.is_some() != row.seconds.is_some(), "{label}");
+            assert!(row.seconds.is_none() || row.error.is_some(), "{knob}: {label}");
+            assert!(row.runs == 1 && row.equations > 0);
+        }
+        let ran = section.rows.iter().any(|row| row.error.is_some());
+        assert_eq!(section.rows.iter().any(|row| row.pareto), ran, "{}", section.knob);
+    }
+    let text = report::text(&trade);
+    for words in ["c_tll", "von Mises", "exact", "converged answer"] {
+        assert!(text.contains(words), "{words:?}: {text}");
+    }
+}
+
+#[test]
+fn csv_and_json_agree() {
+    let trade = measured(&open("fig1"), &[Knob::Arithmetic, Knob::Tolerance]);
+    let (csv, json) = (report::csv(&trade), report::json(&trade));
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    let mut lines = csv.lines();
+    let head: Vec<&str> = lines.next().expect("a head").split(',').collect();
+    assert_eq!(head, report::COLUMNS);
+    let rows = json["sections"].as_array().expect("sections").iter();
+    let rows: Vec<&Value> =
+        rows.flat_map(|section| section["rows"].as_array().expect("rows")).collect();
+    assert_eq!(lines.clone().count(), rows.len());
+    let column = |name: &str| head.iter().position(|c| *c == name).expect("a column");
+    for (line, row) in lines.zip(rows) {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert_eq!(cells.len(), head.len(), "{line}");
+        let number = |name: &str| cells[column(name)].parse::<f64>().expect("a number");
+        assert_eq!(number("seconds"), row["seconds"]);
+        assert_eq!(number("error_displacement"), row["error"]["displacement"]);
+        assert_eq!(number("error_energy"), row["error"]["energy"]);
+        assert_eq!(cells[column("pareto")] == "true", row["pareto"]);
+    }
+}
+
+#[test]
+fn the_picture_is_xml() {
+    let svg = report::picture(&measured(&open("fig1"), &[Knob::Solver]));
+    roxmltree::Document::parse(&svg).expect("XML");
+}
+
+#[test]
+fn errors_fall_with_precision() {
+    let trade = measured(&open("fig1"), &[Knob::Arithmetic]);
+    let error = |label: &str| {
+        let row = trade.sections[0].rows.iter().find(|row| row.label == label);
+        row.and_then(|row| row.error).expect("the trial ran").displacement
+    };
+    assert!(error("f32") > error("f64"));
+    assert!(error("f64") >= error("f64x2"));
+    assert_eq!(error("exact"), 0.0);
+}
+
+/// The triangle's order in the energy norm is 1 where the solution is smooth.
+#[test]
+fn lame_converges_with_order_1_in_the_energy_norm() {
+    let scene = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.scene()).unwrap();
+    let trade = measured(&scene, &[Knob::Mesh]);
+    let section = &trade.sections[0];
+    let errors: Vec<f64> = section.rows.iter().map(|row| row.error.unwrap().energy).collect();
+    assert!(errors.len() >= 4 && errors.windows(2).all(|e| e[1] < e[0]), "{errors:?}");
+    let order = section.orders[0].order.expect("an order");
+    assert_near("order", order, 1.0, 1.0, &LAME_ENERGY_ORDER);
+}
+
+#[test]
+fn a_finer_scene_keeps_its_nodes_area_load_and_surfaces() {
+    for name in ["fig1", "two-blocks", "strand"] {
+        let scene = open(name);
+        let finer = scene.refined().unwrap().expect("a whole scene").scene;
+        let [before, after] = [&scene.model, &finer.model];
+        assert_eq!(after.triangles.len(), 4 * before.triangles.len());
+        assert_eq!(after.contact.target.len(), 2 * before.contact.target.len(), "{name}");
+        assert_eq!(after.contact.nodes.len(), 2 * before.contact.nodes.len() - 1, "{name}");
+        let area = |model: &Model| {
+            model.triangle_ids().map(|id| element::area(&model.corners(id))).sum::<f64>()
+        };
+        assert_near("area", area(after), area(before), area(before), &HALF);
+        let (load, total) = (before.total_load(), after.total_load());
+        assert_near("load", total[1], load[1], load[1], &HALF);
+        assert_eq!(after.bodies.len(), before.bodies.len());
+    }
+}
+
+#[track_caller]
+fn half_is_whole(scene: &Scene, variant: Variant) {
+    let half = half(scene).expect("the scene is symmetric");
+    let (whole, of_half) = (solved(scene, variant), solved(&half.scene, variant));
+    let scale = whole.u.amax();
+    for (k, n) in half.nodes.iter().enumerate() {
+        let (u, expected) = (NodeId::new(k).of(&of_half.u), n.of(&whole.u));
+        for d in [0, 1] {
+            assert_near(&format!("node {n}"), u[d], expected[d], scale, &HALF);
+        }
+    }
+    for (state, n) in of_half.elements.iter().zip(&half.triangles) {
+        let (stress, expected) =
+            (state.von_mises_stress, whole.elements[n.index()].von_mises_stress);
+        assert_near(&format!("triangle {n}"), stress, expected, expected.max(1.0), &HALF);
+    }
+}
+
+#[test]
+fn half_of_a_symmetric_scene_is_the_whole() {
+    for at in [0.0, 3.7, -20.1] {
+        half_is_whole(&square(at, |_| ()).unwrap(), Variant::Tied);
+    }
+    half_is_whole(&open("strand"), Variant::Unilateral);
+}
+
+#[test]
+fn what_is_not_symmetric_has_no_half() {
+    let none = |changed: &dyn Fn(&mut Value)| half(&square(0.0, changed).unwrap()).is_none();
+    assert!(none(&|s| s["node"][0][1] = json!(-1.1)), "a node");
+    assert!(none(&|s| s["loads"][1]["node"] = json!(4)), "a load");
+    assert!(none(&|s| s["loads"][1]["force"] = json!([1.0, 0.0])), "a load across the line");
+    assert!(none(&|s| s["restraints"] =
+        json!([{ "node": 1, "fix": ["x", "y"] }, { "on": 11, "fix": ["y"] }])));
+    let flipped = |s: &mut Value| {
+        s["elem"][6] = json!([7, 2, 2, 1, 1, 2, 3, 6]);
+        s["elem"][7] = json!([8, 2, 2, 1, 1, 2, 6, 5]);
+    };
+    assert!(none(&flipped), "a diagonal");
+    assert!(half(&open("fig1")).is_none());
+}
+
+#[test]
+fn half_a_scene_is_not_refined() {
+    let half = half(&square(0.0, |_| ()).unwrap()).unwrap();
+    assert!(half.scene.refined().unwrap().is_none());
+}
+
+#[test]
+fn everything_but_times_is_reproducible() {
+    let scene = open("fig1");
+    let measured = || {
+        let mut trade = measured(&scene, Knob::ALL);
+        for row in trade.sections.iter_mut().flat_map(|section| &mut section.rows) {
+            (row.seconds, row.pareto) = (None, false);
+        }
+        report::json(&trade)
+    };
+    assert!(measured() == measured());
+}
+
+#[test]
+fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
+    let request = Request::new(&open("fig1")).variant(Variant::Tied);
+    let reach = |accuracy| solve_to(&request, accuracy);
+    for (accuracy, scalar) in
+        [(1e-2, ScalarName::F32), (1e-10, ScalarName::Bounded), (1e-20, ScalarName::F64x2)]
+    {
+        let reached = reach(accuracy).expect("a precision meets it");
+        let last = reached.attempts.last().expect("an attempt");
+        assert_eq!(last.arithmetic.scalar, scalar, "{accuracy:e}: {:?}", reached.attempts);
+        assert!(last.found.expect("it ran") <= accuracy);
+        let words = report::reached(&reached, accuracy);
+        assert!(words.contains("mesh"), "{words}");
+    }
+    for accuracy in [0.0, -1.0, 1.0, f64::NAN, 1e-60] {
+        let error = reach(accuracy).err();
+        assert!(matches!(error, Some(Error::Input(_))), "{accuracy:e}: {error:?}");
+    }
+}
+
+/// The true error, against f64x2, is within the bar of every precision that is taken.
+#[test]
+fn the_bar_of_an_accuracy_holds() {
+    for name in ["fig1", "two-blocks", "strand"] {
+        let request = Request::new(&open(name)).variant(Variant::Tied);
+        let reach = |accuracy| solve_to(&request, accuracy).expect("a precision meets it");
+        let best = reach(1e-18).solution.u;
+        for accuracy in [0.5, 1e-6, 1e-8] {
+            let reached = reach(accuracy);
+            let error = (&reached.solution.u - &best).amax() / best.amax();
+            let bar = reached.attempts.last().and_then(|a| a.found).expect("it ran");
+            assert!(error <= bar && bar <= accuracy, "{name}: {error:e}, {bar:e}, {accuracy:e}");
+        }
+    }
+}
