@@ -5,8 +5,8 @@ use std::process::Command;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use plane_contact::answer::contact;
 use plane_contact::answer::error::Error;
+use plane_contact::answer::{Request, solve};
 use plane_contact::error::InputError;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
@@ -50,19 +50,19 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let scene = Scene::open(&args.scene)?;
+    let request = Request::new(&scene).reading(args.reading.reading.0);
     if let Some(name) = &args.peak_of {
-        return peak_of(args, &scene, name);
+        return peak_of(&request, name);
     }
-    let reading = &args.reading.reading.0;
     let only = if args.only.is_empty() { Knob::ALL.to_vec() } else { args.only.clone() };
     let options = Options { runs: usize::from(args.runs), only };
-    let trials = |knob: &Knob| trade::trials(&scene, reading, *knob).len();
+    let trials = |knob: &Knob| trade::trials(&request, *knob).len();
     let bar = progress(options.only.iter().map(trials).sum::<usize>() * (options.runs + 1));
     let watch = |trial: &str| {
         bar.set_message(trial.to_string());
         bar.inc(1);
     };
-    let measured = trade::measure(&scene, reading, &options, in_a_process, watch)?;
+    let measured = trade::measure(&request, &options, in_a_process, watch)?;
     bar.finish_and_clear();
     let default = || PathBuf::from("out").join(format!("trade-{}", scene.name));
     let out = args.out.clone().unwrap_or_else(default);
@@ -81,13 +81,11 @@ fn in_a_process(trial: &Trial) -> Option<u64> {
     std::str::from_utf8(&output.stdout).ok()?.trim().parse().ok()
 }
 
-fn peak_of(args: &Args, scene: &Scene, name: &str) -> Result<(), Error> {
-    let reading = &args.reading.reading.0;
-    let trial = trade::find(scene, reading, name).ok_or_else(|| {
+fn peak_of(request: &Request, name: &str) -> Result<(), Error> {
+    let trial = trade::find(request, name).ok_or_else(|| {
         InputError::new("--peak-of", format!("there is no trial {name:?}"), "leave it out")
     })?;
-    let scene = trial.scene(scene)?;
-    contact::run_in(&scene, trial.variant, reading, trial.arithmetic, |_| ())?;
+    solve(&trial.request(request)?, &mut |_| ())?;
     let bytes = peak::of_this_process();
     print(&bytes.map_or(String::new(), |bytes| format!("{bytes}\n")))
 }

@@ -1,8 +1,9 @@
 //! This program beside CalculiX: tables, JSON, CSV, pictures.
 
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 use std::path::Path;
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::folder;
@@ -91,24 +92,32 @@ fn contact(compared: &Compared) -> String {
 fn differences(compared: &Compared) -> String {
     let Compared { scene, model, comparison, .. } = compared;
     let head = ["of", "largest", "relative", "of the largest", "at", "at x, y", "rms"];
-    let row = |name: &str, unit: &str, kind: &str, difference: &Difference, at: [f64; 2]| {
-        let largest = difference.largest;
-        vec![
-            format!("{name}{}", in_unit(unit)),
-            format!("{:.3e}", largest.difference),
-            format!("{:.1e}", largest.relative),
-            short(largest.scale),
-            format!("{kind} {}", largest.at),
-            format!("{:.3}, {:.3}", at[0], at[1]),
-            format!("{:.3e}", difference.rms),
-        ]
-    };
     let (u, s) = (&comparison.displacement, &comparison.stress);
     aligned(&[
         head.map(String::from).to_vec(),
-        row("displacement", &scene.units.length, "node", u, place(model, u.largest.at)),
+        row("displacement", &scene.units.length, "node", u, model.at(u.largest.at)),
         row("stress", &scene.units.stress, "triangle", s, centre(model, s.largest.at)),
     ])
+}
+
+/// A row of the table of the largest differences.
+fn row<Place: Copy + Display>(
+    name: &str,
+    unit: &str,
+    kind: &str,
+    difference: &Difference<Place>,
+    at: [f64; 2],
+) -> Vec<String> {
+    let largest = difference.largest;
+    vec![
+        format!("{name}{}", in_unit(unit)),
+        format!("{:.3e}", largest.difference),
+        format!("{:.1e}", largest.relative),
+        short(largest.scale),
+        format!("{kind} {}", largest.at),
+        format!("{:.3}, {:.3}", at[0], at[1]),
+        format!("{:.3e}", difference.rms),
+    ]
 }
 
 fn bodies(comparison: &Comparison) -> String {
@@ -129,12 +138,12 @@ fn worst(compared: &Compared) -> String {
     let head =
         ["node", "x, y", "u_x here", "u_y here", "u_x CalculiX", "u_y CalculiX", "difference"];
     let rows = comparison.displacement.worst(WORST).into_iter().map(|n| {
-        let ([x, y], u) = (place(model, n), comparison.ours.u[n - 1]);
-        let cells = u.iter().chain(&comparison.theirs.u[n - 1]);
+        let ([x, y], u) = (model.at(n), comparison.ours.u[n.index()]);
+        let cells = u.iter().chain(&comparison.theirs.u[n.index()]);
         let mut row = vec![n.to_string(), format!("{x:.3}, {y:.3}")];
         // + 0: no component is −0.
         row.extend(cells.map(|value| format!("{:.6e}", value + 0.0)));
-        row.push(format!("{:.3e}", comparison.displacement.at[n - 1]));
+        row.push(format!("{:.3e}", comparison.displacement.at[n.index()].1));
         row
     });
     aligned(&std::iter::once(head.map(String::from).to_vec()).chain(rows).collect::<Vec<_>>())
@@ -143,7 +152,6 @@ fn worst(compared: &Compared) -> String {
 /// `compare.json`: everything.
 pub fn json(compared: &Compared) -> String {
     let Compared { scene, model, comparison, .. } = compared;
-    let difference = |of: &Difference| json!({ "largest": of.largest, "rms": of.rms });
     let document = json!({
         "scene": scene.name,
         "title": scene.title,
@@ -153,14 +161,18 @@ pub fn json(compared: &Compared) -> String {
         "contact": contact_value(compared.contact),
         "decks": compared.decks,
         "units": scene.units,
-        "displacement": difference(&comparison.displacement),
-        "stress": difference(&comparison.stress),
+        "displacement": difference_value(&comparison.displacement),
+        "stress": difference_value(&comparison.stress),
         "bodies": comparison.bodies,
         "worst_nodes": comparison.displacement.worst(WORST),
         "nodes": nodes(comparison),
         "elements": elements(comparison),
     });
     document.to_string() + "\n"
+}
+
+fn difference_value<Place: Serialize>(of: &Difference<Place>) -> Value {
+    json!({ "largest": of.largest, "rms": of.rms })
 }
 
 fn contact_value(contact: &Contact) -> Value {
@@ -176,24 +188,26 @@ fn contact_value(contact: &Contact) -> Value {
 
 fn nodes(comparison: &Comparison) -> Vec<Value> {
     let Comparison { ours, theirs, displacement, .. } = comparison;
-    let row = |(k, difference): (usize, &f64)| {
+    let row = |(node, difference): &(NodeId, f64)| {
+        let k = node.index();
         json!({
-            "n": k + 1, "u": ours.u[k], "u_calculix": theirs.u[k], "difference": difference,
+            "n": node, "u": ours.u[k], "u_calculix": theirs.u[k], "difference": difference,
         })
     };
-    displacement.at.iter().enumerate().map(row).collect()
+    displacement.at.iter().map(row).collect()
 }
 
 fn elements(comparison: &Comparison) -> Vec<Value> {
     let Comparison { ours, theirs, von_mises, stress, .. } = comparison;
-    let row = |(k, difference): (usize, &f64)| {
+    let row = |(id, difference): &(TriangleId, f64)| {
+        let k = id.index();
         json!({
-            "n": k + 1, "sigma": plane(&ours.sigma[k]), "sigma_calculix": plane(&theirs.sigma[k]),
+            "n": id, "sigma": plane(&ours.sigma[k]), "sigma_calculix": plane(&theirs.sigma[k]),
             "von_mises_stress": von_mises[0][k], "von_mises_stress_calculix": von_mises[1][k],
             "difference": difference,
         })
     };
-    stress.at.iter().enumerate().map(row).collect()
+    stress.at.iter().map(row).collect()
 }
 
 /// Writes `compare.json`, `nodes.csv`, `elements.csv` and three pictures to `folder`; gives back the first one's content.
@@ -224,7 +238,7 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String, InputError> {
 fn difference_picture(compared: &Compared) -> String {
     let comparison = compared.comparison;
     let of_triangle = |triangle: &Triangle| {
-        let at = triangle.nodes.map(|node| comparison.displacement.at[node.index()]);
+        let at = triangle.nodes.map(|node| comparison.displacement.at[node.index()].1);
         at.into_iter().fold(0.0, f64::max)
     };
     let values: Vec<f64> = compared.model.triangles.iter().map(of_triangle).collect();
@@ -254,9 +268,9 @@ fn picture(
 fn nodes_csv(comparison: &Comparison) -> String {
     let Comparison { ours, theirs, displacement, .. } = comparison;
     let mut text = String::from("node,u_x,u_y,u_x_calculix,u_y_calculix,difference\n");
-    for (k, difference) in displacement.at.iter().enumerate() {
-        let ([x, y], [their_x, their_y]) = (ours.u[k], theirs.u[k]);
-        writeln!(text, "{},{x:e},{y:e},{their_x:e},{their_y:e},{difference:e}", k + 1)
+    for (node, difference) in &displacement.at {
+        let ([x, y], [their_x, their_y]) = (ours.u[node.index()], theirs.u[node.index()]);
+        writeln!(text, "{node},{x:e},{y:e},{their_x:e},{their_y:e},{difference:e}")
             .expect("a String takes any text");
     }
     text
@@ -270,14 +284,15 @@ fn elements_csv(comparison: &Comparison) -> String {
         columns.join(","),
         columns.join("_calculix,")
     );
-    for (k, difference) in stress.at.iter().enumerate() {
+    for (id, difference) in &stress.at {
+        let k = id.index();
         let by = |sigma: &[f64; 6], von_mises: f64| {
             let [x, y, xy] = plane(sigma);
             format!("{x:e},{y:e},{xy:e},{von_mises:e}")
         };
         let here = by(&ours.sigma[k], von_mises[0][k]);
         let there = by(&theirs.sigma[k], von_mises[1][k]);
-        writeln!(text, "{},{here},{there},{difference:e}", k + 1).expect("a String takes any text");
+        writeln!(text, "{id},{here},{there},{difference:e}").expect("a String takes any text");
     }
     text
 }
@@ -287,14 +302,9 @@ fn plane(sigma: &[f64; 6]) -> [f64; 3] {
     [sigma[0], sigma[1], sigma[3]]
 }
 
-/// x and y of a node, by its number.
-fn place(model: &Model, node: usize) -> [f64; 2] {
-    model.at(NodeId::from_number(node))
-}
-
-/// The centre of a triangle, by its number.
-fn centre(model: &Model, triangle: usize) -> [f64; 2] {
-    let corners = model.corners(TriangleId::from_number(triangle));
+/// The centre of a triangle.
+fn centre(model: &Model, triangle: TriangleId) -> [f64; 2] {
+    let corners = model.corners(triangle);
     [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0)
 }
 

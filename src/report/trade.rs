@@ -64,7 +64,7 @@ fn cells(section: &Section, row: &Row) -> [String; COLUMNS.len()] {
     [
         section.knob.to_string(),
         row.variant.to_string(),
-        row.rung.clone(),
+        row.label.clone(),
         row.own.to_string(),
         row.equations.to_string(),
         text(row.in_contact),
@@ -143,7 +143,7 @@ fn cells_for_people(row: &Row) -> Vec<String> {
     let mut cells = vec![
         marks,
         row.variant.to_string(),
-        row.rung.clone(),
+        row.label.clone(),
         row.equations.to_string(),
         shown(row.in_contact, |n| n.to_string()),
         shown(row.seconds, |s| format!("{s:.4}")),
@@ -219,7 +219,7 @@ pub fn reached(reached: &Reached, accuracy: f64) -> String {
             attempt.predicted
         );
     }
-    if !reached.outcome.contact.is_empty() {
+    if !reached.solution.contact.is_empty() {
         text += "  This holds while rounding does not change who is in contact.\n";
     }
     text + &mesh(reached.mesh, accuracy)

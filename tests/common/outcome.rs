@@ -1,13 +1,13 @@
 //! Embedded scenes solved.
 
-use plane_contact::answer::contact::{Outcome, run};
-use plane_contact::paper::mirror::Reading;
+use plane_contact::answer::{self, Request, Solution};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 
 /// Runs an embedded scene under the default reading.
-pub fn solve(scene: &str, variant: Variant) -> (Scene, Outcome) {
+pub fn solve(scene: &str, variant: Variant) -> (Scene, Solution) {
     let scene = Scene::open(scene).expect("embedded scenes are sound");
-    let outcome = run(&scene, variant, &Reading::default(), |_| ()).expect("the variant runs");
-    (scene, outcome)
+    let request = Request::new(&scene).variant(variant);
+    let solution = answer::solve(&request, &mut |_| ()).expect("the variant runs");
+    (scene, solution)
 }
