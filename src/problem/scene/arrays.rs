@@ -1,7 +1,7 @@
 //! The paper's arrays from a mesh that is known to be sound.
 
 use super::check::Numbers;
-use super::file::Material;
+use super::description::Material;
 use super::mesh::{Element, Mesh};
 use crate::paper::mathcad::array::{Column, Table};
 use crate::paper::mirror::Worksheet;

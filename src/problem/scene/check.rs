@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::body::{self, Body};
-use super::file::{Axis, Material, SceneFile};
+use super::description::{Axis, Description, Material};
 use super::mesh::Mesh;
 use super::{groups, surface};
 use crate::error::InputError;
@@ -27,7 +27,7 @@ impl Numbers {
     ///
     /// # Errors
     /// A thickness that is not positive; no iteration.
-    pub fn check(file: &SceneFile) -> Result<Self, InputError> {
+    pub fn check(file: &Description) -> Result<Self, InputError> {
         if !(file.thickness > 0.0 && file.thickness.is_finite()) {
             let what = format!("the thickness {} is not positive", file.thickness);
             return Err(InputError::new("field thickness", what, "the paper's is 1"));
@@ -46,7 +46,7 @@ impl Numbers {
 /// A material out of its range; a triangle with no material or two; a group with no triangle.
 pub fn materials(
     mesh: &Mesh,
-    file: &SceneFile,
+    file: &Description,
 ) -> Result<(Vec<Material>, Vec<String>), InputError> {
     let mut of_element = HashMap::new();
     for (group, material) in &file.materials.0 {
@@ -104,7 +104,7 @@ pub fn poisson(nu: f64, plane: Plane, place: &str) -> Result<(), InputError> {
 ///
 /// # Errors
 /// A restraint that names no place, or two; a node or group that is not there.
-pub fn restraints(mesh: &Mesh, file: &SceneFile) -> Result<Column<usize>, InputError> {
+pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Column<usize>, InputError> {
     let mut fixed = Column::filled(2 * mesh.nodes.len(), 0);
     for (k, restraint) in file.restraints.iter().enumerate() {
         let place = format!("restraints[{k}]");
@@ -136,7 +136,10 @@ pub fn restraints(mesh: &Mesh, file: &SceneFile) -> Result<Column<usize>, InputE
 ///
 /// # Errors
 /// A negative tolerance; surfaces that are not there or share a node.
-pub fn contact(mesh: &Mesh, file: &SceneFile) -> Result<(Vec<usize>, Vec<usize>, f64), InputError> {
+pub fn contact(
+    mesh: &Mesh,
+    file: &Description,
+) -> Result<(Vec<usize>, Vec<usize>, f64), InputError> {
     let Some(contact) = &file.contact else { return Ok((vec![], vec![], 0.0)) };
     if !(contact.c_tll >= 0.0 && contact.c_tll.is_finite()) {
         let what = format!("c_tll = {} is negative", contact.c_tll);

@@ -1,20 +1,22 @@
 //! The scene: what the user gives, checked, and turned into the paper's arrays.
 //!
 //! ```text
-//!  scene.json --file--> SceneFile --+
-//!                                   +--> Scene (checked) --> Worksheet (the paper's arrays)
-//!  strand.msh --gmsh--> Mesh -------+
+//!  scene.json --file--> Description --+
+//!                                     +--> Scene (checked) --> Worksheet (the paper's arrays)
+//!  strand.msh --gmsh--> Mesh ---------+
 //! ```
 
 mod arrays;
 mod body;
 mod check;
+mod description;
 mod embedded;
 mod file;
 pub mod gmsh;
 mod groups;
 mod load;
 mod mesh;
+mod orphans;
 mod refine;
 mod source;
 mod surface;
@@ -26,10 +28,12 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 pub use body::Body;
+pub use description::{Axis, Contact, Description, Load, Material, Materials, Restraint, Units};
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
-pub use file::{SceneFile, Units};
+pub use groups::GroupRef;
 pub use mesh::{Element, Mesh, Node, PhysicalName};
 pub use refine::Refined;
+pub use surface::Surface;
 
 use crate::error::InputError;
 use crate::paper::mirror::{Reading, ToleranceUnit, Worksheet};
@@ -61,7 +65,7 @@ pub struct Scene {
     /// The paper's arrays under the scene's own plane problem and length unit.
     sheet: Worksheet<f64>,
     /// What it was built from; nothing of half a scene.
-    source: Option<Arc<(SceneFile, Mesh)>>,
+    source: Option<Arc<(Description, Mesh)>>,
 }
 
 impl Scene {
@@ -103,17 +107,20 @@ impl Scene {
         text: &[u8],
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self, InputError> {
-        let mut file = SceneFile::parse(text)?;
-        let mesh = source::read_mesh(&file, beside)?;
+        let (source, mut description) = file::parse(text)?;
+        let mesh = source.read(beside)?;
         mesh.check()?;
         let dropped = mesh.orphans();
-        let mesh = source::drop_orphans(mesh, &dropped, &mut file)?;
-        Scene::assemble(name, file, &mesh, dropped)
+        if dropped.is_empty() {
+            return Scene::assemble(name, description, &mesh, dropped);
+        }
+        let mesh = orphans::drop(&mesh, &dropped, &mut description)?;
+        Scene::assemble(name, description, &mesh, dropped)
     }
 
     fn assemble(
         name: &str,
-        file: SceneFile,
+        file: Description,
         mesh: &Mesh,
         dropped: Vec<usize>,
     ) -> Result<Self, InputError> {
