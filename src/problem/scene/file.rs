@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde_json::Value;
 
 use super::description::{
     Contact, Description, Load, Material, Materials, Restraint, Units, default_iterations,
@@ -81,6 +82,32 @@ pub fn parse(text: &[u8]) -> Result<(MeshSource, Description), InputError> {
         drop_orphans: file.drop_orphans,
     };
     Ok((MeshSource::new(file.mesh, file.node, file.elem)?, description))
+}
+
+/// The text of a scene file that says `description` of the mesh in the file `mesh` beside it: a
+/// line for each field and, in a list of several, for each item. What has its default is left out.
+pub fn write(description: &Description, mesh: &str) -> String {
+    let fields = serde_json::to_value(description).expect("a description's keys are strings");
+    let mut fields: Vec<String> = fields
+        .as_object()
+        .expect("a description is an object")
+        .iter()
+        .map(|(key, value)| format!("  \"{key}\": {}", lines(value)))
+        .collect();
+    let after_title = usize::from(!description.title.is_empty());
+    fields.insert(after_title, format!("  \"mesh\": {}", Value::from(mesh)));
+    format!("{{\n{}\n}}\n", fields.join(",\n"))
+}
+
+/// A value on one line; a list of several items with a line for each.
+fn lines(value: &Value) -> String {
+    match value.as_array() {
+        Some(list) if list.len() > 1 => {
+            let items: Vec<String> = list.iter().map(|item| format!("    {item}")).collect();
+            format!("[\n{}\n  ]", items.join(",\n"))
+        }
+        _ => value.to_string(),
+    }
 }
 
 /// Reads one of a closed set by the name that it has on the command line.

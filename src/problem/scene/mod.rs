@@ -2,12 +2,13 @@
 //!
 //! ```text
 //!  scene.json --file--> Description --+
-//!                                     +--> Scene (checked) --> Worksheet (the paper's arrays)
-//!  strand.msh --gmsh--> Mesh ---------+
+//!  strand.msh --gmsh--> Mesh ---------+--> SceneBuilder --> Scene (checked) --> Worksheet
+//!  code --------------> both ---------+                                   (the paper's arrays)
 //! ```
 
 mod arrays;
 mod body;
+mod builder;
 mod check;
 mod description;
 mod embedded;
@@ -28,10 +29,11 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 pub use body::Body;
+pub use builder::SceneBuilder;
 pub use description::{Axis, Contact, Description, Load, Material, Materials, Restraint, Units};
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use groups::GroupRef;
-pub use mesh::{Element, Mesh, Node, PhysicalName};
+pub use mesh::{Element, Mesh, MeshBuilder, Node, PhysicalName};
 pub use refine::Refined;
 pub use surface::Surface;
 
@@ -107,15 +109,7 @@ impl Scene {
         text: &[u8],
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self, InputError> {
-        let (source, mut description) = file::parse(text)?;
-        let mesh = source.read(beside)?;
-        mesh.check()?;
-        let dropped = mesh.orphans();
-        if dropped.is_empty() {
-            return Scene::assemble(name, description, &mesh, dropped);
-        }
-        let mesh = orphans::drop(&mesh, &dropped, &mut description)?;
-        Scene::assemble(name, description, &mesh, dropped)
+        SceneBuilder::read(name, text, beside)?.build()
     }
 
     fn assemble(

@@ -1,4 +1,5 @@
-//! Meshes as files of Gmsh: MSH 2.2 and 4.1, text or binary, of either byte order, are read.
+//! Meshes as files of Gmsh: MSH 2.2 and 4.1, text or binary, of either byte order, are read; MSH
+//! 2.2 is written as text.
 //!
 //! ```text
 //! $MeshFormat        version, text or binary, bytes of a number
@@ -21,6 +22,8 @@ mod msh2;
 mod msh4;
 mod reader;
 mod tokens;
+mod write;
 
 pub use error::{Fault, GmshError, Place};
 pub use reader::read;
+pub use write::write;

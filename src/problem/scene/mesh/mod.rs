@@ -3,10 +3,14 @@
 //! ```text
 //!  strand.msh ---gmsh::read---+
 //!  node, elem ---from_tables--+--> Mesh --check--> what the scene is built on
+//!  code -------MeshBuilder----+
 //! ```
 
+mod builder;
 mod check;
 mod tables;
+
+pub use builder::MeshBuilder;
 
 use crate::problem::element::Corners;
 
