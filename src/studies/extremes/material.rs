@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::answer::{Quantity, compared, solve};
 use super::blocks::Blocks;
@@ -15,7 +15,6 @@ use crate::answer::error::Error;
 use crate::numbers::solve::{ScalarName, Solver};
 use crate::paper::mirror::Reading;
 use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
 use crate::studies::benchmark::Annulus;
 
 const DOUBLE: ScalarName = ScalarName::F64;
@@ -96,16 +95,13 @@ fn lame(nu: f64, radial: usize) -> Verdict {
 
 /// Where the quarter's diagonal meets the bore.
 fn bore(nu: f64, radial: usize) -> Result<f64, Error> {
-    let benchmark = Annulus { radial, around: 2 * radial }.generate()?;
-    let mut json: Value = serde_json::from_str(&benchmark.scene).expect("a scene is JSON");
-    json["materials"]["wall"]["nu"] = json!(nu);
-    let text = json.to_string();
-    let scene =
-        Scene::build("annulus", text.as_bytes(), |_| Ok(benchmark.msh.clone().into_bytes()))?;
+    let mut annulus = Annulus { radial, around: 2 * radial }.generate()?;
+    annulus.description.materials.0[0].1.nu = nu;
+    let scene = annulus.build()?;
     let outcome = run(&scene, Variant::Unilateral, &Reading::default(), |_| ())?;
     let far =
         |xyz: &[f64; 3]| (0..2).map(|d| (xyz[d] - 10.0 * FRAC_1_SQRT_2).abs()).fold(0.0, f64::max);
-    let nodes = &benchmark.mesh.nodes;
+    let nodes = &annulus.mesh.nodes;
     let nearest = nodes.iter().min_by(|a, b| far(&a.xyz).total_cmp(&far(&b.xyz)));
     let first = 2 * nearest.expect("a mesh has nodes").number - 2;
     Ok(outcome.u[first].hypot(outcome.u[first + 1]))

@@ -143,3 +143,51 @@ fn add_groups<const N: usize>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::MeshBuilder;
+
+    /// The triangles between two rows of `inner` and `outer` segments.
+    fn triangles(inner: usize, outer: usize) -> Vec<Vec<usize>> {
+        let mut mesh = MeshBuilder::default();
+        let place = |k: usize, n: usize| if n == 0 { 0.5 } else { k as f64 / n as f64 };
+        let a = mesh.row((0..=inner).map(|k| [place(k, inner), 0.0]));
+        let b = mesh.row((0..=outer).map(|k| [place(k, outer), 1.0]));
+        mesh.join("body", &a, &b);
+        mesh.finish().elements.into_iter().map(|e| e.nodes).collect()
+    }
+
+    #[test]
+    fn equal_rows_are_cut_along_one_diagonal() {
+        assert_eq!(triangles(1, 1), [[1, 4, 3], [1, 2, 4]]);
+    }
+
+    #[test]
+    fn a_row_of_half_the_segments_takes_three_triangles_a_segment() {
+        assert_eq!(triangles(2, 1), [[1, 2, 4], [2, 5, 4], [2, 3, 5]]);
+    }
+
+    #[test]
+    fn a_row_of_one_node_is_the_tip_of_a_fan() {
+        assert_eq!(triangles(2, 0), [[1, 2, 4], [2, 3, 4]]);
+    }
+
+    #[test]
+    fn edges_come_first_and_names_take_the_tags_that_are_free() {
+        let mut mesh = MeshBuilder::default();
+        mesh.row([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+        mesh.triangles(2, [[1, 2, 3]]);
+        mesh.edges("bottom", &[1, 2]);
+        mesh.edges("left", &[3, 1]);
+        mesh.edges("bottom", &[2, 3]);
+        let mesh = mesh.finish();
+        let of = |e: &crate::problem::scene::Element| (e.number, e.physical[0], e.nodes.clone());
+        let elements: Vec<_> = mesh.elements.iter().map(of).collect();
+        let expected =
+            [(1, 1, vec![1, 2]), (2, 1, vec![2, 3]), (3, 3, vec![3, 1]), (4, 2, vec![1, 2, 3])];
+        assert_eq!(elements, expected);
+        let names: Vec<_> = mesh.names.iter().map(|n| (n.dim, n.tag, n.name.as_str())).collect();
+        assert_eq!(names, [(1, 1, "bottom"), (1, 3, "left")]);
+    }
+}
