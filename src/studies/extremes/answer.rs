@@ -1,7 +1,6 @@
 //! The answer of a run with all its digits, and how far it is from another.
 
 use dashu_ratio::RBig;
-use serde_json::Value;
 
 use super::verdict::Verdict;
 use crate::answer::contact::{Outcome, run_in};
@@ -9,7 +8,7 @@ use crate::answer::error::Error;
 use crate::numbers::solve::{Arithmetic, ScalarName, Solver};
 use crate::paper::mirror::Reading;
 use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
+use crate::problem::scene::{Scene, SceneBuilder};
 
 /// What is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,25 +31,17 @@ pub struct Answer {
     bodies: Vec<Vec<usize>>,
 }
 
-/// The scene of a file's text; it has no file beside it.
-///
-/// # Errors
-/// Anything wrong with the scene.
-pub fn build(json: &Value) -> Result<Scene, Error> {
-    Ok(Scene::build("extreme", json.to_string().as_bytes(), |_| Err("no file".into()))?)
-}
-
-/// Runs `variant` on `json` in `scalar`, by its own solver unless another is given.
+/// Runs `variant` on `scene` in `scalar`, by its own solver unless another is given.
 ///
 /// # Errors
 /// Those of the scene and of the run.
 pub fn solve(
-    json: &Value,
+    scene: &SceneBuilder,
     variant: Variant,
     scalar: ScalarName,
     solver: Option<Solver>,
 ) -> Result<Answer, Error> {
-    let scene = build(json)?;
+    let scene = scene.build()?;
     let arithmetic = Arithmetic { scalar, solver, ..Arithmetic::default() };
     let outcome = run_in(&scene, variant, &Reading::default(), arithmetic, |_| ())?;
     Ok(Answer::new(&scene, &outcome))
@@ -84,7 +75,8 @@ impl Answer {
         self
     }
 
-    /// This answer against the `exact` one: another contact state is wrong, whatever the displacements.
+    /// This answer against the `exact` one: another contact state is wrong, whatever the
+    /// displacements.
     pub fn against(&self, exact: &Answer, quantity: Quantity) -> Verdict {
         if self.dy != exact.dy {
             return Verdict::of_status(false);
@@ -107,7 +99,8 @@ impl Answer {
         }
     }
 
-    /// Largest error over the largest displacement of a body; infinite where the exact one is 0 and this is not.
+    /// Largest error over the largest displacement of a body; infinite where the exact one is 0 and
+    /// this is not.
     fn error(&self, exact: &Answer, equations: &[usize]) -> f64 {
         let abs = |x: RBig| if x < RBig::ZERO { -x } else { x };
         let largest = |x: &dyn Fn(usize) -> RBig| {
@@ -123,26 +116,31 @@ impl Answer {
     }
 }
 
-/// Runs `variant` on `json` in `scalar` and compares it with the exact run.
+/// Runs `variant` on `scene` in `scalar` and compares it with the exact run.
 pub fn against_exact(
-    json: &Value,
+    scene: &SceneBuilder,
     variant: Variant,
     scalar: ScalarName,
     solver: Option<Solver>,
     quantity: Quantity,
 ) -> Verdict {
-    match solve(json, variant, scalar, solver) {
+    match solve(scene, variant, scalar, solver) {
         Err(error) => error.into(),
-        Ok(answer) => compared(&answer, json, variant, quantity),
+        Ok(answer) => compared(&answer, scene, variant, quantity),
     }
 }
 
-/// `answer` against the exact run of `variant` on `json`; `unilateral` has no exact run and is compared with `tied`, which is its
-/// answer where nothing opens.
-pub fn compared(answer: &Answer, json: &Value, variant: Variant, quantity: Quantity) -> Verdict {
+/// Compares `answer` with the exact run of `variant` on `scene`; `unilateral` has no exact run and
+/// is compared with `tied`, which is its answer where nothing opens.
+pub fn compared(
+    answer: &Answer,
+    scene: &SceneBuilder,
+    variant: Variant,
+    quantity: Quantity,
+) -> Verdict {
     let unilateral = variant == Variant::Unilateral;
     let exact = if unilateral { Variant::Tied } else { variant };
-    match solve(json, exact, ScalarName::Exact, None) {
+    match solve(scene, exact, ScalarName::Exact, None) {
         Ok(exact) if unilateral && answer.dy != exact.dy => Verdict::Unknown,
         Ok(exact) => answer.against(&exact, quantity),
         Err(_) => Verdict::Wrong("exact refuses"),
