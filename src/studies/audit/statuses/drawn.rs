@@ -1,19 +1,19 @@
-//! Random scenes whose statuses are known: a round stamp that jumped into a target by a given depth.
+//! Random scenes whose statuses are known: a round stamp that jumped into a target by a given
+//! depth.
 //!
 //! ```text
-//!      *----*----*----*          y = g(x) is the target surface: flat, sloping, broken or hollow. A contact node at x, y is
-//!       \  / \  / \  /           in contact where y − g(x) ≤ c_tll / 2 and apart where it is beside the target or
-//!     ---*-.-\/----*----*---     y − g(x) ≥ 3 c_tll: on the slopes drawn that is farther than c_tll from every edge.
-//!     target  *                  None is drawn between.
+//!      *----*----*----*          y = g(x) is the target surface: flat, sloping, broken or hollow.
+//!       \  / \  / \  /           A contact node at x, y is in contact where y − g(x) ≤ c_tll / 2,
+//!     ---*-.-\/----*----*---     and apart where it is beside the target or y − g(x) ≥ 3 c_tll: on
+//!     target  *                  the slopes drawn that is farther than c_tll from every edge. None
+//!                                is drawn between.
 //! ```
-
-#![allow(non_snake_case, reason = "the paper's own names")]
 
 use fastrand::Rng;
 
-use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mirror::Worksheet;
+use crate::paper::mirror::{Reading, Worksheet};
 use crate::problem::element::Plane;
+use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 /// The text's c_tol.
 pub const C_TLL: f64 = 0.001;
@@ -35,6 +35,13 @@ pub struct Kind {
     pub above: bool,
 }
 
+impl Kind {
+    /// Mean length of a target edge along x.
+    fn edge(&self) -> f64 {
+        WIDTH / self.edges as f64
+    }
+}
+
 /// A scene and the statuses of its contact nodes.
 pub struct Drawn {
     /// The arrays that `c_cnt` reads; `node` is the shape after the jump.
@@ -45,11 +52,13 @@ pub struct Drawn {
 
 /// Draws a scene.
 pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
-    let surface = surface(rng, kind.edges);
+    let surface = surface(rng, kind);
     let (stamp, touching) = stamp(rng, &surface, kind);
     let turned = rng.bool();
-    let sheet = worksheet(&surface, &stamp, WIDTH / kind.edges as f64, turned);
-    Drawn { sheet: if kind.above { upside_down(sheet) } else { sheet }, touching }
+    let scene =
+        scene(&surface, &stamp, kind, turned).build().expect("a scene that is drawn is sound");
+    let sheet = scene.worksheet(&Reading::default()).expect("0 is a Poisson's ratio");
+    Drawn { sheet, touching }
 }
 
 /// A number between `low` and `high`.
@@ -58,13 +67,13 @@ fn between(rng: &mut Rng, low: f64, high: f64) -> f64 {
 }
 
 /// The nodes of the target surface from left to right.
-fn surface(rng: &mut Rng, edges: usize) -> Vec<[f64; 2]> {
+fn surface(rng: &mut Rng, kind: Kind) -> Vec<[f64; 2]> {
     let shape = rng.usize(0..4);
     let (slope, radius) = (between(rng, -0.5, 0.5), between(rng, 4.0, 8.0));
-    let step = WIDTH / edges as f64;
+    let step = kind.edge();
     let mut nodes: Vec<[f64; 2]> = Vec::new();
-    for j in 0..=edges {
-        let at_end = j == 0 || j == edges;
+    for j in 0..=kind.edges {
+        let at_end = j == 0 || j == kind.edges;
         let jitter = if at_end { 0.0 } else { between(rng, -0.2, 0.2) * step };
         let x = j as f64 * step + jitter;
         let y = match (shape, nodes.last()) {
@@ -86,10 +95,11 @@ fn height(surface: &[[f64; 2]], x: f64) -> Option<f64> {
     Some(edge[0][1] + t * (edge[1][1] - edge[0][1]))
 }
 
-/// The contact nodes from left to right, and whether each is in contact. One stamp in four hangs over the target's end.
+/// The contact nodes from left to right, and whether each is in contact. One stamp in four hangs
+/// over the target's end.
 fn stamp(rng: &mut Rng, surface: &[[f64; 2]], kind: Kind) -> (Vec<[f64; 2]>, Vec<bool>) {
     let radius = between(rng, 1.5, 4.0);
-    let (width, step) = (between(rng, 1.0, 2.5), WIDTH / kind.edges as f64);
+    let (width, step) = (between(rng, 1.0, 2.5), kind.edge());
     let middle = if rng.usize(0..4) == 0 {
         between(rng, 0.0, 0.3)
     } else {
@@ -118,63 +128,37 @@ fn stamp(rng: &mut Rng, surface: &[[f64; 2]], kind: Kind) -> (Vec<[f64; 2]>, Vec
     (nodes, touching)
 }
 
-/// Both bodies as strips of triangles under the surface and over the contact nodes.
-fn worksheet(surface: &[[f64; 2]], stamp: &[[f64; 2]], size: f64, turned: bool) -> Worksheet<f64> {
-    let (m, n) = (surface.len(), stamp.len());
-    let bottom = surface.iter().map(|p| [p[0], BOTTOM]);
-    let top = stamp.iter().map(|p| [p[0], p[1] + size]);
-    let points: Vec<[f64; 2]> =
-        surface.iter().copied().chain(bottom).chain(stamp.iter().copied()).chain(top).collect();
-    let edges = (1..m).map(|j| if turned { vec![j + 1, j] } else { vec![j, j + 1] });
-    let triangles: Vec<Vec<usize>> =
-        strip(m + 1, 1, m).chain(strip(2 * m + 1, 2 * m + n + 1, n)).collect();
-    let rows: Vec<Vec<usize>> = edges.chain(triangles.iter().cloned()).collect();
-    let row = |k: usize, j: usize| match j {
-        1 => k,
-        2 => rows[k - 1].len() - 1,
-        3 => 2,
-        4 | 5 => 1,
-        _ => rows[k - 1].get(j - 6).copied().unwrap_or(0),
+/// Both bodies as strips of triangles under the surface and over the contact nodes, restrained
+/// whole: nothing is solved. Where the target lies above, they are mirrored in y. Target edges run
+/// from right to left where they are `turned`.
+fn scene(surface: &[[f64; 2]], stamp: &[[f64; 2]], kind: Kind, turned: bool) -> SceneBuilder {
+    let size = kind.edge();
+    let mut mesh = MeshBuilder::default();
+    let mut row = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        mesh.row(points.map(|[x, y]| [x, if kind.above { 0.0 - y } else { y }]))
     };
-    let (R, M) = (points.len(), triangles.len());
-    Worksheet {
-        node: Table::from_fn(R, 4, |i, j| match j {
-            1 => i as f64,
-            4 => 0.0,
-            _ => points[i - 1][j - 2],
-        }),
-        elem: Table::from_fn(rows.len(), 8, row),
-        EL: Table::from_fn(M, 8, |k, j| row(m - 1 + k, j)),
-        trg: Column::from_vec((1..m).collect()),
-        cnt: Column::from_vec((2 * m + 1..=2 * m + n).collect()),
-        c_tll: C_TLL,
-        ind_1: 6,
-        // What `Km` reads is not read here.
-        S: Column::filled(2 * R, 0),
-        Ae: Column::filled(M, 0.0),
-        B: Column::filled(M, nalgebra::SMatrix::zeros()),
-        E: Column::filled(M, 0.0),
-        nu: Column::filled(M, 0.0),
-        plane: Plane::Strain,
+    let target = row(&mut surface.iter().copied());
+    let bottom = row(&mut surface.iter().map(|p| [p[0], BOTTOM]));
+    let contact = row(&mut stamp.iter().copied());
+    let top = row(&mut stamp.iter().map(|p| [p[0], p[1] + size]));
+    for edge in target.windows(2) {
+        let [a, b] = [edge[0], edge[1]];
+        mesh.edges("surface", &if turned { [b, a] } else { [a, b] });
     }
+    mesh.triangles("target", strip(&bottom, &target, kind.above));
+    mesh.triangles("stamp", strip(&contact, &top, kind.above));
+    SceneBuilder::new("statuses", mesh.finish(), Plane::Strain)
+        .material("target", 1.0, 0.0)
+        .material("stamp", 1.0, 0.0)
+        .restrain("target", &[Axis::X, Axis::Y])
+        .restrain("stamp", &[Axis::X, Axis::Y])
+        .contact(Contact::new(contact, "surface", C_TLL))
 }
 
-/// Counter-clockwise triangles between a lower and an upper row of `n` nodes that start at `lower` and `upper`.
-fn strip(lower: usize, upper: usize, n: usize) -> impl Iterator<Item = Vec<usize>> {
-    (1..n).flat_map(move |j| {
-        let (a, b) = (lower + j - 1, upper + j - 1);
-        [vec![a, a + 1, b], vec![a + 1, b + 1, b]]
-    })
-}
-
-/// The scene mirrored in y.
-fn upside_down(mut sheet: Worksheet<f64>) -> Worksheet<f64> {
-    for n in 1..=sheet.R() {
-        sheet.node[(n, 3)] = 0.0 - sheet.node[(n, 3)];
-    }
-    for m in 1..=sheet.M() {
-        let (second, third) = (sheet.EL[(m, 7)], sheet.EL[(m, 8)]);
-        (sheet.EL[(m, 7)], sheet.EL[(m, 8)]) = (third, second);
-    }
-    sheet
+/// Triangles between a lower and an upper row of as many nodes: counter-clockwise, also where the
+/// rows are mirrored in y.
+fn strip(lower: &[usize], upper: &[usize], mirrored: bool) -> Vec<[usize; 3]> {
+    let pairs = lower.windows(2).zip(upper.windows(2));
+    let triangles = pairs.flat_map(|(a, b)| [[a[0], a[1], b[0]], [a[1], b[1], b[0]]]);
+    triangles.map(|[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect()
 }
