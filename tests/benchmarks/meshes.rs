@@ -6,9 +6,9 @@ use std::process::{Command, Output};
 
 use crate::common::tolerances::{CHORDS, STRAIGHT, Tolerance, assert_near};
 use plane_contact::problem::element;
-use plane_contact::problem::scene::{Mesh, gmsh};
+use plane_contact::problem::scene::{Mesh, SceneBuilder};
 use plane_contact::studies::benchmark::{
-    Annulus, Benchmark, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch,
+    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch,
 };
 use tempfile::TempDir;
 
@@ -133,7 +133,7 @@ fn every_kind_has_its_bodies_and_its_complete_groups() {
 fn every_kind_is_a_sound_scene() {
     for case in cases() {
         let benchmark = case.kind.generate().expect("the defaults are in range");
-        let scene = benchmark.scene().unwrap_or_else(|why| panic!("{}: {why}", benchmark.name));
+        let scene = benchmark.build().unwrap_or_else(|why| panic!("{}: {why}", benchmark.name));
         assert_eq!(scene.bodies.len(), case.areas.len());
         assert!(scene.dropped.is_empty());
         assert!(scene.total_load().iter().any(|f| *f != 0.0));
@@ -141,12 +141,17 @@ fn every_kind_is_a_sound_scene() {
 }
 
 #[test]
-fn the_mesh_file_reads_back_to_the_same_mesh() {
+fn the_files_read_back_to_the_same_mesh_and_description() {
     for case in cases() {
         let benchmark = case.kind.generate().expect("the defaults are in range");
-        let read = gmsh::read(benchmark.msh.as_bytes()).expect("the file is sound");
-        assert_eq!(read, benchmark.mesh, "{}", benchmark.name);
-        assert_eq!(case.kind.generate().unwrap(), benchmark, "the same bytes every time");
+        let folder = TempDir::new().unwrap();
+        benchmark.write(folder.path()).expect("the folder can be written to");
+        let beside =
+            |file: &str| std::fs::read(folder.path().join(file)).map_err(|e| e.to_string());
+        let text = beside("scene.json").unwrap();
+        let read = SceneBuilder::read(&benchmark.name, &text, beside).expect("the files are sound");
+        assert_eq!(read, benchmark);
+        assert_eq!(case.kind.generate().unwrap(), benchmark, "the same every time");
     }
 }
 
@@ -167,7 +172,7 @@ fn extreme_parameters_make_sound_scenes() {
         Kind::Ellipse(Ellipse { n: 2 }),
     ];
     for kind in kinds {
-        let made = kind.generate().and_then(|benchmark| benchmark.scene());
+        let made = kind.generate().and_then(|benchmark| benchmark.build());
         assert!(made.is_ok(), "{kind:?}: {}", made.unwrap_err());
     }
 }
@@ -215,7 +220,7 @@ fn least_angle(mesh: &Mesh) -> f64 {
 #[test]
 fn hertz_has_well_shaped_triangles_at_both_sizes() {
     for (size, equations) in [(20, 3500..4500), (59, 28000..32000)] {
-        let Benchmark { mesh, .. } = Hertz { size, ..Hertz::default() }.generate().unwrap();
+        let SceneBuilder { mesh, .. } = Hertz { size, ..Hertz::default() }.generate().unwrap();
         assert!(equations.contains(&(2 * mesh.nodes.len())), "{}", 2 * mesh.nodes.len());
         assert!(least_angle(&mesh) > 14.0, "{}", least_angle(&mesh));
     }

@@ -8,21 +8,20 @@ use plane_contact::error::InputError;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::element;
 use plane_contact::problem::modelling::{ContactModel, Variant};
-use plane_contact::problem::scene::{Element, Mesh};
-use plane_contact::studies::benchmark::Benchmark;
+use plane_contact::problem::scene::{Element, Mesh, SceneBuilder};
 
 /// Generates a benchmark and runs the variant `unilateral`.
-pub fn solved(benchmark: Result<Benchmark, InputError>) -> (Mesh, Outcome) {
+pub fn solved(benchmark: Result<SceneBuilder, InputError>) -> (Mesh, Outcome) {
     solved_by(benchmark, |_| ())
 }
 
 /// The same with contact modelled otherwise.
 pub fn solved_by(
-    benchmark: Result<Benchmark, InputError>,
+    benchmark: Result<SceneBuilder, InputError>,
     change: impl Fn(&mut ContactModel),
 ) -> (Mesh, Outcome) {
     let benchmark = benchmark.expect("the parameters are in range");
-    let mut scene = benchmark.scene().expect("generated scenes are sound");
+    let mut scene = benchmark.build().expect("generated scenes are sound");
     change(&mut scene.contact);
     let outcome = run(&scene, Variant::Unilateral, &Reading::default(), |_| ());
     (benchmark.mesh, outcome.expect("the benchmark has a solution"))

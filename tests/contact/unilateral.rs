@@ -100,11 +100,11 @@ fn every_model_ends_in_equilibrium_on_the_benchmarks() {
         hertz(40),
     ];
     for benchmark in benchmarks {
-        let scene = benchmark.scene().unwrap();
+        let scene = benchmark.build().unwrap();
         for model in models().into_iter().filter(|model| model.friction == Friction::None) {
             // Force that a punch's own pressure puts beside the contact does not pass through it.
             if benchmark.name != "punch-patch" && benchmark.name != "punch" {
-                assert_equilibrium(benchmark.name, &scene, model);
+                assert_equilibrium(&benchmark.name, &scene, model);
             } else {
                 assert!(solve(&scene, model).iterations.len() <= ITERATIONS);
             }
@@ -116,7 +116,7 @@ fn every_model_ends_in_equilibrium_on_the_benchmarks() {
 #[test]
 fn current_and_initial_shape_agree_as_displacements_vanish() {
     let scene =
-        Hertz { size: 20, load: 35.0, ..Hertz::default() }.generate().unwrap().scene().unwrap();
+        Hertz { size: 20, load: 35.0, ..Hertz::default() }.generate().unwrap().build().unwrap();
     let of = |geometry| solve(&scene, ContactModel { geometry, ..scene.contact });
     let (current, initial) = (of(Geometry::Current), of(Geometry::Initial));
     let peak = |outcome: &Outcome| outcome.contact[0].pressure;

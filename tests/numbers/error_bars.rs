@@ -90,7 +90,7 @@ fn exact_state(scene: &Scene, outcome: &Outcome) -> DVector<f64> {
 
 #[test]
 fn the_bar_of_unilateral_holds() {
-    let generated = Blocks { upper: 2, lower: 3 }.generate().unwrap().scene().unwrap();
+    let generated = Blocks { upper: 2, lower: 3 }.generate().unwrap().build().unwrap();
     let scenes = shipped_scenes().into_iter().filter(|scene| scene.load.len() <= EQUATIONS);
     let mut held = 0;
     for mut scene in scenes.chain([generated]).filter(|s| s.target().is_some()) {

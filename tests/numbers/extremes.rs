@@ -109,10 +109,10 @@ fn underflow_is_met() {
 #[test]
 fn c3_projection_does_not_feel_the_angle() {
     for (angle, verdict) in column("steep-edge", "projected weight f64") {
-        assert!(!verdict.gives(14.0), "{angle:e}: {verdict}");
+        assert!(!verdict.breaks_down(14.0), "{angle:e}: {verdict}");
     }
     let lost = column("steep-edge", "weight f64").find(|(angle, _)| *angle == 1e-12);
-    assert!(lost.is_some_and(|(_, verdict)| verdict.gives(7.0)), "{lost:?}");
+    assert!(lost.is_some_and(|(_, verdict)| verdict.breaks_down(7.0)), "{lost:?}");
 }
 
 /// Lengths and loads in units of their own size are never refused.
@@ -122,7 +122,7 @@ fn scaling_reaches_every_magnitude() {
         [("lengths", "tied f64, lengths scaled"), ("loads", "tied f64, loads scaled")]
     {
         for (magnitude, verdict) in column(generator, way) {
-            assert!(!verdict.gives(12.0), "{generator} {magnitude:e}: {verdict}");
+            assert!(!verdict.breaks_down(12.0), "{generator} {magnitude:e}: {verdict}");
         }
     }
 }

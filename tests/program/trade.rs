@@ -137,7 +137,7 @@ fn errors_fall_with_precision() {
 /// The triangle's order in the energy norm is 1 where the solution is smooth.
 #[test]
 fn lame_converges_with_order_1_in_the_energy_norm() {
-    let scene = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.scene()).unwrap();
+    let scene = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.build()).unwrap();
     let trade = measured(&scene, &[Knob::Mesh]);
     let section = &trade.sections[0];
     let errors: Vec<f64> = section.rows.iter().map(|row| row.error.unwrap().energy).collect();

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::file::{Axis, Material, SceneFile};
+use super::description::{Axis, Description};
 use super::mesh::Mesh;
 use super::{groups, surface};
 use crate::error::InputError;
@@ -15,7 +15,7 @@ const MOST_ITERATIONS: usize = 1_000_000;
 ///
 /// # Errors
 /// A thickness that is not positive; no iteration, or too many.
-pub fn numbers(file: &SceneFile) -> Result<(), InputError> {
+pub fn numbers(file: &Description) -> Result<(), InputError> {
     if !(file.thickness > 0.0 && file.thickness.is_finite()) {
         let what = format!("the thickness {} is not positive", file.thickness);
         return Err(InputError::new("field thickness", what, "the paper's is 1"));
@@ -33,7 +33,7 @@ pub fn numbers(file: &SceneFile) -> Result<(), InputError> {
 /// A material out of its range; a triangle with no material or two; a group with no triangle.
 pub fn materials(
     mesh: &Mesh,
-    file: &SceneFile,
+    file: &Description,
 ) -> Result<(Vec<model::Material>, Vec<String>), InputError> {
     let mut of_element = HashMap::new();
     for (group, material) in &file.materials.0 {
@@ -76,7 +76,7 @@ pub fn materials(
 ///
 /// # Errors
 /// A restraint that names no place, or two; a node or group that is not there.
-pub fn restraints(mesh: &Mesh, file: &SceneFile) -> Result<Vec<bool>, InputError> {
+pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>, InputError> {
     let mut restrained = vec![false; 2 * mesh.nodes.len()];
     for (k, restraint) in file.restraints.iter().enumerate() {
         let place = format!("restraints[{k}]");
@@ -109,7 +109,7 @@ pub fn restraints(mesh: &Mesh, file: &SceneFile) -> Result<Vec<bool>, InputError
 ///
 /// # Errors
 /// A negative tolerance; surfaces that are not there or share a node.
-pub fn contact(mesh: &Mesh, file: &SceneFile) -> Result<ContactSurfaces, InputError> {
+pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, InputError> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
     if !(contact.c_tll >= 0.0 && contact.c_tll.is_finite()) {
         let what = format!("c_tll = {} is negative", contact.c_tll);

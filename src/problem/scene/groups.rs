@@ -1,16 +1,66 @@
 //! Physical groups: from a name or a tag to the elements that carry it.
 
-use super::file::GroupRef;
+use std::fmt;
+
+use serde::Serialize;
+
 use super::mesh::{Element, Mesh};
 use crate::error::InputError;
+
+/// A physical group, by its name or its tag.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(untagged)]
+pub enum GroupRef {
+    /// The group of this name.
+    Name(String),
+    /// The group of this tag.
+    Tag(usize),
+}
+
+impl GroupRef {
+    /// The name or tag as plain text.
+    pub fn text(&self) -> String {
+        match self {
+            GroupRef::Name(name) => name.clone(),
+            GroupRef::Tag(tag) => tag.to_string(),
+        }
+    }
+}
+
+impl fmt::Display for GroupRef {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            GroupRef::Name(name) => write!(f, "{name:?}"),
+            GroupRef::Tag(tag) => write!(f, "{tag}"),
+        }
+    }
+}
+
+impl From<&str> for GroupRef {
+    fn from(name: &str) -> Self {
+        GroupRef::Name(name.into())
+    }
+}
+
+impl From<String> for GroupRef {
+    fn from(name: String) -> Self {
+        GroupRef::Name(name)
+    }
+}
+
+impl From<usize> for GroupRef {
+    fn from(tag: usize) -> Self {
+        GroupRef::Tag(tag)
+    }
+}
 
 /// What a group's elements are, by dimension.
 const ELEMENT_NAMES: [&str; 3] = ["points", "edges", "triangles"];
 
-/// The elements of dimension `dim` (1 = edges, 2 = triangles) that carry the group `name_or_tag`, in mesh order.
+/// The elements of dimension `dim` (1: edges, 2: triangles) that carry the group, in mesh order.
 ///
 /// # Errors
-/// No such group in that dimension; a group with no element.
+/// There is no such group in that dimension, or it has no element.
 pub fn members<'m>(
     mesh: &'m Mesh,
     dim: usize,
@@ -36,10 +86,10 @@ pub fn members<'m>(
     Ok(members)
 }
 
-/// The nodes of the group `name_or_tag`, ascending: a group of edges, else of points, else of triangles.
+/// The nodes of a group, ascending: a group of edges, else of points, else of triangles.
 ///
 /// # Errors
-/// No such group; a group with no element.
+/// There is no such group, or it has no element.
 pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>, InputError> {
     let dim = [1, 0, 2].into_iter().find(|&dim| {
         tag(mesh, dim, group)
@@ -52,7 +102,8 @@ pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>, I
     Ok(nodes)
 }
 
-/// The tag of a group: a name first, then a number, also one that is written as text.
+/// The tag of a group that has elements of dimension `dim`. A name that no group has may be a tag
+/// written as text.
 fn tag(mesh: &Mesh, dim: usize, group: &GroupRef) -> Option<usize> {
     let used = |tag: &usize| mesh.of_dimension(dim).any(|e| e.physical.contains(tag));
     match group {
@@ -66,7 +117,7 @@ fn tag(mesh: &Mesh, dim: usize, group: &GroupRef) -> Option<usize> {
     }
 }
 
-/// The groups that do exist, for the mend of an error.
+/// The groups that do exist, as an error proposes them.
 fn known(mesh: &Mesh, dim: usize) -> String {
     let mut tags: Vec<usize> =
         mesh.of_dimension(dim).flat_map(|e| e.physical.iter().copied()).collect();

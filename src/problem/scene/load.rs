@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use nalgebra::DVector;
 
-use super::file::{GroupRef, Load};
-use super::groups;
+use super::description::Load;
+use super::groups::{self, GroupRef};
 use super::mesh::Mesh;
 use crate::error::InputError;
 use crate::problem::model::{NodeId, Sides};

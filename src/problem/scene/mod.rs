@@ -1,18 +1,21 @@
 //! The scene: what the user gives, checked, and turned into a [`Model`].
 //!
 //! ```text
-//!  scene.json --file--> SceneFile --+
-//!                                   +--> Scene (checked): the Model, and what is to be done with it
-//!  strand.msh --gmsh--> Mesh -------+
+//!  scene.json --file--> Description --+
+//!  strand.msh --gmsh--> Mesh ---------+--> SceneBuilder --> Scene (checked): the Model, and what is
+//!  code --------------> both ---------+                     to be done with it
 //! ```
 
+mod builder;
 mod check;
+mod description;
 mod embedded;
 mod file;
 pub mod gmsh;
 mod groups;
 mod load;
 mod mesh;
+mod orphans;
 mod refine;
 mod source;
 mod surface;
@@ -23,10 +26,13 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
+pub use builder::SceneBuilder;
+pub use description::{Axis, Contact, Description, Load, Material, Materials, Restraint, Units};
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
-pub use file::{SceneFile, Units};
-pub use mesh::{Element, Mesh, Node, PhysicalName};
+pub use groups::GroupRef;
+pub use mesh::{Element, Mesh, MeshBuilder, Node, PhysicalName};
 pub use refine::Refined;
+pub use surface::Surface;
 
 use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Variant};
@@ -52,7 +58,7 @@ pub struct Scene {
     /// Numbers, in the mesh file, of the nodes that were dropped because they belong to no triangle.
     pub dropped: Vec<usize>,
     /// What it was built from; nothing of half a scene.
-    source: Option<Arc<(SceneFile, Mesh)>>,
+    source: Option<Arc<(Description, Mesh)>>,
 }
 
 impl Scene {
@@ -94,17 +100,12 @@ impl Scene {
         text: &[u8],
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self, InputError> {
-        let mut file = SceneFile::parse(text)?;
-        let mesh = source::read_mesh(&file, beside)?;
-        mesh.check()?;
-        let dropped = mesh.orphans();
-        let mesh = source::drop_orphans(mesh, &dropped, &mut file)?;
-        Scene::assemble(name, file, &mesh, dropped)
+        SceneBuilder::read(name, text, beside)?.build()
     }
 
     fn assemble(
         name: &str,
-        file: SceneFile,
+        file: Description,
         mesh: &Mesh,
         dropped: Vec<usize>,
     ) -> Result<Self, InputError> {

@@ -11,8 +11,9 @@
 use std::collections::HashMap;
 
 use super::Scene;
-use super::file::{SceneFile, Surface};
+use super::description::Description;
 use super::mesh::{Element, Mesh, Node};
+use super::surface::Surface;
 use crate::error::InputError;
 use crate::problem::model::NodeId;
 
@@ -111,7 +112,7 @@ impl Halves {
     }
 
     /// The scene file with its lists of contact nodes and target edges refined.
-    fn renumbered(&self, file: &SceneFile, children: &HashMap<usize, Vec<usize>>) -> SceneFile {
+    fn renumbered(&self, file: &Description, children: &HashMap<usize, Vec<usize>>) -> Description {
         let mut file = file.clone();
         let Some(contact) = &mut file.contact else { return file };
         if let Surface::Numbers(cnt) = &mut contact.cnt {

@@ -2,30 +2,55 @@
 
 use std::collections::HashMap;
 
-use super::file::Surface;
-use super::groups;
+use serde::Serialize;
+
+use super::groups::{self, GroupRef};
 use super::mesh::{Element, Mesh};
 use crate::error::InputError;
 
-/// The node numbers of the contact surface `cnt`, in order along it. A list is taken as it is; a group's edges are walked as a
-/// chain from its first end.
+/// A contact surface: a group, or the numbers themselves.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Surface {
+    /// A physical group of edges.
+    Group(GroupRef),
+    /// Node or `elem` numbers, in the order given.
+    Numbers(Vec<usize>),
+}
+
+impl From<&str> for Surface {
+    fn from(name: &str) -> Self {
+        Surface::Group(name.into())
+    }
+}
+
+impl From<usize> for Surface {
+    fn from(tag: usize) -> Self {
+        Surface::Group(tag.into())
+    }
+}
+
+impl From<Vec<usize>> for Surface {
+    fn from(numbers: Vec<usize>) -> Self {
+        Surface::Numbers(numbers)
+    }
+}
+
+/// The node numbers of the contact surface `cnt`, in order along it. A list is taken as it is; a
+/// group's edges are walked as a chain from its first end.
 ///
 /// # Errors
-/// A group that is no single chain; a number that is no node.
+/// A group is no single chain, or a number is no node.
 pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputError> {
     let place = "contact.cnt";
     match surface {
         Surface::Group(group) => {
-            let edges = groups::members(mesh, 1, group, place)?;
-            chain(&edges.iter().map(|e| [e.nodes[0], e.nodes[1]]).collect::<Vec<_>>()).map_err(
-                |why| {
-                    InputError::new(
-                        place,
-                        format!("group {group}: {why}"),
-                        "give the node numbers as a list, in order",
-                    )
-                },
-            )
+            let members = groups::members(mesh, 1, group, place)?;
+            let edges: Vec<_> = members.iter().map(|e| [e.nodes[0], e.nodes[1]]).collect();
+            chain(&edges).map_err(|why| {
+                let what = format!("group {group}: {why}");
+                InputError::new(place, what, "give the node numbers as a list, in order")
+            })
         }
         Surface::Numbers(numbers) => {
             not_empty(numbers, place)?;
@@ -38,7 +63,7 @@ pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, Input
 /// The `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
 ///
 /// # Errors
-/// A number that is no edge.
+/// A number is no edge.
 pub fn target_edges(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputError> {
     let place = "contact.trg";
     match surface {
@@ -68,16 +93,14 @@ fn edge<'m>(mesh: &'m Mesh, number: usize, place: &str) -> Result<&'m Element, I
 
 fn not_empty(numbers: &[usize], place: &str) -> Result<(), InputError> {
     if numbers.is_empty() {
-        return Err(InputError::new(
-            place,
-            "the list is empty",
-            "name at least one, or leave out contact",
-        ));
+        let fix = "name at least one, or leave out contact";
+        return Err(InputError::new(place, "the list is empty", fix));
     }
     Ok(())
 }
 
-/// Walks `edges` as one chain: from the first end in mesh order; a closed chain from its first edge's first node.
+/// Walks `edges` as one chain: from the first end in mesh order; a closed chain from its first
+/// edge's first node.
 fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
     let mut at: HashMap<usize, Vec<usize>> = HashMap::new();
     for (k, edge) in edges.iter().enumerate() {
@@ -100,7 +123,8 @@ fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
     match walked.iter().position(|walked| !walked) {
         None => Ok(nodes),
         Some(k) => Err(format!(
-            "the edges make more than one chain: the one from node {start} ends at node {here}, and edge {} - {} is left",
+            "the edges make more than one chain: the one from node {start} ends at node {here}, \
+             and edge {} - {} is left",
             edges[k][0], edges[k][1]
         )),
     }

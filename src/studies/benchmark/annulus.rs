@@ -1,16 +1,16 @@
 //! A thick-walled cylinder under internal pressure: Lamé.
 
-use serde_json::json;
-
-use super::builder::{Builder, Grid};
 use super::line::{part, quarter};
-use super::{Benchmark, check};
+use super::rows::Rows;
+use super::{check, scene};
 use crate::error::InputError;
+use crate::problem::element::Plane;
+use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
 /// Lame: a quarter of a thick-walled cylinder under internal pressure.
 ///
-/// Radii 10 and 20 mm, 10 MPa inside, E = 30000 MPa, nu = 0.2, plane strain. At the bore: u = 0.00613333 mm, hoop stress
-/// 16.6667 MPa.
+/// Radii 10 and 20 mm, 10 MPa inside, E = 30000 MPa, nu = 0.2, plane strain. At the bore: u =
+/// 0.00613333 mm, hoop stress 16.6667 MPa.
 ///
 /// Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 28.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
@@ -40,27 +40,24 @@ impl Annulus {
     /// Generates the scene.
     ///
     /// # Errors
-    /// No division, or too many.
-    pub fn generate(&self) -> Result<Benchmark, InputError> {
+    /// There is no division, or there are too many.
+    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::count("--radial", self.radial, 1)?;
         check::count("--around", self.around, 2)?;
-        let mut builder = Builder::default();
-        let grid = Grid::add(&mut builder, "wall", [self.around, self.radial], |i, j| {
+        let mut mesh = MeshBuilder::default();
+        let wall = Rows::grid(&mut mesh, "wall", [self.around, self.radial], |i, j| {
             quarter(i, self.around).map(|x| x * part(RADII[0], RADII[1], j, self.radial))
         });
-        builder.edges("inner", grid.first());
-        builder.edges("outer", grid.last());
-        builder.edges("x_axis", &grid.starts());
-        builder.edges("y_axis", &grid.ends());
-        let scene = json!({
-            "title": "Thick-walled cylinder under internal pressure (Lamé)",
-            "plane": "strain",
-            "units": { "length": "mm", "stress": "MPa", "force": "N" },
-            "materials": { "wall": { "E": 30000.0, "nu": 0.2 } },
-            "restraints": [{ "on": "x_axis", "fix": ["y"] }, { "on": "y_axis", "fix": ["x"] }],
-            "loads": [{ "on": "inner", "pressure": 10.0 }],
-            "variant": "unilateral"
-        });
-        Ok(Benchmark::new("annulus", builder.finish(), scene))
+        mesh.edges("inner", wall.first());
+        mesh.edges("outer", wall.last());
+        mesh.edges("x_axis", &wall.starts());
+        mesh.edges("y_axis", &wall.ends());
+        Ok(scene("annulus", mesh, Plane::Strain)
+            .title("Thick-walled cylinder under internal pressure (Lamé)")
+            .units("mm", "MPa", "N")
+            .material("wall", 30000.0, 0.2)
+            .restrain("x_axis", &[Axis::Y])
+            .restrain("y_axis", &[Axis::X])
+            .pressure("inner", 10.0))
     }
 }

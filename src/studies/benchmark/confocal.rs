@@ -1,4 +1,5 @@
-//! Half planes meshed along confocal ellipses: fine at a contact face, coarse far away, near squares everywhere.
+//! Half planes meshed along confocal ellipses: fine at a contact face, coarse far away, near
+//! squares everywhere.
 //!
 //! ```text
 //!   z = c cosh(xi + i eta)      |            xi = 0: the face, 0 <= x <= c, nodes closer towards c
@@ -11,8 +12,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::builder::Builder;
 use super::line::quarter;
+use super::rows::Rows;
+use crate::problem::scene::MeshBuilder;
 
 /// An ellipse of the family and its number of segments.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,22 +42,28 @@ pub fn rings(segments: usize, end: f64) -> Vec<Ring> {
     rings.iter().map(|ring| Ring { xi: ring.xi * stretch, ..*ring }).collect()
 }
 
-/// Adds the nodes of a ring of focus `c`, from the surface to the axis, each placed by `map` from the upper half plane.
-pub fn add(
-    builder: &mut Builder,
+/// Adds the nodes of rings of focus `c`, length: a row for each ring, from the surface to the axis.
+/// `map` places them from the upper half plane.
+pub fn rows(
+    mesh: &mut MeshBuilder,
     c: f64,
-    ring: Ring,
+    rings: &[Ring],
     map: impl Fn([f64; 2]) -> [f64; 2],
-) -> Vec<usize> {
-    let (a, b) = (c * ring.xi.cosh(), c * ring.xi.sinh());
-    builder.row((0..=ring.segments).map(|k| {
-        let [cos, sin] = quarter(k, ring.segments);
-        map([a * cos, b * sin])
-    }))
+) -> Rows {
+    let row = |ring: &Ring| {
+        let (a, b, n) = (c * ring.xi.cosh(), c * ring.xi.sinh(), ring.segments);
+        let points = (0..=n).map(|k| {
+            let [cos, sin] = quarter(k, n);
+            map([a * cos, b * sin])
+        });
+        mesh.row(points)
+    };
+    Rows(rings.iter().map(row).collect())
 }
 
-/// The nodes of the surface from the axis outwards: the face, then the first node of each further ring as far as x = `end`.
-pub fn surface(builder: &Builder, rows: &[Vec<usize>], end: f64) -> Vec<usize> {
-    let beyond = rows[1..].iter().map(|row| row[0]).take_while(|&n| builder.xy(n)[0] <= end);
-    rows[0].iter().rev().copied().chain(beyond).collect()
+/// The nodes of the surface from the axis outwards: the face, then the first node of each further
+/// ring as far as x = `end`, length.
+pub fn surface(mesh: &MeshBuilder, rows: &Rows, end: f64) -> Vec<usize> {
+    let beyond = rows.starts().into_iter().skip(1).take_while(|&n| mesh.xy(n)[0] <= end);
+    rows.first().iter().rev().copied().chain(beyond).collect()
 }

@@ -2,26 +2,29 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use serde_json::json;
-
-use super::builder::{Builder, ends};
 use super::confocal::{self, Ring};
 use super::line::{between, part};
-use super::{Benchmark, check};
+use super::rows::Rows;
+use super::{check, frictionless, scene};
 use crate::error::InputError;
+use crate::problem::element::Plane;
+use crate::problem::modelling::Geometry;
+use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 /// Hertz, NAFEMS CGS-1: a cylinder pressed on a block, frictionless.
 ///
-/// Half model of a cylinder of radius 50 mm (E = 210000 MPa) on a block of 200 x 200 mm (E = 70000 MPa), nu = 0.3, plane strain,
-/// 35000 N/mm, of which the model carries half: half width 6.2146 mm, peak pressure 3585.4 MPa. The load is a point load on
-/// the top of the whole cylinder, as in the benchmark: a pressure on the diameter of a lower half would bend that half and with
-/// it the contact arc, where the point load is a diameter away.
+/// Half model of a cylinder of radius 50 mm (E = 210000 MPa) on a block of 200 x 200 mm (E = 70000
+/// MPa), nu = 0.3, plane strain, 35000 N/mm, of which the model carries half: half width 6.2146 mm,
+/// peak pressure 3585.4 MPa. The load is a point load on the top of the whole cylinder, as in the
+/// benchmark: a pressure on the diameter of a lower half would bend that half and with it the
+/// contact arc, where the point load is a diameter away.
 ///
-/// Contact is measured in the initial shape, as Hertz's theory of small displacements does: in the current one the peak is 1.8 % higher at any mesh,
-/// for the surfaces shorten by 1 to 3 % under the pressure.
+/// Contact is measured in the initial shape, as Hertz's theory of small displacements does: in the
+/// current one the peak is 1.8 % higher at any mesh, for the surfaces shorten by 1 to 3 % under the
+/// pressure.
 ///
-/// Source: NAFEMS, Benchmark Tests for Various Finite Element Contact Problems, CGS-1; closed form: K. L. Johnson, Contact
-/// Mechanics, 1985, section 4.2.
+/// Source: NAFEMS, Benchmark Tests for Various Finite Element Contact Problems, CGS-1; closed form:
+/// K. L. Johnson, Contact Mechanics, 1985, section 4.2.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -49,7 +52,8 @@ impl Default for Hertz {
 const E: [f64; 2] = [210000.0, 70000.0];
 const NU: f64 = 0.3;
 
-/// Half width of the face of fine cells over that of the contact; the surfaces that may touch reach to `REACH` of it.
+/// Half width of the face of fine cells over that of the contact; the surfaces that may touch reach
+/// to `REACH` of it.
 const FACE: f64 = 1.25;
 const REACH: f64 = 2.0;
 
@@ -68,16 +72,26 @@ impl Hertz {
     /// Generates the scene.
     ///
     /// # Errors
-    /// Fewer than four elements, or too many; a radius or load that is not positive; a half width beyond a quarter of the radius.
-    pub fn generate(&self) -> Result<Benchmark, InputError> {
+    /// There are fewer than four elements, or too many; the radius or the load is not positive; the
+    /// half width is beyond a quarter of the radius.
+    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::count("--size", self.size, 4)?;
         check::positive("--radius", self.radius)?;
         check::positive("--load", self.load)?;
         self.check_half_width()?;
-        let mut builder = Builder::default();
-        self.add_block(&mut builder);
-        let top = self.add_cylinder(&mut builder);
-        Ok(Benchmark::new("hertz", builder.finish(), self.scene(top)))
+        let mut mesh = MeshBuilder::default();
+        self.add_block(&mut mesh);
+        let top = self.add_cylinder(&mut mesh);
+        Ok(scene("hertz", mesh, Plane::Strain)
+            .title("Cylinder on a block (Hertz, NAFEMS CGS-1)")
+            .units("mm", "MPa", "N")
+            .material("block", E[1], NU)
+            .material("cylinder", E[0], NU)
+            .restrain("bottom", &[Axis::Y])
+            .restrain("block_axis", &[Axis::X])
+            .restrain("cylinder_axis", &[Axis::X])
+            .force(top, [0.0, -self.load / 2.0])
+            .contact(Contact { geometry: Geometry::Initial, ..frictionless() }))
     }
 
     fn check_half_width(&self) -> Result<(), InputError> {
@@ -99,74 +113,57 @@ impl Hertz {
         (self.size as f64 * FACE * FRAC_PI_2).round() as usize
     }
 
-    /// The block, 2 x 4 radii: ellipses as far as 0.8 radii, then rows that turn into its sides.
-    fn add_block(&self, builder: &mut Builder) {
+    /// Adds the block, 2 x 4 radii: ellipses as far as 0.8 radii, then rows that turn into its
+    /// sides.
+    fn add_block(&self, mesh: &mut MeshBuilder) {
         let (r, c) = (self.radius, self.face());
         let rings = confocal::rings(self.segments(), (0.8 * r / c).acosh());
-        let below = |[x, y]: [f64; 2]| [x, -y];
-        let mut rows: Vec<_> =
-            rings.iter().map(|ring| confocal::add(builder, c, *ring, below)).collect();
-        let ellipse = rows[rows.len() - 1].clone();
+        let mut rows = confocal::rows(mesh, c, &rings, |[x, y]| [x, -y]);
+        let ellipse = rows.last().to_vec();
         let n = ellipse.len() - 1;
         let sides = sides(2.0 * r, n);
         let steps = n.div_ceil(2);
         for k in 1..=steps {
             let s = part(0.0, 1.0, k, steps);
-            let point = |i: usize| between(builder.xy(ellipse[i]), sides[i], s * (1.0 + s) / 2.0);
+            let point = |i: usize| between(mesh.xy(ellipse[i]), sides[i], s * (1.0 + s) / 2.0);
             let points: Vec<_> = (0..=n).map(point).collect();
-            rows.push(builder.row(points));
+            rows.0.push(mesh.row(points));
         }
         let corner = sides.iter().position(|p| p[1] == -4.0 * r).expect("the corner is a node");
-        join_to_corner(builder, &rows, rings.len(), corner);
-        builder.edges("bottom", &rows[rows.len() - 1][corner..]);
-        builder.edges("block_axis", &ends(&rows));
-        builder.edges("target", &confocal::surface(builder, &rows, REACH * self.half_width()));
+        join_to_corner(mesh, &rows, rings.len(), corner);
+        mesh.edges("bottom", &rows.last()[corner..]);
+        mesh.edges("block_axis", &rows.ends());
+        mesh.edges("target", &confocal::surface(mesh, &rows, REACH * self.half_width()));
     }
 
-    /// The cylinder; returns the node at its top.
-    fn add_cylinder(&self, builder: &mut Builder) -> usize {
+    /// Adds the cylinder; returns the node at its top.
+    fn add_cylinder(&self, mesh: &mut MeshBuilder) -> usize {
         let (r, c) = (self.radius, self.face());
-        let onto = |p: [f64; 2]| onto_disk(p, 2.0 * r);
         let mut rings = confocal::rings(self.segments(), (6.0 * r / c).acosh());
         coarsen(&mut rings);
-        let mut rows: Vec<_> =
-            rings.iter().map(|ring| confocal::add(builder, c, *ring, onto)).collect();
-        rows.push(builder.row([[0.0, 2.0 * r]]));
-        builder.join_all("cylinder", &rows);
-        builder.edges("cylinder_axis", &ends(&rows));
-        builder.edges("contact", &confocal::surface(builder, &rows, REACH * self.half_width()));
-        rows[rows.len() - 1][0]
-    }
-
-    fn scene(&self, top: usize) -> serde_json::Value {
-        json!({
-            "title": "Cylinder on a block (Hertz, NAFEMS CGS-1)",
-            "plane": "strain",
-            "units": { "length": "mm", "stress": "MPa", "force": "N" },
-            "materials": { "block": { "E": E[1], "nu": NU }, "cylinder": { "E": E[0], "nu": NU } },
-            "restraints": [
-                { "on": "bottom", "fix": ["y"] },
-                { "on": "block_axis", "fix": ["x"] },
-                { "on": "cylinder_axis", "fix": ["x"] }
-            ],
-            "loads": [{ "node": top, "force": [0.0, -self.load / 2.0] }],
-            "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001, "coupling": "mortar", "friction": 0, "geometry": "initial" },
-        "variant": "unilateral"
-        })
+        let mut rows = confocal::rows(mesh, c, &rings, |p| onto_disk(p, 2.0 * r));
+        let top = mesh.node([0.0, 2.0 * r]);
+        rows.0.push(vec![top]);
+        mesh.join_all("cylinder", &rows.0);
+        mesh.edges("cylinder_axis", &rows.ends());
+        mesh.edges("contact", &confocal::surface(mesh, &rows, REACH * self.half_width()));
+        top
     }
 }
 
-/// Joins the block's rows: `ellipses` of them, then those that turn into its sides, cut towards node `corner` from either side.
-fn join_to_corner(builder: &mut Builder, rows: &[Vec<usize>], ellipses: usize, corner: usize) {
-    builder.join_all("block", &rows[..ellipses]);
-    for pair in rows[ellipses - 1..].windows(2) {
+/// Joins the block's rows: `ellipses` of them, then those that turn into its sides, cut towards
+/// node `corner` from either side.
+fn join_to_corner(mesh: &mut MeshBuilder, rows: &Rows, ellipses: usize, corner: usize) {
+    mesh.join_all("block", &rows.0[..ellipses]);
+    for pair in rows.0[ellipses - 1..].windows(2) {
         let backwards = |row: &[usize]| row.iter().rev().copied().collect::<Vec<_>>();
-        builder.join("block", &backwards(&pair[0][..=corner]), &backwards(&pair[1][..=corner]));
-        builder.join("block", &pair[0][corner..], &pair[1][corner..]);
+        mesh.join("block", &backwards(&pair[0][..=corner]), &backwards(&pair[1][..=corner]));
+        mesh.join("block", &pair[0][corner..], &pair[1][corner..]);
     }
 }
 
-/// Points on the right side and the bottom of the block of half width `b` and depth 2 b, from the surface to the axis.
+/// Points on the right side and the bottom of the block of half width `b` and depth 2 b, from the
+/// surface to the axis.
 fn sides(b: f64, n: usize) -> Vec<[f64; 2]> {
     let right = (n * 7 / 10).max(1);
     let side = (0..right).map(|k| [b, part(0.0, -2.0 * b, k, right)]);
@@ -174,7 +171,8 @@ fn sides(b: f64, n: usize) -> Vec<[f64; 2]> {
     side.chain(bottom).collect()
 }
 
-/// From the upper half plane onto the disk of diameter `d` that touches it at the origin; far away goes to the top. Conformal.
+/// From the upper half plane onto the disk of diameter `d` that touches it at the origin; far away
+/// goes to the top. Conformal.
 fn onto_disk([x, y]: [f64; 2], d: f64) -> [f64; 2] {
     let (p, q) = (1.0 + y / d, x / d);
     let norm = p * p + q * q;

@@ -1,17 +1,19 @@
 //! A circular hole in an infinite sheet under tension: Kirsch.
 
-use serde_json::{Value, json};
+use std::f64::consts::FRAC_PI_2;
 
-use super::builder::{Builder, Grid};
 use super::line::{geometric, quarter};
-use super::{Benchmark, check};
+use super::rows::Rows;
+use super::{check, scene};
 use crate::error::InputError;
+use crate::problem::element::Plane;
+use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
 /// Kirsch: a circular hole in an infinite sheet under unit tension in x.
 ///
-/// Hole of radius 1, E = 1000, nu = 0.3, plane stress. A quarter of the sheet is cut out along a circle, and each outer edge
-/// carries the traction of the closed form at its middle: the sheet is infinite at any outer radius. At the hole sigma_x = 3
-/// at (0, 1) and sigma_y = -1 at (1, 0).
+/// Hole of radius 1, E = 1000, nu = 0.3, plane stress. A quarter of the sheet is cut out along a
+/// circle, and each outer edge carries the traction of the closed form at its middle: the sheet is
+/// infinite at any outer radius. At the hole sigma_x = 3 at (0, 1) and sigma_y = -1 at (1, 0).
 ///
 /// Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 35.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
@@ -38,41 +40,37 @@ impl Hole {
     /// Generates the scene.
     ///
     /// # Errors
-    /// Fewer than two divisions, or too many; an outer radius below 1.5 or beyond 1e6.
-    pub fn generate(&self) -> Result<Benchmark, InputError> {
+    /// There are fewer than two divisions, or too many; the outer radius is below 1.5 or beyond
+    /// 1e6.
+    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::count("--around", self.around, 2)?;
         check::between("--outer", self.outer, [1.5, 1e6])?;
         let n = self.around;
-        let radial = (self.outer.ln() * n as f64 / std::f64::consts::FRAC_PI_2).ceil() as usize;
-        let mut builder = Builder::default();
-        let grid = Grid::add(&mut builder, "sheet", [n, radial], |i, j| {
+        let radial = (self.outer.ln() * n as f64 / FRAC_PI_2).ceil() as usize;
+        let mut mesh = MeshBuilder::default();
+        let sheet = Rows::grid(&mut mesh, "sheet", [n, radial], |i, j| {
             quarter(i, n).map(|x| x * geometric(1.0, self.outer, j, radial))
         });
-        builder.edges("hole", grid.first());
-        builder.edges("x_axis", &grid.starts());
-        builder.edges("y_axis", &grid.ends());
-        let mut loads = Vec::new();
-        for (k, edge) in grid.last().windows(2).enumerate() {
-            let (group, [a, b]) = (format!("outer_{}", k + 1), [0, 1].map(|i| builder.xy(edge[i])));
-            loads.push(json!({ "on": group, "traction": traction(a, b) }));
-            builder.edges(group, edge);
+        mesh.edges("hole", sheet.first());
+        mesh.edges("x_axis", &sheet.starts());
+        mesh.edges("y_axis", &sheet.ends());
+        let mut tractions = Vec::new();
+        for (k, edge) in sheet.last().windows(2).enumerate() {
+            let (group, [a, b]) = (format!("outer_{}", k + 1), [0, 1].map(|i| mesh.xy(edge[i])));
+            mesh.edges(group.as_str(), edge);
+            tractions.push((group, traction(a, b)));
         }
-        Ok(Benchmark::new("hole", builder.finish(), scene(loads)))
+        let scene = scene("hole", mesh, Plane::Stress)
+            .title("Circular hole in an infinite sheet under tension (Kirsch)")
+            .material("sheet", 1000.0, 0.3)
+            .restrain("x_axis", &[Axis::Y])
+            .restrain("y_axis", &[Axis::X]);
+        Ok(tractions.into_iter().fold(scene, |scene, (group, t)| scene.traction(group, t)))
     }
 }
 
-fn scene(loads: Vec<Value>) -> Value {
-    json!({
-        "title": "Circular hole in an infinite sheet under tension (Kirsch)",
-        "plane": "stress",
-        "materials": { "sheet": { "E": 1000.0, "nu": 0.3 } },
-        "restraints": [{ "on": "x_axis", "fix": ["y"] }, { "on": "y_axis", "fix": ["x"] }],
-        "loads": loads,
-        "variant": "unilateral"
-    })
-}
-
-/// Traction of the closed form at the middle of the edge from `a` to `b`, counter-clockwise around the hole.
+/// Traction of the closed form at the middle of the edge from `a` to `b`, which runs
+/// counter-clockwise around the hole.
 fn traction(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     let length = (b[0] - a[0]).hypot(b[1] - a[1]);
     let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];

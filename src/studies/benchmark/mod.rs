@@ -1,4 +1,5 @@
-//! Scenes of published benchmarks on structured meshes: contact patch tests, Hertz, a flat punch, Lamé, Kirsch, Cook, NAFEMS LE1.
+//! Scenes of published benchmarks on structured meshes: contact patch tests, Hertz, a flat punch,
+//! Lamé, Kirsch, Cook, NAFEMS LE1.
 //!
 //! | kind | what is known |
 //! |---|---|
@@ -8,11 +9,11 @@
 //! | [`Annulus`], [`Hole`] | Lamé's and Kirsch's closed forms |
 //! | [`Cook`], [`Ellipse`] | a displacement; a stress (NAFEMS LE1) |
 //!
-//! Every mesh is made of rows of nodes, joined two by two by triangles (`builder.rs`): the same parameters give the same bytes.
+//! Every mesh is made of rows of nodes, joined two by two by triangles: the same parameters give
+//! the same bytes.
 
 mod annulus;
 mod blocks;
-mod builder;
 mod check;
 mod confocal;
 mod cook;
@@ -22,9 +23,7 @@ mod hole;
 mod line;
 mod punch;
 mod punch_patch;
-mod text;
-
-use std::path::Path;
+mod rows;
 
 pub use annulus::Annulus;
 pub use blocks::Blocks;
@@ -36,8 +35,9 @@ pub use punch::Punch;
 pub use punch_patch::PunchPatch;
 
 use crate::error::InputError;
-use crate::files;
-use crate::problem::scene::{Mesh, Scene};
+use crate::problem::element::Plane;
+use crate::problem::modelling::{Coupling, Friction, Variant};
+use crate::problem::scene::{Contact, MeshBuilder, SceneBuilder};
 
 /// A benchmark with its parameters.
 #[derive(Clone, Debug, clap::Subcommand)]
@@ -53,11 +53,11 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Generates the benchmark.
+    /// Generates the scene; it has the kind's name.
     ///
     /// # Errors
-    /// A parameter out of its range.
-    pub fn generate(&self) -> Result<Benchmark, InputError> {
+    /// A parameter is out of its range.
+    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         match self {
             Kind::Blocks(kind) => kind.generate(),
             Kind::PunchPatch(kind) => kind.generate(),
@@ -71,41 +71,16 @@ impl Kind {
     }
 }
 
-/// A generated benchmark: a scene file and the mesh file that it names.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Benchmark {
-    /// Name of the kind; the mesh file is `<name>.msh`.
-    pub name: &'static str,
-    /// The mesh.
-    pub mesh: Mesh,
-    /// `scene.json`.
-    pub scene: String,
-    /// `<name>.msh`: Gmsh MSH 2.2, text.
-    pub msh: String,
+/// A scene that runs `unilateral`.
+fn scene(name: &str, mesh: MeshBuilder, plane: Plane) -> SceneBuilder {
+    SceneBuilder::new(name, mesh.finish(), plane).variant(Variant::Unilateral)
 }
 
-impl Benchmark {
-    fn new(name: &'static str, mesh: Mesh, scene: serde_json::Value) -> Self {
-        let msh = text::msh(&mesh);
-        Benchmark { name, mesh, scene: text::scene(name, scene), msh }
-    }
-
-    /// The scene, without a file.
-    ///
-    /// # Errors
-    /// Parameters that no scene allows, such as a Poisson's ratio of 0.5.
-    pub fn scene(&self) -> Result<Scene, InputError> {
-        let beside = |_: &str| Ok(self.msh.clone().into_bytes());
-        Scene::build(self.name, self.scene.as_bytes(), beside)
-    }
-
-    /// Writes `scene.json` and the mesh file to `folder`, once the scene is known to be sound.
-    ///
-    /// # Errors
-    /// As [`Benchmark::scene`]; a file that cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<(), InputError> {
-        self.scene()?;
-        files::write(&folder.join(format!("{}.msh", self.name)), &self.msh)?;
-        files::write(&folder.join("scene.json"), &self.scene)
+/// Frictionless contact of the group `contact` with the group `target`, bound by mortar weights.
+fn frictionless() -> Contact {
+    Contact {
+        coupling: Coupling::Mortar,
+        friction: Friction::None,
+        ..Contact::new("contact", "target", 0.001)
     }
 }

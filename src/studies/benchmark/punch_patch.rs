@@ -1,19 +1,21 @@
 //! The contact patch test of Taylor and Papadopoulos.
 
-use serde_json::json;
-
-use super::builder::{Builder, Grid};
 use super::line::part;
-use super::{Benchmark, check};
+use super::rows::Rows;
+use super::{check, frictionless, scene};
 use crate::error::InputError;
+use crate::problem::element::Plane;
+use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// Taylor and Papadopoulos' contact patch test: a punch on the middle of a wider foundation, one pressure on both.
+/// Taylor and Papadopoulos' contact patch test: a punch on the middle of a wider foundation, one
+/// pressure on both.
 ///
-/// Foundation 8 x 5, punch 2 x 2, E = 1000, nu = 0.4, plane strain. The pressure acts on the punch's top and on what the punch
-/// leaves free of the foundation's top, so sigma_y = -pressure everywhere and nothing else but sigma_z.
+/// Foundation 8 x 5, punch 2 x 2, E = 1000, nu = 0.4, plane strain. The pressure acts on the
+/// punch's top and on what the punch leaves free of the foundation's top, so sigma_y = -pressure
+/// everywhere and nothing else but sigma_z.
 ///
-/// Source: R. L. Taylor, P. Papadopoulos, "On a patch test for contact problems in two dimensions", in Computational Methods in
-/// Nonlinear Mechanics, Springer, 1991.
+/// Source: R. L. Taylor, P. Papadopoulos, "On a patch test for contact problems in two dimensions",
+/// in Computational Methods in Nonlinear Mechanics, Springer, 1991.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -50,25 +52,35 @@ impl PunchPatch {
     /// Generates the scene.
     ///
     /// # Errors
-    /// An odd number of divisions, none, or too many; a pressure that is not positive.
-    pub fn generate(&self) -> Result<Benchmark, InputError> {
+    /// A number of divisions is odd, zero or too large; the pressure is not positive.
+    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::even("--punch", self.punch)?;
         check::even("--foundation", self.foundation)?;
         check::positive("--pressure", self.pressure)?;
-        let mut builder = Builder::default();
-        self.add_foundation(&mut builder);
+        let mut mesh = MeshBuilder::default();
+        self.add_foundation(&mut mesh);
         let n = self.punch;
-        let punch = Grid::add(&mut builder, "punch", [n, n], |i, j| {
+        let punch = Rows::grid(&mut mesh, "punch", [n, n], |i, j| {
             [part(-PUNCH, PUNCH, i, n), part(TOP, ALL, j, n)]
         });
-        builder.edges("contact", punch.first());
-        builder.edges("punch_top", punch.last());
-        builder.edges("punch_axis", &punch.0.iter().map(|row| row[n / 2]).collect::<Vec<_>>());
-        Ok(Benchmark::new("punch-patch", builder.finish(), self.scene()))
+        mesh.edges("contact", punch.first());
+        mesh.edges("punch_top", punch.last());
+        mesh.edges("punch_axis", &punch.column(n / 2));
+        Ok(scene("punch-patch", mesh, Plane::Strain)
+            .title("Contact patch test of Taylor and Papadopoulos")
+            .material("foundation", 1000.0, 0.4)
+            .material("punch", 1000.0, 0.4)
+            .restrain("bottom", &[Axis::Y])
+            .restrain("foundation_axis", &[Axis::X])
+            .restrain("punch_axis", &[Axis::X])
+            .pressure("punch_top", self.pressure)
+            .pressure("free_left", self.pressure)
+            .pressure("free_right", self.pressure)
+            .contact(frictionless()))
     }
 
-    /// The foundation: `foundation` columns below the punch, as wide ones on both sides of it.
-    fn add_foundation(&self, builder: &mut Builder) {
+    /// Adds the foundation: `foundation` columns below the punch, as wide ones on both sides of it.
+    fn add_foundation(&self, mesh: &mut MeshBuilder) {
         let (below, beside) = (self.foundation, self.foundation * 3 / 2);
         let rows = self.foundation * 5 / 2;
         let x = |i: usize| match i {
@@ -76,35 +88,14 @@ impl PunchPatch {
             i if i <= beside + below => part(-PUNCH, PUNCH, i - beside, below),
             i => part(PUNCH, FOUNDATION, i - beside - below, beside),
         };
-        let grid = Grid::add(builder, "foundation", [below + 2 * beside, rows], |i, j| {
+        let foundation = Rows::grid(mesh, "foundation", [below + 2 * beside, rows], |i, j| {
             [x(i), part(0.0, TOP, j, rows)]
         });
-        let (top, middle) = (grid.last(), beside + below / 2);
-        builder.edges("bottom", grid.first());
-        builder.edges("foundation_axis", &grid.0.iter().map(|r| r[middle]).collect::<Vec<_>>());
-        builder.edges("target", top);
-        builder.edges("free_left", &top[..=beside]);
-        builder.edges("free_right", &top[beside + below..]);
-    }
-
-    fn scene(&self) -> serde_json::Value {
-        let p = self.pressure;
-        json!({
-            "title": "Contact patch test of Taylor and Papadopoulos",
-            "plane": "strain",
-            "materials": { "foundation": { "E": 1000.0, "nu": 0.4 }, "punch": { "E": 1000.0, "nu": 0.4 } },
-            "restraints": [
-                { "on": "bottom", "fix": ["y"] },
-                { "on": "foundation_axis", "fix": ["x"] },
-                { "on": "punch_axis", "fix": ["x"] }
-            ],
-            "loads": [
-                { "on": "punch_top", "pressure": p },
-                { "on": "free_left", "pressure": p },
-                { "on": "free_right", "pressure": p }
-            ],
-            "contact": { "cnt": "contact", "trg": "target", "c_tll": 0.001, "coupling": "mortar", "friction": 0 },
-        "variant": "unilateral"
-        })
+        let top = foundation.last();
+        mesh.edges("bottom", foundation.first());
+        mesh.edges("foundation_axis", &foundation.column(beside + below / 2));
+        mesh.edges("target", top);
+        mesh.edges("free_left", &top[..=beside]);
+        mesh.edges("free_right", &top[beside + below..]);
     }
 }

@@ -1,15 +1,14 @@
 //! The answer of a run with all its digits, and how far it is from another.
 
 use dashu_ratio::RBig;
-use serde_json::Value;
 
 use super::verdict::Verdict;
-use crate::answer::contact::{Outcome, run_in};
 use crate::answer::error::Error;
+use crate::answer::{self, Request, Solution};
 use crate::numbers::solve::{Arithmetic, ScalarName, Solver};
-use crate::paper::mirror::Reading;
+use crate::problem::model::{Dof, NodeId};
 use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
+use crate::problem::scene::SceneBuilder;
 
 /// What is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,58 +21,43 @@ pub enum Quantity {
 
 /// An answer.
 pub struct Answer {
-    /// Displacements of the 2R equations, length.
+    /// Displacements by degree of freedom, length.
     pub u: Vec<RBig>,
     /// Von Mises stresses.
     mises: Vec<f64>,
     /// Who is in contact at the end.
-    dy: Vec<usize>,
-    /// Equations of each body.
-    bodies: Vec<Vec<usize>>,
+    in_contact: Vec<bool>,
+    /// Degrees of freedom of each body.
+    bodies: Vec<Vec<Dof>>,
 }
 
-/// The scene of a file's text; it has no file beside it.
-///
-/// # Errors
-/// Anything wrong with the scene.
-pub fn build(json: &Value) -> Result<Scene, Error> {
-    Ok(Scene::build("extreme", json.to_string().as_bytes(), |_| Err("no file".into()))?)
-}
-
-/// Runs `variant` on `json` in `scalar`, by its own solver unless another is given.
+/// Runs `variant` on `scene` in `scalar`, by its own solver unless another is given.
 ///
 /// # Errors
 /// Those of the scene and of the run.
 pub fn solve(
-    json: &Value,
+    scene: &SceneBuilder,
     variant: Variant,
     scalar: ScalarName,
     solver: Option<Solver>,
 ) -> Result<Answer, Error> {
-    let scene = build(json)?;
+    let scene = scene.build()?;
     let arithmetic = Arithmetic { scalar, solver, ..Arithmetic::default() };
-    let outcome = run_in(&scene, variant, &Reading::default(), arithmetic, |_| ())?;
-    Ok(Answer::new(&scene, &outcome))
+    let request = Request::new(&scene).variant(variant).arithmetic(arithmetic);
+    Ok(Answer::new(&answer::solve(&request, &mut |_| ())?))
 }
 
 impl Answer {
-    /// The answer of a run. Exact displacements come with 40 digits.
-    pub fn new(scene: &Scene, outcome: &Outcome) -> Self {
-        let decimal = |text: &String| RBig::from_str_decimal(text).expect("digits of a number");
+    /// The answer of a run, with all the digits that its scalar has.
+    pub fn new(solution: &Solution) -> Self {
         let value = |x: &f64| RBig::try_from(*x).expect("a run's displacements are finite");
-        let equations = |n: &usize| [2 * n - 2, 2 * n - 1];
+        let dofs = |nodes: &[NodeId]| nodes.iter().flat_map(|node| node.dofs()).collect();
+        let doubles = || solution.u.iter().map(value).collect();
         Answer {
-            u: match &outcome.digits {
-                Some(digits) => digits.iter().map(decimal).collect(),
-                None => outcome.u.iter().map(value).collect(),
-            },
-            mises: outcome.elements.iter().map(|state| state.von_mises_stress).collect(),
-            dy: outcome.iterations.last().map_or(vec![], |it| it.pairs.dy.as_slice().to_vec()),
-            bodies: scene
-                .bodies
-                .iter()
-                .map(|b| b.nodes.iter().flat_map(equations).collect())
-                .collect(),
+            u: solution.digits.clone().unwrap_or_else(doubles),
+            mises: solution.elements.iter().map(|state| state.von_mises_stress).collect(),
+            in_contact: solution.last().statuses(),
+            bodies: solution.model.bodies.iter().map(|body| dofs(&body.nodes)).collect(),
         }
     }
 
@@ -84,9 +68,10 @@ impl Answer {
         self
     }
 
-    /// This answer against the `exact` one: another contact state is wrong, whatever the displacements.
+    /// This answer against the `exact` one: another contact state is wrong, whatever the
+    /// displacements.
     pub fn against(&self, exact: &Answer, quantity: Quantity) -> Verdict {
-        if self.dy != exact.dy {
+        if self.in_contact != exact.in_contact {
             return Verdict::of_status(false);
         }
         self.beside(exact, quantity)
@@ -96,7 +81,7 @@ impl Answer {
     pub fn beside(&self, exact: &Answer, quantity: Quantity) -> Verdict {
         match quantity {
             Quantity::Displacement => {
-                let of_body = |equations: &Vec<usize>| self.error(exact, equations);
+                let of_body = |dofs: &Vec<Dof>| self.error(exact, dofs);
                 Verdict::of_error(exact.bodies.iter().map(of_body).fold(0.0, f64::max))
             }
             Quantity::Mises => {
@@ -107,11 +92,12 @@ impl Answer {
         }
     }
 
-    /// Largest error over the largest displacement of a body; infinite where the exact one is 0 and this is not.
-    fn error(&self, exact: &Answer, equations: &[usize]) -> f64 {
+    /// Largest error over the largest displacement of a body; infinite where the exact one is 0 and
+    /// this is not.
+    fn error(&self, exact: &Answer, dofs: &[Dof]) -> f64 {
         let abs = |x: RBig| if x < RBig::ZERO { -x } else { x };
         let largest = |x: &dyn Fn(usize) -> RBig| {
-            equations.iter().map(|&e| abs(x(e))).max().unwrap_or(RBig::ZERO)
+            dofs.iter().map(|dof| abs(x(dof.index()))).max().unwrap_or(RBig::ZERO)
         };
         let (error, size) =
             (largest(&|e| &self.u[e] - &exact.u[e]), largest(&|e| exact.u[e].clone()));
@@ -123,27 +109,32 @@ impl Answer {
     }
 }
 
-/// Runs `variant` on `json` in `scalar` and compares it with the exact run.
+/// Runs `variant` on `scene` in `scalar` and compares it with the exact run.
 pub fn against_exact(
-    json: &Value,
+    scene: &SceneBuilder,
     variant: Variant,
     scalar: ScalarName,
     solver: Option<Solver>,
     quantity: Quantity,
 ) -> Verdict {
-    match solve(json, variant, scalar, solver) {
+    match solve(scene, variant, scalar, solver) {
         Err(error) => error.into(),
-        Ok(answer) => compared(&answer, json, variant, quantity),
+        Ok(answer) => compared(&answer, scene, variant, quantity),
     }
 }
 
-/// `answer` against the exact run of `variant` on `json`; `unilateral` has no exact run and is compared with `tied`, which is its
-/// answer where nothing opens.
-pub fn compared(answer: &Answer, json: &Value, variant: Variant, quantity: Quantity) -> Verdict {
+/// Compares `answer` with the exact run of `variant` on `scene`; `unilateral` has no exact run and
+/// is compared with `tied`, which is its answer where nothing opens.
+pub fn compared(
+    answer: &Answer,
+    scene: &SceneBuilder,
+    variant: Variant,
+    quantity: Quantity,
+) -> Verdict {
     let unilateral = variant == Variant::Unilateral;
     let exact = if unilateral { Variant::Tied } else { variant };
-    match solve(json, exact, ScalarName::Exact, None) {
-        Ok(exact) if unilateral && answer.dy != exact.dy => Verdict::Unknown,
+    match solve(scene, exact, ScalarName::Exact, None) {
+        Ok(exact) if unilateral && answer.in_contact != exact.in_contact => Verdict::Unknown,
         Ok(exact) => answer.against(&exact, quantity),
         Err(_) => Verdict::Wrong("exact refuses"),
     }

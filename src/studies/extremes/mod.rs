@@ -1,18 +1,20 @@
-//! Numerical stability at the extremes: generators that sweep a magnitude until something gives, each answer held against exact numbers.
+//! Numerical stability at the extremes: generators that sweep a magnitude until something breaks
+//! down, each answer compared with exact numbers.
 //!
 //! ```text
-//!  Generator = Sweep (magnitudes) + Ways (variant x scalar, remedies)
+//!  Generator = Sweep (magnitudes) + Methods (variant x scalar, remedies)
 //!       |
-//!       +--> a Verdict for each magnitude and way: exact, digits, wrong, refused
-//!       +--> for each way, where it gives: bisected to half a decade
+//!       +--> a Verdict for each magnitude and method: exact, digits, wrong, refused
+//!       +--> for each method, where it breaks down: bisected to half a decade
 //! ```
 //!
-//! A way gives where it is refused or keeps fewer than three digits. Remedies live here: the mirror keeps the printed formulas.
+//! A method breaks down where it is refused or keeps fewer than three digits. Remedies live here:
+//! the mirror keeps the printed formulas.
 
 mod answer;
 mod blocks;
-mod ladder;
 mod material;
+mod precision;
 mod remedies;
 mod scale;
 mod search;
@@ -23,7 +25,7 @@ mod verdict;
 use rayon::prelude::*;
 use serde::Serialize;
 
-pub use sweep::{Break, Column, Sweep, Way};
+pub use sweep::{Break, Column, Method, Sweep};
 pub use verdict::Verdict;
 
 /// A family of problems with one magnitude.
@@ -37,7 +39,7 @@ pub struct Generator {
     /// The magnitudes.
     pub sweep: Sweep,
     /// What is done with each.
-    pub ways: Vec<Way>,
+    pub methods: Vec<Method>,
 }
 
 /// All generators.
@@ -75,7 +77,7 @@ pub struct Measured {
     pub magnitudes: Vec<f64>,
     /// Whether the magnitudes are powers of ten.
     pub logarithmic: bool,
-    /// What came of each way.
+    /// What came of each method.
     pub columns: Vec<Column>,
 }
 
@@ -93,7 +95,7 @@ impl Generator {
             labels: points.iter().map(|p| self.sweep.label(*p)).collect(),
             magnitudes: points.iter().map(magnitude).collect(),
             logarithmic,
-            columns: self.ways.par_iter().map(|way| self.sweep.run(way)).collect(),
+            columns: self.methods.par_iter().map(|method| self.sweep.run(method)).collect(),
         }
     }
 }

@@ -1,13 +1,12 @@
 //! Well-known remedies, applied to a scene from outside: the mirror keeps the printed formulas.
 
-use serde_json::{Value, json};
-
 use super::answer::{Quantity, solve};
-use super::ladder::{SceneOf, carried};
-use super::sweep::Way;
+use super::precision::{BlocksOf, carried};
+use super::sweep::Method;
 use super::verdict::Verdict;
 use crate::numbers::solve::ScalarName;
 use crate::problem::modelling::Variant;
+use crate::problem::scene::SceneBuilder;
 
 /// The power of two at or below |x|, which divides without rounding; 1 of what has none.
 pub fn power_of_two(x: f64) -> f64 {
@@ -18,62 +17,72 @@ pub fn power_of_two(x: f64) -> f64 {
     }
 }
 
-/// `tied` with the first node moved to the origin, in f64, before anything is rounded to the scalar.
-pub fn shifted(scalar: ScalarName, scene: SceneOf) -> Way {
-    Way::new(format!("tied {scalar}, origin shifted"), carried(scalar), move |x| {
-        let json = scene(x);
-        let mut moved = json.clone();
-        let first = [1, 2].map(|d| number(&json["node"][0][d]));
-        change(&mut moved, |d, x| x - first[d]);
-        run(&moved, 1.0, &json, scalar)
+/// `tied` with the first node moved to the origin, in f64, before anything is rounded to the
+/// scalar.
+pub fn shifted(scalar: ScalarName, blocks: BlocksOf) -> Method {
+    remedied("origin shifted", scalar, blocks, |scene| {
+        let first = scene.mesh.xy(1);
+        change_coordinates(scene, |axis, x| x - first[axis]);
+        1.0
     })
 }
 
-/// `tied` with lengths in a unit of their own size, and displacements turned back.
-pub fn length_scaled(scalar: ScalarName, scene: SceneOf) -> Way {
-    Way::new(format!("tied {scalar}, lengths scaled"), carried(scalar), move |x| {
-        let json = scene(x);
-        let mut scaled = json.clone();
-        let unit = power_of_two(number(&json["node"][1][1]));
-        change(&mut scaled, |_, x| x / unit);
-        scaled["contact"]["c_tll"] = json!(number(&json["contact"]["c_tll"]) / unit);
-        run(&scaled, unit, &json, scalar)
+/// `tied` with lengths in a unit of their own size.
+pub fn length_scaled(scalar: ScalarName, blocks: BlocksOf) -> Method {
+    remedied("lengths scaled", scalar, blocks, |scene| {
+        let unit = power_of_two(scene.mesh.xy(2)[0]);
+        change_coordinates(scene, |_, x| x / unit);
+        if let Some(contact) = &mut scene.description.contact {
+            contact.c_tll /= unit;
+        }
+        unit
     })
 }
 
-/// `tied` with the load in a unit of its own size, and displacements turned back: what one iteration computes is linear.
-pub fn load_scaled(scalar: ScalarName, scene: SceneOf) -> Way {
-    Way::new(format!("tied {scalar}, loads scaled"), carried(scalar), move |x| {
-        let json = scene(x);
-        let mut scaled = json.clone();
-        let pressure = number(&json["loads"][0]["pressure"]);
-        let unit = power_of_two(pressure);
-        scaled["loads"][0]["pressure"] = json!(pressure / unit);
-        run(&scaled, unit, &json, scalar)
+/// `tied` with the load in a unit of its own size: what one iteration computes is linear.
+pub fn load_scaled(scalar: ScalarName, blocks: BlocksOf) -> Method {
+    remedied("loads scaled", scalar, blocks, |scene| {
+        let pressure =
+            scene.description.loads[0].pressure.as_mut().expect("the load is a pressure");
+        let unit = power_of_two(*pressure);
+        *pressure /= unit;
+        unit
     })
 }
 
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number of a scene")
+/// `tied` on a scene that `change` changes; it returns the unit in which displacements come out.
+fn remedied(
+    name: &str,
+    scalar: ScalarName,
+    blocks: BlocksOf,
+    change: fn(&mut SceneBuilder) -> f64,
+) -> Method {
+    Method::new(format!("tied {scalar}, {name}"), carried(scalar), move |x| {
+        let scene = blocks(x).scene(Variant::Tied);
+        let mut changed = scene.clone();
+        let unit = change(&mut changed);
+        run(&changed, unit, &scene, scalar)
+    })
 }
 
-/// Replaces the coordinates by what `of` makes of the direction and each.
-fn change(json: &mut Value, of: impl Fn(usize, f64) -> f64) {
-    for node in json["node"].as_array_mut().expect("a table of nodes") {
-        for d in [0, 1] {
-            node[d + 1] = json!(of(d, number(&node[d + 1])));
+/// Replaces each coordinate in the plane by what `of` makes of its axis and it, length.
+fn change_coordinates(scene: &mut SceneBuilder, of: impl Fn(usize, f64) -> f64) {
+    for node in &mut scene.mesh.nodes {
+        for axis in [0, 1] {
+            node.xyz[axis] = of(axis, node.xyz[axis]);
         }
     }
 }
 
-/// Displacements of `changed`, times `unit`, against the exact ones of `json`.
-fn run(changed: &Value, unit: f64, json: &Value, scalar: ScalarName) -> Verdict {
+/// Displacements of `changed`, times `unit`, against the exact ones of `scene`.
+fn run(changed: &SceneBuilder, unit: f64, scene: &SceneBuilder, scalar: ScalarName) -> Verdict {
     match solve(changed, Variant::Tied, scalar, None) {
         Err(error) => error.into(),
         Ok(answer) => {
-            let exact = |json: &Value| solve(json, Variant::Tied, ScalarName::Exact, None);
-            // The scene itself is refused where its areas leave the range of f64; the changed one has the same exact answer.
-            match exact(json).or_else(|_| exact(changed).map(|exact| exact.times(unit))) {
+            let exact = |scene| solve(scene, Variant::Tied, ScalarName::Exact, None);
+            // The scene itself is refused where its areas leave the range of f64; the changed one
+            // has the same exact answer.
+            match exact(scene).or_else(|_| exact(changed).map(|exact| exact.times(unit))) {
                 Ok(exact) => answer.times(unit).against(&exact, Quantity::Displacement),
                 Err(error) => error.into(),
             }

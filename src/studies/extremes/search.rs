@@ -1,14 +1,16 @@
-//! The search of `c_cnt` alone: one contact node and one target edge, in a shape that displacements led to.
+//! The search of `c_cnt` alone: one contact node and one target edge, in a shape that displacements
+//! led to.
 
 use nalgebra::DVector;
-use serde_json::{Value, json};
 
-use super::answer::build;
 use super::verdict::Verdict;
-use crate::answer::contact::shape;
 use crate::answer::error::Error;
 use crate::numbers::scalar::{Exact, Scalar, scope};
+use crate::paper::door;
 use crate::paper::mirror::{Reading, c_cnt};
+use crate::problem::element::Plane;
+use crate::problem::model::NodeId;
+use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 /// The target edge from `a` to `b`, the contact node `n`, and how far each has moved.
 #[derive(Clone, Copy, Debug)]
@@ -30,20 +32,21 @@ pub struct Difference<T> {
 impl Search {
     /// As printed: c_cnt under R5 = node_n, which takes weights from the current shape too.
     pub fn printed<T: Scalar>(&self) -> Result<Difference<T>, Error> {
-        let scene = build(&self.json())?;
+        let scene = self.scene().build()?;
         let reading: Reading = "R5=node_n".parse().expect("a reading");
-        let sheet = scene.worksheet(&reading)?.cast::<T>();
-        let mut u = vec![T::zero(); 2 * sheet.R()];
-        for (k, node) in [1, 2, 4].into_iter().enumerate() {
-            for d in [0, 1] {
-                u[2 * node - 2 + d] = T::from_f64(self.moved[k][d]);
+        let sheet = door::worksheet(&scene.model, T::from_f64);
+        let mut u = DVector::from_element(scene.model.dofs(), T::zero());
+        for (moved, node) in self.moved.into_iter().zip([1, 2, 4]) {
+            for (dof, moved) in NodeId::from_number(node).dofs().into_iter().zip(moved) {
+                u[dof.index()] = T::from_f64(moved);
             }
         }
-        let pairs = c_cnt(&sheet, &reading, &shape(&sheet, &DVector::from_vec(u)))?;
+        let pairs = c_cnt(&sheet, &reading, &door::moved(&sheet, &u))?;
         Ok(Difference { gap: pairs.yt[1], weight: pairs.k_cnt[(4, 2)], dy: pairs.dy[1] })
     }
 
-    /// The remedy: distance along the normal and weight by projection, over the edge length, from coordinates about `origin`.
+    /// The remedy: distance along the normal and weight by projection, over the edge length, from
+    /// coordinates about `origin`.
     pub fn projected<T: Scalar>(&self, origin: [f64; 2]) -> Difference<T> {
         let at = |p: [f64; 2], u: [f64; 2]| {
             [0, 1].map(|d| T::from_f64(p[d] - origin[d]) + T::from_f64(u[d]))
@@ -52,38 +55,32 @@ impl Search {
         let (a, b, n) = (at(self.a, ua), at(self.b, ub), at(self.n, un));
         let ([ex, ey], [rx, ry]) = (minus(b, a), minus(n, a));
         let square = ex * ex + ey * ey;
-        // The cross product over the edge length is the gap; over it once more, the gap in edge lengths.
+        // The cross product over the edge length is the gap; over it once more, the gap in edge
+        // lengths.
         let gap = (ry * ex - rx * ey) / square;
         let weight = T::one() - (rx * ex + ry * ey) / square;
         Difference { gap, weight, dy: usize::from(Scalar::abs(gap) < T::from_f64(self.c_tll)) }
     }
 
-    fn json(&self) -> Value {
-        let [[ax, ay], [bx, by], [nx, ny]] = [self.a, self.b, self.n];
-        // A corner to the right of the edge, and two to the left of the contact node.
+    /// A triangle below the edge, and one above the contact node. Its nodes 1, 2 and 4 are a, b and
+    /// n.
+    fn scene(&self) -> SceneBuilder {
+        let ([ax, ay], [bx, by], [nx, ny]) = (self.a, self.b, self.n);
         let (ex, ey) = (bx - ax, by - ay);
-        let nodes = [
-            [ax, ay],
-            [bx, by],
-            [ax + ex + ey, ay + ey - ex],
-            [nx, ny],
-            [nx + ex - ey, ny + ey + ex],
-            [nx - ex - ey, ny - ey + ex],
-        ];
-        let nodes: Vec<Value> =
-            nodes.iter().enumerate().map(|(k, [x, y])| json!([k + 1, x, y, 0.0])).collect();
-        json!({
-            "plane": "strain",
-            "node": nodes,
-            "elem": [[1, 1, 2, 10, 10, 1, 2], [2, 2, 2, 1, 1, 1, 3, 2], [3, 2, 2, 2, 2, 4, 5, 6]],
-            "materials": { "1": { "E": 4.0, "nu": 0.0 }, "2": { "E": 4.0, "nu": 0.0 } },
-            "restraints": [
-                { "on": 1, "fix": ["x", "y"] },
-                { "node": 5, "fix": ["x", "y"] },
-                { "node": 6, "fix": ["x", "y"] }
-            ],
-            "contact": { "cnt": [4], "trg": [1], "c_tll": self.c_tll }
-        })
+        let mut mesh = MeshBuilder::default();
+        mesh.row([self.a, self.b, [ax + ex + ey, ay + ey - ex]]);
+        mesh.row([self.n, [nx + ex - ey, ny + ey + ex], [nx - ex - ey, ny - ey + ex]]);
+        mesh.edges("target", &[1, 2]);
+        mesh.triangles("lower", [[1, 3, 2]]);
+        mesh.triangles("upper", [[4, 5, 6]]);
+        let both = &[Axis::X, Axis::Y];
+        SceneBuilder::new("extreme", mesh.finish(), Plane::Strain)
+            .material("lower", 4.0, 0.0)
+            .material("upper", 4.0, 0.0)
+            .restrain("lower", both)
+            .restrain_node(5, both)
+            .restrain_node(6, both)
+            .contact(Contact::new(vec![4], vec![1], self.c_tll))
     }
 }
 
@@ -99,7 +96,8 @@ pub enum Of {
     Status,
 }
 
-/// The printed formulas in `T`, or the projected ones about an origin, against the same in exact numbers.
+/// The printed formulas in `T`, or the projected ones about an origin, against the same in exact
+/// numbers.
 pub fn against_exact<T: Scalar>(search: &Search, of: Of, projected: Option<[f64; 2]>) -> Verdict {
     scope(|| {
         let (found, exact) = match projected {

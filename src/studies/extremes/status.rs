@@ -1,22 +1,21 @@
-//! Generators of the contact search: steep edges, gaps at the tolerance, the tolerance itself, unusual surfaces.
-
-use serde_json::Value;
+//! Generators of the contact search: steep edges, gaps at the tolerance, the tolerance itself,
+//! unusual surfaces.
 
 use super::Generator;
 use super::answer::{Quantity, solve};
 use super::blocks::Blocks;
-use super::ladder::{carried, ladder, rung};
+use super::precision::{BlocksOf, carried, in_each_scalar, in_scalar};
 use super::search::{Of, Search, against_exact};
-use super::sweep::{Sweep, Way};
-use super::verdict::Verdict;
+use super::sweep::{Method, Sweep};
 use crate::numbers::scalar::F64x2;
 use crate::numbers::solve::ScalarName;
 use crate::problem::modelling::Variant;
 
 const DOUBLE: ScalarName = ScalarName::F64;
 
-/// A node beside an edge of height 1 at `angle` (its tangent) from the vertical, `gap` away along the normal. All move by a thousandth,
-/// and the edge widens by another: it keeps its angle, but not the bits of its x difference.
+/// A node beside an edge of height 1 at `angle` (its tangent) from the vertical, `gap` away along
+/// the normal. All move by a thousandth, and the edge widens by another: it keeps its angle, but
+/// not the bits of its x difference.
 fn at_angle(angle: f64, gap: f64) -> Search {
     let a = [1.0 / 3.0, 1.0 / 7.0];
     let n = [a[0] + 0.4 * angle - gap, a[1] + 0.4 + gap * angle];
@@ -35,20 +34,22 @@ fn near(angle: f64) -> Search {
     at_angle(angle, 7e-4)
 }
 
-/// `ways` of a search in f32, f64 and f64x2.
-fn in_each(name: &str, of: Of, search: fn(f64) -> Search) -> Vec<Way> {
+/// A search by the printed formulas in f32, f64 and f64x2.
+fn in_each(name: &str, of: Of, search: fn(f64) -> Search) -> Vec<Method> {
     let name = |scalar: ScalarName| format!("{name} {scalar}");
     vec![
-        Way::new(name(ScalarName::F32), 7.0, move |x| against_exact::<f32>(&search(x), of, None)),
-        Way::new(name(DOUBLE), 16.0, move |x| against_exact::<f64>(&search(x), of, None)),
-        Way::new(name(ScalarName::F64x2), 31.0, move |x| {
+        Method::new(name(ScalarName::F32), 7.0, move |x| {
+            against_exact::<f32>(&search(x), of, None)
+        }),
+        Method::new(name(DOUBLE), 16.0, move |x| against_exact::<f64>(&search(x), of, None)),
+        Method::new(name(ScalarName::F64x2), 31.0, move |x| {
             against_exact::<F64x2>(&search(x), of, None)
         }),
     ]
 }
 
-/// The remedy in f32 and f64.
-fn projected(name: &str, of: Of, search: fn(f64) -> Search, shifted: bool) -> Vec<Way> {
+/// The same by the remedy, projection on the edge, in f32 and f64.
+fn projected(name: &str, of: Of, search: fn(f64) -> Search, shifted: bool) -> Vec<Method> {
     let origin = move |s: &Search| if shifted { s.a } else { [0.0, 0.0] };
     let single = move |x: f64| {
         let s = search(x);
@@ -59,24 +60,25 @@ fn projected(name: &str, of: Of, search: fn(f64) -> Search, shifted: bool) -> Ve
         against_exact::<f64>(&s, of, Some(origin(&s)))
     };
     vec![
-        Way::new(format!("{name} f32"), 7.0, single),
-        Way::new(format!("{name} f64"), 16.0, double),
+        Method::new(format!("{name} f32"), 7.0, single),
+        Method::new(format!("{name} f64"), 16.0, double),
     ]
 }
 
 /// C3: the target edge turned to the vertical.
 pub fn steep_edge() -> Generator {
-    let mut ways = in_each("yt", Of::Gap, steep);
-    ways.extend(in_each("yt 7e-4 off the edge", Of::Gap, near));
-    ways.extend(projected("normal gap 7e-4 off", Of::Gap, near, false));
-    ways.extend(in_each("weight", Of::Weight, steep));
-    ways.extend(projected("projected weight", Of::Weight, steep, false));
+    let mut methods = in_each("yt", Of::Gap, steep);
+    methods.extend(in_each("yt 7e-4 off the edge", Of::Gap, near));
+    methods.extend(projected("normal gap 7e-4 off", Of::Gap, near, false));
+    methods.extend(in_each("weight", Of::Weight, steep));
+    methods.extend(projected("projected weight", Of::Weight, steep, false));
     Generator {
         name: "steep-edge",
-        title: "C3: a target edge turned to the vertical; errors over the edge length, so that 3 digits are the paper's c_tol of 0.001",
+        title: "C3: a target edge turned to the vertical; errors over the edge length, so that 3 \
+                digits are the paper's c_tol of 0.001",
         magnitude: "angle from the vertical, rad",
         sweep: Sweep::Decades { from: -18, to: 0, step: 1, start: 0 },
-        ways,
+        methods,
     }
 }
 
@@ -87,15 +89,15 @@ pub fn offset_gap() -> Generator {
         let moved = |p: [f64; 2]| p.map(|x| x + origin);
         Search { a: moved(home.a), b: moved(home.b), n: moved(home.n), ..home }
     }
-    let mut ways = in_each("yt", Of::Gap, search);
-    ways.extend(projected("normal gap, origin shifted", Of::Gap, search, true));
-    ways.extend(in_each("weight", Of::Weight, search));
+    let mut methods = in_each("yt", Of::Gap, search);
+    methods.extend(projected("normal gap, origin shifted", Of::Gap, search, true));
+    methods.extend(in_each("weight", Of::Weight, search));
     Generator {
         name: "offset-gap",
         title: "Gap and weights far from the origin; errors over the edge length",
         magnitude: "distance from the origin / edge length",
         sweep: Sweep::Decades { from: 0, to: 16, step: 1, start: 0 },
-        ways,
+        methods,
     }
 }
 
@@ -126,7 +128,7 @@ pub fn gap_at_tolerance() -> Generator {
         title: "A gap within a unit in the last place of c_tll: is the node in contact",
         magnitude: "case",
         sweep: Sweep::Cases(ULPS),
-        ways: in_each("status", Of::Status, at_tolerance),
+        methods: in_each("status", Of::Status, at_tolerance),
     }
 }
 
@@ -137,34 +139,34 @@ const TOLERANCES: &[&str] = &[
 
 /// c_tll of any size, the gaps being 0.
 pub fn tolerance() -> Generator {
-    fn scene(case: f64) -> Value {
+    fn blocks(case: f64) -> Blocks {
         let c_tll = TOLERANCES[case as usize].parse().expect("a number");
-        Blocks { c_tll, ..Blocks::default() }.json()
+        Blocks { c_tll, ..Blocks::default() }
     }
-    let mut ways = ladder(Variant::Tied, scene);
-    ways.extend([Variant::Tied, Variant::Unilateral].map(|variant| {
-        let name = format!("{variant} f64, beside c_tll = 1e-3");
-        Way::new(name, 16.0, move |case| beside(&scene(case), &Blocks::default().json(), variant))
-    }));
+    let mut methods = in_each_scalar(Variant::Tied, blocks);
+    methods.extend(beside("beside c_tll = 1e-3", blocks, |_| Blocks::default()));
     Generator {
         name: "tolerance",
         title: "c_tll 0, subnormal, huge; all gaps are 0",
         magnitude: "case",
         sweep: Sweep::Cases(TOLERANCES),
-        ways,
+        methods,
     }
 }
 
-/// `variant` in f64 on `json` beside exact numbers on `clean`, whoever is in contact; `unilateral` beside itself.
-fn beside(json: &Value, clean: &Value, variant: Variant) -> Verdict {
-    let scalar = match variant {
-        Variant::Unilateral => DOUBLE,
-        _ => ScalarName::Exact,
-    };
-    match (solve(json, variant, DOUBLE, None), solve(clean, variant, scalar, None)) {
-        (Ok(answer), Ok(exact)) => answer.beside(&exact, Quantity::Displacement),
-        (Err(error), _) | (_, Err(error)) => error.into(),
-    }
+/// `tied` and `unilateral` in f64 on blocks, each beside `others`, whoever is in contact: `tied`
+/// beside exact numbers, `unilateral`, which has none, beside itself.
+fn beside(name: &str, blocks: BlocksOf, others: BlocksOf) -> [Method; 2] {
+    [(Variant::Tied, ScalarName::Exact), (Variant::Unilateral, DOUBLE)].map(|(variant, scalar)| {
+        Method::new(format!("{variant} f64, {name}"), carried(DOUBLE), move |case| {
+            let answer = solve(&blocks(case).scene(variant), variant, DOUBLE, None);
+            let other = solve(&others(case).scene(variant), variant, scalar, None);
+            match (answer, other) {
+                (Ok(answer), Ok(other)) => answer.beside(&other, Quantity::Displacement),
+                (Err(error), _) | (_, Err(error)) => error.into(),
+            }
+        })
+    })
 }
 
 const SURFACES: &[&str] = &[
@@ -175,41 +177,31 @@ const SURFACES: &[&str] = &[
     "an edge twice in trg",
 ];
 
-fn surfaces_of(case: f64) -> Blocks {
-    let clean = Blocks::default();
-    match case as usize {
-        1 => Blocks { cnt: vec![7], ..clean },
-        2 => Blocks { trg: vec![1], ..clean },
-        3 => Blocks { cnt: vec![6, 7, 7, 8], ..clean },
-        4 => Blocks { trg: vec![1, 1, 2], ..clean },
-        _ => clean,
-    }
-}
-
 /// The smallest surfaces, and lists that name something twice.
 pub fn surfaces() -> Generator {
-    fn scene(case: f64) -> Value {
-        surfaces_of(case).json()
-    }
-    fn held(case: f64) -> Value {
-        Blocks { held: true, ..surfaces_of(case) }.json()
+    fn blocks(case: f64) -> Blocks {
+        let clean = Blocks::default();
+        match case as usize {
+            1 => Blocks { cnt: vec![7], ..clean },
+            2 => Blocks { trg: vec![1], ..clean },
+            3 => Blocks { cnt: vec![6, 7, 7, 8], ..clean },
+            4 => Blocks { trg: vec![1, 1, 2], ..clean },
+            _ => clean,
+        }
     }
     /// The same with each node and edge once.
-    fn once(case: f64) -> Value {
-        if case > 2.0 { Blocks::default().json() } else { scene(case) }
+    fn once(case: f64) -> Blocks {
+        if case > 2.0 { Blocks::default() } else { blocks(case) }
     }
-    let mut ways = ladder(Variant::Tied, scene);
-    ways.extend(ladder(Variant::Printed, held));
-    ways.push(rung(Variant::Stepped, DOUBLE, scene));
-    ways.extend([Variant::Tied, Variant::Unilateral].map(|variant| {
-        let name = format!("{variant} f64, beside each once");
-        Way::new(name, carried(DOUBLE), move |case| beside(&scene(case), &once(case), variant))
-    }));
+    let mut methods = in_each_scalar(Variant::Tied, blocks);
+    methods.extend(in_each_scalar(Variant::Printed, blocks));
+    methods.push(in_scalar(Variant::Stepped, DOUBLE, blocks));
+    methods.extend(beside("beside each once", blocks, once));
     Generator {
         name: "surfaces",
         title: "One contact node, one edge, a node or an edge named twice",
         magnitude: "case",
         sweep: Sweep::Cases(SURFACES),
-        ways,
+        methods,
     }
 }

@@ -1,4 +1,4 @@
-//! A magnitude swept, and where something gives.
+//! A magnitude swept, and where something breaks down.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -17,8 +17,8 @@ pub enum Sweep {
     Cases(&'static [&'static str]),
 }
 
-/// One way to do a problem.
-pub struct Way {
+/// A method of doing a problem.
+pub struct Method {
     /// Its name: variant or remedy, and scalar.
     pub name: String,
     /// Digits that its scalar carries.
@@ -29,23 +29,23 @@ pub struct Way {
     measure: Box<dyn Fn(f64) -> Verdict + Send + Sync>,
 }
 
-impl Way {
-    /// A way of `carried` digits.
+impl Method {
+    /// A method whose scalar carries `carried` digits.
     pub fn new(
         name: impl Into<String>,
         carried: f64,
         measure: impl Fn(f64) -> Verdict + Send + Sync + 'static,
     ) -> Self {
-        Way { name: name.into(), carried, least: LEAST, measure: Box::new(measure) }
+        Method { name: name.into(), carried, least: LEAST, measure: Box::new(measure) }
     }
 
-    /// The same way, broken only with fewer than `least` digits.
+    /// The same method, which breaks down only with fewer than `least` digits.
     pub fn down_to(self, least: f64) -> Self {
-        Way { least, ..self }
+        Method { least, ..self }
     }
 }
 
-/// Where a way gives.
+/// Where a method breaks down.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Break {
     /// Power of ten, bisected to half a decade.
@@ -54,18 +54,18 @@ pub struct Break {
     pub verdict: Verdict,
 }
 
-/// What came of one way.
+/// What came of one method.
 #[derive(Clone, Debug, Serialize)]
 pub struct Column {
-    /// The way's name.
+    /// The method's name.
     pub name: String,
     /// Digits that its scalar carries.
     pub carried: f64,
-    /// A verdict a magnitude.
+    /// A verdict for each magnitude.
     pub verdicts: Vec<Verdict>,
-    /// Where it gives towards smaller magnitudes.
+    /// Where it breaks down towards smaller magnitudes.
     pub below: Option<Break>,
-    /// Where it gives towards larger ones.
+    /// Where it breaks down towards larger ones.
     pub above: Option<Break>,
 }
 
@@ -98,10 +98,10 @@ impl Sweep {
         }
     }
 
-    /// What comes of `way`.
-    pub fn run(&self, way: &Way) -> Column {
+    /// What comes of `method`.
+    pub fn run(&self, method: &Method) -> Column {
         let points = self.points();
-        let at = |point: f64| (way.measure)(self.magnitude(point)).at_most(way.carried);
+        let at = |point: f64| (method.measure)(self.magnitude(point)).at_most(method.carried);
         let verdicts: Vec<Verdict> = points.par_iter().map(|p| at(f64::from(*p))).collect();
         let (below, above) = match *self {
             Sweep::Cases(_) => (None, None),
@@ -111,21 +111,21 @@ impl Sweep {
                 let inwards = down.into_iter().rev().collect::<Vec<_>>();
                 let first = up.first().copied();
                 let below = first.into_iter().chain(inwards).collect::<Vec<_>>();
-                (breaking(&below, way, &at), breaking(&up, way, &at))
+                (breakdown(&below, method, &at), breakdown(&up, method, &at))
             }
         };
-        let (name, carried) = (way.name.clone(), way.carried);
+        let (name, carried) = (method.name.clone(), method.carried);
         Column { name, carried, verdicts, below, above }
     }
 }
 
-/// The first point outwards that gives, bisected; nothing where none does.
-fn breaking(
+/// The first point outwards at which a method breaks down, bisected; nothing where there is none.
+fn breakdown(
     outwards: &[(&i32, &Verdict)],
-    way: &Way,
+    method: &Method,
     at: &dyn Fn(f64) -> Verdict,
 ) -> Option<Break> {
-    let first = outwards.iter().position(|(_, verdict)| verdict.gives(way.least))?;
+    let first = outwards.iter().position(|(_, verdict)| verdict.breaks_down(method.least))?;
     let (point, verdict) = outwards[first];
     let mut broken = Break { exponent: f64::from(*point), verdict: verdict.clone() };
     if first == 0 {
@@ -135,7 +135,7 @@ fn breaking(
     while (broken.exponent - holds).abs() > 0.5 {
         let middle = (broken.exponent + holds) / 2.0;
         let verdict = at(middle);
-        if verdict.gives(way.least) {
+        if verdict.breaks_down(method.least) {
             broken = Break { exponent: middle, verdict };
         } else {
             holds = middle;

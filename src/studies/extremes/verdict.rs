@@ -46,7 +46,8 @@ impl Verdict {
         }
     }
 
-    /// Digits kept, at most `carried`; nothing of a run that was refused, or that nothing stands beside.
+    /// Digits kept, at most `carried`; nothing of a run that was refused, or that nothing stands
+    /// beside.
     pub fn digits(&self, carried: f64) -> Option<f64> {
         match self {
             Verdict::Exact => Some(carried),
@@ -57,7 +58,7 @@ impl Verdict {
     }
 
     /// Whether it is refused, or has fewer than `least` digits.
-    pub fn gives(&self, least: f64) -> bool {
+    pub fn breaks_down(&self, least: f64) -> bool {
         match self {
             Verdict::Refused(_) => true,
             _ => self.digits(f64::INFINITY).is_some_and(|digits| digits < least),

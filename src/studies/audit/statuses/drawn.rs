@@ -1,20 +1,21 @@
-//! Random scenes whose statuses are known: a round stamp that jumped into a target by a given depth.
+//! Random scenes whose statuses are known: a round stamp that jumped into a target by a given
+//! depth.
 //!
 //! ```text
-//!      *----*----*----*          y = g(x) is the target surface: flat, sloping, broken or hollow. A contact node at x, y is
-//!       \  / \  / \  /           in contact where y − g(x) ≤ c_tll / 2 and apart where it is beside the target or
-//!     ---*-.-\/----*----*---     y − g(x) ≥ 3 c_tll: on the slopes drawn that is farther than c_tll from every edge.
-//!     target  *                  None is drawn between.
+//!      *----*----*----*          y = g(x) is the target surface: flat, sloping, broken or hollow.
+//!       \  / \  / \  /           A contact node at x, y is in contact where y − g(x) ≤ c_tll / 2,
+//!     ---*-.-\/----*----*---     and apart where it is beside the target or y − g(x) ≥ 3 c_tll: on
+//!     target  *                  the slopes drawn that is farther than c_tll from every edge. None
+//!                                is drawn between.
 //! ```
 
+use std::sync::Arc;
+
 use fastrand::Rng;
-use nalgebra::DVector;
 
 use crate::problem::element::Plane;
-use crate::problem::model::{
-    ContactSurfaces, Edge, EdgeId, Element, Material, Model, NodeId, Row, Sides, Triangle,
-    TriangleId,
-};
+use crate::problem::model::Model;
+use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 /// The text's c_tol.
 pub const C_TLL: f64 = 0.001;
@@ -36,21 +37,29 @@ pub struct Kind {
     pub above: bool,
 }
 
+impl Kind {
+    /// Mean length of a target edge along x.
+    fn edge(&self) -> f64 {
+        WIDTH / self.edges as f64
+    }
+}
+
 /// A scene and the statuses of its contact nodes.
 pub struct Drawn {
     /// The model in the shape after the jump.
-    pub model: Model,
+    pub model: Arc<Model>,
     /// Whether each contact node is in contact.
     pub touching: Vec<bool>,
 }
 
 /// Draws a scene.
 pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
-    let surface = surface(rng, kind.edges);
+    let surface = surface(rng, kind);
     let (stamp, touching) = stamp(rng, &surface, kind);
     let turned = rng.bool();
-    let model = model(&surface, &stamp, WIDTH / kind.edges as f64, turned, kind.above);
-    Drawn { model, touching }
+    let scene =
+        scene(&surface, &stamp, kind, turned).build().expect("a scene that is drawn is sound");
+    Drawn { model: scene.model, touching }
 }
 
 /// A number between `low` and `high`.
@@ -59,13 +68,13 @@ fn between(rng: &mut Rng, low: f64, high: f64) -> f64 {
 }
 
 /// The nodes of the target surface from left to right.
-fn surface(rng: &mut Rng, edges: usize) -> Vec<[f64; 2]> {
+fn surface(rng: &mut Rng, kind: Kind) -> Vec<[f64; 2]> {
     let shape = rng.usize(0..4);
     let (slope, radius) = (between(rng, -0.5, 0.5), between(rng, 4.0, 8.0));
-    let step = WIDTH / edges as f64;
+    let step = kind.edge();
     let mut nodes: Vec<[f64; 2]> = Vec::new();
-    for j in 0..=edges {
-        let at_end = j == 0 || j == edges;
+    for j in 0..=kind.edges {
+        let at_end = j == 0 || j == kind.edges;
         let jitter = if at_end { 0.0 } else { between(rng, -0.2, 0.2) * step };
         let x = j as f64 * step + jitter;
         let y = match (shape, nodes.last()) {
@@ -87,10 +96,11 @@ fn height(surface: &[[f64; 2]], x: f64) -> Option<f64> {
     Some(edge[0][1] + t * (edge[1][1] - edge[0][1]))
 }
 
-/// The contact nodes from left to right, and whether each is in contact. One stamp in four hangs over the target's end.
+/// The contact nodes from left to right, and whether each is in contact. One stamp in four hangs
+/// over the target's end.
 fn stamp(rng: &mut Rng, surface: &[[f64; 2]], kind: Kind) -> (Vec<[f64; 2]>, Vec<bool>) {
     let radius = between(rng, 1.5, 4.0);
-    let (width, step) = (between(rng, 1.0, 2.5), WIDTH / kind.edges as f64);
+    let (width, step) = (between(rng, 1.0, 2.5), kind.edge());
     let middle = if rng.usize(0..4) == 0 {
         between(rng, 0.0, 0.3)
     } else {
@@ -119,53 +129,37 @@ fn stamp(rng: &mut Rng, surface: &[[f64; 2]], kind: Kind) -> (Vec<[f64; 2]>, Vec
     (nodes, touching)
 }
 
-/// Both bodies as strips of triangles under the surface and over the contact nodes; where the target is `above`, mirrored in y.
-fn model(surface: &[[f64; 2]], stamp: &[[f64; 2]], size: f64, turned: bool, above: bool) -> Model {
-    let (m, n) = (surface.len(), stamp.len());
-    let bottom = surface.iter().map(|p| [p[0], BOTTOM]);
-    let top = stamp.iter().map(|p| [p[0], p[1] + size]);
-    let points = surface.iter().copied().chain(bottom).chain(stamp.iter().copied()).chain(top);
-    let nodes: Vec<[f64; 2]> =
-        points.map(|[x, y]| if above { [x, 0.0 - y] } else { [x, y] }).collect();
-    let edge = |j: usize| Edge {
-        number: j + 1,
-        nodes: if turned { [j + 1, j] } else { [j, j + 1] }.map(NodeId::new),
+/// Both bodies as strips of triangles under the surface and over the contact nodes, restrained
+/// whole: nothing is solved. Where the target lies above, they are mirrored in y. Target edges run
+/// from right to left where they are `turned`.
+fn scene(surface: &[[f64; 2]], stamp: &[[f64; 2]], kind: Kind, turned: bool) -> SceneBuilder {
+    let size = kind.edge();
+    let mut mesh = MeshBuilder::default();
+    let mut row = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        mesh.row(points.map(|[x, y]| [x, if kind.above { 0.0 - y } else { y }]))
     };
-    // What no contact search reads.
-    let material = Material { e: 0.0, nu: 0.0 };
-    let triangles: Vec<Triangle> = strip(m, 0, m)
-        .chain(strip(2 * m, 2 * m + n, n))
-        .map(|[a, b, c]| if above { [a, c, b] } else { [a, b, c] })
-        .map(|nodes| Triangle { nodes: nodes.map(NodeId::new), material })
-        .collect();
-    let elements = EdgeId::all(m - 1)
-        .map(Element::Edge)
-        .chain(TriangleId::all(triangles.len()).map(Element::Triangle));
-    let row = |(k, element)| Row { number: k + 1, physical: 1, geometric: 1, element };
-    Model {
-        plane: Plane::Strain,
-        thickness: 1.0,
-        z: 0.0,
-        sides: Sides::new(triangles.iter().map(|triangle| triangle.nodes)),
-        edges: (0..m - 1).map(edge).collect(),
-        restrained: vec![false; 2 * nodes.len()],
-        load: DVector::zeros(2 * nodes.len()),
-        bodies: Vec::new(),
-        contact: ContactSurfaces {
-            nodes: (2 * m..2 * m + n).map(NodeId::new).collect(),
-            target: EdgeId::all(m - 1).collect(),
-            tolerance: C_TLL,
-        },
-        rows: elements.enumerate().map(row).collect(),
-        triangles,
-        nodes,
+    let target = row(&mut surface.iter().copied());
+    let bottom = row(&mut surface.iter().map(|p| [p[0], BOTTOM]));
+    let contact = row(&mut stamp.iter().copied());
+    let top = row(&mut stamp.iter().map(|p| [p[0], p[1] + size]));
+    for edge in target.windows(2) {
+        let [a, b] = [edge[0], edge[1]];
+        mesh.edges("surface", &if turned { [b, a] } else { [a, b] });
     }
+    mesh.triangles("target", strip(&bottom, &target, kind.above));
+    mesh.triangles("stamp", strip(&contact, &top, kind.above));
+    SceneBuilder::new("statuses", mesh.finish(), Plane::Strain)
+        .material("target", 1.0, 0.0)
+        .material("stamp", 1.0, 0.0)
+        .restrain("target", &[Axis::X, Axis::Y])
+        .restrain("stamp", &[Axis::X, Axis::Y])
+        .contact(Contact::new(contact, "surface", C_TLL))
 }
 
-/// Counter-clockwise triangles between a lower and an upper row of `n` nodes that start at `lower` and `upper`.
-fn strip(lower: usize, upper: usize, n: usize) -> impl Iterator<Item = [usize; 3]> {
-    (1..n).flat_map(move |j| {
-        let (a, b) = (lower + j - 1, upper + j - 1);
-        [[a, a + 1, b], [a + 1, b + 1, b]]
-    })
+/// Triangles between a lower and an upper row of as many nodes: counter-clockwise, also where the
+/// rows are mirrored in y.
+fn strip(lower: &[usize], upper: &[usize], mirrored: bool) -> Vec<[usize; 3]> {
+    let pairs = lower.windows(2).zip(upper.windows(2));
+    let triangles = pairs.flat_map(|(a, b)| [[a[0], a[1], b[0]], [a[1], b[1], b[0]]]);
+    triangles.map(|[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect()
 }

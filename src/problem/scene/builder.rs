@@ -1,0 +1,172 @@
+//! A scene in code: a mesh, and what is said of it.
+
+use std::path::Path;
+
+use super::description::{Axis, Contact, Description, Load, Material, Restraint, Units};
+use super::groups::GroupRef;
+use super::mesh::Mesh;
+use super::{Scene, file, gmsh, orphans};
+use crate::error::InputError;
+use crate::files;
+use crate::problem::element::Plane;
+use crate::problem::modelling::Variant;
+
+/// A scene before it is checked: from code, or from a scene file, which says the same.
+///
+/// ```
+/// use plane_contact::problem::element::Plane;
+/// use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
+///
+/// let mut mesh = MeshBuilder::default();
+/// let bottom = mesh.row([[0.0, 0.0], [1.0, 0.0]]);
+/// let top = mesh.row([[0.0, 1.0], [1.0, 1.0]]);
+/// mesh.join("block", &bottom, &top);
+/// mesh.edges("bottom", &bottom);
+/// mesh.edges("top", &top);
+/// let scene = SceneBuilder::new("block", mesh.finish(), Plane::Strain)
+///     .material("block", 30000.0, 0.2)
+///     .restrain("bottom", &[Axis::X, Axis::Y])
+///     .pressure("top", 6.3)
+///     .build()?;
+/// assert_eq!(scene.name, "block");
+/// # Ok::<(), plane_contact::error::InputError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneBuilder {
+    /// Name for folders and reports.
+    pub name: String,
+    /// The mesh.
+    pub mesh: Mesh,
+    /// What is said of the mesh.
+    pub description: Description,
+}
+
+impl SceneBuilder {
+    /// A plane problem on a mesh, of which nothing else is said yet.
+    pub fn new(name: impl Into<String>, mesh: Mesh, plane: Plane) -> Self {
+        SceneBuilder { name: name.into(), mesh, description: Description::new(plane) }
+    }
+
+    /// Reads a scene file and its mesh; `beside` reads a file that lies beside the scene file.
+    ///
+    /// # Errors
+    /// The text of the scene file or of the mesh file is none.
+    pub fn read(
+        name: &str,
+        text: &[u8],
+        beside: impl Fn(&str) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, InputError> {
+        let (source, description) = file::parse(text)?;
+        Ok(SceneBuilder { name: name.into(), mesh: source.read(beside)?, description })
+    }
+
+    /// Sets the line for people.
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.description.title = title.into();
+        self
+    }
+
+    /// Sets the thickness across the plane, length; it is 1 where it is not set.
+    pub fn thickness(mut self, thickness: f64) -> Self {
+        self.description.thickness = thickness;
+        self
+    }
+
+    /// Sets the names of the units of length, stress and force.
+    pub fn units(mut self, length: &str, stress: &str, force: &str) -> Self {
+        let [length, stress, force] = [length, stress, force].map(String::from);
+        self.description.units = Units { length, stress, force };
+        self
+    }
+
+    /// Gives a group of triangles a material: elastic modulus, stress, and Poisson's ratio.
+    pub fn material(mut self, group: impl Into<GroupRef>, e: f64, nu: f64) -> Self {
+        self.description.materials.0.push((group.into(), Material { e, nu }));
+        self
+    }
+
+    /// Restrains all nodes of a group in the directions `fix`.
+    pub fn restrain(mut self, group: impl Into<GroupRef>, fix: &[Axis]) -> Self {
+        let restraint = Restraint { on: Some(group.into()), node: None, fix: fix.to_vec() };
+        self.description.restraints.push(restraint);
+        self
+    }
+
+    /// Restrains the node of a number in the directions `fix`.
+    pub fn restrain_node(mut self, node: usize, fix: &[Axis]) -> Self {
+        let restraint = Restraint { on: None, node: Some(node), fix: fix.to_vec() };
+        self.description.restraints.push(restraint);
+        self
+    }
+
+    /// Loads a group of edges by a pressure, which pushes into the body, stress.
+    pub fn pressure(self, group: impl Into<GroupRef>, pressure: f64) -> Self {
+        self.load(Load { on: Some(group.into()), pressure: Some(pressure), ..Load::default() })
+    }
+
+    /// Loads a group of edges by a force per area along x and y, stress.
+    pub fn traction(self, group: impl Into<GroupRef>, traction: [f64; 2]) -> Self {
+        self.load(Load { on: Some(group.into()), traction: Some(traction), ..Load::default() })
+    }
+
+    /// Loads the node of a number by a force along x and y, force.
+    pub fn force(self, node: usize, force: [f64; 2]) -> Self {
+        self.load(Load { node: Some(node), force: Some(force), ..Load::default() })
+    }
+
+    fn load(mut self, load: Load) -> Self {
+        self.description.loads.push(load);
+        self
+    }
+
+    /// Sets the contact surfaces, and how contact is modelled.
+    pub fn contact(mut self, contact: Contact) -> Self {
+        self.description.contact = Some(contact);
+        self
+    }
+
+    /// Sets the number of iterations; it is the paper's 20 where it is not set.
+    pub fn iterations(mut self, iterations: usize) -> Self {
+        self.description.iterations = iterations;
+        self
+    }
+
+    /// Sets what is run unless the command line says otherwise.
+    pub fn variant(mut self, variant: Variant) -> Self {
+        self.description.variant = variant;
+        self
+    }
+
+    /// Lets nodes that belong to no triangle be dropped.
+    pub fn drop_orphans(mut self) -> Self {
+        self.description.drop_orphans = true;
+        self
+    }
+
+    /// The scene, once it is known to be sound.
+    ///
+    /// # Errors
+    /// Anything wrong with the mesh, with what is said of it, or with both together.
+    pub fn build(&self) -> Result<Scene, InputError> {
+        self.mesh.check()?;
+        let mut description = self.description.clone();
+        let dropped = self.mesh.orphans();
+        if dropped.is_empty() {
+            return Scene::assemble(&self.name, description, &self.mesh, dropped);
+        }
+        let mesh = orphans::drop(&self.mesh, &dropped, &mut description)?;
+        Scene::assemble(&self.name, description, &mesh, dropped)
+    }
+
+    /// Writes the scene to `folder` as `scene.json` and a mesh file of its name, once it is known
+    /// to be sound.
+    ///
+    /// # Errors
+    /// Those of [`SceneBuilder::build`]; a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), InputError> {
+        self.build()?;
+        let mesh_file = format!("{}.msh", self.name);
+        files::write(&folder.join(&mesh_file), &gmsh::write(&self.mesh))?;
+        files::write(&folder.join("scene.json"), &file::write(&self.description, &mesh_file))
+    }
+}

@@ -1,0 +1,217 @@
+//! What is said of a mesh: plane problem, materials, restraints, loads, contact surfaces, and what
+//! is to be run. A scene file and code say the same, by [`SceneBuilder`](super::SceneBuilder).
+
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::file::by_name;
+use super::groups::GroupRef;
+use super::surface::Surface;
+use crate::problem::element::Plane;
+use crate::problem::modelling::{Coupling, Friction, Geometry, StatusRule, Variant};
+
+/// What is said of a mesh. Lengths, forces and stresses may be in any consistent unit. It is
+/// written without the fields that have their default.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Description {
+    /// A line for people.
+    #[serde(skip_serializing_if = "is_default")]
+    pub title: String,
+    /// Plane strain or plane stress.
+    pub plane: Plane,
+    /// Thickness across the plane, length.
+    #[serde(skip_serializing_if = "is_default_thickness")]
+    pub thickness: f64,
+    /// Unit names for tables and pictures; no number is converted.
+    #[serde(skip_serializing_if = "is_default")]
+    pub units: Units,
+    /// The material of each physical group of triangles.
+    pub materials: Materials,
+    /// Which displacements are restrained to 0.
+    #[serde(skip_serializing_if = "is_default")]
+    pub restraints: Vec<Restraint>,
+    /// Pressures, tractions and forces.
+    #[serde(skip_serializing_if = "is_default")]
+    pub loads: Vec<Load>,
+    /// The two contact surfaces; where there are none, nothing of contact is built.
+    #[serde(skip_serializing_if = "is_default")]
+    pub contact: Option<Contact>,
+    /// Number of iterations.
+    #[serde(skip_serializing_if = "is_default_iterations")]
+    pub iterations: usize,
+    /// What is run unless the command line says otherwise.
+    #[serde(skip_serializing_if = "is_default")]
+    pub variant: Variant,
+    /// Whether nodes that belong to no triangle are dropped; else they are refused.
+    #[serde(skip_serializing_if = "is_default")]
+    pub drop_orphans: bool,
+}
+
+impl Description {
+    /// A plane problem of which nothing else is said: no material yet, thickness 1, no load.
+    pub fn new(plane: Plane) -> Self {
+        Description {
+            title: String::new(),
+            plane,
+            thickness: default_thickness(),
+            units: Units::default(),
+            materials: Materials::default(),
+            restraints: Vec::new(),
+            loads: Vec::new(),
+            contact: None,
+            iterations: default_iterations(),
+            variant: Variant::default(),
+            drop_orphans: false,
+        }
+    }
+}
+
+/// The thickness of a scene that gives none, length.
+pub fn default_thickness() -> f64 {
+    1.0
+}
+
+/// The number of iterations of a scene that gives none: the paper's.
+pub fn default_iterations() -> usize {
+    20
+}
+
+fn is_default_thickness(thickness: &f64) -> bool {
+    *thickness == default_thickness()
+}
+
+fn is_default_iterations(iterations: &usize) -> bool {
+    *iterations == default_iterations()
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+/// Unit names, shown beside numbers.
+#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
+#[serde(deny_unknown_fields)]
+pub struct Units {
+    /// Of lengths and displacements, such as `mm`.
+    #[serde(default)]
+    pub length: String,
+    /// Of stresses and elastic moduli, such as `MPa`.
+    #[serde(default)]
+    pub stress: String,
+    /// Of forces (per unit thickness where the thickness is 1), such as `N`.
+    #[serde(default)]
+    pub force: String,
+}
+
+/// An elastic material.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Elastic modulus, stress.
+    #[serde(rename = "E")]
+    pub e: f64,
+    /// Poisson's ratio.
+    pub nu: f64,
+}
+
+/// The materials in the order in which they are given, each with its physical group of triangles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Materials(pub Vec<(GroupRef, Material)>);
+
+impl Serialize for Materials {
+    /// Writes an object whose keys are the groups' names or tags.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(group, material)| (group.text(), material)))
+    }
+}
+
+/// Displacements restrained to 0: of a group's nodes, or of one node.
+#[derive(Clone, Debug, Deserialize, Serialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Restraint {
+    /// A physical group, all of whose nodes are restrained; or `node`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on: Option<GroupRef>,
+    /// The number of one node.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub node: Option<usize>,
+    /// The directions that are restrained.
+    pub fix: Vec<Axis>,
+}
+
+/// A direction of the plane.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// Horizontal.
+    X,
+    /// Vertical.
+    Y,
+}
+
+/// A load: `on` with `pressure` or `traction`, or `node` with `force`.
+#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// A physical group of edges.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on: Option<GroupRef>,
+    /// Pressure that pushes into the body, stress.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<f64>,
+    /// Force per area along x and y, stress.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub traction: Option<[f64; 2]>,
+    /// The number of one node.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub node: Option<usize>,
+    /// Force on that node along x and y, force.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force: Option<[f64; 2]>,
+}
+
+/// The two contact surfaces, the tolerance between them, and how contact is modelled.
+#[derive(Clone, Debug, Deserialize, Serialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Contact (stamp) surface: a group of edges, or node numbers in order.
+    pub cnt: Surface,
+    /// Target surface: a group of edges, or `elem` numbers in order.
+    pub trg: Surface,
+    /// The text's c_tol, length.
+    pub c_tll: f64,
+    /// How a contact node is bound to the target.
+    #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
+    pub coupling: Coupling,
+    /// What it may do along the tangent under `unilateral`: 0 or "stick".
+    #[serde(default, serialize_with = "friction", skip_serializing_if = "is_default")]
+    pub friction: Friction,
+    /// The shape in which `unilateral` measures contact.
+    #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
+    pub geometry: Geometry,
+    /// How `tied` and `stepped` decide who is in contact.
+    #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
+    pub status: StatusRule,
+}
+
+/// Writes no friction as the number 0: it is a coefficient.
+fn friction<S: Serializer>(friction: &Friction, serializer: S) -> Result<S::Ok, S::Error> {
+    match friction {
+        Friction::None => serializer.serialize_u8(0),
+        other => other.serialize(serializer),
+    }
+}
+
+impl Contact {
+    /// Contact of two surfaces within `c_tll`, length, modelled as the paper does.
+    pub fn new(cnt: impl Into<Surface>, trg: impl Into<Surface>, c_tll: f64) -> Self {
+        Contact {
+            cnt: cnt.into(),
+            trg: trg.into(),
+            c_tll,
+            coupling: Coupling::default(),
+            friction: Friction::default(),
+            geometry: Geometry::default(),
+            status: StatusRule::default(),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! What may be wrong with a file of Gmsh, and where.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// Why a file cannot be read, and where.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{place}: {fault}")]
+pub struct GmshError {
+    /// Where the fault was met.
+    pub place: Place,
+    /// What it is.
+    pub fault: Fault,
+}
+
+/// A place in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line of a text file, from 1.
+    Line(usize),
+    /// A byte of a binary file, from 0.
+    Byte(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Line(line) => write!(f, "line {line}"),
+            Place::Byte(byte) => write!(f, "byte {byte}"),
+        }
+    }
+}
+
+/// What may be wrong with a file.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Fault {
+    /// Something else stands where the format asks for `expected`.
+    #[error("found {found}, expected {expected}")]
+    Unexpected { found: String, expected: String },
+    /// The file has a version of the format that is not read.
+    #[error(
+        "the file has MSH version {found}; versions 2.2 and 4.1 can be read: in Gmsh set \
+         Mesh.MshFileVersion = 4.1 and save the mesh again"
+    )]
+    Version { found: String },
+    /// The numbers of the file have another width than eight bytes.
+    #[error("the file has numbers of {found} bytes, expected 8: save the mesh with a 64-bit Gmsh")]
+    DataSize { found: i32 },
+    /// The file ends without a section that it must have.
+    #[error("the file has no section ${section}")]
+    MissingSection { section: &'static str },
+    /// A section comes a second time.
+    #[error("a second section ${section}, expected one")]
+    RepeatedSection { section: String },
+    /// A number or tag that must be unique comes a second time.
+    #[error("{what} comes a second time")]
+    Repeated { what: String },
+    /// A total that the file declares is not what its blocks add up to.
+    #[error("{declared} {what} are declared but {found} are given")]
+    Count { what: &'static str, declared: usize, found: usize },
+    /// A coordinate is infinite or not a number.
+    #[error("node {node} has the coordinate {value}, expected a finite number")]
+    Coordinate { node: usize, value: f64 },
+    /// An element is of a kind that is not read.
+    #[error(
+        "element {element} is {kind}; only points, two-node edges and three-node triangles can be \
+         read: in Gmsh set Mesh.RecombineAll = 0 and Mesh.ElementOrder = 1, and mesh in two \
+         dimensions"
+    )]
+    Kind { element: usize, kind: String },
+    /// An element stands among those of a geometric entity of another dimension.
+    #[error(
+        "element {element} has dimension {found}, but it is listed in an entity of dimension \
+         {expected}"
+    )]
+    Dimension { element: usize, found: usize, expected: usize },
+    /// An element names a node that the file does not have.
+    #[error("element {element} has the node {node}, which is not in $Nodes")]
+    NoNode { element: usize, node: usize },
+    /// An element is part of a geometric entity that the file does not have.
+    #[error(
+        "the elements are part of the {kind} {tag}, which is not in $Entities; if the mesh is \
+         partitioned, save it unpartitioned"
+    )]
+    NoEntity { kind: &'static str, tag: i32 },
+}
+
+/// What reading comes to: a value, or the first fault.
+pub(super) type Result<T, E = GmshError> = std::result::Result<T, E>;

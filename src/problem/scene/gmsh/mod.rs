@@ -1,0 +1,29 @@
+//! Meshes as files of Gmsh: MSH 2.2 and 4.1, text or binary, of either byte order, are read; MSH
+//! 2.2 is written as text.
+//!
+//! ```text
+//! $MeshFormat        version, text or binary, bytes of a number
+//! $PhysicalNames     dimension, tag, "name"                          always text
+//! $Entities          4.1: point, curve, ... with its physical tags
+//! $Nodes             number, x, y, z
+//! $Elements          number, kind, tags, node numbers
+//! $...               any other section is skipped
+//! ```
+//!
+//! A grammar is written once for text and binary: both are read as the same run of numbers, by
+//! `Tokens`. Nothing is ever reserved for a count that the file declares: a wrong count runs into
+//! the file's end, not out of memory.
+//!
+//! Reference: Gmsh's manual, "MSH file format" and "MSH file format version 2 (Legacy)".
+
+mod error;
+mod kinds;
+mod msh2;
+mod msh4;
+mod reader;
+mod tokens;
+mod write;
+
+pub use error::{Fault, GmshError, Place};
+pub use reader::read;
+pub use write::write;

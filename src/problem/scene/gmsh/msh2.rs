@@ -1,0 +1,69 @@
+//! The sections `$Nodes` and `$Elements` of MSH 2.2.
+
+use super::error::Result;
+use super::kinds::{kind, magnitude};
+use super::reader::Reader;
+use super::tokens::Encoding;
+use crate::problem::scene::mesh::Element;
+
+impl Reader<'_> {
+    /// Reads `$Nodes`: a count, then `number x y z`.
+    pub fn nodes_2(&mut self) -> Result<()> {
+        for _ in 0..self.tokens.count_line("the number of nodes")? {
+            let number = self.tokens.int_from(1, "a node's number, 1 or more")?;
+            self.node(number)?;
+        }
+        Ok(())
+    }
+
+    /// Reads `$Elements`: a count, then in text `number kind tags nodes` each, and in binary
+    /// blocks.
+    pub fn elements_2(&mut self) -> Result<()> {
+        let declared = self.tokens.count_line("the number of elements")?;
+        if self.tokens.encoding == Encoding::Text {
+            for _ in 0..declared {
+                let number = self.tokens.int_from(1, "an element's number, 1 or more")?;
+                let kind = self.tokens.int("an element's type")?;
+                let tags = self.tokens.int_from(0, "an element's number of tags")?;
+                self.element_2(number, kind, tags)?;
+            }
+        } else {
+            while self.elements.len() < declared {
+                self.element_block_2()?;
+            }
+        }
+        self.check_count("elements", declared, self.elements.len())
+    }
+
+    /// Reads a binary block: kind, number of elements, number of tags; then `number tags nodes` of
+    /// each element.
+    fn element_block_2(&mut self) -> Result<()> {
+        let kind = self.tokens.int("an element's type")?;
+        let count = self.tokens.int_from(1, "the number of elements of a block, 1 or more")?;
+        let tags = self.tokens.int_from(0, "an element's number of tags")?;
+        for _ in 0..count {
+            let number = self.tokens.int_from(1, "an element's number, 1 or more")?;
+            self.element_2(number, kind, tags)?;
+        }
+        Ok(())
+    }
+
+    /// Reads the tags and nodes of an element; the first tag is physical (0: none), the second
+    /// geometric.
+    fn element_2(&mut self, number: usize, kind_number: i32, tags: usize) -> Result<()> {
+        let kind = kind(&self.tokens, number, kind_number)?;
+        let tags: Result<Vec<usize>> =
+            (0..tags).map(|_| self.tokens.int("an element's tag").map(magnitude)).collect();
+        let tags = tags?;
+        let nodes: Result<Vec<usize>> = (0..kind.nodes)
+            .map(|_| self.tokens.int_from(1, "a node's number, 1 or more"))
+            .collect();
+        self.keep(Element {
+            number,
+            kind: kind.number,
+            physical: tags.iter().copied().take(1).filter(|&tag| tag != 0).collect(),
+            geometric: tags.get(1).copied().unwrap_or(0),
+            nodes: nodes?,
+        })
+    }
+}

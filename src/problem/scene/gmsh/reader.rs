@@ -1,0 +1,183 @@
+//! The sections of a file, and what all versions of the format share.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::error::{Fault, GmshError, Result};
+use super::kinds::{ENTITIES, magnitude};
+use super::tokens::Tokens;
+use crate::problem::scene::mesh::{Element, Mesh, Node, PhysicalName};
+
+/// Reads a mesh from the bytes of a `.msh` file.
+///
+/// Nodes, elements and physical names are returned in ascending order; tags that are negative in
+/// the file (a reversed orientation) are returned positive.
+///
+/// # Errors
+/// The first fault met, with its line (text) or byte (binary).
+pub fn read(bytes: &[u8]) -> Result<Mesh, GmshError> {
+    let mut tokens = Tokens::new(bytes);
+    tokens.keyword("$MeshFormat", "$MeshFormat, the first line of a Gmsh mesh (MSH 2.2 or 4.1)")?;
+    let version = format(&mut tokens)?;
+    tokens.keyword("$EndMeshFormat", "$EndMeshFormat")?;
+    let mut reader = Reader { tokens, version, ..Reader::default() };
+    while let Some(section) = reader.tokens.section()? {
+        reader.section(&section)?;
+        let end = format!("$End{section}");
+        reader.tokens.keyword(&end, &end)?;
+    }
+    reader.finish()
+}
+
+/// Reads the body of `$MeshFormat`; from here on `tokens` knows text from binary.
+fn format(tokens: &mut Tokens) -> Result<Version> {
+    let found: String = tokens.parse("a version of the format")?;
+    let version = match found.as_str() {
+        "2.2" => Version::V2,
+        "4.1" => Version::V4,
+        _ => return Err(tokens.error(Fault::Version { found })),
+    };
+    let binary: i32 = tokens.parse("0 (text) or 1 (binary)")?;
+    if !(0..=1).contains(&binary) {
+        return Err(tokens.unexpected(binary, "0 (text) or 1 (binary)"));
+    }
+    let found = tokens.parse("8, the bytes of a number")?;
+    if found != 8 {
+        return Err(tokens.error(Fault::DataSize { found }));
+    }
+    if binary == 1 {
+        tokens.line_end()?;
+        tokens.encoding = tokens.byte_order()?;
+    }
+    Ok(version)
+}
+
+/// The versions of the format that can be read.
+#[derive(Clone, Copy, Default, PartialEq)]
+enum Version {
+    #[default]
+    V2,
+    V4,
+}
+
+/// What has been read of a file so far.
+#[derive(Default)]
+pub struct Reader<'a> {
+    /// The rest of the file.
+    pub tokens: Tokens<'a>,
+    version: Version,
+    /// The sections met, without those that are skipped.
+    pub sections: BTreeSet<String>,
+    /// Names by dimension and tag.
+    names: BTreeMap<(usize, usize), String>,
+    /// Physical tags by dimension and tag of the geometric entity.
+    pub entities: BTreeMap<(usize, i32), Vec<usize>>,
+    /// Nodes by number.
+    pub nodes: BTreeMap<usize, Node>,
+    /// Elements by number.
+    pub elements: BTreeMap<usize, Element>,
+}
+
+impl Reader<'_> {
+    /// Reads the body of a section.
+    fn section(&mut self, name: &str) -> Result<()> {
+        match (name, self.version) {
+            ("PhysicalNames", _) => self.once(name, Self::physical_names),
+            ("Entities", Version::V4) => self.once(name, Self::entities_4),
+            ("Nodes", Version::V2) => self.once(name, Self::nodes_2),
+            ("Nodes", Version::V4) => self.once(name, Self::nodes_4),
+            ("Elements", Version::V2) => self.once(name, Self::elements_2),
+            ("Elements", Version::V4) => self.once(name, Self::elements_4),
+            _ => self.tokens.skip_to(&format!("$End{name}")),
+        }
+    }
+
+    /// Reads by `body` a section that may come once only; `$Elements` comes after what the elements
+    /// refer to.
+    fn once(&mut self, name: &str, body: fn(&mut Self) -> Result<()>) -> Result<()> {
+        if name == "Elements" && !self.sections.contains("Nodes") {
+            let expected = "$Nodes before it (in Gmsh set Mesh.SaveParametric = 0)";
+            return Err(self.tokens.unexpected("$Elements", expected));
+        }
+        if name == "Entities" && self.sections.contains("Elements") {
+            return Err(self.tokens.unexpected("$Entities after $Elements", "$Entities first"));
+        }
+        if !self.sections.insert(name.to_owned()) {
+            return Err(self.tokens.error(Fault::RepeatedSection { section: name.to_owned() }));
+        }
+        body(self)
+    }
+
+    /// The mesh, once the file has ended.
+    fn finish(self) -> Result<Mesh> {
+        for section in ["Nodes", "Elements"] {
+            if !self.sections.contains(section) {
+                return Err(self.tokens.error(Fault::MissingSection { section }));
+            }
+        }
+        let named = |((dim, tag), name)| PhysicalName { dim, tag, name };
+        Ok(Mesh {
+            nodes: self.nodes.into_values().collect(),
+            elements: self.elements.into_values().collect(),
+            names: self.names.into_iter().map(named).collect(),
+        })
+    }
+
+    /// Reads `$PhysicalNames`: a count, then `dimension tag "name"` on a line each. It is text in
+    /// binary files too.
+    fn physical_names(&mut self) -> Result<()> {
+        let count: usize = self.tokens.parse("the number of physical names")?;
+        for _ in 0..count {
+            let dim: usize = self.tokens.parse("a dimension from 0 to 3")?;
+            if dim > 3 {
+                return Err(self.tokens.unexpected(dim, "a dimension from 0 to 3"));
+            }
+            let tag: i32 = self.tokens.parse("a physical tag")?;
+            let name = self.tokens.quoted("a name in quotation marks")?;
+            if self.names.insert((dim, magnitude(tag)), name).is_some() {
+                return self.repeated(format!("the name of the physical {} {tag}", ENTITIES[dim]));
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the coordinates of the node `number`, and keeps it.
+    pub fn node(&mut self, number: usize) -> Result<()> {
+        if self.nodes.contains_key(&number) {
+            return self.repeated(format!("node {number}"));
+        }
+        let mut xyz = [0.0; 3];
+        for x in &mut xyz {
+            *x = self.tokens.double("a node's coordinate")?;
+            if !x.is_finite() {
+                return Err(self.tokens.error(Fault::Coordinate { node: number, value: *x }));
+            }
+        }
+        self.nodes.insert(number, Node { number, xyz });
+        Ok(())
+    }
+
+    /// Keeps an element, unless it has a node that the file does not have, or its number is taken.
+    pub fn keep(&mut self, element: Element) -> Result<()> {
+        let number = element.number;
+        if let Some(&node) = element.nodes.iter().find(|node| !self.nodes.contains_key(node)) {
+            return Err(self.tokens.error(Fault::NoNode { element: number, node }));
+        }
+        if self.elements.insert(number, element).is_some() {
+            return self.repeated(format!("element {number}"));
+        }
+        Ok(())
+    }
+
+    /// Compares a total that the file declares with what was read.
+    pub fn check_count(&self, what: &'static str, declared: usize, found: usize) -> Result<()> {
+        if declared != found {
+            return Err(self.tokens.error(Fault::Count { what, declared, found }));
+        }
+        Ok(())
+    }
+
+    /// Refuses what comes a second time.
+    pub fn repeated(&self, what: String) -> Result<()> {
+        Err(self.tokens.error(Fault::Repeated { what }))
+    }
+}

@@ -1,0 +1,193 @@
+//! A mesh in code. Rows of nodes are joined by triangles, whatever their numbers of segments.
+//!
+//! ```text
+//!   outer   b0----b1----b2            b0----------b1
+//!           |   / |   / |             | \       / |
+//!           | /   | /   |             |   \   /   |
+//!   inner   a0----a1----a2            a0----a1----a2
+//! ```
+
+use super::{Element, KINDS, Mesh, Node, PhysicalName};
+use crate::problem::element;
+use crate::problem::scene::groups::GroupRef;
+
+/// A mesh as it grows. Nodes are numbered from 1 in the order in which they come. Physical groups
+/// stand in the order in which they are first named, edges before triangles, and their elements are
+/// numbered in that order. A group named by a tag has that tag; to one named by a name the next
+/// free tag is given.
+#[derive(Clone, Debug, Default)]
+pub struct MeshBuilder {
+    nodes: Vec<[f64; 2]>,
+    edges: Vec<Group<2>>,
+    triangles: Vec<Group<3>>,
+}
+
+/// A physical group and its elements of `N` nodes.
+#[derive(Clone, Debug)]
+struct Group<const N: usize> {
+    name: GroupRef,
+    elements: Vec<[usize; N]>,
+}
+
+impl MeshBuilder {
+    /// Adds a node at `xy`, length; returns its number.
+    pub fn node(&mut self, xy: [f64; 2]) -> usize {
+        self.nodes.push(xy);
+        self.nodes.len()
+    }
+
+    /// Adds a node at each of `points`, length; returns their numbers.
+    pub fn row(&mut self, points: impl IntoIterator<Item = [f64; 2]>) -> Vec<usize> {
+        points.into_iter().map(|xy| self.node(xy)).collect()
+    }
+
+    /// Coordinates of node `n`, length.
+    pub fn xy(&self, n: usize) -> [f64; 2] {
+        self.nodes[n - 1]
+    }
+
+    /// Adds the edges between successive `nodes` to a group.
+    pub fn edges(&mut self, group: impl Into<GroupRef>, nodes: &[usize]) {
+        let edges = nodes.windows(2).map(|w| [w[0], w[1]]);
+        elements_of(&mut self.edges, group.into()).extend(edges);
+    }
+
+    /// Adds triangles, their nodes counter-clockwise, to a group.
+    pub fn triangles(
+        &mut self,
+        group: impl Into<GroupRef>,
+        triangles: impl IntoIterator<Item = [usize; 3]>,
+    ) {
+        elements_of(&mut self.triangles, group.into()).extend(triangles);
+    }
+
+    /// Fills the strip between two rows with triangles of a group. Equal rows are cut along inner k
+    /// - outer k + 1; a row of one node is the tip of a fan.
+    pub fn join(&mut self, group: impl Into<GroupRef>, inner: &[usize], outer: &[usize]) {
+        let (n, m) = (inner.len() - 1, outer.len() - 1);
+        let (mut i, mut j) = (0, 0);
+        let mut triangles = Vec::with_capacity(n + m);
+        while i < n || j < m {
+            // The segment whose middle comes first along its row.
+            let inner_first = j == m || (i < n && (2 * i + 1) * m < (2 * j + 1) * n);
+            let third = if inner_first { inner[i + 1] } else { outer[j + 1] };
+            triangles.push(self.counter_clockwise([inner[i], third, outer[j]]));
+            if inner_first { i += 1 } else { j += 1 }
+        }
+        self.triangles(group, triangles);
+    }
+
+    /// Joins successive rows with triangles of a group.
+    pub fn join_all(&mut self, group: &str, rows: &[Vec<usize>]) {
+        rows.windows(2).for_each(|pair| self.join(group, &pair[0], &pair[1]));
+    }
+
+    /// The nodes of a triangle, the last two exchanged where they run clockwise.
+    fn counter_clockwise(&self, [a, b, c]: [usize; 3]) -> [usize; 3] {
+        let area = element::area(&[a, b, c].map(|n| self.xy(n)));
+        if area > 0.0 { [a, b, c] } else { [a, c, b] }
+    }
+
+    /// The mesh, its elements numbered from 1.
+    pub fn finish(self) -> Mesh {
+        let numbered = self.nodes.iter().enumerate();
+        let nodes = numbered.map(|(k, &[x, y])| Node { number: k + 1, xyz: [x, y, 0.0] });
+        let mut mesh = Mesh { nodes: nodes.collect(), ..Mesh::default() };
+        let names =
+            self.edges.iter().map(|g| &g.name).chain(self.triangles.iter().map(|g| &g.name));
+        let mut tags = tags(names.cloned().collect()).into_iter();
+        add_groups(&mut mesh, 1, &mut tags, self.edges);
+        add_groups(&mut mesh, 2, &mut tags, self.triangles);
+        mesh
+    }
+}
+
+/// The elements of the group `name`, which is added where it is new.
+fn elements_of<const N: usize>(groups: &mut Vec<Group<N>>, name: GroupRef) -> &mut Vec<[usize; N]> {
+    let at = groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
+        groups.push(Group { name, elements: Vec::new() });
+        groups.len() - 1
+    });
+    &mut groups[at].elements
+}
+
+/// The tag of each group: its own, or the next that no group has.
+fn tags(names: Vec<GroupRef>) -> Vec<usize> {
+    let mut free = (1..).filter(|tag| !names.contains(&GroupRef::Tag(*tag)));
+    let tag = |name: &GroupRef| match name {
+        GroupRef::Tag(tag) => *tag,
+        GroupRef::Name(_) => free.next().expect("there is always another number"),
+    };
+    names.iter().map(tag).collect()
+}
+
+/// Adds the groups of one dimension to a mesh.
+fn add_groups<const N: usize>(
+    mesh: &mut Mesh,
+    dim: usize,
+    tags: &mut impl Iterator<Item = usize>,
+    groups: Vec<Group<N>>,
+) {
+    for (group, tag) in groups.into_iter().zip(tags) {
+        if let GroupRef::Name(name) = group.name {
+            mesh.names.push(PhysicalName { dim, tag, name });
+        }
+        for nodes in group.elements {
+            mesh.elements.push(Element {
+                number: mesh.elements.len() + 1,
+                kind: KINDS[dim].number,
+                physical: vec![tag],
+                geometric: tag,
+                nodes: nodes.to_vec(),
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::MeshBuilder;
+
+    /// The triangles between two rows of `inner` and `outer` segments.
+    fn triangles(inner: usize, outer: usize) -> Vec<Vec<usize>> {
+        let mut mesh = MeshBuilder::default();
+        let place = |k: usize, n: usize| if n == 0 { 0.5 } else { k as f64 / n as f64 };
+        let a = mesh.row((0..=inner).map(|k| [place(k, inner), 0.0]));
+        let b = mesh.row((0..=outer).map(|k| [place(k, outer), 1.0]));
+        mesh.join("body", &a, &b);
+        mesh.finish().elements.into_iter().map(|e| e.nodes).collect()
+    }
+
+    #[test]
+    fn equal_rows_are_cut_along_one_diagonal() {
+        assert_eq!(triangles(1, 1), [[1, 4, 3], [1, 2, 4]]);
+    }
+
+    #[test]
+    fn a_row_of_half_the_segments_takes_three_triangles_a_segment() {
+        assert_eq!(triangles(2, 1), [[1, 2, 4], [2, 5, 4], [2, 3, 5]]);
+    }
+
+    #[test]
+    fn a_row_of_one_node_is_the_tip_of_a_fan() {
+        assert_eq!(triangles(2, 0), [[1, 2, 4], [2, 3, 4]]);
+    }
+
+    #[test]
+    fn edges_come_first_and_names_take_the_tags_that_are_free() {
+        let mut mesh = MeshBuilder::default();
+        mesh.row([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+        mesh.triangles(2, [[1, 2, 3]]);
+        mesh.edges("bottom", &[1, 2]);
+        mesh.edges("left", &[3, 1]);
+        mesh.edges("bottom", &[2, 3]);
+        let mesh = mesh.finish();
+        let of = |e: &crate::problem::scene::Element| (e.number, e.physical[0], e.nodes.clone());
+        let elements: Vec<_> = mesh.elements.iter().map(of).collect();
+        let expected =
+            [(1, 1, vec![1, 2]), (2, 1, vec![2, 3]), (3, 3, vec![3, 1]), (4, 2, vec![1, 2, 3])];
+        assert_eq!(elements, expected);
+        let names: Vec<_> = mesh.names.iter().map(|n| (n.dim, n.tag, n.name.as_str())).collect();
+        assert_eq!(names, [(1, 1, "bottom"), (1, 3, "left")]);
+    }
+}

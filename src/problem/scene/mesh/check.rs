@@ -1,0 +1,144 @@
+//! What every computation takes for granted of a mesh.
+
+use std::collections::HashMap;
+
+use super::{Element, KINDS, Mesh, PhysicalName};
+use crate::error::InputError;
+use crate::problem::element;
+
+impl Mesh {
+    /// Checks that `n` is a node of the mesh.
+    ///
+    /// # Errors
+    /// It is not.
+    pub fn check_node(&self, n: usize, place: &str) -> Result<(), InputError> {
+        let r = self.nodes.len();
+        if (1..=r).contains(&n) {
+            return Ok(());
+        }
+        let what = format!("node number {n} is beyond R = {r}");
+        let fix = "the paper's tables are indexed by node number: nodes are numbered 1 to R \
+                   (in Gmsh: Mesh.Renumber = 1)";
+        Err(InputError::new(place, what, fix))
+    }
+
+    /// Checks what the listings take for granted: nodes are numbered 1 to R and lie in one plane,
+    /// elements name them, triangles have a positive area and none comes twice.
+    ///
+    /// # Errors
+    /// The first condition that is broken, by node or element number.
+    pub fn check(&self) -> Result<(), InputError> {
+        self.check_names()?;
+        self.check_nodes()?;
+        self.check_elements()?;
+        self.of_dimension(2).try_for_each(|triangle| self.check_area(triangle))
+    }
+
+    fn check_names(&self) -> Result<(), InputError> {
+        for (k, a) in self.names.iter().enumerate() {
+            let same = |b: &&PhysicalName| a.dim == b.dim && a.name == b.name && a.tag != b.tag;
+            if let Some(b) = self.names[..k].iter().find(same) {
+                let what = format!(
+                    "the physical groups {} and {} are both named {:?}",
+                    b.tag, a.tag, a.name
+                );
+                let fix = "give each a name of its own";
+                return Err(InputError::new("the mesh's physical groups", what, fix));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_nodes(&self) -> Result<(), InputError> {
+        let place = "the mesh's nodes";
+        for (k, node) in self.nodes.iter().enumerate() {
+            if k > 0 && self.nodes[k - 1].number == node.number {
+                let what = format!("node {} is given twice", node.number);
+                return Err(InputError::new(place, what, "give each node once"));
+            }
+            self.check_node(node.number, place)?;
+            if node.xyz.iter().any(|x| !x.is_finite()) {
+                let what = format!("node {} has a coordinate that is not finite", node.number);
+                return Err(InputError::new(place, what, "give finite coordinates"));
+            }
+            if node.xyz[2] != self.nodes[0].xyz[2] {
+                let what = format!(
+                    "node {} has z = {}, node {} z = {}: the mesh is not plane",
+                    node.number, node.xyz[2], self.nodes[0].number, self.nodes[0].xyz[2]
+                );
+                return Err(InputError::new(place, what, "give all nodes the same z"));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_elements(&self) -> Result<(), InputError> {
+        let place = "the mesh's elements";
+        let mut triangles = HashMap::new();
+        for (k, element) in self.elements.iter().enumerate() {
+            let number = element.number;
+            if k > 0 && self.elements[k - 1].number == number {
+                let what = format!("element {number} is given twice");
+                return Err(InputError::new(place, what, "give each element once"));
+            }
+            self.check_element(element)?;
+            if element.kind == KINDS[2].number {
+                let mut corners = element.nodes.clone();
+                corners.sort_unstable();
+                if let Some(first) = triangles.insert(corners, number) {
+                    let nodes = &element.nodes;
+                    let what =
+                        format!("triangles {first} and {number} have the same nodes {nodes:?}");
+                    let fix =
+                        "keep one: a triangle in two physical groups of Gmsh is written twice";
+                    return Err(InputError::new(place, what, fix));
+                }
+            }
+        }
+        if triangles.is_empty() {
+            let fix = "in Gmsh, mesh the surfaces (-2) and save their physical groups";
+            return Err(InputError::new(place, "the mesh has no triangle", fix));
+        }
+        Ok(())
+    }
+
+    /// Checks an element's number, which must not be far beyond the number of elements, and that it
+    /// names different nodes of the mesh.
+    fn check_element(&self, element: &Element) -> Result<(), InputError> {
+        let place = "the mesh's elements";
+        let (number, nodes, count) = (element.number, &element.nodes, self.elements.len());
+        if number == 0 || number > 16 * count + 1024 {
+            let what = format!("element number {number} for {count} elements");
+            let fix = "elem is indexed by element number: number the elements 1, 2, 3, ...";
+            return Err(InputError::new(place, what, fix));
+        }
+        for (k, n) in nodes.iter().enumerate() {
+            self.check_node(*n, &format!("element {number}"))?;
+            if nodes[..k].contains(n) {
+                let what = format!("element {number} names node {n} twice: {nodes:?}");
+                return Err(InputError::new(place, what, "give it different nodes"));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_area(&self, triangle: &Element) -> Result<(), InputError> {
+        let area = element::area(&self.corners(triangle));
+        if area > 0.0 && area.is_finite() {
+            return Ok(());
+        }
+        let (number, nodes) = (triangle.number, &triangle.nodes);
+        let (what, fix) = if area < 0.0 {
+            (
+                format!("triangle {number} (nodes {nodes:?}) runs clockwise: its area is {area}"),
+                "list its nodes counter-clockwise (in Gmsh: ReverseMesh Surface)",
+            )
+        } else {
+            (
+                format!("triangle {number} (nodes {nodes:?}) has the area {area}"),
+                "move or merge its nodes",
+            )
+        };
+        Err(InputError::new("the mesh's triangles", what, fix))
+    }
+}

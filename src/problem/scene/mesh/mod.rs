@@ -1,0 +1,130 @@
+//! The mesh: nodes, elements and physical groups, whoever made them.
+//!
+//! ```text
+//!  strand.msh ---gmsh::read---+
+//!  node, elem ---from_tables--+--> Mesh --check--> what the scene is built on
+//!  code -------MeshBuilder----+
+//! ```
+
+mod builder;
+mod check;
+mod tables;
+
+pub use builder::MeshBuilder;
+
+use crate::problem::element::Corners;
+
+/// Nodes and elements in ascending order of number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Nodes.
+    pub nodes: Vec<Node>,
+    /// Points, edges and triangles. An element of two physical groups stands twice in a Gmsh file
+    /// of version 2.2, under two numbers, and once, with two tags, in one of version 4.1.
+    pub elements: Vec<Element>,
+    /// Names of physical groups.
+    pub names: Vec<PhysicalName>,
+}
+
+/// A node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// Its number.
+    pub number: usize,
+    /// Coordinates, length.
+    pub xyz: [f64; 3],
+}
+
+/// A point, an edge or a triangle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element {
+    /// Its number: the row of `elem`.
+    pub number: usize,
+    /// Gmsh's element type: 15 point, 1 edge, 2 triangle.
+    pub kind: usize,
+    /// Tags of the physical groups that it belongs to, ascending.
+    pub physical: Vec<usize>,
+    /// Tag of its geometric entity.
+    pub geometric: usize,
+    /// Numbers of its nodes.
+    pub nodes: Vec<usize>,
+}
+
+/// The name of a physical group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhysicalName {
+    /// Dimension of the group's elements: 0 points, 1 edges, 2 triangles. Tags of different
+    /// dimensions are independent.
+    pub dim: usize,
+    /// The group's tag.
+    pub tag: usize,
+    /// Its name.
+    pub name: String,
+}
+
+/// A kind of element.
+pub struct Kind {
+    /// Gmsh's element type.
+    pub number: usize,
+    /// Its dimension.
+    pub dim: usize,
+    /// How many nodes it has.
+    pub nodes: usize,
+}
+
+/// The kinds of element that a mesh may have, by dimension: points, edges, triangles.
+pub const KINDS: [Kind; 3] = [
+    Kind { number: 15, dim: 0, nodes: 1 },
+    Kind { number: 1, dim: 1, nodes: 2 },
+    Kind { number: 2, dim: 2, nodes: 3 },
+];
+
+impl Mesh {
+    /// The elements of a dimension: 0 points, 1 edges, 2 triangles.
+    pub fn of_dimension(&self, dim: usize) -> impl Iterator<Item = &Element> {
+        self.elements.iter().filter(move |e| e.kind == KINDS[dim].number)
+    }
+
+    /// Coordinates of node `n` in the plane, length.
+    pub fn xy(&self, n: usize) -> [f64; 2] {
+        let [x, y, _] = self.nodes[n - 1].xyz;
+        [x, y]
+    }
+
+    /// Coordinates of the corners of a triangle, length.
+    pub fn corners(&self, triangle: &Element) -> Corners<f64> {
+        [0, 1, 2].map(|k| self.xy(triangle.nodes[k]))
+    }
+
+    /// The nodes that belong to no triangle, ascending.
+    pub fn orphans(&self) -> Vec<usize> {
+        let mut used = vec![false; self.nodes.len()];
+        for n in self.of_dimension(2).flat_map(|t| &t.nodes) {
+            used[n - 1] = true;
+        }
+        (1..=used.len()).filter(|n| !used[n - 1]).collect()
+    }
+
+    /// The mesh without the nodes `dropped` and the points and edges on them; the other nodes are
+    /// numbered 1 to R again.
+    pub fn without(&self, dropped: &[usize]) -> Mesh {
+        let kept = |n: &usize| dropped.binary_search(n).is_err();
+        let mut mesh = self.clone();
+        mesh.elements.retain(|e| e.nodes.iter().all(kept));
+        mesh.nodes.retain(|node| kept(&node.number));
+        for element in &mut mesh.elements {
+            for n in &mut element.nodes {
+                *n = new_number(*n, dropped);
+            }
+        }
+        for (k, node) in mesh.nodes.iter_mut().enumerate() {
+            node.number = k + 1;
+        }
+        mesh
+    }
+}
+
+/// The number of node `n` once the nodes `dropped` are gone.
+pub fn new_number(n: usize, dropped: &[usize]) -> usize {
+    n - dropped.partition_point(|d| *d < n)
+}

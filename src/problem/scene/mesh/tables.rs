@@ -1,0 +1,52 @@
+//! A mesh from the paper's own tables.
+
+use super::{Element, KINDS, Mesh, Node};
+use crate::error::InputError;
+
+impl Mesh {
+    /// Reads the paper's own tables: rows of `node` are number, x, y, z; rows of `elem` are number,
+    /// type, 2, physical tag, geometric tag, nodes.
+    ///
+    /// # Errors
+    /// A row has another form.
+    pub fn from_tables(node: &[[f64; 4]], elem: &[Vec<usize>]) -> Result<Self, InputError> {
+        let mut mesh = Mesh::default();
+        for (k, &[number, x, y, z]) in node.iter().enumerate() {
+            if number.fract() != 0.0 || !(1.0..9e15).contains(&number) {
+                let what = format!("{number} is no node number");
+                let fix = "number the nodes 1, 2, 3, ...";
+                return Err(InputError::new(format!("node[{k}]"), what, fix));
+            }
+            mesh.nodes.push(Node { number: number as usize, xyz: [x, y, z] });
+        }
+        for (k, row) in elem.iter().enumerate() {
+            mesh.elements.push(element(row).map_err(|e| e.within(&format!("elem[{k}]")))?);
+        }
+        mesh.nodes.sort_by_key(|n| n.number);
+        mesh.elements.sort_by_key(|e| e.number);
+        Ok(mesh)
+    }
+}
+
+/// Reads a row of `elem`: number, type, 2, physical tag, geometric tag, nodes.
+fn element(row: &[usize]) -> Result<Element, InputError> {
+    let fix = "a row is number, type, 2, physical tag, geometric tag, nodes: \
+               [7, 1, 2, 10, 1, 3, 4] for an edge";
+    let bad = |what: String| InputError::new("", what, fix);
+    let [number, kind, tags, physical, geometric, ref nodes @ ..] = *row else {
+        return Err(bad(format!("{} entries are too few", row.len())));
+    };
+    let known = KINDS.iter().find(|known| known.number == kind);
+    let unknown = || bad(format!("type {kind} is none of 15 (point), 1 (edge), 2 (triangle)"));
+    let expected = known.ok_or_else(unknown)?.nodes;
+    if tags != 2 {
+        return Err(bad(format!(
+            "{tags} tags: the listings read nodes from column 6 on, so there must be 2"
+        )));
+    }
+    if nodes.len() != expected {
+        return Err(bad(format!("type {kind} has {expected} nodes, not {}", nodes.len())));
+    }
+    let physical = if physical == 0 { vec![] } else { vec![physical] };
+    Ok(Element { number, kind, physical, geometric, nodes: nodes.to_vec() })
+}
