@@ -6,7 +6,7 @@ use plane_contact::numbers::solve::memory;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
-use plane_contact::studies::plan::{Machine, Plan};
+use plane_contact::studies::plan::Plan;
 
 use super::solve::ArithmeticArgs;
 use super::{ModelArgs, ReadingArg, print};
@@ -14,9 +14,9 @@ use super::{ModelArgs, ReadingArg, print};
 /// What solve will build and what not, why, and what it will cost; nothing is solved.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Bodies, free equations, contact candidates after a test of boxes, the rung, dense or sparse, predicted bytes, operations and time (the speed of
-the machine is measured by one small factorisation), and what is left out or could be: orphan nodes, restrained equations, bodies that nothing
-moves, half of a symmetric scene.
+Bodies, free equations, contact candidates after a test of boxes, the rung, dense or sparse, the numbers in the factors (exact: from a
+symbolic factorisation), predicted bytes and operations, and what is left out or could be: orphan nodes, restrained equations, bodies that
+nothing moves, half of a symmetric scene.
 
 Examples:
   plane-contact plan
@@ -48,9 +48,8 @@ pub fn run(args: &Args) -> Result<(), Error> {
         .reading(args.reading.reading.0)
         .arithmetic(args.arithmetic.arithmetic());
     let plan = Plan::new(&request)?;
-    let machine = Machine::measure();
     if args.json {
-        return print(&report::json(&plan, machine));
+        return print(&report::json(&plan));
     }
-    print(&report::text(&plan, machine, memory::free()))
+    print(&report::text(&plan, memory::free()))
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::tables::{aligned, short};
-use crate::studies::plan::{BodyPlan, ContactPlan, MARGIN, Machine, Plan};
+use crate::studies::plan::{BodyPlan, ContactPlan, MARGIN, Plan};
 
 /// The plan in one line: the same on every machine.
 pub fn line(plan: &Plan) -> String {
@@ -39,35 +39,27 @@ pub fn line(plan: &Plan) -> String {
 }
 
 /// The plan as tables; `free` is the memory that is free, bytes.
-pub fn text(plan: &Plan, machine: Machine, free: Option<u128>) -> String {
+pub fn text(plan: &Plan, free: Option<u128>) -> String {
     let refused = plan.check_memory(free).err().map_or(String::new(), |why| format!("\n{why}\n"));
     format!(
         "{}\n\nWhat is built\n{}\nBodies\n{}\nWhat it takes\n{}{refused}\nWhat is left out, or could be\n{}",
         line(plan),
         built(plan),
         bodies(&plan.bodies),
-        cost(plan, machine),
+        cost(plan),
         left_out(plan)
     )
 }
 
-/// The plan as JSON, with what it takes on `machine`.
-pub fn json(plan: &Plan, machine: Machine) -> String {
+/// The plan as JSON.
+pub fn json(plan: &Plan) -> String {
     #[derive(Serialize)]
     struct Document<'a> {
         #[serde(flatten)]
         plan: &'a Plan,
         bytes: f64,
-        /// How many times as fast this machine is as the one that the constants were measured on.
-        speed: f64,
-        seconds: f64,
     }
-    let document = Document {
-        plan,
-        bytes: plan.cost.bytes.total(),
-        speed: machine.speed,
-        seconds: plan.cost.seconds(machine),
-    };
+    let document = Document { plan, bytes: plan.cost.bytes.total() };
     serde_json::to_string(&document).expect("string keys only") + "\n"
 }
 
@@ -137,7 +129,7 @@ fn bodies(bodies: &[BodyPlan]) -> String {
     aligned(&std::iter::once(head.to_vec()).chain(rows).collect::<Vec<_>>())
 }
 
-fn cost(plan: &Plan, machine: Machine) -> String {
+fn cost(plan: &Plan) -> String {
     let (cost, bytes) = (plan.cost, plan.cost.bytes);
     let reference = match cost.reference_states {
         0 => String::new(),
@@ -162,14 +154,6 @@ fn cost(plan: &Plan, machine: Machine) -> String {
             format!("{} likely{reference}", cost.states),
         ),
         row("operations", operations(cost.operations), "of the factorisations"),
-        row(
-            "time, s",
-            format!("{:.2}", cost.seconds(machine)),
-            format!(
-                "processor time; this machine is {:.1} times the one measured on",
-                machine.speed
-            ),
-        ),
     ])
 }
 

@@ -1,4 +1,4 @@
-//! What a run takes: operations, bytes, seconds.
+//! What a run takes: operations and bytes.
 //!
 //! Counted: operations of the factorisations, numbers in the matrices. Measured, on meshes of 13 to 15,045 nodes, and stated as constants: what a
 //! node, a triangle, an entry takes besides.
@@ -6,9 +6,8 @@
 use serde::Serialize;
 
 use super::candidates::Candidates;
-use super::machine::Machine;
 use crate::answer::Request;
-use crate::numbers::solve::{FactorSize, ScalarName, cost};
+use crate::numbers::solve::{FactorSize, ScalarName};
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Variant};
 
@@ -41,9 +40,6 @@ pub struct Cost {
     pub operations: f64,
     /// Peak memory of the process.
     pub bytes: Bytes,
-    /// Processor time on the machine that the constants were measured on, seconds.
-    #[serde(skip)]
-    pub reference_seconds: f64,
 }
 
 /// Peak memory of the process, bytes.
@@ -66,13 +62,6 @@ impl Bytes {
     }
 }
 
-impl Cost {
-    /// Processor time on `machine`, seconds: the run takes that long where nothing else runs beside it.
-    pub fn seconds(&self, machine: Machine) -> f64 {
-        self.reference_seconds / machine.speed
-    }
-}
-
 /// Bytes, measured.
 mod bytes {
     /// The program's pages and the allocator's first ones.
@@ -87,24 +76,6 @@ mod bytes {
     pub const PRINTED_BAR: f64 = 43.0;
     /// A number of sparse factors: its value, and its share of a row's number.
     pub const FACTOR: f64 = 10.0;
-}
-
-/// Seconds of processor time on the machine of [`Machine::REFERENCE`], measured.
-mod seconds {
-    /// To start and to end.
-    pub const START: f64 = 4.5e-3;
-    /// To read a triangle, to write it into five files.
-    pub const TRIANGLE: f64 = 9e-6;
-    /// To assemble a triangle into a sparse matrix and to factor what it stands for, besides the operations.
-    pub const ASSEMBLE: f64 = 2.6e-6;
-    /// An operation of a sparse factorisation.
-    pub const SPARSE: f64 = 1.5e-10;
-    /// An operation of a dense factorisation; in f32 half of it.
-    pub const DENSE: f64 = 2.5e-11;
-    /// An entry of a dense matrix, to reduce it and to measure the residual.
-    pub const SCAN: f64 = 3e-9;
-    /// How many times as long a sparse state takes in numbers of 31 digits.
-    pub const DOUBLE_DOUBLE: f64 = 12.0;
 }
 
 /// Contact states that a run is likely to meet.
@@ -128,7 +99,6 @@ impl Work<'_> {
             operations: self.states() as f64 * self.factors.operations
                 + self.reference_states() as f64 * self.sparse.operations,
             bytes: self.bytes(),
-            reference_seconds: self.seconds(),
         }
     }
 
@@ -207,33 +177,5 @@ impl Work<'_> {
             }
             (matrices, _) => square(all) + (matrices - 1) as f64 * square(solved),
         }
-    }
-
-    /// Processor time on [`Machine::REFERENCE`].
-    fn seconds(&self) -> f64 {
-        let m = self.model.triangles.len() as f64;
-        let sparse = seconds::ASSEMBLE * m + seconds::SPARSE * self.sparse.operations;
-        let own = match (self.request.arithmetic.scalar, self.dense) {
-            (ScalarName::Exact, _) => self.exact_seconds(),
-            (ScalarName::F64x2, _) => seconds::DOUBLE_DOUBLE * sparse,
-            (_, 0) => sparse,
-            (ScalarName::F32, _) => self.dense_seconds() / 2.0,
-            _ => self.dense_seconds(),
-        };
-        seconds::START
-            + seconds::TRIANGLE * m
-            + self.states() as f64 * own
-            + self.reference_states() as f64 * sparse
-    }
-
-    /// One contact state with dense matrices.
-    fn dense_seconds(&self) -> f64 {
-        let entries = (2.0 * self.model.nodes.len() as f64).powi(2);
-        seconds::DENSE * self.factors.operations + seconds::SCAN * entries
-    }
-
-    /// One contact state in rational numbers.
-    fn exact_seconds(&self) -> f64 {
-        cost::seconds(self.sparse.equations, false, 1)
     }
 }

@@ -4,20 +4,18 @@
 //!  scene --+--> bodies, equations, contact candidates      counted
 //!          +--> symmetry, what nothing moves               recognised
 //!          +--> factors, by their pattern (solve::FactorSize)
-//!                  +--> bytes, operations --> seconds (Machine)
+//!                  +--> bytes, operations
 //! ```
 
 mod bodies;
 mod candidates;
 mod cost;
-mod machine;
 
 use serde::Serialize;
 
 pub use bodies::{BodyPlan, Idle};
 pub use candidates::{Candidates, MARGIN};
 pub use cost::{Bytes, Cost, Work};
-pub use machine::Machine;
 
 use crate::answer::{Request, dense_matrices};
 use crate::choices;
