@@ -170,3 +170,88 @@ impl SceneBuilder {
         files::write(&folder.join("scene.json"), &file::write(&self.description, &mesh_file))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::mesh::MeshBuilder;
+    use super::*;
+    use crate::problem::modelling::{Coupling, Friction, Geometry, StatusRule};
+
+    /// Two blocks on each other; node 1 stands apart from both.
+    fn blocks() -> SceneBuilder {
+        let mut mesh = MeshBuilder::default();
+        mesh.node([9.0, 0.0]);
+        let rows = [0.0, 1.0, 1.0, 2.0].map(|y| mesh.row([0.0, 1.0].map(|x| [x, y])));
+        mesh.join("lower", &rows[0], &rows[1]);
+        mesh.join("upper", &rows[2], &rows[3]);
+        let names = ["bottom", "target", "contact", "top"];
+        names.iter().zip(&rows).for_each(|(name, row)| mesh.edges(*name, row));
+        SceneBuilder::new("blocks", mesh.finish(), Plane::Stress)
+            .title("Two \"blocks\"")
+            .thickness(0.25)
+            .units("mm", "MPa", "N")
+            .material("lower", 30000.0, 0.2)
+            .material("upper", 1e-7, 1.0 / 3.0)
+            .restrain("bottom", &[Axis::X, Axis::Y])
+            .restrain_node(6, &[Axis::X])
+            .pressure("top", 6.3)
+            .traction("top", [0.0, -1e300])
+            .force(8, [0.5, -0.0])
+            .contact(Contact {
+                coupling: Coupling::Mortar,
+                friction: Friction::None,
+                geometry: Geometry::Initial,
+                status: StatusRule::Projection,
+                ..Contact::new(vec![6, 7], "target", 0.001)
+            })
+            .iterations(3)
+            .variant(Variant::Tied)
+            .drop_orphans()
+    }
+
+    /// Reads the scene back from the two files that it is written as.
+    fn read_back(scene: &SceneBuilder) -> SceneBuilder {
+        let text = file::write(&scene.description, "m.msh");
+        let beside = |_: &str| Ok(gmsh::write(&scene.mesh).into_bytes());
+        SceneBuilder::read(&scene.name, text.as_bytes(), beside).expect("the files are sound")
+    }
+
+    #[test]
+    fn a_scene_file_says_what_code_says() {
+        let scene = blocks();
+        assert_eq!(read_back(&scene), scene);
+        let bare = SceneBuilder::new("bare", scene.mesh.clone(), Plane::Strain);
+        assert_eq!(read_back(&bare), bare);
+        let by_tag = SceneBuilder::new("tags", scene.mesh, Plane::Strain)
+            .restrain(1, &[Axis::Y])
+            .contact(Contact::new(3, 2, 0.0));
+        assert_eq!(read_back(&by_tag), by_tag);
+    }
+
+    #[test]
+    fn what_has_its_default_is_not_written() {
+        let bare = SceneBuilder::new("bare", Mesh::default(), Plane::Strain).pressure("top", 1.0);
+        let text = "{\n  \"mesh\": \"m.msh\",\n  \"plane\": \"strain\",\n  \"materials\": {},\n  \
+                    \"loads\": [{\"on\":\"top\",\"pressure\":1.0}]\n}\n";
+        assert_eq!(file::write(&bare.description, "m.msh"), text);
+    }
+
+    #[test]
+    fn a_scene_in_code_is_checked_like_a_file() {
+        let scene = blocks();
+        let built = scene.build().expect("the scene is sound");
+        assert_eq!((built.dropped.as_slice(), built.iterations), (&[1][..], 3));
+        let place = |scene: SceneBuilder| {
+            let error = scene.build().expect_err("the scene is at fault");
+            assert_eq!(error, read_back(&scene).build().unwrap_err());
+            error.place
+        };
+        assert_eq!(place(scene.clone().thickness(0.0)), "field thickness");
+        assert_eq!(place(scene.clone().restrain("wall", &[Axis::X])), "restraints[2].on");
+        assert_eq!(place(scene.clone().force(99, [1.0, 0.0])), "loads[3].node");
+        assert_eq!(place(scene.clone().material("wall", 1.0, 0.0)), "materials.wall");
+        let mut folded = scene;
+        folded.mesh.nodes[1].xyz = [5.0, 5.0, 0.0];
+        assert_eq!(place(folded), "the mesh's triangles");
+    }
+}

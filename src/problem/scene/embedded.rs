@@ -10,14 +10,14 @@ pub struct Embedded {
     pub files: &'static [(&'static str, &'static [u8])],
 }
 
-/// The scene of `golden/findings/<id>/`.
-macro_rules! finding {
-    ($id:literal) => {
-        Embedded {
+/// The scenes of `golden/findings/<id>/`.
+macro_rules! findings {
+    ($($id:literal),+) => {
+        &[$(Embedded {
             name: concat!("findings/", $id),
             scene: include_bytes!(concat!("../../../golden/findings/", $id, "/scene.json")),
             files: &[],
-        }
+        }),+]
     };
 }
 
@@ -37,29 +37,8 @@ pub const SCENES: &[Embedded] = &[
 ];
 
 /// The smallest scene of each finding.
-pub const FINDING_SCENES: &[Embedded] = &[
-    finding!("C1"),
-    finding!("C2"),
-    finding!("C3"),
-    finding!("C4"),
-    finding!("C5"),
-    finding!("C6"),
-    finding!("C7"),
-    finding!("C8"),
-    finding!("C9"),
-    finding!("C10"),
-    finding!("C11"),
-    finding!("C12"),
-    finding!("C13"),
-    finding!("C14"),
-    finding!("C15"),
-    finding!("K1"),
-    finding!("K2"),
-    finding!("K3"),
-    finding!("K4"),
-    finding!("K5"),
-    finding!("K6"),
-    finding!("K7"),
-    finding!("K8"),
-    finding!("K9"),
+#[rustfmt::skip]
+pub const FINDING_SCENES: &[Embedded] = findings![
+    "C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13", "C14", "C15",
+    "K1", "K2", "K3", "K4", "K5", "K6", "K7", "K8", "K9"
 ];

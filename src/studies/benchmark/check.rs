@@ -1,11 +1,11 @@
-//! Parameters of benchmarks, checked.
+//! Checks of the parameters of benchmarks.
 
 use crate::error::InputError;
 
 /// More divisions of a side than anybody has memory for.
 const MOST: usize = 2000;
 
-/// That a number of divisions lies in `least ..= MOST`.
+/// Checks that a number of divisions lies in `least ..= MOST`.
 ///
 /// # Errors
 /// It does not.
@@ -17,7 +17,7 @@ pub fn count(option: &str, n: usize, least: usize) -> Result<(), InputError> {
     Err(InputError::new(option, what, format!("give a number from {least} to {MOST}")))
 }
 
-/// That a number of divisions is even too: a node must stand in the middle.
+/// Checks that a number of divisions is even too: a node must stand in the middle.
 ///
 /// # Errors
 /// It is odd, or outside the range of [`count`].
@@ -30,7 +30,7 @@ pub fn even(option: &str, n: usize) -> Result<(), InputError> {
     Err(InputError::new(option, what, format!("give an even number, such as {}", n + 1)))
 }
 
-/// That a length, load or modulus is positive and finite.
+/// Checks that a length, load or modulus is positive and finite.
 ///
 /// # Errors
 /// It is not.
@@ -41,7 +41,7 @@ pub fn positive(option: &str, x: f64) -> Result<(), InputError> {
     Err(InputError::new(option, format!("{x} is not positive"), "give a number above 0"))
 }
 
-/// That a ratio lies in a range.
+/// Checks that a ratio lies in a range.
 ///
 /// # Errors
 /// It does not.

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::answer::{Quantity, compared, solve};
 use super::blocks::Blocks;
-use super::precision::{carried, in_each_scalar, in_scalar, solved_by};
+use super::precision::{DOUBLE, SINGLE, carried, in_each_scalar, joined, solved_by};
 use super::sweep::{Method, Sweep};
 use super::verdict::Verdict;
 use super::{Generator, remedies};
@@ -15,15 +15,12 @@ use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
 use crate::studies::benchmark::Annulus;
 
-const DOUBLE: ScalarName = ScalarName::F64;
-
 /// E of the stamp over E of the block.
 pub fn moduli() -> Generator {
     fn blocks(ratio: f64) -> Blocks {
         Blocks { e: [30000.0, 30000.0 * ratio], ..Blocks::default() }
     }
-    let mut methods = in_each_scalar(Variant::Tied, blocks);
-    methods.push(in_scalar(Variant::Unilateral, DOUBLE, blocks));
+    let mut methods = joined(blocks);
     methods.extend(in_each_scalar(Variant::Printed, blocks));
     Generator {
         name: "moduli",
@@ -42,8 +39,7 @@ pub fn incompressible() -> Generator {
     fn blocks(rest: f64) -> Blocks {
         Blocks { nu: nu(rest), ..Blocks::default() }
     }
-    let mut methods = in_each_scalar(Variant::Tied, blocks);
-    methods.push(in_scalar(Variant::Unilateral, DOUBLE, blocks));
+    let mut methods = joined(blocks);
     methods.extend([4, 16].map(|radial| {
         let name = format!("f64, {radial} x {} mesh against Lame", 2 * radial);
         Method::new(name, 16.0, move |rest| lame(nu(rest), radial)).down_to(1.0)
@@ -63,14 +59,12 @@ pub fn auxetic() -> Generator {
     fn blocks(rest: f64) -> Blocks {
         Blocks { nu: rest - 1.0, ..Blocks::default() }
     }
-    let mut methods = in_each_scalar(Variant::Tied, blocks);
-    methods.push(in_scalar(Variant::Unilateral, DOUBLE, blocks));
     Generator {
         name: "auxetic",
         title: "Poisson's ratio to -1",
         magnitude: "1 + nu",
         sweep: Sweep::Decades { from: -17, to: 0, step: 1, start: 0 },
-        methods,
+        methods: joined(blocks),
     }
 }
 
@@ -114,7 +108,7 @@ pub fn unit_diagonal() -> Generator {
     }
     let mut methods = in_each_scalar(Variant::Printed, blocks);
     methods.push(solved_by(Variant::Printed, Solver::Cg, blocks));
-    methods.extend([ScalarName::F32, DOUBLE].into_iter().map(|scalar| {
+    methods.extend([SINGLE, DOUBLE].into_iter().map(|scalar| {
         Method::new(format!("printed {scalar}, E scaled to 1"), carried(scalar), move |e| {
             scaled(e, scalar, None)
         })

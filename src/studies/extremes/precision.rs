@@ -9,8 +9,12 @@ use crate::problem::modelling::Variant;
 /// The blocks of a magnitude.
 pub type BlocksOf = fn(f64) -> Blocks;
 
+/// Single and double precision.
+pub const SINGLE: ScalarName = ScalarName::F32;
+pub const DOUBLE: ScalarName = ScalarName::F64;
+
 /// The scalars that are compared.
-pub const SCALARS: [ScalarName; 3] = [ScalarName::F32, ScalarName::F64, ScalarName::F64x2];
+pub const SCALARS: [ScalarName; 3] = [SINGLE, DOUBLE, ScalarName::F64x2];
 
 /// Decimal digits that a scalar carries.
 pub fn carried(scalar: ScalarName) -> f64 {
@@ -19,6 +23,14 @@ pub fn carried(scalar: ScalarName) -> f64 {
         ScalarName::F64x2 => 31.0,
         _ => 16.0,
     }
+}
+
+/// Displacements of the variants that join the bodies: `tied` in each scalar, `unilateral` in
+/// `f64`.
+pub fn joined(blocks: BlocksOf) -> Vec<Method> {
+    let mut methods = in_each_scalar(Variant::Tied, blocks);
+    methods.push(in_scalar(Variant::Unilateral, DOUBLE, blocks));
+    methods
 }
 
 /// Displacements of `variant` in each scalar.
@@ -38,7 +50,7 @@ pub fn in_scalar(variant: Variant, scalar: ScalarName, blocks: BlocksOf) -> Meth
 pub fn solved_by(variant: Variant, solver: Solver, blocks: BlocksOf) -> Method {
     Method::new(format!("{variant} f64 {solver}"), 16.0, move |x| {
         let (scene, displacement) = (blocks(x).scene(variant), Quantity::Displacement);
-        against_exact(&scene, variant, ScalarName::F64, Some(solver), displacement)
+        against_exact(&scene, variant, DOUBLE, Some(solver), displacement)
     })
 }
 

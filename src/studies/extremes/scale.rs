@@ -4,15 +4,14 @@
 use super::Generator;
 use super::answer::{Quantity, solve};
 use super::blocks::Blocks;
-use super::precision::{BlocksOf, SCALARS, carried, in_each_scalar, in_scalar, mises};
+use super::precision::{
+    BlocksOf, DOUBLE, SCALARS, SINGLE, carried, in_each_scalar, in_scalar, joined, mises,
+};
 use super::remedies::{length_scaled, load_scaled, shifted};
 use super::sweep::{Method, Sweep};
 use super::verdict::Verdict;
 use crate::numbers::solve::ScalarName;
 use crate::problem::modelling::Variant;
-
-const SINGLE: ScalarName = ScalarName::F32;
-const DOUBLE: ScalarName = ScalarName::F64;
 
 /// Coordinates moved off the origin.
 pub fn offset() -> Generator {
@@ -22,8 +21,7 @@ pub fn offset() -> Generator {
     fn twice(origin: f64) -> Blocks {
         Blocks { iterations: 2, ..once(origin) }
     }
-    let mut methods = in_each_scalar(Variant::Tied, twice);
-    methods.push(in_scalar(Variant::Unilateral, DOUBLE, twice));
+    let mut methods = joined(twice);
     methods.push(in_scalar(Variant::Printed, DOUBLE, once));
     methods.extend([SINGLE, DOUBLE].map(|scalar| shifted(scalar, twice)));
     methods.push(Method::new("exact, but for the input's rounding", 16.0, |origin| {
@@ -81,10 +79,9 @@ pub fn loads() -> Generator {
     }
 }
 
-/// `tied` in each scalar, `unilateral` and `printed` in `f64`.
+/// The variants that join the bodies, and `printed` in `f64`.
 fn of_any_size(blocks: BlocksOf) -> Vec<Method> {
-    let mut methods = in_each_scalar(Variant::Tied, blocks);
-    methods.push(in_scalar(Variant::Unilateral, DOUBLE, blocks));
+    let mut methods = joined(blocks);
     methods.push(in_scalar(Variant::Printed, DOUBLE, blocks));
     methods
 }

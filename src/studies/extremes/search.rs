@@ -12,20 +12,28 @@ use crate::problem::element::Plane;
 use crate::problem::model::NodeId;
 use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
-/// The target edge from `a` to `b`, the contact node `n`, and how far each has moved.
+/// A target edge, a contact node, and how far each has moved.
 #[derive(Clone, Copy, Debug)]
 pub struct Search {
+    /// Where the edge begins, length.
     pub a: [f64; 2],
+    /// Where the edge ends, length.
     pub b: [f64; 2],
+    /// Where the contact node stands, length.
     pub n: [f64; 2],
+    /// Displacements of `a`, `b` and `n`, length.
     pub moved: [[f64; 2]; 3],
+    /// Tolerance of the search, length.
     pub c_tll: f64,
 }
 
-/// Gap and weight in the scalar, and the status.
+/// What a search finds of its node.
 pub struct Difference<T> {
+    /// Its gap to the edge: as printed a length, projected in edge lengths.
     gap: T,
+    /// Its weight at the edge's first node.
     weight: T,
+    /// Its status: 1 in contact, 0 apart.
     dy: usize,
 }
 
@@ -91,8 +99,11 @@ fn minus<T: Scalar>([ax, ay]: [T; 2], [bx, by]: [T; 2]) -> [T; 2] {
 /// What is compared of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Of {
+    /// The gap.
     Gap,
+    /// The weight, where the status is right.
     Weight,
+    /// The status.
     Status,
 }
 

@@ -4,14 +4,12 @@
 use super::Generator;
 use super::answer::{Quantity, solve};
 use super::blocks::Blocks;
-use super::precision::{BlocksOf, carried, in_each_scalar, in_scalar};
+use super::precision::{BlocksOf, DOUBLE, carried, in_each_scalar, in_scalar};
 use super::search::{Of, Search, against_exact};
 use super::sweep::{Method, Sweep};
 use crate::numbers::scalar::F64x2;
 use crate::numbers::solve::ScalarName;
 use crate::problem::modelling::Variant;
-
-const DOUBLE: ScalarName = ScalarName::F64;
 
 /// A node beside an edge of height 1 at `angle` (its tangent) from the vertical, `gap` away along
 /// the normal. All move by a thousandth, and the edge widens by another: it keeps its angle, but
