@@ -50,6 +50,16 @@ pub struct Failure {
     pub cause: Cause,
 }
 
+/// A result, or the listing's failure.
+pub type Fallible<T> = Result<T, Box<Failure>>;
+
+impl Failure {
+    /// Returns whether a limit was reached: no method of evaluating `∧` passes over that.
+    pub(super) fn is_limit(&self) -> bool {
+        matches!(self.cause, Cause::Limit { .. })
+    }
+}
+
 /// Why a listing failed. Where Mathcad's own words are known, the message begins with them.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Cause {

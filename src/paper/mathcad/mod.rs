@@ -15,7 +15,7 @@
 //! |---|---|
 //! | [`mod@array`] | arrays with `ORIGIN = 1`, the mirror's own |
 //! | [`listing`], `lexer`, `parser`, `syntax`, `print` | from text to syntax tree and back |
-//! | [`run`], `eval`, `function`, `arithmetic`, [`value`] | running a listing |
+//! | [`value`], `arithmetic`, `function`, `state`, `entry`, `call`, `eval`, [`run`] | running a listing |
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
 //! | [`failure`] | what can go wrong |
 //! | [`observe`] | watching a run: traces and coverage |
@@ -33,11 +33,14 @@ pub mod settings;
 pub mod value;
 
 mod arithmetic;
+mod call;
+mod entry;
 mod eval;
 mod function;
 mod lexer;
 mod parser;
 mod print;
+mod state;
 mod syntax;
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ mod observers;
 mod paper;
 mod semantics;
 
-use super::run::Fallible;
+use super::failure::Fallible;
 use super::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
 
 /// The program of the given lines, as `f(x)`.

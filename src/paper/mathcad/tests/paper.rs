@@ -1,7 +1,7 @@
 //! The paper's two listings on scenes small enough to be worked out by hand.
 
 use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mathcad::run::Fallible;
+use crate::paper::mathcad::failure::Fallible;
 use crate::paper::mathcad::{
     Array, Cause, Conjunction, Edit, Limits, Listing, Outcome, Settings, Value,
 };
