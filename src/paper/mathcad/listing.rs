@@ -4,9 +4,9 @@ use std::fmt;
 
 use super::failure::ParseError;
 use super::lexer::{self, Complaint, Names, Spanned};
-use super::parser::{self, Header};
+use super::parser;
 use super::settings::Limits;
-use super::syntax::{Expr, Statement, Step};
+use super::syntax::{Expr, Slot, Statement, Step};
 
 /// A line of a listing.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub struct Listing {
     pub(super) name: String,
     pub(super) lines: Vec<Line>,
     pub(super) names: Names,
-    pub(super) header: Header,
+    pub(super) parameters: Vec<Slot>,
     pub(super) program: Vec<Statement>,
 }
 
@@ -64,14 +64,14 @@ impl Listing {
         limits: &Limits,
     ) -> Result<Self, ParseError> {
         let mut reader = Reader { name, lines: &lines, names: Names::default(), limits, next: 0 };
-        let header = reader.header()?;
+        let parameters = reader.header()?;
         let program = reader.block(1)?;
         if let Some(line) = lines.get(reader.next) {
             return Err(reader
                 .error(line, (0, "found a line beside the header, expected it indented".into())));
         }
         let names = reader.names;
-        Ok(Listing { name: name.into(), names, header, program, lines })
+        Ok(Listing { name: name.into(), names, parameters, program, lines })
     }
 
     /// What messages call the listing.
@@ -118,7 +118,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn header(&mut self) -> Result<Header, ParseError> {
+    fn header(&mut self) -> Result<Vec<Slot>, ParseError> {
         let empty = Line::new(1, 1, "");
         let line = self.lines.first().unwrap_or(&empty);
         if self.lines.len() > self.limits.lines {

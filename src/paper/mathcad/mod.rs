@@ -14,7 +14,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`mod@array`] | arrays with `ORIGIN = 1`, the mirror's own |
-//! | [`listing`], `lexer`, `parser`, `syntax`, `print` | from text to syntax tree and back |
+//! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
 //! | [`value`], `arithmetic`, `function`, `state`, `entry`, `call`, `eval`, [`run`] | running a listing |
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
 //! | [`failure`] | what can go wrong |
@@ -39,7 +39,6 @@ mod eval;
 mod function;
 mod lexer;
 mod parser;
-mod print;
 mod state;
 mod syntax;
 

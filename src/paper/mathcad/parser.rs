@@ -17,17 +17,8 @@ type Tokens<'t> = MappedInput<'t, Token, SimpleSpan, &'t [Spanned]>;
 type Extra<'t> = extra::Err<Rich<'t, Token>>;
 type Grammar<'t, T> = Boxed<'t, 't, Tokens<'t>, T, Extra<'t>>;
 
-/// The first line of a listing: `name(parameters) :=`.
-#[derive(Clone, Debug)]
-pub struct Header {
-    /// The function defined.
-    pub name: Slot,
-    /// Its parameters.
-    pub parameters: Vec<Slot>,
-}
-
-/// Reads the first line of a listing.
-pub fn header(tokens: &[Spanned]) -> Result<Header, Complaint> {
+/// Reads the first line of a listing, `name(parameters) :=`, and returns the parameters.
+pub fn header(tokens: &[Spanned]) -> Result<Vec<Slot>, Complaint> {
     parse(header_grammar(), tokens)
 }
 
@@ -77,10 +68,9 @@ fn function<'t>() -> Grammar<'t, Slot> {
     select! { Token::Function(slot) => slot }.labelled("a function").boxed()
 }
 
-fn header_grammar<'t>() -> Grammar<'t, Header> {
+fn header_grammar<'t>() -> Grammar<'t, Vec<Slot>> {
     let parameters = name().separated_by(sign(",")).collect().delimited_by(sign("("), sign(")"));
-    let header = function().then(parameters).then_ignore(sign(":="));
-    header.map(|(name, parameters)| Header { name, parameters }).boxed()
+    function().ignore_then(parameters).then_ignore(sign(":=")).boxed()
 }
 
 fn step_grammar<'t>() -> Grammar<'t, Step> {

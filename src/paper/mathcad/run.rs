@@ -97,11 +97,11 @@ impl<'l> Runner<'l> {
 impl<O: Observer> Run<'_, '_, O> {
     /// Gives the parameters their values.
     fn bind(&mut self, arguments: &[Value]) -> Fallible<()> {
-        let (expected, found) = (self.listing.header.parameters.len(), arguments.len());
+        let (expected, found) = (self.listing.parameters.len(), arguments.len());
         if expected != found {
             return Err(self.fail_line(Cause::Arguments { expected, found }));
         }
-        for (&slot, argument) in self.listing.header.parameters.iter().zip(arguments) {
+        for (&slot, argument) in self.listing.parameters.iter().zip(arguments) {
             self.cells[slot].value = Some(argument.clone());
         }
         self.stored =

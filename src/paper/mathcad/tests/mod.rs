@@ -5,6 +5,7 @@ mod notation;
 mod observers;
 mod paper;
 mod semantics;
+mod spelled;
 
 use super::failure::Fallible;
 use super::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
