@@ -1,5 +1,5 @@
-//! An `f64` that carries a bound on its error: the mirror, run in it, tells how far rounding may have
-//! led.
+//! An `f64` that carries a bound on its error: the mirror, run in it, tells how far rounding may
+//! have led.
 //!
 //! Each operation adds its own rounding error to what it passes on of its operands' errors. The
 //! rounding error is computed and not estimated: of a sum and a product it is itself an `f64`, of a

@@ -1,5 +1,5 @@
-//! Exact rational numbers that are `Copy`, as the mirror's code wants them: handles into an arena of
-//! their thread.
+//! Exact rational numbers that are `Copy`, as the mirror's code wants them: handles into an arena
+//! of their thread.
 
 use std::cell::RefCell;
 use std::cmp::Ordering;

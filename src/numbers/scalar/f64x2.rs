@@ -2,9 +2,10 @@
 //!
 //! Source: M. Joldes, J.-M. Muller, V. Popescu, *Tight and rigorous error bounds for basic building
 //! blocks of double-word arithmetic*, ACM TOMS 44(2), 2017: algorithms 6 (sum), 12 (product), 17
-//! (quotient). Root: V. Lefèvre, N. Louvet, J.-M. Muller, J. Picot, L. Rideau, *Accurate calculation
-//! of Euclidean norms using double-word arithmetic*, ACM TOMS 49(1), 2023. Relative errors,
-//! u = 2^-53: sum 3 u², product 4 u², quotient 9.8 u², root 3.125 u², while nothing underflows.
+//! (quotient). Root: V. Lefèvre, N. Louvet, J.-M. Muller, J. Picot, L. Rideau, *Accurate
+//! calculation of Euclidean norms using double-word arithmetic*, ACM TOMS 49(1), 2023. Relative
+//! errors, u = 2^-53: sum 3 u², product 4 u², quotient 9.8 u², root 3.125 u², while nothing
+//! underflows.
 
 use std::fmt;
 

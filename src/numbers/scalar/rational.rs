@@ -36,8 +36,8 @@ pub fn nearest_root(x: &RBig) -> f64 {
     nearest(&times_power_of_two(mantissa, -shift - 1))
 }
 
-/// Writes `x` in scientific decimal, correctly rounded to `digits` significant digits, or fewer where
-/// fewer say it exactly.
+/// Writes `x` in scientific decimal, correctly rounded to `digits` significant digits, or fewer
+/// where fewer say it exactly.
 pub fn decimal(x: &RBig, digits: usize) -> String {
     let text = format!("{:.*e}", digits - 1, x.in_expanded(10));
     let (mantissa, exponent) = text.split_once('e').expect("scientific notation has an exponent");

@@ -11,9 +11,9 @@ const EQUATIONS: f64 = 144.0;
 /// The seconds beyond which an exact run is refused.
 const LIMIT: f64 = 600.0;
 
-/// Estimates the seconds of `iterations` exact solutions of `equations` equations. `growing`: weights
-/// come from the shape that the iteration before led to, so that numbers grow longer by a factor of
-/// the equations each time.
+/// Estimates the seconds of `iterations` exact solutions of `equations` equations. `growing`:
+/// weights come from the shape that the iteration before led to, so that numbers grow longer by a
+/// factor of the equations each time.
 pub fn seconds(equations: usize, growing: bool, iterations: usize) -> f64 {
     let n = equations as f64;
     let first = SECONDS * (n / EQUATIONS).powi(3);
@@ -31,8 +31,8 @@ pub fn check(equations: usize, growing: bool, iterations: usize) -> Result<(), I
         return Ok(());
     }
     let what = format!(
-        "{equations} equations in exact numbers, {iterations} iterations, may take {seconds:.0e} s: \
-         more than {LIMIT} s"
+        "{equations} equations in exact numbers, {iterations} iterations, may take \
+         {seconds:.0e} s: more than {LIMIT} s"
     );
     Err(InputError::new("--scalar exact", what, "use f64x2, fewer iterations or a coarser mesh"))
 }

@@ -19,8 +19,8 @@ impl<T: Native> DenseLu<T> {
     ///
     /// # Errors
     /// Names a pivot below 16 n · eps of its own column's largest entry, which counts as zero
-    /// (rounding leaves some n · eps where the exact pivot is 0): column by column, so that a body of
-    /// soft material beside one of hard material is not taken for singular.
+    /// (rounding leaves some n · eps where the exact pivot is 0): column by column, so that a body
+    /// of soft material beside one of hard material is not taken for singular.
     pub fn new(matrix: DMatrix<T>) -> Result<Self, Singular> {
         let n = matrix.nrows();
         // One thread: faer's bits depend on the number of threads.
@@ -93,8 +93,8 @@ impl<T: Native> Factors<T> for DenseCholesky<T> {
     }
 }
 
-/// Returns the column where a matrix ceases to be positive definite. LU tells it, unless the matrix is
-/// indefinite and no column is to blame.
+/// Returns the column where a matrix ceases to be positive definite. LU tells it, unless the matrix
+/// is indefinite and no column is to blame.
 fn not_positive<T: Native>(matrix: &DMatrix<T>) -> Singular {
     let mut full = matrix.clone();
     full.fill_upper_triangle_with_lower_triangle();

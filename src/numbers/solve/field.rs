@@ -1,4 +1,5 @@
-//! What elimination asks of a number. Operands come by reference, as rational numbers are not `Copy`.
+//! What elimination asks of a number. Operands come by reference, as rational numbers are not
+//! `Copy`.
 
 use dashu_ratio::RBig;
 
@@ -9,7 +10,7 @@ pub trait Field: Clone {
     /// The distance of 1 from the next larger number; 0 where arithmetic is exact.
     const EPSILON: f64;
 
-    /// Returns the number 0.
+    /// Returns 0, the neutral element of sums.
     fn zero() -> Self;
 
     /// Returns the `f64` nearest to |x|.

@@ -1,4 +1,5 @@
-//! Solutions to a tolerance: conjugate gradients, and refinement of factors in a scalar of fewer digits.
+//! Solutions to a tolerance: conjugate gradients, and refinement of factors in a scalar of fewer
+//! digits.
 
 use nalgebra::DVector;
 
@@ -22,8 +23,8 @@ pub struct Iterated<T> {
     pub iterations: usize,
 }
 
-/// Solves A x = `b`, A positive definite, by conjugate gradients with the diagonal as preconditioner,
-/// until |A x − b| / (|A| |x| + |b|), computed anew, is at most `tol`.
+/// Solves A x = `b`, A positive definite, by conjugate gradients with the diagonal as
+/// preconditioner, until |A x − b| / (|A| |x| + |b|), computed anew, is at most `tol`.
 ///
 /// Source: Y. Saad, *Iterative methods for sparse linear systems*, 2nd ed., algorithm 9.1.
 ///
@@ -72,8 +73,8 @@ pub fn conjugate_gradients<T: Scalar>(
     }
 }
 
-/// Solves A x = `b` with `factors` of A rounded to another scalar: x ← x + (factors)⁻¹ (b − A x), until
-/// |A x − b| / (|A| |x| + |b|) is at most `tol`.
+/// Solves A x = `b` with `factors` of A rounded to another scalar: x ← x + (factors)⁻¹ (b − A x),
+/// until the relative residual |A x − b| / (|A| |x| + |b|) is at most `tol`.
 ///
 /// # Errors
 /// Stops at a residual that no longer halves: A is too near to a singular matrix for those factors,

@@ -1,8 +1,8 @@
 //! Sparse LDLᵀ without pivoting, for numbers that no library factors: double-doubles and rationals.
 //!
 //! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS
-//! 31(4), 2005 (up-looking, by the elimination tree); the order of the equations is faer's approximate
-//! minimum degree.
+//! 31(4), 2005 (up-looking, by the elimination tree); the order of the equations is faer's
+//! approximate minimum degree.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;

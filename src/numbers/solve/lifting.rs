@@ -3,8 +3,8 @@
 //! known. Elimination in fractions gives the same, but carries numbers of the final length through
 //! every step.
 //!
-//! Source: J. D. Dixon, *Exact solution of linear equations using P-adic expansions*, Numer. Math. 40
-//! (1982) 137-141.
+//! Source: J. D. Dixon, *Exact solution of linear equations using P-adic expansions*, Numer. Math.
+//! 40 (1982) 137-141.
 
 use dashu_base::{Abs, BitTest};
 use dashu_int::IBig;
@@ -108,8 +108,8 @@ pub fn lift(matrix: &SparseSymmetric<RBig>, b: &[RBig]) -> Option<Vec<RBig>> {
     Some(fractions(&x, digits, length))
 }
 
-/// Returns the rows of M x = c, and the bits of a bound on its determinants (Hadamard's: the product of
-/// the rows' lengths).
+/// Returns the rows of M x = c, and the bits of a bound on its determinants (Hadamard's: the
+/// product of the rows' lengths).
 fn whole_rows(matrix: &SparseSymmetric<RBig>, b: &[RBig]) -> Option<(Vec<Row>, usize)> {
     let mut full: Vec<Vec<(usize, RBig)>> = vec![Vec::new(); b.len()];
     for (i, j, a) in matrix.entries() {
@@ -145,8 +145,8 @@ fn fractions(x: &[Vec<u64>], digits: usize, length: usize) -> Vec<RBig> {
         powers.push(last * last);
     }
     let modulus = IBig::from(P).pow(digits);
-    // All denominators divide the determinant: the one common to those found so far is mostly that of
-    // the next.
+    // All denominators divide the determinant: the one common to those found so far is mostly that
+    // of the next.
     let mut common = IBig::ONE;
     x.iter()
         .map(|digits| {
@@ -158,7 +158,7 @@ fn fractions(x: &[Vec<u64>], digits: usize, length: usize) -> Vec<RBig> {
         .collect()
 }
 
-/// Returns the whole number with these digits; powers[k] = p^(2^k).
+/// Returns the whole number with these digits; `powers[k]` is p^(2^k).
 fn combined(digits: &[u64], powers: &[IBig]) -> IBig {
     if let [digit] = digits {
         return IBig::from(*digit);
@@ -170,7 +170,7 @@ fn combined(digits: &[u64], powers: &[IBig]) -> IBig {
 }
 
 /// Returns numerator and denominator, both below 2^`length`, of the fraction that is `value` modulo
-/// `modulus`: Euclid's algorithm, stopped half-way.
+/// `modulus`: Euclid's algorithm, stopped halfway.
 fn fraction(value: IBig, modulus: &IBig, length: usize) -> (IBig, IBig) {
     let negative = &value - modulus;
     if value.bit_len() > length && (&negative).abs().bit_len() <= length {

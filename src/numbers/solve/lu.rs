@@ -5,7 +5,8 @@ use nalgebra::DMatrix;
 use super::factors::Singular;
 use super::field::Field;
 
-/// Returns the solution x of A x = `b`, by Gauss's elimination with the largest pivot of each column.
+/// Returns the solution x of A x = `b`, by Gauss's elimination with the largest pivot of each
+/// column.
 ///
 /// # Errors
 /// Names a pivot that is 0, or below 16 n · eps of the largest entry of its column.

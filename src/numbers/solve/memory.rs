@@ -10,8 +10,8 @@ pub fn needed(r: usize, matrices: usize) -> u128 {
     matrices as u128 * equations * equations * 8
 }
 
-/// Returns the bytes of memory that are free now, a control group's limit included, or nothing where
-/// the system does not tell.
+/// Returns the bytes of memory that are free now, a control group's limit included, or nothing
+/// where the system does not tell.
 pub fn free() -> Option<u128> {
     let memory = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
     let system = System::new_with_specifics(memory).ok()?;

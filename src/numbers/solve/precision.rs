@@ -55,8 +55,8 @@ impl From<NotConverged> for Unsolved {
 
 /// A scalar that systems of equations are solved in.
 pub trait Rung: Scalar {
-    /// Solves A x = `b` by `solver`, which [`check`](super::arithmetic::Arithmetic::check) must have
-    /// passed; every solver but `dense-lu` takes A for symmetric and reads its lower triangle.
+    /// Solves A x = `b` by `solver`, which [`check`](super::arithmetic::Arithmetic::check) must
+    /// have passed; every solver but `dense-lu` takes A for symmetric and reads its lower triangle.
     ///
     /// # Errors
     /// Tells that A is singular, or that an iteration did not converge.
@@ -168,7 +168,8 @@ impl Rung for Exact {
                 let matrix = SparseSymmetric::of_lower(&matrix).map(|x| value(*x));
                 match lift(&matrix, &b) {
                     Some(x) => x,
-                    // The prime was an unlucky one, or the matrix is singular: LDLᵀ names the pivot.
+                    // The prime was an unlucky one, or the matrix is singular: LDLᵀ names the
+                    // pivot.
                     None => Ldlt::new(&matrix)?.solve(&b),
                 }
             }

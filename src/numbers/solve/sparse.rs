@@ -1,4 +1,5 @@
-//! Sparse symmetric matrices, and Cholesky factors of those that are positive definite, by the library faer.
+//! Sparse symmetric matrices, and Cholesky factors of those that are positive definite, by the
+//! library faer.
 
 use std::collections::BTreeMap;
 use std::ops::AddAssign;
@@ -12,8 +13,8 @@ use super::error_bound::inverse_norm;
 use super::factors::{Factors, Native, Singular, backward_error, solve};
 use crate::numbers::scalar::Scalar;
 
-/// Beyond this over the scalar's epsilon (5e14 in f64), the displacements under a load of the size of
-/// the stiffness mean a singular matrix; both are scaled to a unit diagonal.
+/// Beyond this over the scalar's epsilon (5e14 in f64), the displacements under a load of the size
+/// of the stiffness mean a singular matrix; both are scaled to a unit diagonal.
 const UNBOUNDED: f64 = 0.1;
 
 /// What is added to a unit diagonal to see how a singular matrix moves, in units of the scalar's
@@ -233,8 +234,8 @@ fn mechanism<T: Native>(matrix: &SparseSymmetric<T>) -> Singular {
 mod tests {
     use super::*;
 
-    /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a spring
-    /// of stiffness `ground`.
+    /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
+    /// spring of stiffness `ground`.
     fn chain(n: usize, ground: f64) -> SparseSymmetric {
         let springs = (1..n).flat_map(|i| [(i, i, 1.0), (i - 1, i - 1, 1.0), (i, i - 1, -1.0)]);
         SparseSymmetric::new(n, springs.chain([(0, 0, ground)]))

@@ -1,5 +1,5 @@
-//! What Cholesky factors of a sparse matrix will cost, from its pattern alone: a symbolic factorisation
-//! by the library faer, with the same ordering as that of `sparse`.
+//! What Cholesky factors of a sparse matrix will cost, from its pattern alone: a symbolic
+//! factorisation by the library faer, with the same ordering as that of `sparse`.
 
 use faer::Side;
 use faer::sparse::linalg::cholesky::{
@@ -31,8 +31,8 @@ impl FactorSize {
         FactorSize { operations: cube(n) / 3.0, ..FactorSize::full(n, n * n) }
     }
 
-    /// Returns the size of sparse Cholesky of `n` equations whose matrix has `entries` (row, column),
-    /// those above the diagonal left out.
+    /// Returns the size of sparse Cholesky of `n` equations whose matrix has `entries` (row,
+    /// column), those above the diagonal left out.
     pub fn sparse_cholesky(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Self {
         let lower: Vec<Pair<usize, usize>> = entries
             .filter(|(row, column)| row >= column)

@@ -46,14 +46,14 @@ impl<O> Run<'_, '_, O> {
         self.afford(size(arguments).saturating_mul(4))?;
         let line = arguments.iter().map(Value::to_string).collect::<Vec<_>>().join(" ");
         let value = Value::Text(line.as_str().into());
-        self.stored += value.len();
+        self.stored += value.count();
         self.trace.push(line);
         Ok(value)
     }
 }
 
 fn size(values: &[Value]) -> usize {
-    values.iter().map(Value::len).sum()
+    values.iter().map(Value::count).sum()
 }
 
 fn one(arguments: &[Value]) -> Result<&Value, Cause> {

@@ -80,9 +80,9 @@ impl<'r, O: Observer> Run<'r, '_, O> {
 
     /// Writes `value` to a name.
     pub fn store(&mut self, slot: Slot, value: Value) -> Fallible<()> {
-        self.stored -= self.cells[slot].value.as_ref().map_or(0, Value::len);
-        self.room(value.len())?;
-        self.stored += value.len();
+        self.stored -= self.cells[slot].value.as_ref().map_or(0, Value::count);
+        self.room(value.count())?;
+        self.stored += value.count();
         if O::ACTIVE {
             self.observer.write(self.access(slot, &[], &value));
         }

@@ -63,8 +63,8 @@ impl<O: Observer> Run<'_, '_, O> {
         let stored = self.stored;
         let values = arguments.iter().map(|argument| {
             let value = self.eval(argument)?;
-            self.room(value.len())?;
-            self.stored += value.len();
+            self.room(value.count())?;
+            self.stored += value.count();
             Ok(value)
         });
         let values = values.collect();
@@ -81,9 +81,9 @@ impl<O: Observer> Run<'_, '_, O> {
     ) -> Fallible<Value> {
         let x = self.eval(x)?;
         // The left operand counts as stored while the right one is evaluated.
-        self.stored += x.len();
+        self.stored += x.count();
         let y = self.eval(y);
-        self.stored -= x.len();
+        self.stored -= x.count();
         let y = y?;
         let result = if let (Value::Number(x), Value::Number(y)) = (&x, &y) {
             calculate(operation, *x, *y, self.settings).map(Value::Number)
@@ -103,7 +103,7 @@ impl<O: Observer> Run<'_, '_, O> {
         by: fn(Value) -> Result<Value, Cause>,
     ) -> Fallible<Value> {
         let x = self.eval(x)?;
-        self.afford(x.len())?;
+        self.afford(x.count())?;
         by(x).map_err(|cause| self.fail(span, cause))
     }
 

@@ -1,4 +1,5 @@
-//! The functions that a listing may call: a few of Mathcad's own, and those that the caller defines.
+//! The functions that a listing may call: a few of Mathcad's own, and those that the caller
+//! defines.
 
 use super::value::Value;
 

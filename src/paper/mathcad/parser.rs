@@ -1,7 +1,7 @@
 //! The grammar of one line.
 //!
-//! From the loosest to the tightest: `∧`, one comparison, `+ −`, `· /`, the sign `−x`, `xᵀ`. Operators of one level
-//! group from the left.
+//! From the loosest to the tightest: `∧`, one comparison, `+ −`, `· /`, the sign `−x`, `xᵀ`.
+//! Operators of one level group from the left.
 
 use std::collections::BTreeSet;
 
@@ -22,7 +22,8 @@ pub fn header(tokens: &[Spanned]) -> Result<Vec<Slot>, Complaint> {
     parse(header_grammar(), tokens)
 }
 
-/// Reads a line of a program. The bodies of `for` and `if` are left empty.
+/// Reads a line of a program, `line` being its place in the listing from 0. The bodies of `for` and
+/// `if` are left empty.
 pub fn statement(tokens: &[Spanned], line: usize) -> Result<Statement, Complaint> {
     Ok(Statement { line, step: parse(step_grammar(), tokens)? })
 }
@@ -170,7 +171,7 @@ fn comparing(comparison: Comparison, l: Expr, r: Expr) -> Expr {
     Expr { kind: Kind::Compare(comparison, Box::new(l), Box::new(r)), span }
 }
 
-/// Operands of `∧`, at least one; one alone is itself.
+/// Joins operands by `∧`, at least one; one alone is itself.
 fn all(mut operands: Vec<Expr>) -> Expr {
     if operands.len() == 1 {
         return operands.remove(0);
@@ -179,7 +180,7 @@ fn all(mut operands: Vec<Expr>) -> Expr {
     Expr { kind: Kind::All(operands), span }
 }
 
-/// What stands between round brackets: one expression is that expression, several are a row.
+/// Makes what stands between round brackets: one expression is that expression, several are a row.
 fn bracketed(mut elements: Vec<Expr>) -> Kind {
     if elements.len() == 1 {
         Kind::Group(Box::new(elements.remove(0)))

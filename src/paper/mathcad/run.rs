@@ -105,7 +105,7 @@ impl<O: Observer> Run<'_, '_, O> {
             self.cells[slot].value = Some(argument.clone());
         }
         self.stored =
-            self.cells.iter().filter_map(|cell| cell.value.as_ref()).map(Value::len).sum();
+            self.cells.iter().filter_map(|cell| cell.value.as_ref()).map(Value::count).sum();
         self.room(0)
     }
 

@@ -1,4 +1,5 @@
-//! The state of a run: what each name holds, the current line, and how much of the limits is used.
+//! The state of a run: the values of its names, its current line, and how much of the limits it has
+//! used.
 
 use super::failure::{Cause, Failure, Fallible};
 use super::function::Function;
