@@ -7,6 +7,9 @@
 //! | [`Bounded`] | 16 | `f64` with a bound on its error |
 //! | [`F64x2`] | 31 | a reference for scenes of any size |
 //! | [`Exact`] | all | rational numbers: a reference without doubt, for small scenes |
+//!
+//! The traits are in `number`, which imports none of the others; the types use it, `operators` and
+//! [`rational`].
 
 mod bounded;
 mod exact;

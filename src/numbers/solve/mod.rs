@@ -1,4 +1,14 @@
 //! Solution of the linear equations: one matrix, several scalars and solvers.
+//!
+//! | modules, each using only those above it | what they contain |
+//! |---|---|
+//! | `arithmetic` | the scalar and the solver that are asked for |
+//! | [`memory`], [`cost`], `symbolic` | what a solution needs: memory, time, entries of factors |
+//! | `factors`, `dense` | what factorisations share; faer's of dense matrices |
+//! | `error_bound` | how far a solution may be from the true one |
+//! | `sparse`, `iterative` | faer's factors of sparse matrices; solutions to a tolerance |
+//! | `field`, `lu`, `ldlt`, `lifting` | elimination in numbers that no library factors |
+//! | `precision` | the solution in each scalar by each solver |
 
 mod arithmetic;
 pub mod cost;
