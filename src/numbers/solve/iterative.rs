@@ -16,13 +16,6 @@ pub struct NotConverged {
     pub residual: f64,
 }
 
-/// A solution, and the number of iterations that it took.
-#[derive(Clone, Debug)]
-pub struct Iterated<T> {
-    pub x: DVector<T>,
-    pub iterations: usize,
-}
-
 /// Solves A x = `b`, A positive definite, by conjugate gradients with the diagonal as
 /// preconditioner, until |A x − b| / (|A| |x| + |b|), computed anew, is at most `tol`.
 ///
@@ -35,7 +28,7 @@ pub fn conjugate_gradients<T: Scalar>(
     a: &SparseSymmetric<T>,
     b: &DVector<T>,
     tol: f64,
-) -> Result<Iterated<T>, NotConverged> {
+) -> Result<DVector<T>, NotConverged> {
     let (norm, diagonal, limit) = (a.norm(), a.diagonal(), 20 * b.len() + 200);
     let precondition = |r: &DVector<T>| r.zip_map(&diagonal, |r, d| r / d);
     let mut x = DVector::from_element(b.len(), T::zero());
@@ -45,7 +38,7 @@ pub fn conjugate_gradients<T: Scalar>(
         let mut r = b - a.times(&x);
         let start = backward_error(&r, norm, &x, b);
         if start <= tol {
-            return Ok(Iterated { x, iterations });
+            return Ok(x);
         }
         let mut z = precondition(&r);
         let (mut p, mut rz) = (z.clone(), dot(&r, &z));
@@ -84,7 +77,7 @@ pub fn refine<L: Scalar, T: Scalar>(
     a: &SparseSymmetric<T>,
     b: &DVector<T>,
     tol: f64,
-) -> Result<Iterated<T>, NotConverged> {
+) -> Result<DVector<T>, NotConverged> {
     let norm = a.norm();
     let mut x = DVector::from_element(b.len(), T::zero());
     let (mut iterations, mut last) = (0, f64::INFINITY);
@@ -92,7 +85,7 @@ pub fn refine<L: Scalar, T: Scalar>(
         let r = b - a.times(&x);
         let residual = backward_error(&r, norm, &x, b);
         if residual <= tol {
-            return Ok(Iterated { x, iterations });
+            return Ok(x);
         }
         // The first, at x = 0, is 1 whatever comes of it.
         if residual.is_nan() || residual > last / 2.0 {

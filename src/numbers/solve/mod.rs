@@ -30,7 +30,7 @@ pub use dense::{DenseCholesky, DenseLu};
 pub use error_bound::{error_bound, inverse_norm};
 pub use factors::{Factors, Native, Singular};
 pub use field::Field;
-pub use iterative::{Iterated, NotConverged, conjugate_gradients, refine};
+pub use iterative::{NotConverged, conjugate_gradients, refine};
 pub use ldlt::Ldlt;
 pub use lifting::lift;
 pub use lu::solve_dense;

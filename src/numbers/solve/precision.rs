@@ -142,7 +142,7 @@ impl Rung for F64x2 {
         let sparse = SparseSymmetric::of_lower(&matrix);
         let x = match solver {
             Solver::Refined => return refined::<f64, F64x2>(&sparse, b, tol),
-            Solver::Cg => conjugate_gradients(&sparse, b, tol)?.x,
+            Solver::Cg => conjugate_gradients(&sparse, b, tol)?,
             Solver::DenseLu => {
                 DVector::from_vec(solve_dense(|i, j| matrix[(i, j)], b.as_slice().to_vec())?)
             }
@@ -203,7 +203,7 @@ fn native<T: Native>(
     let sparse = SparseSymmetric::of_lower(&matrix);
     let x = match solver {
         Solver::DenseCholesky => DenseCholesky::new(&matrix)?.solve(b),
-        Solver::Cg => conjugate_gradients(&sparse, b, tol.unwrap_or(TOL * T::EPSILON))?.x,
+        Solver::Cg => conjugate_gradients(&sparse, b, tol.unwrap_or(TOL * T::EPSILON))?,
         _ => SparseCholesky::new(sparse.clone())?.solve(b),
     };
     Ok(Solved { residual: sparse.residual(&x, b), x })
@@ -216,6 +216,6 @@ fn refined<L: Native, T: Scalar>(
     tol: f64,
 ) -> Result<Solved<T>, Unsolved> {
     let factors = SparseCholesky::new(matrix.map(|x| L::from_f64(x.to_f64())))?;
-    let x = refine(&factors, matrix, b, tol)?.x;
+    let x = refine(&factors, matrix, b, tol)?;
     Ok(Solved { residual: matrix.residual(&x, b), x })
 }
