@@ -21,7 +21,7 @@ use crate::answer::error::{Error, SingularMatrix};
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{
-    Inputs, Rung, ScalarName, Solved, Solver, SparseSymmetric, Unsolved, cost, memory,
+    Inputs, Precision, ScalarName, Solved, Solver, SparseSymmetric, Unsolved, cost, memory,
 };
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{
@@ -35,7 +35,7 @@ use crate::problem::modelling::Variant;
 ///
 /// # Errors
 /// The published algorithm failing as printed, a matrix that cannot be solved, a dense matrix that does not fit.
-pub(super) fn published<T: Rung>(
+pub(super) fn published<T: Precision>(
     task: &Task,
     sparse: Option<Sparse<T>>,
     watch: &mut dyn FnMut(&Iteration),
@@ -92,7 +92,7 @@ fn check_load<T: Scalar>(task: &Task, load: &DVector<T>) -> Result<(), InputErro
 }
 
 /// That the matrices fit in memory, and exact numbers in a bearable time.
-fn check_size<T: Rung>(task: &Task) -> Result<(), InputError> {
+fn check_size<T: Precision>(task: &Task) -> Result<(), InputError> {
     // Of the numbers' own size, in units of an f64.
     let matrices = task.dense_matrices() * size_of::<T>().div_ceil(size_of::<f64>());
     memory::check(task.sheet.R(), matrices, memory::free())?;
@@ -159,7 +159,7 @@ struct Solution<T> {
     support: [T; 2],
 }
 
-impl<'a, T: Rung> Run<'a, T> {
+impl<'a, T: Precision> Run<'a, T> {
     fn new(
         task: &'a Task<'a>,
         sheet: &'a Worksheet<T>,

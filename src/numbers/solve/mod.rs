@@ -34,6 +34,6 @@ pub use iterative::{NotConverged, conjugate_gradients, refine};
 pub use ldlt::Ldlt;
 pub use lifting::lift;
 pub use lu::solve_dense;
-pub use precision::{Rung, Solved, Unsolved};
+pub use precision::{Precision, Solved, Unsolved};
 pub use sparse::{SparseCholesky, SparseSymmetric};
 pub use symbolic::FactorSize;

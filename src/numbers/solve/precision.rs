@@ -54,7 +54,7 @@ impl From<NotConverged> for Unsolved {
 }
 
 /// A scalar that systems of equations are solved in.
-pub trait Rung: Scalar {
+pub trait Precision: Scalar {
     /// Solves A x = `b` by `solver`, which [`check`](super::arithmetic::Arithmetic::check) must
     /// have passed; every solver but `dense-lu` takes A for symmetric and reads its lower triangle.
     ///
@@ -76,7 +76,7 @@ pub trait Rung: Scalar {
 /// The tolerance where none is given, in units of the scalar's epsilon.
 const TOL: f64 = 16.0;
 
-impl Rung for f64 {
+impl Precision for f64 {
     fn solve(
         matrix: DMatrix<f64>,
         b: &DVector<f64>,
@@ -93,7 +93,7 @@ impl Rung for f64 {
     }
 }
 
-impl Rung for f32 {
+impl Precision for f32 {
     fn solve(
         matrix: DMatrix<f32>,
         b: &DVector<f32>,
@@ -104,7 +104,7 @@ impl Rung for f32 {
     }
 }
 
-impl Rung for Bounded {
+impl Precision for Bounded {
     /// Solves as in `f64`, digit for digit; every entry of x carries the bound on the largest error
     /// of an entry.
     fn solve(
@@ -131,7 +131,7 @@ impl Rung for Bounded {
     }
 }
 
-impl Rung for F64x2 {
+impl Precision for F64x2 {
     fn solve(
         matrix: DMatrix<F64x2>,
         b: &DVector<F64x2>,
@@ -152,7 +152,7 @@ impl Rung for F64x2 {
     }
 }
 
-impl Rung for Exact {
+impl Precision for Exact {
     fn solve(
         matrix: DMatrix<Exact>,
         b: &DVector<Exact>,
