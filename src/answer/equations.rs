@@ -10,7 +10,7 @@ use super::stiffness::Stiffness;
 use super::support::support;
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
-use crate::numbers::solve::{self, Rung, Solver, SparseSymmetric, Unsolved};
+use crate::numbers::solve::{self, Precision, Solver, SparseSymmetric, Unsolved};
 use crate::paper::door;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{Km, Pairs, RestraintIndex, Schedule, Worksheet};
@@ -56,7 +56,7 @@ pub(super) struct Solved<T> {
     pub support: [T; 2],
 }
 
-impl<'a, T: Rung> Equations<'a, T> {
+impl<'a, T: Precision> Equations<'a, T> {
     /// The equations of `request`. `load`: the whole load by degree of freedom; `sparse` solves where sparse Cholesky is asked for.
     ///
     /// # Errors

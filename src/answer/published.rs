@@ -19,7 +19,7 @@ use super::sparse::{Sparse, dense_matrices};
 use super::support::against_load;
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
-use crate::numbers::solve::{Inputs, Rung, ScalarName, cost, memory};
+use crate::numbers::solve::{Inputs, Precision, ScalarName, cost, memory};
 use crate::paper::door::{self, NodeToSegment};
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet, c_cnt};
@@ -31,7 +31,7 @@ use crate::problem::modelling::{Coupling, StatusRule, Variant};
 ///
 /// # Errors
 /// The published algorithm failing as printed, a matrix that cannot be solved, a dense matrix that does not fit.
-pub(super) fn published<T: Rung>(
+pub(super) fn published<T: Precision>(
     request: &Request,
     sparse: Option<Sparse<T>>,
     watch: &mut dyn FnMut(&Step),
@@ -88,7 +88,7 @@ fn check_load<T: Scalar>(
 }
 
 /// Checks that the matrices fit in memory, and exact numbers in a bearable time.
-fn check_size<T: Rung>(request: &Request, model: &Model) -> Result<(), InputError> {
+fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), InputError> {
     // Of the numbers' own size, in units of an f64.
     let matrices = dense_matrices(request.variant, request.arithmetic)
         * size_of::<T>().div_ceil(size_of::<f64>());
@@ -135,7 +135,7 @@ struct Found<T> {
     places: Vec<NodeToSegment<T>>,
 }
 
-impl<'a, T: Rung> Run<'a, T> {
+impl<'a, T: Precision> Run<'a, T> {
     fn new(
         request: &'a Request,
         model: &'a Model,

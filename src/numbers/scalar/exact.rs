@@ -1,20 +1,24 @@
-//! Exact rational numbers that are `Copy`, as the mirror's code wants them: handles into an arena of their thread.
+//! Exact rational numbers that are `Copy`, as the mirror's code wants them: handles into an arena
+//! of their thread.
 
 use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::fmt;
 use std::marker::PhantomData;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use dashu_int::UBig;
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
 
-use super::{Scalar, Subscript, rational};
+use super::number::{Scalar, Subscript};
+use super::operators::operators;
+use super::rational;
 
-/// A rational number, or *undefined*: x/0, and what comes of it. Undefined equals nothing, as NaN does.
+/// A rational number, or *undefined*: x/0, and what comes of it. Undefined equals nothing, as NaN
+/// does.
 ///
-/// The number lives in an arena of its thread until the [`scope`] that it was made in ends; to use it later is a panic.
+/// The number lives in an arena of its thread until the [`scope`] that it was made in ends; to use
+/// it later is a panic.
 #[derive(Clone, Copy)]
 pub struct Exact {
     at: u32,
@@ -23,13 +27,13 @@ pub struct Exact {
     of_thread: PhantomData<*const ()>,
 }
 
-/// The numbers, each with the epoch that it was made in.
+/// The numbers of a thread, each with the epoch that it was made in.
 struct Arena {
     numbers: Vec<(u32, RBig)>,
     epoch: u32,
 }
 
-/// Places of the numbers that always stand there, made in epoch 0.
+/// Places of the two numbers that always stand there, made in epoch 0, and of the undefined one.
 const ZERO: u32 = 0;
 const ONE: u32 = 1;
 const UNDEFINED: u32 = u32::MAX;
@@ -59,7 +63,7 @@ impl Drop for Guard {
 }
 
 impl Exact {
-    /// The number `x`.
+    /// Makes the number `x`; 0 and 1 take no place in the arena.
     pub fn new(x: RBig) -> Self {
         match () {
             _ if x.is_zero() => Exact::fixed(ZERO),
@@ -80,7 +84,7 @@ impl Exact {
         Exact::fixed(UNDEFINED)
     }
 
-    /// What `read` makes of the number; nothing where it is undefined.
+    /// Returns what `read` makes of the number, or nothing where it is undefined.
     fn with<R>(self, read: impl FnOnce(&RBig) -> R) -> Option<R> {
         if self.at == UNDEFINED {
             return None;
@@ -92,81 +96,50 @@ impl Exact {
         })
     }
 
-    fn combine(self, other: Self, operation: impl FnOnce(&RBig, &RBig) -> RBig) -> Self {
-        let result = self.with(|x| other.with(|y| operation(x, y))).flatten();
+    fn combine(x: Self, y: Self, operation: impl FnOnce(&RBig, &RBig) -> RBig) -> Self {
+        let result = x.with(|x| y.with(|y| operation(x, y))).flatten();
         result.map_or(Exact::undefined(), Exact::new)
     }
 
     fn is(self, at: u32) -> bool {
         self.at == at
     }
-}
 
-impl Add for Exact {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
+    fn sum(x: Self, y: Self) -> Self {
         match () {
-            _ if self.is(ZERO) => other,
-            _ if other.is(ZERO) => self,
-            _ => self.combine(other, |x, y| x + y),
+            _ if x.is(ZERO) => y,
+            _ if y.is(ZERO) => x,
+            _ => Exact::combine(x, y, |x, y| x + y),
         }
     }
-}
 
-impl Sub for Exact {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        if other.is(ZERO) { self } else { self.combine(other, |x, y| x - y) }
+    fn difference(x: Self, y: Self) -> Self {
+        if y.is(ZERO) { x } else { Exact::combine(x, y, |x, y| x - y) }
     }
-}
 
-impl Mul for Exact {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
+    fn product(x: Self, y: Self) -> Self {
         match () {
-            _ if self.is(ONE) => other,
-            _ if other.is(ONE) => self,
-            _ => self.combine(other, |x, y| x * y),
+            _ if x.is(ONE) => y,
+            _ if y.is(ONE) => x,
+            _ => Exact::combine(x, y, |x, y| x * y),
         }
     }
-}
 
-impl Div for Exact {
-    type Output = Self;
-    /// x/0 is undefined.
-    fn div(self, other: Self) -> Self {
+    /// Returns x/y, undefined where y is 0.
+    fn quotient(x: Self, y: Self) -> Self {
         match () {
-            _ if other.is(ZERO) => Exact::undefined(),
-            _ if other.is(ONE) => self,
-            _ => self.combine(other, |x, y| x / y),
+            _ if y.is(ZERO) => Exact::undefined(),
+            _ if y.is(ONE) => x,
+            _ => Exact::combine(x, y, |x, y| x / y),
         }
     }
-}
 
-impl Neg for Exact {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Exact::zero() - self
+    fn negative(x: Self) -> Self {
+        Exact::zero() - x
     }
 }
 
-impl AddAssign for Exact {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Exact {
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Exact {
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
+operators!(Exact);
 
 impl PartialEq for Exact {
     fn eq(&self, other: &Self) -> bool {
@@ -204,11 +177,11 @@ impl Subscript for Exact {
 }
 
 impl Scalar for Exact {
-    /// Exactly `x`; undefined for an infinity or NaN.
+    /// Returns exactly `x`, undefined for an infinity or NaN.
     fn from_f64(x: f64) -> Self {
         RBig::try_from(x).map_or(Exact::undefined(), Exact::new)
     }
-    /// Ties to even; NaN where it is undefined.
+    /// Rounds ties to even; an undefined number is NaN.
     fn to_f64(self) -> f64 {
         self.with(rational::nearest).unwrap_or(f64::NAN)
     }
@@ -232,14 +205,14 @@ impl Scalar for Exact {
         let whole = |x: &RBig| Exact::new(RBig::from(x.numerator() * (&common / x.denominator())));
         (fractions.iter().map(whole).collect(), Exact::new(RBig::from(common.clone())))
     }
-    /// 40 significant digits: the fraction itself may have thousands.
+    /// Returns 40 significant digits: the fraction itself may have thousands.
     fn digits(self) -> Option<String> {
         self.with(|x| rational::decimal(x, 40))
     }
     fn scale(_: Self) -> Self {
         Exact::one()
     }
-    /// One rounding, the root's own.
+    /// Rounds once, at the root.
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
         (factor * scale * scale * square).with(rational::nearest_root).unwrap_or(f64::NAN)
     }
@@ -249,7 +222,7 @@ impl Scalar for Exact {
 }
 
 impl fmt::Display for Exact {
-    /// The nearest `f64`: the number itself may have thousands of digits.
+    /// Writes the nearest `f64`: the number itself may have thousands of digits.
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}", self.to_f64())
     }

@@ -1,19 +1,23 @@
 //! Double-double numbers: the unevaluated sum of two `f64`, about 31 digits.
 //!
-//! Source: M. Joldes, J.-M. Muller, V. Popescu, *Tight and rigorous error bounds for basic building blocks of double-word
-//! arithmetic*, ACM TOMS 44(2), 2017: algorithms 6 (sum), 12 (product), 17 (quotient). Root: V. Lefèvre, N. Louvet, J.-M.
-//! Muller, J. Picot, L. Rideau, *Accurate calculation of Euclidean norms using double-word arithmetic*, ACM TOMS 49(1), 2023.
-//! Relative errors, u = 2^-53: sum 3 u², product 4 u², quotient 9.8 u², root 3.125 u², while nothing underflows.
+//! Source: M. Joldes, J.-M. Muller, V. Popescu, *Tight and rigorous error bounds for basic building
+//! blocks of double-word arithmetic*, ACM TOMS 44(2), 2017: algorithms 6 (sum), 12 (product), 17
+//! (quotient). Root: V. Lefèvre, N. Louvet, J.-M. Muller, J. Picot, L. Rideau, *Accurate
+//! calculation of Euclidean norms using double-word arithmetic*, ACM TOMS 49(1), 2023. Relative
+//! errors, u = 2^-53: sum 3 u², product 4 u², quotient 9.8 u², root 3.125 u², while nothing
+//! underflows.
 
 use std::fmt;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
 
-use super::{Scalar, Subscript, rational};
+use super::number::{Scalar, Subscript};
+use super::operators::operators;
+use super::rational;
 
-/// hi + lo, with hi = the `f64` nearest to the sum. An overflow or NaN stands in hi, and lo is then 0.
+/// hi + lo, with hi = the `f64` nearest to the sum. An overflow or NaN stands in hi, and lo is then
+/// 0.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct F64x2 {
     hi: f64,
@@ -21,7 +25,7 @@ pub struct F64x2 {
 }
 
 impl F64x2 {
-    /// The number nearest to `x`.
+    /// Returns the number nearest to `x`.
     pub fn nearest(x: &RBig) -> Self {
         let hi = rational::nearest(x);
         match RBig::try_from(hi) {
@@ -30,12 +34,12 @@ impl F64x2 {
         }
     }
 
-    /// The two halves.
+    /// Returns hi and lo.
     pub fn halves(self) -> [f64; 2] {
         [self.hi, self.lo]
     }
 
-    /// The square root; NaN of a negative number.
+    /// Returns the square root, NaN of a negative number.
     pub fn sqrt(self) -> Self {
         let plain = self.hi.sqrt();
         if plain == 0.0 {
@@ -45,7 +49,36 @@ impl F64x2 {
         F64x2::settled(fast_two_sum(plain, rest / (2.0 * plain)), plain)
     }
 
-    /// `sum`, or where it is not finite what `plain`, the same operation in `f64`, says.
+    fn sum(x: Self, y: Self) -> Self {
+        let [high, high_error] = two_sum(x.hi, y.hi);
+        let [low, low_error] = two_sum(x.lo, y.lo);
+        let [sum, error] = fast_two_sum(high, high_error + low);
+        F64x2::settled(fast_two_sum(sum, low_error + error), x.hi + y.hi)
+    }
+
+    fn difference(x: Self, y: Self) -> Self {
+        x + -y
+    }
+
+    fn product(x: Self, y: Self) -> Self {
+        let [product, error] = two_product(x.hi, y.hi);
+        let low = x.lo.mul_add(y.hi, x.hi.mul_add(y.lo, x.lo * y.lo));
+        F64x2::settled(fast_two_sum(product, error + low), x.hi * y.hi)
+    }
+
+    fn quotient(x: Self, y: Self) -> Self {
+        let quotient = x.hi / y.hi;
+        let [product, error] = two_product(y.hi, quotient);
+        let [high, low] = fast_two_sum(product, y.lo.mul_add(quotient, error));
+        let rest = (x.hi - high) + (x.lo - low);
+        F64x2::settled(fast_two_sum(quotient, rest / y.hi), quotient)
+    }
+
+    fn negative(x: Self) -> Self {
+        F64x2 { hi: -x.hi, lo: -x.lo }
+    }
+
+    /// Returns `sum`, or where it is not finite what `plain`, the same operation in `f64`, says.
     fn settled([hi, lo]: [f64; 2], plain: f64) -> Self {
         match (hi.is_finite() && lo.is_finite(), plain.is_finite()) {
             (true, _) => F64x2 { hi, lo },
@@ -56,85 +89,25 @@ impl F64x2 {
     }
 }
 
-/// a + b and its rounding error.
+operators!(F64x2);
+
+/// Returns a + b and its rounding error.
 fn two_sum(a: f64, b: f64) -> [f64; 2] {
     let sum = a + b;
     let of_b = sum - a;
     [sum, (a - (sum - of_b)) + (b - of_b)]
 }
 
-/// The same where |a| >= |b| or a is 0.
+/// Returns a + b and its rounding error, where |a| >= |b| or a is 0.
 fn fast_two_sum(a: f64, b: f64) -> [f64; 2] {
     let sum = a + b;
     [sum, b - (sum - a)]
 }
 
-/// a · b and its rounding error.
+/// Returns a · b and its rounding error.
 fn two_product(a: f64, b: f64) -> [f64; 2] {
     let product = a * b;
     [product, a.mul_add(b, -product)]
-}
-
-impl Add for F64x2 {
-    type Output = Self;
-    fn add(self, y: Self) -> Self {
-        let [high, high_error] = two_sum(self.hi, y.hi);
-        let [low, low_error] = two_sum(self.lo, y.lo);
-        let [sum, error] = fast_two_sum(high, high_error + low);
-        F64x2::settled(fast_two_sum(sum, low_error + error), self.hi + y.hi)
-    }
-}
-
-impl Sub for F64x2 {
-    type Output = Self;
-    fn sub(self, y: Self) -> Self {
-        self + -y
-    }
-}
-
-impl Mul for F64x2 {
-    type Output = Self;
-    fn mul(self, y: Self) -> Self {
-        let [product, error] = two_product(self.hi, y.hi);
-        let low = self.lo.mul_add(y.hi, self.hi.mul_add(y.lo, self.lo * y.lo));
-        F64x2::settled(fast_two_sum(product, error + low), self.hi * y.hi)
-    }
-}
-
-impl Div for F64x2 {
-    type Output = Self;
-    fn div(self, y: Self) -> Self {
-        let quotient = self.hi / y.hi;
-        let [product, error] = two_product(y.hi, quotient);
-        let [high, low] = fast_two_sum(product, y.lo.mul_add(quotient, error));
-        let rest = (self.hi - high) + (self.lo - low);
-        F64x2::settled(fast_two_sum(quotient, rest / y.hi), quotient)
-    }
-}
-
-impl Neg for F64x2 {
-    type Output = Self;
-    fn neg(self) -> Self {
-        F64x2 { hi: -self.hi, lo: -self.lo }
-    }
-}
-
-impl AddAssign for F64x2 {
-    fn add_assign(&mut self, y: Self) {
-        *self = *self + y;
-    }
-}
-
-impl SubAssign for F64x2 {
-    fn sub_assign(&mut self, y: Self) {
-        *self = *self - y;
-    }
-}
-
-impl MulAssign for F64x2 {
-    fn mul_assign(&mut self, y: Self) {
-        *self = *self * y;
-    }
 }
 
 impl Zero for F64x2 {
@@ -181,7 +154,7 @@ impl Scalar for F64x2 {
 }
 
 impl fmt::Display for F64x2 {
-    /// 32 significant digits, or fewer where fewer say it exactly.
+    /// Writes 32 significant digits, or fewer where fewer say it exactly.
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self.to_rational() {
             Some(x) => f.write_str(&rational::decimal(&x, 32)),

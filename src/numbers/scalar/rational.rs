@@ -4,19 +4,20 @@ use dashu_base::{BitTest, DivRem, Gcd, SquareRootRem};
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-/// The `f64` nearest to `x`, ties to even; ±∞ beyond the largest.
+/// Returns the `f64` nearest to `x`, ties to even, ±∞ beyond the largest.
 pub fn nearest(x: &RBig) -> f64 {
     x.to_f64().value()
 }
 
-/// The shortest decimal that reads back to `x`, exactly; nothing for an infinity or NaN.
+/// Returns the shortest decimal that reads back to `x`, or nothing for an infinity or NaN.
 pub fn of_decimal(x: f64) -> Option<RBig> {
     if x.is_finite() { RBig::from_str_decimal(&format!("{x:e}")).ok() } else { None }
 }
 
-/// The `f64` nearest to the square root of `x` ≥ 0, ties to even.
+/// Returns the `f64` nearest to the square root of `x` ≥ 0, ties to even.
 pub fn nearest_root(x: &RBig) -> f64 {
-    /// Bits of the root: past 54, one more that tells an inexact root rounds as the root itself does, subnormals too.
+    /// Bits of the root: past 54, one more that tells an inexact root rounds as the root itself
+    /// does, subnormals too.
     const BITS: isize = 64;
     assert!(*x >= RBig::ZERO, "no real root of a negative number");
     if x.is_zero() {
@@ -35,7 +36,8 @@ pub fn nearest_root(x: &RBig) -> f64 {
     nearest(&times_power_of_two(mantissa, -shift - 1))
 }
 
-/// `x` in decimal, scientific, correctly rounded to `digits` significant digits; fewer where fewer say it exactly.
+/// Writes `x` in scientific decimal, correctly rounded to `digits` significant digits, or fewer
+/// where fewer say it exactly.
 pub fn decimal(x: &RBig, digits: usize) -> String {
     let text = format!("{:.*e}", digits - 1, x.in_expanded(10));
     let (mantissa, exponent) = text.split_once('e').expect("scientific notation has an exponent");
@@ -46,7 +48,7 @@ pub fn decimal(x: &RBig, digits: usize) -> String {
     format!("{mantissa}e{exponent}")
 }
 
-/// The least common multiple.
+/// Returns the least common multiple of two numbers.
 pub fn lcm(a: UBig, b: &UBig) -> UBig {
     if a == *b {
         return a;

@@ -2,16 +2,18 @@
 
 use crate::error::InputError;
 
-/// Seconds of an exact iteration of `EQUATIONS` equations of a plane mesh whose coordinates use all digits of an f64; most of them go into
-/// forces and stresses, whose fractions are as long as the displacements'. They grow with the cube of the equations.
+/// Seconds of an exact iteration of `EQUATIONS` equations of a plane mesh whose coordinates use all
+/// digits of an f64; most of them go into forces and stresses, whose fractions are as long as the
+/// displacements'. They grow with the cube of the equations.
 const SECONDS: f64 = 2.0;
 const EQUATIONS: f64 = 144.0;
 
-/// Seconds beyond which an exact run is refused.
+/// The seconds beyond which an exact run is refused.
 const LIMIT: f64 = 600.0;
 
-/// Estimated seconds of `iterations` exact solutions of `equations` equations. `growing`: weights come from the shape that the iteration before led
-/// to, so that numbers grow longer by a factor of the equations each time.
+/// Estimates the seconds of `iterations` exact solutions of `equations` equations. `growing`:
+/// weights come from the shape that the iteration before led to, so that numbers grow longer by a
+/// factor of the equations each time.
 pub fn seconds(equations: usize, growing: bool, iterations: usize) -> f64 {
     let n = equations as f64;
     let first = SECONDS * (n / EQUATIONS).powi(3);
@@ -19,17 +21,18 @@ pub fn seconds(equations: usize, growing: bool, iterations: usize) -> f64 {
     first * last * iterations as f64
 }
 
-/// That they do.
+/// Checks that exact solutions end within the limit.
 ///
 /// # Errors
-/// They do not; the message says how long they may take.
+/// Says how long they may take where they do not.
 pub fn check(equations: usize, growing: bool, iterations: usize) -> Result<(), InputError> {
     let seconds = seconds(equations, growing, iterations);
     if seconds <= LIMIT {
         return Ok(());
     }
     let what = format!(
-        "{equations} equations in exact numbers, {iterations} iterations, may take {seconds:.0e} s: more than {LIMIT} s"
+        "{equations} equations in exact numbers, {iterations} iterations, may take \
+         {seconds:.0e} s: more than {LIMIT} s"
     );
     Err(InputError::new("--scalar exact", what, "use f64x2, fewer iterations or a coarser mesh"))
 }

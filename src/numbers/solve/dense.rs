@@ -1,31 +1,12 @@
-//! Dense LU with partial pivoting and dense Cholesky, by the library faer, behind one narrow interface.
+//! Dense LU with partial pivoting and dense Cholesky, by the library faer, behind one narrow
+//! interface.
 
-use faer::linalg::solvers::{Llt, PartialPivLu, Solve};
-use faer::traits::RealField;
+use faer::linalg::solvers::{Llt, PartialPivLu};
 use faer::{MatRef, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
+use super::factors::{Factors, Native, Singular, backward_error, largest, solve};
 use crate::numbers::scalar::Scalar;
-
-/// A scalar of the machine, which faer computes with.
-pub trait Native: Scalar + RealField {
-    /// Distance of 1 from the next larger number.
-    const EPSILON: f64;
-}
-
-impl Native for f64 {
-    const EPSILON: f64 = f64::EPSILON;
-}
-
-impl Native for f32 {
-    const EPSILON: f64 = f32::EPSILON as f64;
-}
-
-/// Factors of a matrix A.
-pub trait Factors<T> {
-    /// The solution x of A x = `b`.
-    fn solve(&self, b: &DVector<T>) -> DVector<T>;
-}
 
 /// A square matrix and its LU factors.
 pub struct DenseLu<T: Native = f64> {
@@ -33,21 +14,13 @@ pub struct DenseLu<T: Native = f64> {
     factors: PartialPivLu<T>,
 }
 
-/// A column whose pivot vanished: the matrix has no unique solution.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Singular {
-    /// The column, from 0.
-    pub column: usize,
-    /// Its pivot.
-    pub pivot: f64,
-}
-
 impl<T: Native> DenseLu<T> {
-    /// Factors `matrix`.
+    /// Factors an n x n `matrix`.
     ///
     /// # Errors
-    /// A pivot below 16 n · eps of its own column's largest entry counts as zero (rounding leaves some n · eps where the exact
-    /// pivot is 0): column by column, so that a body of soft material beside one of hard material is not taken for singular.
+    /// Names a pivot below 16 n · eps of its own column's largest entry, which counts as zero
+    /// (rounding leaves some n · eps where the exact pivot is 0): column by column, so that a body
+    /// of soft material beside one of hard material is not taken for singular.
     pub fn new(matrix: DMatrix<T>) -> Result<Self, Singular> {
         let n = matrix.nrows();
         // One thread: faer's bits depend on the number of threads.
@@ -66,15 +39,15 @@ impl<T: Native> DenseLu<T> {
         }
     }
 
-    /// The solution x of A x = `b`.
+    /// Returns the solution x of A x = `b`.
     pub fn solve(&self, b: &DVector<T>) -> DVector<T> {
         solve(&self.factors, b)
     }
 
-    /// Relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of vectors (Rigal and Gaches' normwise
-    /// backward error); 0 when x and b are 0.
+    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
+    /// vectors, 0 when x and b are 0.
     pub fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
-        // The largest row sum, gathered column by column as the matrix lies in memory.
+        // The row sums of |A|, gathered column by column as the matrix lies in memory.
         let mut row_sums = DVector::<T>::zeros(x.len());
         for column in self.matrix.column_iter() {
             row_sums.zip_apply(&column, |sum, a| *sum += Scalar::abs(a));
@@ -95,10 +68,10 @@ pub struct DenseCholesky<T: Native> {
 }
 
 impl<T: Native> DenseCholesky<T> {
-    /// Factors `matrix`, of which the lower triangle is read.
+    /// Factors an n x n `matrix`, of which the lower triangle is read.
     ///
     /// # Errors
-    /// A pivot that is not positive, or below 16 n · eps of its own diagonal entry, counts as zero.
+    /// Names a pivot that is not positive, or below 16 n · eps of its own diagonal entry.
     pub fn new(matrix: &DMatrix<T>) -> Result<Self, Singular> {
         let n = matrix.nrows();
         faer::set_global_parallelism(Par::Seq);
@@ -120,30 +93,10 @@ impl<T: Native> Factors<T> for DenseCholesky<T> {
     }
 }
 
-/// The column where a matrix stops to be positive definite; LU tells, or it is indefinite and no column is to blame.
+/// Returns the column where a matrix ceases to be positive definite. LU tells it, unless the matrix
+/// is indefinite and no column is to blame.
 fn not_positive<T: Native>(matrix: &DMatrix<T>) -> Singular {
     let mut full = matrix.clone();
     full.fill_upper_triangle_with_lower_triangle();
     DenseLu::new(full).err().unwrap_or(Singular { column: 0, pivot: f64::NAN })
-}
-
-fn solve<T: Native>(factors: &impl Solve<T>, b: &DVector<T>) -> DVector<T> {
-    let x = factors.solve(MatRef::from_column_major_slice(b.as_slice(), b.len(), 1));
-    DVector::from_fn(b.len(), |i, _| x[(i, 0)])
-}
-
-/// The largest |x|, NaN left out.
-pub(super) fn largest<'a, T: Scalar>(numbers: impl Iterator<Item = &'a T>) -> f64 {
-    numbers.fold(0.0, |largest, x| largest.max(Scalar::abs(*x).to_f64()))
-}
-
-/// |r| / (`norm` |x| + |b|) in the largest-entry norm; 0 where r is 0.
-pub(super) fn backward_error<T: Scalar>(
-    residual: &DVector<T>,
-    norm: f64,
-    x: &DVector<T>,
-    b: &DVector<T>,
-) -> f64 {
-    let residual = largest(residual.iter());
-    if residual == 0.0 { 0.0 } else { residual / (norm * largest(x.iter()) + largest(b.iter())) }
 }

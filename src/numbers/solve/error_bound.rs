@@ -1,16 +1,18 @@
-//! How far a computed solution of A x = b may be from the true one, A and b themselves being known within bounds.
+//! How far a computed solution of A x = b may be from the true one, A and b themselves being known
+//! within bounds.
 //!
-//! (A + ΔA)(x + δ) = b + Δb with |ΔA| <= E and |Δb| <= e gives |δ| <= |(A + ΔA)⁻¹| w, w = |b − A x| + E |x| + e, as in LAPACK's
-//! xSYRFS. The norm of |A⁻¹| w is estimated by solving with A a few times; |(A + ΔA)⁻¹| is at most |A⁻¹| / (1 − ρ), ρ the norm of
-//! |A⁻¹| E. The estimate is a lower bound of the norm, in practice the norm itself.
+//! (A + ΔA)(x + δ) = b + Δb with |ΔA| <= E and |Δb| <= e gives |δ| <= |(A + ΔA)⁻¹| w, where w is
+//! |b − A x| + E |x| + e, as in LAPACK's xSYRFS. The norm of |A⁻¹| w is estimated by solving with A
+//! a few times; |(A + ΔA)⁻¹| is at most |A⁻¹| / (1 − ρ), ρ the norm of |A⁻¹| E. The estimate is a
+//! lower bound of the norm, in practice the norm itself.
 
 use nalgebra::DVector;
 
-use super::dense::Factors;
+use super::factors::Factors;
 use crate::numbers::scalar::{Bounded, F64x2, Scalar};
 
-/// A bound on the largest |δ|; infinite where A cannot be told from a singular matrix. `entries` are those of the whole of A: row, column,
-/// value.
+/// Returns a bound on the largest |δ|, infinite where A cannot be told from a singular matrix.
+/// `entries` are those of the whole of A: row, column, value.
 pub fn error_bound(
     factors: &dyn Factors<f64>,
     entries: impl Iterator<Item = (usize, usize, Bounded)>,
@@ -32,12 +34,12 @@ pub fn error_bound(
     if rho < 1.0 { inverse_norm(factors, &w) / (1.0 - rho) } else { f64::INFINITY }
 }
 
-/// The largest entry of |A⁻¹| w, A symmetric and w >= 0: the 1-norm of diag(w) A⁻¹.
+/// Returns the largest entry of |A⁻¹| w, A symmetric and w >= 0: the 1-norm of diag(w) A⁻¹.
 ///
-/// Source: N. J. Higham, *FORTRAN codes for estimating the one-norm of a real or complex matrix*, ACM TOMS 14(4), 1988,
-/// algorithm 4.1, as in LAPACK's xLACN2.
+/// Source: N. J. Higham, *FORTRAN codes for estimating the one-norm of a real or complex matrix*,
+/// ACM TOMS 14(4), 1988, algorithm 4.1, as in LAPACK's xLACN2.
 pub fn inverse_norm(factors: &dyn Factors<f64>, w: &DVector<f64>) -> f64 {
-    /// Rounds that LAPACK allows.
+    /// The rounds that LAPACK allows.
     const ROUNDS: usize = 5;
     let n = w.len();
     if n == 0 || w.amax() == 0.0 {

@@ -1,4 +1,5 @@
-//! What elimination asks of a number. By reference: rational numbers are not `Copy`.
+//! What elimination asks of a number. Operands come by reference, as rational numbers are not
+//! `Copy`.
 
 use dashu_ratio::RBig;
 
@@ -6,25 +7,25 @@ use crate::numbers::scalar::{F64x2, Scalar};
 
 /// A number that matrices are eliminated in.
 pub trait Field: Clone {
-    /// Distance of 1 from the next larger number; 0 where arithmetic is exact.
+    /// The distance of 1 from the next larger number; 0 where arithmetic is exact.
     const EPSILON: f64;
 
-    /// 0.
+    /// Returns 0, the neutral element of sums.
     fn zero() -> Self;
 
-    /// The `f64` nearest to |x|.
+    /// Returns the `f64` nearest to |x|.
     fn size(&self) -> f64;
 
-    /// Whether it is exactly 0.
+    /// Returns whether the number is exactly 0.
     fn vanishes(&self) -> bool;
 
-    /// self · other.
+    /// Returns the product self · other.
     fn times(&self, other: &Self) -> Self;
 
-    /// self / other, `other` not 0.
+    /// Returns the quotient self / other, `other` not being 0.
     fn over(&self, other: &Self) -> Self;
 
-    /// self ← self − a · b.
+    /// Assigns self − a · b to self.
     fn subtract_product(&mut self, a: &Self, b: &Self);
 }
 

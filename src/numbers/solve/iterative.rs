@@ -1,41 +1,34 @@
-//! Solutions to a tolerance: conjugate gradients, and refinement of factors in a scalar of fewer digits.
+//! Solutions to a tolerance: conjugate gradients, and refinement of factors in a scalar of fewer
+//! digits.
 
 use nalgebra::DVector;
 
-use super::dense::{Factors, backward_error, largest};
+use super::factors::{Factors, backward_error, largest};
 use super::sparse::SparseSymmetric;
 use crate::numbers::scalar::Scalar;
 
 /// An iteration that stopped short of its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NotConverged {
-    /// Iterations done.
+    /// The number of iterations done.
     pub iterations: usize,
-    /// Relative residual |A x − b| / (|A| |x| + |b|) of the last.
+    /// The relative residual |A x − b| / (|A| |x| + |b|) after the last of them.
     pub residual: f64,
 }
 
-/// A solution and what it took.
-#[derive(Clone, Debug)]
-pub struct Iterated<T> {
-    /// x.
-    pub x: DVector<T>,
-    /// Iterations done.
-    pub iterations: usize,
-}
-
-/// Solves A x = `b`, A positive definite, by conjugate gradients with the diagonal as preconditioner, until |A x − b| / (|A| |x| + |b|),
-/// computed anew, is at most `tol`.
+/// Solves A x = `b`, A positive definite, by conjugate gradients with the diagonal as
+/// preconditioner, until |A x − b| / (|A| |x| + |b|), computed anew, is at most `tol`.
 ///
 /// Source: Y. Saad, *Iterative methods for sparse linear systems*, 2nd ed., algorithm 9.1.
 ///
 /// # Errors
-/// A diagonal entry or a direction along which A is not positive; 20 n + 200 iterations.
+/// Stops at a diagonal entry or a direction along which A is not positive, and after 20 n + 200
+/// iterations.
 pub fn conjugate_gradients<T: Scalar>(
     a: &SparseSymmetric<T>,
     b: &DVector<T>,
     tol: f64,
-) -> Result<Iterated<T>, NotConverged> {
+) -> Result<DVector<T>, NotConverged> {
     let (norm, diagonal, limit) = (a.norm(), a.diagonal(), 20 * b.len() + 200);
     let precondition = |r: &DVector<T>| r.zip_map(&diagonal, |r, d| r / d);
     let mut x = DVector::from_element(b.len(), T::zero());
@@ -45,7 +38,7 @@ pub fn conjugate_gradients<T: Scalar>(
         let mut r = b - a.times(&x);
         let start = backward_error(&r, norm, &x, b);
         if start <= tol {
-            return Ok(Iterated { x, iterations });
+            return Ok(x);
         }
         let mut z = precondition(&r);
         let (mut p, mut rz) = (z.clone(), dot(&r, &z));
@@ -73,17 +66,18 @@ pub fn conjugate_gradients<T: Scalar>(
     }
 }
 
-/// Solves A x = `b` with `factors` of A rounded to another scalar: x ← x + (factors)⁻¹ (b − A x), until |A x − b| / (|A| |x| + |b|) is at
-/// most `tol`.
+/// Solves A x = `b` with `factors` of A rounded to another scalar: x ← x + (factors)⁻¹ (b − A x),
+/// until the relative residual |A x − b| / (|A| |x| + |b|) is at most `tol`.
 ///
 /// # Errors
-/// A residual that no longer halves: A is too near to a singular matrix for those factors, or `tol` is below what T can reach.
+/// Stops at a residual that no longer halves: A is too near to a singular matrix for those factors,
+/// or `tol` is below what T can reach.
 pub fn refine<L: Scalar, T: Scalar>(
     factors: &impl Factors<L>,
     a: &SparseSymmetric<T>,
     b: &DVector<T>,
     tol: f64,
-) -> Result<Iterated<T>, NotConverged> {
+) -> Result<DVector<T>, NotConverged> {
     let norm = a.norm();
     let mut x = DVector::from_element(b.len(), T::zero());
     let (mut iterations, mut last) = (0, f64::INFINITY);
@@ -91,7 +85,7 @@ pub fn refine<L: Scalar, T: Scalar>(
         let r = b - a.times(&x);
         let residual = backward_error(&r, norm, &x, b);
         if residual <= tol {
-            return Ok(Iterated { x, iterations });
+            return Ok(x);
         }
         // The first, at x = 0, is 1 whatever comes of it.
         if residual.is_nan() || residual > last / 2.0 {
@@ -106,7 +100,7 @@ pub fn refine<L: Scalar, T: Scalar>(
     }
 }
 
-/// x ← x + factor · y.
+/// Adds factor · y to x.
 fn add<T: Scalar>(x: &mut DVector<T>, factor: T, y: &DVector<T>) {
     x.zip_apply(y, |x, y| *x += factor * y);
 }

@@ -1,32 +1,33 @@
 //! Sparse LDLᵀ without pivoting, for numbers that no library factors: double-doubles and rationals.
 //!
-//! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31(4), 2005 (up-looking, by the
-//! elimination tree); the order of the equations is faer's approximate minimum degree.
+//! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS
+//! 31(4), 2005 (up-looking, by the elimination tree); the order of the equations is faer's
+//! approximate minimum degree.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::{SparseColMat, Triplet};
 
-use super::dense::Singular;
+use super::factors::Singular;
 use super::field::Field;
 use super::sparse::SparseSymmetric;
 
 /// A symmetric matrix as L D Lᵀ, in an order of its equations that keeps L sparse.
 pub struct Ldlt<F> {
-    /// The equation that stands at each place.
+    /// The equation that stands at each place of the order.
     order: Vec<usize>,
-    /// L below its unit diagonal, by columns, rows ascending.
+    /// The columns of L below its unit diagonal: row and value, rows ascending.
     columns: Vec<Vec<(usize, F)>>,
-    /// D.
+    /// The diagonal matrix D.
     pivots: Vec<F>,
 }
 
 impl<F: Field> Ldlt<F> {
-    /// Factors `matrix`.
+    /// Factors an n x n `matrix`.
     ///
     /// # Errors
-    /// A pivot that is 0, or below 16 n · eps of its own diagonal entry. A matrix that is not semidefinite may have one and yet a
-    /// unique solution.
+    /// Names a pivot that is 0, or below 16 n · eps of its own diagonal entry. A matrix that is not
+    /// semidefinite may have one and yet a unique solution.
     pub fn new(matrix: &SparseSymmetric<F>) -> Result<Self, Singular> {
         let n = matrix.size();
         let order = order(matrix);
@@ -50,7 +51,7 @@ impl<F: Field> Ldlt<F> {
         Ok(factors)
     }
 
-    /// Row k of L, whose entries stand at `path`; gives back the pivot and leaves `y` 0.
+    /// Computes row k of L, whose entries stand at `path`; returns the pivot and leaves `y` 0.
     fn row(&mut self, k: usize, path: &[usize], y: &mut [F]) -> F {
         let mut pivot = std::mem::replace(&mut y[k], F::zero());
         for &i in path {
@@ -68,7 +69,7 @@ impl<F: Field> Ldlt<F> {
         pivot
     }
 
-    /// The solution x of A x = `b`.
+    /// Returns the solution x of A x = `b`.
     pub fn solve(&self, b: &[F]) -> Vec<F> {
         let mut y: Vec<F> = self.order.iter().map(|&e| b[e].clone()).collect();
         for (j, column) in self.columns.iter().enumerate() {
@@ -92,14 +93,15 @@ impl<F: Field> Ldlt<F> {
     }
 }
 
-/// The elimination tree as far as it is known.
+/// The elimination tree, as far as the rows done so far tell it.
 struct Tree {
     parent: Vec<Option<usize>>,
     seen_in: Vec<usize>,
 }
 
 impl Tree {
-    /// Where row k of L has entries, each before what it changes, from the places of its entries in A.
+    /// Returns where row k of L has entries, each before what it changes, from the places of its
+    /// entries in A.
     fn row(&mut self, k: usize, entries: impl Iterator<Item = usize>) -> Vec<usize> {
         self.seen_in[k] = k;
         let mut path = Vec::new();
@@ -116,7 +118,7 @@ impl Tree {
     }
 }
 
-/// The equations in an order of small fill.
+/// Returns the equations in an order of small fill.
 fn order<F: Field>(matrix: &SparseSymmetric<F>) -> Vec<usize> {
     let n = matrix.size();
     let upper: Vec<Triplet<usize, usize, f64>> =
@@ -131,7 +133,7 @@ fn order<F: Field>(matrix: &SparseSymmetric<F>) -> Vec<usize> {
     order
 }
 
-/// The columns of the upper triangle in the new order: row and value.
+/// Returns the columns of the upper triangle in the new order: row and value.
 fn permuted<F: Field>(matrix: &SparseSymmetric<F>, order: &[usize]) -> Vec<Vec<(usize, F)>> {
     let mut place = vec![0; order.len()];
     for (k, &e) in order.iter().enumerate() {

@@ -1,8 +1,10 @@
-//! Exact solution of A x = b by lifting: the equations are factored modulo a prime p once, and the digits of x to the base p are found
-//! one by one; when there are enough of them, the fractions are known. Elimination in fractions gives the same, but carries numbers of
-//! the final length through every step.
+//! Exact solution of A x = b by lifting: the equations are factored modulo a prime p once, and the
+//! digits of x to the base p are found one by one; when there are enough of them, the fractions are
+//! known. Elimination in fractions gives the same, but carries numbers of the final length through
+//! every step.
 //!
-//! Source: J. D. Dixon, *Exact solution of linear equations using P-adic expansions*, Numer. Math. 40 (1982) 137-141.
+//! Source: J. D. Dixon, *Exact solution of linear equations using P-adic expansions*, Numer. Math.
+//! 40 (1982) 137-141.
 
 use dashu_base::{Abs, BitTest};
 use dashu_int::IBig;
@@ -13,7 +15,7 @@ use super::ldlt::Ldlt;
 use super::sparse::SparseSymmetric;
 use crate::numbers::scalar::rational::lcm;
 
-/// The prime: 2^61 − 1.
+/// The prime p, 2^61 − 1.
 const P: u64 = (1 << 61) - 1;
 
 /// A number modulo p.
@@ -26,14 +28,14 @@ impl Residue {
         Residue(remainder.rem_euclid(P as i64) as u64)
     }
 
-    /// x modulo p; nothing where p divides its denominator.
+    /// Returns x modulo p, or nothing where p divides its denominator.
     fn of_fraction(x: &RBig) -> Option<Self> {
         let denominator = Residue::of(&IBig::from(x.denominator().clone()));
         let defined = !denominator.vanishes();
         defined.then(|| Residue::of(x.numerator()).over(&denominator))
     }
 
-    /// By Fermat: x^(p − 2).
+    /// Returns the inverse modulo p, by Fermat x^(p − 2).
     fn inverse(self) -> Self {
         let (mut power, mut square, mut exponent) = (Residue(1), self, P - 2);
         while exponent > 0 {
@@ -75,13 +77,14 @@ impl Field for Residue {
 /// A row of M x = c: A and b times the common denominator of both.
 struct Row {
     entries: Vec<(usize, IBig)>,
-    /// What is left of c.
+    /// What is left of c after the digits found so far.
     rest: IBig,
-    /// The common denominator's inverse modulo p.
+    /// The inverse modulo p of the common denominator.
     scale: Residue,
 }
 
-/// The solution x of A x = `b`; nothing where A is singular modulo p, as it is where it is singular.
+/// Returns the solution x of A x = `b`, or nothing where A is singular modulo p, as every singular
+/// matrix is.
 pub fn lift(matrix: &SparseSymmetric<RBig>, b: &[RBig]) -> Option<Vec<RBig>> {
     let (mut rows, length) = whole_rows(matrix, b)?;
     let residues: Option<Vec<_>> =
@@ -105,7 +108,8 @@ pub fn lift(matrix: &SparseSymmetric<RBig>, b: &[RBig]) -> Option<Vec<RBig>> {
     Some(fractions(&x, digits, length))
 }
 
-/// The rows of M x = c, and the bits of a bound on its determinants (Hadamard's: the product of the rows' lengths).
+/// Returns the rows of M x = c, and the bits of a bound on its determinants (Hadamard's: the
+/// product of the rows' lengths).
 fn whole_rows(matrix: &SparseSymmetric<RBig>, b: &[RBig]) -> Option<(Vec<Row>, usize)> {
     let mut full: Vec<Vec<(usize, RBig)>> = vec![Vec::new(); b.len()];
     for (i, j, a) in matrix.entries() {
@@ -132,7 +136,8 @@ fn whole_rows(matrix: &SparseSymmetric<RBig>, b: &[RBig]) -> Option<(Vec<Row>, u
     Some((rows, length))
 }
 
-/// The fractions whose digits to the base p are `x`, numerators and denominators below 2^`length`.
+/// Returns the fractions whose digits to the base p are `x`, numerators and denominators below
+/// 2^`length`.
 fn fractions(x: &[Vec<u64>], digits: usize, length: usize) -> Vec<RBig> {
     let mut powers = vec![IBig::from(P)];
     while 1 << powers.len() < digits {
@@ -140,7 +145,8 @@ fn fractions(x: &[Vec<u64>], digits: usize, length: usize) -> Vec<RBig> {
         powers.push(last * last);
     }
     let modulus = IBig::from(P).pow(digits);
-    // All denominators divide the determinant: the one common to those found so far is mostly that of the next.
+    // All denominators divide the determinant: the one common to those found so far is mostly that
+    // of the next.
     let mut common = IBig::ONE;
     x.iter()
         .map(|digits| {
@@ -152,7 +158,7 @@ fn fractions(x: &[Vec<u64>], digits: usize, length: usize) -> Vec<RBig> {
         .collect()
 }
 
-/// The whole number with these digits; powers[k] = p^(2^k).
+/// Returns the whole number with these digits; `powers[k]` is p^(2^k).
 fn combined(digits: &[u64], powers: &[IBig]) -> IBig {
     if let [digit] = digits {
         return IBig::from(*digit);
@@ -163,7 +169,8 @@ fn combined(digits: &[u64], powers: &[IBig]) -> IBig {
     combined(low, powers) + combined(high, powers) * &powers[k]
 }
 
-/// Numerator and denominator, both below 2^`length`, of the fraction that is `value` modulo `modulus`: Euclid's algorithm, stopped half-way.
+/// Returns numerator and denominator, both below 2^`length`, of the fraction that is `value` modulo
+/// `modulus`: Euclid's algorithm, stopped halfway.
 fn fraction(value: IBig, modulus: &IBig, length: usize) -> (IBig, IBig) {
     let negative = &value - modulus;
     if value.bit_len() > length && (&negative).abs().bit_len() <= length {

@@ -2,13 +2,14 @@
 
 use nalgebra::DMatrix;
 
-use super::dense::Singular;
+use super::factors::Singular;
 use super::field::Field;
 
-/// The solution x of A x = `b`, by Gauss's elimination with the largest pivot of each column.
+/// Returns the solution x of A x = `b`, by Gauss's elimination with the largest pivot of each
+/// column.
 ///
 /// # Errors
-/// A pivot that is 0, or below 16 n · eps of the largest entry of its column.
+/// Names a pivot that is 0, or below 16 n · eps of the largest entry of its column.
 pub fn solve_dense<F: Field>(
     matrix: impl Fn(usize, usize) -> F,
     mut b: Vec<F>,
@@ -32,7 +33,7 @@ pub fn solve_dense<F: Field>(
     Ok(substitute(&rows, b))
 }
 
-/// Column k below its pivot.
+/// Makes column k below its pivot 0; the entries that become 0 are left as they were.
 fn eliminate<F: Field>(rows: &mut [Vec<F>], b: &mut [F], k: usize) {
     let (above, below) = rows.split_at_mut(k + 1);
     let pivot_row = &above[k];
@@ -51,7 +52,7 @@ fn eliminate<F: Field>(rows: &mut [Vec<F>], b: &mut [F], k: usize) {
     }
 }
 
-/// U x = b.
+/// Returns the solution x of U x = b, U being the upper triangle of `rows`.
 fn substitute<F: Field>(rows: &[Vec<F>], mut b: Vec<F>) -> Vec<F> {
     for k in (0..b.len()).rev() {
         let (before, after) = b.split_at_mut(k + 1);

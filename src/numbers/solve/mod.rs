@@ -1,25 +1,39 @@
-//! Solution of the linear equations: one matrix, several rungs of a ladder.
+//! Solution of the linear equations: one matrix, several scalars and solvers.
+//!
+//! | modules, each using only those above it | what they contain |
+//! |---|---|
+//! | `arithmetic` | the scalar and the solver that are asked for |
+//! | [`memory`], [`cost`], `symbolic` | what a solution needs: memory, time, entries of factors |
+//! | `factors`, `dense` | what factorisations share; faer's of dense matrices |
+//! | `error_bound` | how far a solution may be from the true one |
+//! | `sparse`, `iterative` | faer's factors of sparse matrices; solutions to a tolerance |
+//! | `field`, `lu`, `ldlt`, `lifting` | elimination in numbers that no library factors |
+//! | `precision` | the solution in each scalar by each solver |
 
+mod arithmetic;
 pub mod cost;
 mod dense;
 mod error_bound;
+mod factors;
 mod field;
 mod iterative;
-mod ladder;
 mod ldlt;
 mod lifting;
 mod lu;
 pub mod memory;
+mod precision;
 mod sparse;
 mod symbolic;
 
-pub use dense::{DenseCholesky, DenseLu, Factors, Native, Singular};
+pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
+pub use dense::{DenseCholesky, DenseLu};
 pub use error_bound::{error_bound, inverse_norm};
+pub use factors::{Factors, Native, Singular};
 pub use field::Field;
-pub use iterative::{Iterated, NotConverged, conjugate_gradients, refine};
-pub use ladder::{Arithmetic, Inputs, Rung, ScalarName, Solved, Solver, Unsolved};
+pub use iterative::{NotConverged, conjugate_gradients, refine};
 pub use ldlt::Ldlt;
 pub use lifting::lift;
 pub use lu::solve_dense;
+pub use precision::{Precision, Solved, Unsolved};
 pub use sparse::{SparseCholesky, SparseSymmetric};
 pub use symbolic::FactorSize;

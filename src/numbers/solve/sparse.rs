@@ -1,23 +1,24 @@
-//! Sparse symmetric matrices, and Cholesky factors of those that are positive definite, by the library faer.
+//! Sparse symmetric matrices, and Cholesky factors of those that are positive definite, by the
+//! library faer.
 
 use std::collections::BTreeMap;
 use std::ops::AddAssign;
 
-use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::Llt;
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{MatRef, Par, Side};
+use faer::{Par, Side};
 use nalgebra::{DMatrix, DVector};
 
-use super::dense::{Factors, Native, Singular, backward_error};
 use super::error_bound::inverse_norm;
+use super::factors::{Factors, Native, Singular, backward_error, solve};
 use crate::numbers::scalar::Scalar;
 
-/// Displacements under a load of the size of the stiffness beyond which a matrix counts as singular, both scaled to a unit diagonal:
-/// this over the scalar's epsilon (5e14 in f64).
+/// Beyond this over the scalar's epsilon (5e14 in f64), the displacements under a load of the size
+/// of the stiffness mean a singular matrix; both are scaled to a unit diagonal.
 const UNBOUNDED: f64 = 0.1;
 
-/// What is added to a unit diagonal to see how a singular matrix moves, in units of the scalar's epsilon (1e-10 in f64).
+/// What is added to a unit diagonal to see how a singular matrix moves, in units of the scalar's
+/// epsilon (1e-10 in f64).
 const SHIFT: f64 = 1e-10 / f64::EPSILON;
 
 /// A symmetric matrix: the entries of its lower triangle, column by column, rows ascending.
@@ -27,7 +28,8 @@ pub struct SparseSymmetric<T = f64> {
 }
 
 impl<T: Clone> SparseSymmetric<T> {
-    /// Sums entries (row, column, value) into an n x n matrix; those above the diagonal are left out.
+    /// Sums entries (row, column, value) into an n x n matrix; those above the diagonal are left
+    /// out.
     pub fn new(n: usize, entries: impl Iterator<Item = (usize, usize, T)>) -> Self
     where
         T: AddAssign,
@@ -42,25 +44,26 @@ impl<T: Clone> SparseSymmetric<T> {
         SparseSymmetric { columns: columns.into_iter().map(|c| c.into_iter().collect()).collect() }
     }
 
-    /// The matrix of entries (row, column, value) on and below the diagonal, none twice, rows ascending.
+    /// Makes an n x n matrix of entries (row, column, value) on and below the diagonal, none twice,
+    /// rows ascending.
     pub(super) fn of_entries(n: usize, entries: impl Iterator<Item = (usize, usize, T)>) -> Self {
         let mut columns = vec![Vec::new(); n];
         entries.for_each(|(i, j, value)| columns[j].push((i, value)));
         SparseSymmetric { columns }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows, which is that of the columns.
     pub fn size(&self) -> usize {
         self.columns.len()
     }
 
-    /// The entries of the lower triangle: row, column, value.
+    /// Returns the entries of the lower triangle: row, column, value.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> {
         let columns = self.columns.iter().enumerate();
         columns.flat_map(|(j, column)| column.iter().map(move |(i, value)| (*i, j, value.clone())))
     }
 
-    /// The same matrix with every entry mapped.
+    /// Returns the same matrix with every entry mapped.
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> SparseSymmetric<U> {
         let mapped = |column: &Vec<(usize, T)>| column.iter().map(|(i, a)| (*i, f(a))).collect();
         SparseSymmetric { columns: self.columns.iter().map(mapped).collect() }
@@ -68,7 +71,7 @@ impl<T: Clone> SparseSymmetric<T> {
 }
 
 impl<T: Scalar> SparseSymmetric<T> {
-    /// The lower triangle of a dense matrix, zeros left out.
+    /// Takes the lower triangle of a dense matrix, zeros left out.
     pub fn of_lower(matrix: &DMatrix<T>) -> Self {
         let column = |j: usize| {
             let below = (j..matrix.nrows()).map(|i| (i, matrix[(i, j)]));
@@ -77,7 +80,7 @@ impl<T: Scalar> SparseSymmetric<T> {
         SparseSymmetric { columns: (0..matrix.ncols()).map(column).collect() }
     }
 
-    /// The entries of the whole matrix: row, column, value.
+    /// Returns the entries of the whole matrix: row, column, value.
     pub fn both_triangles(&self) -> impl Iterator<Item = (usize, usize, T)> {
         self.entries().flat_map(|(i, j, value)| {
             let mirrored = (i != j).then_some((j, i, value));
@@ -85,7 +88,7 @@ impl<T: Scalar> SparseSymmetric<T> {
         })
     }
 
-    /// A x.
+    /// Returns the product A x.
     pub fn times(&self, x: &DVector<T>) -> DVector<T> {
         let mut product = DVector::from_element(x.len(), T::zero());
         for (i, j, value) in self.entries() {
@@ -97,13 +100,13 @@ impl<T: Scalar> SparseSymmetric<T> {
         product
     }
 
-    /// The diagonal.
+    /// Returns the n entries of the diagonal.
     pub fn diagonal(&self) -> DVector<T> {
         let of_column = |j: usize| self.columns[j].first().filter(|(i, _)| *i == j);
         DVector::from_fn(self.size(), |j, _| of_column(j).map_or(T::zero(), |(_, value)| *value))
     }
 
-    /// Largest row sum of |A|.
+    /// Returns the largest row sum of |A|.
     pub fn norm(&self) -> f64 {
         let mut sums = vec![0.0_f64; self.size()];
         for (i, j, value) in self.entries() {
@@ -116,7 +119,8 @@ impl<T: Scalar> SparseSymmetric<T> {
         sums.into_iter().fold(0.0, f64::max)
     }
 
-    /// Relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of vectors; 0 when x and b are 0.
+    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
+    /// vectors, 0 when x and b are 0.
     pub fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
         backward_error(&(self.times(x) - b), self.norm(), x, b)
     }
@@ -129,10 +133,11 @@ pub struct SparseCholesky<T: Native = f64> {
 }
 
 impl<T: Native> SparseCholesky<T> {
-    /// Factors `matrix`.
+    /// Factors a `matrix` that must be positive definite.
     ///
     /// # Errors
-    /// It is singular or nearly so: a trial load, scaled by the diagonal, moves one equation without bound. That equation is named.
+    /// Names an equation that a trial load, scaled by the diagonal, moves without bound: the matrix
+    /// is singular or nearly so.
     pub fn new(matrix: SparseSymmetric<T>) -> Result<Self, Singular> {
         // One thread: faster for plane problems, and faer's bits depend on the number of threads.
         faer::set_global_parallelism(Par::Seq);
@@ -149,19 +154,21 @@ impl<T: Native> SparseCholesky<T> {
         }
     }
 
-    /// The largest motion under loads of 1, both scaled to a unit diagonal: what no single trial load is sure to find.
+    /// Returns the largest motion under loads of 1, both scaled to a unit diagonal: what no single
+    /// trial load is sure to find.
     fn largest_motion(&self) -> f64 {
         let scale = self.matrix.diagonal().map(|d| d.to_f64().sqrt());
         let ones = DVector::from_element(scale.len(), 1.0);
         inverse_norm(&Scaled { factors: &self.factors, scale }, &ones)
     }
 
-    /// The solution x of A x = `b`.
+    /// Returns the solution x of A x = `b`.
     pub fn solve(&self, b: &DVector<T>) -> DVector<T> {
         solve(&self.factors, b)
     }
 
-    /// Relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of vectors; 0 when x and b are 0.
+    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
+    /// vectors, 0 when x and b are 0.
     pub fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
         self.matrix.residual(x, b)
     }
@@ -186,12 +193,8 @@ impl<T: Native> Factors<f64> for Scaled<'_, T> {
     }
 }
 
-fn solve<T: Native>(factors: &Llt<usize, T>, b: &DVector<T>) -> DVector<T> {
-    let x = factors.solve(MatRef::from_column_major_slice(b.as_slice(), b.len(), 1));
-    DVector::from_fn(b.len(), |i, _| x[(i, 0)])
-}
-
-/// Cholesky factors of A with each diagonal entry made 1 + `shift` times as large; nothing where a pivot is not positive.
+/// Returns the Cholesky factors of A with each diagonal entry made 1 + `shift` times as large, or
+/// nothing where a pivot is not positive.
 fn factor<T: Native>(matrix: &SparseSymmetric<T>, shift: f64) -> Option<Llt<usize, T>> {
     let factor = T::from_f64(1.0 + shift);
     let entries: Vec<Triplet<usize, usize, T>> = matrix
@@ -204,7 +207,8 @@ fn factor<T: Native>(matrix: &SparseSymmetric<T>, shift: f64) -> Option<Llt<usiz
     lower.sp_cholesky(Side::Lower).ok()
 }
 
-/// The equation that moves most under a trial load, and how far, both scaled to a unit diagonal; nothing without equations.
+/// Returns the equation that moves most under a trial load, and how far, both scaled to a unit
+/// diagonal; nothing without equations.
 fn probe<T: Native>(factors: &Llt<usize, T>, diagonal: &DVector<T>) -> Option<(usize, f64)> {
     let scale = diagonal.map(|d| d.to_f64().sqrt());
     // Signs without a pattern that a motion of the body could be orthogonal to.
@@ -215,7 +219,7 @@ fn probe<T: Native>(factors: &Llt<usize, T>, diagonal: &DVector<T>) -> Option<(u
     largest.reduce(|a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a })
 }
 
-/// The equation that a singular matrix leaves free to move.
+/// Returns the equation that a singular matrix leaves free to move.
 fn mechanism<T: Native>(matrix: &SparseSymmetric<T>) -> Singular {
     let diagonal = matrix.diagonal();
     if let Some(column) = diagonal.iter().position(|d| d.to_f64().is_nan() || d.to_f64() <= 0.0) {
@@ -230,7 +234,8 @@ fn mechanism<T: Native>(matrix: &SparseSymmetric<T>) -> Singular {
 mod tests {
     use super::*;
 
-    /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by `ground`.
+    /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
+    /// spring of stiffness `ground`.
     fn chain(n: usize, ground: f64) -> SparseSymmetric {
         let springs = (1..n).flat_map(|i| [(i, i, 1.0), (i - 1, i - 1, 1.0), (i, i - 1, -1.0)]);
         SparseSymmetric::new(n, springs.chain([(0, 0, ground)]))
@@ -245,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_that_nothing_holds_is_singular() {
+    fn an_unrestrained_chain_is_singular() {
         assert!(SparseCholesky::new(chain(5, 0.0)).is_err());
         assert!(SparseCholesky::new(chain(5, 1e-16)).is_err());
         assert!(SparseCholesky::new(chain(5, 1e-10)).is_ok());

@@ -1,5 +1,5 @@
-//! What Cholesky factors of a sparse matrix will cost, from its pattern alone: a symbolic factorisation by the library faer, with the same
-//! ordering as [`SparseCholesky`](super::SparseCholesky).
+//! What Cholesky factors of a sparse matrix will cost, from its pattern alone: a symbolic
+//! factorisation by the library faer, with the same ordering as that of `sparse`.
 
 use faer::Side;
 use faer::sparse::linalg::cholesky::{
@@ -10,28 +10,29 @@ use faer::sparse::{Pair, SymbolicSparseColMat};
 /// The size of a factorisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct FactorSize {
-    /// Equations.
+    /// The number n of equations.
     pub equations: usize,
-    /// Entries of the lower triangle of A that are not 0.
+    /// The number of entries of the lower triangle of A that are not 0.
     pub entries: usize,
-    /// Numbers that the factors keep.
+    /// The number of entries that the factors keep.
     pub nonzeros: usize,
-    /// Multiplications and additions of the factorisation.
+    /// The number of multiplications and additions of the factorisation.
     pub operations: f64,
 }
 
 impl FactorSize {
-    /// Dense LU of `n` equations: 2/3 n³ operations.
+    /// Returns the size of dense LU of `n` equations: 2/3 n³ operations.
     pub fn dense_lu(n: usize) -> Self {
         FactorSize { operations: 2.0 * cube(n) / 3.0, ..FactorSize::full(n, n * n) }
     }
 
-    /// Dense Cholesky of `n` equations: 1/3 n³ operations.
+    /// Returns the size of dense Cholesky of `n` equations: 1/3 n³ operations.
     pub fn dense_cholesky(n: usize) -> Self {
         FactorSize { operations: cube(n) / 3.0, ..FactorSize::full(n, n * n) }
     }
 
-    /// Sparse Cholesky of `n` equations whose matrix has `entries` (row, column), those above the diagonal left out.
+    /// Returns the size of sparse Cholesky of `n` equations whose matrix has `entries` (row,
+    /// column), those above the diagonal left out.
     pub fn sparse_cholesky(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Self {
         let lower: Vec<Pair<usize, usize>> = entries
             .filter(|(row, column)| row >= column)
@@ -65,7 +66,7 @@ fn cube(n: usize) -> f64 {
     (n as f64).powi(3)
 }
 
-/// Entries of each column of L, the diagonal included.
+/// Returns the number of entries of each column of L, the diagonal included.
 fn columns(raw: &SymbolicCholeskyRaw<usize>) -> Box<dyn Iterator<Item = usize> + '_> {
     match raw {
         SymbolicCholeskyRaw::Simplicial(l) => Box::new(l.col_ptr().windows(2).map(|w| w[1] - w[0])),

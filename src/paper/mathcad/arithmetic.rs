@@ -1,7 +1,8 @@
 //! The operations on values.
 //!
-//! Every number comes from one IEEE 754 operation after another in the printed order: no fused multiply-add, no other
-//! order of a sum. A matrix product adds k = 1, 2, ... to the first product, not to 0.
+//! Every number comes from one IEEE 754 operation after another in the printed order: no fused
+//! multiply-add, no other order of a sum. A matrix product adds k = 1, 2, ... to the first product,
+//! not to 0.
 
 use std::rc::Rc;
 
@@ -10,12 +11,12 @@ use super::settings::{Settings, ZeroOverZero};
 use super::syntax::{Comparison, Operation};
 use super::value::{Array, Value};
 
-/// A finite number, or the overflow that Mathcad reports.
+/// Returns a finite number, or the overflow that Mathcad reports.
 fn finite(result: f64) -> Result<f64, Cause> {
     if result.is_finite() { Ok(result) } else { Err(Cause::Overflow { result }) }
 }
 
-/// `x / y` under the worksheet's `zero-over-zero`.
+/// Returns `x / y` under the worksheet's `zero-over-zero`.
 fn quotient(x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
     if y != 0.0 {
         finite(x / y)
@@ -26,7 +27,7 @@ fn quotient(x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
     }
 }
 
-/// `x` and `y` under one of the four operations.
+/// Returns what one of the four operations makes of two numbers.
 pub fn calculate(operation: Operation, x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
     match operation {
         Operation::Add => finite(x + y),
@@ -36,7 +37,7 @@ pub fn calculate(operation: Operation, x: f64, y: f64, settings: &Settings) -> R
     }
 }
 
-/// Whether `x` and `y` compare so, under the worksheet's `exact-boolean`.
+/// Returns whether `x` and `y` compare so, under the worksheet's `exact-boolean`.
 pub fn compare(comparison: Comparison, x: f64, y: f64, settings: &Settings) -> bool {
     let [x, y] = [x, y].map(|x| if settings.tiny_is_zero && x.abs() < 1e-307 { 0.0 } else { x });
     let same = x == y || !settings.exact_boolean && nearly_equal(x, y);
@@ -50,23 +51,24 @@ pub fn compare(comparison: Comparison, x: f64, y: f64, settings: &Settings) -> b
     }
 }
 
-/// Mathcad's relative comparison: the difference over the mean.
+/// Returns whether the difference over the mean is below 1e-12: Mathcad's relative comparison.
 fn nearly_equal(x: f64, y: f64) -> bool {
     ((x - y) / (x / 2.0 + y / 2.0)).abs() < 1e-12
 }
 
-/// What an operation on values costs: how many numbers it works through, and how many its result holds.
+/// Returns what an operation on values costs: how many numbers it works through, and how many its
+/// result has.
 pub fn cost(operation: Operation, left: &Value, right: &Value) -> (u64, usize) {
     match (operation, left, right) {
         (Operation::Multiply, Value::Array(a), Value::Array(b)) => {
             let size = a.rows().saturating_mul(b.cols());
             ((size as u64).saturating_mul(a.cols() as u64), size)
         }
-        _ => (left.len().max(right.len()) as u64, left.len().max(right.len())),
+        _ => (left.count().max(right.count()) as u64, left.count().max(right.count())),
     }
 }
 
-/// `left` and `right` under one of the four operations, numbers or arrays.
+/// Returns what one of the four operations makes of two numbers or arrays.
 pub fn operate(
     operation: Operation,
     left: Value,
@@ -89,12 +91,12 @@ pub fn operate(
     }
 }
 
-/// What a value should have been.
+/// Returns the failure of a value that should have been `expected`.
 pub fn kind(expected: &'static str, found: &Value) -> Cause {
     Cause::Kind { expected, found: found.kind() }
 }
 
-/// Every entry mapped, in place if nothing else holds the array.
+/// Maps every entry, in place if nothing else shares the array.
 fn map(mut array: Rc<Array>, f: impl Fn(f64) -> Result<f64, Cause>) -> Result<Value, Cause> {
     for x in Rc::make_mut(&mut array).entries_mut() {
         *x = f(*x)?;
@@ -122,7 +124,7 @@ fn zip(
     Ok(Value::Array(a))
 }
 
-/// The matrix product; of two columns of one length, the scalar product, a number.
+/// Returns the matrix product; of two columns of one length, the scalar product, a number.
 fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
     let column = |a: &Array| a.cols() == 1 && a.rows() > 1;
     if column(a) && column(b) && a.rows() == b.rows() {
@@ -141,12 +143,12 @@ fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
     Ok(product.into())
 }
 
-/// The terms one after another, from the first; 0 if there is none.
+/// Adds the terms one after another, from the first; returns 0 if there is none.
 fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     terms.reduce(|sum, term| sum + term).unwrap_or(0.0)
 }
 
-/// `−x`.
+/// Returns `−x`, entry by entry.
 pub fn negative(value: Value) -> Result<Value, Cause> {
     match value {
         Value::Number(x) => Ok(Value::Number(-x)),
@@ -155,7 +157,7 @@ pub fn negative(value: Value) -> Result<Value, Cause> {
     }
 }
 
-/// `xᵀ`; a number is its own transpose.
+/// Returns `xᵀ`; a number is its own transpose.
 pub fn transpose(value: Value) -> Result<Value, Cause> {
     match value {
         Value::Number(_) => Ok(value),
@@ -171,17 +173,13 @@ pub fn transpose(value: Value) -> Result<Value, Cause> {
     }
 }
 
-/// The identity matrix.
+/// Returns the n x n identity matrix.
 pub fn identity(n: usize) -> Value {
-    let mut identity = Array::default();
-    if n > 0 {
-        identity.grow(n - 1, n - 1);
-        (0..n).for_each(|i| identity.set(i, i, 1.0));
-    }
-    identity.into()
+    Array::from_fn(n, n, |i, j| if i == j { 1.0 } else { 0.0 }).into()
 }
 
-/// All numbers of the values, one after another, under `f`: Mathcad's `min` and `max` flatten their arguments.
+/// Combines all numbers of the values by `f`, one after another: Mathcad's `min` and `max` flatten
+/// their arguments.
 pub fn fold(values: &[Value], f: impl Fn(f64, f64) -> f64) -> Result<Value, Cause> {
     let mut result = None;
     let mut take = |x| result = Some(result.map_or(x, |old| f(old, x)));

@@ -1,7 +1,8 @@
 //! Alternative readings of a listing, as edits of its text.
 //!
-//! `listings/readings/README.md` describes the format. An edit names every line by its printed number: also a line
-//! that it moves, indents anew or repeats, so that messages about the edited listing point at the print.
+//! `listings/readings/README.md` describes the format. An edit names every line by its printed
+//! number: also a line that it moves, indents anew or repeats, so that messages about the edited
+//! listing point at the print.
 
 use thiserror::Error;
 
@@ -12,7 +13,7 @@ use super::settings::Limits;
 /// A reading: ranges of printed lines, and the lines that stand in their place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// Why the print can be read so: the lines that start with `#`.
+    /// Why the print can be read so: the lines that start with `#`, without it.
     pub reason: String,
     changes: Vec<Change>,
 }
@@ -35,21 +36,19 @@ pub enum EditError {
     Format {
         /// The line of the edit, from 1.
         line: usize,
-        /// The line's text.
         found: String,
-        /// What should stand there.
+        /// What should stand in its place.
         expected: &'static str,
     },
     /// The listing does not have the lines to be replaced.
     #[error("{listing} has no lines {first}-{last} of {wanted} in order")]
     NoSuchLines {
-        /// The listing.
         listing: String,
-        /// The listing that the edit is for.
+        /// The name of the listing that the edit is for.
         wanted: String,
-        /// The first line to be replaced.
+        /// The printed number of the first line to be replaced.
         first: usize,
-        /// The last line to be replaced.
+        /// The printed number of the last line to be replaced.
         last: usize,
     },
     /// The edited listing cannot be read.
@@ -58,11 +57,11 @@ pub enum EditError {
 }
 
 impl Edit {
-    /// Reads an edit.
+    /// Reads an edit from its text.
     ///
     /// # Errors
     ///
-    /// The first line that is not of the format.
+    /// Names the first line that is not of the format.
     pub fn parse(text: &str) -> Result<Self, EditError> {
         let mut edit = Edit { reason: String::new(), changes: vec![] };
         for (k, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
@@ -91,11 +90,11 @@ impl Edit {
         Ok(())
     }
 
-    /// The listing under this reading.
+    /// Returns the listing under this reading.
     ///
     /// # Errors
     ///
-    /// A range that the listing does not have, or an edited listing that cannot be read.
+    /// Names a range that the listing does not have, or why the edited listing cannot be read.
     pub fn apply(&self, listing: &Listing) -> Result<Listing, EditError> {
         let mut lines = listing.lines().to_vec();
         for change in &self.changes {
@@ -112,7 +111,7 @@ impl Edit {
 }
 
 impl Change {
-    /// Where the lines to be replaced stand; they must be there, all and in order.
+    /// Returns where the lines to be replaced stand, if they are there, all and in order.
     fn find(&self, listing: &str, lines: &[Line]) -> Option<std::ops::Range<usize>> {
         if self.listing != listing {
             return None;
@@ -135,7 +134,7 @@ impl Change {
     }
 }
 
-/// `c_cnt lines 14-30:`, `Km line 7:` or `c_cnt lines 14-30, one level deeper:`.
+/// Reads `c_cnt lines 14-30:`, `Km line 7:` or `c_cnt lines 14-30, one level deeper:`.
 fn parse_range(text: &str) -> Option<Change> {
     let text = text.strip_suffix(':')?;
     let replaced = text.strip_suffix(", one level deeper");
@@ -151,7 +150,7 @@ fn parse_range(text: &str) -> Option<Change> {
     })
 }
 
-/// The printed number, two spaces, and the line with its indentation.
+/// Reads the printed number, two spaces, and the line with its indentation.
 fn parse_line(text: &str, in_file: usize) -> Option<Line> {
     let (number, line) = text.trim_start().split_once("  ")?;
     Some(Line::new(number.parse().ok()?, in_file, line))

@@ -7,15 +7,14 @@ use thiserror::Error;
 /// A listing that does not follow the notation of `listings/README.md`.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub struct ParseError {
-    /// The listing's name.
     pub listing: String,
-    /// The printed line, from 1; headers do not count.
+    /// The number of the printed line, from 1; headers do not count.
     pub line: usize,
-    /// The line of the file, from 1.
+    /// The number of the line in the file, from 1.
     pub file_line: usize,
-    /// The character of that line, from 1.
+    /// The place in that line, in characters from 1.
     pub column: usize,
-    /// The line itself.
+    /// The first 300 characters of the line, indentation included.
     pub text: String,
     /// What was found and what was expected.
     pub message: String,
@@ -32,22 +31,32 @@ impl fmt::Display for ParseError {
     }
 }
 
-/// A listing failed as it ran: the published algorithm's fault or the scene's, not the interpreter's.
+/// A listing failed as it ran: the published algorithm's fault or the scene's, not the
+/// interpreter's.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{listing}, line {line}: {cause} In `{text}`, column {column} of `{statement}`.")]
 pub struct Failure {
-    /// The listing's name.
     pub listing: String,
-    /// The printed line.
+    /// The number of the printed line, from 1.
     pub line: usize,
-    /// The character of the line at which the failed expression starts, from 1, indentation aside.
+    /// Where the failed expression starts in the line, in characters from 1, indentation aside.
     pub column: usize,
     /// The failed expression as the listing writes it.
     pub text: String,
-    /// The whole statement.
+    /// The text of the whole line, without indentation.
     pub statement: String,
     /// What happened, with the values that made it happen.
     pub cause: Cause,
+}
+
+/// A result, or the listing's failure.
+pub type Fallible<T> = Result<T, Box<Failure>>;
+
+impl Failure {
+    /// Returns whether a limit was reached: no method of evaluating `∧` passes over that.
+    pub(super) fn is_limit(&self) -> bool {
+        matches!(self.cause, Cause::Limit { .. })
+    }
 }
 
 /// Why a listing failed. Where Mathcad's own words are known, the message begins with them.
@@ -57,47 +66,22 @@ pub enum Cause {
     #[error(
         "This array index is invalid for this array. {name}{subscripts} of {rows} x {cols} entries."
     )]
-    IndexOutside {
-        /// The array.
-        name: String,
-        /// The subscripts.
-        subscripts: Subscripts,
-        /// Rows that it has.
-        rows: usize,
-        /// Columns that it has.
-        cols: usize,
-    },
+    IndexOutside { name: String, subscripts: Subscripts, rows: usize, cols: usize },
     /// A subscript below `ORIGIN`.
     #[error(
-        "This array index is invalid for this array. {name}{subscripts} lies below ORIGIN = {origin}."
+        "This array index is invalid for this array. {name}{subscripts} lies below \
+         ORIGIN = {origin}."
     )]
-    IndexBelowOrigin {
-        /// The array.
-        name: String,
-        /// The subscripts.
-        subscripts: Subscripts,
-        /// The worksheet's `ORIGIN`.
-        origin: i32,
-    },
+    IndexBelowOrigin { name: String, subscripts: Subscripts, origin: i32 },
     /// A subscript that is no whole number.
     #[error("An array index must be an integer: {name}{subscripts}.")]
-    IndexNotWhole {
-        /// The array.
-        name: String,
-        /// The subscripts.
-        subscripts: Subscripts,
-    },
+    IndexNotWhole { name: String, subscripts: Subscripts },
     /// A division by zero.
     #[error(
         "Found a singularity while evaluating this expression. You may be dividing by zero. \
          {numerator}/{denominator}."
     )]
-    Singularity {
-        /// What was divided.
-        numerator: f64,
-        /// The zero.
-        denominator: f64,
-    },
+    Singularity { numerator: f64, denominator: f64 },
     /// A result that is not a finite number.
     #[error("The result is {result}, no number that Mathcad can hold.")]
     Overflow {
@@ -106,53 +90,43 @@ pub enum Cause {
     },
     /// A name read before it has a value.
     #[error("This variable or function is not defined above: {name}.")]
-    Undefined {
-        /// The name.
-        name: String,
-    },
+    Undefined { name: String },
     /// A value of the wrong kind.
     #[error("Expected {expected}, found {found}.")]
     Kind {
-        /// The kind needed.
+        /// What kind of value is needed.
         expected: &'static str,
-        /// What the value is.
+        /// What kind of value there is.
         found: String,
     },
     /// Arrays whose sizes do not go together.
     #[error("These array sizes do not match: {left} {operation} {right}.")]
     Sizes {
-        /// The operation.
+        /// The sign of the operation.
         operation: &'static str,
-        /// What stands on its left.
+        /// The size of the array on its left.
         left: String,
-        /// What stands on its right.
+        /// The size of the array on its right.
         right: String,
     },
     /// A function called with another number of arguments than it takes.
     #[error("This function has {expected} arguments; {found} were given.")]
-    Arguments {
-        /// The number it takes.
-        expected: usize,
-        /// The number given.
-        found: usize,
-    },
+    Arguments { expected: usize, found: usize },
     /// A function from outside refused its arguments.
     #[error("{name}: {message}.")]
     Function {
-        /// The function.
         name: String,
-        /// Its own words.
+        /// The reason, in the function's own words.
         message: String,
     },
     /// A program that ended without evaluating a statement.
     #[error("The program has no value.")]
     NoValue,
-    /// The listing asks for more than [`Limits`](super::Limits) allows.
+    /// The listing asks for more than [`Limits`](super::settings::Limits) allows.
     #[error("The limit of {limit} {of} is reached.")]
     Limit {
-        /// The limit.
         limit: u64,
-        /// What it limits.
+        /// What the number limits.
         of: &'static str,
     },
 }
@@ -160,9 +134,8 @@ pub enum Cause {
 /// One subscript or two, as evaluated; shown as `[i]` or `[i,j]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Subscripts {
-    /// The row.
     pub row: f64,
-    /// The column, unless the array is a column.
+    /// The second subscript, if there is one.
     pub col: Option<f64>,
 }
 

@@ -1,34 +1,29 @@
-//! The functions that a listing may call: a few of Mathcad's own, and those that the caller defines.
+//! The functions that a listing may call: a few of Mathcad's own, and those that the caller
+//! defines.
 
-use super::arithmetic::{fold, identity, kind};
-use super::failure::{Cause, Failure};
-use super::observe::Observer;
-use super::run::{Fallible, Run};
-use super::syntax::{Expr, Slot, Span};
 use super::value::Value;
-use crate::numbers::scalar::Scalar;
 
-/// A function.
+/// A function that a name stands for.
 pub enum Function<'l> {
-    /// `identity(n)`.
+    /// `identity(n)`, the n x n matrix.
     Identity,
-    /// `rows(v)`.
+    /// `rows(v)`, a whole number.
     Rows,
     /// `min(x, y, ...)`, of all the numbers of all arguments.
     Min,
-    /// `max(x, y, ...)`, likewise.
+    /// `max(x, y, ...)`, of all the numbers of all arguments.
     Max,
     /// `trace(x, y, ...)`: a line of output, which is also its value.
     Trace,
-    /// One that the caller defined.
+    /// A function that the caller defined.
     Outside(Outside<'l>),
 }
 
-/// A function from outside: its value, or why there is none.
+/// A function from outside: it returns its value, or why there is none.
 pub type Outside<'l> = Box<dyn FnMut(&[Value]) -> Result<Value, String> + 'l>;
 
 impl Function<'_> {
-    /// Mathcad's own function of that name.
+    /// Returns Mathcad's own function of that name.
     pub fn builtin(name: &str) -> Option<Self> {
         match name {
             "identity" => Some(Function::Identity),
@@ -38,101 +33,5 @@ impl Function<'_> {
             "trace" => Some(Function::Trace),
             _ => None,
         }
-    }
-}
-
-impl<'r, O: Observer> Run<'r, '_, O> {
-    /// Evaluates arguments; each counts as held while the next is evaluated.
-    fn arguments(&mut self, arguments: &'r [Expr]) -> Fallible<Vec<Value>> {
-        let mut values = Vec::with_capacity(arguments.len());
-        for argument in arguments {
-            let value = self.eval(argument)?;
-            self.room(value.len())?;
-            self.held += value.len();
-            values.push(value);
-        }
-        Ok(values)
-    }
-
-    /// Calls a function.
-    pub(super) fn call(
-        &mut self,
-        slot: Slot,
-        arguments: &'r [Expr],
-        span: &Span,
-    ) -> Fallible<Value> {
-        let held = self.held;
-        let arguments = self.arguments(arguments);
-        self.held = held;
-        let arguments = arguments?;
-        match &mut self.functions[slot] {
-            None => Err(self.undefined(slot, span)),
-            Some(Function::Identity) => self.identity(&arguments, span),
-            Some(Function::Rows) => rows(&arguments).map_err(|cause| self.fail(span, cause)),
-            Some(Function::Min) => self.extreme(&arguments, <f64 as Scalar>::min, span),
-            Some(Function::Max) => self.extreme(&arguments, <f64 as Scalar>::max, span),
-            Some(Function::Trace) => self.write_trace(&arguments),
-            Some(Function::Outside(function)) => function(&arguments).map_err(|message| {
-                let name = self.listing.names.name(slot).into();
-                self.fail(span, Cause::Function { name, message })
-            }),
-        }
-    }
-
-    fn identity(&mut self, arguments: &[Value], span: &Span) -> Fallible<Value> {
-        let n = one(arguments).and_then(whole).map_err(|cause| self.fail(span, cause))?;
-        self.afford(n.saturating_mul(n))?;
-        Ok(identity(n))
-    }
-
-    fn extreme(
-        &mut self,
-        arguments: &[Value],
-        choose: fn(f64, f64) -> f64,
-        span: &Span,
-    ) -> Fallible<Value> {
-        self.spend(size(arguments) as u64)?;
-        fold(arguments, choose).map_err(|cause| self.fail(span, cause))
-    }
-
-    fn write_trace(&mut self, arguments: &[Value]) -> Fallible<Value> {
-        // A number of 17 digits and its exponent fill three times the eight bytes of a number held.
-        self.afford(size(arguments).saturating_mul(4))?;
-        let line = arguments.iter().map(Value::to_string).collect::<Vec<_>>().join(" ");
-        let value = Value::Text(line.as_str().into());
-        self.held += value.len();
-        self.trace.push(line);
-        Ok(value)
-    }
-
-    /// A name that has no value, or no function.
-    pub(super) fn undefined(&self, slot: Slot, span: &Span) -> Box<Failure> {
-        self.fail(span, Cause::Undefined { name: self.listing.names.name(slot).into() })
-    }
-}
-
-fn size(values: &[Value]) -> usize {
-    values.iter().map(Value::len).sum()
-}
-
-fn one(arguments: &[Value]) -> Result<&Value, Cause> {
-    match arguments {
-        [argument] => Ok(argument),
-        _ => Err(Cause::Arguments { expected: 1, found: arguments.len() }),
-    }
-}
-
-fn whole(value: &Value) -> Result<usize, Cause> {
-    match value {
-        Value::Number(n) if *n >= 0.0 && n.fract() == 0.0 => Ok(*n as usize),
-        _ => Err(kind("a whole number", value)),
-    }
-}
-
-fn rows(arguments: &[Value]) -> Result<Value, Cause> {
-    match one(arguments)? {
-        Value::Array(a) => Ok(a.rows().into()),
-        Value::Nested(v) => Ok(v.len().into()),
-        other => Err(kind("an array", other)),
     }
 }

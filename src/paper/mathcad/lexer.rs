@@ -1,12 +1,14 @@
 //! A line's text as tokens.
 //!
-//! Spaces mean nothing, but for one place: within round brackets they separate the elements of a row. There a
-//! [`Token::Gap`] stands
+//! Spaces mean nothing, but for one place: within round brackets they separate the elements of a
+//! row. There a [`Token::Gap`] stands
 //!
-//! - for two or more spaces behind an operand, whatever follows, as in `(a − c   b + c)` and `(a   −b)`,
+//! - for two or more spaces behind an operand, whatever follows, as in `(a − c   b + c)` and
+//!   `(a   −b)`,
 //! - for one space between two operands, as in `(0 0 0)` and `(|a| |b|)`.
 //!
-//! A bar closes what the last open bracket is a bar for, if an operand stands before it; otherwise it opens.
+//! A bar closes what the last open bracket is a bar for, if an operand stands before it; otherwise
+//! it opens.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -15,16 +17,14 @@ use chumsky::span::SimpleSpan;
 
 use super::syntax::{Slot, Span};
 
-/// A token.
+/// A word, number or sign of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Token {
-    /// A number.
     Number(f64),
-    /// A name, by its number.
     Name(Slot),
     /// A name that is followed by `(` without a space: a function.
     Function(Slot),
-    /// A sign, a bracket or a keyword.
+    /// A sign, a bracket or a keyword, as the syntax tree knows it.
     Sign(&'static str),
     /// The bar that closes `|x|`; the one that opens it is a sign.
     ClosingBar,
@@ -44,32 +44,10 @@ impl fmt::Display for Token {
     }
 }
 
-/// The signs, those of two characters first, and how the tree knows them.
-const SIGNS: [(&str, &str); 24] = [
-    (":=", ":="),
-    ("..", ".."),
-    ("←", "←"),
-    ("∈", "∈"),
-    ("∧", "∧"),
-    ("≤", "≤"),
-    ("≥", "≥"),
-    ("≠", "≠"),
-    ("<", "<"),
-    (">", ">"),
-    ("=", "="),
-    ("+", "+"),
-    ("−", "−"),
-    ("-", "−"),
-    ("·", "·"),
-    ("*", "·"),
-    ("/", "/"),
-    ("ᵀ", "ᵀ"),
-    ("|", "|"),
-    (",", ","),
-    ("(", "("),
-    (")", ")"),
-    ("[", "["),
-    ("]", "]"),
+/// The signs, those of two characters first; `-` and `*` stand for `−` and `·`.
+const SIGNS: [&str; 24] = [
+    ":=", "..", "←", "∈", "∧", "≤", "≥", "≠", "<", ">", "=", "+", "−", "-", "·", "*", "/", "ᵀ",
+    "|", ",", "(", ")", "[", "]",
 ];
 
 /// The names of a listing in the order of their first appearance.
@@ -80,7 +58,7 @@ pub struct Names {
 }
 
 impl Names {
-    /// The number of `name`, new or known.
+    /// Returns the slot of `name`, a new one where the name is new.
     fn intern(&mut self, name: &str) -> Slot {
         if let Some(slot) = self.find(name) {
             return slot;
@@ -90,22 +68,22 @@ impl Names {
         self.names.len() - 1
     }
 
-    /// The number of `name`, if the listing has it.
+    /// Returns the slot of `name`, if the listing has it.
     pub fn find(&self, name: &str) -> Option<Slot> {
         self.slots.get(name).copied()
     }
 
-    /// The name of that number.
+    /// Returns the name of a slot.
     pub fn name(&self, slot: Slot) -> &str {
         &self.names[slot]
     }
 
-    /// All names, in order.
+    /// Returns all names, in the order of their slots.
     pub fn all(&self) -> impl Iterator<Item = &str> {
         self.names.iter().map(String::as_str)
     }
 
-    /// How many names there are.
+    /// Returns the number of names.
     pub fn len(&self) -> usize {
         self.names.len()
     }
@@ -117,11 +95,11 @@ pub type Spanned = (Token, SimpleSpan);
 /// A place in a line, in bytes, and what is wrong there.
 pub type Complaint = (usize, String);
 
-/// The tokens of `text`.
+/// Splits the `text` of a line into tokens.
 ///
 /// # Errors
 ///
-/// A character or number that the notation does not know, or brackets more than `depth` deep.
+/// Names a character or number that the notation does not know, or brackets more than `depth` deep.
 pub fn tokens(text: &str, names: &mut Names, depth: usize) -> Result<Vec<Spanned>, Complaint> {
     let mut lexer = Lexer { text, names, found: vec![], open: vec![], depth };
     let mut at = 0;
@@ -146,10 +124,15 @@ struct Lexer<'a> {
 }
 
 impl Lexer<'_> {
-    /// The token at `at`, and its length.
+    /// Returns the token at `at`, and its length in bytes.
     fn token(&mut self, at: usize) -> Result<(Token, usize), Complaint> {
         let rest = &self.text[at..];
-        if let Some((sign, known)) = SIGNS.iter().find(|(sign, _)| rest.starts_with(sign)) {
+        if let Some(sign) = SIGNS.into_iter().find(|sign| rest.starts_with(sign)) {
+            let known = match sign {
+                "-" => "−",
+                "*" => "·",
+                _ => sign,
+            };
             return Ok((Token::Sign(known), sign.len()));
         }
         match rest.chars().next() {
@@ -173,14 +156,14 @@ impl Lexer<'_> {
         (token, length)
     }
 
-    /// The token, or the closing bar that it turns out to be.
+    /// Returns the token, or the closing bar that it turns out to be.
     fn closing(&self, token: Token) -> Token {
         let closes =
             token == Token::Sign("|") && self.behind_operand() && self.open.last() == Some(&"|");
         if closes { Token::ClosingBar } else { token }
     }
 
-    /// Keeps the token, a gap before it where there is one, and the brackets in step.
+    /// Adds the token, and a gap before it where there is one, and opens or closes a bracket.
     fn push(&mut self, token: Token, span: Span, spaces: usize) -> Result<(), Complaint> {
         if self.gap(token, spaces) {
             self.found.push((Token::Gap, (span.start - spaces..span.start).into()));

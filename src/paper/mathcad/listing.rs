@@ -4,21 +4,21 @@ use std::fmt;
 
 use super::failure::ParseError;
 use super::lexer::{self, Complaint, Names, Spanned};
-use super::parser::{self, Header};
+use super::parser;
 use super::settings::Limits;
-use super::syntax::{Expr, Statement, Step};
+use super::syntax::{Expr, Slot, Statement, Step};
 
 /// A line of a listing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
-    /// The line's number in the print, from 1. Under a reading that moves or repeats lines ([`super::edit`]) the
+    /// The line's number in the print, from 1. Under a reading that moves or repeats lines the
     /// numbers need not ascend.
     pub printed: usize,
     /// The line's number in the file, from 1.
     pub in_file: usize,
     /// How deep the line stands: Mathcad's bars to its left.
     pub level: usize,
-    /// The text behind the indentation.
+    /// The text of the line behind its indentation.
     pub text: String,
 }
 
@@ -28,7 +28,7 @@ pub struct Listing {
     pub(super) name: String,
     pub(super) lines: Vec<Line>,
     pub(super) names: Names,
-    pub(super) header: Header,
+    pub(super) parameters: Vec<Slot>,
     pub(super) program: Vec<Statement>,
 }
 
@@ -39,7 +39,7 @@ impl Listing {
     ///
     /// # Errors
     ///
-    /// The first place at which the text leaves the notation.
+    /// Names the first place at which the text leaves the notation.
     pub fn parse(name: &str, text: &str) -> Result<Self, ParseError> {
         Self::parse_within(name, text, &Limits::default())
     }
@@ -48,7 +48,7 @@ impl Listing {
     ///
     /// # Errors
     ///
-    /// As [`Listing::parse`].
+    /// Names the first place at which the text leaves the notation, or the limit that it exceeds.
     pub fn parse_within(name: &str, text: &str, limits: &Limits) -> Result<Self, ParseError> {
         let numbered = text.lines().enumerate().map(|(k, text)| (k + 1, text));
         let lines = numbered.filter(|(_, text)| !text.starts_with('#') && !text.trim().is_empty());
@@ -57,35 +57,34 @@ impl Listing {
         Self::from_lines(name, lines, limits)
     }
 
-    /// Reads the lines of a listing.
+    /// Reads a listing from its lines, the first being its header.
     pub(super) fn from_lines(
         name: &str,
         lines: Vec<Line>,
         limits: &Limits,
     ) -> Result<Self, ParseError> {
         let mut reader = Reader { name, lines: &lines, names: Names::default(), limits, next: 0 };
-        let header = reader.header()?;
+        let parameters = reader.header()?;
         let program = reader.block(1)?;
         if let Some(line) = lines.get(reader.next) {
-            return Err(reader
-                .error(line, (0, "found a line beside the header, expected it indented".into())));
+            return reader.refuse(line, "found a line beside the header, expected it indented");
         }
         let names = reader.names;
-        Ok(Listing { name: name.into(), names, header, program, lines })
+        Ok(Listing { name: name.into(), names, parameters, program, lines })
     }
 
-    /// What messages call the listing.
+    /// Returns what messages call the listing.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The lines, without headers.
+    /// Returns the lines, those that start with `#` left out.
     pub fn lines(&self) -> &[Line] {
         &self.lines
     }
 }
 
-/// The listing's text without headers.
+/// Writes the listing's text, the lines that start with `#` left out.
 impl fmt::Display for Listing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.lines.iter().try_for_each(|line| writeln!(f, "{line}"))
@@ -93,7 +92,7 @@ impl fmt::Display for Listing {
 }
 
 impl Line {
-    /// The line `text` with its indentation.
+    /// Makes a line of `text` with its indentation.
     pub(super) fn new(printed: usize, in_file: usize, text: &str) -> Self {
         let behind = text.trim_start_matches(' ');
         let spaces = text.len() - behind.len();
@@ -118,20 +117,20 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn header(&mut self) -> Result<Header, ParseError> {
+    fn header(&mut self) -> Result<Vec<Slot>, ParseError> {
         let empty = Line::new(1, 1, "");
         let line = self.lines.first().unwrap_or(&empty);
         if self.lines.len() > self.limits.lines {
             let message =
                 format!("found {} lines, expected at most {}", self.lines.len(), self.limits.lines);
-            return Err(self.error(line, (0, message)));
+            return self.refuse(line, message);
         }
         let tokens = self.tokens(line)?;
         self.next = 1;
         parser::header(&tokens).map_err(|complaint| self.error(line, complaint))
     }
 
-    /// The lines that stand `level` deep from here on, with all that they hold.
+    /// Reads the lines that stand `level` deep from here on, with all blocks within them.
     fn block(&mut self, level: usize) -> Result<Vec<Statement>, ParseError> {
         let mut block = vec![];
         while let Some(line) = self.lines.get(self.next).filter(|line| line.level >= level) {
@@ -147,14 +146,13 @@ impl<'a> Reader<'a> {
 
     fn check_level(&self, line: &Line, level: usize) -> Result<(), ParseError> {
         if line.level > level {
-            let message =
-                format!("found {} spaces of indentation, expected {}", 2 * line.level, 2 * level);
-            return Err(self.error(line, (0, message)));
+            let (found, expected) = (2 * line.level, 2 * level);
+            let message = format!("found {found} spaces of indentation, expected {expected}");
+            return self.refuse(line, message);
         }
         if level > self.limits.depth {
-            return Err(
-                self.error(line, (0, format!("found blocks more than {} deep", self.limits.depth)))
-            );
+            let message = format!("found blocks more than {} deep", self.limits.depth);
+            return self.refuse(line, message);
         }
         Ok(())
     }
@@ -174,13 +172,11 @@ impl<'a> Reader<'a> {
     fn tokens(&mut self, line: &Line) -> Result<Vec<Spanned>, ParseError> {
         let (length, limit) = (line.text.chars().count(), self.limits.characters);
         if length > limit {
-            return Err(self
-                .error(line, (0, format!("found {length} characters, expected at most {limit}"))));
+            let message = format!("found {length} characters, expected at most {limit}");
+            return self.refuse(line, message);
         }
         if line.text.starts_with(' ') {
-            return Err(
-                self.error(line, (0, "found an odd space, expected two for each level".into()))
-            );
+            return self.refuse(line, "found an odd space, expected two for each level");
         }
         let tokens = lexer::tokens(&line.text, &mut self.names, self.limits.depth);
         tokens.map_err(|complaint| self.error(line, complaint))
@@ -196,6 +192,11 @@ impl<'a> Reader<'a> {
             }
             None => Ok(()),
         }
+    }
+
+    /// Refuses a line as a whole.
+    fn refuse<T>(&self, line: &Line, message: impl Into<String>) -> Result<T, ParseError> {
+        Err(self.error(line, (0, message.into())))
     }
 
     fn error(&self, line: &Line, (at, message): Complaint) -> ParseError {

@@ -1,9 +1,11 @@
-//! Mathcad's arrays and semantics: an interpreter for listings in the notation of `listings/README.md`.
+//! Mathcad's arrays and semantics: an interpreter for listings in the notation of
+//! `listings/README.md`.
 //!
 //! ```
 //! use plane_contact::paper::mathcad::{Limits, Listing, Settings, Value};
 //!
-//! let listing = Listing::parse("twice", "twice(x) :=\n  for i ∈ 1 .. rows(x)\n    y[i] ← 2·x[i]\n  y")?;
+//! let text = "twice(x) :=\n  for i ∈ 1 .. rows(x)\n    y[i] ← 2·x[i]\n  y";
+//! let listing = Listing::parse("twice", text)?;
 //! let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
 //! let x = plane_contact::paper::mathcad::array::Column::from_vec(vec![1.5, 4.0]);
 //! let outcome = worksheet.call(&[Value::from(&x)])?;
@@ -11,15 +13,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | module | what it holds |
+//! | modules, each using only those above it | what they contain |
 //! |---|---|
-//! | [`mod@array`] | arrays with `ORIGIN = 1`, the mirror's own |
-//! | [`listing`], `lexer`, `parser`, `syntax`, `print` | from text to syntax tree and back |
-//! | [`run`], `eval`, `function`, `arithmetic`, [`value`] | running a listing |
+//! | [`mod@array`], [`value`] | the mirror's arrays with `ORIGIN = 1`, a listing's values |
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
 //! | [`failure`] | what can go wrong |
-//! | [`observe`] | watching a run: traces and coverage |
+//! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
 //! | [`edit`] | the alternative readings of a listing |
+//! | [`observe`] | watching a run: traces and coverage |
+//! | `arithmetic`, `function` | operations on values, and the functions a listing may call |
+//! | `state`, `entry`, `call`, `eval`, [`run`] | running a listing |
 //!
 //! `README.md` in this directory lists Mathcad's semantics one by one, with the source of each.
 
@@ -33,11 +36,13 @@ pub mod settings;
 pub mod value;
 
 mod arithmetic;
+mod call;
+mod entry;
 mod eval;
 mod function;
 mod lexer;
 mod parser;
-mod print;
+mod state;
 mod syntax;
 
 #[cfg(test)]

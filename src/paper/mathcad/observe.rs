@@ -7,22 +7,23 @@ use super::value::Value;
 
 /// Is told what happens as a listing runs. `()` is told nothing and costs nothing.
 pub trait Observer {
-    /// False: the run does not even prepare what it would tell.
+    /// Where this is false, the run does not even prepare what it would tell.
     const ACTIVE: bool = true;
 
-    /// A statement begins.
+    /// Is told that the statement of a line begins.
     fn statement(&mut self, _line: &Line) {}
 
-    /// A name or an entry was read.
+    /// Is told that a name or an entry was read.
     fn read(&mut self, _access: Access<'_>) {}
 
-    /// A name or an entry was written to; for a loop variable, once for each turn.
+    /// Is told that a name or an entry was written to; for a loop variable, once for each turn.
     fn write(&mut self, _access: Access<'_>) {}
 
-    /// A statement's condition held, or did not.
+    /// Is told whether a statement's condition was true.
     fn condition(&mut self, _place: Place<'_>, _held: bool) {}
 
-    /// The operands of an `∧`: true, false, or `None` for one that failed or was not evaluated.
+    /// Is told the operands of an `∧`: true, false, or `None` for one that failed or was not
+    /// evaluated.
     fn conjunction(&mut self, _place: Place<'_>, _operands: &[Operand<'_>]) {}
 }
 
@@ -30,58 +31,50 @@ impl Observer for () {
     const ACTIVE: bool = false;
 }
 
-/// A name or entry, and its value.
+/// A name or entry that a line reads or writes, and its value.
 #[derive(Clone, Copy, Debug)]
 pub struct Access<'a> {
-    /// The line.
     pub line: &'a Line,
-    /// The name.
     pub name: &'a str,
-    /// The subscripts: none, one or two.
+    /// No, one or two subscripts, from the worksheet's `ORIGIN`.
     pub subscripts: &'a [i64],
-    /// The value read or written.
     pub value: &'a Value,
 }
 
-/// Where an expression stands.
+/// The place of an expression in the listing.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
-    /// The line.
     pub line: &'a Line,
     /// Where the expression starts in the line, in bytes.
     pub start: usize,
-    /// The expression's text.
     pub text: &'a str,
 }
 
-/// An operand of an `∧`.
+/// An operand of an `∧`, as its text and its truth.
 #[derive(Clone, Copy, Debug)]
 pub struct Operand<'a> {
-    /// The operand's text.
     pub text: &'a str,
-    /// Whether it held; `None` if it failed or was not evaluated.
+    /// Whether it was true; `None` if it failed or was not evaluated.
     pub held: Option<bool>,
 }
 
 /// A statement executed: what it read, and what it wrote.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Executed {
-    /// The printed line.
+    /// The number of the printed line, from 1.
     pub line: usize,
-    /// Everything read, in order.
+    /// Everything that was read, in order.
     pub reads: Vec<Named>,
-    /// Everything written.
+    /// Everything that was written, in order.
     pub writes: Vec<Named>,
 }
 
 /// A name or entry, and its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
-    /// The name.
     pub name: String,
-    /// The subscripts: none, one or two.
+    /// No, one or two subscripts, from the worksheet's `ORIGIN`.
     pub subscripts: Vec<i64>,
-    /// The value.
     pub value: Value,
 }
 
@@ -97,15 +90,15 @@ impl From<Access<'_>> for Named {
 
 /// Hands every statement to a function once it is done: the `trace` command's observer.
 ///
-/// A `for` line is handed over once for each turn. A statement is done when the next begins, and the last one when the
-/// recorder is dropped.
+/// A `for` line is handed over once for each turn. A statement is done when the next begins, and
+/// the last one when the recorder is dropped.
 pub struct Recorder<F: FnMut(&Executed)> {
     hand_over: F,
     current: Option<Executed>,
 }
 
 impl<F: FnMut(&Executed)> Recorder<F> {
-    /// A recorder that hands statements to `hand_over`.
+    /// Makes a recorder that hands statements to `hand_over`.
     pub fn new(hand_over: F) -> Self {
         Recorder { hand_over, current: None }
     }
@@ -118,12 +111,12 @@ impl<F: FnMut(&Executed)> Recorder<F> {
         }
     }
 
-    /// The current statement; a new one when a loop's line comes round again.
-    fn on(&mut self, line: usize) -> Option<&mut Executed> {
+    /// Returns the current statement, a new one when a loop's line comes round again.
+    fn on(&mut self, line: usize) -> &mut Executed {
         if self.current.as_ref().is_none_or(|current| current.line != line) {
             self.begin(line);
         }
-        self.current.as_mut()
+        self.current.as_mut().expect("a statement has begun")
     }
 }
 
@@ -133,15 +126,11 @@ impl<F: FnMut(&Executed)> Observer for Recorder<F> {
     }
 
     fn read(&mut self, access: Access<'_>) {
-        self.on(access.line.printed)
-            .into_iter()
-            .for_each(|current| current.reads.push(access.into()));
+        self.on(access.line.printed).reads.push(access.into());
     }
 
     fn write(&mut self, access: Access<'_>) {
-        self.on(access.line.printed)
-            .into_iter()
-            .for_each(|current| current.writes.push(access.into()));
+        self.on(access.line.printed).writes.push(access.into());
     }
 }
 
@@ -156,7 +145,8 @@ impl<F: FnMut(&Executed)> Drop for Recorder<F> {
 /// Counts what a run, or several, went through.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coverage {
-    /// How often each line was executed, by the printed number. A line that was never reached is not there.
+    /// How often each line was executed, by the printed number. A line that was never reached is
+    /// not there.
     pub lines: BTreeMap<usize, u64>,
     /// The statements' conditions, by the printed number of their line.
     pub conditions: BTreeMap<usize, ConditionCoverage>,
@@ -164,35 +154,33 @@ pub struct Coverage {
     pub conjunctions: BTreeMap<(usize, usize), Vec<OperandCoverage>>,
 }
 
-/// How often a condition held, and how often not.
+/// How often a condition was true, and how often it was not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ConditionCoverage {
-    /// The condition.
     pub text: String,
-    /// Times it held.
+    /// How often it was true.
     pub held: u64,
-    /// Times it did not.
+    /// How often it was false.
     pub failed: u64,
 }
 
 /// How often an operand of an `∧` decided: how often the other value would have turned the `∧`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OperandCoverage {
-    /// The operand.
     pub text: String,
-    /// Times it was true among operands that all were.
+    /// How often it was true among operands that all were.
     pub admitted: u64,
-    /// Times it alone was false.
+    /// How often it alone was false.
     pub refused: u64,
 }
 
 impl OperandCoverage {
-    /// Whether the operand ever decided.
+    /// Returns whether the operand ever decided.
     pub fn decisive(&self) -> bool {
         self.admitted > 0 || self.refused > 0
     }
 
-    /// Whether the operand decided both ways (modified condition/decision coverage).
+    /// Returns whether the operand decided for either value (modified condition/decision coverage).
     pub fn decided_both_ways(&self) -> bool {
         self.admitted > 0 && self.refused > 0
     }
@@ -220,11 +208,11 @@ impl Observer for Coverage {
                     })
                     .collect()
             });
-        let holding = operands.iter().filter(|operand| operand.held == Some(true)).count();
+        let admitting = operands.iter().filter(|operand| operand.held == Some(true)).count();
         for (known, operand) in known.iter_mut().zip(operands) {
             match operand.held {
-                Some(true) if holding == operands.len() => known.admitted += 1,
-                Some(false) if holding == operands.len() - 1 => known.refused += 1,
+                Some(true) if admitting == operands.len() => known.admitted += 1,
+                Some(false) if admitting == operands.len() - 1 => known.refused += 1,
                 _ => {}
             }
         }

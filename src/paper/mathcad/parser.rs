@@ -1,7 +1,7 @@
 //! The grammar of one line.
 //!
-//! From the loosest to the tightest: `∧`, one comparison, `+ −`, `· /`, the sign `−x`, `xᵀ`. Operators of one level
-//! group from the left.
+//! From the loosest to the tightest: `∧`, one comparison, `+ −`, `· /`, the sign `−x`, `xᵀ`.
+//! Operators of one level group from the left.
 
 use std::collections::BTreeSet;
 
@@ -17,21 +17,13 @@ type Tokens<'t> = MappedInput<'t, Token, SimpleSpan, &'t [Spanned]>;
 type Extra<'t> = extra::Err<Rich<'t, Token>>;
 type Grammar<'t, T> = Boxed<'t, 't, Tokens<'t>, T, Extra<'t>>;
 
-/// The first line of a listing: `name(parameters) :=`.
-#[derive(Clone, Debug)]
-pub struct Header {
-    /// The function defined.
-    pub name: Slot,
-    /// Its parameters.
-    pub parameters: Vec<Slot>,
-}
-
-/// Reads the first line of a listing.
-pub fn header(tokens: &[Spanned]) -> Result<Header, Complaint> {
+/// Reads the first line of a listing, `name(parameters) :=`, and returns the parameters.
+pub fn header(tokens: &[Spanned]) -> Result<Vec<Slot>, Complaint> {
     parse(header_grammar(), tokens)
 }
 
-/// Reads a line of a program. The bodies of `for` and `if` are left empty.
+/// Reads a line of a program, `line` being its place in the listing from 0. The bodies of `for` and
+/// `if` are left empty.
 pub fn statement(tokens: &[Spanned], line: usize) -> Result<Statement, Complaint> {
     Ok(Statement { line, step: parse(step_grammar(), tokens)? })
 }
@@ -77,10 +69,9 @@ fn function<'t>() -> Grammar<'t, Slot> {
     select! { Token::Function(slot) => slot }.labelled("a function").boxed()
 }
 
-fn header_grammar<'t>() -> Grammar<'t, Header> {
+fn header_grammar<'t>() -> Grammar<'t, Vec<Slot>> {
     let parameters = name().separated_by(sign(",")).collect().delimited_by(sign("("), sign(")"));
-    let header = function().then(parameters).then_ignore(sign(":="));
-    header.map(|(name, parameters)| Header { name, parameters }).boxed()
+    function().ignore_then(parameters).then_ignore(sign(":=")).boxed()
 }
 
 fn step_grammar<'t>() -> Grammar<'t, Step> {
@@ -180,7 +171,7 @@ fn comparing(comparison: Comparison, l: Expr, r: Expr) -> Expr {
     Expr { kind: Kind::Compare(comparison, Box::new(l), Box::new(r)), span }
 }
 
-/// Operands of `∧`, at least one; one alone is itself.
+/// Joins operands by `∧`, at least one; one alone is itself.
 fn all(mut operands: Vec<Expr>) -> Expr {
     if operands.len() == 1 {
         return operands.remove(0);
@@ -189,7 +180,7 @@ fn all(mut operands: Vec<Expr>) -> Expr {
     Expr { kind: Kind::All(operands), span }
 }
 
-/// What stands between round brackets: one expression is that expression, several are a row.
+/// Makes what stands between round brackets: one expression is that expression, several are a row.
 fn bracketed(mut elements: Vec<Expr>) -> Kind {
     if elements.len() == 1 {
         Kind::Group(Box::new(elements.remove(0)))

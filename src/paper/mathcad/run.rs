@@ -1,17 +1,16 @@
-//! Running a listing: the worksheet around it, its statements and its limits.
+//! Running a listing: the worksheet around it, and its statements.
 
 use std::collections::BTreeMap;
 
-use super::failure::{Cause, Failure};
+use super::arithmetic::kind;
+use super::failure::{Cause, Fallible};
 use super::function::Function;
 use super::listing::Listing;
-use super::observe::{Access, Observer, Place};
+use super::observe::Observer;
 use super::settings::{Descending, LastIf, Limits, Settings};
-use super::syntax::{Expr, Slot, Span, Statement, Step};
+use super::state::Run;
+use super::syntax::{Expr, Reference, Slot, Statement, Step};
 use super::value::Value;
-
-/// A result, or the listing's failure.
-pub type Fallible<T> = Result<T, Box<Failure>>;
 
 /// A listing in a worksheet: what is defined above it, and the settings.
 pub struct Runner<'l> {
@@ -34,22 +33,20 @@ pub struct Outcome {
 }
 
 impl Listing {
-    /// A worksheet for the listing, with nothing defined yet.
+    /// Returns a worksheet for the listing, in which only Mathcad's own functions are defined.
     pub fn runner(&self, settings: &Settings, limits: &Limits) -> Runner<'_> {
         Runner {
             listing: self,
             settings: settings.clone(),
             limits: limits.clone(),
             values: vec![None; self.names.len()],
-            functions: (0..self.names.len())
-                .map(|slot| Function::builtin(self.names.name(slot)))
-                .collect(),
+            functions: self.names.all().map(Function::builtin).collect(),
         }
     }
 }
 
 impl<'l> Runner<'l> {
-    /// Defines a name above the listing. A name that the listing does not use is none of its business.
+    /// Defines a name above the listing. A name that the listing does not use is passed over.
     pub fn define(&mut self, name: &str, value: impl Into<Value>) -> &mut Self {
         if let Some(slot) = self.listing.names.find(name) {
             self.values[slot] = Some(value.into());
@@ -73,7 +70,7 @@ impl<'l> Runner<'l> {
     ///
     /// # Errors
     ///
-    /// The failure that stopped the program.
+    /// Returns the failure that stopped the program.
     pub fn call(&mut self, arguments: &[Value]) -> Fallible<Outcome> {
         self.call_observed(arguments, &mut ())
     }
@@ -82,71 +79,33 @@ impl<'l> Runner<'l> {
     ///
     /// # Errors
     ///
-    /// As [`Runner::call`]. The observer has then seen all that came before.
+    /// Returns the failure that stopped the program; the observer has then seen all that came
+    /// before.
     pub fn call_observed<O: Observer>(
         &mut self,
         arguments: &[Value],
         observer: &mut O,
     ) -> Fallible<Outcome> {
-        let mut run = Run {
-            listing: self.listing,
-            settings: &self.settings,
-            limits: &self.limits,
-            cells: self
-                .values
-                .iter()
-                .map(|value| Cell { value: value.clone(), local: false })
-                .collect(),
-            functions: &mut self.functions,
-            observer,
-            line: 0,
-            steps: 0,
-            held: 0,
-            last: None,
-            trace: vec![],
-        };
+        let Runner { listing, settings, limits, values, functions } = self;
+        let mut run = Run::new(listing, settings, limits, values, functions, observer);
         run.bind(arguments)?;
-        run.block(&run.listing.program)?;
+        run.block(&listing.program)?;
         run.outcome()
     }
 }
 
-/// A name's value, and whether the program wrote it.
-pub(super) struct Cell {
-    pub(super) value: Option<Value>,
-    pub(super) local: bool,
-}
-
-/// A run: the state of one call.
-pub(super) struct Run<'r, 'l, O> {
-    pub(super) listing: &'r Listing,
-    pub(super) settings: &'r Settings,
-    pub(super) limits: &'r Limits,
-    pub(super) cells: Vec<Cell>,
-    pub(super) functions: &'r mut [Option<Function<'l>>],
-    pub(super) observer: &'r mut O,
-    /// The current line, from 0.
-    pub(super) line: usize,
-    /// Steps taken, for the limit.
-    steps: u64,
-    /// Numbers held by all names and trace lines, for the limit.
-    pub(super) held: usize,
-    /// The value of the last statement evaluated.
-    pub(super) last: Option<Value>,
-    pub(super) trace: Vec<String>,
-}
-
-impl<'r, O: Observer> Run<'r, '_, O> {
+impl<O: Observer> Run<'_, '_, O> {
     /// Gives the parameters their values.
     fn bind(&mut self, arguments: &[Value]) -> Fallible<()> {
-        let (expected, found) = (self.listing.header.parameters.len(), arguments.len());
+        let (expected, found) = (self.listing.parameters.len(), arguments.len());
         if expected != found {
             return Err(self.fail_line(Cause::Arguments { expected, found }));
         }
-        for (&slot, argument) in self.listing.header.parameters.iter().zip(arguments) {
+        for (&slot, argument) in self.listing.parameters.iter().zip(arguments) {
             self.cells[slot].value = Some(argument.clone());
         }
-        self.held = self.cells.iter().filter_map(|cell| cell.value.as_ref()).map(Value::len).sum();
+        self.stored =
+            self.cells.iter().filter_map(|cell| cell.value.as_ref()).map(Value::count).sum();
         self.room(0)
     }
 
@@ -160,11 +119,11 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         Ok(Outcome { value, locals, trace_output: self.trace })
     }
 
-    fn block(&mut self, block: &'r [Statement]) -> Fallible<()> {
+    fn block(&mut self, block: &[Statement]) -> Fallible<()> {
         block.iter().try_for_each(|statement| self.statement(statement))
     }
 
-    fn statement(&mut self, statement: &'r Statement) -> Fallible<()> {
+    fn statement(&mut self, statement: &Statement) -> Fallible<()> {
         self.line = statement.line;
         if O::ACTIVE {
             self.observer.statement(&self.listing.lines[self.line]);
@@ -187,30 +146,24 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         }
     }
 
-    /// Whether the statement's condition holds; a statement without one is always admitted.
-    fn admits(&mut self, step: &'r Step) -> Fallible<bool> {
+    /// Returns whether the statement's condition is true; one without a condition always runs.
+    fn admits(&mut self, step: &Step) -> Fallible<bool> {
         let Some(condition) = step.condition() else {
             return Ok(true);
         };
-        let held = self.truth(condition)?;
+        let truth = self.truth(condition)?;
         if O::ACTIVE {
             let place = self.place(&condition.span);
-            self.observer.condition(place, held);
+            self.observer.condition(place, truth);
         }
-        if !held && self.settings.last_if == LastIf::Zero {
+        if !truth && self.settings.last_if == LastIf::Zero {
             self.last = Some(Value::Number(0.0));
         }
-        Ok(held)
+        Ok(truth)
     }
 
     /// Runs the body for each number of the range, which is fixed on entry.
-    fn repeat(
-        &mut self,
-        name: Slot,
-        from: &'r Expr,
-        to: &'r Expr,
-        body: &'r [Statement],
-    ) -> Fallible<()> {
+    fn repeat(&mut self, name: Slot, from: &Expr, to: &Expr, body: &[Statement]) -> Fallible<()> {
         let line = self.line;
         let (from, to) = (self.number(from)?, self.number(to)?);
         let step = match self.settings.descending {
@@ -227,77 +180,19 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         Ok(())
     }
 
-    /// Gives a name a value.
-    pub(super) fn store(&mut self, slot: Slot, value: Value) -> Fallible<()> {
-        let old = self.cells[slot].value.as_ref().map_or(0, Value::len);
-        self.held -= old;
-        self.room(value.len())?;
-        self.held += value.len();
-        if O::ACTIVE {
-            self.observer.write(self.access(slot, &[], &value));
+    /// Writes a value to a name or entry. The value of the statement is what was written.
+    fn assign(&mut self, target: &Reference, value: Value) -> Fallible<()> {
+        // Lets go of an array first: shared with the value of the last statement, it would be
+        // copied.
+        self.last = None;
+        match (self.subscripts(target)?, &value) {
+            (None, _) => self.store(target.name, value.clone())?,
+            (Some(subscripts), Value::Number(x)) => self.write(target, subscripts, *x)?,
+            (Some(_), other) => {
+                return Err(self.fail(&target.span, kind("a number for an entry", other)));
+            }
         }
-        self.cells[slot] = Cell { value: Some(value), local: true };
+        self.last = Some(value);
         Ok(())
-    }
-
-    /// Counts steps against the limit.
-    pub(super) fn spend(&mut self, steps: u64) -> Fallible<()> {
-        self.steps = self.steps.saturating_add(steps);
-        if self.steps > self.limits.steps {
-            return Err(self.fail_line(Cause::Limit { limit: self.limits.steps, of: "steps" }));
-        }
-        Ok(())
-    }
-
-    /// Refuses to hold more numbers than the limit allows.
-    pub(super) fn room(&self, more: usize) -> Fallible<()> {
-        if self.held.saturating_add(more) > self.limits.entries {
-            let limit = self.limits.entries as u64;
-            return Err(self.fail_line(Cause::Limit { limit, of: "numbers held at once" }));
-        }
-        Ok(())
-    }
-
-    /// What to tell an observer of a name or entry.
-    pub(super) fn access<'a>(
-        &self,
-        slot: Slot,
-        subscripts: &'a [i64],
-        value: &'a Value,
-    ) -> Access<'a>
-    where
-        'r: 'a,
-    {
-        let listing = self.listing;
-        Access {
-            line: &listing.lines[self.line],
-            name: listing.names.name(slot),
-            subscripts,
-            value,
-        }
-    }
-
-    /// An expression of the current line.
-    pub(super) fn place(&self, span: &Span) -> Place<'r> {
-        let line = &self.listing.lines[self.line];
-        Place { line, start: span.start, text: &line.text[span.clone()] }
-    }
-
-    /// The failure of an expression of the current line.
-    pub(super) fn fail(&self, span: &Span, cause: Cause) -> Box<Failure> {
-        let line = &self.listing.lines[self.line];
-        Box::new(Failure {
-            listing: self.listing.name.clone(),
-            line: line.printed,
-            column: line.text[..span.start].chars().count() + 1,
-            text: line.text[span.clone()].into(),
-            statement: line.text.clone(),
-            cause,
-        })
-    }
-
-    /// The failure of the current line as a whole.
-    fn fail_line(&self, cause: Cause) -> Box<Failure> {
-        self.fail(&(0..self.listing.lines[self.line].text.len()), cause)
     }
 }

@@ -6,61 +6,63 @@ pub enum ZeroOverZero {
     /// The division fails, as any division by zero does.
     #[default]
     Error,
-    /// The quotient is 0.
+    /// The quotient is the number 0.
     Zero,
 }
 
 /// How `a ∧ b ∧ ...` is evaluated. Not known for Mathcad 14.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Conjunction {
-    /// All operands are evaluated; any false one decides, even if another fails. With none false and one failed, the
-    /// first failure stands.
+    /// All operands are evaluated; any false one decides, even if another fails. With none false
+    /// and one failed, the first failure stands.
     #[default]
     Guarded,
-    /// From the left, up to the first false operand.
+    /// Operands are evaluated from the left, up to the first false one.
     LeftToRight,
     /// All operands are evaluated, and the first failure stands.
     Eager,
 }
 
-/// What a range with its end below its start, such as `1 .. 0`, runs through. Not known for Mathcad 14.
+/// What a range with its end below its start, such as `1 .. 0`, runs through. Not known for Mathcad
+/// 14.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Descending {
-    /// 1, then 0.
+    /// The range counts down: 1, then 0.
     #[default]
     CountsDown,
-    /// Nothing.
+    /// The range is empty, and its body does not run.
     Empty,
 }
 
-/// The value of a program whose last step is an `if` that did not hold. Not known for Mathcad 14.
+/// The value of a program whose last step is an `if` that was false. Not known for Mathcad 14.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LastIf {
-    /// The value of the statement evaluated before it.
+    /// The program has the value of the statement evaluated before it.
     #[default]
     Previous,
-    /// 0.
+    /// The program has the value 0.
     Zero,
 }
 
-/// The settings of a worksheet. The defaults are those of a blank Mathcad 14 worksheet, but for `origin`, which the
-/// paper's listings need to be 1.
+/// The settings of a worksheet. The defaults are those of a blank Mathcad 14 worksheet, but for
+/// `origin`, which the paper's listings need to be 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// `ORIGIN`, the subscript of an array's first entry.
     pub origin: i32,
-    /// `zero-over-zero`.
+    /// `zero-over-zero`, what 0/0 gives.
     pub zero_over_zero: ZeroOverZero,
-    /// `exact-boolean`: true compares bits as IEEE 754 does; false takes two numbers as equal when they differ by less
-    /// than 1e-12 of their mean, in `<` and its kin too.
+    /// `exact-boolean`: true compares as IEEE 754 does; false takes two numbers as equal when they
+    /// differ by less than 1e-12 of their mean, in `<` and its kin too.
     pub exact_boolean: bool,
-    /// Numbers below 1e-307 in magnitude count as 0 in comparisons, as Mathcad's help describes. Off: IEEE 754 alone.
+    /// Whether numbers below 1e-307 in magnitude count as 0 in comparisons, as Mathcad's help
+    /// describes; otherwise comparisons are those of IEEE 754.
     pub tiny_is_zero: bool,
-    /// How `∧` is evaluated.
+    /// The method by which `∧` is evaluated.
     pub conjunction: Conjunction,
     /// What a descending range does.
     pub descending: Descending,
-    /// The value of a program that ends in an `if` that did not hold.
+    /// The value of a program that ends in an `if` that was false.
     pub last_if: LastIf,
 }
 
@@ -78,19 +80,19 @@ impl Default for Settings {
     }
 }
 
-/// How much a listing may ask for before it is refused. Beyond a limit stands an error, never a hang, an overflowing
-/// stack or an exhausted memory.
+/// How much a listing may ask for before it is refused. Beyond a limit stands an error, never a
+/// hang, an overflowing stack or an exhausted memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
-    /// Lines of a listing.
+    /// The number of lines of a listing.
     pub lines: usize,
-    /// Characters of one line.
+    /// The number of characters of one line.
     pub characters: usize,
-    /// Levels of an expression's operators and brackets, and of blocks within blocks.
+    /// The levels of an expression's operators and brackets, and of blocks within blocks.
     pub depth: usize,
-    /// Numbers that all arrays and trace lines of a run may hold together, eight bytes each.
+    /// The numbers that all arrays and trace lines of a run may store together, eight bytes each.
     pub entries: usize,
-    /// Statements executed, plus the numbers that array operations work through.
+    /// The statements executed, plus the numbers that array operations work through.
     pub steps: u64,
 }
 

@@ -1,147 +1,109 @@
 //! The syntax tree of a listing.
 //!
-//! Names are numbered as they are read: a [`Slot`] indexes the listing's names, and a run keeps each name's value at
-//! that place.
+//! Names are numbered as they are read: a [`Slot`] indexes the listing's names, and a run keeps
+//! each name's value at that place.
 
 use std::ops::Range;
 
-/// The number of a name.
+/// The number of a name, counted from 0 in the order of first appearance.
 pub type Slot = usize;
 
 /// A statement and the line it stands on, counted from 0 through the listing's lines.
 #[derive(Clone, Debug)]
 pub struct Statement {
-    /// Which line.
     pub line: usize,
-    /// What it does.
     pub step: Step,
 }
 
-/// What a statement does.
+/// The kinds of statements, and what each is made of.
 #[derive(Clone, Debug)]
 pub enum Step {
     /// `for name ∈ from .. to`, and `if guard` for the whole loop.
     For {
-        /// The loop variable.
+        /// The loop variable, which keeps its last value.
         name: Slot,
-        /// The range's start.
         from: Expr,
-        /// The range's end.
         to: Expr,
         /// The condition under which the loop runs at all.
         guard: Option<Expr>,
-        /// The indented lines.
         body: Vec<Statement>,
     },
     /// `if condition` and a block.
-    If {
-        /// The condition.
-        condition: Expr,
-        /// The indented lines.
-        body: Vec<Statement>,
-    },
+    If { condition: Expr, body: Vec<Statement> },
     /// `target ← value if guard`.
-    Assign {
-        /// The name or entry written to.
-        target: Reference,
-        /// Its new value.
-        value: Expr,
-        /// The condition.
-        guard: Option<Expr>,
-    },
+    Assign { target: Reference, value: Expr, guard: Option<Expr> },
     /// An expression alone, `if guard`.
-    Evaluate {
-        /// The expression.
-        value: Expr,
-        /// The condition.
-        guard: Option<Expr>,
-    },
+    Evaluate { value: Expr, guard: Option<Expr> },
 }
 
 /// A name, or an entry of the array of that name.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    /// The name.
     pub name: Slot,
-    /// The first subscript.
+    /// The first subscript, if there is one.
     pub row: Option<Box<Expr>>,
-    /// The second subscript.
+    /// The second subscript, if there is one.
     pub col: Option<Box<Expr>>,
-    /// Where it stands in its line, in bytes.
     pub span: Span,
 }
 
-/// A part of a line, in bytes.
+/// A part of a line, in bytes of its text.
 pub type Span = Range<usize>;
 
-/// An expression.
+/// An expression and its place in its line.
 #[derive(Clone, Debug)]
 pub struct Expr {
-    /// What it is.
     pub kind: Kind,
-    /// Where it stands in its line, in bytes.
     pub span: Span,
 }
 
-/// The kinds of expressions.
+/// The kinds of expressions, and what each is made of.
 #[derive(Clone, Debug)]
 pub enum Kind {
-    /// A number.
     Number(f64),
-    /// A name or an entry.
     Read(Reference),
-    /// `(x)`.
+    /// An expression in round brackets, `(x)`.
     Group(Box<Expr>),
-    /// `(x   y   z)`: a row.
+    /// A row of numbers, `(x   y   z)`.
     Row(Vec<Expr>),
-    /// `|x|`.
+    /// The magnitude of a number, `|x|`.
     Magnitude(Box<Expr>),
-    /// `−x`.
+    /// The opposite of a value, `−x`.
     Negative(Box<Expr>),
-    /// `xᵀ`.
+    /// The transpose of a value, `xᵀ`.
     Transpose(Box<Expr>),
-    /// `x + y` and its kin.
+    /// A sum `x + y`, or its kin.
     Arithmetic(Operation, Box<Expr>, Box<Expr>),
-    /// `x < y` and its kin.
+    /// A comparison `x < y`, or its kin.
     Compare(Comparison, Box<Expr>, Box<Expr>),
-    /// `x ∧ y ∧ z`.
+    /// A conjunction `x ∧ y ∧ z` of two operands or more.
     All(Vec<Expr>),
-    /// `name(x, y)`.
+    /// A call of a function, `name(x, y)`.
     Call(Slot, Vec<Expr>),
 }
 
-/// The four operations.
+/// The four operations of arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// `+`
     Add,
-    /// `−`
     Subtract,
-    /// `·`
     Multiply,
-    /// `/`
     Divide,
 }
 
-/// The six comparisons.
+/// The six comparisons of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {
-    /// `=`
     Equal,
-    /// `≠`
     Unequal,
-    /// `<`
     Less,
-    /// `≤`
     LessOrEqual,
-    /// `>`
     Greater,
-    /// `≥`
     GreaterOrEqual,
 }
 
 impl Step {
-    /// The expressions on the statement's own line, in the order of the text.
+    /// Returns the expressions on the statement's own line, in the order of the text.
     pub fn expressions(&self) -> Vec<&Expr> {
         match self {
             Step::For { from, to, guard, .. } => [from, to].into_iter().chain(guard).collect(),
@@ -153,7 +115,7 @@ impl Step {
         }
     }
 
-    /// The condition of the statement, if it has one.
+    /// Returns the condition of the statement, if it has one.
     pub fn condition(&self) -> Option<&Expr> {
         match self {
             Step::If { condition, .. } => Some(condition),
@@ -165,14 +127,14 @@ impl Step {
 }
 
 impl Reference {
-    /// The subscripts: none, one or two.
+    /// Returns the subscripts: none, one or two.
     pub fn subscripts(&self) -> impl Iterator<Item = &Expr> {
         [&self.row, &self.col].into_iter().flatten().map(Box::as_ref)
     }
 }
 
 impl Operation {
-    /// How the listing writes it.
+    /// Returns the sign by which the listing writes it.
     pub fn sign(self) -> &'static str {
         match self {
             Operation::Add => "+",
@@ -184,7 +146,6 @@ impl Operation {
 }
 
 impl Comparison {
-    /// All of them.
     pub const ALL: [Comparison; 6] = [
         Comparison::Equal,
         Comparison::Unequal,
@@ -194,7 +155,7 @@ impl Comparison {
         Comparison::GreaterOrEqual,
     ];
 
-    /// How the listing writes it.
+    /// Returns the sign by which the listing writes it.
     pub fn sign(self) -> &'static str {
         match self {
             Comparison::Equal => "=",
@@ -208,7 +169,7 @@ impl Comparison {
 }
 
 impl Expr {
-    /// The expressions directly inside.
+    /// Returns the expressions directly inside.
     pub fn parts(&self) -> Vec<&Expr> {
         match &self.kind {
             Kind::Number(_) => vec![],
@@ -219,7 +180,7 @@ impl Expr {
         }
     }
 
-    /// True when expressions stand within each other more than `limit` deep.
+    /// Returns whether expressions stand within each other more than `limit` deep.
     pub fn deeper_than(&self, limit: usize) -> bool {
         limit == 0 || self.parts().into_iter().any(|part| part.deeper_than(limit - 1))
     }

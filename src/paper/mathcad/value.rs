@@ -8,20 +8,22 @@ use thiserror::Error;
 use super::array::{Column, Table};
 use crate::numbers::scalar::Scalar;
 
-/// A value of a listing. Copying one is cheap: arrays are shared until one of the copies is written to.
+/// A value of a listing. Copying one is cheap: arrays are shared until one of the copies is written
+/// to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A number.
     Number(f64),
     /// A matrix or column of numbers.
     Array(Rc<Array>),
-    /// A column of values, such as the element matrices `B`. It comes from outside; a listing can read it only.
+    /// A column of values, such as the element matrices `B`. It comes from outside; a listing can
+    /// read it only.
     Nested(Rc<[Value]>),
-    /// A string: what `trace` returns.
+    /// A string, such as `trace` returns.
     Text(Rc<str>),
 }
 
-/// A matrix of numbers, a column when `cols` is 1. Stored by rows, so that a new row does not move the others.
+/// A matrix of numbers, a column when `cols` is 1. It is stored by rows, so that a new row does not
+/// move the others.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Array {
     rows: usize,
@@ -30,43 +32,43 @@ pub struct Array {
 }
 
 impl Array {
-    /// The array whose entry in row `i` and column `j`, from 0, is `entry(i, j)`.
+    /// Makes the array whose entry in row `i` and column `j`, from 0, is `entry(i, j)`.
     pub fn from_fn(rows: usize, cols: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Self {
         let entries = (0..rows * cols).map(|k| entry(k / cols, k % cols)).collect();
         Array { rows, cols, entries }
     }
 
-    /// The column of the given numbers.
+    /// Makes the column of the given numbers.
     pub fn column(entries: Vec<f64>) -> Self {
         Array { rows: entries.len(), cols: 1, entries }
     }
 
-    /// The row of the given numbers.
+    /// Makes the row of the given numbers.
     pub fn row(entries: Vec<f64>) -> Self {
         Array { rows: 1, cols: entries.len(), entries }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Number of columns.
+    /// Returns the number of columns.
     pub fn cols(&self) -> usize {
         self.cols
     }
 
-    /// The numbers row by row.
+    /// Returns the numbers row by row.
     pub fn entries(&self) -> &[f64] {
         &self.entries
     }
 
-    /// The numbers row by row, to be changed in place.
+    /// Returns the numbers row by row, to be changed in place.
     pub fn entries_mut(&mut self) -> &mut [f64] {
         &mut self.entries
     }
 
-    /// The entry in row `i` and column `j`, from 0, if there is one.
+    /// Returns the entry in row `i` and column `j`, from 0, if there is one.
     pub fn get(&self, i: usize, j: usize) -> Option<f64> {
         (i < self.rows && j < self.cols).then(|| self.entries[i * self.cols + j])
     }
@@ -76,7 +78,7 @@ impl Array {
         self.entries[i * self.cols + j] = value;
     }
 
-    /// How many entries [`Array::grow`] would add.
+    /// Returns how many entries [`Array::grow`] would add.
     pub fn missing(&self, i: usize, j: usize) -> usize {
         if i < self.rows && j < self.cols {
             return 0;
@@ -111,22 +113,17 @@ impl Array {
 }
 
 impl Value {
-    /// How many numbers the value holds.
-    pub fn len(&self) -> usize {
+    /// Returns how many numbers the value stores, eight bytes of text counting as one.
+    pub fn count(&self) -> usize {
         match self {
             Value::Number(_) => 1,
             Value::Array(a) => a.entries.len(),
-            Value::Nested(v) => v.iter().map(Value::len).sum(),
+            Value::Nested(v) => v.iter().map(Value::count).sum(),
             Value::Text(t) => t.len() / size_of::<f64>() + 1,
         }
     }
 
-    /// True for an array without entries.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Rows and columns.
+    /// Returns the numbers of rows and columns.
     pub fn size(&self) -> (usize, usize) {
         match self {
             Value::Array(a) => (a.rows, a.cols),
@@ -135,7 +132,7 @@ impl Value {
         }
     }
 
-    /// The number, if the value is one.
+    /// Returns the number, if the value is one.
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(x) => Some(*x),
@@ -143,7 +140,7 @@ impl Value {
         }
     }
 
-    /// What the value is, for messages.
+    /// Returns what messages call the value.
     pub fn kind(&self) -> String {
         match self {
             Value::Number(x) => format!("the number {x}"),
@@ -214,7 +211,7 @@ impl From<&Column<usize>> for Value {
     }
 }
 
-/// A column of values.
+/// Collects values into a column of values.
 impl FromIterator<Value> for Value {
     fn from_iter<I: IntoIterator<Item = Value>>(values: I) -> Self {
         Value::Nested(values.into_iter().collect())
@@ -225,9 +222,8 @@ impl FromIterator<Value> for Value {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("expected {expected}, found {found}")]
 pub struct ShapeError {
-    /// The shape asked for.
     pub expected: &'static str,
-    /// What the value is.
+    /// What messages call the value.
     pub found: String,
 }
 

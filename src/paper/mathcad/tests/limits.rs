@@ -71,7 +71,7 @@ fn huge_arrays() {
     assert!(matches!(failure(&format!("v[{index}]")), Cause::IndexOutside { .. }));
 }
 
-/// The cause under small limits.
+/// Returns why the program fails under the given limits.
 fn under(limits: &Limits, body: &str) -> Cause {
     let listing = program(body);
     listing.runner(&Settings::default(), limits).call(&[Value::Number(5.0)]).unwrap_err().cause
@@ -155,7 +155,11 @@ const WORDS: [&str; 40] = [
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 2_000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn any_text_ends(words in proptest::collection::vec(0..WORDS.len(), 0..40)) {

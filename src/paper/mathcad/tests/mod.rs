@@ -5,17 +5,19 @@ mod notation;
 mod observers;
 mod paper;
 mod semantics;
+mod spelled;
 
-use super::run::Fallible;
+use super::failure::Fallible;
 use super::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
 
-/// The program of the given lines, as `f(x)`.
+/// Makes a listing `f(x)` of the given lines.
 fn program(lines: &str) -> Listing {
     let body: String = lines.lines().map(|line| format!("  {line}\n")).collect();
     Listing::parse("f", &format!("f(x) :=\n{body}")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The program's outcome under `settings`, with x = 5, the worksheet's v = (1 2 3)ᵀ, and m = (1 2; 3 4).
+/// Returns the program's outcome under `settings`, with x = 5, the worksheet's v = (1 2 3)ᵀ, and
+/// m = (1 2; 3 4).
 fn outcome(lines: &str, settings: &Settings) -> Fallible<Outcome> {
     let listing = program(lines);
     let mut worksheet = listing.runner(settings, &Limits::default());
@@ -24,17 +26,18 @@ fn outcome(lines: &str, settings: &Settings) -> Fallible<Outcome> {
     worksheet.call(&[Value::Number(5.0)])
 }
 
-/// The program's value as text, rows separated by `;`, under `settings`.
+/// Returns the program's value as text, rows separated by `;`, under `settings`.
 fn value_under(settings: &Settings, lines: &str) -> String {
     outcome(lines, settings).unwrap_or_else(|failure| panic!("{failure}")).value.to_string()
 }
 
-/// The program's value as text in a default worksheet.
+/// Returns the program's value as text in a default worksheet.
 fn value(lines: &str) -> String {
     value_under(&Settings::default(), lines)
 }
 
-/// Why the program fails, and on which line of the listing (the first line of the program is line 2).
+/// Returns why the program fails, and on which line of the listing (the first line of the program
+/// is line 2).
 fn failure_under(settings: &Settings, lines: &str) -> (usize, Cause) {
     match outcome(lines, settings) {
         Err(failure) => (failure.line, failure.cause),
@@ -42,7 +45,7 @@ fn failure_under(settings: &Settings, lines: &str) -> (usize, Cause) {
     }
 }
 
-/// Why the program fails in a default worksheet.
+/// Returns why the program fails in a default worksheet.
 fn failure(lines: &str) -> Cause {
     failure_under(&Settings::default(), lines).1
 }

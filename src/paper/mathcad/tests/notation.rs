@@ -77,7 +77,8 @@ fn errors_point_at_line_and_column() {
     assert_eq!((error.line, error.file_line, error.column), (3, 4, 10));
     assert_eq!(
         error.message,
-        "found the end of the line, expected `,` or `]` or `ᵀ` or `∧` or a comparison or an operator"
+        "found the end of the line, expected `,` or `]` or `ᵀ` or `∧` or a comparison or an \
+         operator"
     );
     let shown = error.to_string();
     assert!(shown.starts_with("f, line 3 (line 4 of the file), column 10: found"), "{shown}");

@@ -1,10 +1,10 @@
-//! Watching a run.
+//! Observers that watch a run.
 
 use super::program;
 use crate::paper::mathcad::observe::{Executed, OperandCoverage};
 use crate::paper::mathcad::{Array, Coverage, Limits, Observer, Recorder, Settings, Value};
 
-/// v = (1 2 3)ᵀ, x = 5.
+/// Runs the program with v = (1 2 3)ᵀ and x = 5.
 fn observe(lines: &str, observer: &mut impl Observer) {
     let listing = program(lines);
     let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
@@ -51,7 +51,8 @@ fn coverage_counts_lines_and_conditions() {
 #[test]
 fn coverage_tells_which_operand_decided() {
     let mut coverage = Coverage::default();
-    // i = 1: all true. i = 2: the second alone is false. i = 3: two are false, neither alone. v[0] and v[−1] fail.
+    // i = 1: all true. i = 2: the second alone is false. i = 3: two are false, neither alone. v[0]
+    // and v[−1] fail.
     observe("for i ∈ 1 .. 3\n  x > 4 ∧ i < 2 ∧ i < 3\nv[0] = 1 ∧ x < 0", &mut coverage);
     let operand =
         |text: &str, admitted, refused| OperandCoverage { text: text.into(), admitted, refused };

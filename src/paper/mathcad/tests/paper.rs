@@ -1,7 +1,7 @@
 //! The paper's two listings on scenes small enough to be worked out by hand.
 
 use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mathcad::run::Fallible;
+use crate::paper::mathcad::failure::Fallible;
 use crate::paper::mathcad::{
     Array, Cause, Conjunction, Edit, Limits, Listing, Outcome, Settings, Value,
 };
@@ -64,7 +64,8 @@ fn contact_pairs() {
     // Node 4 within the tolerance; 5 not; 6 by line 18, as yt < 0 and its neighbour's > 0.
     assert_eq!(found.locals["dy"].to_string(), "1; 0; 1");
     assert_eq!(found.trace_output, ["1", "2"]);
-    // Node 4: k1 = 1 - (5/4)/2 = 3/8, k2 = 1 - (3/4)/2 = 5/8. Node 6: k1 = 1 - (3/2)/2 = 1/4, k2 = 3/4.
+    // Node 4: k1 = 1 - (5/4)/2 = 3/8, k2 = 1 - (3/4)/2 = 5/8.
+    // Node 6: k1 = 1 - (3/2)/2 = 1/4, k2 = 3/4.
     // Node 2 is mate of both: the last number stays, the weights add up, 5/8 + 1/4 = 7/8.
     let expected = table(&[
         [4.0, 0.375, 0.0, 0.0],
@@ -108,8 +109,9 @@ fn contact_pairs_under_r5_node_n() {
     assert_eq!((pairs[(4, 2)], pairs[(4, 4)]), (0.5, 0.5));
 }
 
-/// Elements 1 (nodes 1, 2, 3) and 2 (4, 5, 6); B = [I I], so that K = Ae·[D D; D D] with the diagonal D = (E, E, E·ν):
-/// (2, 2, 1) for element 1 and 2·(4, 4, 1) = (8, 8, 2) for element 2. Restrained: equations 1 and 10.
+/// Elements 1 (nodes 1, 2, 3) and 2 (4, 5, 6); B = [I I], so that K = Ae·[D D; D D] with the
+/// diagonal D = (E, E, E·ν): (2, 2, 1) for element 1 and 2·(4, 4, 1) = (8, 8, 2) for element 2.
+/// Equations 1 and 10 are restrained.
 fn assemble(listing: &Listing) -> Table<f64> {
     let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
     let unit = Array::from_fn(3, 6, |i, j| if j % 3 == i { 1.0 } else { 0.0 });
@@ -158,8 +160,9 @@ fn assemble(listing: &Listing) -> Table<f64> {
 #[test]
 fn stiffness() {
     let stiffness = assemble(&km());
-    // Element 1, first pair: W = (7, 8, 11, 12, 11, 12), fl = 3/4, the last one's. Second pair: none.
-    // Element 2, first pair: W = (0, 2, 0, 0, 3, 4), fl = 1/4; equation 1 is restrained. Second: W = (3, 4, 0, 0, 5, 6), 3/4.
+    // Element 1, first pair: W = (7, 8, 11, 12, 11, 12), fl = 3/4, the last one's. Second pair:
+    // none. Element 2, first pair: W = (0, 2, 0, 0, 3, 4), fl = 1/4; equation 1 is restrained.
+    // Second: W = (3, 4, 0, 0, 5, 6), 3/4.
     let upper = [
         (1, 1, 1.0),                // restrained
         (2, 2, 2.0 + 8.0 * 0.25),   // element 1; 2 as mate, first pair
@@ -194,7 +197,7 @@ fn stiffness() {
 fn stiffness_under_r2_printed() {
     let stiffness =
         assemble(&under(include_str!("../../../../listings/readings/R2-printed.edit"), &km()));
-    // Equation 1 stays free: K[1,1] of element 1. Equation 10 holds 9 too.
+    // Equation 1 stays free: K[1,1] of element 1. With 10, 9 is restrained.
     assert_eq!((stiffness[(1, 1)], stiffness[(1, 4)]), (2.0, 2.0));
     assert_eq!((stiffness[(9, 9)], stiffness[(9, 12)]), (1.0, 0.0));
 }

@@ -276,7 +276,8 @@ fn arrays_of_arrays_are_read() {
 
 #[test]
 fn every_operation_rounds_on_its_own() {
-    // A fused multiply-add would give 2^-54 - 2^-108 ... of the exact square instead of the rounded one's 0.
+    // A fused multiply-add would give 2^-54 - 2^-108 ... of the exact square instead of the rounded
+    // one's 0.
     let lines = "y ← 1 + 1 / 134217728\ny·y − (1 + 2 / 134217728)";
     assert_eq!(value(lines), "0");
     // 0.1 + 0.2 + 0.3 from the left is 0.6000000000000001, from the right 0.6.

@@ -2,16 +2,17 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::listing::Listing;
-use super::syntax::{Expr, Kind, Reference, Slot, Statement, Step};
+use crate::paper::mathcad::Listing;
+use crate::paper::mathcad::syntax::{Expr, Kind, Reference, Slot, Statement, Step};
 
 impl Listing {
-    /// The listing as its syntax tree spells it: what was understood, for comparison with what was printed.
-    pub fn spelled(&self) -> String {
+    /// Returns the listing as its syntax tree spells it: what was understood, for comparison with
+    /// what was printed.
+    pub(super) fn spelled(&self) -> String {
         let parameters: Vec<_> =
-            self.header.parameters.iter().map(|&slot| self.names.name(slot)).collect();
-        let mut text =
-            format!("{}({}) :=\n", self.names.name(self.header.name), parameters.join(", "));
+            self.parameters.iter().map(|&slot| self.names.name(slot)).collect();
+        // The function's name is the first that a listing writes.
+        let mut text = format!("{}({}) :=\n", self.names.name(0), parameters.join(", "));
         self.block(&self.program, 1, &mut text);
         text
     }

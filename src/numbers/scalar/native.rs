@@ -1,0 +1,44 @@
+//! The machine's own numbers as scalars and subscripts.
+
+use super::number::{Scalar, Subscript};
+
+impl Subscript for usize {
+    fn at(self) -> usize {
+        self
+    }
+}
+
+impl Subscript for f64 {
+    fn at(self) -> usize {
+        debug_assert!(self >= 0.0 && self.fract() == 0.0, "{self} is no subscript");
+        self as usize
+    }
+}
+
+impl Subscript for f32 {
+    fn at(self) -> usize {
+        f64::from(self).at()
+    }
+}
+
+/// Implements [`Scalar`] for a float of the machine.
+macro_rules! native {
+    ($($float:ident),+) => {
+        $(impl Scalar for $float {
+            fn from_f64(x: f64) -> Self {
+                x as $float
+            }
+            fn to_f64(self) -> f64 {
+                self.into()
+            }
+            fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
+                (factor.sqrt() * (scale * square.sqrt())).into()
+            }
+            fn hypot(self, other: Self) -> f64 {
+                $float::hypot(self, other).into()
+            }
+        })+
+    };
+}
+
+native!(f32, f64);

@@ -1,0 +1,123 @@
+//! What the mirror asks of a number.
+
+use std::fmt::{Debug, Display};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use dashu_ratio::RBig;
+use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign};
+use num_traits::{One, Zero};
+
+/// What may stand in a subscript: a whole number, or a number of a table that contains one
+/// (`k_cnt` has node numbers beside weights).
+pub trait Subscript: Copy {
+    /// Returns the subscript as a whole number.
+    fn at(self) -> usize;
+}
+
+/// What the listings ask of a number: `+ − · /`, comparison, absolute value, min and max. No
+/// square root and nothing transcendental, so that `f32`, `f64` and exact rationals all serve. The
+/// square roots of norms are taken on the way out, to `f64`.
+pub trait Scalar:
+    Subscript
+    + Debug
+    + Display
+    + PartialOrd
+    + Zero
+    + One
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + nalgebra::Scalar
+{
+    /// Returns the scalar nearest to `x`.
+    fn from_f64(x: f64) -> Self;
+
+    /// Returns the `f64` nearest to the scalar.
+    fn to_f64(self) -> f64;
+
+    /// Returns the scalar nearest to the shortest decimal that reads back to `x`: 0.1 for 0.1, not
+    /// the dyadic number beside it.
+    fn from_decimal(x: f64) -> Self {
+        Self::from_f64(x)
+    }
+
+    /// Returns the exact value, or nothing for an infinity or NaN.
+    fn to_rational(self) -> Option<RBig> {
+        RBig::try_from(self.to_f64()).ok()
+    }
+
+    /// Returns `values` as numerators over one common denominator, where that is cheaper to
+    /// compute with; otherwise themselves, over 1.
+    fn over_common(values: Vec<Self>) -> (Vec<Self>, Self) {
+        (values, Self::one())
+    }
+
+    /// Returns whether the two are the same in all that comes of them.
+    fn same(self, other: Self) -> bool {
+        self == other
+    }
+
+    /// Returns the number in decimal with all the digits that are worth having, or nothing where
+    /// its `f64` has them.
+    fn digits(self) -> Option<String> {
+        None
+    }
+
+    /// Returns a bound on the error of the number, or nothing where none is kept.
+    fn error_bound(self) -> Option<f64> {
+        None
+    }
+
+    /// Returns what numbers up to `largest` are divided by before they are squared: 1 where no
+    /// square overflows.
+    fn scale(largest: Self) -> Self {
+        largest
+    }
+
+    /// Returns sqrt(factor) · scale · sqrt(square), as near as the scalar allows; `scale` keeps
+    /// `square` from overflow.
+    fn scaled_root(factor: Self, scale: Self, square: Self) -> f64;
+
+    /// Returns sqrt(self² + other²), as near as the scalar allows.
+    fn hypot(self, other: Self) -> f64 {
+        let largest = Scalar::max(Scalar::abs(self), Scalar::abs(other));
+        if largest == Self::zero() {
+            return 0.0;
+        }
+        let scale = Self::scale(largest);
+        let (a, b) = (self / scale, other / scale);
+        Self::scaled_root(Self::one(), scale, a * a + b * b)
+    }
+
+    /// Returns a whole number of the paper's tables (a node or element number, a restraint) as a
+    /// scalar.
+    fn from_number(n: usize) -> Self {
+        Self::from_f64(n as f64)
+    }
+
+    /// Returns |x|, which is 0 for −0.
+    fn abs(self) -> Self {
+        if self > Self::zero() { self } else { Self::zero() - self }
+    }
+
+    /// Returns the smaller of the two, and `self` where one is NaN.
+    fn min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+
+    /// Returns the larger of the two, and `self` where one is NaN.
+    fn max(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+
+    /// Returns false for an overflow (∞ − ∞ is not 0) and for NaN.
+    #[allow(clippy::eq_op, reason = "∞ − ∞ and NaN − NaN are the test")]
+    fn is_finite(self) -> bool {
+        self - self == Self::zero()
+    }
+}

@@ -1,0 +1,59 @@
+//! What the factorisations of a matrix share.
+
+use faer::MatRef;
+use faer::linalg::solvers::Solve;
+use faer::traits::RealField;
+use nalgebra::DVector;
+
+use crate::numbers::scalar::Scalar;
+
+/// A scalar of the machine, which faer computes with.
+pub trait Native: Scalar + RealField {
+    /// The distance of 1 from the next larger number.
+    const EPSILON: f64;
+}
+
+impl Native for f64 {
+    const EPSILON: f64 = f64::EPSILON;
+}
+
+impl Native for f32 {
+    const EPSILON: f64 = f32::EPSILON as f64;
+}
+
+/// The factors of a square matrix A.
+pub trait Factors<T> {
+    /// Returns the solution x of A x = `b`.
+    fn solve(&self, b: &DVector<T>) -> DVector<T>;
+}
+
+/// A column whose pivot vanished: the matrix has no unique solution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Singular {
+    /// The column, counted from 0.
+    pub column: usize,
+    pub pivot: f64,
+}
+
+/// Solves with factors that faer computed.
+pub fn solve<T: Native>(factors: &impl Solve<T>, b: &DVector<T>) -> DVector<T> {
+    let x = factors.solve(MatRef::from_column_major_slice(b.as_slice(), b.len(), 1));
+    DVector::from_fn(b.len(), |i, _| x[(i, 0)])
+}
+
+/// Returns the largest |x|, NaN left out.
+pub fn largest<'a, T: Scalar>(numbers: impl Iterator<Item = &'a T>) -> f64 {
+    numbers.fold(0.0, |largest, x| largest.max(Scalar::abs(*x).to_f64()))
+}
+
+/// Returns |r| / (`norm` |x| + |b|) in the largest-entry norm, 0 where r is 0: Rigal and Gaches'
+/// normwise backward error.
+pub fn backward_error<T: Scalar>(
+    residual: &DVector<T>,
+    norm: f64,
+    x: &DVector<T>,
+    b: &DVector<T>,
+) -> f64 {
+    let residual = largest(residual.iter());
+    if residual == 0.0 { 0.0 } else { residual / (norm * largest(x.iter()) + largest(b.iter())) }
+}

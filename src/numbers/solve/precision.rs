@@ -1,0 +1,221 @@
+//! The solution of A x = b in each scalar by each solver.
+//!
+//! | | `f32` | `f64`, `f64-bounded` | `f64x2` | `exact` |
+//! |---|---|---|---|---|
+//! | `dense-lu` | faer | faer | own | own |
+//! | `dense-cholesky` | faer | faer | - | - |
+//! | `sparse-cholesky` | faer | faer | LDLᵀ | LDLᵀ modulo a prime, lifted |
+//! | `cg` | to `tol` | to `tol` | to `tol` | - |
+//! | `refined` | - | factors in f32 | factors in f64 | - |
+
+use dashu_ratio::RBig;
+use nalgebra::{DMatrix, DVector};
+use num_traits::Zero;
+
+use super::arithmetic::Solver;
+use super::dense::{DenseCholesky, DenseLu};
+use super::error_bound::error_bound;
+use super::factors::{Factors, Native, Singular};
+use super::field::Field;
+use super::iterative::{NotConverged, conjugate_gradients, refine};
+use super::ldlt::Ldlt;
+use super::lifting::lift;
+use super::lu::solve_dense;
+use super::sparse::{SparseCholesky, SparseSymmetric};
+use crate::numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
+
+/// A solution of A x = b.
+#[derive(Clone, Debug)]
+pub struct Solved<T> {
+    pub x: DVector<T>,
+    /// The relative residual |A x − b| / (|A| |x| + |b|), exactly 0 of an exact solution.
+    pub residual: f64,
+}
+
+/// Why A x = b was not solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Unsolved {
+    /// A has no unique solution, or is too near to such a matrix.
+    Singular(Singular),
+    /// An iteration stopped short of its tolerance.
+    NotConverged(NotConverged),
+}
+
+impl From<Singular> for Unsolved {
+    fn from(singular: Singular) -> Self {
+        Unsolved::Singular(singular)
+    }
+}
+
+impl From<NotConverged> for Unsolved {
+    fn from(not_converged: NotConverged) -> Self {
+        Unsolved::NotConverged(not_converged)
+    }
+}
+
+/// A scalar that systems of equations are solved in.
+pub trait Precision: Scalar {
+    /// Solves A x = `b` by `solver`, which [`check`](super::arithmetic::Arithmetic::check) must
+    /// have passed; every solver but `dense-lu` takes A for symmetric and reads its lower triangle.
+    ///
+    /// # Errors
+    /// Tells that A is singular, or that an iteration did not converge.
+    fn solve(
+        matrix: DMatrix<Self>,
+        b: &DVector<Self>,
+        solver: Solver,
+        tol: Option<f64>,
+    ) -> Result<Solved<Self>, Unsolved>;
+
+    /// Does `work`, and frees every number that it made but its result.
+    fn sweep<E>(work: impl FnOnce() -> Result<Solved<Self>, E>) -> Result<Solved<Self>, E> {
+        work()
+    }
+}
+
+/// The tolerance where none is given, in units of the scalar's epsilon.
+const TOL: f64 = 16.0;
+
+impl Precision for f64 {
+    fn solve(
+        matrix: DMatrix<f64>,
+        b: &DVector<f64>,
+        solver: Solver,
+        tol: Option<f64>,
+    ) -> Result<Solved<f64>, Unsolved> {
+        match solver {
+            Solver::Refined => {
+                let tol = tol.unwrap_or(TOL * f64::EPSILON);
+                refined::<f32, f64>(&SparseSymmetric::of_lower(&matrix), b, tol)
+            }
+            _ => native(matrix, b, solver, tol),
+        }
+    }
+}
+
+impl Precision for f32 {
+    fn solve(
+        matrix: DMatrix<f32>,
+        b: &DVector<f32>,
+        solver: Solver,
+        tol: Option<f64>,
+    ) -> Result<Solved<f32>, Unsolved> {
+        native(matrix, b, solver, tol)
+    }
+}
+
+impl Precision for Bounded {
+    /// Solves as in `f64`, digit for digit; every entry of x carries the bound on the largest error
+    /// of an entry.
+    fn solve(
+        matrix: DMatrix<Bounded>,
+        b: &DVector<Bounded>,
+        solver: Solver,
+        tol: Option<f64>,
+    ) -> Result<Solved<Bounded>, Unsolved> {
+        let (values, f) = (matrix.map(Scalar::to_f64), b.map(Scalar::to_f64));
+        let (factors, solved): (Box<dyn Factors<f64>>, _) = if solver == Solver::DenseLu {
+            let lu = DenseLu::new(values)?;
+            let x = lu.solve(&f);
+            let residual = lu.residual(&x, &f);
+            (Box::new(lu), Solved { x, residual })
+        } else {
+            let factors = SparseCholesky::new(SparseSymmetric::of_lower(&values))?;
+            (Box::new(factors), f64::solve(values, &f, solver, tol)?)
+        };
+        let column = |j: usize| matrix.column(j).into_iter().enumerate();
+        let entries = (0..b.len()).flat_map(|j| column(j).map(move |(i, a)| (i, j, *a)));
+        let entries = entries.filter(|(_, _, a)| !a.is_zero());
+        let error = error_bound(&*factors, entries, b, &solved.x);
+        Ok(Solved { x: solved.x.map(|x| Bounded::new(x, error)), residual: solved.residual })
+    }
+}
+
+impl Precision for F64x2 {
+    fn solve(
+        matrix: DMatrix<F64x2>,
+        b: &DVector<F64x2>,
+        solver: Solver,
+        tol: Option<f64>,
+    ) -> Result<Solved<F64x2>, Unsolved> {
+        let tol = tol.unwrap_or(TOL * <F64x2 as Field>::EPSILON);
+        let sparse = SparseSymmetric::of_lower(&matrix);
+        let x = match solver {
+            Solver::Refined => return refined::<f64, F64x2>(&sparse, b, tol),
+            Solver::Cg => conjugate_gradients(&sparse, b, tol)?,
+            Solver::DenseLu => {
+                DVector::from_vec(solve_dense(|i, j| matrix[(i, j)], b.as_slice().to_vec())?)
+            }
+            _ => DVector::from_vec(Ldlt::new(&sparse)?.solve(b.as_slice())),
+        };
+        Ok(Solved { residual: sparse.residual(&x, b), x })
+    }
+}
+
+impl Precision for Exact {
+    fn solve(
+        matrix: DMatrix<Exact>,
+        b: &DVector<Exact>,
+        solver: Solver,
+        _: Option<f64>,
+    ) -> Result<Solved<Exact>, Unsolved> {
+        // On the rationals themselves: every intermediate one is freed at once.
+        let value = |x: Exact| x.to_rational().expect("the matrix is finite");
+        let b: Vec<RBig> = b.iter().map(|x| value(*x)).collect();
+        let x = match solver {
+            Solver::DenseLu => solve_dense(|i, j| value(matrix[(i, j)]), b)?,
+            _ => {
+                let matrix = SparseSymmetric::of_lower(&matrix).map(|x| value(*x));
+                match lift(&matrix, &b) {
+                    Some(x) => x,
+                    // The prime was an unlucky one, or the matrix is singular: LDLᵀ names the
+                    // pivot.
+                    None => Ldlt::new(&matrix)?.solve(&b),
+                }
+            }
+        };
+        let x = DVector::from_iterator(x.len(), x.into_iter().map(Exact::new));
+        Ok(Solved { x, residual: 0.0 })
+    }
+
+    fn sweep<E>(work: impl FnOnce() -> Result<Solved<Exact>, E>) -> Result<Solved<Exact>, E> {
+        let (x, residual) = scope(|| {
+            let value = |x: &Exact| x.to_rational().expect("a solution is finite");
+            work().map(|solved| (solved.x.iter().map(value).collect::<Vec<_>>(), solved.residual))
+        })?;
+        let x = DVector::from_iterator(x.len(), x.into_iter().map(Exact::new));
+        Ok(Solved { x, residual })
+    }
+}
+
+/// Solves in a scalar of the machine by faer, or by conjugate gradients.
+fn native<T: Native>(
+    matrix: DMatrix<T>,
+    b: &DVector<T>,
+    solver: Solver,
+    tol: Option<f64>,
+) -> Result<Solved<T>, Unsolved> {
+    if solver == Solver::DenseLu {
+        let lu = DenseLu::new(matrix)?;
+        let x = lu.solve(b);
+        return Ok(Solved { residual: lu.residual(&x, b), x });
+    }
+    let sparse = SparseSymmetric::of_lower(&matrix);
+    let x = match solver {
+        Solver::DenseCholesky => DenseCholesky::new(&matrix)?.solve(b),
+        Solver::Cg => conjugate_gradients(&sparse, b, tol.unwrap_or(TOL * T::EPSILON))?,
+        _ => SparseCholesky::new(sparse.clone())?.solve(b),
+    };
+    Ok(Solved { residual: sparse.residual(&x, b), x })
+}
+
+/// Solves by sparse Cholesky factors in L, refined by residuals in T.
+fn refined<L: Native, T: Scalar>(
+    matrix: &SparseSymmetric<T>,
+    b: &DVector<T>,
+    tol: f64,
+) -> Result<Solved<T>, Unsolved> {
+    let factors = SparseCholesky::new(matrix.map(|x| L::from_f64(x.to_f64())))?;
+    let x = refine(&factors, matrix, b, tol)?;
+    Ok(Solved { residual: matrix.residual(&x, b), x })
+}

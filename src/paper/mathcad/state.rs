@@ -1,0 +1,118 @@
+//! The state of a run: the values of its names, its current line, and how much of the limits it has
+//! used.
+
+use super::failure::{Cause, Failure, Fallible};
+use super::function::Function;
+use super::listing::Listing;
+use super::observe::Place;
+use super::settings::{Limits, Settings};
+use super::syntax::{Slot, Span};
+use super::value::Value;
+
+/// A name's value, and whether the program wrote it.
+pub struct Cell {
+    pub value: Option<Value>,
+    pub local: bool,
+}
+
+/// The state of one call of a listing.
+pub struct Run<'r, 'l, O> {
+    pub listing: &'r Listing,
+    pub settings: &'r Settings,
+    limits: &'r Limits,
+    /// The cell of each name, by its slot.
+    pub cells: Vec<Cell>,
+    /// The function of each name, by its slot.
+    pub functions: &'r mut [Option<Function<'l>>],
+    pub observer: &'r mut O,
+    /// The current line, counted from 0 through the listing's lines.
+    pub line: usize,
+    /// Steps taken, which `limits.steps` bounds.
+    steps: u64,
+    /// Numbers stored by all names and trace lines, which `limits.entries` bounds.
+    pub stored: usize,
+    /// The value of the last statement evaluated.
+    pub last: Option<Value>,
+    /// What `trace` wrote, a line for each call.
+    pub trace: Vec<String>,
+}
+
+impl<'r, 'l, O> Run<'r, 'l, O> {
+    /// Begins a run on the first line; `values` and `functions` are what the worksheet defines.
+    pub fn new(
+        listing: &'r Listing,
+        settings: &'r Settings,
+        limits: &'r Limits,
+        values: &[Option<Value>],
+        functions: &'r mut [Option<Function<'l>>],
+        observer: &'r mut O,
+    ) -> Self {
+        let cell = |value: &Option<Value>| Cell { value: value.clone(), local: false };
+        Run {
+            listing,
+            settings,
+            limits,
+            cells: values.iter().map(cell).collect(),
+            functions,
+            observer,
+            line: 0,
+            steps: 0,
+            stored: 0,
+            last: None,
+            trace: vec![],
+        }
+    }
+
+    /// Counts `steps` against the limit.
+    pub fn spend(&mut self, steps: u64) -> Fallible<()> {
+        self.steps = self.steps.saturating_add(steps);
+        if self.steps > self.limits.steps {
+            return Err(self.fail_line(Cause::Limit { limit: self.limits.steps, of: "steps" }));
+        }
+        Ok(())
+    }
+
+    /// Checks that `more` numbers can be stored within the limit.
+    pub fn room(&self, more: usize) -> Fallible<()> {
+        if self.stored.saturating_add(more) > self.limits.entries {
+            let limit = self.limits.entries as u64;
+            return Err(self.fail_line(Cause::Limit { limit, of: "numbers held at once" }));
+        }
+        Ok(())
+    }
+
+    /// Checks that there is room for the numbers of a new value, and takes a step for each.
+    pub fn afford(&mut self, numbers: usize) -> Fallible<()> {
+        self.room(numbers)?;
+        self.spend(numbers as u64)
+    }
+
+    /// Returns where an expression of the current line stands.
+    pub fn place(&self, span: &Span) -> Place<'r> {
+        let line = &self.listing.lines[self.line];
+        Place { line, start: span.start, text: &line.text[span.clone()] }
+    }
+
+    /// Returns the failure of an expression of the current line.
+    pub fn fail(&self, span: &Span, cause: Cause) -> Box<Failure> {
+        let Place { line, start, text } = self.place(span);
+        Box::new(Failure {
+            listing: self.listing.name.clone(),
+            line: line.printed,
+            column: line.text[..start].chars().count() + 1,
+            text: text.into(),
+            statement: line.text.clone(),
+            cause,
+        })
+    }
+
+    /// Returns the failure of the current line as a whole.
+    pub fn fail_line(&self, cause: Cause) -> Box<Failure> {
+        self.fail(&(0..self.listing.lines[self.line].text.len()), cause)
+    }
+
+    /// Returns the failure of a name that has no value, or no function.
+    pub fn undefined(&self, slot: Slot, span: &Span) -> Box<Failure> {
+        self.fail(span, Cause::Undefined { name: self.listing.names.name(slot).into() })
+    }
+}
