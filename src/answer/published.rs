@@ -199,25 +199,20 @@ impl<'a, T: Precision> Run<'a, T> {
         self.search_by(rule, node_n)
     }
 
-    /// Searches contact by a rule that is not the listing's: it decides in f64, and so are the weights of eq. (1).
+    /// Searches contact by a rule that is not the listing's.
     fn search_by(&self, rule: StatusRule, node_n: Table<T>) -> Result<Found<T>, Error> {
         let (model, reading) = (self.model, &self.request.reading);
-        let shape = door::shape(&node_n);
-        let statuses = status::statuses(rule, model, reading, &shape)?;
-        let weights_from = match reading.r5 {
-            NodeTable::Node => &model.nodes,
-            NodeTable::NodeN => &shape,
-        };
+        let statuses = status::statuses(rule, model, self.sheet, reading, &node_n)?;
+        let weights_from = door::weights_from(self.sheet, reading, &node_n);
+        let places = status::places(model, &statuses, |n| door::place(weights_from, n)[0])?;
         let mut linked: Vec<NodeToSegment<T>> = Vec::new();
-        for place in status::places(model, &statuses, |n| weights_from[n.index()][0])? {
+        for place in &places {
             if linked.iter().all(|other| other.node != place.node) {
-                linked.push(place.map(T::from_f64));
+                linked.push(*place);
             }
         }
-        let node = door::weights_from(self.sheet, reading, &node_n);
-        let places = status::places(model, &statuses, |n| node[(n.number(), 2)])?;
         let constraints = self.constraints(linked, &node_n);
-        let pairs = door::pairs(model, &statuses).map(T::from_f64);
+        let pairs = door::pairs(model, &statuses);
         Ok(Found { node_n, pairs, constraints, places })
     }
 

@@ -111,10 +111,14 @@ pub fn moved<T: Scalar>(sheet: &Worksheet<T>, u: &DVector<T>) -> Table<T> {
     node_n
 }
 
+/// The coordinates of a node in the shape of a node table.
+pub fn place<T: Scalar>(node_n: &Table<T>, node: NodeId) -> [T; 2] {
+    [2, 3].map(|column| node_n[(node.number(), column)])
+}
+
 /// The coordinates of each node in the shape of a node table.
 pub fn shape<T: Scalar>(node_n: &Table<T>) -> Vec<[f64; 2]> {
-    let place = |n: usize| [2, 3].map(|column| node_n[(n, column)].to_f64());
-    (1..=node_n.rows()).map(place).collect()
+    NodeId::all(node_n.rows()).map(|node| place(node_n, node).map(T::to_f64)).collect()
 }
 
 /// `Km` without contact and without restraints: 2R x 2R, force/length.
@@ -158,8 +162,8 @@ pub fn statuses<T: Scalar>(model: &Model, pairs: &Pairs<T>) -> Vec<ContactStatus
 }
 
 /// Statuses that another rule than the listing's decided, in the listing's arrays; `k_cnt` stays 0.
-pub fn pairs(model: &Model, statuses: &[ContactStatus]) -> Pairs<f64> {
-    let number = |status: &ContactStatus| status.edge.map_or(0, |edge| model.edge(edge).number);
+pub fn pairs<T: Scalar>(model: &Model, statuses: &[ContactStatus<T>]) -> Pairs<T> {
+    let number = |status: &ContactStatus<T>| status.edge.map_or(0, |edge| model.edge(edge).number);
     Pairs {
         ct: Column::from_vec(statuses.iter().map(number).collect()),
         yt: Column::from_vec(statuses.iter().map(|status| status.distance).collect()),

@@ -9,6 +9,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::pairing::{Pairing, Vector, dot};
+use super::search::{Closest, closest};
 use super::surface::{Placed, Surfaces};
 use crate::problem::model::NodeId;
 
@@ -25,6 +26,7 @@ const HANGING: f64 = 0.05;
 /// For each entry of the contact surface its closest point on the nearest target edge.
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
     let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
+    let segments = surfaces.segments(shape);
     let normals = normals(surfaces, &target);
     let free = surfaces.free_ends();
     let tributary = surfaces.tributary(shape);
@@ -32,47 +34,29 @@ pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pair
     let entries = surfaces.nodes.iter().zip(tributary);
     entries
         .map(|(&node, length)| {
-            let facing = (0..target.len()).filter(|&k| surfaces.face(node, k));
-            let candidates = facing.map(|k| (k, &target[k], free[k]));
-            let closest =
-                nearest(candidates, shape[node.index()]).filter(|_| listed.insert(node))?;
-            let edge = &surfaces.target[closest.edge];
-            let xi = closest.along.clamp(0.0, 1.0);
-            let [a, b] = normals[closest.edge];
+            let p = shape[node.index()];
+            let facing = segments.iter().enumerate().filter(|(k, _)| surfaces.face(node, *k));
+            let rests = |k: usize, closest: &Closest<f64>| rests(closest, free[k]);
+            let (k, _) = closest(facing, p, rests).filter(|_| listed.insert(node))?;
+            let (edge, placed) = (&surfaces.target[k], &target[k]);
+            let xi = placed.along(p).clamp(0.0, 1.0);
+            let [a, b] = normals[k];
             let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
             let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
-            let gap = closest.outside * dot(normal, target[closest.edge].normal);
+            let gap = placed.outside(p) * dot(normal, placed.normal);
             let edge = edge.id.expect("a target edge is one of the model's");
             Some(Pairing { node, edge, masters, normal, gap, length })
         })
         .collect()
 }
 
-/// The point of an edge closest to a point.
-struct Closest {
-    edge: usize,
-    along: f64,
-    outside: f64,
-}
-
-/// The closest point on the nearest of `candidates`: edges, and which of their ends end the surface. None where the point has passed the end of the
-/// surface: where it lies further beyond an edge than away from it.
-fn nearest<'a>(
-    candidates: impl Iterator<Item = (usize, &'a Placed, [bool; 2])>,
-    p: Vector,
-) -> Option<Closest> {
-    let mut nearest: Option<(f64, Closest)> = None;
-    for (edge, placed, free) in candidates {
-        let (along, outside) = (placed.along(p), placed.outside(p));
-        let beyond = (along - along.clamp(0.0, 1.0)).abs() * placed.length;
-        let distance = outside.hypot(beyond);
-        let past = if free[usize::from(along > 0.5)] { HANGING } else { ROUNDING };
-        let on_it = beyond <= outside.abs() || beyond <= past * placed.length;
-        if on_it && nearest.as_ref().is_none_or(|(least, _)| distance < *least) {
-            nearest = Some((distance, Closest { edge, along, outside }));
-        }
-    }
-    nearest.map(|(_, closest)| closest)
+/// Whether a node rests on an edge whose closest point is this; `free`: which of the edge's ends end the surface. It does not where it
+/// has passed the edge's end: where it lies further past the end than away from the edge's line, and further than the rule for that
+/// end allows.
+fn rests(closest: &Closest<f64>, free: [bool; 2]) -> bool {
+    let past = closest.past();
+    past <= closest.side.abs() / closest.square
+        || past <= if free[closest.end()] { HANGING } else { ROUNDING }
 }
 
 /// The normals at the two nodes of each target edge: the mean over the edges that meet there, where they meet in a bend.

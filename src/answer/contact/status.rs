@@ -21,56 +21,39 @@
 //! What the remedy cannot see: a node whose elements have sunk in whole (no side of theirs is cut), and a node beside the target
 //! whose side runs through the target's flank, which is no target edge, and out through the surface.
 
-use super::nearest::{Edge, TargetSurface, orient};
-use super::operations::Operations;
+use super::search::{Closest, Segment, closest};
 use crate::numbers::scalar::Scalar;
 use crate::paper::door::{self, ContactStatus, NodeToSegment};
-use crate::paper::mirror::{Failure, Order, Reading, c_cnt};
-use crate::problem::model::{Model, NodeId};
+use crate::paper::mathcad::array::Table;
+use crate::paper::mirror::{Failure, Order, Reading, Worksheet, c_cnt};
+use crate::problem::model::{EdgeId, Model, NodeId};
 use crate::problem::modelling::StatusRule;
 
-/// Who is in contact in a shape, the coordinates of each node, by `rule`.
+/// Who is in contact in the shape `node_n` (R x 4), by `rule`. `sheet`: the tables of `model` in T.
 ///
-/// Under *signs* edges and distances are `c_cnt`'s. Under *intersection* too, and where it found no edge for a node in contact, the edge is
-/// the nearest. Under *projection* the edge is the nearest one, none past the surface's end, and the distance minus the signed distance to
-/// it: > 0 inside the target.
+/// Under *signs* edges and distances are `c_cnt`'s. Under *intersection* too, and where it found no edge for a node in contact, the
+/// edge is the nearest. Under *projection* the edge is the nearest one, none past the surface's end, and the distance minus the signed
+/// distance to it: > 0 inside the target.
 ///
 /// # Errors
 /// Where the lines of `c_cnt` that the rule keeps fail as printed: all of them under *signs*, 1 to 16 under *intersection*.
-pub fn statuses(
+pub fn statuses<T: Scalar>(
     rule: StatusRule,
     model: &Model,
+    sheet: &Worksheet<T>,
     reading: &Reading,
-    shape: &[[f64; 2]],
-) -> Result<Vec<ContactStatus>, Failure> {
-    statuses_counted(rule, model, reading, shape, &Operations::default())
-}
-
-/// The same, counting the operations beside those of `c_cnt`.
-///
-/// # Errors
-/// Those of [`statuses`].
-pub fn statuses_counted(
-    rule: StatusRule,
-    model: &Model,
-    reading: &Reading,
-    shape: &[[f64; 2]],
-    operations: &Operations,
-) -> Result<Vec<ContactStatus>, Failure> {
-    let printed = |reading: &Reading| {
-        let sheet = door::worksheet(model, |x| x);
-        let pairs = c_cnt(&sheet, reading, &door::node_n(model, shape))?;
-        Ok(door::statuses(model, &pairs))
-    };
-    let surface = || TargetSurface::new(model, shape);
+    node_n: &Table<T>,
+) -> Result<Vec<ContactStatus<T>>, Failure> {
+    let printed = |reading: &Reading| Ok(door::statuses(model, &c_cnt(sheet, reading, node_n)?));
+    let target = || Target::new(model, node_n);
     match rule {
         StatusRule::Signs => printed(reading),
         StatusRule::Intersection => {
             // The sign rule takes no part: a false operand keeps its lines from failing.
             let printed = printed(&Reading { r4: Order::Guarded, ..*reading })?;
-            Ok(by_intersection(model, shape, &surface(), printed, operations))
+            Ok(by_intersection(model, &target(), sheet.c_tll, node_n, printed))
         }
-        StatusRule::Projection => Ok(by_projection(model, shape, &surface(), operations)),
+        StatusRule::Projection => Ok(by_projection(model, &target(), sheet.c_tll, node_n)),
     }
 }
 
@@ -81,7 +64,7 @@ pub fn statuses_counted(
 /// Where line 22 fails as printed: the weights of a vertical edge.
 pub fn places<T: Scalar>(
     model: &Model,
-    statuses: &[ContactStatus],
+    statuses: &[ContactStatus<T>],
     x: impl Fn(NodeId) -> T,
 ) -> Result<Vec<NodeToSegment<T>>, Failure> {
     let in_contact = statuses.iter().enumerate().filter(|(_, status)| status.in_contact);
@@ -101,37 +84,64 @@ pub fn places<T: Scalar>(
         .collect()
 }
 
-fn by_intersection(
+/// The target edges in a shape.
+struct Target<T> {
+    /// Those that bound a triangle: it tells their inner side.
+    edges: Vec<TargetEdge>,
+    segments: Vec<Segment<T>>,
+}
+
+struct TargetEdge {
+    id: EdgeId,
+    /// Ends that no other target edge shares.
+    free: [bool; 2],
+}
+
+impl<T: Scalar> Target<T> {
+    fn new(model: &Model, node_n: &Table<T>) -> Self {
+        let shared =
+            |node: NodeId| model.target_edges().filter(|e| e.nodes.contains(&node)).count();
+        let edge = |id: &EdgeId| {
+            let nodes = model.sides.beside(model.edge(*id).nodes).first()?.nodes;
+            let ends = nodes.map(|node| door::place(node_n, node));
+            let free = nodes.map(|node| shared(node) == 1);
+            Some((TargetEdge { id: *id, free }, Segment::new(ends)))
+        };
+        let (edges, segments) = model.contact.target.iter().filter_map(edge).unzip();
+        Target { edges, segments }
+    }
+
+    /// The edge nearest to `p` and its closest point.
+    fn nearest(&self, p: [T; 2]) -> Option<(&TargetEdge, Closest<T>)> {
+        let (k, closest) = closest(self.segments.iter().enumerate(), p, |_, _| true)?;
+        Some((&self.edges[k], closest))
+    }
+}
+
+fn by_intersection<T: Scalar>(
     model: &Model,
-    shape: &[[f64; 2]],
-    surface: &TargetSurface,
-    mut statuses: Vec<ContactStatus>,
-    operations: &Operations,
-) -> Vec<ContactStatus> {
+    target: &Target<T>,
+    c_tll: T,
+    node_n: &Table<T>,
+    mut statuses: Vec<ContactStatus<T>>,
+) -> Vec<ContactStatus<T>> {
     for status in &mut statuses {
-        operations.add(1);
-        let near = status.edge.is_some() && status.distance.abs() < model.contact.tolerance;
-        status.in_contact = near || intersects(model, shape, surface, status.node, operations);
+        let near = status.edge.is_some() && Scalar::abs(status.distance) < c_tll;
+        status.in_contact = near || intersects(model, target, node_n, status.node);
         if status.in_contact && status.edge.is_none() {
-            let closest = surface.nearest_counted(shape[status.node.index()], operations);
-            status.edge = Some(closest.expect("a surface that is crossed has an edge").edge);
+            let nearest = target.nearest(door::place(node_n, status.node));
+            status.edge = Some(nearest.expect("a surface that is crossed has an edge").0.id);
         }
     }
     statuses
 }
 
 /// Whether a side at contact node `n` leads out of the target.
-fn intersects(
-    model: &Model,
-    shape: &[[f64; 2]],
-    surface: &TargetSurface,
-    n: NodeId,
-    operations: &Operations,
-) -> bool {
-    let c = shape[n.index()];
+fn intersects<T: Scalar>(model: &Model, target: &Target<T>, node_n: &Table<T>, n: NodeId) -> bool {
+    let c = door::place(node_n, n);
     sides(model, n).into_iter().any(|q| {
-        let q = shape[q.index()];
-        surface.edges.iter().map(|edge| crossing(edge, c, q, operations)).sum::<i32>() > 0
+        let q = door::place(node_n, q);
+        target.segments.iter().map(|edge| crossing(edge, c, q)).sum::<i32>() > 0
     })
 }
 
@@ -146,17 +156,16 @@ fn sides(model: &Model, n: NodeId) -> Vec<NodeId> {
 
 /// +1 where the way from `c` to `q` crosses `edge` outwards, −1 inwards, 0 where it does not. It crosses a corner of two edges once. A
 /// way that starts on the edge starts inside; one that ends on it ends outside.
-fn crossing(edge: &Edge, c: [f64; 2], q: [f64; 2], operations: &Operations) -> i32 {
+fn crossing<T: Scalar>(edge: &Segment<T>, c: [T; 2], q: [T; 2]) -> i32 {
     let [a, b] = edge.ends;
-    if apart([a, b], [c, q], operations) {
+    if apart([a, b], [c, q]) {
         return 0;
     }
-    operations.add(2 * Operations::ORIENTATION);
-    if (orient(c, q, a) >= 0.0) == (orient(c, q, b) >= 0.0) {
+    let zero = T::zero();
+    if (T::orientation(c, q, a) >= zero) == (T::orientation(c, q, b) >= zero) {
         return 0;
     }
-    operations.add(2 * Operations::ORIENTATION);
-    match (edge.side(c) >= 0.0, edge.side(q) > 0.0) {
+    match (edge.side(c) >= zero, edge.side(q) > zero) {
         (true, false) => 1,
         (false, true) => -1,
         _ => 0,
@@ -164,38 +173,37 @@ fn crossing(edge: &Edge, c: [f64; 2], q: [f64; 2], operations: &Operations) -> i
 }
 
 /// Whether the boxes around two segments have no point in common.
-fn apart(one: [[f64; 2]; 2], other: [[f64; 2]; 2], operations: &Operations) -> bool {
+fn apart<T: Scalar>(one: [[T; 2]; 2], other: [[T; 2]; 2]) -> bool {
     (0..2).any(|axis| {
-        let span = |s: [[f64; 2]; 2]| (s[0][axis].min(s[1][axis]), s[0][axis].max(s[1][axis]));
-        // Two smallest, two largest, two comparisons of them.
-        operations.add(6);
+        let span =
+            |[p, q]: [[T; 2]; 2]| (Scalar::min(p[axis], q[axis]), Scalar::max(p[axis], q[axis]));
         let ((low, high), (other_low, other_high)) = (span(one), span(other));
         high < other_low || other_high < low
     })
 }
 
-fn by_projection(
+fn by_projection<T: Scalar>(
     model: &Model,
-    shape: &[[f64; 2]],
-    surface: &TargetSurface,
-    operations: &Operations,
-) -> Vec<ContactStatus> {
-    let tolerance = model.contact.tolerance;
+    target: &Target<T>,
+    c_tll: T,
+    node_n: &Table<T>,
+) -> Vec<ContactStatus<T>> {
     let status = |&node: &NodeId| {
-        let apart = ContactStatus { node, edge: None, distance: 0.0, in_contact: false };
-        let Some(closest) = surface.nearest_counted(shape[node.index()], operations) else {
+        let apart = ContactStatus { node, edge: None, distance: T::zero(), in_contact: false };
+        let Some((edge, closest)) = target.nearest(door::place(node_n, node)) else {
             return apart;
         };
-        operations.add(2);
-        let distance = 0.0 - closest.distance;
-        match closest.beyond <= tolerance {
-            true => ContactStatus {
-                node,
-                edge: Some(closest.edge),
-                distance,
-                in_contact: closest.distance <= tolerance,
-            },
-            false => ContactStatus { distance, ..apart },
+        let distance = T::from_f64(0.0 - closest.distance());
+        let past = if edge.free[closest.end()] { closest.past() } else { T::zero() };
+        if past * past * closest.square > c_tll * c_tll {
+            return ContactStatus { distance, ..apart };
+        }
+        let inside = closest.side > T::zero();
+        ContactStatus {
+            node,
+            edge: Some(edge.id),
+            distance,
+            in_contact: inside || closest.distance_square <= c_tll * c_tll,
         }
     };
     model.contact.nodes.iter().map(status).collect()

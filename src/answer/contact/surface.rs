@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::pairing::{Vector, dot, minus};
+use super::search::Segment;
 use crate::error::InputError;
 use crate::problem::model::{EdgeId, Model, NodeId, unordered};
 
@@ -95,6 +96,12 @@ impl Surfaces {
         let normals = target.iter().map(|edge| edge.place(&model.nodes).normal).collect();
         let undeformed = (normals_at_nodes(&contact, &model.nodes), normals);
         Ok(Surfaces { nodes, contact, target, undeformed })
+    }
+
+    /// The target edges in a shape, for the search.
+    pub(super) fn segments(&self, shape: &[Vector]) -> Vec<Segment<f64>> {
+        let ends = |edge: &Edge| edge.nodes.map(|n| shape[n.index()]);
+        self.target.iter().map(|edge| Segment::new(ends(edge))).collect()
     }
 
     /// Whether a contact node and the target edge at `edge` face each other in the undeformed shape; a node without an edge faces all.

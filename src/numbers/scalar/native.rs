@@ -1,5 +1,7 @@
 //! The machine's own numbers as scalars and subscripts.
 
+use robust::{Coord, orient2d};
+
 use super::number::{Scalar, Subscript};
 
 impl Subscript for usize {
@@ -33,6 +35,10 @@ macro_rules! native {
             }
             fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
                 (factor.sqrt() * (scale * square.sqrt())).into()
+            }
+            fn orientation(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> Self {
+                let place = |[x, y]: [Self; 2]| Coord { x: f64::from(x), y: f64::from(y) };
+                orient2d(place(a), place(b), place(c)) as $float
             }
             fn hypot(self, other: Self) -> f64 {
                 $float::hypot(self, other).into()

@@ -100,6 +100,12 @@ pub trait Scalar:
         Self::from_f64(n as f64)
     }
 
+    /// Twice the area of the triangle a, b, c: > 0 where c lies on the left of the way from a to b.
+    /// Of a float of the machine the sign is exact.
+    fn orientation(a: [Self; 2], b: [Self; 2], c: [Self; 2]) -> Self {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    }
+
     /// Returns |x|, which is 0 for −0.
     fn abs(self) -> Self {
         if self > Self::zero() { self } else { Self::zero() - self }

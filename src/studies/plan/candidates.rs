@@ -11,6 +11,7 @@
 
 use serde::Serialize;
 
+use crate::answer::contact::search::Segment;
 use crate::problem::model::{Edge, Model};
 
 /// How far a node may move, in lengths of the edge: one that moves further passes over half of it in one step, which the contact search is not
@@ -41,7 +42,10 @@ impl Candidates {
         let points = || model.contact.nodes.iter().map(|node| model.at(*node));
         let near = |p| edges.iter().filter(|edge| near(p, edge, tolerance)).count();
         let of_node: Vec<usize> = points().map(near).collect();
-        let touches = |p: &[f64; 2]| edges.iter().any(|edge| distance(*p, edge) <= tolerance);
+        let segments: Vec<Segment<f64>> = edges.iter().copied().map(Segment::new).collect();
+        let touches = |p: &[f64; 2]| {
+            segments.iter().any(|edge| edge.closest(*p).distance().abs() <= tolerance)
+        };
         (!of_node.is_empty()).then(|| Candidates {
             nodes: of_node.len(),
             edges: edges.len(),
@@ -64,11 +68,4 @@ fn near(p: [f64; 2], [a, b]: &[[f64; 2]; 2], c_tll: f64) -> bool {
         let (low, high) = (a[d].min(b[d]) - margin, a[d].max(b[d]) + margin);
         (low..=high).contains(&p[d])
     })
-}
-
-/// From `p` to the nearest point of an edge, length.
-fn distance(p: [f64; 2], [a, b]: &[[f64; 2]; 2]) -> f64 {
-    let ([dx, dy], [px, py]) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let along = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
-    (px - along * dx).hypot(py - along * dy)
 }

@@ -13,8 +13,7 @@ mod drawn;
 use fastrand::Rng;
 use serde::Serialize;
 
-use crate::answer::contact::Operations;
-use crate::answer::contact::status::statuses_counted;
+use crate::answer::contact::status::statuses;
 use crate::numbers::scalar::Scalar;
 use crate::paper::door;
 use crate::paper::mirror::{Reading, c_cnt};
@@ -103,9 +102,8 @@ impl Row {
     fn add(&mut self, scene: &Drawn) {
         self.nodes += scene.touching.len();
         self.touching += scene.touching.iter().filter(|touching| **touching).count();
-        let printed = printed_operations(scene);
         for score in &mut self.rules {
-            score.add(scene, printed);
+            score.add(scene);
         }
     }
 }
@@ -116,24 +114,21 @@ impl Score {
         (self.missed + self.false_contacts) as f64 / nodes.max(1) as f64
     }
 
-    fn add(&mut self, scene: &Drawn, printed: u64) {
-        let operations = Operations::default();
-        let (model, reading) = (&scene.model, Reading::default());
-        let found = statuses_counted(self.rule, model, &reading, &model.nodes, &operations)
-            .expect("no target edge is drawn vertical");
+    fn add(&mut self, scene: &Drawn) {
+        let (model, reading) = (&*scene.model, Reading::default());
+        let sheet = door::worksheet(model, Counted::from_f64);
+        let vertical = "no target edge is drawn vertical";
+        let (found, operations) =
+            counting(|| statuses(self.rule, model, &sheet, &reading, &sheet.node).expect(vertical));
         for (status, touching) in found.iter().zip(&scene.touching) {
             self.missed += usize::from(*touching && !status.in_contact);
             self.false_contacts += usize::from(!*touching && status.in_contact);
         }
-        let of_listing = if self.rule == StatusRule::Projection { 0 } else { printed };
-        self.operations += of_listing + operations.count();
+        // The weights, which the listing computes at once, are no part of search and status.
+        let linked = match self.rule {
+            StatusRule::Projection => 0,
+            _ => c_cnt(&sheet, &reading, &sheet.node).expect(vertical).dy.iter().sum::<usize>(),
+        };
+        self.operations += operations - WEIGHTS * linked as u64;
     }
-}
-
-/// The operations of `c_cnt`'s lines 1 to 18.
-fn printed_operations(scene: &Drawn) -> u64 {
-    let sheet = door::worksheet(&scene.model, Counted::from_f64);
-    let (pairs, operations) = counting(|| c_cnt(&sheet, &Reading::default(), &sheet.node));
-    let pairs = pairs.expect("no target edge is drawn vertical");
-    operations - WEIGHTS * pairs.dy.iter().sum::<usize>() as u64
 }

@@ -1,0 +1,125 @@
+//! The one search on a surface: the point of its edges that is closest to a point, in any scalar.
+//!
+//! ```text
+//!        normal ^         o p            side < 0: p is outside the body, which lies on the left of
+//!               |         :              the way from a to b
+//!     b *-------+---------x------* a     x: the point closest to p; xi counts from a to b
+//!        . . . . body . . . .
+//!
+//!     convex corner   o p          concave corner      \ o p /
+//!                    :                                  \ : /
+//!               ----*               it is on             \:/
+//!             . . . .\              either edge           *
+//!             . body .\                                  body
+//! ```
+//!
+//! At a corner both edges are equally near. The edge whose line is farther from p is taken: its side
+//! has the right sign, because the sum of the two normals has it (Bærentzen and Aanæs, IEEE TVCG
+//! 11:243, 2005). What happens past the end of a surface is the caller's rule: `admits`.
+//!
+//! Nothing takes a square root: distances are compared as squares, so that exact numbers serve too.
+
+use crate::numbers::scalar::Scalar;
+
+/// An edge in a shape, its body on the left.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<T> {
+    /// Its two ends.
+    pub ends: [[T; 2]; 2],
+    /// From its first end to its second.
+    along: [T; 2],
+    /// The square of its length.
+    square: T,
+}
+
+/// The point of a segment that is closest to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest<T> {
+    /// Where it lies on the segment's line: 0 at the first end, 1 at the second, beyond them past the
+    /// ends.
+    pub xi: T,
+    /// Twice the area of the two ends and the point: > 0 where it lies on the body's side of the line.
+    pub side: T,
+    /// The square of the segment's length.
+    pub square: T,
+    /// The square of the distance to the segment.
+    pub distance_square: T,
+}
+
+impl<T: Scalar> Segment<T> {
+    /// The segment between two ends.
+    pub fn new(ends: [[T; 2]; 2]) -> Self {
+        let along = minus(ends[1], ends[0]);
+        Segment { ends, along, square: dot(along, along) }
+    }
+
+    /// Its point that is closest to `p`.
+    pub fn closest(&self, p: [T; 2]) -> Closest<T> {
+        let xi = dot(self.along, minus(p, self.ends[0])) / self.square;
+        let side = self.side(p);
+        let distance_square = match () {
+            _ if xi < T::zero() => square(minus(p, self.ends[0])),
+            _ if xi > T::one() => square(minus(p, self.ends[1])),
+            _ => side * side / self.square,
+        };
+        Closest { xi, side, square: self.square, distance_square }
+    }
+
+    /// On which side of its line `p` lies: > 0 on the body's, 0 on the line; of `f64` with the exact sign.
+    pub fn side(&self, p: [T; 2]) -> T {
+        T::orientation(self.ends[0], self.ends[1], p)
+    }
+}
+
+impl<T: Scalar> Closest<T> {
+    /// How far the point lies past the nearer end, in lengths of the segment; 0 beside the segment.
+    pub fn past(&self) -> T {
+        let before = T::zero() - self.xi;
+        Scalar::max(Scalar::max(before, self.xi - T::one()), T::zero())
+    }
+
+    /// Which end it is nearer to.
+    pub fn end(&self) -> usize {
+        usize::from(self.xi + self.xi > T::one())
+    }
+
+    /// The distance, < 0 inside the body; rounded.
+    pub fn distance(&self) -> f64 {
+        let distance = T::scaled_root(T::one(), T::one(), self.distance_square);
+        if self.side > T::zero() { -distance } else { distance }
+    }
+
+    /// The square of the distance to the segment's line.
+    fn line_square(&self) -> T {
+        self.side * self.side / self.square
+    }
+
+    fn is_nearer_than(&self, other: &Self) -> bool {
+        self.distance_square < other.distance_square
+            || self.distance_square == other.distance_square
+                && self.line_square() > other.line_square()
+    }
+}
+
+/// The closest point to `p` on the segments that `admits` takes, and which of them has it.
+pub fn closest<'a, T: Scalar>(
+    segments: impl IntoIterator<Item = (usize, &'a Segment<T>)>,
+    p: [T; 2],
+    admits: impl Fn(usize, &Closest<T>) -> bool,
+) -> Option<(usize, Closest<T>)> {
+    let seen = segments.into_iter().map(|(k, segment)| (k, segment.closest(p)));
+    let admitted = seen.filter(|(k, closest)| admits(*k, closest));
+    admitted.reduce(|best, next| if next.1.is_nearer_than(&best.1) { next } else { best })
+}
+
+fn minus<T: Scalar>(a: [T; 2], b: [T; 2]) -> [T; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn square<T: Scalar>(a: [T; 2]) -> T {
+    dot(a, a)
+}
