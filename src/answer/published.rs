@@ -188,31 +188,16 @@ impl<'a, T: Precision> Run<'a, T> {
             let pairs = Pairs::none(self.sheet.R());
             return Ok(Found { node_n, pairs, constraints: Vec::new(), places: Vec::new() });
         }
-        let rule = self.request.contact.status;
-        if rule == StatusRule::Signs || self.request.variant == Variant::Printed {
-            let pairs = c_cnt(self.sheet, reading, &node_n)?;
-            let places = door::on_edges(self.sheet, &pairs, reading, &node_n);
-            let linked = door::linked(self.sheet, &pairs);
-            let constraints = self.constraints(linked, &node_n);
-            return Ok(Found { node_n, pairs, constraints, places });
-        }
-        self.search_by(rule, node_n)
-    }
-
-    /// Searches contact by a rule that is not the listing's.
-    fn search_by(&self, rule: StatusRule, node_n: Table<T>) -> Result<Found<T>, Error> {
-        let (model, reading) = (self.model, &self.request.reading);
-        let statuses = status::statuses(rule, model, self.sheet, reading, &node_n)?;
-        let weights_from = door::weights_from(self.sheet, reading, &node_n);
-        let places = status::places(model, &statuses, |n| door::place(weights_from, n)[0])?;
-        let mut linked: Vec<NodeToSegment<T>> = Vec::new();
-        for place in &places {
-            if linked.iter().all(|other| other.node != place.node) {
-                linked.push(*place);
+        let pairs = match self.request.contact.status {
+            StatusRule::Signs => c_cnt(self.sheet, reading, &node_n)?,
+            _ if self.request.variant == Variant::Printed => c_cnt(self.sheet, reading, &node_n)?,
+            rule => {
+                let found = status::statuses(rule, self.model, self.sheet, reading, &node_n)?;
+                door::pairs(self.model, self.sheet, reading, &node_n, &found)?
             }
-        }
-        let constraints = self.constraints(linked, &node_n);
-        let pairs = door::pairs(model, &statuses);
+        };
+        let places = door::on_edges(self.sheet, &pairs, reading, &node_n);
+        let constraints = self.constraints(door::linked(self.sheet, &pairs), &node_n);
         Ok(Found { node_n, pairs, constraints, places })
     }
 

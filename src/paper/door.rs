@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::mathcad::array::{Column, Table};
 use super::mirror::{
-    Cause, Failure, Km, NodeTable, Pairs, Reading, ToleranceUnit, Worksheet, c_cnt,
+    Failure, Km, NodeTable, Pairs, Reading, ToleranceUnit, Worksheet, c_cnt, weights,
 };
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
@@ -161,15 +161,25 @@ pub fn statuses<T: Scalar>(model: &Model, pairs: &Pairs<T>) -> Vec<ContactStatus
     model.contact.nodes.iter().enumerate().map(status).collect()
 }
 
-/// Statuses that another rule than the listing's decided, in the listing's arrays; `k_cnt` stays 0.
-pub fn pairs<T: Scalar>(model: &Model, statuses: &[ContactStatus<T>]) -> Pairs<T> {
+/// Statuses that another rule than the listing's decided, in the listing's arrays, with the weights of its lines 11 to 31.
+///
+/// # Errors
+/// Where those lines fail as printed: the weights of a vertical edge.
+pub fn pairs<T: Scalar>(
+    model: &Model,
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    node_n: &Table<T>,
+    statuses: &[ContactStatus<T>],
+) -> Result<Pairs<T>, Failure> {
     let number = |status: &ContactStatus<T>| status.edge.map_or(0, |edge| model.edge(edge).number);
-    Pairs {
+    let decided = Pairs {
         ct: Column::from_vec(statuses.iter().map(number).collect()),
         yt: Column::from_vec(statuses.iter().map(|status| status.distance).collect()),
         dy: Column::from_vec(statuses.iter().map(|s| usize::from(s.in_contact)).collect()),
         ..Pairs::none(model.nodes.len())
-    }
+    };
+    weights(sheet, reading, node_n, decided)
 }
 
 /// A contact node and the place of the target that it is bound to: two nodes of an edge and their weights.
@@ -179,14 +189,6 @@ pub struct NodeToSegment<T = f64> {
     pub node: NodeId,
     /// The target nodes and their weights.
     pub masters: [(NodeId, T); 2],
-}
-
-impl<T: Scalar> NodeToSegment<T> {
-    /// The same in other numbers.
-    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> NodeToSegment<U> {
-        let masters = self.masters.map(|(master, weight)| (master, to(weight)));
-        NodeToSegment { node: self.node, masters }
-    }
 }
 
 /// The contact nodes with dy = 1, each once, with what columns 1 to 4 of its row of k_cnt say.
@@ -206,44 +208,24 @@ pub fn linked<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>) -> Vec<NodeToSe
     found
 }
 
-/// The weights of `node` on a target edge as lines 22 and 23 of `c_cnt` have them before they are added up in k_cnt: they sum to 1
-/// whatever the reading does to k_cnt. `x`: the x coordinate of each node in the shape that weights come from (R5).
-///
-/// # Errors
-/// Where line 22 fails as printed: a vertical edge, an overflow.
-pub fn on_edge<T: Scalar>(
-    node: NodeId,
-    edge: [NodeId; 2],
-    x: impl Fn(NodeId) -> T,
-) -> Result<NodeToSegment<T>, Cause> {
-    let [a, b] = edge;
-    let length = x(b) - x(a);
-    if length == T::zero() {
-        return Err(Cause::Singularity);
-    }
-    let k1 = T::one() - (x(node) - x(a)) / length;
-    let k2 = T::one() - (x(b) - x(node)) / length;
-    if !Scalar::is_finite(k1 + k2) {
-        return Err(Cause::Overflow);
-    }
-    Ok(NodeToSegment { node, masters: [(a, k1), (b, k2)] })
-}
-
-/// The contact nodes with dy = 1 on their target edges: [`on_edge`] for each.
+/// The contact nodes with dy = 1 on their target edges, with the weights that lines 22 and 23 of `c_cnt` compute, before they are added
+/// up in k_cnt: they sum to 1 whatever the reading does to k_cnt.
 pub fn on_edges<T: Scalar>(
     sheet: &Worksheet<T>,
     pairs: &Pairs<T>,
     reading: &Reading,
     node_n: &Table<T>,
 ) -> Vec<NodeToSegment<T>> {
-    let node = weights_from(sheet, reading, node_n);
-    let x = |n: NodeId| node[(n.number(), 2)];
+    let node_n = weights_from(sheet, reading, node_n);
     let in_contact = (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1);
     in_contact
         .map(|i1| {
-            let ends = [6, 7].map(|j| NodeId::from_number(sheet.elem[(pairs.ct[i1], j)]));
-            let found = on_edge(NodeId::from_number(sheet.cnt[i1]), ends, x);
-            found.unwrap_or_else(|_| panic!("c_cnt flags no node over a vertical edge"))
+            let node = NodeId::from_number(sheet.cnt[i1]);
+            let [a, b] = [6, 7].map(|j| NodeId::from_number(sheet.elem[(pairs.ct[i1], j)]));
+            let [x, xa, xb] = [node, a, b].map(|n| place(node_n, n)[0]);
+            let k1 = T::one() - (x - xa) / (xb - xa);
+            let k2 = T::one() - (xb - x) / (xb - xa);
+            NodeToSegment { node, masters: [(a, k1), (b, k2)] }
         })
         .collect()
 }

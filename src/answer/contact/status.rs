@@ -23,7 +23,7 @@
 
 use super::search::{Closest, Segment, closest};
 use crate::numbers::scalar::Scalar;
-use crate::paper::door::{self, ContactStatus, NodeToSegment};
+use crate::paper::door::{self, ContactStatus};
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{Failure, Order, Reading, Worksheet, c_cnt};
 use crate::problem::model::{EdgeId, Model, NodeId};
@@ -55,33 +55,6 @@ pub fn statuses<T: Scalar>(
         }
         StatusRule::Projection => Ok(by_projection(model, &target(), sheet.c_tll, node_n)),
     }
-}
-
-/// The places of the nodes in contact on their target edges, with the weights of lines 22 and 23 of `c_cnt`. `x`: the x coordinate of
-/// each node in the shape that weights come from (R5).
-///
-/// # Errors
-/// Where line 22 fails as printed: the weights of a vertical edge.
-pub fn places<T: Scalar>(
-    model: &Model,
-    statuses: &[ContactStatus<T>],
-    x: impl Fn(NodeId) -> T,
-) -> Result<Vec<NodeToSegment<T>>, Failure> {
-    let in_contact = statuses.iter().enumerate().filter(|(_, status)| status.in_contact);
-    in_contact
-        .map(|(k, status)| {
-            let edge = model.edge(status.edge.expect("a node in contact has an edge"));
-            door::on_edge(status.node, edge.nodes, &x).map_err(|cause| {
-                let [a, b] = edge.nodes;
-                let values: [(&str, &dyn std::fmt::Display); 3] = [
-                    ("i1", &(k + 1)),
-                    ("ct[i1]", &edge.number),
-                    ("denominator", &(x(b) - x(a)).to_f64()),
-                ];
-                Failure::new("c_cnt", 22, cause, &values)
-            })
-        })
-        .collect()
 }
 
 /// The target edges in a shape.

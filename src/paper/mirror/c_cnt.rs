@@ -48,6 +48,28 @@ pub fn c_cnt<T: Scalar>(
     reading: &Reading,
     node_n: &Table<T>,
 ) -> Result<Pairs<T>, Failure> {
+    listing(sheet, reading, node_n, None)
+}
+
+/// The weights, lines 11 to 31, of nodes whose `ct`, `yt` and `dy` another status rule has `decided`.
+///
+/// # Errors
+/// Where those lines as printed fail: a zero x difference (lines 22, 23), an overflow.
+pub fn weights<T: Scalar>(
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    node_n: &Table<T>,
+    decided: Pairs<T>,
+) -> Result<Pairs<T>, Failure> {
+    listing(sheet, reading, node_n, Some(decided))
+}
+
+fn listing<T: Scalar>(
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    node_n: &Table<T>,
+    decided: Option<Pairs<T>>,
+) -> Result<Pairs<T>, Failure> {
     let Worksheet { node, elem, trg, cnt, c_tll, .. } = sheet;
     let (c_tll, zero, one) = (*c_tll, T::zero(), T::one());
     let R = sheet.R();
@@ -55,10 +77,16 @@ pub fn c_cnt<T: Scalar>(
     let mut yt = Column::filled(rows(cnt), zero);
     let mut dy = Column::filled(rows(cnt), 0);
     let mut k_cnt = Table::filled(R, 4, zero);
+    // DIFFERENCE: what another rule has decided stands in place of lines 2 to 10 and 15 to 18.
+    let (search, is_decided) =
+        (1..=if decided.is_some() { 0 } else { rows(cnt) }, decided.is_some());
+    if let Some(decided) = decided {
+        (ct, yt, dy) = (decided.ct, decided.yt, decided.dy);
+    }
 
     //#  1 c_cnt(node_n) :=
     //#  2 for i1 ∈ 1 .. rows(cnt)
-    for i1 in 1..=rows(cnt) {
+    for i1 in search.clone() {
         //#  3 ct[i1] ← 0
         ct[i1] = 0;
         //#  4 for i2 ∈ 1 .. rows(trg)
@@ -85,7 +113,7 @@ pub fn c_cnt<T: Scalar>(
         }
     }
     //#  8 for i1 ∈ 1 .. rows(cnt)
-    for i1 in 1..=rows(cnt) {
+    for i1 in search {
         let here = Line { i1, ct: ct[i1], ..Line::default() };
         //#  9 yt[i1] ← 0
         yt[i1] = zero;
@@ -116,36 +144,38 @@ pub fn c_cnt<T: Scalar>(
         //# 14 for i1 ∈ 1 .. rows(cnt)
         for i1 in 1..=rows(cnt) {
             let here = Line { i1, ct: ct[i1], ..Line::default() };
-            //# 15 dy[i1] ← 0
-            dy[i1] = 0;
-            //# 16 dy[i1] ← 1 if |yt[i1]| < c_tll ∧ ct[i1] > 0
-            if yt[i1].abs() < c_tll && ct[i1] > 0 {
-                dy[i1] = 1;
-            }
-            // AMBIGUOUS R4: at i1 = rows(cnt) line 17 names yt[i1+1], and at i1 = 1 line 18 names yt[0].
-            //# 17 dy[i1] ← 1 if i1 < rows(cnt) ∧ yt[i1] < 0 ∧ yt[i1+1] > 0 ∧ ct[i1] > 0
-            if and(
-                reading.r4,
-                [
-                    &|| Ok(i1 < rows(cnt)),
-                    &|| Ok(yt[i1] < zero),
-                    &|| Ok(here.at(17).entry(&yt, i1 + 1)? > zero),
-                    &|| Ok(ct[i1] > 0),
-                ],
-            )? {
-                dy[i1] = 1;
-            }
-            //# 18 dy[i1] ← 1 if yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ i1 ≥ 2 ∧ ct[i1] > 0
-            if and(
-                reading.r4,
-                [
-                    &|| Ok(yt[i1] < zero),
-                    &|| Ok(here.at(18).entry(&yt, i1 - 1)? > zero),
-                    &|| Ok(i1 >= 2),
-                    &|| Ok(ct[i1] > 0),
-                ],
-            )? {
-                dy[i1] = 1;
+            if !is_decided {
+                //# 15 dy[i1] ← 0
+                dy[i1] = 0;
+                //# 16 dy[i1] ← 1 if |yt[i1]| < c_tll ∧ ct[i1] > 0
+                if yt[i1].abs() < c_tll && ct[i1] > 0 {
+                    dy[i1] = 1;
+                }
+                // AMBIGUOUS R4: at i1 = rows(cnt) line 17 names yt[i1+1], and at i1 = 1 line 18 names yt[0].
+                //# 17 dy[i1] ← 1 if i1 < rows(cnt) ∧ yt[i1] < 0 ∧ yt[i1+1] > 0 ∧ ct[i1] > 0
+                if and(
+                    reading.r4,
+                    [
+                        &|| Ok(i1 < rows(cnt)),
+                        &|| Ok(yt[i1] < zero),
+                        &|| Ok(here.at(17).entry(&yt, i1 + 1)? > zero),
+                        &|| Ok(ct[i1] > 0),
+                    ],
+                )? {
+                    dy[i1] = 1;
+                }
+                //# 18 dy[i1] ← 1 if yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ i1 ≥ 2 ∧ ct[i1] > 0
+                if and(
+                    reading.r4,
+                    [
+                        &|| Ok(yt[i1] < zero),
+                        &|| Ok(here.at(18).entry(&yt, i1 - 1)? > zero),
+                        &|| Ok(i1 >= 2),
+                        &|| Ok(ct[i1] > 0),
+                    ],
+                )? {
+                    dy[i1] = 1;
+                }
             }
             //# 19 if dy[i1] = 1
             if dy[i1] == 1 {

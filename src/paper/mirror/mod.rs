@@ -19,7 +19,7 @@ mod km;
 mod reading;
 mod worksheet;
 
-pub use c_cnt::{Pairs, c_cnt};
+pub use c_cnt::{Pairs, c_cnt, weights};
 pub use failure::{Cause, Failure};
 pub use km::Km;
 pub use reading::{

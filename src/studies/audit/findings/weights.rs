@@ -30,11 +30,6 @@ pub(super) fn outside_the_edge(case: &Case) -> Measured {
 /// The two weights of each node in contact that `c_cnt` found in a step.
 fn weights(model: &Model, step: &Step) -> Vec<(NodeId, [f64; 2])> {
     let Detail::Published(found) = &step.detail else { return Vec::new() };
-    if found.pairs.k_cnt.as_matrix().iter().all(|x| *x == 0.0) {
-        // Another status rule than the listing's: its weights stand in the constraints.
-        let pair = |masters: &[(NodeId, f64)]| [0, 1].map(|k| masters[k].1);
-        return step.constraints.iter().map(|bound| (bound.node, pair(&bound.masters))).collect();
-    }
     let linked = linked(&worksheet(model, |x| x), &found.pairs);
     linked.into_iter().map(|bound| (bound.node, bound.masters.map(|(_, k)| k))).collect()
 }
