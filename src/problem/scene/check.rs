@@ -111,12 +111,12 @@ pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>, InputErr
 /// A negative tolerance; surfaces that are not there or share a node.
 pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, InputError> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
-    if !(contact.c_tll >= 0.0 && contact.c_tll.is_finite()) {
-        let what = format!("c_tll = {} is negative", contact.c_tll);
+    if !(contact.tolerance >= 0.0 && contact.tolerance.is_finite()) {
+        let what = format!("c_tll = {} is negative", contact.tolerance);
         return Err(InputError::new("contact.c_tll", what, "the paper's is 0.001"));
     }
-    let nodes = surface::contact_nodes(mesh, &contact.cnt)?;
-    let target = surface::target_edges(mesh, &contact.trg)?;
+    let nodes = surface::contact_nodes(mesh, &contact.contact)?;
+    let target = surface::target_edges(mesh, &contact.target)?;
     let (on_contact, on_target): (HashSet<usize>, HashSet<usize>) =
         (nodes.iter().copied().collect(), target.iter().copied().collect());
     for edge in mesh.of_dimension(1).filter(|e| on_target.contains(&e.number)) {
@@ -133,7 +133,7 @@ pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, Input
     Ok(ContactSurfaces {
         nodes: nodes.into_iter().map(NodeId::from_number).collect(),
         target: target.iter().map(|number| place[number]).collect(),
-        tolerance: contact.c_tll,
+        tolerance: contact.tolerance,
     })
 }
 

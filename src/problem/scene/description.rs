@@ -174,11 +174,14 @@ pub struct Load {
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Contact (stamp) surface: a group of edges, or node numbers in order.
-    pub cnt: Surface,
-    /// Target surface: a group of edges, or `elem` numbers in order.
-    pub trg: Surface,
-    /// The text's c_tol, length.
-    pub c_tll: f64,
+    #[serde(rename = "cnt")]
+    pub contact: Surface,
+    /// Target surface: a group of edges, or numbers of edges in order.
+    #[serde(rename = "trg")]
+    pub target: Surface,
+    /// The tolerance of the contact search, the text's c_tol, length.
+    #[serde(rename = "c_tll")]
+    pub tolerance: f64,
     /// How a contact node is bound to the target.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub coupling: Coupling,
@@ -202,12 +205,12 @@ fn friction<S: Serializer>(friction: &Friction, serializer: S) -> Result<S::Ok, 
 }
 
 impl Contact {
-    /// Contact of two surfaces within `c_tll`, length, modelled as the paper does.
-    pub fn new(cnt: impl Into<Surface>, trg: impl Into<Surface>, c_tll: f64) -> Self {
+    /// Contact of two surfaces within `tolerance`, length, modelled as the paper does.
+    pub fn new(contact: impl Into<Surface>, target: impl Into<Surface>, tolerance: f64) -> Self {
         Contact {
-            cnt: cnt.into(),
-            trg: trg.into(),
-            c_tll,
+            contact: contact.into(),
+            target: target.into(),
+            tolerance,
             coupling: Coupling::default(),
             friction: Friction::default(),
             geometry: Geometry::default(),

@@ -29,7 +29,8 @@ struct SceneFile {
     /// The paper's node table: rows of number, x, y, z.
     node: Option<Vec<[f64; 4]>>,
     /// The paper's element table: Gmsh 2 rows with two tags.
-    elem: Option<Vec<Vec<usize>>>,
+    #[serde(rename = "elem")]
+    elements: Option<Vec<Vec<usize>>>,
     #[serde(deserialize_with = "by_name")]
     plane: Plane,
     #[serde(default = "default_thickness")]
@@ -81,7 +82,7 @@ pub fn parse(text: &[u8]) -> Result<(MeshSource, Description), InputError> {
         variant: file.variant,
         drop_orphans: file.drop_orphans,
     };
-    Ok((MeshSource::new(file.mesh, file.node, file.elem)?, description))
+    Ok((MeshSource::new(file.mesh, file.node, file.elements)?, description))
 }
 
 /// The text of a scene file that says `description` of the mesh in the file `mesh` beside it: a

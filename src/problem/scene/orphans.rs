@@ -42,7 +42,7 @@ pub fn drop(
             renumber(n, &format!("loads[{k}].node"))?;
         }
     }
-    if let Some(Surface::Numbers(numbers)) = description.contact.as_mut().map(|c| &mut c.cnt) {
+    if let Some(Surface::Numbers(numbers)) = description.contact.as_mut().map(|c| &mut c.contact) {
         numbers.iter_mut().try_for_each(|n| renumber(n, "contact.cnt"))?;
     }
     Ok(mesh.without(dropped))

@@ -115,16 +115,16 @@ impl Halves {
     fn renumbered(&self, file: &Description, children: &HashMap<usize, Vec<usize>>) -> Description {
         let mut file = file.clone();
         let Some(contact) = &mut file.contact else { return file };
-        if let Surface::Numbers(cnt) = &mut contact.cnt {
+        if let Surface::Numbers(nodes) = &mut contact.contact {
             let mut finer = Vec::new();
-            for (k, n) in cnt.iter().enumerate() {
+            for (k, n) in nodes.iter().enumerate() {
                 finer.push(*n);
-                finer.extend(cnt.get(k + 1).and_then(|next| self.between(*n, *next)));
+                finer.extend(nodes.get(k + 1).and_then(|next| self.between(*n, *next)));
             }
-            *cnt = finer;
+            *nodes = finer;
         }
-        if let Surface::Numbers(trg) = &mut contact.trg {
-            *trg = trg.iter().flat_map(|number| children[number].clone()).collect();
+        if let Surface::Numbers(edges) = &mut contact.target {
+            *edges = edges.iter().flat_map(|number| children[number].clone()).collect();
         }
         file
     }

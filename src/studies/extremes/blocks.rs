@@ -32,9 +32,9 @@ pub struct Blocks {
     /// Number of iterations.
     pub iterations: usize,
     /// Numbers of the contact nodes.
-    pub cnt: Vec<usize>,
+    pub contact: Vec<usize>,
     /// Numbers of the target edges.
-    pub trg: Vec<usize>,
+    pub target: Vec<usize>,
     /// Distance of an eleventh node from the edge 1-5, in lengths: a sliver stands on that edge.
     pub sliver: Option<f64>,
 }
@@ -49,8 +49,8 @@ impl Default for Blocks {
             pressure: 6.3,
             c_tll: 1e-3,
             iterations: 1,
-            cnt: vec![6, 7, 8],
-            trg: vec![1, 2],
+            contact: vec![6, 7, 8],
+            target: vec![1, 2],
             sliver: None,
         }
     }
@@ -83,7 +83,7 @@ impl Blocks {
     /// The scene on which `variant` runs. `printed` joins no bodies: the stamp is restrained at its
     /// top in both directions, and forces act at nodes 5 and 7.
     pub fn scene(&self, variant: Variant) -> SceneBuilder {
-        let contact = Contact::new(self.cnt.clone(), self.trg.clone(), self.c_tll);
+        let contact = Contact::new(self.contact.clone(), self.target.clone(), self.c_tll);
         let scene = SceneBuilder::new("extreme", self.mesh(), Plane::Strain)
             .material(BLOCK, self.e[0], self.nu)
             .material(STAMP, self.e[1], self.nu)

@@ -33,7 +33,7 @@ pub fn length_scaled(scalar: ScalarName, blocks: BlocksOf) -> Method {
         let unit = power_of_two(scene.mesh.xy(2)[0]);
         change_coordinates(scene, |_, x| x / unit);
         if let Some(contact) = &mut scene.description.contact {
-            contact.c_tll /= unit;
+            contact.tolerance /= unit;
         }
         unit
     })

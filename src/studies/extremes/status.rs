@@ -180,10 +180,10 @@ pub fn surfaces() -> Generator {
     fn blocks(case: f64) -> Blocks {
         let clean = Blocks::default();
         match case as usize {
-            1 => Blocks { cnt: vec![7], ..clean },
-            2 => Blocks { trg: vec![1], ..clean },
-            3 => Blocks { cnt: vec![6, 7, 7, 8], ..clean },
-            4 => Blocks { trg: vec![1, 1, 2], ..clean },
+            1 => Blocks { contact: vec![7], ..clean },
+            2 => Blocks { target: vec![1], ..clean },
+            3 => Blocks { contact: vec![6, 7, 7, 8], ..clean },
+            4 => Blocks { target: vec![1, 1, 2], ..clean },
             _ => clean,
         }
     }
