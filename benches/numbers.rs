@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{Reading, c_cnt};
 use plane_contact::problem::scene::Scene;
@@ -79,7 +80,7 @@ fn main() {
 /// c_cnt of the paper's example, listing and mirror in turn, after a check that both give the same.
 fn interpreter_against_mirror() {
     let reading = Reading::default();
-    let sheet = Scene::open("strand").expect("embedded").worksheet(&reading).expect("sound");
+    let sheet = door::worksheet(&Scene::open("strand").expect("embedded").model, |x| x);
     let (listing, settings) = (Which::CCnt.under(&reading), settings(&reading));
     let interpreted = || listings::c_cnt(&listing, &settings, &sheet, &sheet.node, &mut ());
     let mirrored = || c_cnt(&sheet, &reading, &sheet.node);

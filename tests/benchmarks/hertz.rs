@@ -16,7 +16,7 @@ use crate::common::recovery::solved_by;
 use crate::common::tolerances::{
     HERTZ_COARSE, HERTZ_FINE, HERTZ_PRINTED, KNOWN_CURVATURE, assert_near,
 };
-use plane_contact::answer::contact::Outcome;
+use plane_contact::answer::Solution;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Geometry};
 use plane_contact::studies::benchmark::Hertz;
 
@@ -26,9 +26,9 @@ const LOAD: f64 = 35000.0;
 const INNER: f64 = 0.9;
 
 /// Half width and peak by least squares of p² over s².
-fn fitted(outcome: &Outcome) -> [f64; 2] {
-    let edge = outcome.contact.iter().filter(|c| c.dy == 1).map(|c| c.arc).fold(0.0, f64::max);
-    let pressing = outcome.contact.iter().filter(|c| 0.0 < c.arc && c.arc < INNER * edge);
+fn fitted(solution: &Solution) -> [f64; 2] {
+    let edge = solution.in_contact().map(|c| c.arc).fold(0.0, f64::max);
+    let pressing = solution.contact.iter().filter(|c| 0.0 < c.arc && c.arc < INNER * edge);
     let points: Vec<[f64; 2]> = pressing.map(|c| [c.arc.powi(2), c.pressure.powi(2)]).collect();
     let count = points.len() as f64;
     let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / count;
@@ -43,8 +43,7 @@ fn fitted(outcome: &Outcome) -> [f64; 2] {
 /// Half width and peak over Hertz's at `load`, N/mm.
 fn over_hertz(size: usize, load: f64, change: impl Fn(&mut ContactModel)) -> [f64; 2] {
     let hertz = Hertz { size, load, ..Hertz::default() };
-    let (_, outcome) = solved_by(hertz.generate(), change);
-    let [half_width, peak] = fitted(&outcome);
+    let [half_width, peak] = fitted(&solved_by(hertz.generate(), change));
     [half_width / hertz.half_width(), peak / hertz.peak_pressure()]
 }
 

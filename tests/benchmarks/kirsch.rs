@@ -15,9 +15,9 @@ use plane_contact::studies::benchmark::Hole;
 
 /// sigma_x at (0, 1) and sigma_y at (1, 0).
 fn at_the_hole(around: usize, outer: f64) -> [f64; 2] {
-    let (mesh, outcome) = solved(Hole { around, outer }.generate());
-    let [top, side] = [[0.0, 1.0], [1.0, 0.0]].map(|place| node_at(&mesh, place));
-    [extrapolated(&mesh, &outcome, top)[0], extrapolated(&mesh, &outcome, side)[1]]
+    let solution = solved(Hole { around, outer }.generate());
+    let [top, side] = [[0.0, 1.0], [1.0, 0.0]].map(|place| node_at(&solution.model, place));
+    [extrapolated(&solution, top)[0], extrapolated(&solution, side)[1]]
 }
 
 #[test]

@@ -22,9 +22,9 @@ const KNOWN: [(usize, f64); 4] = [(8, 62.56), (16, 76.97), (32, 85.05), (64, 89.
 #[test]
 fn averaged_stress_climbs_towards_the_limit_as_known() {
     for (n, expected) in KNOWN {
-        let (mesh, outcome) = solved(Ellipse { n }.generate());
-        let place = node_at(&mesh, [2.0, 0.0]);
-        let value = averaged(&mesh, &outcome, place)[1];
+        let solution = solved(Ellipse { n }.generate());
+        let place = node_at(&solution.model, [2.0, 0.0]);
+        let value = averaged(&solution, place)[1];
         assert_near(&format!("n = {n}"), value, expected, 1.0, &LE1_GRID);
     }
 }
@@ -32,8 +32,8 @@ fn averaged_stress_climbs_towards_the_limit_as_known() {
 #[test]
 fn extrapolated_stress_reaches_the_limit() {
     let values = [8, 16, 32, 64].map(|n| {
-        let (mesh, outcome) = solved(Ellipse { n }.generate());
-        extrapolated(&mesh, &outcome, node_at(&mesh, [2.0, 0.0]))[1]
+        let solution = solved(Ellipse { n }.generate());
+        extrapolated(&solution, node_at(&solution.model, [2.0, 0.0]))[1]
     });
     let errors = values.map(|value| (value - LIMIT).abs());
     assert!(errors.windows(2).all(|pair| pair[1] < pair[0] / 2.0), "{values:?}");

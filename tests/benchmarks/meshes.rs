@@ -134,9 +134,9 @@ fn every_kind_is_a_sound_scene() {
     for case in cases() {
         let benchmark = case.kind.generate().expect("the defaults are in range");
         let scene = benchmark.build().unwrap_or_else(|why| panic!("{}: {why}", benchmark.name));
-        assert_eq!(scene.bodies.len(), case.areas.len());
+        assert_eq!(scene.model.bodies.len(), case.areas.len());
         assert!(scene.dropped.is_empty());
-        assert!(scene.total_load().iter().any(|f| *f != 0.0));
+        assert!(scene.model.total_load().iter().any(|f| *f != 0.0));
     }
 }
 

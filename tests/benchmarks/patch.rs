@@ -9,32 +9,32 @@
 
 use crate::common::recovery::solved_by;
 use crate::common::tolerances::{KNOWN_NTS, PATCH_TEST, assert_near};
-use plane_contact::answer::contact::Outcome;
+use plane_contact::answer::Solution;
 use plane_contact::problem::modelling::Coupling;
 use plane_contact::studies::benchmark::Blocks;
 
 const P: f64 = 6.3;
 
-fn blocks(upper: usize, coupling: Coupling) -> Outcome {
-    solved_by(Blocks { upper, lower: 10 }.generate(), |model| model.coupling = coupling).1
+fn blocks(upper: usize, coupling: Coupling) -> Solution {
+    solved_by(Blocks { upper, lower: 10 }.generate(), |model| model.coupling = coupling)
 }
 
 /// Least and largest sigma_y / p.
-fn sigma_y(outcome: &Outcome) -> [f64; 2] {
-    let values = outcome.elements.iter().map(|state| state.sigma[1] / P);
+fn sigma_y(solution: &Solution) -> [f64; 2] {
+    let values = solution.elements.iter().map(|state| state.sigma[1] / P);
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], s| [l.min(s), h.max(s)])
 }
 
-fn assert_exact(outcome: &Outcome) {
+fn assert_exact(solution: &Solution) {
     let von_mises = P * (1.0_f64 - 0.2 + 0.04).sqrt();
-    for (n, state) in outcome.elements.iter().enumerate() {
+    for (n, state) in solution.elements.iter().enumerate() {
         let what = format!("von Mises stress of triangle {}", n + 1);
         assert_near(&what, state.von_mises_stress, von_mises, von_mises, &PATCH_TEST);
         assert_near("sigma_y", state.sigma[1], -P, P, &PATCH_TEST);
     }
-    let top = outcome.u.iter().skip(1).step_by(2).fold(0.0_f64, |least, v| least.min(*v));
+    let top = solution.u.iter().skip(1).step_by(2).fold(0.0_f64, |least, v| least.min(*v));
     assert_near("top", top, -0.010080, 0.010080, &PATCH_TEST);
-    for node in &outcome.contact {
+    for node in &solution.contact {
         assert_near("pressure", node.pressure, P, P, &PATCH_TEST);
     }
 }
@@ -58,7 +58,7 @@ fn node_to_segment_misses_by_a_known_amount() {
     assert_near("least sigma_y / p", least, -1.1453, 1.0, &KNOWN_NTS);
     assert_near("largest sigma_y / p", largest, -0.9008, 1.0, &KNOWN_NTS);
     let fine =
-        solved_by(Blocks { upper: 28, lower: 40 }.generate(), |m| m.coupling = Coupling::Nts).1;
+        solved_by(Blocks { upper: 28, lower: 40 }.generate(), |m| m.coupling = Coupling::Nts);
     let [least, largest] = sigma_y(&fine);
     assert!(least < -1.13 && largest > -0.91, "refinement does not help: {least}, {largest}");
 }

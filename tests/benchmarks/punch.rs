@@ -10,21 +10,21 @@ use std::f64::consts::PI;
 
 use crate::common::recovery::solved;
 use crate::common::tolerances::{PUNCH, assert_near};
-use plane_contact::answer::contact::Outcome;
+use plane_contact::answer::Solution;
 use plane_contact::studies::benchmark::Punch;
 
 /// As far as this the corner's last nodes do not show.
 const AWAY: f64 = 0.75;
 
-fn punch(size: usize) -> Outcome {
-    solved(Punch { punch: size, foundation: size, ..Punch::default() }.generate()).1
+fn punch(size: usize) -> Solution {
+    solved(Punch { punch: size, foundation: size, ..Punch::default() }.generate())
 }
 
 #[test]
 fn the_pressure_away_from_the_corner_is_the_closed_form() {
-    let outcome = punch(24);
-    let half_load: f64 = outcome.contact.iter().map(|c| c.force).sum();
-    let near = outcome.contact.iter().filter(|c| c.arc < AWAY);
+    let solution = punch(24);
+    let half_load: f64 = solution.contact.iter().map(|c| c.force).sum();
+    let near = solution.contact.iter().filter(|c| c.arc < AWAY);
     assert!(near.clone().count() > 10);
     for node in near {
         let exact = 2.0 * half_load / (PI * (1.0 - node.arc.powi(2)).sqrt());

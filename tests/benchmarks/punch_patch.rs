@@ -9,12 +9,12 @@
 
 use crate::common::recovery::solved_by;
 use crate::common::tolerances::{PATCH_TEST, assert_near};
-use plane_contact::answer::contact::Outcome;
+use plane_contact::answer::Solution;
 use plane_contact::problem::modelling::Coupling;
 use plane_contact::studies::benchmark::PunchPatch;
 
-fn punch(coupling: Coupling) -> Outcome {
-    solved_by(PunchPatch::default().generate(), |model| model.coupling = coupling).1
+fn punch(coupling: Coupling) -> Solution {
+    solved_by(PunchPatch::default().generate(), |model| model.coupling = coupling)
 }
 
 #[test]

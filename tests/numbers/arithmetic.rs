@@ -3,8 +3,12 @@
 use crate::common::tolerances::{DOUBLE_DOUBLE, Tolerance};
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
+use plane_contact::answer::Request;
 use plane_contact::numbers::scalar::{Exact, F64x2, Scalar, rational, scope};
-use plane_contact::paper::mirror::{Cause, Reading, c_cnt};
+use plane_contact::paper::door;
+use plane_contact::paper::mathcad::array::Column;
+use plane_contact::paper::mirror::{Cause, Failure, Reading, c_cnt};
+use plane_contact::problem::model::Model;
 use plane_contact::problem::scene::Scene;
 use proptest::prelude::*;
 
@@ -182,6 +186,16 @@ fn an_exact_number_ends_with_its_scope() {
     escaped.to_f64();
 }
 
+/// What `c_cnt` finds in the initial shape in one scalar: target edges and statuses.
+fn found<T: Scalar>(
+    model: &Model,
+    reading: &Reading,
+    number: impl Fn(f64) -> T,
+) -> Result<(Column<usize>, Column<usize>), Failure> {
+    let sheet = door::worksheet(model, number);
+    c_cnt(&sheet, reading, &sheet.node).map(|pairs| (pairs.ct, pairs.dy))
+}
+
 /// Listing failures are the same in every scalar: the smallest scenes of findings C3 (a vertical edge) and C10.
 #[test]
 fn the_mirror_fails_at_the_same_line_in_every_scalar() {
@@ -190,15 +204,11 @@ fn the_mirror_fails_at_the_same_line_in_every_scalar() {
         let scene = Scene::open(name).unwrap();
         for reading in ["", "R4=left-to-right", "R4=eager"] {
             let reading: Reading = reading.parse().unwrap();
-            let sheet = scene.worksheet(&reading).unwrap();
-            let double = c_cnt(&sheet, &reading, &sheet.node).map(|p| (p.ct, p.dy));
-            let (dd, ex) = (sheet.cast::<F64x2>(), sheet.cast::<f32>());
-            let dd = c_cnt(&dd, &reading, &dd.node).map(|p| (p.ct, p.dy));
-            let single = c_cnt(&ex, &reading, &ex.node).map(|p| (p.ct, p.dy));
-            let rational = scope(|| {
-                let sheet = sheet.cast::<Exact>();
-                c_cnt(&sheet, &reading, &sheet.node).map(|p| (p.ct, p.dy))
-            });
+            let model = Request::new(&scene).reading(reading).model().unwrap();
+            let double = found(&model, &reading, |x| x);
+            let dd = found(&model, &reading, F64x2::from_f64);
+            let single = found(&model, &reading, f32::from_f64);
+            let rational = scope(|| found(&model, &reading, Exact::from_f64));
             for other in [&dd, &single, &rational] {
                 match (&double, other) {
                     (Ok(a), Ok(b)) => assert_eq!(a, b, "{name}"),

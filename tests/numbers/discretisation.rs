@@ -7,23 +7,21 @@
 mod fields;
 mod meshes;
 
-use crate::common::json::build;
 use crate::common::outcome::solve as solve_embedded;
 use crate::common::tolerances::{
     BAR_WIDTH, BARS_MISSED, BARS_MISSED_ON_FAIR_MESHES, CONSTANT_FIELD, EFFECTIVITY_HIGH,
     EFFECTIVITY_LOW, assert_near,
 };
 use fields::{CANTILEVER, CONSTANT, Field, KIRSCH, LAME, LINEAR, polynomial};
-use meshes::{Cut, Grid, annulus, beam, elem_table, holed_plate, node_table, rectangle};
+use meshes::{BODY, Cut, Grid, annulus, beam, holed_plate, mesh, rectangle};
 use nalgebra::Vector2;
-use plane_contact::answer::contact::{Outcome, run};
 use plane_contact::answer::estimates::discretisation::{Discretisation, LargestVonMises};
-use plane_contact::paper::mirror::Reading;
+use plane_contact::answer::{self, Request, Solution};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::element::State;
+use plane_contact::problem::model::{Body, TriangleId};
 use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::Scene;
-use serde_json::json;
+use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
 
 struct Benchmark {
     name: &'static str,
@@ -73,15 +71,14 @@ struct Measured {
 
 fn measure(b: &Benchmark, cells: [usize; 2], (cut, distortion): (Cut, f64)) -> Measured {
     let grid = Grid { cells, map: b.map, cut, distortion };
-    let outcome = solve(&grid.scene(b.field, THICKNESS));
-    let estimate = Discretisation::new(&outcome.sheet, &outcome.elements);
-    let all: Vec<usize> = (1..=outcome.sheet.M()).collect();
-    let peak = estimate.largest_von_mises(&outcome.sheet, &outcome.elements, &all);
-    let (points, corners) = (grid.points(), grid.triangles()[peak.at - 1]);
-    let missed = |n: usize| (b.field.stress)(points[n]) - outcome.elements[peak.at - 1].sigma;
+    let solution = solve(&grid.scene(b.field, THICKNESS));
+    let estimate = estimate(&solution);
+    let peak = largest(&estimate, &solution);
+    let (points, corners) = (grid.points(), grid.triangles()[peak.at.index()]);
+    let missed = |n: usize| (b.field.stress)(points[n]) - solution.elements[peak.at.index()].sigma;
     Measured {
         label: format!("{} {cells:?} {cut:?} {distortion}", b.name),
-        effectivity: estimate.total() / true_error(&grid, b.field, &outcome),
+        effectivity: estimate.total() / true_error(&grid, b.field, &solution),
         peak,
         exact_peak: b.field.largest_von_mises(),
         stress_error: corners.iter().map(|&n| b.field.von_mises(&missed(n))).fold(0.0, f64::max),
@@ -92,16 +89,27 @@ fn all_measured(b: &Benchmark) -> Vec<Measured> {
     b.cells.iter().flat_map(|c| KINDS.map(|kind| measure(b, *c, kind))).collect()
 }
 
-fn solve(scene: &Scene) -> Outcome {
-    run(scene, Variant::Tied, &Reading::default(), |_| ()).expect("it solves")
+fn solve(scene: &Scene) -> Solution {
+    answer::solve(&Request::new(scene).variant(Variant::Tied), &mut |_| ()).expect("it solves")
 }
 
-fn estimate(outcome: &Outcome) -> Discretisation {
-    Discretisation::new(&outcome.sheet, &outcome.elements)
+fn estimate(solution: &Solution) -> Discretisation {
+    Discretisation::new(&solution.model, &solution.elements)
+}
+
+/// The largest von Mises stress of all triangles.
+fn largest(estimate: &Discretisation, solution: &Solution) -> LargestVonMises {
+    let all: Vec<TriangleId> = solution.model.triangle_ids().collect();
+    estimate.largest_von_mises(&solution.model, &solution.elements, &all)
+}
+
+/// That of a body.
+fn largest_of(estimate: &Discretisation, solution: &Solution, body: &Body) -> LargestVonMises {
+    estimate.largest_von_mises(&solution.model, &solution.elements, &body.triangles)
 }
 
 /// The true error in the energy norm, by quadrature over 16 parts of each triangle.
-fn true_error(grid: &Grid, field: &Field, outcome: &Outcome) -> f64 {
+fn true_error(grid: &Grid, field: &Field, solution: &Solution) -> f64 {
     let points = grid.points();
     let square = |(t, state): (&[usize; 3], &State)| {
         let density =
@@ -112,7 +120,7 @@ fn true_error(grid: &Grid, field: &Field, outcome: &Outcome) -> f64 {
         };
         parts(t.map(|n| Vector2::from(points[n])), 2).into_iter().map(of_part).sum::<f64>()
     };
-    let squares: f64 = grid.triangles().iter().zip(&outcome.elements).map(square).sum();
+    let squares: f64 = grid.triangles().iter().zip(&solution.elements).map(square).sum();
     (THICKNESS * squares).sqrt()
 }
 
@@ -202,10 +210,9 @@ fn random_field(case: usize, seed: &mut u64) -> (f64, f64) {
     let cells = [[4, 3], [8, 4], [14, 7], [20, 10]][case / 4 % 4];
     let (cut, distortion) = KINDS[case / 16 % 4];
     let grid = Grid { cells, map, cut, distortion };
-    let outcome = solve(&grid.scene(&field, THICKNESS));
-    let all: Vec<usize> = (1..=outcome.sheet.M()).collect();
-    let estimate = estimate(&outcome);
-    let found = estimate.largest_von_mises(&outcome.sheet, &outcome.elements, &all);
+    let solution = solve(&grid.scene(&field, THICKNESS));
+    let estimate = estimate(&solution);
+    let found = largest(&estimate, &solution);
     ((field.largest_von_mises() - found.value).abs() / found.bar, estimate.relative())
 }
 
@@ -226,21 +233,19 @@ fn a_pressed_annulus_with_symmetric_restraints() {
     for [nx, ny] in [[5, 8], [10, 16], [20, 32]] {
         let grid = Grid { cells: [nx, ny], map: annulus, cut: Cut::Same, distortion: 0.2 };
         let node = |i: usize, j: usize| j * (nx + 1) + i + 1;
-        let triangles = grid.triangles();
-        let mut elem = elem_table(&triangles, |_| 1);
-        let edge = |j| json!([triangles.len() + j + 1, 1, 2, 2, 2, node(0, j), node(0, j + 1)]);
-        elem.as_array_mut().expect("rows").extend((0..ny).map(edge));
-        let bottom = (0..=nx).map(|i| json!({ "node": node(i, 0), "fix": ["y"] }));
-        let top = (0..=nx).map(|i| json!({ "node": node(i, ny), "fix": ["x"] }));
-        let scene = build(&json!({
-            "node": node_table(&grid.points()), "elem": elem, "plane": "strain",
-            "thickness": THICKNESS, "iterations": 1,
-            "materials": { "1": { "E": LAME.e, "nu": LAME.nu } },
-            "restraints": bottom.chain(top).collect::<Vec<_>>(),
-            "loads": [{ "on": 2, "pressure": 10.0 }],
-        }));
-        let outcome = solve(&scene.expect("a sound scene"));
-        let effectivity = estimate(&outcome).total() / true_error(&grid, &LAME, &outcome);
+        let mut mesh = mesh(&grid.points(), &grid.triangles());
+        mesh.edges("bore", &(0..=ny).map(|j| node(0, j)).collect::<Vec<_>>());
+        mesh.edges("bottom", &(0..=nx).map(|i| node(i, 0)).collect::<Vec<_>>());
+        mesh.edges("top", &(0..=nx).map(|i| node(i, ny)).collect::<Vec<_>>());
+        let scene = SceneBuilder::new("annulus", mesh.finish(), Plane::Strain)
+            .thickness(THICKNESS)
+            .material(BODY, LAME.e, LAME.nu)
+            .restrain("bottom", &[Axis::Y])
+            .restrain("top", &[Axis::X])
+            .pressure("bore", 10.0)
+            .iterations(1);
+        let solution = solve(&scene.build().expect("a sound scene"));
+        let effectivity = estimate(&solution).total() / true_error(&grid, &LAME, &solution);
         println!("pressed annulus {nx} x {ny}: effectivity {effectivity:.3}");
         assert!((EFFECTIVITY_LOW.limit..EFFECTIVITY_HIGH.limit).contains(&effectivity));
     }
@@ -250,11 +255,10 @@ fn a_pressed_annulus_with_symmetric_restraints() {
 fn a_constant_field_has_no_error() {
     for (cut, distortion) in KINDS {
         let grid = Grid { cells: [5, 4], map: rectangle, cut, distortion };
-        let outcome = solve(&grid.scene(&CONSTANT, THICKNESS));
-        let found = estimate(&outcome);
+        let solution = solve(&grid.scene(&CONSTANT, THICKNESS));
+        let found = estimate(&solution);
         assert_near("eta / |u|", found.relative(), 0.0, 1.0, &CONSTANT_FIELD);
-        let all: Vec<usize> = (1..=outcome.sheet.M()).collect();
-        let peak = found.largest_von_mises(&outcome.sheet, &outcome.elements, &all);
+        let peak = largest(&found, &solution);
         assert_near("bar", peak.bar, 0.0, peak.value, &CONSTANT_FIELD);
         // |u|² = volume · sᵀ D⁻¹ s.
         let energy = 2.0 * THICKNESS * CONSTANT.energy_density(&(CONSTANT.stress)([0.0; 2]));
@@ -275,20 +279,23 @@ fn stresses_are_not_averaged_across_materials() {
         4 | 5 => 30.0,
         _ => 15.0,
     };
-    let loads: Vec<_> =
-        (0..=6).map(|j| json!({ "node": 5 * j + 5, "force": [force(j), 0.0] })).collect();
-    let held: Vec<_> = (0..=6).map(|j| json!({ "node": 5 * j + 1, "fix": ["x"] })).collect();
-    let restraints = [held, vec![json!({ "node": 1, "fix": ["y"] })]].concat();
-    let scene = build(&json!({
-        "node": node_table(&points),
-        "elem": elem_table(&triangles, |t| if t < triangles.len() / 2 { 1 } else { 2 }),
-        "plane": "stress", "restraints": restraints, "loads": loads, "iterations": 1,
-        "materials": { "1": { "E": 1000.0, "nu": 0.0 }, "2": { "E": 30000.0, "nu": 0.0 } },
-    }));
-    let outcome = solve(&scene.expect("a sound scene"));
-    let stress = |t: usize| outcome.elements[t].sigma[0];
+    let mut mesh = MeshBuilder::default();
+    let nodes = mesh.row(points);
+    let layers = triangles.split_at(triangles.len() / 2);
+    mesh.triangles("lower", layers.0.iter().map(|t| t.map(|point| nodes[point])));
+    mesh.triangles("upper", layers.1.iter().map(|t| t.map(|point| nodes[point])));
+    let scene = SceneBuilder::new("layers", mesh.finish(), Plane::Stress)
+        .material("lower", 1000.0, 0.0)
+        .material("upper", 30000.0, 0.0)
+        .restrain_node(1, &[Axis::Y])
+        .iterations(1);
+    let pulled = (0..=6).fold(scene, |scene, j| {
+        scene.restrain_node(5 * j + 1, &[Axis::X]).force(5 * j + 5, [force(j), 0.0])
+    });
+    let solution = solve(&pulled.build().expect("a sound scene"));
+    let stress = |t: usize| solution.elements[t].sigma[0];
     assert_near("jump", stress(triangles.len() - 1) / stress(0), 30.0, 30.0, &CONSTANT_FIELD);
-    assert_near("eta / |u|", estimate(&outcome).relative(), 0.0, 1.0, &CONSTANT_FIELD);
+    assert_near("eta / |u|", estimate(&solution).relative(), 0.0, 1.0, &CONSTANT_FIELD);
 }
 
 /// One triangle tells nothing of its own error; two bodies, and the other one's error is known.
@@ -299,23 +306,19 @@ fn the_error_of_a_lone_triangle_is_unknown() {
     let n = points.len();
     points.extend([[5.0, 0.0], [6.0, 0.0], [5.0, 1.0]]);
     triangles.push([n, n + 1, n + 2]);
-    let held = |n: usize| json!({ "node": n, "fix": ["x", "y"] });
-    let scene = build(&json!({
-        "node": node_table(&points), "elem": elem_table(&triangles, |_| 1), "plane": "strain",
-        "materials": { "1": { "E": 1.0, "nu": 0.3 } }, "iterations": 1,
-        "restraints": [held(1), held(4), held(n + 1), held(n + 2)],
-        "loads": [{ "node": n, "force": [0.0, 1e-3] }, { "node": n + 3, "force": [0.0, 1e-3] }],
-    }))
-    .expect("a sound scene");
-    let outcome = solve(&scene);
-    let found = estimate(&outcome);
-    assert_eq!(found.unrecovered, [triangles.len()]);
+    let scene = SceneBuilder::new("two bodies", mesh(&points, &triangles).finish(), Plane::Strain)
+        .material(BODY, 1.0, 0.3)
+        .force(n, [0.0, 1e-3])
+        .force(n + 3, [0.0, 1e-3])
+        .iterations(1);
+    let held = [1, 4, n + 1, n + 2];
+    let scene = held.into_iter().fold(scene, |s, n| s.restrain_node(n, &[Axis::X, Axis::Y]));
+    let solution = solve(&scene.build().expect("a sound scene"));
+    let found = estimate(&solution);
+    assert_eq!(found.unrecovered, [TriangleId::from_number(triangles.len())]);
     assert_eq!([found.total(), found.relative()], [f64::INFINITY; 2]);
     assert!(found.error_map().iter().all(|x| x.is_finite()));
-    let bar = |body: usize| {
-        let triangles = &scene.bodies[body].triangles;
-        found.largest_von_mises(&outcome.sheet, &outcome.elements, triangles).bar
-    };
+    let bar = |body: usize| largest_of(&found, &solution, &solution.model.bodies[body]).bar;
     assert!(bar(0).is_finite() && bar(0) > 0.0);
     assert_eq!(bar(1), f64::INFINITY);
 }
@@ -323,13 +326,13 @@ fn the_error_of_a_lone_triangle_is_unknown() {
 /// The quadratic mean of the map is the relative error; on the paper's own example, whose bodies share no node.
 #[test]
 fn error_map_of_the_strand() {
-    let (scene, outcome) = solve_embedded("strand", Variant::Tied);
-    let found = estimate(&outcome);
+    let (_, solution) = solve_embedded("strand", Variant::Tied);
+    let found = estimate(&solution);
     let map = found.error_map();
     let mean = (map.iter().map(|x| x * x).sum::<f64>() / map.len() as f64).sqrt();
     assert_near("quadratic mean", mean, found.relative(), 1.0, &CONSTANT_FIELD);
-    for body in &scene.bodies {
-        let peak = found.largest_von_mises(&outcome.sheet, &outcome.elements, &body.triangles);
+    for body in &solution.model.bodies {
+        let peak = largest_of(&found, &solution, body);
         println!("{}: {peak:?}, eta {:.3}", body.name, found.relative());
         assert!(peak.bar > 0.0 && body.triangles.contains(&peak.at));
     }

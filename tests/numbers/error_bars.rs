@@ -3,12 +3,12 @@
 use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{BAR_WIDTH_OF_ROUNDING, Tolerance};
 use nalgebra::DVector;
-use plane_contact::answer::contact::{Elimination, Outcome, Stiffness, Tie, run, run_in};
 use plane_contact::answer::estimates::arithmetic::{displacement_bound, stress_bounds};
+use plane_contact::answer::{Constraint, Elimination, Request, Solution, Stiffness, solve};
 use plane_contact::numbers::scalar::{Exact, Scalar, scope};
 use plane_contact::numbers::solve::{Arithmetic, Ldlt, ScalarName, Solver};
-use plane_contact::paper::mirror::Reading;
-use plane_contact::problem::element;
+use plane_contact::problem::element::{B, State};
+use plane_contact::problem::model::Triangle;
 use plane_contact::problem::modelling::{Coupling, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::benchmark::Blocks;
@@ -43,20 +43,21 @@ fn the_bar_of_rounding_holds_on_every_rung() {
         in_scalar(ScalarName::F64x2, None),
     ];
     let mut held = 0;
-    for scene in shipped_scenes().iter().filter(|scene| scene.load.len() <= EQUATIONS) {
+    for scene in shipped_scenes().iter().filter(|scene| scene.model.dofs() <= EQUATIONS) {
         for variant in [Variant::Tied, Variant::Stepped] {
-            let run = |arithmetic| run_in(scene, variant, &Reading::default(), arithmetic, |_| ());
+            let request = Request::new(scene).variant(variant);
+            let run = |arithmetic| solve(&request.clone().arithmetic(arithmetic), &mut |_| ());
             let Ok(exact) = run(in_scalar(ScalarName::Exact, None)) else { continue };
             for rung in rungs {
-                let Ok(outcome) = run(rung) else { continue };
-                let same = outcome.iterations.iter().zip(&exact.iterations);
-                if same.into_iter().any(|(a, b)| a.pairs.dy != b.pairs.dy) {
+                let Ok(solution) = run(rung) else { continue };
+                let mut steps = solution.steps.iter().zip(&exact.steps);
+                if steps.any(|(a, b)| a.statuses() != b.statuses()) {
                     continue;
                 }
                 // The exact numbers are rounded to f64 to be compared.
                 let rounding = f64::EPSILON / 2.0 * exact.u.amax();
-                let error = off(&outcome.u, &exact.u) - rounding;
-                let bound = displacement_bound(scene, &outcome);
+                let error = off(&solution.u, &exact.u) - rounding;
+                let bound = displacement_bound(&solution);
                 let what =
                     format!("{}, {variant}, {} by {}", scene.name, rung.scalar, rung.solver());
                 assert!(error <= bound, "{what}: error {error:e} is beyond its bound {bound:e}");
@@ -68,15 +69,16 @@ fn the_bar_of_rounding_holds_on_every_rung() {
 }
 
 /// Displacements of the last contact state of `unilateral`, its normals and weights taken as they stand, in rational numbers.
-fn exact_state(scene: &Scene, outcome: &Outcome) -> DVector<f64> {
+fn exact_state(solution: &Solution) -> DVector<f64> {
+    let model = &*solution.model;
     scope(|| {
-        let sheet = outcome.sheet.recomputed(Exact::from_f64, scene.thickness);
-        let last = outcome.iterations.last().expect("an iteration");
-        let ties: Vec<Tie<Exact>> = last.ties.iter().map(|tie| tie.map(Exact::from_f64)).collect();
-        let t = Elimination::with_normals(&sheet, &ties).expect("it was solved before");
-        let stiffness = Stiffness::new(&sheet);
-        let load = |e: usize| if sheet.S[e + 1] == 1 { 0.0 } else { scene.load[e] };
-        let load = DVector::from_fn(scene.load.len(), |e, _| Exact::from_f64(load(e)));
+        let constraints: Vec<Constraint<Exact>> =
+            solution.last().constraints.iter().map(|c| c.map(Exact::from_f64)).collect();
+        let t = Elimination::with_normals(&model.restrained, &constraints);
+        let t = t.expect("it was solved before");
+        let stiffness = Stiffness::new(model, Exact::from_f64);
+        let load = |e: usize| if model.restrained[e] { 0.0 } else { model.load[e] };
+        let load = DVector::from_fn(model.dofs(), |e, _| Exact::from_f64(load(e)));
         let b = t.load(&(load - stiffness.times(t.shift())));
         let value = |x: Exact| x.to_rational().expect("finite");
         let matrix = stiffness.reduced(&t).map(|x| value(*x));
@@ -91,20 +93,19 @@ fn exact_state(scene: &Scene, outcome: &Outcome) -> DVector<f64> {
 #[test]
 fn the_bar_of_unilateral_holds() {
     let generated = Blocks { upper: 2, lower: 3 }.generate().unwrap().build().unwrap();
-    let scenes = shipped_scenes().into_iter().filter(|scene| scene.load.len() <= EQUATIONS);
+    let scenes = shipped_scenes().into_iter().filter(|scene| scene.model.dofs() <= EQUATIONS);
     let mut held = 0;
-    for mut scene in scenes.chain([generated]).filter(|s| s.target().is_some()) {
+    for scene in scenes.chain([generated]).filter(|s| s.model.target().is_some()) {
+        let mut request = Request::new(&scene).variant(Variant::Unilateral);
         for (coupling, friction) in
             [(Coupling::Nts, Friction::Stick), (Coupling::Mortar, Friction::None)]
         {
-            (scene.contact.coupling, scene.contact.friction) = (coupling, friction);
-            let Ok(outcome) = run(&scene, Variant::Unilateral, &Reading::default(), |_| ()) else {
-                continue;
-            };
-            let rounding = f64::EPSILON / 2.0 * outcome.u.amax();
-            let error = off(&outcome.u, &exact_state(&scene, &outcome)) - rounding;
+            (request.contact.coupling, request.contact.friction) = (coupling, friction);
+            let Ok(solution) = solve(&request, &mut |_| ()) else { continue };
+            let rounding = f64::EPSILON / 2.0 * solution.u.amax();
+            let error = off(&solution.u, &exact_state(&solution)) - rounding;
             let what = format!("{}, {coupling}, friction {friction}", scene.name);
-            assert_bound(&what, displacement_bound(&scene, &outcome), error, outcome.u.amax());
+            assert_bound(&what, displacement_bound(&solution), error, solution.u.amax());
             held += 1;
         }
     }
@@ -115,27 +116,23 @@ fn the_bar_of_unilateral_holds() {
 #[test]
 fn the_bar_of_a_stress_holds_what_a_moved_node_does_to_it() {
     let scene = Scene::open("fig1").unwrap();
-    let outcome = run(&scene, Variant::Tied, &Reading::default(), |_| ()).unwrap();
-    let moved = 1e-6 * outcome.u.amax();
-    let bounds = stress_bounds(&outcome, scene.thickness, moved);
-    let sheet = &outcome.sheet;
-    for n in 1..=sheet.M() {
+    let solution = solve(&Request::new(&scene).variant(Variant::Tied), &mut |_| ()).unwrap();
+    let moved = 1e-6 * solution.u.amax();
+    let bounds = stress_bounds(&solution, moved);
+    let model = &*solution.model;
+    for n in model.triangle_ids() {
+        let (Triangle { nodes, material }, b) = (model.triangle(n), B(&model.corners(n)));
         let of_element = |sign: f64| {
             nalgebra::SVector::<f64, 6>::from_fn(|k, _| {
                 let turned = if k % 3 == 0 { -sign } else { sign };
-                outcome.u[2 * sheet.EL[(n, sheet.ind_1 + k / 2)] - 2 + k % 2] + turned * moved
+                nodes[k / 2].of(&solution.u)[k % 2] + turned * moved
             })
         };
         for sign in [-1.0, 1.0] {
-            let state = element::State::new(
-                sheet.plane,
-                sheet.E[n],
-                sheet.nu[n],
-                &sheet.B[n],
-                &of_element(sign),
-            );
-            let change = (state.von_mises_stress - outcome.elements[n - 1].von_mises_stress).abs();
-            assert!(change <= bounds[n - 1], "triangle {n}: {change:e}, bound {:e}", bounds[n - 1]);
+            let state = State::new(model.plane, material.e, material.nu, &b, &of_element(sign));
+            let (bound, before) = (bounds[n.index()], &solution.elements[n.index()]);
+            let change = (state.von_mises_stress - before.von_mises_stress).abs();
+            assert!(change <= bound, "triangle {n}: {change:e}, bound {bound:e}");
         }
     }
 }

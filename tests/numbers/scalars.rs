@@ -1,6 +1,8 @@
 //! The mirror in f32 beside the mirror in f64.
 
 use crate::common::tolerances::{SINGLE, SINGLE_GAP, assert_near};
+use plane_contact::numbers::scalar::Scalar;
+use plane_contact::paper::door;
 use plane_contact::paper::mirror::{Km, Reading, c_cnt};
 use plane_contact::problem::scene::Scene;
 
@@ -8,8 +10,9 @@ use plane_contact::problem::scene::Scene;
 fn f32_follows_f64() {
     let reading = Reading::default();
     for name in ["fig1", "two-blocks", "strand"] {
-        let double = Scene::open(name).unwrap().worksheet(&reading).unwrap();
-        let single = double.cast::<f32>();
+        let model = Scene::open(name).unwrap().model;
+        let double = door::worksheet(&model, |x| x);
+        let single = door::worksheet(&model, f32::from_f64);
         let (d, s) = (
             c_cnt(&double, &reading, &double.node).unwrap(),
             c_cnt(&single, &reading, &single.node).unwrap(),

@@ -2,8 +2,8 @@
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
+use plane_contact::answer::{Request, solve};
 use plane_contact::numbers::solve::{Arithmetic, Solver, memory};
-use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan::line;
@@ -12,7 +12,8 @@ use serde_json::json;
 
 fn plan_of(scene: &Scene, variant: Variant, solver: Option<Solver>) -> Plan {
     let arithmetic = Arithmetic { solver, ..Arithmetic::default() };
-    Plan::new(scene, variant, &Reading::default(), arithmetic).expect("the scene is sound")
+    let request = Request::new(scene).variant(variant).arithmetic(arithmetic);
+    Plan::new(&request).expect("the scene is sound")
 }
 
 fn plan(scene: &str, variant: Variant) -> Plan {
@@ -73,7 +74,6 @@ fn estimates_grow_with_what_is_asked() {
     for (more, less) in [(&lu, &dense), (&dense, &sparse)] {
         assert!(more.cost.bytes.total() > less.cost.bytes.total());
         assert!(more.cost.operations > less.cost.operations);
-        assert!(more.cost.reference_seconds > less.cost.reference_seconds);
     }
 }
 
@@ -135,10 +135,8 @@ fn a_body_that_nothing_moves_is_found() {
     let idle: Vec<Option<Idle>> = plan.bodies.iter().map(|body| body.idle).collect();
     assert_eq!(idle, [None, None, Some(Idle::NoLoadNoContact)]);
     assert_eq!(plan.equations.idle, 2);
-    let outcome =
-        plane_contact::answer::contact::run(&scene, Variant::Tied, &Reading::default(), |_| ())
-            .unwrap();
-    assert!(outcome.u.iter().skip(36).all(|u| *u == 0.0), "and it does not move");
+    let solution = solve(&Request::new(&scene).variant(Variant::Tied), &mut |_| ()).unwrap();
+    assert!(solution.u.iter().skip(36).all(|u| *u == 0.0), "and it does not move");
 }
 
 #[test]

@@ -2,8 +2,11 @@
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
+use plane_contact::answer::Request;
 use plane_contact::error::InputError;
-use plane_contact::paper::mirror::Reading;
+use plane_contact::paper::door;
+use plane_contact::paper::mirror::Worksheet;
+use plane_contact::problem::scene::Scene;
 use serde_json::{Value, json};
 
 /// What is said of `fig1` once `change` has been made.
@@ -22,6 +25,11 @@ fn says(error: &InputError, place: &str, words: &[&str]) {
         assert!(error.what.contains(word), "{word:?} is missing: {error}");
     }
     assert!(!error.mend.is_empty());
+}
+
+/// The paper's tables of a scene.
+fn sheet(scene: &Scene) -> Worksheet<f64> {
+    door::worksheet(&scene.model, |x| x)
 }
 
 fn push(list: &mut Value, value: Value) {
@@ -51,9 +59,7 @@ fn fields() {
 #[test]
 fn text_that_is_no_scene() {
     let parse = |text: &str| {
-        let error = plane_contact::problem::scene::Scene::build("test", text.as_bytes(), |_| {
-            Err("no".into())
-        });
+        let error = Scene::build("test", text.as_bytes(), |_| Err("no".into()));
         error.expect_err("refused")
     };
     says(&parse("{"), "the scene file", &["EOF", "line 1"]);
@@ -123,8 +129,8 @@ fn materials() {
     stress["plane"] = json!("stress");
     stress["materials"]["1"]["nu"] = json!(0.7);
     let scene = build(&stress).expect("0.7 is sound in plane stress");
-    let e =
-        scene.worksheet(&"R6=strain".parse::<Reading>().unwrap()).expect_err("not in plane strain");
+    let e = Request::new(&scene).reading("R6=strain".parse().unwrap()).model();
+    let e = e.expect_err("not in plane strain");
     says(&e, "--reading R6", &["nu = 0.7 is outside (-1, 0.5) in plane strain"]);
 }
 
@@ -234,10 +240,9 @@ fn orphans() {
     scene["drop_orphans"] = json!(true);
     let dropped = build(&scene).expect("the orphan is dropped");
     assert_eq!(dropped.dropped, [5]);
-    let same = |s: &plane_contact::problem::scene::Scene| s.worksheet(&Reading::default()).unwrap();
     let mut original = scene_json("fig1");
     original["restraints"].as_array_mut().unwrap().swap(1, 2);
-    assert_eq!(same(&dropped), same(&build(&original).unwrap()));
+    assert_eq!(sheet(&dropped), sheet(&build(&original).unwrap()));
     scene["loads"] = json!([{ "node": 5, "force": [0.0, -1.0] }]);
     says(
         &build(&scene).unwrap_err(),
@@ -251,14 +256,14 @@ fn orphans() {
 fn loads_are_consistent_and_pressure_pushes_inwards() {
     let mut scene = scene_json("fig1");
     let before = build(&scene).unwrap();
-    assert_eq!(before.total_load(), [0.0, -6.3 * 2.5]);
-    assert_eq!((before.load[23], before.load[25]), (-7.875, -7.875));
+    assert_eq!(before.model.total_load(), [0.0, -6.3 * 2.5]);
+    assert_eq!((before.model.load[23], before.model.load[25]), (-7.875, -7.875));
     scene["elem"][7] = json!([8, 1, 2, 21, 21, 13, 12]);
-    assert_eq!(build(&scene).unwrap().load, before.load);
+    assert_eq!(build(&scene).unwrap().model.load, before.model.load);
     scene["thickness"] = json!(2.0);
     scene["loads"] =
         json!([{ "on": 21, "traction": [0.5, -1.0] }, { "node": 1, "force": [3.0, 4.0] }]);
-    assert_eq!(build(&scene).unwrap().total_load(), [2.5 + 3.0, -5.0 + 4.0]);
+    assert_eq!(build(&scene).unwrap().model.total_load(), [2.5 + 3.0, -5.0 + 4.0]);
 }
 
 /// A group, its tag as a number or as text, and the list of its members say the same.
@@ -268,8 +273,6 @@ fn names_tags_and_lists_are_one() {
     let mut scene = scene_json("fig1");
     scene["contact"]["cnt"] = json!(20);
     scene["contact"]["trg"] = json!("10");
-    let sheet =
-        |s: &plane_contact::problem::scene::Scene| s.worksheet(&Reading::default()).unwrap();
     assert_eq!(sheet(&build(&scene).unwrap()), sheet(&by_list));
 }
 
@@ -281,11 +284,8 @@ fn a_name_belongs_to_one_group() {
         $Elements\n3\n1 1 2 1 1 1 2\n2 1 2 2 2 2 3\n3 2 2 3 1 1 2 3\n$EndElements\n";
     let scene = r#"{"mesh": "m.msh", "plane": "strain", "materials": {"body": {"E": 1, "nu": 0}},
         "restraints": [{"on": "top", "fix": ["x", "y"]}]}"#;
-    let read = |mesh: String| {
-        plane_contact::problem::scene::Scene::build("test", scene.as_bytes(), move |_| {
-            Ok(mesh.clone().into())
-        })
-    };
+    let read =
+        |mesh: String| Scene::build("test", scene.as_bytes(), move |_| Ok(mesh.clone().into()));
     says(&read(mesh.into()).unwrap_err(), "physical groups", &["1 and 2 are both named \"top\""]);
     read(mesh.replacen("top", "base", 1)).expect("each name once");
 }
@@ -294,5 +294,6 @@ fn a_name_belongs_to_one_group() {
 #[test]
 fn r8_multiplies_the_tolerance() {
     let scene = build(&scene_json("fig1")).unwrap();
-    assert_eq!(scene.worksheet(&"R8=m".parse::<Reading>().unwrap()).unwrap().c_tll, 1.0);
+    let model = Request::new(&scene).reading("R8=m".parse().unwrap()).model().unwrap();
+    assert_eq!(door::worksheet(&model, |x| x).c_tll, 1.0);
 }

@@ -4,11 +4,9 @@ use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Vector2;
-use plane_contact::problem::scene::Scene;
-use serde_json::{Value, json};
+use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
 
 use super::fields::Field;
-use crate::common::json::build;
 
 /// How each cell of the grid is cut in two.
 #[derive(Clone, Copy, Debug)]
@@ -85,19 +83,14 @@ impl Grid {
     pub fn scene(&self, field: &Field, thickness: f64) -> Scene {
         let (points, triangles) = (self.points(), self.triangles());
         let forces = tractions(field, &points, &triangles, thickness);
-        let load = |(n, f): (&usize, &[f64; 2])| json!({ "node": n + 1, "force": f });
-        build(&json!({
-            "node": node_table(&points), "elem": elem_table(&triangles, |_| 1),
-            "plane": field.plane.to_string(), "thickness": thickness,
-            "materials": { "1": { "E": field.e, "nu": field.nu } },
-            "restraints": [
-                { "node": 1, "fix": ["x", "y"] },
-                { "node": self.cells[0] + 1, "fix": ["y"] },
-            ],
-            "loads": forces.iter().map(load).collect::<Vec<_>>(),
-            "iterations": 1,
-        }))
-        .expect("a sound scene")
+        let scene = SceneBuilder::new("test", mesh(&points, &triangles).finish(), field.plane)
+            .thickness(thickness)
+            .material(BODY, field.e, field.nu)
+            .restrain_node(1, &[Axis::X, Axis::Y])
+            .restrain_node(self.cells[0] + 1, &[Axis::Y])
+            .iterations(1);
+        let loaded = forces.into_iter().fold(scene, |scene, (n, force)| scene.force(n + 1, force));
+        loaded.build().expect("a sound scene")
     }
 }
 
@@ -106,18 +99,15 @@ fn noise(i: usize, j: usize) -> f64 {
     ((i * 7919 + j * 104_729 + i * j * 31) % 199) as f64 / 99.0 - 1.0
 }
 
-/// The paper's table `node`.
-pub fn node_table(points: &[[f64; 2]]) -> Value {
-    let row = |(n, p): (usize, &[f64; 2])| json!([n + 1, p[0], p[1], 0.0]);
-    points.iter().enumerate().map(row).collect()
-}
+/// The group of the triangles of a mesh.
+pub const BODY: &str = "body";
 
-/// The paper's table `elem`; `group` of each triangle.
-pub fn elem_table(triangles: &[[usize; 3]], group: impl Fn(usize) -> usize) -> Value {
-    let row = |(n, t): (usize, &[usize; 3])| {
-        json!([n + 1, 2, 2, group(n), group(n), t[0] + 1, t[1] + 1, t[2] + 1])
-    };
-    triangles.iter().enumerate().map(row).collect()
+/// A mesh of `points` and of `triangles`, which count points from 0.
+pub fn mesh(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> MeshBuilder {
+    let mut mesh = MeshBuilder::default();
+    let nodes = mesh.row(points.iter().copied());
+    mesh.triangles(BODY, triangles.iter().map(|t| t.map(|point| nodes[point])));
+    mesh
 }
 
 /// Nodal forces of the field's tractions on the boundary edges, by three Gauss points an edge.
