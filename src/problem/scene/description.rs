@@ -1,9 +1,11 @@
 //! What is said of a mesh: plane problem, materials, restraints, loads, contact surfaces, and what
 //! is to be run. A scene file and code say the same, by [`SceneBuilder`](super::SceneBuilder).
 
+use std::str::FromStr;
+
+use serde::de::{self, Deserializer};
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::file::by_name;
 use super::groups::GroupRef;
 use super::surface::Surface;
 use crate::problem::element::Plane;
@@ -217,4 +219,9 @@ impl Contact {
             status: StatusRule::default(),
         }
     }
+}
+
+/// Reads one of a closed set by the name that it has on the command line.
+pub fn by_name<'de, D: Deserializer<'de>, T: FromStr<Err = String>>(d: D) -> Result<T, D::Error> {
+    String::deserialize(d)?.parse().map_err(de::Error::custom)
 }

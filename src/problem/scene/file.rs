@@ -1,14 +1,13 @@
 //! The scene file: a mesh, and what is said of it, as JSON.
 
 use std::fmt;
-use std::str::FromStr;
 
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 
 use super::description::{
-    Contact, Description, Load, Material, Materials, Restraint, Units, default_iterations,
+    Contact, Description, Load, Material, Materials, Restraint, Units, by_name, default_iterations,
     default_thickness,
 };
 use super::groups::GroupRef;
@@ -109,11 +108,6 @@ fn lines(value: &Value) -> String {
         }
         _ => value.to_string(),
     }
-}
-
-/// Reads one of a closed set by the name that it has on the command line.
-pub fn by_name<'de, D: Deserializer<'de>, T: FromStr<Err = String>>(d: D) -> Result<T, D::Error> {
-    String::deserialize(d)?.parse().map_err(de::Error::custom)
 }
 
 impl<'de> Deserialize<'de> for GroupRef {
