@@ -3,12 +3,16 @@
 #[path = "../common"]
 mod common {
     pub mod embedded;
+    pub mod golden;
     pub mod json;
     pub mod tolerances;
 }
 
 mod cli;
+mod examples;
 mod gmsh;
+mod pictures;
 mod plan;
 mod scenes;
+mod texts;
 mod trade;

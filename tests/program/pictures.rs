@@ -1,0 +1,101 @@
+//! The pictures that the repository ships are those that the program draws.
+//!
+//! Words and the order of everything are exact; a coordinate may differ by a tenth of a pixel.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use tempfile::TempDir;
+
+/// A tenth of a pixel: pictures are for the eye.
+const PIXEL: f64 = 0.1;
+
+fn golden() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("golden")
+}
+
+fn run(folder: &Path, args: &[&str]) {
+    let status = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
+        .args(args)
+        .current_dir(folder)
+        .output()
+        .expect("the program starts")
+        .status;
+    assert!(status.success(), "{args:?}");
+}
+
+/// Compares a shipped picture with one just drawn; INSTA_UPDATE=always takes the new one.
+fn assert_picture(shipped: &Path, drawn: &Path) {
+    let drawn = std::fs::read_to_string(drawn).expect("it was drawn");
+    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+        std::fs::write(shipped, &drawn).expect("the repository can be written");
+    }
+    let expected = std::fs::read_to_string(shipped).unwrap_or_default();
+    let same = same_picture(&expected, &drawn);
+    assert!(same, "{} is stale: INSTA_UPDATE=always cargo test draws it anew", shipped.display());
+}
+
+fn same_picture(expected: &str, value: &str) -> bool {
+    let (expected, value) = (pieces(expected), pieces(value));
+    let same = |(e, v): (&&str, &&str)| match (e.parse::<f64>(), v.parse::<f64>()) {
+        (Ok(e), Ok(v)) => (e - v).abs() <= PIXEL,
+        _ => e == v,
+    };
+    expected.len() == value.len() && expected.iter().zip(&value).all(same)
+}
+
+/// Numbers, and what stands between them.
+fn pieces(text: &str) -> Vec<&str> {
+    text.split_inclusive(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))
+        .flat_map(|piece| {
+            let end = piece.len() - piece.chars().last().map_or(0, char::len_utf8);
+            let is_open = piece.ends_with(|c: char| c.is_ascii_digit() || c == '.' || c == '-');
+            if is_open { [piece, ""] } else { [&piece[..end], &piece[end..]] }
+        })
+        .filter(|piece| !piece.is_empty())
+        .collect()
+}
+
+#[test]
+fn pictures_differ_by_words_and_by_more_than_a_tenth_of_a_pixel() {
+    assert_eq!(pieces("M1.5,-2 a"), ["M", "1.5", ",", "-2", " ", "a"]);
+    assert!(same_picture("<p d=\"M1.50,2\"/>", "<p d=\"M1.55,2\"/>"));
+    assert!(!same_picture("<p d=\"M1.50,2\"/>", "<p d=\"M1.70,2\"/>"));
+    assert!(!same_picture("<p d=\"M1.50,2\"/>", "<q d=\"M1.50,2\"/>"));
+}
+
+/// Every `.svg` of the repository is drawn by `audit strand --out` or by `solve` on its scene.
+#[test]
+fn shipped_pictures_are_drawn_anew() {
+    let folder = TempDir::new().expect("a temporary folder");
+    run(folder.path(), &["audit", "strand", "--out", "audit"]);
+    let drawn = folder.path().join("audit");
+    let mut expected = vec![
+        (golden().join("strand/von_mises_stress.svg"), drawn.join("stepped/von_mises_stress.svg")),
+        (golden().join("strand/pressure.svg"), drawn.join("pressure.svg")),
+    ];
+    for entry in std::fs::read_dir(golden().join("findings")).expect("the findings") {
+        let shipped = entry.expect("a folder").path();
+        if shipped.is_dir() {
+            let name = shipped.file_name().expect("it has a name").to_string_lossy().into_owned();
+            let picture = drawn.join("findings").join(format!("{name}.svg"));
+            expected.push((shipped.join("mesh.svg"), picture));
+        }
+    }
+    expected.iter().for_each(|(shipped, drawn)| assert_picture(shipped, drawn));
+    let mut shipped = Vec::new();
+    pictures(&golden(), &mut shipped);
+    shipped.retain(|picture| !expected.iter().any(|(other, _)| other == picture));
+    assert!(shipped.is_empty(), "no test draws {shipped:?}");
+}
+
+fn pictures(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).expect("a folder of golden") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            pictures(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "svg") {
+            found.push(path);
+        }
+    }
+}
