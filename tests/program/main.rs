@@ -8,6 +8,7 @@ mod common {
 }
 
 mod cli;
+mod factors;
 mod gmsh;
 mod plan;
 mod scenes;
