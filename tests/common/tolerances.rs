@@ -244,13 +244,13 @@ tolerances! {
         "1 where the solution is smooth; 0.89 was measured: the polygon's corners on the bore are \
          re-entrant and take some of it";
 
-    /// Right digits in a cell of `extremes`.
-    EXTREME_DIGITS = 2.0,
-        "the LU library sums in another order on another processor: an error may be some times \
-         larger or smaller by chance, and a digit is cut off";
+    /// Right digits in a cell of `extremes`, before they are cut off to whole ones.
+    EXTREME_DIGITS = 0.5,
+        "the LU library sums in another order on another processor: an error may be three times \
+         larger or smaller by chance";
 
     /// The exponent of a breaking point of `extremes`.
-    EXTREME_DECADES = 2.0,
-        "a digit more or less moves the point where three are left by a decade; it is bisected to \
-         half of one, and rounded";
+    EXTREME_DECADES = 1.0,
+        "half a digit more or less moves the point where three are left by half a decade; it is \
+         bisected to half of one, and rounded";
 }

@@ -5,27 +5,49 @@ use std::sync::LazyLock;
 use crate::common::golden::assert_golden_by;
 use crate::common::tolerances::{EXTREME_DECADES, EXTREME_DIGITS};
 use plane_contact::report::extremes as report;
-use plane_contact::studies::extremes::{Measured, Verdict, generators, measure};
+use plane_contact::studies::extremes::{Column, Measured, Verdict, generators, measure};
 
 static MEASURED: LazyLock<Vec<Measured>> = LazyLock::new(|| measure(&generators()));
 
 #[test]
 fn the_table_is_the_golden_one() {
-    assert_golden_by("extremes", "table", &report::text(&MEASURED), same_table);
+    assert_golden_by("extremes", "table", &report::text(&MEASURED), |golden, table| {
+        let near = [-1.0, 1.0].map(|side| report::text(&moved(side * EXTREME_DIGITS.limit)));
+        same_table(golden, [table, &near[0], &near[1]])
+    });
 }
 
-/// Cells are apart by two blanks or more: digits within a tolerance, powers of ten within another, words to the letter.
-fn same_table(expected: &str, value: &str) -> bool {
-    let lines = |text: &str| text.trim_end().lines().map(cells).collect::<Vec<_>>();
-    let (expected, value) = (lines(expected), lines(value));
-    expected.len() == value.len()
-        && expected.iter().zip(&value).all(|(e, v)| {
-            let same = e.len() == v.len() && e.iter().zip(v).all(|(e, v)| same_cell(e, v));
-            if !same {
-                eprintln!("expected {e:?}\n     got {v:?}");
+/// What was measured, with `by` more right digits wherever some are right.
+fn moved(by: f64) -> Vec<Measured> {
+    let mut measured = MEASURED.clone();
+    for Column { verdicts, below, above, .. } in measured.iter_mut().flat_map(|m| &mut m.columns) {
+        let breaks = below.iter_mut().chain(above).map(|at| &mut at.verdict);
+        for verdict in verdicts.iter_mut().chain(breaks) {
+            if let Verdict::Digits(digits) = verdict {
+                *digits += by;
             }
-            same
-        })
+        }
+    }
+    measured
+}
+
+/// Whether a table is the golden one, given the table, and the table as it would be with a little fewer and a little more right digits. Cells are apart
+/// by two blanks or more: to the letter those of any of the three, but for powers of ten within a tolerance. The first of a line names it, to the letter.
+fn same_table(golden: &str, tables: [&str; 3]) -> bool {
+    let lines = |text: &str| text.trim_end().lines().map(cells).collect::<Vec<_>>();
+    let (golden, tables) = (lines(golden), tables.map(lines));
+    let same_line = |(k, expected): (usize, &Vec<String>)| {
+        let lines = tables.each_ref().map(|table| &table[k]);
+        let same_cell = |(j, cell): (usize, &String)| {
+            lines.iter().any(|line| line[j] == *cell) || j > 0 && same_decade(cell, &lines[0][j])
+        };
+        let same = expected.len() == lines[0].len() && expected.iter().enumerate().all(same_cell);
+        if !same {
+            eprintln!("expected {expected:?}\n     got {:?}", lines[0]);
+        }
+        same
+    };
+    golden.len() == tables[0].len() && golden.iter().enumerate().all(same_line)
 }
 
 /// The cells of a line; rules under headings are as wide as their columns, and no cells.
@@ -34,33 +56,42 @@ fn cells(line: &str) -> Vec<String> {
     cells.filter(|cell| !cell.chars().all(|c| c == '-') || *cell == "-").map(String::from).collect()
 }
 
-fn same_cell(expected: &str, value: &str) -> bool {
-    let within = |parse: &dyn Fn(&str) -> Option<f64>, limit: f64| matches!((parse(expected), parse(value)), (Some(e), Some(v)) if (e - v).abs() <= limit);
-    expected == value
-        || within(&digits, EXTREME_DIGITS.limit)
-        || within(&decade, EXTREME_DECADES.limit)
-}
-
-/// A number of digits; none where an answer has no right one.
-fn digits(cell: &str) -> Option<f64> {
-    match cell {
-        "WRONG" | "WRONG (no digit)" | "WRONG (locked)" => Some(0.0),
-        _ => cell.parse::<usize>().ok().map(|digits| digits as f64),
-    }
-}
-
-/// The exponent of a power of ten.
-fn decade(cell: &str) -> Option<f64> {
-    cell.strip_prefix("1e").and_then(|exponent| exponent.parse().ok())
+/// Whether two cells are powers of ten within a tolerance.
+fn same_decade(expected: &str, value: &str) -> bool {
+    let exponent = |cell: &str| cell.strip_prefix("1e").and_then(|text| text.parse::<f64>().ok());
+    let exponents = exponent(expected).zip(exponent(value));
+    exponents.is_some_and(|(e, v)| (e - v).abs() <= EXTREME_DECADES.limit)
 }
 
 #[test]
-fn a_table_differs_by_words_and_by_more_than_a_few_digits() {
-    assert!(same_table("a  14  1e-8", "a  13  1e-7"));
-    assert!(!same_table("a  14  1e-8", "a  9  1e-8"));
-    assert!(!same_table("a  14  1e-8", "a  14  1e-2"));
-    assert!(!same_table("a  refused (singular)", "a  14"));
-    assert!(same_table("a  WRONG", "a  1"));
+fn a_table_differs_by_words_and_by_more_than_half_a_digit() {
+    let same = |expected: &str, value: &str| same_table(expected, [value; 3]);
+    assert!(same_table("a  14", ["a  13", "a  13", "a  14"]), "13.6 digits");
+    assert!(!same_table("a  14", ["a  13", "a  12", "a  13"]), "13.4 digits");
+    assert!(same("a  14  1e-8", "a  14  1e-7"));
+    assert!(!same("a  14  1e-8", "a  14  1e-6"));
+    assert!(!same("1e-8  14", "1e-7  14"), "another magnitude");
+    for (expected, value) in [
+        ("a  2", "a  WRONG"),
+        ("a  WRONG", "a  1"),
+        ("a  exact", "a  16"),
+        ("a  refused (singular)", "a  14"),
+        ("a  refused (singular)", "a  WRONG (no digit)"),
+        ("a  WRONG (locked)", "a  WRONG (no digit)"),
+        ("a  1e-8", "a  -"),
+    ] {
+        assert!(!same(expected, value), "{expected} {value}");
+    }
+}
+
+/// A digit and a half off in every cell is another table, and so is a golden one whose kinds are others.
+#[test]
+fn a_table_that_is_off_is_told() {
+    let [fewer, table, more] = [1.0, 1.5, 2.0].map(|by| report::text(&moved(by)));
+    let golden = report::text(&MEASURED);
+    assert!(same_table(&golden, [&golden; 3]));
+    assert!(!same_table(&golden, [&table, &fewer, &more]));
+    assert!(!same_table(&golden.replacen("WRONG", "1", 1), [&golden; 3]));
 }
 
 /// The cells of a generator's way, each with its magnitude.

@@ -10,6 +10,7 @@ mod common {
 
 mod cli;
 mod examples;
+mod factors;
 mod gmsh;
 mod pictures;
 mod plan;

@@ -146,12 +146,11 @@ fn as_printed_no_load_reaches_the_block() {
     assert_eq!(idle, [Some(Idle::NotCoupled), None]);
 }
 
+/// The line of fig1: 5 dense factorisations and 3 sparse ones of the converged answer, 5 · 5333 + 3 · 274 operations.
 #[test]
-fn the_line_is_the_same_every_time() {
+fn the_line_says_what_is_planned() {
     let text = line(&plan("fig1", Variant::Stepped));
-    assert_eq!(text, line(&plan("fig1", Variant::Stepped)));
-    for words in ["20 free equations of 26", "8 contact candidates of 15", "dense dense-lu in f64"]
-    {
-        assert!(text.contains(words), "{words:?}: {text}");
-    }
+    let expected = "plan: 20 free equations of 26, 8 contact candidates of 15, dense dense-lu in f64; \
+                    about 15 MB, 2.7e4 operations";
+    assert_eq!(text, expected);
 }
