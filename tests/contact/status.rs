@@ -299,7 +299,7 @@ fn a_run_binds_by_the_weights_of_its_shapes() {
             let reading: Reading = reading.parse().unwrap();
             let request = by_rule(rule, &scene).reading(reading);
             let solution = answer::solve(&request, &mut |_| ()).expect("the variant runs");
-            let sheet = door::worksheet(&*solution.model, |x| x);
+            let sheet = door::worksheet(&solution.model, |x| x);
             for step in &solution.steps {
                 let pairs = pairs(rule, &solution.model, &reading, &step.shape).unwrap();
                 let Detail::Published(found) = &step.detail else { panic!("stepped searches") };

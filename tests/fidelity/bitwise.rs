@@ -383,7 +383,7 @@ fn listing_and_mirror_agree_on_the_shipped_scenes() {
 /// The worksheet of an embedded scene under the default reading.
 fn initial(scene: &str) -> Worksheet<f64> {
     let request = Request::new(&Scene::open(scene).unwrap());
-    door::worksheet(&*request.model().unwrap(), |x| x)
+    door::worksheet(&request.model().unwrap(), |x| x)
 }
 
 fn all_readings() -> Vec<Reading> {

@@ -30,7 +30,7 @@ fn the_golden_scenes_cover_the_listings() {
     let (text_c_cnt, text_km) = (Which::CCnt.under(&reading), Which::Km.under(&reading));
     for scene in shipped_scenes() {
         let model = Request::new(&scene).reading(reading).model().unwrap();
-        let sheet = door::worksheet(&*model, |x| x);
+        let sheet = door::worksheet(&model, |x| x);
         let settings = settings(&reading);
         // A scene may be there to show where the listing stops; what it reached before counts.
         let _ = listings::c_cnt(&text_c_cnt, &settings, &sheet, &sheet.node, &mut of_c_cnt);

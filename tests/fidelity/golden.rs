@@ -92,7 +92,7 @@ fn pairs(model: &Model, pairs: &Pairs<f64>) -> String {
 #[test]
 fn mjs_of_fig1() {
     let request = Request::new(&Scene::open("fig1").unwrap());
-    let sheet = door::worksheet(&*request.model().unwrap(), |x| x);
+    let sheet = door::worksheet(&request.model().unwrap(), |x| x);
     let pairs = c_cnt(&sheet, &Reading::default(), &sheet.node).unwrap();
     let coupled = Km(&sheet, &Reading::default(), &pairs.k_cnt).unwrap();
     let free = Km(&sheet, &Reading::default(), &Table::filled(13, 4, 0.0)).unwrap();
