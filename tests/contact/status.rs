@@ -1,14 +1,15 @@
 //! The status rules on scenes worked out by hand, and on the paper's example with a wider duct.
 
 use crate::common::tolerances::{FOOT, assert_near};
-use plane_contact::answer::contact::{
-    Operations, Outcome, TargetSurface, pairs, run, shape, statuses, summaries,
-};
-use plane_contact::paper::mathcad::array::{Column, Table};
-use plane_contact::paper::mirror::{Cause, NodeTable, Reading, Worksheet, c_cnt};
+use plane_contact::answer::contact::TargetSurface;
+use plane_contact::answer::contact::status::{places, statuses};
+use plane_contact::answer::{self, Constraint, Detail, Request, Solution, summaries};
+use plane_contact::paper::door::{self, Call};
+use plane_contact::paper::mirror::{Cause, Failure, NodeTable, Pairs, Reading};
 use plane_contact::problem::element::Plane;
-use plane_contact::problem::modelling::{StatusRule, Variant};
-use plane_contact::problem::scene::Scene;
+use plane_contact::problem::model::{Model, NodeId};
+use plane_contact::problem::modelling::{ContactModel, StatusRule, Variant};
+use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::studies::audit::statuses::{Measurement, Row, measure};
 
 const C: f64 = 0.001;
@@ -22,57 +23,30 @@ const C: f64 = 0.001;
 ///     \         |     /
 ///       `-------*--'         inner
 /// ```
-fn sheet(chain: &[[f64; 2]], contact: &[[f64; 2]], sides: [[f64; 2]; 2]) -> Worksheet<f64> {
-    let (m, n) = (chain.len(), contact.len());
-    let inner = [0.0, -5.0];
-    let corner = |p: &[f64; 2], by: [f64; 2]| [p[0] + by[0], p[1] + by[1]];
-    let corners = contact.iter().flat_map(|p| sides.map(|side| corner(p, side)));
-    let points: Vec<[f64; 2]> = chain
-        .iter()
-        .copied()
-        .chain([inner])
-        .chain(contact.iter().copied())
-        .chain(corners)
-        .collect();
-    let edges = (1..m).map(|j| vec![j, j + 1]);
-    let fan = (1..m).map(|j| vec![m + 1, j + 1, j]);
-    let stamp = (1..=n).map(|i| vec![m + 1 + i, m + n + 2 * i + 1, m + n + 2 * i]);
-    let rows: Vec<Vec<usize>> = edges.chain(fan).chain(stamp).collect();
-    let cell = |k: usize, j: usize| match j {
-        1 => k,
-        2 => rows[k - 1].len() - 1,
-        3..6 => 2,
-        _ => rows[k - 1].get(j - 6).copied().unwrap_or(0),
-    };
-    let triangles = m - 1 + n;
-    Worksheet {
-        node: Table::from_fn(points.len(), 4, |i, j| match j {
-            1 => i as f64,
-            4 => 0.0,
-            _ => points[i - 1][j - 2],
-        }),
-        elem: Table::from_fn(rows.len(), 8, cell),
-        EL: Table::from_fn(triangles, 8, |k, j| cell(m - 1 + k, j)),
-        trg: Column::from_vec((1..m).collect()),
-        cnt: Column::from_vec((m + 2..m + 2 + n).collect()),
-        c_tll: C,
-        ind_1: 6,
-        S: Column::filled(2 * points.len(), 0),
-        Ae: Column::filled(triangles, 0.0),
-        B: Column::filled(triangles, nalgebra::SMatrix::zeros()),
-        E: Column::filled(triangles, 0.0),
-        nu: Column::filled(triangles, 0.0),
-        plane: Plane::Strain,
+fn model(chain: &[[f64; 2]], contact: &[[f64; 2]], sides: [[f64; 2]; 2]) -> Model {
+    let mut mesh = MeshBuilder::default();
+    let chain = mesh.row(chain.iter().copied());
+    let inner = mesh.node([0.0, -5.0]);
+    let nodes = mesh.row(contact.iter().copied());
+    mesh.edges("surface", &chain);
+    mesh.triangles("target", chain.windows(2).map(|edge| [inner, edge[1], edge[0]]));
+    for (n, p) in nodes.iter().zip(contact) {
+        let [q1, q2] = sides.map(|by| mesh.node([p[0] + by[0], p[1] + by[1]]));
+        mesh.triangles("stamp", [[*n, q2, q1]]);
     }
+    let scene = SceneBuilder::new("by hand", mesh.finish(), Plane::Strain)
+        .material("target", 1.0, 0.0)
+        .material("stamp", 1.0, 0.0)
+        .restrain("target", &[Axis::X, Axis::Y])
+        .restrain("stamp", &[Axis::X, Axis::Y])
+        .contact(Contact::new(nodes, "surface", C))
+        .build();
+    (*scene.expect("the scene is sound").model).clone()
 }
 
 /// The shape with every point mapped.
-fn mapped(sheet: &Worksheet<f64>, map: impl Fn([f64; 2]) -> [f64; 2]) -> Table<f64> {
-    let mut node = sheet.node.clone();
-    for n in 1..=sheet.R() {
-        [node[(n, 2)], node[(n, 3)]] = map([sheet.node[(n, 2)], sheet.node[(n, 3)]]);
-    }
-    node
+fn mapped(model: &Model, map: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
+    model.nodes.iter().map(|p| map(*p)).collect()
 }
 
 fn turned(degrees: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
@@ -80,9 +54,29 @@ fn turned(degrees: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
     move |[x, y]| [cos * x - sin * y, sin * x + cos * y]
 }
 
-fn dy(rule: StatusRule, sheet: &Worksheet<f64>, node_n: &Table<f64>) -> Vec<usize> {
-    let found = statuses(rule, sheet, &Reading::default(), node_n, &Operations::default());
-    found.unwrap_or_else(|failure| panic!("{rule}: {failure}")).dy.as_slice().to_vec()
+fn dy(rule: StatusRule, model: &Model, shape: &[[f64; 2]]) -> Vec<usize> {
+    let found = statuses(rule, model, &Reading::default(), shape);
+    let found = found.unwrap_or_else(|failure| panic!("{rule}: {failure}"));
+    found.iter().map(|status| usize::from(status.in_contact)).collect()
+}
+
+/// The contact pairs in a shape, statuses by `rule`, weights from the shape that R5 names.
+fn pairs(
+    rule: StatusRule,
+    model: &Model,
+    reading: &Reading,
+    shape: &[[f64; 2]],
+) -> Result<Pairs<f64>, Failure> {
+    if rule == StatusRule::Signs {
+        return Ok(Call::c_cnt(model, reading, shape)?.pairs);
+    }
+    let statuses = statuses(rule, model, reading, shape)?;
+    let weights_from = match reading.r5 {
+        NodeTable::Node => &model.nodes,
+        NodeTable::NodeN => shape,
+    };
+    let places = places(model, &statuses, |n| weights_from[n.index()][0])?;
+    Ok(door::pairs(model, reading, &statuses, &places))
 }
 
 const UPRIGHT: [[f64; 2]; 2] = [[-0.4, 1.0], [0.4, 1.0]];
@@ -124,9 +118,9 @@ const NEAR: &[Case] = &[
 #[test]
 fn each_rule_on_hand_made_scenes() {
     for (name, chain, node, expected) in NEAR.iter().chain(FAR) {
-        let sheet = sheet(chain, &[*node], UPRIGHT);
+        let model = model(chain, &[*node], UPRIGHT);
         let found = [StatusRule::Signs, StatusRule::Intersection, StatusRule::Projection]
-            .map(|rule| dy(rule, &sheet, &sheet.node)[0]);
+            .map(|rule| dy(rule, &model, &model.nodes)[0]);
         assert_eq!(found, *expected, "{name}");
     }
 }
@@ -135,17 +129,17 @@ fn each_rule_on_hand_made_scenes() {
 #[test]
 fn projection_and_intersection_do_not_depend_on_the_axes() {
     for (k, (name, chain, node, expected)) in NEAR.iter().chain(FAR).enumerate() {
-        let sheet = sheet(chain, &[*node], UPRIGHT);
+        let model = model(chain, &[*node], UPRIGHT);
         for degrees in [0.0, 30.0, 90.0, 137.0, 180.0, 270.0, 301.0] {
             for mirrored in [false, true] {
                 let turn = turned(degrees);
-                let shape = mapped(&sheet, |[x, y]| turn([x, if mirrored { -y } else { y }]));
+                let shape = mapped(&model, |[x, y]| turn([x, if mirrored { -y } else { y }]));
                 let place = format!("{name}, turned by {degrees}, mirrored {mirrored}");
-                let projection = dy(StatusRule::Projection, &sheet, &shape);
+                let projection = dy(StatusRule::Projection, &model, &shape);
                 assert_eq!(projection, [expected[2]], "{place}");
                 if k >= NEAR.len() {
                     assert_eq!(
-                        dy(StatusRule::Intersection, &sheet, &shape),
+                        dy(StatusRule::Intersection, &model, &shape),
                         [expected[1]],
                         "{place}"
                     );
@@ -158,13 +152,13 @@ fn projection_and_intersection_do_not_depend_on_the_axes() {
 /// C4: node 1 is apart, node 2 inside. The sign rule takes each for the other, and upside down it does not.
 #[test]
 fn the_sign_rule_depends_on_which_way_is_up() {
-    let sheet = sheet(SLOPE, &[[0.8, 0.17], [1.2, 0.23]], UPRIGHT);
-    let upside_down = mapped(&sheet, |[x, y]| [x, -y]);
-    assert_eq!(dy(StatusRule::Signs, &sheet, &sheet.node), [1, 0]);
-    assert_eq!(dy(StatusRule::Signs, &sheet, &upside_down), [0, 1]);
+    let model = model(SLOPE, &[[0.8, 0.17], [1.2, 0.23]], UPRIGHT);
+    let upside_down = mapped(&model, |[x, y]| [x, -y]);
+    assert_eq!(dy(StatusRule::Signs, &model, &model.nodes), [1, 0]);
+    assert_eq!(dy(StatusRule::Signs, &model, &upside_down), [0, 1]);
     for rule in [StatusRule::Intersection, StatusRule::Projection] {
-        for shape in [&sheet.node, &upside_down] {
-            assert_eq!(dy(rule, &sheet, shape), [0, 1], "{rule}");
+        for shape in [&model.nodes, &upside_down] {
+            assert_eq!(dy(rule, &model, shape), [0, 1], "{rule}");
         }
     }
 }
@@ -172,23 +166,24 @@ fn the_sign_rule_depends_on_which_way_is_up() {
 /// C8: with c_tll = 0 a node on its edge is in contact by projection, not by line 16.
 #[test]
 fn without_a_tolerance_a_touching_node_is_in_contact_by_projection() {
-    let sheet = Worksheet { c_tll: 0.0, ..sheet(FLAT, &[[0.3, 0.0]], UPRIGHT) };
-    assert_eq!(dy(StatusRule::Signs, &sheet, &sheet.node), [0]);
-    assert_eq!(dy(StatusRule::Projection, &sheet, &sheet.node), [1]);
+    let mut model = model(FLAT, &[[0.3, 0.0]], UPRIGHT);
+    model.contact.tolerance = 0.0;
+    assert_eq!(dy(StatusRule::Signs, &model, &model.nodes), [0]);
+    assert_eq!(dy(StatusRule::Projection, &model, &model.nodes), [1]);
 }
 
 /// A vertical edge: line 10, which intersection keeps, divides by zero where the node is in the edge's box; projection knows.
 #[test]
 fn a_vertical_edge_stops_what_keeps_line_10() {
-    let sheet = sheet(&[[-1.0, 0.0], [1.0, 0.0]], &[[0.3, 0.0005]], UPRIGHT);
-    let upright = mapped(&sheet, |[x, y]| [y, -x]);
+    let model = model(&[[-1.0, 0.0], [1.0, 0.0]], &[[0.3, 0.0005]], UPRIGHT);
+    let upright = mapped(&model, |[x, y]| [y, -x]);
     for rule in [StatusRule::Signs, StatusRule::Intersection] {
-        let failure = pairs(rule, &sheet, &Reading::default(), &upright).unwrap_err();
+        let failure = pairs(rule, &model, &Reading::default(), &upright).unwrap_err();
         assert_eq!((failure.line, failure.cause), (10, Cause::Singularity), "{rule}");
     }
-    assert_eq!(dy(StatusRule::Projection, &sheet, &upright), [1]);
+    assert_eq!(dy(StatusRule::Projection, &model, &upright), [1]);
     let current: Reading = "R5=node_n".parse().unwrap();
-    let failure = pairs(StatusRule::Projection, &sheet, &current, &upright).unwrap_err();
+    let failure = pairs(StatusRule::Projection, &model, &current, &upright).unwrap_err();
     assert_eq!(
         (failure.line, failure.cause),
         (22, Cause::Singularity),
@@ -207,10 +202,11 @@ fn the_foot_at_a_corner_has_the_right_side() {
         (notch, [-0.1, -0.1], -0.02_f64.sqrt()),
         (notch, [0.1, -0.1], -0.02_f64.sqrt()),
     ] {
-        let one = sheet(&chain, &[[9.0, 9.0]], UPRIGHT);
-        let other = Worksheet { trg: Column::from_vec(vec![2, 1]), ..one.clone() };
-        for sheet in [one, other] {
-            let foot = TargetSurface::new(&sheet, &sheet.node).nearest(point).unwrap();
+        let one = model(&chain, &[[9.0, 9.0]], UPRIGHT);
+        let mut other = one.clone();
+        other.contact.target.reverse();
+        for model in [one, other] {
+            let foot = TargetSurface::new(&model, &model.nodes).nearest(point).unwrap();
             assert_near("distance", foot.distance, distance, 1.0, &FOOT);
             assert!(foot.beyond == 0.0 && (foot.xi == 0.0 || foot.xi == 1.0), "{foot:?}");
         }
@@ -220,10 +216,10 @@ fn the_foot_at_a_corner_has_the_right_side() {
 /// The foot's edge, place, normal and what lies past the end, turned.
 #[test]
 fn the_foot_of_a_point() {
-    let sheet = sheet(FLAT, &[[9.0, 9.0]], UPRIGHT);
+    let model = model(FLAT, &[[9.0, 9.0]], UPRIGHT);
     for degrees in [0.0, 30.0, 90.0, 200.0] {
         let turn = turned(degrees);
-        let surface = TargetSurface::new(&sheet, &mapped(&sheet, &turn));
+        let surface = TargetSurface::new(&model, &mapped(&model, &turn));
         for (point, edge, xi, distance, beyond) in [
             ([0.25, 0.5], 2, 0.25, 0.5, 0.0),
             ([-0.25, -0.5], 1, 0.75, -0.5, 0.0),
@@ -231,7 +227,7 @@ fn the_foot_of_a_point() {
             ([-1.3, -0.4], 1, 0.0, -0.5, 0.3),
         ] {
             let foot = surface.nearest(turn(point)).unwrap();
-            assert_eq!(foot.edge, edge);
+            assert_eq!(model.edge(foot.edge).number, edge);
             assert_near("xi", foot.xi, xi, 1.0, &FOOT);
             assert_near("distance", foot.distance, distance, 1.0, &FOOT);
             assert_near("beyond", foot.beyond, beyond, 1.0, &FOOT);
@@ -244,18 +240,19 @@ fn the_foot_of_a_point() {
 
 #[test]
 fn a_surface_without_an_edge_has_no_foot() {
-    let bare = Worksheet { trg: Column::filled(0, 0), ..sheet(FLAT, &[[0.3, -0.1]], UPRIGHT) };
-    assert_eq!(TargetSurface::new(&bare, &bare.node).nearest([0.0, 0.0]), None);
-    assert_eq!(dy(StatusRule::Projection, &bare, &bare.node), [0]);
+    let mut bare = model(FLAT, &[[0.3, -0.1]], UPRIGHT);
+    bare.contact.target.clear();
+    assert_eq!(TargetSurface::new(&bare, &bare.nodes).nearest([0.0, 0.0]), None);
+    assert_eq!(dy(StatusRule::Projection, &bare, &bare.nodes), [0]);
 }
 
 /// A deep node, outside every box (C9), gets the nearest edge and the listing's weights at it.
 #[test]
 fn a_lost_node_gets_the_nearest_edge_and_its_weights() {
-    let sheet = sheet(FLAT, &[[0.25, -0.1]], UPRIGHT);
-    let node = sheet.cnt[1];
+    let model = model(FLAT, &[[0.25, -0.1]], UPRIGHT);
+    let node = model.contact.nodes[0].number();
     for rule in [StatusRule::Intersection, StatusRule::Projection] {
-        let found = pairs(rule, &sheet, &Reading::default(), &sheet.node).unwrap();
+        let found = pairs(rule, &model, &Reading::default(), &model.nodes).unwrap();
         assert_eq!(found.ct.as_slice(), [2], "{rule}");
         assert_eq!(
             found.k_cnt.row(node).copied().collect::<Vec<_>>(),
@@ -268,20 +265,48 @@ fn a_lost_node_gets_the_nearest_edge_and_its_weights() {
     }
 }
 
-/// Where statuses and edges are the listing's, so are the weights, to the last bit, under R1 and R5.
+/// Readings that concern the weights.
+const OF_WEIGHTS: [&str; 4] = ["", "R1=inside", "R5=node_n", "R1=inside,R5=node_n"];
+
+/// Where statuses and edges are the listing's, so are the weights, to the last bit, under R1 and R5, and for a node listed twice (C12).
 #[test]
 fn weights_are_those_of_the_listing() {
     let contact = [[-0.7, 0.0005], [-0.3, -0.0004], [0.2, 0.0], [0.6, 0.0003]];
-    let sheet = sheet(FLAT, &contact, UPRIGHT);
-    let moved = mapped(&sheet, |[x, y]| [1.01 * x, y]);
-    for reading in ["", "R1=inside", "R5=node_n", "R1=inside,R5=node_n"] {
-        let reading: Reading = reading.parse().unwrap();
-        let printed = c_cnt(&sheet, &reading, &moved).unwrap();
-        assert_eq!(printed.dy.as_slice(), [1; 4]);
-        for rule in [StatusRule::Intersection, StatusRule::Projection] {
-            let found = pairs(rule, &sheet, &reading, &moved).unwrap();
-            assert_eq!((&found.ct, &found.dy), (&printed.ct, &printed.dy), "{rule}");
-            assert_eq!(found.k_cnt, printed.k_cnt, "{rule}, {:?}", reading.r5 == NodeTable::Node);
+    let once = model(FLAT, &contact, UPRIGHT);
+    let mut twice = once.clone();
+    twice.contact.nodes.push(once.contact.nodes[1]);
+    for model in [once, twice] {
+        let moved = mapped(&model, |[x, y]| [1.01 * x, y]);
+        for reading in OF_WEIGHTS {
+            let reading: Reading = reading.parse().unwrap();
+            let printed = pairs(StatusRule::Signs, &model, &reading, &moved).unwrap();
+            assert_eq!(printed.dy.as_slice(), [1].repeat(model.contact.nodes.len()));
+            for rule in [StatusRule::Intersection, StatusRule::Projection] {
+                let found = pairs(rule, &model, &reading, &moved).unwrap();
+                assert_eq!((&found.ct, &found.dy), (&printed.ct, &printed.dy), "{rule}");
+                assert_eq!(found.k_cnt, printed.k_cnt, "{rule}, {reading:?}");
+            }
+        }
+    }
+}
+
+/// A run binds its nodes by these weights, each step in the shape that it starts from.
+#[test]
+fn a_run_binds_by_the_weights_of_its_shapes() {
+    let scene = Scene::open("fig1").unwrap();
+    for rule in [StatusRule::Intersection, StatusRule::Projection] {
+        for reading in OF_WEIGHTS {
+            let reading: Reading = reading.parse().unwrap();
+            let request = by_rule(rule, &scene).reading(reading);
+            let solution = answer::solve(&request, &mut |_| ()).expect("the variant runs");
+            let sheet = door::worksheet(&solution.model, |x| x);
+            for step in &solution.steps {
+                let pairs = pairs(rule, &solution.model, &reading, &step.shape).unwrap();
+                let Detail::Published(found) = &step.detail else { panic!("stepped searches") };
+                assert_eq!(found.pairs, pairs, "{rule}, {reading:?}, step {}", step.k);
+                let bound = door::linked(&sheet, &pairs).into_iter().map(Constraint::from);
+                assert_eq!(step.constraints, bound.collect::<Vec<_>>(), "{rule}, {reading:?}");
+            }
         }
     }
 }
@@ -293,7 +318,7 @@ fn wider_duct(duct: f64) -> Scene {
     let mesh = std::fs::read_to_string(format!("{folder}/strand.msh")).unwrap();
     let scene = std::fs::read(format!("{folder}/scene.json")).unwrap();
     let original = Scene::open("strand").unwrap();
-    let block = original.target().unwrap();
+    let block = original.model.target().unwrap();
     let (before, rest) = mesh.split_once("$Nodes\n").unwrap();
     let (nodes, after) = rest.split_once("$EndNodes").unwrap();
     let moved: Vec<String> = nodes.lines().map(|line| moved(line, &block.nodes, duct)).collect();
@@ -302,10 +327,10 @@ fn wider_duct(duct: f64) -> Scene {
         .expect("the wider duct is sound")
 }
 
-fn moved(line: &str, block: &[usize], duct: f64) -> String {
+fn moved(line: &str, block: &[NodeId], duct: f64) -> String {
     let fields: Vec<f64> = line.split(' ').map(|field| field.parse().unwrap()).collect();
     let [number, x, y, z] = fields[..] else { return line.into() };
-    if !block.contains(&(number as usize)) {
+    if !block.contains(&NodeId::from_number(number as usize)) {
         return format!("{number} {x} {} {z}", y - (duct - 7.7));
     }
     let (radius, side) = (x.hypot(y), 25.0);
@@ -314,18 +339,22 @@ fn moved(line: &str, block: &[usize], duct: f64) -> String {
     format!("{number} {} {} {z}", x * scale, y * scale)
 }
 
-fn stepped(rule: StatusRule, scene: &Scene) -> Outcome {
-    let mut scene = scene.clone();
-    scene.contact.status = rule;
-    run(&scene, Variant::Stepped, &Reading::default(), |_| ()).expect("the variant runs")
+/// What `stepped` is asked for under a status rule.
+fn by_rule(rule: StatusRule, scene: &Scene) -> Request {
+    let contact = ContactModel { status: rule, ..scene.contact };
+    Request::new(scene).variant(Variant::Stepped).contact(contact)
+}
+
+fn stepped(rule: StatusRule, scene: &Scene) -> Solution {
+    answer::solve(&by_rule(rule, scene), &mut |_| ()).expect("the variant runs")
 }
 
 /// Where a node passes c_tll between two steps the sign rule loses it for a while, its contact set comes and goes, and what bears the load
 /// is pressed harder (C4, C9). By projection the set only grows, and nothing is left inside the block.
 #[test]
 fn in_a_wider_duct_stepped_differs_by_rule() {
-    let counts = |outcome: &Outcome| -> Vec<usize> {
-        outcome.iterations.iter().map(|iteration| iteration.in_contact).collect()
+    let counts = |solution: &Solution| -> Vec<usize> {
+        solution.steps.iter().map(|step| step.in_contact).collect()
     };
     for (duct, by_signs, by_projection) in [
         (8.0, [2, 2, 3, 3, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5], [3; 4].as_slice()),
@@ -340,25 +369,25 @@ fn in_a_wider_duct_stepped_differs_by_rule() {
         assert_eq!((start, end), (by_projection, [5].repeat(end.len()).as_slice()), "{duct}");
         assert_near("deepest node", deepest(&projection), 0.0, 10.0, &FOOT);
         assert!(deepest(&signs) < -0.2 * C, "{duct}: {}", deepest(&signs));
-        let [more, less] =
-            [&signs, &projection].map(|it| summaries(&scene, it)[0].max_von_mises_stress);
+        let [more, less] = [&signs, &projection].map(|it| summaries(it)[0].max_von_mises_stress);
         assert!(more > 1.05 * less, "{duct}: {more} and {less}");
     }
 }
 
 /// Smallest signed distance of a contact node at the end.
-fn deepest(outcome: &Outcome) -> f64 {
-    let end = shape(&outcome.sheet, &outcome.u);
-    let surface = TargetSurface::new(&outcome.sheet, &end);
-    let distance = |n: &usize| surface.nearest([end[(*n, 2)], end[(*n, 3)]]).unwrap().distance;
-    outcome.sheet.cnt.iter().map(distance).fold(f64::INFINITY, f64::min)
+fn deepest(solution: &Solution) -> f64 {
+    let end = solution.model.shape(&solution.u);
+    let surface = TargetSurface::new(&solution.model, &end);
+    let distance = |n: &NodeId| surface.nearest(end[n.index()]).unwrap().distance;
+    solution.model.contact.nodes.iter().map(distance).fold(f64::INFINITY, f64::min)
 }
 
 /// The default status rule is what the paper prints.
 #[test]
 fn signs_are_the_default() {
     let scene = Scene::open("fig1").unwrap();
-    let printed = run(&scene, Variant::Stepped, &Reading::default(), |_| ()).unwrap();
+    let request = Request::new(&scene).variant(Variant::Stepped);
+    let printed = answer::solve(&request, &mut |_| ()).unwrap();
     assert_eq!(printed.u, stepped(StatusRule::Signs, &scene).u);
     assert_eq!(StatusRule::default(), StatusRule::Signs);
 }

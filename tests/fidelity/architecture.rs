@@ -56,11 +56,64 @@ fn walk(folder: &Path, files: &mut Vec<PathBuf>) {
 
 /// The text without comments, without what stands in quotes, and without its unit tests.
 fn code(text: &str) -> String {
-    let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
-    let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
-    let joined: Vec<&str> = lines.collect();
-    let pieces = joined.join("\n");
-    pieces.split('"').step_by(2).collect::<Vec<_>>().join("\"\"")
+    let mut rest = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let mut kept = String::new();
+    while let Some(next) = rest.chars().next() {
+        let (skipped, in_place) = match rest {
+            _ if rest.starts_with("//") => (rest.find('\n').unwrap_or(rest.len()), ""),
+            _ if rest.starts_with('"') => (quoted(rest), "\"\""),
+            _ if !kept.ends_with(is_word) && raw(rest).is_some() => {
+                (raw(rest).expect("it was found"), "\"\"")
+            }
+            _ if rest.starts_with('\'') => (character(rest), "'"),
+            _ => (0, ""),
+        };
+        if skipped == 0 {
+            kept.push(next);
+            rest = &rest[next.len_utf8()..];
+        } else {
+            kept += in_place;
+            rest = &rest[skipped..];
+        }
+    }
+    kept
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// The length of the string that `text` begins with.
+fn quoted(text: &str) -> usize {
+    let mut escaped = false;
+    let end = text[1..].find(|c| {
+        let ends = c == '"' && !escaped;
+        escaped = c == '\\' && !escaped;
+        ends
+    });
+    end.map_or(text.len(), |at| at + 2)
+}
+
+/// The length of the raw string that `text` begins with.
+fn raw(text: &str) -> Option<usize> {
+    let after_r = text.strip_prefix('r').or_else(|| text.strip_prefix("br"))?;
+    let inside = after_r.trim_start_matches('#');
+    let close = format!("\"{}", "#".repeat(after_r.len() - inside.len()));
+    let end = inside.strip_prefix('"')?.find(&close)?;
+    Some(text.len() - inside.len() + 1 + end + close.len())
+}
+
+/// The length of the character that `text` begins with; of a lifetime that of its apostrophe.
+fn character(text: &str) -> usize {
+    let inside: Vec<char> = text.chars().skip(1).take(2).collect();
+    match inside[..] {
+        ['\\', escaped] => {
+            let from = 2 + escaped.len_utf8();
+            text[from..].find('\'').map_or(text.len(), |at| from + at + 1)
+        }
+        [one, '\''] => 2 + one.len_utf8(),
+        _ => 1,
+    }
 }
 
 /// The paths that a file imports, braces opened: `use a::{b, c::d};` is a::b and a::c::d.
@@ -75,9 +128,9 @@ fn imports(source: &Source) -> Vec<Vec<String>> {
             open(&[], &statement[at + 4..], &mut found);
         }
     }
-    // Paths that stand in the code itself.
-    let words = source.text.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'));
-    for word in words.filter(|word| word.starts_with("crate::") || word.starts_with("super::")) {
+    // Paths that stand in the code itself. One that ends in `::` is the head of braces, opened above.
+    let words = source.text.split(|c: char| !(is_word(c) || c == ':'));
+    for word in words.filter(|word| word.contains("::") && !word.ends_with("::")) {
         found.push(word.split("::").filter(|part| !part.is_empty()).map(String::from).collect());
     }
     found
@@ -310,7 +363,6 @@ fn tokens(line: &str) -> Vec<&str> {
     let mut tokens = Vec::new();
     let mut rest = line.trim_start();
     while let Some(first) = rest.chars().next() {
-        let is_word = |c: char| c.is_alphanumeric() || c == '_';
         let end = match is_word(first) {
             true => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
             false => first.len_utf8(),
@@ -333,4 +385,6 @@ fn braces_circles_and_names_are_found() {
     assert_eq!(way_back(3, &arrows), None);
     assert_eq!(tokens("x.S[2*n - 1]"), ["x", ".", "S", "[", "2", "*", "n", "-", "1", "]"]);
     assert_eq!(code("a // .S[\n\"EL\" b"), "a \n\"\" b");
+    let quotes = r##"a("//b", '"', '\'', r"\", r#"c"d"#, "\"e"): &'f g"##;
+    assert_eq!(code(quotes), r#"a("", ', ', "", "", ""): &'f g"#);
 }

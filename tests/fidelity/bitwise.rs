@@ -6,6 +6,8 @@
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 use nalgebra::SMatrix;
+use plane_contact::answer::Request;
+use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mathcad::array::{Column, Table};
 use plane_contact::paper::mathcad::{Cause as MathcadCause, Failure as MathcadFailure};
@@ -368,14 +370,20 @@ fn listing_and_mirror_agree_on_random_scenes() {
 #[test]
 fn listing_and_mirror_agree_on_the_shipped_scenes() {
     for scene in SCENES.iter().filter(|s| s.name != "strand") {
-        let sheet = Scene::open(scene.name).unwrap().worksheet(&Reading::default()).unwrap();
+        let sheet = initial(scene.name);
         for reading in all_readings() {
             agree(&sheet, &sheet.node, &reading)
                 .unwrap_or_else(|e| panic!("{} {reading:?}: {e}", scene.name));
         }
     }
-    let strand = Scene::open("strand").unwrap().worksheet(&Reading::default()).unwrap();
+    let strand = initial("strand");
     agree(&strand, &strand.node, &Reading::default()).unwrap_or_else(|e| panic!("strand: {e}"));
+}
+
+/// The worksheet of an embedded scene under the default reading.
+fn initial(scene: &str) -> Worksheet<f64> {
+    let request = Request::new(&Scene::open(scene).unwrap());
+    door::worksheet(&request.model().unwrap(), |x| x)
 }
 
 fn all_readings() -> Vec<Reading> {

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use crate::common::golden_floats::assert_golden;
 use crate::common::shipped::shipped_scenes;
+use plane_contact::answer::Request;
+use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mathcad::{Coverage, Listing};
 use plane_contact::paper::mirror::{Reading, c_cnt};
@@ -27,7 +29,8 @@ fn the_golden_scenes_cover_the_listings() {
     let (mut of_c_cnt, mut of_km) = (Coverage::default(), Coverage::default());
     let (text_c_cnt, text_km) = (Which::CCnt.under(&reading), Which::Km.under(&reading));
     for scene in shipped_scenes() {
-        let sheet = scene.worksheet(&reading).unwrap();
+        let model = Request::new(&scene).reading(reading).model().unwrap();
+        let sheet = door::worksheet(&model, |x| x);
         let settings = settings(&reading);
         // A scene may be there to show where the listing stops; what it reached before counts.
         let _ = listings::c_cnt(&text_c_cnt, &settings, &sheet, &sheet.node, &mut of_c_cnt);

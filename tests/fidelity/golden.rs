@@ -4,9 +4,13 @@ use std::fmt::Write as _;
 
 use crate::common::golden_floats::{assert_golden, same_text};
 use crate::common::outcome::solve;
-use plane_contact::answer::contact::Outcome;
-use plane_contact::paper::mathcad::array::Table;
-use plane_contact::paper::mirror::{Km, Pairs, Reading, Worksheet, c_cnt};
+use plane_contact::answer::contact::Pairing;
+use plane_contact::answer::{Detail, Request, Solution, Step};
+use plane_contact::paper::door;
+use plane_contact::paper::mathcad::array::{Column, Table};
+use plane_contact::paper::mirror::{Km, Pairs, Reading, c_cnt};
+use plane_contact::problem::element::State;
+use plane_contact::problem::model::{Model, TriangleId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{SCENES, Scene};
 
@@ -24,43 +28,61 @@ fn integers_are_exact_and_floats_within_the_tolerance_of_their_line() {
     assert!(!same_text("yes", "no"));
 }
 
-/// c_cnt's outcome at every iteration: ct, yt and dy by contact node, then the rows of k_cnt that are not zero.
+/// What c_cnt finds at every iteration: ct, yt and dy by contact node, then the rows of k_cnt that are not zero.
 #[test]
 fn pairs_at_every_iteration() {
     for scene in SCENES {
         for variant in Variant::ALL {
-            let (_, outcome) = solve(scene.name, *variant);
-            assert_golden(scene.name, &format!("c_cnt-{variant}"), &iterations(&outcome));
+            let (_, solution) = solve(scene.name, *variant);
+            assert_golden(scene.name, &format!("c_cnt-{variant}"), &steps(&solution));
         }
     }
 }
 
-fn iterations(outcome: &Outcome) -> String {
+fn steps(solution: &Solution) -> String {
     let mut text = String::new();
     let mut last = None;
-    for it in &outcome.iterations {
-        writeln!(text, "iteration {}", it.k).unwrap();
-        if last == Some(&it.pairs) {
+    for step in &solution.steps {
+        writeln!(text, "iteration {}", step.k).unwrap();
+        let found = found(&solution.model, step);
+        if last.as_ref() == Some(&found) {
             writeln!(text, "  as before").unwrap();
         } else {
-            text += &pairs(&outcome.sheet, &it.pairs);
+            text += &pairs(&solution.model, &found);
         }
-        last = Some(&it.pairs);
+        last = Some(found);
     }
     text
 }
 
-fn pairs(sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> String {
+/// What c_cnt found; under `unilateral` the same in its terms: ct the edge that a node faces, yt the gap along the normal, dy 1 where it
+/// is closed.
+fn found(model: &Model, step: &Step) -> Pairs<f64> {
+    let step = match &step.detail {
+        Detail::Published(step) => return step.pairs.clone(),
+        Detail::Unilateral(step) => step,
+    };
+    let edge = |p: &Option<Pairing>| p.as_ref().map_or(0, |p| model.edge(p.edge).number);
+    let gap = |p: &Option<Pairing>| p.as_ref().map_or(0.0, |p| p.gap);
+    Pairs {
+        ct: Column::from_vec(step.pairings.iter().map(edge).collect()),
+        yt: Column::from_vec(step.pairings.iter().map(gap).collect()),
+        dy: Column::from_vec(step.closed.iter().map(|closed| usize::from(*closed)).collect()),
+        ..Pairs::none(model.nodes.len())
+    }
+}
+
+fn pairs(model: &Model, pairs: &Pairs<f64>) -> String {
     let mut text = String::new();
-    for i1 in (1..=sheet.cnt.rows()).filter(|&i1| pairs.ct[i1] > 0) {
-        let (cnt, ct, dy, yt) = (sheet.cnt[i1], pairs.ct[i1], pairs.dy[i1], number(pairs.yt[i1]));
+    for (i1, cnt) in (1..).zip(&model.contact.nodes).filter(|(i1, _)| pairs.ct[*i1] > 0) {
+        let (ct, dy, yt) = (pairs.ct[i1], pairs.dy[i1], number(pairs.yt[i1]));
         writeln!(text, "  i1 {i1}: cnt {cnt} ct {ct} dy {dy} yt {yt}").unwrap();
     }
-    for n in 1..=sheet.R() {
-        let row: Vec<f64> = pairs.k_cnt.row(n).copied().collect();
+    for node in model.node_ids() {
+        let row: Vec<f64> = pairs.k_cnt.row(node.number()).copied().collect();
         if row.iter().any(|x| *x != 0.0) {
             let (k1, k2) = (number(row[1]), number(row[3]));
-            writeln!(text, "  k_cnt {n}: {} {k1} {} {k2}", row[0], row[2]).unwrap();
+            writeln!(text, "  k_cnt {node}: {} {k1} {} {k2}", row[0], row[2]).unwrap();
         }
     }
     text
@@ -69,7 +91,8 @@ fn pairs(sheet: &Worksheet<f64>, pairs: &Pairs<f64>) -> String {
 /// MJS of `fig1` whole, a matrix row a line with its number.
 #[test]
 fn mjs_of_fig1() {
-    let sheet = Scene::open("fig1").unwrap().worksheet(&Reading::default()).unwrap();
+    let request = Request::new(&Scene::open("fig1").unwrap());
+    let sheet = door::worksheet(&request.model().unwrap(), |x| x);
     let pairs = c_cnt(&sheet, &Reading::default(), &sheet.node).unwrap();
     let coupled = Km(&sheet, &Reading::default(), &pairs.k_cnt).unwrap();
     let free = Km(&sheet, &Reading::default(), &Table::filled(13, 4, 0.0)).unwrap();
@@ -92,27 +115,29 @@ fn summary_of_every_variant() {
     for scene in SCENES {
         let mut text = String::new();
         for variant in Variant::ALL {
-            let (scene, outcome) = solve(scene.name, *variant);
-            text += &summary(&scene, &outcome);
+            let (_, solution) = solve(scene.name, *variant);
+            text += &summary(&solution);
         }
         assert_golden(scene.name, "summary", &text);
     }
 }
 
-fn summary(scene: &Scene, outcome: &Outcome) -> String {
-    let mut text = format!("variant {}\n", outcome.variant);
-    for it in &outcome.iterations {
+fn summary(solution: &Solution) -> String {
+    let mut text = format!("variant {}\n", solution.request.variant);
+    for it in &solution.steps {
         let cycle =
             it.cycle.as_ref().map_or("new".to_string(), |c| format!("cycle {:?}", c.members));
         let (u, force) = (number(it.max_displacement), number(it.target_force));
         writeln!(text, "  {}: in contact {} u {u} force {force} {cycle}", it.k, it.in_contact)
             .unwrap();
     }
-    for body in &scene.bodies {
-        let of =
-            |f: &dyn Fn(usize) -> f64| body.triangles.iter().map(|n| f(n - 1)).fold(0.0, f64::max);
-        let stress = number(of(&|n| outcome.elements[n].von_mises_stress));
-        let strain = number(of(&|n| outcome.elements[n].von_mises_strain));
+    for body in &solution.model.bodies {
+        let state = |id: &TriangleId| &solution.elements[id.index()];
+        let of = |f: &dyn Fn(&State) -> f64| {
+            body.triangles.iter().map(|id| f(state(id))).fold(0.0, f64::max)
+        };
+        let stress = number(of(&|state| state.von_mises_stress));
+        let strain = number(of(&|state| state.von_mises_strain));
         writeln!(text, "  body {}:", body.name).unwrap();
         writeln!(text, "     von Mises stress {stress}\n     von Mises strain {strain}").unwrap();
     }

@@ -4,11 +4,30 @@ use crate::common::embedded::scene_json;
 use crate::common::json::build;
 use crate::common::outcome::solve;
 use crate::common::tolerances::{BALANCE, CLOSED_FORM, MIRRORED, RESIDUAL, assert_near};
-use plane_contact::answer::contact::{Outcome, run};
-use plane_contact::paper::mirror::{Reading, c_cnt};
+use plane_contact::answer::error::Error;
+use plane_contact::answer::{self, Detail, Published, Request, Solution, Step};
+use plane_contact::paper::door::Call;
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use serde_json::{Value, json};
+
+fn run(request: &Request) -> Result<Solution, Error> {
+    answer::solve(request, &mut |_| ())
+}
+
+fn solved(scene: &Scene, variant: Variant) -> Solution {
+    run(&Request::new(scene).variant(variant)).expect("the variant runs")
+}
+
+/// What an iteration of a variant of the paper knows.
+fn published(step: &Step) -> &Published {
+    match &step.detail {
+        Detail::Published(step) => step,
+        Detail::Unilateral(_) => panic!("unilateral is no variant of the paper"),
+    }
+}
 
 /// GOAL: two blocks under uniform pressure, each in uniaxial strain.
 /// MESH: two squares of 2 x 2 mm, 2 x 2 x 2 triangles each, matching nodes between them.
@@ -19,11 +38,10 @@ fn two_blocks_have_their_closed_form() {
     let p = 6.3;
     let modulus = |e: f64, nu: f64| e * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
     for variant in [Variant::Tied, Variant::Stepped] {
-        let (_, outcome) = solve("two-blocks", variant);
-        let bodies = [(1..=8, 30000.0, 0.2), (9..=16, 210000.0, 0.3)];
+        let (_, solution) = solve("two-blocks", variant);
+        let bodies = [(0..8, 30000.0, 0.2), (8..16, 210000.0, 0.3)];
         for (triangles, e, nu) in bodies {
-            for n in triangles {
-                let state = &outcome.elements[n - 1];
+            for state in &solution.elements[triangles] {
                 let side = -p * nu / (1.0 - nu);
                 let von_mises = p * (1.0 - 2.0 * nu) / (1.0 - nu);
                 let strain = p / modulus(e, nu);
@@ -37,17 +55,18 @@ fn two_blocks_have_their_closed_form() {
             }
         }
         let top = p * (2.0 / modulus(30000.0, 0.2) + 2.0 / modulus(210000.0, 0.3));
-        for n in 1..=18 {
-            let y = outcome.sheet.node[(n, 3)];
-            let below = 2.0_f64.min(if n < 10 { y } else { 2.0 });
+        for node in NodeId::all(18) {
+            let [_, y] = solution.model.at(node);
+            let below = 2.0_f64.min(if node.number() < 10 { y } else { 2.0 });
             let v = p * (below / modulus(30000.0, 0.2) + (y - below) / modulus(210000.0, 0.3));
-            assert_near("u", outcome.u[2 * n - 2], 0.0, top, &CLOSED_FORM);
-            assert_near("v", outcome.u[2 * n - 1], -v, top, &CLOSED_FORM);
+            let [along_x, along_y] = node.of(&solution.u);
+            assert_near("u", along_x, 0.0, top, &CLOSED_FORM);
+            assert_near("v", along_y, -v, top, &CLOSED_FORM);
         }
-        let last = outcome.iterations.last().unwrap();
+        let last = solution.last();
         assert_near("force on the target", last.target_force, 2.0 * p, p, &CLOSED_FORM);
         assert_eq!(last.in_contact, 3);
-        assert_eq!(last.eq1_residual, 0.0);
+        assert_eq!(published(last).eq1_residual, 0.0);
     }
 }
 
@@ -55,20 +74,18 @@ fn two_blocks_have_their_closed_form() {
 #[test]
 fn k1_as_printed_nothing_reaches_the_target() {
     for name in ["strand", "fig1", "two-blocks"] {
-        let (scene, outcome) = solve(name, Variant::Printed);
-        let target = scene.target().expect("a scene with contact");
+        let (_, solution) = solve(name, Variant::Printed);
+        let target = solution.model.target().expect("a scene with contact");
         for n in &target.nodes {
-            assert_eq!(
-                (outcome.u[2 * n - 2], outcome.u[2 * n - 1]),
-                (0.0, 0.0),
-                "{name}, node {n}"
-            );
+            assert_eq!(n.of(&solution.u), [0.0, 0.0], "{name}, node {n}");
         }
         for n in &target.triangles {
-            assert_eq!(outcome.elements[n - 1].von_mises_stress, 0.0, "{name}, triangle {n}");
+            let state = &solution.elements[n.index()];
+            assert_eq!(state.von_mises_stress, 0.0, "{name}, triangle {n}");
         }
-        assert!(outcome.iterations.iter().all(|it| it.target_force == 0.0 && it.in_contact > 0));
-        assert!(outcome.iterations.iter().all(|it| it.eq1_residual > 0.0), "eq. (1) does not hold");
+        assert!(solution.steps.iter().all(|it| it.target_force == 0.0 && it.in_contact > 0));
+        let mut steps = solution.steps.iter().map(published);
+        assert!(steps.all(|it| it.eq1_residual > 0.0), "eq. (1) does not hold");
     }
 }
 
@@ -77,9 +94,9 @@ fn k1_as_printed_nothing_reaches_the_target() {
 fn tied_and_stepped_carry_the_load_to_the_target() {
     for name in ["strand", "fig1", "two-blocks"] {
         for variant in [Variant::Tied, Variant::Stepped] {
-            let (scene, outcome) = solve(name, variant);
-            let load = scene.total_load()[1].abs();
-            for it in &outcome.iterations {
+            let (scene, solution) = solve(name, variant);
+            let load = scene.model.total_load()[1].abs();
+            for it in &solution.steps {
                 let part = if variant == Variant::Tied { 1.0 } else { it.k as f64 / 20.0 };
                 assert_near(name, it.target_force, part * load, load, &BALANCE);
                 assert!(it.solve_residual < RESIDUAL.limit, "{}", RESIDUAL.reason);
@@ -92,24 +109,24 @@ fn tied_and_stepped_carry_the_load_to_the_target() {
 #[test]
 fn k5_tied_cycles_and_stepped_settles_on_the_strand() {
     let (_, tied) = solve("strand", Variant::Tied);
-    let cycle = tied.iterations.last().unwrap().cycle.clone().expect("a state met before");
+    let cycle = tied.last().cycle.clone().expect("a state met before");
     assert_eq!((cycle.length, cycle.members), (2, vec![18, 19]));
     let (_, stepped) = solve("strand", Variant::Stepped);
-    let counts: Vec<usize> = stepped.iterations.iter().map(|it| it.in_contact).collect();
+    let counts: Vec<usize> = stepped.steps.iter().map(|it| it.in_contact).collect();
     assert!(counts.is_sorted(), "the contact set grows steadily: {counts:?}");
-    let last = stepped.iterations.last().unwrap();
+    let last = stepped.last();
     assert_eq!((last.in_contact, last.cycle.as_ref().map(|c| c.length)), (8, Some(1)));
 }
 
 /// A state that came before is not factored again, and gives the same displacements.
 #[test]
 fn a_state_met_before_is_not_factored_again() {
-    let (_, outcome) = solve("strand", Variant::Tied);
-    let new = outcome.iterations.iter().filter(|it| it.cycle.is_none()).count();
-    assert_eq!((outcome.factored, new), (8, 8));
-    let of = |k: usize| &outcome.iterations[k - 1];
+    let (_, solution) = solve("strand", Variant::Tied);
+    let new = solution.steps.iter().filter(|it| it.cycle.is_none()).count();
+    assert_eq!((solution.factored, new), (8, 8));
+    let of = |k: usize| &solution.steps[k - 1];
     assert_eq!(of(18).max_displacement.to_bits(), of(20).max_displacement.to_bits());
-    assert_eq!(of(18).pairs, of(20).pairs);
+    assert_eq!(published(of(18)).pairs, published(of(20)).pairs);
 }
 
 /// A mirror image of `fig1`: coordinates times `signs`, triangles turned back counter-clockwise, target edges running
@@ -136,23 +153,19 @@ fn mirrored(signs: [f64; 2]) -> Scene {
     build(&scene).expect("a mirror image is as sound as the scene")
 }
 
-fn solved(scene: &Scene, variant: Variant) -> Outcome {
-    run(scene, variant, &Reading::default(), |_| ()).expect("the variant runs")
-}
-
 #[test]
 fn a_scene_mirrored_in_x_has_the_mirrored_answer() {
     for variant in [Variant::Tied, Variant::Stepped] {
         let (_, scene) = solve("fig1", variant);
         let image = solved(&mirrored([-1.0, 1.0]), variant);
-        let mut dy = image.iterations[0].pairs.dy.as_slice().to_vec();
+        let mut dy = published(&image.steps[0]).pairs.dy.as_slice().to_vec();
         dy.reverse();
-        assert_eq!(scene.iterations[0].pairs.dy.as_slice(), dy);
+        assert_eq!(published(&scene.steps[0]).pairs.dy.as_slice(), dy);
         let scale = scene.u.amax();
-        for n in 1..=13 {
-            let (u, v) = (scene.u[2 * n - 2], scene.u[2 * n - 1]);
-            assert_near("u", image.u[2 * n - 2], -u, scale, &MIRRORED);
-            assert_near("v", image.u[2 * n - 1], v, scale, &MIRRORED);
+        for node in NodeId::all(13) {
+            let ([u, v], [image_u, image_v]) = (node.of(&scene.u), node.of(&image.u));
+            assert_near("u", image_u, -u, scale, &MIRRORED);
+            assert_near("v", image_v, v, scale, &MIRRORED);
         }
     }
 }
@@ -163,7 +176,8 @@ fn a_scene_mirrored_in_x_has_the_mirrored_answer() {
 fn c7_k2_a_scene_mirrored_in_x_has_another_answer_as_printed() {
     let (_, scene) = solve("fig1", Variant::Printed);
     let image = solved(&mirrored([-1.0, 1.0]), Variant::Printed);
-    let difference = (1..=13).map(|n| (image.u[2 * n - 1] - scene.u[2 * n - 1]).abs());
+    let v = |solution: &Solution, node: NodeId| node.of(&solution.u)[1];
+    let difference = NodeId::all(13).map(|node| (v(&image, node) - v(&scene, node)).abs());
     assert!(difference.fold(0.0, f64::max) > 0.1 * scene.u.amax());
 }
 
@@ -172,11 +186,10 @@ fn c7_k2_a_scene_mirrored_in_x_has_another_answer_as_printed() {
 #[test]
 fn c4_a_scene_mirrored_in_y_has_another_answer() {
     let (_, scene) = solve("fig1", Variant::Tied);
-    assert_eq!(scene.iterations[0].pairs.dy.as_slice(), [1, 1, 1, 0, 1]);
+    assert_eq!(published(&scene.steps[0]).pairs.dy.as_slice(), [1, 1, 1, 0, 1]);
     let image = mirrored([1.0, -1.0]);
-    let sheet = image.worksheet(&Reading::default()).unwrap();
-    let pairs = c_cnt(&sheet, &Reading::default(), &sheet.node).unwrap();
-    assert_eq!(pairs.dy.as_slice(), [1, 1, 0, 1, 1]);
+    let call = Call::c_cnt(&image.model, &Reading::default(), &image.model.nodes).unwrap();
+    assert_eq!(call.pairs.dy.as_slice(), [1, 1, 0, 1, 1]);
 }
 
 /// The residual of eq. (1) is measured on the target edge, not by the weights that were imposed: where a reading or a scene inflates
@@ -186,12 +199,12 @@ fn the_residual_of_eq_1_shows_inflated_weights() {
     let mut once = scene_json("fig1");
     once["iterations"] = json!(1);
     let inside: Reading = "R1=inside".parse().unwrap();
-    let outcome = run(&build(&once).unwrap(), Variant::Tied, &inside, |_| ()).unwrap();
-    assert!(outcome.iterations[0].eq1_residual > 1e-3);
+    let request = Request::new(&build(&once).unwrap()).variant(Variant::Tied).reading(inside);
+    assert!(published(&run(&request).unwrap().steps[0]).eq1_residual > 1e-3);
     let mut twice = scene_json("two-blocks");
     twice["contact"]["cnt"] = json!([10, 11, 11, 12]);
-    let outcome = solved(&build(&twice).unwrap(), Variant::Tied);
-    assert!(outcome.iterations[0].eq1_residual > 1e-4);
+    let solution = solved(&build(&twice).unwrap(), Variant::Tied);
+    assert!(published(&solution.steps[0]).eq1_residual > 1e-4);
 }
 
 /// Under R2 = printed `Km` takes other equations for restrained than S names; a force there stays a force.
@@ -204,8 +217,9 @@ fn r2_printed_holds_what_km_holds() {
     scene["loads"] = json!([{ "node": 12, "force": [5.0, 0.0] }]);
     scene["iterations"] = json!(1);
     let reading: Reading = "R2=printed".parse().unwrap();
-    let outcome = run(&build(&scene).unwrap(), Variant::Printed, &reading, |_| ()).unwrap();
-    assert_eq!((outcome.u[22], outcome.u[23]), (0.0, 0.0));
+    let scene = build(&scene).unwrap();
+    let request = Request::new(&scene).variant(Variant::Printed).reading(reading);
+    assert_eq!(NodeId::from_number(12).of(&run(&request).unwrap().u), [0.0, 0.0]);
 }
 
 /// Loads from 1e-200 to 1e150: forces stay forces; what overflows is refused.
@@ -214,11 +228,11 @@ fn loads_of_any_size() {
     let pressed = |p: f64| {
         let mut scene = scene_json("two-blocks");
         scene["loads"][0]["pressure"] = json!(p);
-        run(&build(&scene).unwrap(), Variant::Tied, &Reading::default(), |_| ())
+        run(&Request::new(&build(&scene).unwrap()).variant(Variant::Tied))
     };
     for p in [1e-200, 1e150] {
-        let last = pressed(p).unwrap().iterations.pop().unwrap();
-        assert_near("force on the target", last.target_force, 2.0 * p, p, &CLOSED_FORM);
+        let force = pressed(p).unwrap().last().target_force;
+        assert_near("force on the target", force, 2.0 * p, p, &CLOSED_FORM);
     }
     let error = pressed(1e308).unwrap_err();
     assert!(error.to_string().contains("too large to represent"), "{error}");
@@ -231,11 +245,14 @@ fn forces_on_held_target_nodes_count() {
     scene["restraints"].as_array_mut().unwrap().push(json!({ "on": 11, "fix": ["y"] }));
     let scene = build(&scene).unwrap();
     for variant in [Variant::Tied, Variant::Stepped] {
-        let outcome = solved(&scene, variant);
-        for u in &outcome.u.as_slice()[..18] {
-            assert_near("the lower block does not move", *u, 0.0, outcome.u.amax(), &CLOSED_FORM);
+        let solution = solved(&scene, variant);
+        let u = &solution.u;
+        for node in NodeId::all(9) {
+            for u_node in node.of(u) {
+                assert_near("the lower block does not move", u_node, 0.0, u.amax(), &CLOSED_FORM);
+            }
         }
-        let last = outcome.iterations.last().unwrap();
+        let last = solution.last();
         assert_near("force on the target", last.target_force, 12.6, 12.6, &CLOSED_FORM);
     }
 }
@@ -245,7 +262,7 @@ fn forces_on_held_target_nodes_count() {
 fn r7_turns_one_variant_into_the_other() {
     let scene = Scene::open("fig1").unwrap();
     let reading: Reading = "R7=stepped".parse().unwrap();
-    let by_reading = run(&scene, Variant::Tied, &reading, |_| ()).unwrap();
+    let by_reading = run(&Request::new(&scene).variant(Variant::Tied).reading(reading)).unwrap();
     assert_eq!(by_reading.u, solved(&scene, Variant::Stepped).u);
 }
 
@@ -257,11 +274,9 @@ fn a_scene_without_contact_is_plain_elasticity() {
     object.remove("contact");
     object["restraints"].as_array_mut().unwrap().push(json!({ "on": 20, "fix": ["y"] }));
     let scene = build(&json).unwrap();
-    let outcome = solved(&scene, Variant::Tied);
-    assert!(outcome.iterations.iter().all(|it| it.in_contact == 0 && it.target_force == 0.0));
-    assert!(
-        outcome.u.as_slice()[..18].iter().all(|u| *u == 0.0),
-        "the lower block carries nothing"
-    );
-    assert!(outcome.elements[15].von_mises_stress > 1.0);
+    let solution = solved(&scene, Variant::Tied);
+    assert!(solution.steps.iter().all(|it| it.in_contact == 0 && it.target_force == 0.0));
+    let mut lower = NodeId::all(9).map(|node| node.of(&solution.u));
+    assert!(lower.all(|u| u == [0.0, 0.0]), "the lower block carries nothing");
+    assert!(solution.elements[15].von_mises_stress > 1.0);
 }
