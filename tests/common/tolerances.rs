@@ -160,7 +160,7 @@ tolerances! {
 
     /// A foot, its distance and its normal against the closed form, relative to coordinates of
     /// order 1.
-    FOOT = 1e-14, "a dozen roundings of 1e-16, of turned coordinates too";
+    CLOSEST_POINT = 1e-14, "a dozen roundings of 1e-16, of turned coordinates too";
 
     /// The contact patch test under mortar, relative to the exact value.
     PATCH_TEST = 1e-10,

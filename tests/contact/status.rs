@@ -1,11 +1,11 @@
 //! The status rules on scenes worked out by hand, and on the paper's example with a wider duct.
 
-use crate::common::tolerances::{FOOT, assert_near};
-use plane_contact::answer::contact::TargetSurface;
-use plane_contact::answer::contact::status::{places, statuses};
+use crate::common::tolerances::{CLOSEST_POINT, assert_near};
+use plane_contact::answer::contact::search::Closest;
+use plane_contact::answer::contact::status::{Target, TargetEdge, statuses};
 use plane_contact::answer::{self, Constraint, Detail, Request, Solution, summaries};
 use plane_contact::paper::door::{self, Call};
-use plane_contact::paper::mirror::{Cause, Failure, NodeTable, Pairs, Reading};
+use plane_contact::paper::mirror::{Cause, Failure, Pairs, Reading};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{ContactModel, StatusRule, Variant};
@@ -55,7 +55,8 @@ fn turned(degrees: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
 }
 
 fn dy(rule: StatusRule, model: &Model, shape: &[[f64; 2]]) -> Vec<usize> {
-    let found = statuses(rule, model, &Reading::default(), shape);
+    let (sheet, node_n) = (door::worksheet(model, |x| x), door::node_n(model, shape));
+    let found = statuses(rule, model, &sheet, &Reading::default(), &node_n);
     let found = found.unwrap_or_else(|failure| panic!("{rule}: {failure}"));
     found.iter().map(|status| usize::from(status.in_contact)).collect()
 }
@@ -70,13 +71,19 @@ fn pairs(
     if rule == StatusRule::Signs {
         return Ok(Call::c_cnt(model, reading, shape)?.pairs);
     }
-    let statuses = statuses(rule, model, reading, shape)?;
-    let weights_from = match reading.r5 {
-        NodeTable::Node => &model.nodes,
-        NodeTable::NodeN => shape,
-    };
-    let places = places(model, &statuses, |n| weights_from[n.index()][0])?;
-    Ok(door::pairs(model, reading, &statuses, &places))
+    let (sheet, node_n) = (door::worksheet(model, |x| x), door::node_n(model, shape));
+    let statuses = statuses(rule, model, &sheet, reading, &node_n)?;
+    door::pairs(model, &sheet, reading, &node_n, &statuses)
+}
+
+/// The target edge nearest to a point, and its closest point.
+fn nearest(
+    model: &Model,
+    shape: &[[f64; 2]],
+    point: [f64; 2],
+) -> Option<(TargetEdge, Closest<f64>)> {
+    let target = Target::new(model, &door::node_n(model, shape));
+    target.nearest(point).map(|(edge, closest)| (*edge, closest))
 }
 
 const UPRIGHT: [[f64; 2]; 2] = [[-0.4, 1.0], [0.4, 1.0]];
@@ -193,7 +200,7 @@ fn a_vertical_edge_stops_what_keeps_line_10() {
 
 /// Sharp corners, where one of the two edges has the point on its wrong side, whichever comes first.
 #[test]
-fn the_foot_at_a_corner_has_the_right_side() {
+fn the_closest_point_at_a_corner_has_the_right_side() {
     let sharp = [[-0.2, 0.0], [0.0, 1.0], [0.2, 0.0]];
     let notch = [[-0.2, 1.0], [0.0, 0.0], [0.2, 1.0]];
     for (chain, point, distance) in [
@@ -206,43 +213,44 @@ fn the_foot_at_a_corner_has_the_right_side() {
         let mut other = one.clone();
         other.contact.target.reverse();
         for model in [one, other] {
-            let foot = TargetSurface::new(&model, &model.nodes).nearest(point).unwrap();
-            assert_near("distance", foot.distance, distance, 1.0, &FOOT);
-            assert!(foot.beyond == 0.0 && (foot.xi == 0.0 || foot.xi == 1.0), "{foot:?}");
+            let (edge, closest) = nearest(&model, &model.nodes, point).unwrap();
+            assert_near("distance", closest.distance(), distance, 1.0, &CLOSEST_POINT);
+            assert_eq!(edge.past_square(&closest), 0.0);
+            assert!(closest.xi <= 0.0 || closest.xi >= 1.0, "{closest:?}");
         }
     }
 }
 
-/// The foot's edge, place, normal and what lies past the end, turned.
+/// The closest point's edge, place and what lies past the end, turned.
 #[test]
-fn the_foot_of_a_point() {
+fn the_closest_point() {
     let model = model(FLAT, &[[9.0, 9.0]], UPRIGHT);
     for degrees in [0.0, 30.0, 90.0, 200.0] {
         let turn = turned(degrees);
-        let surface = TargetSurface::new(&model, &mapped(&model, &turn));
+        let shape = mapped(&model, &turn);
         for (point, edge, xi, distance, beyond) in [
             ([0.25, 0.5], 2, 0.25, 0.5, 0.0),
             ([-0.25, -0.5], 1, 0.75, -0.5, 0.0),
             ([1.3, 0.4], 2, 1.0, 0.5, 0.3),
             ([-1.3, -0.4], 1, 0.0, -0.5, 0.3),
         ] {
-            let foot = surface.nearest(turn(point)).unwrap();
-            assert_eq!(model.edge(foot.edge).number, edge);
-            assert_near("xi", foot.xi, xi, 1.0, &FOOT);
-            assert_near("distance", foot.distance, distance, 1.0, &FOOT);
-            assert_near("beyond", foot.beyond, beyond, 1.0, &FOOT);
-            let normal = turn([0.0, 1.0]);
-            assert_near("normal x", foot.normal[0], normal[0], 1.0, &FOOT);
-            assert_near("normal y", foot.normal[1], normal[1], 1.0, &FOOT);
+            let (nearest, closest) = nearest(&model, &shape, turn(point)).unwrap();
+            assert_eq!(model.edge(nearest.id).number, edge);
+            // The body lies below: on the left of the way from right to left.
+            let from_left = 1.0 - closest.xi.clamp(0.0, 1.0);
+            assert_near("xi", from_left, xi, 1.0, &CLOSEST_POINT);
+            assert_near("distance", closest.distance(), distance, 1.0, &CLOSEST_POINT);
+            let past = nearest.past_square(&closest).sqrt();
+            assert_near("beyond", past, beyond, 1.0, &CLOSEST_POINT);
         }
     }
 }
 
 #[test]
-fn a_surface_without_an_edge_has_no_foot() {
+fn a_surface_without_an_edge_has_no_closest_point() {
     let mut bare = model(FLAT, &[[0.3, -0.1]], UPRIGHT);
     bare.contact.target.clear();
-    assert_eq!(TargetSurface::new(&bare, &bare.nodes).nearest([0.0, 0.0]), None);
+    assert_eq!(nearest(&bare, &bare.nodes, [0.0, 0.0]), None);
     assert_eq!(dy(StatusRule::Projection, &bare, &bare.nodes), [0]);
 }
 
@@ -367,7 +375,7 @@ fn in_a_wider_duct_stepped_differs_by_rule() {
         let found = counts(&projection);
         let (start, end) = found.split_at(by_projection.len());
         assert_eq!((start, end), (by_projection, [5].repeat(end.len()).as_slice()), "{duct}");
-        assert_near("deepest node", deepest(&projection), 0.0, 10.0, &FOOT);
+        assert_near("deepest node", deepest(&projection), 0.0, 10.0, &CLOSEST_POINT);
         assert!(deepest(&signs) < -0.2 * C, "{duct}: {}", deepest(&signs));
         let [more, less] = [&signs, &projection].map(|it| summaries(it)[0].max_von_mises_stress);
         assert!(more > 1.05 * less, "{duct}: {more} and {less}");
@@ -377,8 +385,8 @@ fn in_a_wider_duct_stepped_differs_by_rule() {
 /// Smallest signed distance of a contact node at the end.
 fn deepest(solution: &Solution) -> f64 {
     let end = solution.model.shape(&solution.u);
-    let surface = TargetSurface::new(&solution.model, &end);
-    let distance = |n: &NodeId| surface.nearest(end[n.index()]).unwrap().distance;
+    let target = Target::new(&solution.model, &door::node_n(&solution.model, &end));
+    let distance = |n: &NodeId| target.nearest(end[n.index()]).unwrap().1.distance();
     solution.model.contact.nodes.iter().map(distance).fold(f64::INFINITY, f64::min)
 }
 

@@ -58,20 +58,32 @@ pub fn statuses<T: Scalar>(
 }
 
 /// The target edges in a shape.
-struct Target<T> {
+pub struct Target<T> {
     /// Those that bound a triangle: it tells their inner side.
     edges: Vec<TargetEdge>,
     segments: Vec<Segment<T>>,
 }
 
-struct TargetEdge {
-    id: EdgeId,
-    /// Ends that no other target edge shares.
-    free: [bool; 2],
+/// A target edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TargetEdge {
+    /// Which of the model's edges it is.
+    pub id: EdgeId,
+    /// Which of its ends no other target edge shares; the body lies on the left from the first to the second.
+    pub free: [bool; 2],
+}
+
+impl TargetEdge {
+    /// The square of how far a point lies past the end of the surface, along this edge, length²; 0 over the surface.
+    pub fn past_square<T: Scalar>(&self, closest: &Closest<T>) -> T {
+        let past = if self.free[closest.end()] { closest.past() } else { T::zero() };
+        past * past * closest.square
+    }
 }
 
 impl<T: Scalar> Target<T> {
-    fn new(model: &Model, node_n: &Table<T>) -> Self {
+    /// The target edges of `model` in the shape `node_n` (R x 4).
+    pub fn new(model: &Model, node_n: &Table<T>) -> Self {
         let shared =
             |node: NodeId| model.target_edges().filter(|e| e.nodes.contains(&node)).count();
         let edge = |id: &EdgeId| {
@@ -84,8 +96,8 @@ impl<T: Scalar> Target<T> {
         Target { edges, segments }
     }
 
-    /// The edge nearest to `p` and its closest point.
-    fn nearest(&self, p: [T; 2]) -> Option<(&TargetEdge, Closest<T>)> {
+    /// The edge nearest to `p` and its closest point; nothing where the surface has no edge.
+    pub fn nearest(&self, p: [T; 2]) -> Option<(&TargetEdge, Closest<T>)> {
         let (k, closest) = closest(self.segments.iter().enumerate(), p, |_, _| true)?;
         Some((&self.edges[k], closest))
     }
@@ -167,8 +179,7 @@ fn by_projection<T: Scalar>(
             return apart;
         };
         let distance = T::from_f64(0.0 - closest.distance());
-        let past = if edge.free[closest.end()] { closest.past() } else { T::zero() };
-        if past * past * closest.square > c_tll * c_tll {
+        if edge.past_square(&closest) > c_tll * c_tll {
             return ContactStatus { distance, ..apart };
         }
         let inside = closest.side > T::zero();
