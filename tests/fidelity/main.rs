@@ -15,6 +15,7 @@ mod architecture;
 mod bitwise;
 mod citations;
 mod coverage;
+mod fields;
 mod findings;
 mod golden;
 mod listing_quotes;
