@@ -31,8 +31,8 @@ fn moved(by: f64) -> Vec<Measured> {
     measured
 }
 
-/// Whether a table is the golden one, given the table, and the table as it would be with a little fewer and a little more right digits. Cells are apart
-/// by two blanks or more: to the letter those of any of the three, but for powers of ten within a tolerance. The first of a line names it, to the letter.
+/// Whether a table is the golden one. `tables`: it, and what it would be with a little fewer and a little more right digits. Cells are apart by two
+/// blanks or more. Each is to the letter that of one of the three, or a power of ten within a tolerance; the first of a line, its name, to the letter.
 fn same_table(golden: &str, tables: [&str; 3]) -> bool {
     let lines = |text: &str| text.trim_end().lines().map(cells).collect::<Vec<_>>();
     let (golden, tables) = (lines(golden), tables.map(lines));

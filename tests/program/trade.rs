@@ -159,6 +159,7 @@ fn a_finer_scene_keeps_its_nodes_area_load_and_surfaces() {
             model.triangle_ids().map(|id| element::area(&model.corners(id))).sum::<f64>()
         };
         assert_near("area", area(after), area(before), area(before), &HALF);
+        assert_eq!(after.thickness, before.thickness);
         let (load, total) = (before.total_load(), after.total_load());
         assert_near("load", total[1], load[1], load[1], &HALF);
         assert_eq!(after.bodies.len(), before.bodies.len());
