@@ -14,6 +14,7 @@ mod factors;
 mod gmsh;
 mod pictures;
 mod plan;
+mod readme;
 mod scenes;
 mod texts;
 mod trade;

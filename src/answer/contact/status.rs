@@ -59,7 +59,7 @@ pub fn statuses<T: Scalar>(
 
 /// The target edges in a shape.
 pub struct Target<T> {
-    /// Those that bound a triangle: it tells their inner side.
+    /// Those that bound a triangle with an area: it tells their inner side.
     edges: Vec<TargetEdge>,
     segments: Vec<Segment<T>>,
 }
@@ -87,10 +87,15 @@ impl<T: Scalar> Target<T> {
         let shared =
             |node: NodeId| model.target_edges().filter(|e| e.nodes.contains(&node)).count();
         let edge = |id: &EdgeId| {
-            let nodes = model.sides.beside(model.edge(*id).nodes).first()?.nodes;
-            let ends = nodes.map(|node| door::place(node_n, node));
+            let beside = model.sides.beside(model.edge(*id).nodes).first()?;
+            let place = |node: NodeId| door::place(node_n, node);
+            let [a, b] = beside.nodes;
+            let inner = T::orientation(place(a), place(b), place(beside.third));
+            // A shape may be folded: it is the shape that tells on which side the triangle lies.
+            let nodes = if inner > T::zero() { [a, b] } else { [b, a] };
+            let ends = nodes.map(place);
             let free = nodes.map(|node| shared(node) == 1);
-            Some((TargetEdge { id: *id, free }, Segment::new(ends)))
+            (!inner.is_zero()).then(|| (TargetEdge { id: *id, free }, Segment::new(ends)))
         };
         let (edges, segments) = model.contact.target.iter().filter_map(edge).unzip();
         Target { edges, segments }
