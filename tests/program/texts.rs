@@ -18,6 +18,7 @@ fn printed(args: &[&str]) -> String {
     let folder = TempDir::new().expect("a temporary folder");
     let output = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
         .args(args)
+        .env_remove("COLUMNS")
         .current_dir(folder.path())
         .output()
         .expect("the program starts");
@@ -91,7 +92,7 @@ fn solve() {
 #[test]
 fn audit() {
     SCENES.iter().for_each(|scene| assert_text(scene, "audit", &["audit", scene]));
-    assert_text("findings", "C4", &["audit", "--finding", "C4"]);
+    assert_text("findings/C4", "audit", &["audit", "--finding", "C4"]);
 }
 
 #[test]
