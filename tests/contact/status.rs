@@ -1,6 +1,7 @@
 //! The status rules on scenes worked out by hand, and on the paper's example with a wider duct.
 
 use crate::common::tolerances::{CLOSEST_POINT, assert_near};
+use plane_contact::answer::contact::Surfaces;
 use plane_contact::answer::contact::search::Closest;
 use plane_contact::answer::contact::status::{Target, TargetEdge, statuses};
 use plane_contact::answer::{self, Constraint, Detail, Request, Solution, summaries};
@@ -8,7 +9,7 @@ use plane_contact::paper::door::{self, Call};
 use plane_contact::paper::mirror::{Cause, Failure, Pairs, Reading};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::{Model, NodeId};
-use plane_contact::problem::modelling::{ContactModel, StatusRule, Variant};
+use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::studies::audit::statuses::{Measurement, Row, measure};
 
@@ -242,6 +243,27 @@ fn the_closest_point() {
             assert_near("distance", closest.distance(), distance, 1.0, &CLOSEST_POINT);
             let past = nearest.past_square(&closest).sqrt();
             assert_near("beyond", past, beyond, 1.0, &CLOSEST_POINT);
+        }
+    }
+}
+
+/// Where a contact node faces the surface: edge, place, gap, and the normal out of the target, turned.
+#[test]
+fn the_normal_at_the_closest_point() {
+    for (point, edge, xi, gap) in [([0.25, 0.5], 2, 0.25, 0.5), ([-0.25, -0.5], 1, 0.75, -0.5)] {
+        let model = model(FLAT, &[point], UPRIGHT);
+        for degrees in [0.0, 30.0, 90.0, 200.0] {
+            let turn = turned(degrees);
+            let surfaces = Surfaces::new(&model).unwrap();
+            let pairings = surfaces.pairings(Coupling::Nts, &mapped(&model, &turn));
+            let pairing = pairings[0].as_ref().expect("it is beside the surface");
+            assert_eq!(model.edge(pairing.edge).number, edge);
+            let [(_, from_left), _] = pairing.masters[..] else { panic!("an edge has two nodes") };
+            assert_near("xi", from_left, xi, 1.0, &CLOSEST_POINT);
+            assert_near("gap", pairing.gap, gap, 1.0, &CLOSEST_POINT);
+            let normal = turn([0.0, 1.0]);
+            assert_near("normal x", pairing.normal[0], normal[0], 1.0, &CLOSEST_POINT);
+            assert_near("normal y", pairing.normal[1], normal[1], 1.0, &CLOSEST_POINT);
         }
     }
 }
