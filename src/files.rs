@@ -5,8 +5,8 @@ use std::path::Path;
 
 use crate::error::InputError;
 
-/// Writes `content` to `path`, making its folder where it is missing. A link is followed; what is no ordinary file (a pipe, a
-/// device) is written to as it is.
+/// Writes `content` to `path`, making its folder where it is missing. A link is followed; what is
+/// no ordinary file (a pipe, a device) is written to as it is.
 ///
 /// # Errors
 /// The folder or the file cannot be written; a file that was there is left as it was.
@@ -35,7 +35,8 @@ fn replace(path: &Path, content: &str) -> std::io::Result<()> {
     Ok(())
 }
 
-/// A temporary file with the permissions of an ordinary new file (tempfile's own default is for its owner alone).
+/// A temporary file with the permissions of an ordinary new file (tempfile's own default is for its
+/// owner alone).
 fn temporary(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".plane-contact-");

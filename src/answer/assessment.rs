@@ -1,5 +1,5 @@
-//! What is said of a solution once it is there: the largest values of its bodies, estimates of its errors, and its distance from the
-//! reference solution. Computed once; reports only print it.
+//! What is said of a solution once it is there: the largest values of its bodies, estimates of its
+//! errors, and its distance from the reference solution. Computed once; reports only print it.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,5 @@
-//! How far a run is from the reference solution on the same mesh: `unilateral` with mortar, under the scene's friction.
+//! How far a run is from the reference solution on the same mesh: `unilateral` with mortar, under
+//! the scene's friction.
 
 use serde::{Deserialize, Serialize};
 

@@ -7,8 +7,8 @@
 //!             c                              nothing      a restrained equation
 //! ```
 //!
-//! A constraint that closes a gap g along a normal n, n·(u_c − Σ w u_t) = −g, leaves the contact node one free motion, along the
-//! tangent, and moves it by s = −g·n.
+//! A constraint that closes a gap g along a normal n, n·(u_c − Σ w u_t) = −g, leaves the contact
+//! node one free motion, along the tangent, and moves it by s = −g·n.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -58,7 +58,8 @@ impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {
     }
 }
 
-/// The matrix T, for each degree of freedom its weights on the equations that remain, and the shift s, length.
+/// The matrix T, for each degree of freedom its weights on the equations that remain, and the shift
+/// s, length.
 pub struct Elimination<T = f64> {
     rows: Vec<Vec<(usize, T)>>,
     shift: DVector<T>,
@@ -77,8 +78,8 @@ pub struct RestrainedAlongNormal {
 const ACROSS: f64 = 1e-6;
 
 impl<T: Scalar> Elimination<T> {
-    /// T under eq. (1) for `constraints`. `restrained`: by degree of freedom; a component that is restrained stays so and is not
-    /// constrained.
+    /// T under eq. (1) for `constraints`. `restrained`: by degree of freedom; a component that is
+    /// restrained stays so and is not constrained.
     pub fn new(restrained: &[bool], constraints: &[Constraint<T>]) -> Self {
         Elimination::with_normals(restrained, constraints)
             .expect("constraints of both components have no normal")

@@ -57,7 +57,8 @@ pub(super) struct Solved<T> {
 }
 
 impl<'a, T: Precision> Equations<'a, T> {
-    /// The equations of `request`. `load`: the whole load by degree of freedom; `sparse` solves where sparse Cholesky is asked for.
+    /// The equations of `request`. `load`: the whole load by degree of freedom; `sparse` solves
+    /// where sparse Cholesky is asked for.
     ///
     /// # Errors
     /// An overflow of the stiffness.
@@ -204,8 +205,8 @@ impl<'a, T: Precision> Equations<'a, T> {
     }
 }
 
-/// The degrees of freedom that are restrained: the model's, but under reading R2 = printed, where `Km` reads the restraint of y in place of
-/// that of x, those that `Km` takes for restrained.
+/// The degrees of freedom that are restrained: the model's, but under reading R2 = printed, where
+/// `Km` reads the restraint of y in place of that of x, those that `Km` takes for restrained.
 fn restrained(model: &Model, request: &Request) -> Vec<bool> {
     let by_km =
         request.variant == Variant::Printed && request.reading.r2 == RestraintIndex::Printed;

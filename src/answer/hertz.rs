@@ -1,10 +1,12 @@
-//! Hertz's pressure for the scene at hand, where its surfaces are such that Hertz's theory speaks of them.
+//! Hertz's pressure for the scene at hand, where its surfaces are such that Hertz's theory speaks
+//! of them.
 //!
 //! ```text
 //!   p(s) = p0 sqrt(1 − (s/a)²)    a² = 4 P R / (π E*)    p0 = 2 P / (π a)    1/E* = Σ (1 − ν²)/E
 //! ```
 //!
-//! R, the relative radius, comes from the gaps of the initial shape: g(s) = g0 + s²/(2R) near the first point of contact.
+//! R, the relative radius, comes from the gaps of the initial shape: g(s) = g0 + s²/(2R) near the
+//! first point of contact.
 //!
 //! Source: K. L. Johnson, *Contact Mechanics*, sections 4.2(c), eq. (4.43) to (4.45).
 
@@ -41,8 +43,9 @@ pub struct Hertz {
 }
 
 impl Hertz {
-    /// Hertz's contact for the load that the contact surface of `solution` carries. Nothing where the surfaces are no parabola there, the contact is
-    /// too wide for the theory, or too few nodes lie in it.
+    /// Hertz's contact for the load that the contact surface of `solution` carries. Nothing where
+    /// the surfaces are no parabola there, the contact is too wide for the theory, or too few nodes
+    /// lie in it.
     pub fn of(solution: &Solution) -> Option<Self> {
         let model = &*solution.model;
         let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
@@ -54,7 +57,8 @@ impl Hertz {
         let load = sides * normal_load(solution)? / model.thickness;
         let modulus = modulus(model, pairings[first.entry].as_ref()?)?;
         let centre = first.arc;
-        // The half width decides which gaps count for the radius: once around is enough to settle it.
+        // The half width decides which gaps count for the radius: once around is enough to settle
+        // it.
         let mut half_width = 0.25 * (gaps[gaps.len() - 1].arc - gaps[0].arc);
         let mut radius = 0.0;
         for _ in 0..20 {
@@ -98,7 +102,8 @@ fn gaps(model: &Model, pairings: &[Option<Pairing>]) -> Vec<Gap> {
     faced.filter_map(gap).collect()
 }
 
-/// The relative radius from the gaps within `reach` of `centre`, by least squares; nothing where they do not open.
+/// The relative radius from the gaps within `reach` of `centre`, by least squares; nothing where
+/// they do not open.
 fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
     let within = gaps.iter().filter(|g| (g.arc - centre).abs() <= reach);
     let (mut above, mut below) = (0.0, 0.0);

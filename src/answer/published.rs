@@ -1,9 +1,11 @@
 //! The iterations that the paper describes: `printed`, `tied`, `stepped`.
 //!
 //! - total load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·U = F; node_n = node + U.
-//! - stepped load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n = node + U.
+//! - stepped load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n =
+//!   node + U.
 //!
-//! A(c) is Km(c) under `printed`, else Tᵀ·K·T on the free equations, K being Km without contact and without restraints.
+//! A(c) is Km(c) under `printed`, else Tᵀ·K·T on the free equations, K being Km without contact and
+//! without restraints.
 
 use std::sync::Arc;
 
@@ -26,11 +28,12 @@ use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet, c_cnt};
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::{Coupling, StatusRule, Variant};
 
-/// Solves a request for one of the variants that the paper describes. `sparse` solves where sparse Cholesky is asked for; without it that
-/// solver gets a dense matrix too.
+/// Solves a request for one of the variants that the paper describes. `sparse` solves where sparse
+/// Cholesky is asked for; without it that solver gets a dense matrix too.
 ///
 /// # Errors
-/// The published algorithm failing as printed, a matrix that cannot be solved, a dense matrix that does not fit.
+/// The published algorithm failing as printed, a matrix that cannot be solved, a dense matrix that
+/// does not fit.
 pub(super) fn published<T: Precision>(
     request: &Request,
     sparse: Option<Sparse<T>>,
@@ -66,7 +69,8 @@ pub(super) fn published<T: Precision>(
     })
 }
 
-/// Checks that no load vanished or lost digits where the scalar has no smaller numbers: an answer of zeros would look like one.
+/// Checks that no load vanished or lost digits where the scalar has no smaller numbers: an answer
+/// of zeros would look like one.
 fn check_load<T: Scalar>(
     request: &Request,
     model: &Model,
@@ -112,8 +116,9 @@ struct Run<'a, T> {
     u: DVector<T>,
     /// What supports the target so far.
     support: [T; 2],
-    /// Contact states visited, each with its solution and the last iteration that visited it. The load of an iteration is always
-    /// the same, so a state that came before has the same matrix and the same solution: nothing is factored again.
+    /// Contact states visited, each with its solution and the last iteration that visited it. The
+    /// load of an iteration is always the same, so a state that came before has the same matrix and
+    /// the same solution: nothing is factored again.
     visited: Vec<Visited<T>>,
 }
 
@@ -201,7 +206,8 @@ impl<'a, T: Precision> Run<'a, T> {
         Ok(Found { node_n, pairs, constraints, places })
     }
 
-    /// Eq. (1) for the nodes in contact: the weights that were found, or mortar's for the nodes whose edges cover the target.
+    /// Eq. (1) for the nodes in contact: the weights that were found, or mortar's for the nodes
+    /// whose edges cover the target.
     fn constraints(&self, linked: Vec<NodeToSegment<T>>, node_n: &Table<T>) -> Vec<Constraint<T>> {
         let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
         let Some(surfaces) = &self.surfaces else { return constraints };
@@ -300,7 +306,8 @@ fn mortar_surfaces(request: &Request, model: &Model) -> Result<Surfaces, InputEr
     Err(InputError::new("--scalar", what, "use f64, or --coupling nts"))
 }
 
-/// Largest component of u_cont − u_targ over contact nodes, u_targ interpolated between their master nodes.
+/// Largest component of u_cont − u_targ over contact nodes, u_targ interpolated between their
+/// master nodes.
 fn eq1_residual<'a, T: Scalar>(
     bound: impl Iterator<Item = (NodeId, &'a [(NodeId, T)])>,
     u: &DVector<T>,

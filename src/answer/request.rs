@@ -1,4 +1,5 @@
-//! What is asked for: a scene, how contact is modelled, a variant, a reading, and the numbers to compute in.
+//! What is asked for: a scene, how contact is modelled, a variant, a reading, and the numbers to
+//! compute in.
 
 use std::sync::Arc;
 

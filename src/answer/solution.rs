@@ -1,4 +1,5 @@
-//! What comes of a request: displacements, stresses, the contact surface, and the steps that led there.
+//! What comes of a request: displacements, stresses, the contact surface, and the steps that led
+//! there.
 
 use std::sync::Arc;
 
@@ -29,7 +30,8 @@ pub struct Step {
     pub max_displacement: f64,
     /// Where this contact state came before.
     pub cycle: Option<Cycle>,
-    /// Sum of the reactions of the target body against the direction of the load applied so far, force; 0 without contact.
+    /// Sum of the reactions of the target body against the direction of the load applied so far,
+    /// force; 0 without contact.
     pub target_force: f64,
     /// Relative residual |A x − b| / (|A| |x| + |b|) of the solution.
     pub solve_residual: f64,
@@ -51,7 +53,8 @@ pub enum Detail {
 pub struct Published {
     /// What `c_cnt` found in the shape that the iteration started from, in its own arrays.
     pub pairs: Pairs<f64>,
-    /// Eq. (1): largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in contact, total displacements, length.
+    /// Eq. (1): largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in contact, total
+    /// displacements, length.
     pub eq1_residual: f64,
     /// The same on what this iteration solved for: the increment where the load is stepped.
     pub eq1_residual_step: f64,
@@ -64,7 +67,8 @@ pub struct Unilateral {
     pub closed: Vec<bool>,
     /// What each entry faced in the shape that the iteration started from.
     pub pairings: Vec<Option<Pairing>>,
-    /// The largest gap of a closed node or penetration of another one in the shape that the iteration led to, length.
+    /// The largest gap of a closed node or penetration of another one in the shape that the
+    /// iteration led to, length.
     pub violation: f64,
 }
 
@@ -77,7 +81,8 @@ impl Step {
         }
     }
 
-    /// What is left of the contact condition, length: of eq. (1) on total displacements, or of the gaps.
+    /// What is left of the contact condition, length: of eq. (1) on total displacements, or of the
+    /// gaps.
     pub fn contact_residual(&self) -> f64 {
         match &self.detail {
             Detail::Published(step) => step.eq1_residual,
@@ -128,8 +133,8 @@ pub struct Solution {
     pub factored: usize,
     /// `u` with all digits that are worth having, where the scalar has more than an `f64`.
     pub digits: Option<Vec<RBig>>,
-    /// A bound on the largest error of an entry of `u` against the same run without rounding, where the scalar keeps one: it
-    /// holds while rounding does not change who is in contact. Length.
+    /// A bound on the largest error of an entry of `u` against the same run without rounding, where
+    /// the scalar keeps one: it holds while rounding does not change who is in contact. Length.
     pub error_bound: Option<f64>,
 }
 

@@ -15,8 +15,9 @@ use crate::problem::modelling::{Coupling, Variant};
 /// Solves `request`; `watch` is called after each step.
 ///
 /// # Errors
-/// The published algorithm failing as printed; a matrix that cannot be solved; a dense matrix that does not fit in memory; a solver that the
-/// scalar does not have; exact numbers on a scene too large for them; under `unilateral` bodies that contact and restraints do not hold.
+/// The published algorithm failing as printed; a matrix that cannot be solved; a dense matrix that
+/// does not fit in memory; a solver that the scalar does not have; exact numbers on a scene too
+/// large for them; under `unilateral` bodies that contact and restraints do not hold.
 pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
     request.arithmetic.check()?;
     let solution = match (request.variant, request.arithmetic.scalar) {
@@ -34,7 +35,8 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     Ok(solution)
 }
 
-/// Solves what runs are measured against, the reference solution: `unilateral` with mortar, everything else as `request` has it.
+/// Solves what runs are measured against, the reference solution: `unilateral` with mortar,
+/// everything else as `request` has it.
 ///
 /// # Errors
 /// Those of [`solve`].

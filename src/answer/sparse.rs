@@ -44,7 +44,8 @@ pub(super) fn ldlt(
     Ok(Solved { residual: a.residual(&x, b), x })
 }
 
-/// Dense 2R x 2R matrices that a run holds at once, each of `size_of` numbers of the scalar: 0 where all is sparse.
+/// Dense 2R x 2R matrices that a run holds at once, each of `size_of` numbers of the scalar: 0
+/// where all is sparse.
 pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
     let sparse =
         arithmetic.solver() == Solver::SparseCholesky && arithmetic.scalar != ScalarName::Exact;

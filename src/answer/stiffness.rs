@@ -1,4 +1,5 @@
-//! Stiffness without contact and without restraints, triangle by triangle: what `Km` would add up in a dense matrix.
+//! Stiffness without contact and without restraints, triangle by triangle: what `Km` would add up
+//! in a dense matrix.
 
 use nalgebra::{DVector, SMatrix, SVector};
 
@@ -8,7 +9,8 @@ use crate::numbers::solve::SparseSymmetric;
 use crate::problem::element::{self, D, Plane, State};
 use crate::problem::model::{Dof, Model, TriangleId};
 
-/// The stiffness matrix K, 2R x 2R, force/length, kept as its triangles' matrices; and what stresses are computed from.
+/// The stiffness matrix K, 2R x 2R, force/length, kept as its triangles' matrices; and what
+/// stresses are computed from.
 pub struct Stiffness<T = f64> {
     plane: Plane,
     dofs: usize,
@@ -84,7 +86,8 @@ impl<T: Scalar> Stiffness<T> {
 }
 
 impl Stiffness {
-    /// sqrt(uᵀ K u): the energy norm, (force · length)^½. Summed by triangle, so that nothing negative is left of a cancellation.
+    /// sqrt(uᵀ K u): the energy norm, (force · length)^½. Summed by triangle, so that nothing
+    /// negative is left of a cancellation.
     pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
         let of_triangle = |triangle: &Element<f64>| {
             let u = triangle.displacements(u);

@@ -1,4 +1,5 @@
-//! What holds the target up: the forces on its restraints, and what constraints pass straight to them.
+//! What holds the target up: the forces on its restraints, and what constraints pass straight to
+//! them.
 
 use nalgebra::DVector;
 
@@ -7,7 +8,8 @@ use super::elimination::{Constraint, Motion, sum};
 use crate::numbers::scalar::Scalar;
 use crate::problem::model::{Model, NodeId};
 
-/// Sum of the target body's reactions, force. `force` is K·u − F by degree of freedom, `restrained` the restraints that the run knows.
+/// Sum of the target body's reactions, force. `force` is K·u − F by degree of freedom, `restrained`
+/// the restraints that the run knows.
 pub fn support<T: Scalar>(
     model: &Model,
     restrained: &[bool],
@@ -46,7 +48,8 @@ fn passed<T: Scalar>(
     }
 }
 
-/// The component along `normal` of a force that acts along it, from the components that no restraint has a share in.
+/// The component along `normal` of a force that acts along it, from the components that no
+/// restraint has a share in.
 fn along<T: Scalar>(normal: [T; 2], free: [bool; 2], force: [T; 2]) -> T {
     match free {
         [true, true] => normal[0] * force[0] + normal[1] * force[1],
@@ -56,7 +59,8 @@ fn along<T: Scalar>(normal: [T; 2], free: [bool; 2], force: [T; 2]) -> T {
     }
 }
 
-/// A contact force's component along the normal, force; where one direction of the node is restrained, from the other one.
+/// A contact force's component along the normal, force; where one direction of the node is
+/// restrained, from the other one.
 pub(super) fn normal_force(model: &Model, pairing: &Pairing, reaction: &DVector<f64>) -> f64 {
     let free = free(model, pairing.node);
     along(pairing.normal, free, pairing.node.of(reaction))

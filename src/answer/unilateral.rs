@@ -1,22 +1,26 @@
-//! The reference solution: gaps closed along the target's normal, no node that pulls, none that penetrates.
+//! The reference solution: gaps closed along the target's normal, no node that pulls, none that
+//! penetrates.
 //!
 //! ```text
 //!   gap g_i = n_i·(x_i − Σ w_ij x_j)       in contact   g_i = 0, pressure ≥ 0
 //!                                            apart        g_i ≥ 0, pressure = 0
 //! ```
 //!
-//! A primal-dual active set: each iteration measures normals, weights and gaps in the current shape, closes the gaps of the set, and
-//! takes as the next set the nodes that press or penetrate. It ends when the set repeats and the gaps stay closed as the shape
-//! settles. The shape is the current one, or the initial one for small displacements. Friction is none (the node slides along the
-//! tangent) or sticks: then both components follow the target, as eq. (1) asks, and the node stays at the place of the target that
-//! it faced in the initial shape.
+//! A primal-dual active set: each iteration measures normals, weights and gaps in the current
+//! shape, closes the gaps of the set, and takes as the next set the nodes that press or penetrate.
+//! It ends when the set repeats and the gaps stay closed as the shape settles. The shape is the
+//! current one, or the initial one for small displacements. Friction is none (the node slides along
+//! the tangent) or sticks: then both components follow the target, as eq. (1) asks, and the node
+//! stays at the place of the target that it faced in the initial shape.
 //!
-//! A set that came before, other than the last, would return for ever. From then on one node changes at a time, the last along `cnt` of those
-//! that should: that ends for every problem with one solution (K. G. Murty's least-index rule, Opsearch 11 (1974)). Where the set
-//! does not hold the bodies, the node joins it that the load's motion brings to the target first; if none is, those with the least gaps.
+//! A set that came before, other than the last, would return for ever. From then on one node
+//! changes at a time, the last along `cnt` of those that should: that ends for every problem with
+//! one solution (K. G. Murty's least-index rule, Opsearch 11 (1974)). Where the set does not hold
+//! the bodies, the node joins it that the load's motion brings to the target first; if none is,
+//! those with the least gaps.
 //!
-//! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; J. J. Júdice, F. M. Pires,
-//! Comput. Oper. Res. 21 (1994) 587-596 (the fall-back).
+//! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; J.
+//! J. Júdice, F. M. Pires, Comput. Oper. Res. 21 (1994) 587-596 (the fall-back).
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -37,12 +41,13 @@ use crate::problem::modelling::{Friction, Geometry};
 /// Gaps below this, of the size of the scene, are closed.
 const CLOSED: f64 = 5e-13;
 
-/// The distance from the origin, over the scene's size, beyond which gaps have fewer digits than [`CLOSED`] asks for, turned round: four units in the last
-/// place of a coordinate over [`CLOSED`].
+/// The distance from the origin, over the scene's size, beyond which gaps have fewer digits than
+/// [`CLOSED`] asks for, turned round: four units in the last place of a coordinate over [`CLOSED`].
 const RESOLVED: f64 = 4.0 * f64::EPSILON / CLOSED;
 
-/// What presses through a first set of few nodes reaches far beyond the contact to come: of the nodes outside, the second set takes those that
-/// penetrate by this part of the deepest. Measured on Hertz's contact of 800 to 100,000 equations: 12 iterations at most, against 14.
+/// What presses through a first set of few nodes reaches far beyond the contact to come: of the
+/// nodes outside, the second set takes those that penetrate by this part of the deepest. Measured
+/// on Hertz's contact of 800 to 100,000 equations: 12 iterations at most, against 14.
 const FIRST_GROWTH: f64 = 0.9;
 
 /// Stiffness of the springs that show how a body moves that nothing holds, of the diagonal.
@@ -89,7 +94,8 @@ struct Iteration {
 /// Finds the equilibrium; `watch` is called after each iteration. The last step is the answer.
 ///
 /// # Errors
-/// Contact and restraints that do not hold the bodies; a contact node restrained along the normal; loads that pull a body away.
+/// Contact and restraints that do not hold the bodies; a contact node restrained along the normal;
+/// loads that pull a body away.
 pub(super) fn unilateral(
     request: &Request,
     watch: &mut dyn FnMut(&Step),
@@ -129,11 +135,13 @@ struct Problem<'a> {
 enum Solved {
     /// Displacements, and the relative residual.
     Moved { u: DVector<f64>, residual: f64 },
-    /// Nothing holds this degree of freedom; how soft springs everywhere let the load move the bodies.
+    /// Nothing holds this degree of freedom; how soft springs everywhere let the load move the
+    /// bodies.
     Free { dof: Dof, motion: Option<DVector<f64>> },
 }
 
-/// The sets that were closed, each with the last iteration that closed it; and whether one came back.
+/// The sets that were closed, each with the last iteration that closed it; and whether one came
+/// back.
 #[derive(Default)]
 struct Memory {
     visited: HashMap<Vec<bool>, usize>,
@@ -152,8 +160,8 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Whether contact is measured in the current shape; else in the initial one: a node that sticks stays at the place that it faced
-    /// there.
+    /// Whether contact is measured in the current shape; else in the initial one: a node that
+    /// sticks stays at the place that it faced there.
     fn measures_current_shape(&self) -> bool {
         let contact = self.request.contact;
         (contact.friction, contact.geometry) == (Friction::None, Geometry::Current)
@@ -266,7 +274,8 @@ impl<'a> Problem<'a> {
         Ok(Solved::Moved { u: t.expand(&q), residual: cholesky.residual(&q, &f) })
     }
 
-    /// Where the load moves bodies that nothing but soft springs holds: the motion that the constraints leave free.
+    /// Where the load moves bodies that nothing but soft springs holds: the motion that the
+    /// constraints leave free.
     fn free_motion(&self, t: &Elimination, k: &SparseSymmetric) -> Option<DVector<f64>> {
         let diagonal = k.diagonal();
         let springs = (0..k.size()).map(|i| (i, i, SOFT * diagonal[i]));
@@ -376,7 +385,8 @@ fn no_equilibrium(steps: &[Step]) -> InputError {
     )
 }
 
-/// The nodes whose gaps are closed at the start: those that touch or penetrate, else those with the least gap.
+/// The nodes whose gaps are closed at the start: those that touch or penetrate, else those with the
+/// least gap.
 fn first_set(pairings: &[Option<Pairing>], closed: f64) -> Vec<bool> {
     let gaps = pairings.iter().flatten().map(|p| p.gap);
     let least = gaps.fold(f64::INFINITY, f64::min).max(0.0);
@@ -403,7 +413,8 @@ fn first_closed(set: &[bool], pairings: &[Option<Pairing>], u: &DVector<f64>) ->
     times.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, i)| i)
 }
 
-/// Adds to `set` as many nodes as it has, at least one, those with the least gaps; false where there are none left.
+/// Adds to `set` as many nodes as it has, at least one, those with the least gaps; false where
+/// there are none left.
 fn enlarge(set: &mut [bool], pairings: &[Option<Pairing>]) -> bool {
     let mut others: Vec<(f64, usize)> = pairings
         .iter()

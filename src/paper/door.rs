@@ -1,4 +1,5 @@
-//! The one door between the finite element model, which counts from 0 by types of its own, and the paper's tables, which count from 1.
+//! The one door between the finite element model, which counts from 0 by types of its own, and the
+//! paper's tables, which count from 1.
 //!
 //! ```text
 //!   Model ------- worksheet -----> node, elem, EL, trg, cnt, S, ... --> c_cnt, Km
@@ -38,7 +39,8 @@ pub fn under(mut model: Model, reading: &Reading) -> Result<Model, InputError> {
     Ok(model)
 }
 
-/// The paper's tables of a model. Each number goes through `number`; `Ae` and `B` are computed from the coordinates in T.
+/// The paper's tables of a model. Each number goes through `number`; `Ae` and `B` are computed from
+/// the coordinates in T.
 pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Worksheet<T> {
     let elem = elem(model);
     let triangles: Vec<usize> = model.rows.iter().filter_map(triangle_number).collect();
@@ -67,7 +69,8 @@ pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Workshe
     }
 }
 
-/// The table `elem`: number, type, number of tags, physical tag, geometric tag, nodes; 0 past a row's end.
+/// The table `elem`: number, type, number of tags, physical tag, geometric tag, nodes; 0 past a
+/// row's end.
 fn elem(model: &Model) -> Table<usize> {
     let last = model.rows.last().map_or(0, |row| row.number);
     let mut elem = Table::filled(last, 8, 0);
@@ -161,7 +164,8 @@ pub fn statuses<T: Scalar>(model: &Model, pairs: &Pairs<T>) -> Vec<ContactStatus
     model.contact.nodes.iter().enumerate().map(status).collect()
 }
 
-/// Statuses that another rule than the listing's decided, in the listing's arrays, with the weights of its lines 11 to 31.
+/// Statuses that another rule than the listing's decided, in the listing's arrays, with the weights
+/// of its lines 11 to 31.
 ///
 /// # Errors
 /// Where those lines fail as printed: the weights of a vertical edge.
@@ -182,7 +186,8 @@ pub fn pairs<T: Scalar>(
     weights(sheet, reading, node_n, decided)
 }
 
-/// A contact node and the place of the target that it is bound to: two nodes of an edge and their weights.
+/// A contact node and the place of the target that it is bound to: two nodes of an edge and their
+/// weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeToSegment<T = f64> {
     /// The contact node.
@@ -208,8 +213,9 @@ pub fn linked<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>) -> Vec<NodeToSe
     found
 }
 
-/// The contact nodes with dy = 1 on their target edges, with the weights that lines 22 and 23 of `c_cnt` compute, before they are added
-/// up in k_cnt: they sum to 1 whatever the reading does to k_cnt.
+/// The contact nodes with dy = 1 on their target edges, with the weights that lines 22 and 23 of
+/// `c_cnt` compute, before they are added up in k_cnt: they sum to 1 whatever the reading does to
+/// k_cnt.
 pub fn on_edges<T: Scalar>(
     sheet: &Worksheet<T>,
     pairs: &Pairs<T>,
@@ -270,7 +276,8 @@ impl Call {
         Call { sheet: worksheet(model, |x| x), pairs, statuses: Vec::new() }
     }
 
-    /// Calls `Km` with what `c_cnt` found: `MJS`, a row and a column for each degree of freedom, force/length.
+    /// Calls `Km` with what `c_cnt` found: `MJS`, a row and a column for each degree of freedom,
+    /// force/length.
     ///
     /// # Errors
     /// An overflow.

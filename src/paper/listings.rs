@@ -22,7 +22,8 @@ pub enum Which {
     Km,
 }
 
-/// Limits of an execution: 16 million steps, and what arrays of the size of MJS ask for (a step an entry and operation).
+/// Limits of an execution: 16 million steps, and what arrays of the size of MJS ask for (a step an
+/// entry and operation).
 fn limits(sheet: &Worksheet<f64>) -> Limits {
     let matrix = 4 * sheet.R() as u64 * sheet.R() as u64;
     Limits { steps: (1 << 24) + 8 * matrix, entries: 1 << 27, ..Limits::default() }

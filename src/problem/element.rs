@@ -1,4 +1,5 @@
-//! The three-node triangle of constant strain (CST): what the paper calls `Ae`, `B` and `D`, and does not print.
+//! The three-node triangle of constant strain (CST): what the paper calls `Ae`, `B` and `D`, and
+//! does not print.
 //!
 //! ```text
 //!              3
@@ -7,7 +8,8 @@
 //!           1-----2      strains in the order e_xx e_yy g_xy (engineering shear)
 //! ```
 //!
-//! Source: O. C. Zienkiewicz, R. L. Taylor, *The Finite Element Method*, vol. 1, the three-node triangle.
+//! Source: O. C. Zienkiewicz, R. L. Taylor, *The Finite Element Method*, vol. 1, the three-node
+//! triangle.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 use nalgebra::{SMatrix, SVector};
@@ -53,7 +55,8 @@ pub fn area<T: Scalar>(p: &Corners<T>) -> T {
     ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1])) / two
 }
 
-/// Strain matrix, 3 x 6, 1/length: strains = B · displacements. The triangle's area must not be zero.
+/// Strain matrix, 3 x 6, 1/length: strains = B · displacements. The triangle's area must not be
+/// zero.
 pub fn B<T: Scalar>(p: &Corners<T>) -> SMatrix<T, 3, 6> {
     let double_area = area(p) + area(p);
     let mut b = SMatrix::zeros();
@@ -106,11 +109,12 @@ pub struct State {
 impl State {
     /// Strains, stresses and their von Mises values from the element's six displacements.
     ///
-    /// The paper gives no formula for either von Mises value. Stress: sqrt(3/2 s:s) of the stress deviator, with
-    /// sigma_z = nu (sigma_x + sigma_y) in plane strain. Strain: sqrt(2/3 e:e) of the strain deviator, with
-    /// e_zz = −nu/(1 − nu) (e_xx + e_yy) in plane stress.
+    /// The paper gives no formula for either von Mises value. Stress: sqrt(3/2 s:s) of the stress
+    /// deviator, with sigma_z = nu (sigma_x + sigma_y) in plane strain. Strain: sqrt(2/3 e:e) of
+    /// the strain deviator, with e_zz = −nu/(1 − nu) (e_xx + e_yy) in plane stress.
     ///
-    /// Each is computed in T and rounded once on the way out; of exact numbers the von Mises values are the nearest `f64`.
+    /// Each is computed in T and rounded once on the way out; of exact numbers the von Mises values
+    /// are the nearest `f64`.
     pub fn new<T: Scalar>(
         plane: Plane,
         E: T,
@@ -145,7 +149,8 @@ impl State {
     }
 }
 
-/// Von Mises strain by the other formula in use (R10): that of the stress, on strains, divided by 1 + nu.
+/// Von Mises strain by the other formula in use (R10): that of the stress, on strains, divided by 1
+/// + nu.
 pub fn von_mises_strain_by_stress_formula(plane: Plane, nu: f64, e: &SVector<f64, 3>) -> f64 {
     let e_zz = out_of_plane_strain(plane, nu, e);
     deviator_norm(1.5, [e[0], e[1], e_zz, e[2] / 2.0], 1.0) / (1.0 + nu)
@@ -159,8 +164,8 @@ fn out_of_plane_strain<T: Scalar>(plane: Plane, nu: T, e: &SVector<T, 3>) -> T {
     }
 }
 
-/// sqrt(factor · d:d) of the deviator d of a symmetric tensor, its components xx, yy, zz, xy over `common`; scaled, so that no square
-/// overflows or vanishes.
+/// sqrt(factor · d:d) of the deviator d of a symmetric tensor, its components xx, yy, zz, xy over
+/// `common`; scaled, so that no square overflows or vanishes.
 fn deviator_norm<T: Scalar>(factor: T, tensor: [T; 4], common: T) -> f64 {
     let (two, three) = (T::one() + T::one(), T::one() + T::one() + T::one());
     let largest = tensor.into_iter().fold(T::zero(), |m, x| m.max(x.abs()));

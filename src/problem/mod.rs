@@ -1,4 +1,5 @@
-//! The problem: triangles, materials, restraints, loads and contact surfaces, and the files that describe them.
+//! The problem: triangles, materials, restraints, loads and contact surfaces, and the files that
+//! describe them.
 
 pub mod element;
 pub mod model;

@@ -76,9 +76,11 @@ choices! {
         /// Lines 16 to 18 of `c_cnt` as printed.
         #[default]
         Signs = "signs",
-        /// Line 16, and the text's other remedy: a side of the node's triangles crosses the target surface.
+        /// Line 16, and the text's other remedy: a side of the node's triangles crosses the target
+        /// surface.
         Intersection = "intersection",
-        /// The signed distance to the nearest target edge is c_tll or less, and the node at most c_tll past the surface's end.
+        /// The signed distance to the nearest target edge is c_tll or less, and the node at most
+        /// c_tll past the surface's end.
         Projection = "projection",
     }
 }
@@ -97,7 +99,8 @@ pub struct ContactModel {
 }
 
 impl ContactModel {
-    /// Whether `unilateral` measures contact in the current shape; else in the initial one: a node that sticks stays at the place that it faced there.
+    /// Whether `unilateral` measures contact in the current shape; else in the initial one: a node
+    /// that sticks stays at the place that it faced there.
     pub fn measures_current_shape(&self) -> bool {
         (self.friction, self.geometry) == (Friction::None, Geometry::Current)
     }

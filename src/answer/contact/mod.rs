@@ -1,4 +1,5 @@
-//! Contact: what each contact node faces on the target, who is in contact, and what the contact surface carries.
+//! Contact: what each contact node faces on the target, who is in contact, and what the contact
+//! surface carries.
 
 mod mortar;
 mod nts;

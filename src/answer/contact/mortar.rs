@@ -1,4 +1,5 @@
-//! Mortar with dual multipliers: each contact node is bound to the average of the target over what its edges cover.
+//! Mortar with dual multipliers: each contact node is bound to the average of the target over what
+//! its edges cover.
 //!
 //! ```text
 //!   contact edge   s1 o-----------o s2        ψ: dual shape functions, ∫ ψ_i φ_k = δ_ik ∫ φ_k over the stretch covered
@@ -6,11 +7,13 @@
 //!   target edges   *------*----------*         φ, N: linear shape functions of the contact and the target edges
 //! ```
 //!
-//! A target edge is cast on a contact edge along the contact edge's normal, so that every integrand is a polynomial of degree two. The
-//! dual functions are made for the stretch covered, so that an edge that hangs over the target's end still passes constant pressure.
+//! A target edge is cast on a contact edge along the contact edge's normal, so that every integrand
+//! is a polynomial of degree two. The dual functions are made for the stretch covered, so that an
+//! edge that hangs over the target's end still passes constant pressure.
 //!
-//! Source: B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012 (dual multipliers); A. Popp, A. Seitz, M. W. Gee, W. A. Wall,
-//! Comput. Methods Appl. Mech. Engrg. 264 (2013) 67-80 (edges covered in part).
+//! Source: B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012 (dual multipliers); A. Popp, A.
+//! Seitz, M. W. Gee, W. A. Wall, Comput. Methods Appl. Mech. Engrg. 264 (2013) 67-80 (edges covered
+//! in part).
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -60,7 +63,8 @@ struct Stretch {
     length: f64,
 }
 
-/// The stretches of a contact edge that face a target edge. Of several that face the same place the nearest counts.
+/// The stretches of a contact edge that face a target edge. Of several that face the same place the
+/// nearest counts.
 fn cover(contact: &Placed, target: &[Placed]) -> Vec<Stretch> {
     let mut facing: Vec<(f64, Stretch)> = Vec::new();
     for (edge, placed) in target.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! What each contact node faces on the target, in a given shape: target nodes and weights, the normal, the gap.
+//! What each contact node faces on the target, in a given shape: target nodes and weights, the
+//! normal, the gap.
 //!
 //! ```text
 //!        contact surface          c  o            normal n: out of the target
@@ -6,8 +7,9 @@
 //!        target surface    a *-------+-------* b
 //! ```
 //!
-//! Node to segment (`nts.rs`) takes the point of the nearest edge that is closest to c: two weights. Mortar (`mortar.rs`) averages
-//! over the stretch of the target that c's edges cover: more weights, and constant pressure passes exactly.
+//! Node to segment (`nts.rs`) takes the point of the nearest edge that is closest to c: two
+//! weights. Mortar (`mortar.rs`) averages over the stretch of the target that c's edges cover: more
+//! weights, and constant pressure passes exactly.
 
 use crate::problem::model::{EdgeId, NodeId};
 

@@ -1,4 +1,5 @@
-//! What the contact surface carries at the end of a run, whatever the variant: the reaction of the stamp's equations, K u − F.
+//! What the contact surface carries at the end of a run, whatever the variant: the reaction of the
+//! stamp's equations, K u − F.
 
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
@@ -78,7 +79,8 @@ impl Traction<'_> {
         let [rx, ry] = pairing.node.of(self.reaction);
         let [nx, ny] = pairing.normal;
         let normal = normal_force(self.model, pairing, self.reaction);
-        // Of a node that a restraint holds the part along the tangent cannot be told from the restraint's own.
+        // Of a node that a restraint holds the part along the tangent cannot be told from the
+        // restraint's own.
         let restrained = self.model.restraints_of(pairing.node).contains(&true);
         let tangent = if restrained { 0.0 } else { nx * ry - ny * rx };
         let area = length * self.model.thickness;
@@ -101,7 +103,8 @@ fn over(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
-/// Distance of each entry of the contact surface from the first along the undeformed surface, length.
+/// Distance of each entry of the contact surface from the first along the undeformed surface,
+/// length.
 pub(in crate::answer) fn arcs(model: &Model) -> Vec<f64> {
     let at = |i: usize| model.at(model.contact.nodes[i]);
     let mut arc = 0.0;

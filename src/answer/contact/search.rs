@@ -13,9 +13,9 @@
 //!             . body .\                                  body
 //! ```
 //!
-//! At a corner both edges are equally near. The edge whose line is farther from p is taken: its side
-//! has the right sign, because the sum of the two normals has it (Bærentzen and Aanæs, IEEE TVCG
-//! 11:243, 2005). What happens past the end of a surface is the caller's rule: `admits`.
+//! At a corner both edges are equally near. The edge whose line is farther from p is taken: its
+//! side has the right sign, because the sum of the two normals has it (Bærentzen and Aanæs, IEEE
+//! TVCG 11:243, 2005). What happens past the end of a surface is the caller's rule: `admits`.
 //!
 //! Nothing takes a square root: distances are compared as squares, so that exact numbers serve too.
 
@@ -35,10 +35,11 @@ pub struct Segment<T> {
 /// The point of a segment that is closest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest<T> {
-    /// Where it lies on the segment's line: 0 at the first end, 1 at the second, beyond them past the
-    /// ends.
+    /// Where it lies on the segment's line: 0 at the first end, 1 at the second, beyond them past
+    /// the ends.
     pub xi: T,
-    /// Twice the area of the two ends and the point: > 0 where it lies on the body's side of the line.
+    /// Twice the area of the two ends and the point: > 0 where it lies on the body's side of the
+    /// line.
     pub side: T,
     /// The square of the segment's length.
     pub square: T,
@@ -65,7 +66,8 @@ impl<T: Scalar> Segment<T> {
         Closest { xi, side, square: self.square, distance_square }
     }
 
-    /// On which side of its line `p` lies: > 0 on the body's, 0 on the line; of `f64` with the exact sign.
+    /// On which side of its line `p` lies: > 0 on the body's, 0 on the line; of `f64` with the
+    /// exact sign.
     pub fn side(&self, p: [T; 2]) -> T {
         T::orientation(self.ends[0], self.ends[1], p)
     }

@@ -1,14 +1,19 @@
-//! Who is in contact: the sign rule that the listing prints, the text's other remedy, and the exact answer.
+//! Who is in contact: the sign rule that the listing prints, the text's other remedy, and the exact
+//! answer.
 //!
-//! For a node that jumped deeper into the target than c_tol the text names two remedies: "the search for the point of intersection of
-//! the elements that hold this node with the neighbouring elements of the target surface", and "the comparison of the signs of Yi
-//! of neighbouring nodes". The listing has the second only. The first, as built here, word by word:
+//! For a node that jumped deeper into the target than c_tol the text names two remedies: "the
+//! search for the point of intersection of the elements that hold this node with the neighbouring
+//! elements of the target surface", and "the comparison of the signs of Yi of neighbouring nodes".
+//! The listing has the second only. The first, as built here, word by word:
 //!
-//! - *the elements that hold this node*: the triangles of which the contact node is a corner. Of their sides those count that end at the
-//!   node: where the opposite side is cut, the node may be on either side of the cut;
-//! - *the neighbouring elements of the target surface*: the target edges (the text calls an edge with nodes 1.1 and 1.2 an element). A
-//!   side meets its neighbours only: an edge whose box does not overlap the side's is passed over;
-//! - *the point of intersection*: a side that leads out of the target crosses the surface once more outwards than inwards.
+//! - *the elements that hold this node*: the triangles of which the contact node is a corner. Of
+//!   their sides those count that end at the node: where the opposite side is cut, the node may be
+//!   on either side of the cut;
+//! - *the neighbouring elements of the target surface*: the target edges (the text calls an edge
+//!   with nodes 1.1 and 1.2 an element). A side meets its neighbours only: an edge whose box does
+//!   not overlap the side's is passed over;
+//! - *the point of intersection*: a side that leads out of the target crosses the surface once more
+//!   outwards than inwards.
 //!
 //! ```text
 //!       q1 *-------* q2       c      the contact node, jumped deeper than c_tol
@@ -18,8 +23,9 @@
 //!              c
 //! ```
 //!
-//! What the remedy cannot see: a node whose elements have sunk in whole (no side of theirs is cut), and a node beside the target
-//! whose side runs through the target's flank, which is no target edge, and out through the surface.
+//! What the remedy cannot see: a node whose elements have sunk in whole (no side of theirs is cut),
+//! and a node beside the target whose side runs through the target's flank, which is no target
+//! edge, and out through the surface.
 
 use super::search::{Closest, Segment, closest};
 use crate::numbers::scalar::Scalar;
@@ -31,12 +37,14 @@ use crate::problem::modelling::StatusRule;
 
 /// Who is in contact in the shape `node_n` (R x 4), by `rule`. `sheet`: the tables of `model` in T.
 ///
-/// Under *signs* edges and distances are `c_cnt`'s. Under *intersection* too, and where it found no edge for a node in contact, the
-/// edge is the nearest. Under *projection* the edge is the nearest one, none past the surface's end, and the distance minus the signed
-/// distance to it: > 0 inside the target.
+/// Under *signs* edges and distances are `c_cnt`'s. Under *intersection* too, and where it found no
+/// edge for a node in contact, the edge is the nearest. Under *projection* the edge is the nearest
+/// one, none past the surface's end, and the distance minus the signed distance to it: > 0 inside
+/// the target.
 ///
 /// # Errors
-/// Where the lines of `c_cnt` that the rule keeps fail as printed: all of them under *signs*, 1 to 16 under *intersection*.
+/// Where the lines of `c_cnt` that the rule keeps fail as printed: all of them under *signs*, 1 to
+/// 16 under *intersection*.
 pub fn statuses<T: Scalar>(
     rule: StatusRule,
     model: &Model,
@@ -69,12 +77,14 @@ pub struct Target<T> {
 pub struct TargetEdge {
     /// Which of the model's edges it is.
     pub id: EdgeId,
-    /// Which of its ends no other target edge shares; the body lies on the left from the first to the second.
+    /// Which of its ends no other target edge shares; the body lies on the left from the first to
+    /// the second.
     pub free: [bool; 2],
 }
 
 impl TargetEdge {
-    /// The square of how far a point lies past the end of the surface, along this edge, length²; 0 over the surface.
+    /// The square of how far a point lies past the end of the surface, along this edge, length²; 0
+    /// over the surface.
     pub fn past_square<T: Scalar>(&self, closest: &Closest<T>) -> T {
         let past = if self.free[closest.end()] { closest.past() } else { T::zero() };
         past * past * closest.square
@@ -144,8 +154,9 @@ fn sides(model: &Model, n: NodeId) -> Vec<NodeId> {
     others
 }
 
-/// +1 where the way from `c` to `q` crosses `edge` outwards, −1 inwards, 0 where it does not. It crosses a corner of two edges once. A
-/// way that starts on the edge starts inside; one that ends on it ends outside.
+/// +1 where the way from `c` to `q` crosses `edge` outwards, −1 inwards, 0 where it does not. It
+/// crosses a corner of two edges once. A way that starts on the edge starts inside; one that ends
+/// on it ends outside.
 fn crossing<T: Scalar>(edge: &Segment<T>, c: [T; 2], q: [T; 2]) -> i32 {
     let [a, b] = edge.ends;
     if apart([a, b], [c, q]) {

@@ -7,7 +7,8 @@ use super::search::Segment;
 use crate::error::InputError;
 use crate::problem::model::{EdgeId, Model, NodeId, unordered};
 
-/// Cosine between a contact surface's normal and the reverse of a target edge's, beyond which the two do not face each other.
+/// Cosine between a contact surface's normal and the reverse of a target edge's, beyond which the
+/// two do not face each other.
 pub(super) const FACING: f64 = 0.1;
 
 /// Which nodes and edges may touch, and on which side of each edge its body lies.
@@ -18,8 +19,9 @@ pub struct Surfaces {
     pub(super) contact: Vec<Edge>,
     /// Edges of the target surface.
     pub(super) target: Vec<Edge>,
-    /// In the undeformed shape, the normal of each contact node that bounds an edge, and of each target edge. A shape on the way to the answer may
-    /// be folded: it does not tell what faces what.
+    /// In the undeformed shape, the normal of each contact node that bounds an edge, and of each
+    /// target edge. A shape on the way to the answer may be folded: it does not tell what faces
+    /// what.
     undeformed: (HashMap<NodeId, Vector>, Vec<Vector>),
 }
 
@@ -104,7 +106,8 @@ impl Surfaces {
         self.target.iter().map(|edge| Segment::new(ends(edge))).collect()
     }
 
-    /// Whether a contact node and the target edge at `edge` face each other in the undeformed shape; a node without an edge faces all.
+    /// Whether a contact node and the target edge at `edge` face each other in the undeformed
+    /// shape; a node without an edge faces all.
     pub(super) fn face(&self, node: NodeId, edge: usize) -> bool {
         let (own, target) = &self.undeformed;
         own.get(&node).is_none_or(|normal| dot(*normal, target[edge]) <= -FACING)
@@ -121,8 +124,8 @@ impl Surfaces {
         self.target.iter().map(|edge| edge.nodes.map(|n| edges_at[&n].len() == 1)).collect()
     }
 
-    /// For each entry of the contact surface half the length of the contact edges that it bounds, in a shape; 0 for a node's second
-    /// entry.
+    /// For each entry of the contact surface half the length of the contact edges that it bounds,
+    /// in a shape; 0 for a node's second entry.
     pub fn tributary(&self, shape: &[Vector]) -> Vec<f64> {
         let mut of_node: HashMap<NodeId, f64> = HashMap::new();
         for edge in &self.contact {
@@ -133,7 +136,8 @@ impl Surfaces {
     }
 }
 
-/// The normal of each node of `edges`, out of its body: the mean of its edges', by length; not a unit vector where they meet in a corner.
+/// The normal of each node of `edges`, out of its body: the mean of its edges', by length; not a
+/// unit vector where they meet in a corner.
 fn normals_at_nodes(edges: &[Edge], shape: &[Vector]) -> HashMap<NodeId, Vector> {
     let mut of_node: HashMap<NodeId, (Vector, f64)> = HashMap::new();
     for edge in edges {
@@ -148,8 +152,8 @@ fn normals_at_nodes(edges: &[Edge], shape: &[Vector]) -> HashMap<NodeId, Vector>
     of_node.into_iter().map(mean).collect()
 }
 
-/// Each pair of nodes that follow each other in `nodes` once, and the pair that closes a loop where all of them are boundary edges; the
-/// lower node first.
+/// Each pair of nodes that follow each other in `nodes` once, and the pair that closes a loop where
+/// all of them are boundary edges; the lower node first.
 fn chain(nodes: &[NodeId], is_boundary: impl Fn([NodeId; 2]) -> bool) -> Vec<[NodeId; 2]> {
     let mut pairs: Vec<[NodeId; 2]> = Vec::new();
     let mut add = |pair| {

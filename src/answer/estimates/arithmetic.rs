@@ -1,9 +1,10 @@
 //! The algebraic error: what rounding does to displacements and stresses.
 //!
-//! A run is done again in `f64` with a running bound on the error ([`Bounded`]), by the solver that suits its matrix: the bound of that run and
-//! its distance from the run in question bound the error of the latter, in whatever numbers and by whatever solver it was done.
-//! Under `unilateral` it is the equilibrium of the last contact state, normals and weights as they stand, that is solved again.
-//! Either holds while rounding does not change who is in contact.
+//! A run is done again in `f64` with a running bound on the error ([`Bounded`]), by the solver that
+//! suits its matrix: the bound of that run and its distance from the run in question bound the
+//! error of the latter, in whatever numbers and by whatever solver it was done. Under `unilateral`
+//! it is the equilibrium of the last contact state, normals and weights as they stand, that is
+//! solved again. Either holds while rounding does not change who is in contact.
 
 use nalgebra::{DVector, SVector};
 
@@ -17,7 +18,8 @@ use crate::problem::modelling::Variant;
 /// Roundings in a von Mises value from its stresses, in units of 2^-53.
 const ROUNDINGS: f64 = 32.0;
 
-/// A bound on the largest error of an entry of the displacements, length; infinite where nothing is known.
+/// A bound on the largest error of an entry of the displacements, length; infinite where nothing is
+/// known.
 pub fn displacement_bound(solution: &Solution) -> f64 {
     let again = match solution.request.variant {
         Variant::Unilateral => last_state(solution),
@@ -62,7 +64,8 @@ fn last_state(solution: &Solution) -> Option<DVector<Bounded>> {
     Some(t.expand(&x.map(|x| Bounded::new(x, bound))))
 }
 
-/// For each triangle a bound on the error of its von Mises stress where displacements are known to `displacement`; stress.
+/// For each triangle a bound on the error of its von Mises stress where displacements are known to
+/// `displacement`; stress.
 pub fn stress_bounds(solution: &Solution, displacement: f64) -> Vec<f64> {
     let model = &*solution.model;
     let u = solution.u.map(|u| Bounded::new(u, displacement));
@@ -76,7 +79,8 @@ pub fn stress_bounds(solution: &Solution, displacement: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Of two stresses the von Mises values differ by at most the von Mises value of their difference: it is a seminorm.
+/// Of two stresses the von Mises values differ by at most the von Mises value of their difference:
+/// it is a seminorm.
 fn von_mises_bound(model: &Model, nu: f64, stress: &SVector<Bounded, 3>) -> f64 {
     let [x, y, xy] = [0, 1, 2].map(|k| stress[k].error());
     let z = match model.plane {

@@ -1,27 +1,31 @@
 //! The discretisation error of the stresses: what the mesh, not the arithmetic, does to them.
 //!
-//! A triangle's stress is constant; the true one is not. The recovered stress sigma* (`recovery.rs`) is continuous within
-//! a material and nearer to the truth, so that sigma* − sigma_h stands for the error:
+//! A triangle's stress is constant; the true one is not. The recovered stress sigma*
+//! (`recovery.rs`) is continuous within a material and nearer to the truth, so that sigma* −
+//! sigma_h stands for the error:
 //!
 //! ```text
 //!  eta_e² = ∫ (sigma* − sigma_h)ᵀ D⁻¹ (sigma* − sigma_h) dV over the triangle,   eta² = Σ eta_e²
 //! ```
 //!
-//! Source: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Methods Eng. 33 (1992) 1331-1364 and 1365-1382.
+//! Source: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Methods Eng. 33 (1992) 1331-1364 and
+//! 1365-1382.
 //!
-//! The bar of a largest von Mises stress rests on this: of two stresses, the von Mises values differ by at most the von Mises value
-//! of the difference (it is a seminorm). With d_e the largest von Mises value of sigma* − sigma_h over triangle e, and m the
-//! triangle with the largest stress,
+//! The bar of a largest von Mises stress rests on this: of two stresses, the von Mises values
+//! differ by at most the von Mises value of the difference (it is a seminorm). With d_e the largest
+//! von Mises value of sigma* − sigma_h over triangle e, and m the triangle with the largest stress,
 //!
 //! ```text
 //!  bar = SAFETY · max( d_e of the triangles that share a node with m ,  vm_e + d_e − vm_m of any triangle of the body )
 //! ```
 //!
-//! the second term being for a peak that the mesh hides elsewhere. |recovered maximum − maximum| is no bar: on the benchmarks
-//! of `tests/numbers/discretisation.rs` it is some half of the true error, and on coarse meshes about zero. The price is a wide bar: there
-//! it is 2.6 to 10 times the true error as a rule, and more where that error is small by luck. What none of this can do: at a
-//! re-entrant corner, under a point load or at the edge of a sticking contact the true stress has no largest value, and no bar
-//! holds it; nor does a triangle see the error that such a place sends to it from afar.
+//! the second term being for a peak that the mesh hides elsewhere. |recovered maximum − maximum| is
+//! no bar: on the benchmarks of `tests/numbers/discretisation.rs` it is some half of the true
+//! error, and on coarse meshes about zero. The price is a wide bar: there it is 2.6 to 10 times the
+//! true error as a rule, and more where that error is small by luck. What none of this can do: at a
+//! re-entrant corner, under a point load or at the edge of a sticking contact the true stress has
+//! no largest value, and no bar holds it; nor does a triangle see the error that such a place sends
+//! to it from afar.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 use nalgebra::Matrix3;
@@ -31,9 +35,11 @@ use super::recovery::{Stress, recover};
 use crate::problem::element::{self, Plane, State};
 use crate::problem::model::{Model, Triangle, TriangleId};
 
-/// By how much d_e may underrate the true error near the largest stress: it is an estimate, not a bound. The bar was chosen among
-/// twelve on the benchmarks and 400 random polynomial fields (1.62 would have held them all), then tried on 4,000 other fields, on
-/// four domains and 24 to 400 triangles: 1.1 % of the bars missed; where [`Discretisation::relative`] is at most 0.2, 0.13 %, and where at most 0.1, none.
+/// By how much d_e may underrate the true error near the largest stress: it is an estimate, not a
+/// bound. The bar was chosen among twelve on the benchmarks and 400 random polynomial fields (1.62
+/// would have held them all), then tried on 4,000 other fields, on four domains and 24 to 400
+/// triangles: 1.1 % of the bars missed; where [`Discretisation::relative`] is at most 0.2, 0.13 %,
+/// and where at most 0.1, none.
 const SAFETY: f64 = 2.0;
 
 /// What the mesh does to a solution.
@@ -43,7 +49,8 @@ pub struct Discretisation {
     pub recovered: Vec<[Stress; 3]>,
     /// eta_e of each triangle, in the energy norm: sqrt(force·length).
     pub indicators: Vec<f64>,
-    /// d_e of each triangle: largest von Mises value of sigma* − sigma_h; infinite where it is unknown. Stress.
+    /// d_e of each triangle: largest von Mises value of sigma* − sigma_h; infinite where it is
+    /// unknown. Stress.
     pub stress_errors: Vec<f64>,
     /// Energy norm of the solution, sqrt(∫ sigma_hᵀ D⁻¹ sigma_h dV): sqrt(force·length).
     pub energy_norm: f64,
@@ -60,7 +67,8 @@ pub struct LargestVonMises {
     pub at: TriangleId,
     /// The largest of the recovered stresses: as a rule nearer to the truth than `value`. Stress.
     pub recovered: f64,
-    /// The true largest value is expected within `value` ± `bar`; infinite where nothing is known. Stress.
+    /// The true largest value is expected within `value` ± `bar`; infinite where nothing is known.
+    /// Stress.
     pub bar: f64,
 }
 
@@ -92,12 +100,14 @@ impl Discretisation {
         }
     }
 
-    /// eta, the estimated error in the energy norm: sqrt(force·length). Infinite where some triangle's error is unknown.
+    /// eta, the estimated error in the energy norm: sqrt(force·length). Infinite where some
+    /// triangle's error is unknown.
     pub fn total(&self) -> f64 {
         if self.unrecovered.is_empty() { self.known_part() } else { f64::INFINITY }
     }
 
-    /// eta / |u|, |u|² being estimated by |u_h|² + eta²; 0 of no stress at all, infinite where eta is.
+    /// eta / |u|, |u|² being estimated by |u_h|² + eta²; 0 of no stress at all, infinite where eta
+    /// is.
     pub fn relative(&self) -> f64 {
         match self.total() {
             eta if eta == 0.0 || eta.is_infinite() => eta,
@@ -105,8 +115,8 @@ impl Discretisation {
         }
     }
 
-    /// For a picture: each eta_e against the energy norm of an average triangle, |u| / sqrt(M). Their quadratic mean is
-    /// [`Self::relative`]; a triangle whose error is unknown has 0.
+    /// For a picture: each eta_e against the energy norm of an average triangle, |u| / sqrt(M).
+    /// Their quadratic mean is [`Self::relative`]; a triangle whose error is unknown has 0.
     pub fn error_map(&self) -> Vec<f64> {
         let whole = self.known_part().hypot(self.energy_norm);
         let average = whole / (self.indicators.len() as f64).sqrt();
@@ -169,7 +179,8 @@ fn von_mises(plane: Plane, nu: f64, stress: &Stress) -> f64 {
     scale * (squares / 2.0 + 3.0 * s[2] * s[2]).sqrt()
 }
 
-/// Energy norm over a triangle of a stress that is linear between its corners: sqrt(force·length). `volume`: length³.
+/// Energy norm over a triangle of a stress that is linear between its corners: sqrt(force·length).
+/// `volume`: length³.
 fn energy_norm(plane: Plane, triangle: &Triangle, volume: f64, corners: &[Stress; 3]) -> f64 {
     let scale = corners.iter().map(|s| s.amax()).fold(0.0, f64::max);
     if scale == 0.0 {

@@ -1,4 +1,5 @@
-//! Error bars: how far a printed number may be from the truth. Two a number: what rounding does to it, and what the mesh does.
+//! Error bars: how far a printed number may be from the truth. Two a number: what rounding does to
+//! it, and what the mesh does.
 //!
 //! ```text
 //!  Model, States --patches-->  sites --recovery--> smoothed stresses --discretisation--> eta, bars of the mesh
@@ -18,7 +19,8 @@ use discretisation::Discretisation;
 /// The error bars of a run.
 #[derive(Clone, Debug)]
 pub struct ErrorBars {
-    /// Rounding: a bound on the largest error of a displacement, length; infinite where nothing is known.
+    /// Rounding: a bound on the largest error of a displacement, length; infinite where nothing is
+    /// known.
     pub displacement: f64,
     /// The mesh.
     pub mesh: Discretisation,

@@ -11,7 +11,8 @@ use std::collections::HashMap;
 
 use crate::problem::model::{Model, TriangleId};
 
-/// The triangles around each site; a site is a node as one material sees it. Everything is counted from 0.
+/// The triangles around each site; a site is a node as one material sees it. Everything is counted
+/// from 0.
 pub struct Patches {
     /// Coordinates of each site, length.
     pub points: Vec<[f64; 2]>,

@@ -1,11 +1,12 @@
 //! Superconvergent patch recovery: better stresses at the nodes than the triangles' own.
 //!
-//! A linear polynomial is fitted by least squares to the stresses at the centres of the triangles around an interior
-//! node, and read at the node. A node on an edge of its body or material has too few triangles, all on one side: there the
-//! polynomials of the interior nodes beside it are read, and their mean taken.
+//! A linear polynomial is fitted by least squares to the stresses at the centres of the triangles
+//! around an interior node, and read at the node. A node on an edge of its body or material has too
+//! few triangles, all on one side: there the polynomials of the interior nodes beside it are read,
+//! and their mean taken.
 //!
-//! Source: O. C. Zienkiewicz, J. Z. Zhu, "The superconvergent patch recovery and a posteriori error estimates, part 1: the
-//! recovery technique", Int. J. Numer. Methods Eng. 33 (1992) 1331-1364.
+//! Source: O. C. Zienkiewicz, J. Z. Zhu, "The superconvergent patch recovery and a posteriori error
+//! estimates, part 1: the recovery technique", Int. J. Numer. Methods Eng. 33 (1992) 1331-1364.
 
 use std::collections::BTreeSet;
 
@@ -16,10 +17,12 @@ use super::patches::Patches;
 /// sigma_x, sigma_y, tau_xy.
 pub type Stress = Vector3<f64>;
 
-/// Centres closer to one line than this, as the ratio of the two principal second moments, fix no slope across it.
+/// Centres closer to one line than this, as the ratio of the two principal second moments, fix no
+/// slope across it.
 const COLLINEAR: f64 = 1e-10;
 
-/// Recovered stress at each site; nothing where the site's material has no patch that fixes a slope.
+/// Recovered stress at each site; nothing where the site's material has no patch that fixes a
+/// slope.
 ///
 /// Given: the patches, the stress of each triangle.
 pub fn recover(patches: &Patches, stresses: &[Stress]) -> Vec<Option<Stress>> {

@@ -20,7 +20,8 @@ pub struct Pairs<T> {
 }
 
 impl<T: Scalar> Pairs<T> {
-    /// No pair, for `nodes` nodes: what stands in place of `c_cnt`'s outcome where a scene has no contact.
+    /// No pair, for `nodes` nodes: what stands in place of `c_cnt`'s outcome where a scene has no
+    /// contact.
     pub fn none(nodes: usize) -> Self {
         let k_cnt = Table::filled(nodes, 4, T::zero());
         let empty = Column::filled(0, 0);
@@ -41,8 +42,8 @@ impl<T: Scalar> Pairs<T> {
 /// Finds the contact pairs in the current shape `node_n` (R x 4).
 ///
 /// # Errors
-/// Where the listing as printed fails: a zero x difference (lines 10, 22, 23), `yt` outside its range unless R4 is
-/// *guarded* (lines 17, 18), an overflow.
+/// Where the listing as printed fails: a zero x difference (lines 10, 22, 23), `yt` outside its
+/// range unless R4 is *guarded* (lines 17, 18), an overflow.
 pub fn c_cnt<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
@@ -51,7 +52,8 @@ pub fn c_cnt<T: Scalar>(
     listing(sheet, reading, node_n, None)
 }
 
-/// The weights, lines 11 to 31, of nodes whose `ct`, `yt` and `dy` another status rule has `decided`.
+/// The weights, lines 11 to 31, of nodes whose `ct`, `yt` and `dy` another status rule has
+/// `decided`.
 ///
 /// # Errors
 /// Where those lines as printed fail: a zero x difference (lines 22, 23), an overflow.
@@ -136,8 +138,8 @@ fn listing<T: Scalar>(
             //# 13 k_cnt[i1,i2] ← 0
             k_cnt[(i1, i2)] = zero;
         }
-        // AMBIGUOUS R1: the weights loop stands beside the zeroing loop (it runs once, after the last row is zeroed), or
-        // inside it (it runs after each row).
+        // AMBIGUOUS R1: the weights loop stands beside the zeroing loop (it runs once, after the
+        // last row is zeroed), or inside it (it runs after each row).
         if reading.r1 == LoopPlace::Beside && i1 < R {
             continue;
         }
@@ -151,7 +153,8 @@ fn listing<T: Scalar>(
                 if yt[i1].abs() < c_tll && ct[i1] > 0 {
                     dy[i1] = 1;
                 }
-                // AMBIGUOUS R4: at i1 = rows(cnt) line 17 names yt[i1+1], and at i1 = 1 line 18 names yt[0].
+                // AMBIGUOUS R4: at i1 = rows(cnt) line 17 names yt[i1+1], and at i1 = 1 line 18
+                // names yt[0].
                 //# 17 dy[i1] ← 1 if i1 < rows(cnt) ∧ yt[i1] < 0 ∧ yt[i1+1] > 0 ∧ ct[i1] > 0
                 if and(
                     reading.r4,

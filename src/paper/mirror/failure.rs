@@ -41,7 +41,8 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// A failure on `line` of `listing`; `values` lists names and values in the order of their importance.
+    /// A failure on `line` of `listing`; `values` lists names and values in the order of their
+    /// importance.
     pub fn new(
         listing: &'static str,
         line: usize,

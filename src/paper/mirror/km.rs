@@ -43,7 +43,8 @@ pub fn Km<T: Scalar>(
             V[2 * i1 - 1] = 2 * EL[(n, i1 + ind_1 - 1)] - 1;
             //#  6 V[2·i1] ← 2·EL[n,i1+ind_1−1]
             V[2 * i1] = 2 * EL[(n, i1 + ind_1 - 1)];
-            // AMBIGUOUS R2: the index of the x restraint, or, as the scan prints it, that of line 8.
+            // AMBIGUOUS R2: the index of the x restraint, or, as the scan prints it, that of line
+            // 8.
             let odd = if reading.r2 == RestraintIndex::Odd { 1 } else { 0 };
             //#  7 cx[2·i1−1] ← |S[2·EL[n,i1+ind_1−1] − 1] − 1|
             cx[2 * i1 - 1] = (T::from_number(S[2 * EL[(n, i1 + ind_1 - 1)] - odd]) - one).abs();
@@ -87,7 +88,8 @@ pub fn Km<T: Scalar>(
                 //# 20 fl ← c_cnt[EL[n,i1+ind_1−1],2]
                 fl = c_cnt[(EL[(n, i1 + ind_1 - 1)], 2)];
             }
-            // AMBIGUOUS R3: collect leaves the loop here until all three nodes are in W; the others add node by node.
+            // AMBIGUOUS R3: collect leaves the loop here until all three nodes are in W; the others
+            // add node by node.
             if reading.r3 == Wedge::Collect && i1 < 3 {
                 continue;
             }
@@ -138,8 +140,8 @@ pub fn Km<T: Scalar>(
                         }
                     }
                 }
-                // AMBIGUOUS R3: the print clears nothing here; per node and nested clear after each node, as in lines
-                // 24 and 25. Under collect the element is done.
+                // AMBIGUOUS R3: the print clears nothing here; per node and nested clear after each
+                // node, as in lines 24 and 25. Under collect the element is done.
                 fl = zero;
                 W = Column::filled(6, 0);
             }

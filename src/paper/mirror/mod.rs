@@ -1,7 +1,9 @@
-//! The paper's two listings in Rust, line by line: dense, 1-based, in the printed order of operations.
+//! The paper's two listings in Rust, line by line: dense, 1-based, in the printed order of
+//! operations.
 //!
-//! Speed never enters here. Above every piece stands its listing line, quoted as `//# <line> <text>` from `listings/`;
-//! a test compares each quote byte for byte and checks that each line is mirrored once.
+//! Speed never enters here. Above every piece stands its listing line, quoted as `//# <line>
+//! <text>` from `listings/`; a test compares each quote byte for byte and checks that each line is
+//! mirrored once.
 //!
 //! ```text
 //!            6 *-----* 7      elem[e,6], elem[e,7]: the two nodes of target edge e

@@ -10,7 +10,8 @@ choices! {
     LoopPlace {
         /// Beside the zeroing loop.
         Beside = "beside",
-        /// Inside it, as the scan indents it: every weight is added again for each row still to be zeroed.
+        /// Inside it, as the scan indents it: every weight is added again for each row still to be
+        /// zeroed.
         Inside = "inside",
     }
 }
@@ -30,7 +31,8 @@ choices! {
         Collect = "collect",
         /// The adding loop runs for each node, `W` and `fl` cleared after each.
         PerNode = "per-node",
-        /// As the scan indents it: per node, and lines 26-33 inside the first loop too, so that they run three times.
+        /// As the scan indents it: per node, and lines 26-33 inside the first loop too, so that
+        /// they run three times.
         Nested = "nested",
     }
 }

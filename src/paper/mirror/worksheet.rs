@@ -13,7 +13,8 @@ use crate::problem::element::Plane;
 pub struct Worksheet<T> {
     /// Initial node table: number, x, y, z. R x 4, length.
     pub node: Table<T>,
-    /// Element table: number, type, number of tags, physical tag, geometric tag, node, node[, node]; 0 past a row's end.
+    /// Element table: number, type, number of tags, physical tag, geometric tag, node, node[,
+    /// node]; 0 past a row's end.
     pub elem: Table<usize>,
     /// The rows of `elem` whose type is 2. M x 8.
     pub EL: Table<usize>,

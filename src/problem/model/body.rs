@@ -23,7 +23,8 @@ impl Body {
     }
 }
 
-/// The bodies that `triangles` on `nodes` nodes make, by their lowest node. `material` names the material of each triangle.
+/// The bodies that `triangles` on `nodes` nodes make, by their lowest node. `material` names the
+/// material of each triangle.
 pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[String]) -> Vec<Body> {
     let lowest = lowest_nodes(nodes, triangles);
     let mut found: Vec<(NodeId, Body)> = Vec::new();
@@ -84,14 +85,16 @@ fn number_equal_names(bodies: &mut [Body]) {
     }
 }
 
-/// How what has these nodes can still move, as a rigid body, under its restraints alone, in words; nothing where it cannot.
+/// How what has these nodes can still move, as a rigid body, under its restraints alone, in words;
+/// nothing where it cannot.
 pub fn freedom(model: &Model, nodes: &[NodeId]) -> Option<&'static str> {
     let count = nodes.len() as f64;
     let points = || nodes.iter().map(|&n| model.at(n));
     let sum = points().fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
     let centre = [sum[0] / count, sum[1] / count];
     let size = points().map(|[x, y]| (x - centre[0]).hypot(y - centre[1])).fold(0.0, f64::max);
-    // The three rigid motions' components at each restraint; they leave none free when their Gram matrix has full rank.
+    // The three rigid motions' components at each restraint; they leave none free when their Gram
+    // matrix has full rank.
     let mut gram = Matrix3::zeros();
     for &n in nodes {
         let [x, y] = model.at(n);

@@ -1,5 +1,6 @@
-//! What is counted in a model, each by a type of its own: nodes, degrees of freedom, triangles, edges. All count from 0; files and
-//! people count nodes and triangles from 1: that is their [`number`](NodeId::number).
+//! What is counted in a model, each by a type of its own: nodes, degrees of freedom, triangles,
+//! edges. All count from 0; files and people count nodes and triangles from 1: that is their
+//! [`number`](NodeId::number).
 
 use nalgebra::DVector;
 
@@ -76,11 +77,13 @@ id! {
     TriangleId
 }
 id! {
-    /// An edge that the mesh names: a place in [`Model::edges`](super::Model::edges). Its number in the mesh file is another.
+    /// An edge that the mesh names: a place in [`Model::edges`](super::Model::edges). Its number in
+    /// the mesh file is another.
     EdgeId
 }
 id! {
-    /// A degree of freedom: the displacement of a node along x or y. Those of node n are 2n and 2n + 1.
+    /// A degree of freedom: the displacement of a node along x or y. Those of node n are 2n and 2n
+    /// + 1.
     Dof
 }
 numbered!(NodeId);

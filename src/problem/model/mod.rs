@@ -1,7 +1,8 @@
-//! The finite element model: nodes, triangles, materials, restraints, load and contact surfaces, whoever made them.
+//! The finite element model: nodes, triangles, materials, restraints, load and contact surfaces,
+//! whoever made them.
 //!
-//! Everything counts from 0, each thing by a type of its own; the paper's tables, which count from 1, are made from a model
-//! behind one door (`paper::door`).
+//! Everything counts from 0, each thing by a type of its own; the paper's tables, which count from
+//! 1, are made from a model behind one door (`paper::door`).
 
 mod body;
 mod ids;
@@ -53,7 +54,8 @@ pub struct ContactSurfaces {
     pub tolerance: f64,
 }
 
-/// An element as the mesh file has it: the row of a table that no computation needs but the paper's.
+/// An element as the mesh file has it: the row of a table that no computation needs but the
+/// paper's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
     /// Its number.

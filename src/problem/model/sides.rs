@@ -34,12 +34,14 @@ impl Sides {
         Sides(sides)
     }
 
-    /// The triangles that have the side between two nodes, in their order; the order of the nodes does not matter.
+    /// The triangles that have the side between two nodes, in their order; the order of the nodes
+    /// does not matter.
     pub fn beside(&self, nodes: [NodeId; 2]) -> &[Beside] {
         self.0.get(&unordered(nodes)).map_or(&[], Vec::as_slice)
     }
 
-    /// The one triangle that has this side, where it bounds the body; nothing for an inner side and for what is no side.
+    /// The one triangle that has this side, where it bounds the body; nothing for an inner side and
+    /// for what is no side.
     pub fn boundary(&self, nodes: [NodeId; 2]) -> Option<Beside> {
         match self.beside(nodes) {
             [one] => Some(*one),

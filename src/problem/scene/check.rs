@@ -1,4 +1,5 @@
-//! What a scene file says of its mesh, checked: materials, restraints, contact surfaces, bodies that something holds.
+//! What a scene file says of its mesh, checked: materials, restraints, contact surfaces, bodies
+//! that something holds.
 
 use std::collections::{HashMap, HashSet};
 
@@ -137,7 +138,8 @@ pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, Input
     })
 }
 
-/// Checks that restraints hold each body that no contact surface touches, and, taken as one, the bodies that contact joins.
+/// Checks that restraints hold each body that no contact surface touches, and, taken as one, the
+/// bodies that contact joins.
 ///
 /// # Errors
 /// A body that can still move, and how.

@@ -13,7 +13,8 @@ use crate::problem::model::{NodeId, Sides};
 /// Forces on all 2R equations, force; restrained equations included.
 ///
 /// # Errors
-/// A load that names no place or no value, or two; an edge of no triangle or of two; numbers that are not finite.
+/// A load that names no place or no value, or two; an edge of no triangle or of two; numbers that
+/// are not finite.
 pub fn vector(
     mesh: &Mesh,
     sides: &Sides,
@@ -61,7 +62,8 @@ pub fn vector(
     Ok(f)
 }
 
-/// Half of each edge's load on each of its nodes; `traction` is given the unit normal that points into the body.
+/// Half of each edge's load on each of its nodes; `traction` is given the unit normal that points
+/// into the body.
 fn on_edges(
     f: &mut DVector<f64>,
     (mesh, sides): (&Mesh, &Sides),

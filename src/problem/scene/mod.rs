@@ -55,7 +55,8 @@ pub struct Scene {
     pub variant: Variant,
     /// How contact is modelled beyond what the paper prints.
     pub contact: ContactModel,
-    /// Numbers, in the mesh file, of the nodes that were dropped because they belong to no triangle.
+    /// Numbers, in the mesh file, of the nodes that were dropped because they belong to no
+    /// triangle.
     pub dropped: Vec<usize>,
     /// What it was built from; nothing of half a scene.
     source: Option<Arc<(Description, Mesh)>>,

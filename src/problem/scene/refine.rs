@@ -17,7 +17,8 @@ use super::surface::Surface;
 use crate::error::InputError;
 use crate::problem::model::NodeId;
 
-/// A finer scene. Nodes keep their numbers, and the triangles 4n − 3 .. 4n (rows of `EL`) are those of triangle n.
+/// A finer scene. Nodes keep their numbers, and the triangles 4n − 3 .. 4n (rows of `EL`) are those
+/// of triangle n.
 #[derive(Clone, Debug)]
 pub struct Refined {
     /// The scene.
@@ -27,8 +28,9 @@ pub struct Refined {
 }
 
 impl Scene {
-    /// The scene on a mesh of half the element size, everything else being the same; nothing of half a scene, which forgot its mesh. A
-    /// restraint or a force on a single node stays on that node.
+    /// The scene on a mesh of half the element size, everything else being the same; nothing of
+    /// half a scene, which forgot its mesh. A restraint or a force on a single node stays on that
+    /// node.
     ///
     /// # Errors
     /// As [`Scene::build`].
@@ -86,7 +88,8 @@ impl Halves {
         self.node.get(&[a.min(b), a.max(b)]).copied()
     }
 
-    /// The elements, numbered from 1, children in the place of their parent; and by the parent's number the children's.
+    /// The elements, numbered from 1, children in the place of their parent; and by the parent's
+    /// number the children's.
     fn elements(&self, mesh: &Mesh) -> (Vec<Element>, HashMap<usize, Vec<usize>>) {
         let (mut elements, mut children) = (Vec::new(), HashMap::new());
         for parent in &mesh.elements {

@@ -1,7 +1,8 @@
 //! Half of a scene that is its own mirror image about a vertical line.
 //!
-//! Mesh, materials, restraints, loads and contact surfaces must be symmetric, and no triangle may lie across the line: then the
-//! solution is symmetric too, the line moves along itself only, and the half right of it, held in x on the line, has the same one.
+//! Mesh, materials, restraints, loads and contact surfaces must be symmetric, and no triangle may
+//! lie across the line: then the solution is symmetric too, the line moves along itself only, and
+//! the half right of it, held in x on the line, has the same one.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -14,7 +15,8 @@ use crate::problem::model::{
     TriangleId, unordered,
 };
 
-/// How far from its image's place a node may lie, of the scene's size: mesh generators round as they go.
+/// How far from its image's place a node may lie, of the scene's size: mesh generators round as
+/// they go.
 const PLACE: f64 = 1e-9;
 
 /// How far a load may be from its image, of the largest.
@@ -119,7 +121,8 @@ impl<'a> Mirror<'a> {
             let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x + i, y + j]));
             let near = around.filter_map(|at| cells.get(&at)).flatten().copied();
             let found: Vec<NodeId> = near.filter(|&m| self.distance(n, m) <= self.place).collect();
-            // Where bodies touch, two nodes stand at one place: a body on the line is its own image.
+            // Where bodies touch, two nodes stand at one place: a body on the line is its own
+            // image.
             match found.as_slice() {
                 [one] => Some(*one),
                 several => several.iter().copied().find(|&m| body(m) == body(n)),
@@ -164,7 +167,8 @@ impl<'a> Mirror<'a> {
     }
 }
 
-/// A model on some of its nodes and triangles; the nodes on the line are restrained in x and carry half of their load.
+/// A model on some of its nodes and triangles; the nodes on the line are restrained in x and carry
+/// half of their load.
 struct Restriction<'a> {
     mirror: &'a Mirror<'a>,
     nodes: &'a [NodeId],
