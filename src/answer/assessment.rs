@@ -30,8 +30,7 @@ pub struct Measured<'a> {
     pub reference: Cow<'a, Solution>,
     /// The distance of the assessed solution from the reference solution.
     pub distance: Distance,
-    /// Hertz's contact for the load of the reference solution; None where his theory does not
-    /// apply.
+    /// Hertz's contact for the reference solution; None where his theory does not apply.
     pub hertz: Option<Hertz>,
 }
 

@@ -34,8 +34,7 @@ pub struct BodyDistance {
     pub relative: f64,
 }
 
-/// Returns the distance of `solution` from `reference`, a run on the same mesh under the same
-/// reading.
+/// Returns the distance of `solution` from `reference`, with the same mesh and reading.
 pub fn distance(solution: &Solution, reference: &Solution) -> Distance {
     let difference = &solution.u - &reference.u;
     let stiffness = Stiffness::new(&reference.model, |x| x);

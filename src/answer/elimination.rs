@@ -58,8 +58,7 @@ impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {
     }
 }
 
-/// The matrix T, which has the weights of each degree of freedom on the equations that remain, and
-/// the shift s, length.
+/// The matrix T, as rows of weights on the remaining equations, and the shift s, length.
 pub struct Elimination<T = f64> {
     rows: Vec<Vec<(usize, T)>>,
     shift: DVector<T>,
@@ -188,8 +187,7 @@ impl<T: Scalar> Elimination<T> {
         self.free.len()
     }
 
-    /// Returns the row of T of a degree of freedom: equations that remain, from 0, and their
-    /// weights.
+    /// Returns a row of T: the equations that remain, from 0, and their weights.
     pub fn row(&self, dof: Dof) -> &[(usize, T)] {
         &self.rows[dof.index()]
     }
@@ -230,8 +228,7 @@ impl<T: Scalar> Elimination<T> {
         DVector::from_fn(self.rows.len(), |e, _| of_row(&self.rows[e]) + self.shift[e])
     }
 
-    /// Returns s, the displacements of all degrees of freedom where those that remain are 0,
-    /// length.
+    /// Returns s, the displacements where all equations that remain are 0, length.
     pub fn shift(&self) -> &DVector<T> {
         &self.shift
     }
@@ -242,8 +239,7 @@ impl<T: Scalar> Elimination<T> {
     }
 }
 
-/// Returns the sum of `terms`, which begins with the first term as a sum of floats does; 0 for
-/// none.
+/// Returns the sum of `terms`, begun with the first as a sum of floats is; 0 for none.
 pub(super) fn sum<T: Scalar>(terms: impl Iterator<Item = T>) -> T {
     terms.reduce(|sum, term| sum + term).unwrap_or(T::zero())
 }

@@ -161,8 +161,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         Solved { residual, support, u }
     }
 
-    /// Returns the error for a system that has no solution; `dof` maps a column to its degree of
-    /// freedom.
+    /// Returns the error of a system without solution; `dof` maps a column to a degree of freedom.
     fn unsolved(
         &self,
         why: Unsolved,

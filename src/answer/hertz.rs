@@ -4,8 +4,7 @@
 //!   p(s) = p0 sqrt(1 − (s/a)²)    a² = 4 P R / (π E*)    p0 = 2 P / (π a)    1/E* = Σ (1 − ν²)/E
 //! ```
 //!
-//! The relative radius R comes from the gaps of the initial shape: g(s) = g0 + s²/(2R) near the
-//! first point of contact.
+//! The gaps of the initial shape near the first point of contact yield R: g(s) = g0 + s²/(2R).
 //!
 //! Source: K. L. Johnson, *Contact Mechanics*, sections 4.2(c), eq. (4.43) to (4.45).
 
@@ -19,8 +18,7 @@ use crate::problem::element::Plane;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Coupling;
 
-/// The allowed departure of the gaps from the parabola, over the parabola's height at the edge of
-/// contact.
+/// The allowed departure of gaps from the parabola, over its height at the edge of contact.
 const PARABOLA: f64 = 0.05;
 
 /// The half width over the relative radius beyond which the theory does not apply.

@@ -1,8 +1,7 @@
 //! The iterations that the paper describes: `printed`, `tied`, `stepped`.
 //!
 //! - total load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·U = F; node_n = node + U.
-//! - stepped load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n =
-//!   node + U.
+//! - stepped load: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n = node + U.
 //!
 //! A(c) is Km(c) under `printed`, else Tᵀ·K·T on the free equations, where K is Km without contact
 //! and without restraints.
@@ -32,8 +31,7 @@ use crate::problem::modelling::{Coupling, StatusRule, Variant};
 /// Cholesky is requested; without it that solver gets a dense matrix.
 ///
 /// # Errors
-/// The published algorithm fails as printed, a matrix cannot be solved, or a dense matrix does not
-/// fit in memory.
+/// The published algorithm fails as printed, a matrix is singular, or it does not fit in memory.
 pub(super) fn published<T: Precision>(
     request: &Request,
     sparse: Option<Sparse<T>>,
@@ -76,8 +74,7 @@ fn check_load<T: Scalar>(
     model: &Model,
     load: &DVector<T>,
 ) -> Result<(), InputError> {
-    /// The largest relative error of a load within the scalar's range; it is 6e-8 in the coarsest,
-    /// f32.
+    /// The largest relative error of a load in range; it is 6e-8 in the coarsest scalar, f32.
     const ROUNDED: f64 = 1e-6;
     let lost = |(x, y): &(&f64, &T)| {
         y.to_f64().is_finite() && (y.to_f64() - **x).abs() > ROUNDED * x.abs()
@@ -137,8 +134,7 @@ struct Found<T> {
     node_n: Table<T>,
     pairs: Pairs<T>,
     constraints: Vec<Constraint<T>>,
-    /// The position of each contact node in contact on its target edge, by which eq. (1) is
-    /// measured.
+    /// The position of each node in contact on its target edge, to measure eq. (1).
     places: Vec<NodeToSegment<T>>,
 }
 

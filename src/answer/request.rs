@@ -1,5 +1,4 @@
-//! A request: the scene, how contact is modelled, the variant, the reading, and the numbers to
-//! compute in.
+//! A request: the scene, the contact model, the variant, the reading, and the numbers.
 
 use std::sync::Arc;
 
@@ -11,8 +10,7 @@ use crate::problem::model::Model;
 use crate::problem::modelling::{ContactModel, Variant};
 use crate::problem::scene::Scene;
 
-/// A request for a solution. [`Request::new`] asks for what the scene says; every field may be
-/// changed.
+/// A request. [`Request::new`] asks for what the scene says; every field may be changed.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// The scene to be solved.

@@ -1,5 +1,4 @@
-//! The solution of a request: displacements, stresses, the contact surface, and the steps that led
-//! there.
+//! The solution of a request: displacements, stresses, the contact surface, and the steps.
 
 use std::sync::Arc;
 
@@ -22,8 +21,7 @@ pub struct Step {
     pub k: usize,
     /// The shape from which the step started: the coordinates of each node, length.
     pub shape: Vec<[f64; 2]>,
-    /// The constraints that bound contact nodes to the target by elimination; empty under
-    /// `printed`.
+    /// The constraints on contact nodes, by elimination; empty under `printed`.
     pub constraints: Vec<Constraint>,
     /// The number of entries of the contact surface in contact.
     pub in_contact: usize,
@@ -52,14 +50,12 @@ pub enum Detail {
 /// An iteration of a variant that the paper describes.
 #[derive(Clone, Debug)]
 pub struct Published {
-    /// The pairs that `c_cnt` found in the shape from which the iteration started, in its own
-    /// arrays.
+    /// The pairs that `c_cnt` found in the shape at the start, in its own arrays.
     pub pairs: Pairs<f64>,
     /// The residual of eq. (1): the largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in
     /// contact, in total displacements, length.
     pub eq1_residual: f64,
-    /// The same residual in the displacements that this iteration solved for: the increment where
-    /// the load is stepped.
+    /// The same in the displacements solved for: the increment where the load is stepped.
     pub eq1_residual_step: f64,
 }
 
@@ -70,8 +66,7 @@ pub struct Unilateral {
     pub closed: Vec<bool>,
     /// The pairing of each entry in the shape from which the iteration started.
     pub pairings: Vec<Option<Pairing>>,
-    /// The largest gap of a closed node or penetration of another one in the shape to which the
-    /// iteration led, length.
+    /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub violation: f64,
 }
 
@@ -84,8 +79,7 @@ impl Step {
         }
     }
 
-    /// Returns the residual of the contact condition, length: of eq. (1) in total displacements, or
-    /// of the gaps.
+    /// Returns the residual of the contact condition, length: of eq. (1), or of the gaps.
     pub fn contact_residual(&self) -> f64 {
         match &self.detail {
             Detail::Published(step) => step.eq1_residual,

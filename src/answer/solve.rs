@@ -35,8 +35,7 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     Ok(solution)
 }
 
-/// Solves the reference solution that runs are compared with: `unilateral` with mortar, everything
-/// else as in `request`.
+/// Solves the reference solution: `unilateral` with mortar, everything else as in `request`.
 ///
 /// # Errors
 /// The errors of [`solve`].

@@ -44,8 +44,7 @@ pub(super) fn ldlt(
     Ok(Solved { residual: a.residual(&x, b), x })
 }
 
-/// Returns the number of dense 2R x 2R matrices of the scalar that a run has in memory at once; 0
-/// where all are sparse.
+/// Returns the number of dense 2R x 2R matrices of the scalar in memory at once.
 pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
     let sparse =
         arithmetic.solver() == Solver::SparseCholesky && arithmetic.scalar != ScalarName::Exact;

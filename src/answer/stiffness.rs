@@ -1,5 +1,4 @@
-//! The stiffness without contact and without restraints, triangle by triangle: `Km` would add it up
-//! in a dense matrix.
+//! The stiffness without contact and restraints, by triangle, which `Km` adds up in a matrix.
 
 use nalgebra::{DVector, SMatrix, SVector};
 

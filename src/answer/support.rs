@@ -1,5 +1,4 @@
-//! The support of the target: the forces on its restraints, and those that constraints pass
-//! directly to them.
+//! The support of the target: the forces on its restraints, some of them through constraints.
 
 use nalgebra::DVector;
 

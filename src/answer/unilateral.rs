@@ -1,5 +1,4 @@
-//! The reference solution: gaps are closed along the target's normal, no node pulls, and none
-//! penetrates.
+//! The reference solution: no gap in contact, no node that pulls, and none that penetrates.
 //!
 //! ```text
 //!   gap g_i = n_i·(x_i − Σ w_ij x_j)       in contact   g_i = 0, pressure ≥ 0
@@ -56,8 +55,7 @@ const SOFT: f64 = 1e-8;
 /// The closing motion of a gap, over the largest motion, below which the gap does not close.
 const STANDING: f64 = 1e-9;
 
-/// The number of iterations beyond one for each contact node after which no equilibrium is taken to
-/// exist.
+/// The number of iterations beyond one for each contact node after which the search ends.
 const PATIENCE: usize = 100;
 
 /// A shape and the target that each contact node faces in it.
@@ -88,8 +86,7 @@ struct Iteration {
     residual: f64,
     /// The place to which it led.
     after: Place,
-    /// The largest gap of a closed node or penetration of another one in the place to which it led,
-    /// length.
+    /// The largest gap of a closed node or penetration of another one afterwards, length.
     violation: f64,
 }
 
@@ -137,13 +134,11 @@ struct Problem<'a> {
 enum Solved {
     /// The displacements, length, and the relative residual of a solution.
     Moved { u: DVector<f64>, residual: f64 },
-    /// The degree of freedom that nothing restrains, and the motion under the load with soft
-    /// springs everywhere.
+    /// A degree of freedom without restraint, and the motion under the load on soft springs.
     Free { dof: Dof, motion: Option<DVector<f64>> },
 }
 
-/// The sets that were closed, each with the last iteration that closed it, and whether a set
-/// returned.
+/// The sets that were closed, each with its last iteration, and whether a set returned.
 #[derive(Default)]
 struct Memory {
     visited: HashMap<Vec<bool>, usize>,
@@ -407,8 +402,7 @@ fn first_closed(set: &[bool], pairings: &[Option<Pairing>], u: &DVector<f64>) ->
     times.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, i)| i)
 }
 
-/// Adds to `set` as many nodes as it has, at least one, those with the least gaps. Returns false
-/// where none is left.
+/// Adds nodes to `set`, as many as it has, those with the least gaps; false where none is left.
 fn enlarge(set: &mut [bool], pairings: &[Option<Pairing>]) -> bool {
     let mut others: Vec<(f64, usize)> = pairings
         .iter()
@@ -422,8 +416,7 @@ fn enlarge(set: &mut [bool], pairings: &[Option<Pairing>]) -> bool {
     !others.is_empty()
 }
 
-/// Returns the larger extent of the model, or the part of it that its coordinates can resolve,
-/// length.
+/// Returns the larger extent of the model, or what its coordinates can resolve of it, length.
 fn size(model: &Model) -> f64 {
     let [width, height] = [0, 1].map(|axis| {
         let values = model.nodes.iter().map(|xy| xy[axis]);

@@ -1,5 +1,4 @@
-//! Contact: the target that each contact node faces, the nodes in contact, and the traction on the
-//! contact surface.
+//! Contact: the target that each contact node faces, the nodes in contact, and their traction.
 
 mod mortar;
 mod nts;

@@ -2,9 +2,9 @@
 //! stretch that its edges cover.
 //!
 //! ```text
-//!   contact edge   s1 o-----------o s2    φ, N: linear shape functions of contact and target edges
-//!                      | | | | | |        ψ: dual functions, ∫ ψ_i φ_k = δ_ik ∫ φ_k where covered
-//!   target edges   *------*----------*    D_i = ∫ φ_i,  M_ij = ∫ ψ_i N_j,  weights w_ij = M_ij / D_i
+//!  contact edge  s1 o-----------o s2   φ, N: linear shape functions of contact and target edges
+//!                    | | | | | |       ψ: dual functions, ∫ ψ_i φ_k = δ_ik ∫ φ_k where covered
+//!  target edges  *------*----------*   D_i = ∫ φ_i,  M_ij = ∫ ψ_i N_j,  weights w_ij = M_ij / D_i
 //! ```
 //!
 //! A target edge is projected on a contact edge along the contact edge's normal, so that every
@@ -30,8 +30,7 @@ const ROUNDING: f64 = 1e-12;
 /// The share of what its edges could cover below which a contact node does not face the target.
 const COVERED: f64 = 0.05;
 
-/// Returns, for each entry of the contact surface, the average of the target over the stretch that
-/// its edges cover.
+/// Returns, for each contact surface entry, the average of the target that its edges cover.
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
     let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
     let mut gathered: HashMap<NodeId, Gathered> = HashMap::new();
@@ -116,8 +115,7 @@ fn phi(xi: f64) -> Vector2<f64> {
     Vector2::new(1.0 - xi, xi)
 }
 
-/// Returns the two Gauss points of a stretch, each with its weight, length: exact up to degree
-/// three.
+/// Returns the two Gauss points of a stretch and their weight, length: exact up to degree three.
 fn gauss(stretch: &Stretch) -> [(f64, f64); 2] {
     let (middle, half) = ((stretch.from + stretch.to) / 2.0, (stretch.to - stretch.from) / 2.0);
     let offset = half / 3.0_f64.sqrt();

@@ -15,8 +15,7 @@ use super::search::{Closest, closest, dot};
 use super::surface::{Placed, Surfaces};
 use crate::problem::model::NodeId;
 
-/// How far beyond the end of an edge a closest point still counts as on it, over the edge's length:
-/// rounding.
+/// How far past an edge's end a closest point still counts as on it, over its length: rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
@@ -63,8 +62,7 @@ fn rests(closest: &Closest<f64>, free: [bool; 2]) -> bool {
         || past <= if free[closest.end()] { HANGING } else { ROUNDING }
 }
 
-/// Returns the normals at the two nodes of each target edge: the mean over the edges that meet
-/// there in a bend.
+/// Returns the normals at the nodes of each target edge: the mean over edges that meet in a bend.
 fn normals(surfaces: &Surfaces, target: &[Placed]) -> Vec<[Vector; 2]> {
     let mut at_node: HashMap<NodeId, Vec<usize>> = HashMap::new();
     for (k, edge) in surfaces.target.iter().enumerate() {

@@ -16,7 +16,7 @@ use crate::problem::model::{EdgeId, NodeId};
 /// The part of the target that a contact node faces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pairing {
-    /// The contact node.
+    /// The contact node that faces it.
     pub node: NodeId,
     /// The target edge that it faces; of several, the one that it covers most.
     pub edge: EdgeId,
@@ -31,8 +31,7 @@ pub struct Pairing {
 }
 
 impl Pairing {
-    /// Returns n·(v_c − Σ w v_t) of a vector field: the gap of coordinates, the opening of
-    /// displacements.
+    /// Returns n·(v_c − Σ w v_t) of a field: of coordinates the gap, of displacements its change.
     pub fn opening(&self, of_node: impl Fn(NodeId) -> [f64; 2]) -> f64 {
         let at = of_node(self.node);
         // Differences from the node lose no digits far from the origin.

@@ -23,13 +23,11 @@ pub struct ContactNode {
     pub gap: f64,
     /// The force on the node along the normal, force; < 0 where it pulls.
     pub force: f64,
-    /// The contact pressure: the force over the undeformed surface that the node represents,
-    /// stress.
+    /// The contact pressure: the force over the undeformed surface of the node, stress.
     pub pressure: f64,
     /// The traction along the tangent, which is the normal turned left, stress.
     pub shear: f64,
-    /// |shear| / pressure, the friction coefficient that keeps the node from sliding; None where
-    /// the node does not press.
+    /// |shear| / pressure, the friction that keeps the node from sliding; None where it pulls.
     pub friction_needed: Option<f64>,
 }
 
@@ -104,8 +102,7 @@ fn over(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
-/// Returns the distance of each entry of the contact surface from the first along the undeformed
-/// surface, length.
+/// Returns the distance of each entry from the first along the undeformed contact surface, length.
 pub(in crate::answer) fn arcs(model: &Model) -> Vec<f64> {
     let at = |i: usize| model.at(model.contact.nodes[i]);
     let mut arc = 0.0;

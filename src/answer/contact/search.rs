@@ -1,8 +1,8 @@
 //! The search for the point of a surface that is closest to a given point, in any scalar.
 //!
 //! ```text
-//!        normal ^         o p            side < 0: p is outside the body, which lies on the left of
-//!               |         :              direction from a to b
+//!        normal ^         o p            side < 0: p is outside the body, which lies on the left
+//!               |         :              from a to b
 //!     b *-------+---------x------* a     x: the point closest to p; xi counts from a to b
 //!        . . . . body . . . .
 //!
@@ -35,11 +35,9 @@ pub struct Segment<T> {
 /// The point of a segment that is closest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest<T> {
-    /// Where it lies on the segment's line: 0 at the first end, 1 at the second, outside 0 .. 1
-    /// past the ends.
+    /// Its position on the segment's line: 0 at the first end, 1 at the second.
     pub xi: T,
-    /// Twice the area of the two ends and the point, length²: > 0 where the point lies on the
-    /// body's side of the line.
+    /// Twice the area of the two ends and the point, length²: > 0 on the body's side of the line.
     pub side: T,
     /// The square of the segment's length, length².
     pub square: T,
@@ -74,8 +72,7 @@ impl<T: Scalar> Segment<T> {
 }
 
 impl<T: Scalar> Closest<T> {
-    /// Returns how far the point lies past the nearer end, over the segment's length; 0 beside the
-    /// segment.
+    /// Returns how far the point lies past the nearer end, over the segment's length, or 0.
     pub fn past(&self) -> T {
         let before = T::zero() - self.xi;
         Scalar::max(Scalar::max(before, self.xi - T::one()), T::zero())
@@ -104,8 +101,7 @@ impl<T: Scalar> Closest<T> {
     }
 }
 
-/// Returns the closest point to `p` on the segments that `admits` accepts, and the number of its
-/// segment.
+/// Returns the closest point to `p` on the segments that `admits` accepts, and its segment.
 pub fn closest<'a, T: Scalar>(
     segments: impl IntoIterator<Item = (usize, &'a Segment<T>)>,
     p: [T; 2],

@@ -12,13 +12,12 @@
 //! - *the neighbouring elements of the target surface*: the target edges (the text calls an edge
 //!   with nodes 1.1 and 1.2 an element). A side meets its neighbours only: an edge is skipped if
 //!   its box does not overlap the side's;
-//! - *the point of intersection*: a side that leads out of the target crosses the surface once more
-//!   outwards than inwards.
+//! - *the point of intersection*: a side that leaves the target crosses it once more outwards.
 //!
 //! ```text
 //!       q1 *-------* q2       c      the contact node, jumped deeper than c_tol
 //!           \     /           q1, q2 the other corners of a triangle at c
-//!            \   /            x      points of intersection: c - q1 and c - q2 lead out of the target
+//!            \   /            x      where c - q1 and c - q2 lead out of the target
 //!     *-------x-x-------*     target edges; the target lies below them
 //!              c
 //! ```
@@ -44,8 +43,7 @@ use crate::problem::modelling::StatusRule;
 /// the signed distance to it: > 0 inside the target.
 ///
 /// # Errors
-/// The lines of `c_cnt` that the rule keeps fail as printed: all of them under *signs*, 1 to 16
-/// under *intersection*.
+/// The lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 under *intersection*.
 pub fn statuses<T: Scalar>(
     rule: StatusRule,
     model: &Model,
@@ -78,8 +76,7 @@ pub struct Target<T> {
 pub struct TargetEdge {
     /// Its place among the model's edges.
     pub id: EdgeId,
-    /// Whether no other target edge shares each of its ends. The body lies on the left from the
-    /// first end to the second.
+    /// Whether each end is shared with no other target edge. The body lies on the left.
     pub free: [bool; 2],
 }
 

@@ -114,8 +114,7 @@ impl Surfaces {
         own.get(&node).is_none_or(|normal| dot(*normal, target[edge]) <= -FACING)
     }
 
-    /// Returns, for each target edge, which of its nodes no other target edge has: there the
-    /// surface ends.
+    /// Returns which nodes of each target edge no other target edge has: the surface's ends.
     pub(super) fn free_ends(&self) -> Vec<[bool; 2]> {
         let mut edges_at: HashMap<NodeId, HashSet<[NodeId; 2]>> = HashMap::new();
         for edge in &self.target {

@@ -18,8 +18,7 @@ use crate::problem::modelling::Variant;
 /// The number of roundings in a von Mises value from its stresses, in units of 2^-53.
 const ROUNDINGS: f64 = 32.0;
 
-/// Returns a bound on the largest error of an entry of the displacements, length; infinite where
-/// nothing is known.
+/// Returns a bound on the error of any displacement, length; infinite where nothing is known.
 pub fn displacement_bound(solution: &Solution) -> f64 {
     let again = match solution.request.variant {
         Variant::Unilateral => last_state(solution),
@@ -49,8 +48,7 @@ fn bounded_run(solution: &Solution) -> Option<DVector<Bounded>> {
     Some(run.u.map(|u| Bounded::new(u, bound)))
 }
 
-/// Solves the equilibrium of the last contact state of `unilateral` with a bound on each
-/// displacement.
+/// Solves the last contact state of `unilateral` again, with a bound on each displacement.
 fn last_state(solution: &Solution) -> Option<DVector<Bounded>> {
     let model = &*solution.model;
     let constraints = solution.last().constraints.iter().map(|c| c.map(Bounded::from_f64));

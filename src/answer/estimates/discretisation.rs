@@ -8,8 +8,7 @@
 //!  eta_e² = ∫ (sigma* − sigma_h)ᵀ D⁻¹ (sigma* − sigma_h) dV over the triangle,   eta² = Σ eta_e²
 //! ```
 //!
-//! Source: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Methods Eng. 33 (1992) 1331-1364 and
-//! 1365-1382.
+//! Source: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Methods Eng. 33 (1992) 1331 and 1365.
 //!
 //! The error estimate of a largest von Mises stress rests on this: the von Mises values of two
 //! stresses differ by at most the von Mises value of their difference, because it is a seminorm.
@@ -47,8 +46,7 @@ const SAFETY: f64 = 2.0;
 /// The estimated error that the mesh causes in a solution.
 #[derive(Clone, Debug)]
 pub struct Discretisation {
-    /// The recovered stresses at the three corners of each triangle, in the order of its nodes,
-    /// stress.
+    /// The recovered stresses at the corners of each triangle, in the order of its nodes.
     pub recovered: Vec<[Stress; 3]>,
     /// The error eta_e of each triangle in the energy norm, sqrt(force·length).
     pub indicators: Vec<f64>,
@@ -109,8 +107,7 @@ impl Discretisation {
         if self.unrecovered.is_empty() { self.known_part() } else { f64::INFINITY }
     }
 
-    /// Returns eta / |u|, where |u|² is estimated by |u_h|² + eta²; 0 without any stress, infinite
-    /// where eta is infinite.
+    /// Returns eta / |u|, where |u|² is estimated by |u_h|² + eta²; infinite where eta is.
     pub fn relative(&self) -> f64 {
         match self.total() {
             eta if eta == 0.0 || eta.is_infinite() => eta,
@@ -168,8 +165,7 @@ fn largest(plane: Plane, triangle: &Triangle, corners: &[Stress; 3]) -> f64 {
     corners.iter().map(|s| von_mises(plane, nu, s)).fold(0.0, f64::max)
 }
 
-/// Returns the von Mises stress, as in [`State::new`]; scaled, so that no square overflows or
-/// vanishes.
+/// Returns the von Mises stress, as in [`State::new`]; scaled, so that no square overflows.
 fn von_mises(plane: Plane, nu: f64, stress: &Stress) -> f64 {
     let scale = stress.amax();
     if scale == 0.0 {

@@ -19,8 +19,7 @@ use discretisation::Discretisation;
 /// The error estimates of a run.
 #[derive(Clone, Debug)]
 pub struct ErrorBars {
-    /// A bound on the largest error of a displacement that rounding causes, length; infinite where
-    /// nothing is known.
+    /// A bound on the rounding error of any displacement, length; infinite where unknown.
     pub displacement: f64,
     /// The error that the mesh causes in the stresses.
     pub mesh: Discretisation,
@@ -28,8 +27,7 @@ pub struct ErrorBars {
     pub bodies: Vec<BodyBars>,
 }
 
-/// A body's largest von Mises stress and its error estimates, stress; infinite where nothing is
-/// known.
+/// A body's largest von Mises stress and its error estimates, stress; infinite where unknown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyBars {
     /// The name of the body.

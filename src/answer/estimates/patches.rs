@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!   +-----+-----+    A node where two materials meet is two sites: the stress jumps there, and is
-//!   | A  /|\  B |    recovered on each side from that side's triangles alone. Bodies share no node,
-//!   |   / | \   |    so no site belongs to two bodies.
+//!   | A  /|\  B |    recovered on each side from that side's triangles alone. Bodies share no
+//!   |   / | \   |    node, so no site belongs to two bodies.
 //!   +--a--|--b--+
 //! ```
 
@@ -11,8 +11,7 @@ use std::collections::HashMap;
 
 use crate::problem::model::{Model, TriangleId};
 
-/// The triangles around each site, where a site is a node as one material sees it. Sites and
-/// triangles count from 0.
+/// The triangles around each site, a node as one material sees it. All numbers count from 0.
 pub struct Patches {
     /// The coordinates of each site, length.
     pub points: Vec<[f64; 2]>,

@@ -49,8 +49,7 @@ fn nearest(patches: &Patches, own: &[Option<Linear>], site: usize) -> Option<Str
     Rings::new(patches, site).find_map(|ring| read(&ring))
 }
 
-/// Returns the value at `site` of the polynomial of the smallest patch that fixes one, enlarged
-/// ring by ring.
+/// Returns the value at `site` of the polynomial of the smallest patch of rings that fixes one.
 fn enlarged(patches: &Patches, stresses: &[Stress], site: usize) -> Option<Stress> {
     let mut triangles: BTreeSet<usize> = patches.around[site].iter().copied().collect();
     for ring in Rings::new(patches, site) {

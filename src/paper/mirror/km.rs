@@ -1,11 +1,11 @@
 //! Listing `Km` (fig. 3): the global stiffness matrix (`listings/READING.md`, section 3).
 //!
 //! ```text
-//!                V[1]  V[2]   ...   V[6]
-//!         V[1] [  x     x            x   ]     MJS is 2R x 2R. Equation 2n−1 is the x displacement of node n,
-//!         V[2] [  x     x            x   ]     2n its y displacement. K is added at (V, V), and once more,
-//!          ... [                         ]     scaled by a weight, at (W, W), the equations of the mates:
-//!         V[6] [  x     x            x   ]     never at (V, W) (finding K1).
+//!            V[1]  V[2]   ...   V[6]     MJS is 2R x 2R. Equation 2n−1 is the x displacement
+//!     V[1] [  x     x            x   ]   of node n, 2n its y displacement. K is added at (V, V),
+//!     V[2] [  x     x            x   ]   and again, scaled by a weight, at (W, W), the equations
+//!      ... [                         ]   of the mates (column 1 or 3 of c_cnt), but never at
+//!     V[6] [  x     x            x   ]   (V, W) (finding K1).
 //! ```
 
 use super::failure::{Cause, Failure};
@@ -18,7 +18,7 @@ use crate::problem::element;
 /// Assembles `MJS` (2R x 2R, force/length) from the contact pairs `c_cnt` (R x 4, as `k_cnt`).
 ///
 /// # Errors
-/// An overflow, in words that name element and line.
+/// An entry overflows; the error names element and line.
 pub fn Km<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
@@ -151,7 +151,7 @@ pub fn Km<T: Scalar>(
     Ok(MJS)
 }
 
-/// `value`, unless it overflowed while element `n` was added.
+/// Returns `value`, unless it overflowed while element `n` was added.
 fn finite<T: Scalar>(line: usize, n: usize, value: T) -> Result<T, Failure> {
     if value.is_finite() {
         return Ok(value);
