@@ -38,15 +38,13 @@ pub struct BodyDistance {
 pub fn distance(solution: &Solution, reference: &Solution) -> Distance {
     let difference = &solution.u - &reference.u;
     let stiffness = Stiffness::new(&reference.model, |x| x);
+    let [energy, scale] = [&difference, &reference.u].map(|u| stiffness.energy_norm(u));
     let displacement = max_displacement(&difference);
     let bodies = summaries(solution).into_iter().zip(summaries(reference));
     Distance {
         displacement,
         displacement_relative: over(displacement, max_displacement(&reference.u)),
-        energy_relative: over(
-            stiffness.energy_norm(&difference),
-            stiffness.energy_norm(&reference.u),
-        ),
+        energy_relative: over(energy, scale),
         bodies: bodies
             .map(|(own, reference)| {
                 let (stress, exact) = (own.max_von_mises_stress, reference.max_von_mises_stress);

@@ -149,10 +149,9 @@ impl<'a, T: Precision> Run<'a, T> {
     ) -> Result<Self, Error> {
         let mortar = request.contact.coupling == Coupling::Mortar;
         let equations = Equations::new(request, model, sheet, load, sparse, number)?;
-        let surfaces = match mortar && request.variant != Variant::Printed {
-            true => Some(mortar_surfaces(request, model)?),
-            false => None,
-        };
+        let surfaces = (mortar && request.variant != Variant::Printed)
+            .then(|| mortar_surfaces(request, model))
+            .transpose()?;
         Ok(Run {
             request,
             model,

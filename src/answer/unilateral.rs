@@ -340,20 +340,17 @@ impl<'a> Problem<'a> {
 
     fn unrestrained(&self, pairings: &[Option<Pairing>], dof: Dof) -> InputError {
         if pairings.iter().all(Option::is_none) {
-            return InputError::new(
-                "contact.cnt, contact.trg",
-                "no contact node faces the target, and nothing else holds the bodies",
-                "name surfaces that face each other; list cnt in order along its surface",
-            );
+            let what = "no contact node faces the target, and nothing else holds the bodies";
+            let fix = "name surfaces that face each other; list cnt in order along its surface";
+            return InputError::new("contact.cnt, contact.trg", what, fix);
         }
         let (node, direction) = (dof.node(), dof.axis());
         let body = self.model.body_of(node);
         let body = body.map_or(String::new(), |b| format!(" of body {:?}", b.name));
-        InputError::new(
-            "restraints, contact.friction",
-            format!("node {node}{body} can move in {direction} with every contact node in contact"),
-            "restrain that motion, or let the surfaces stick (\"friction\": \"stick\")",
-        )
+        let what =
+            format!("node {node}{body} can move in {direction} with every contact node in contact");
+        let fix = "restrain that motion, or let the surfaces stick (\"friction\": \"stick\")";
+        InputError::new("restraints, contact.friction", what, fix)
     }
 }
 
@@ -364,15 +361,11 @@ fn no_equilibrium(steps: &[Step]) -> InputError {
         let last = cycle.members[0] + cycle.length - 1;
         format!("; the contact states of iterations {} to {last} return", cycle.members[0])
     });
-    InputError::new(
-        "loads, contact",
-        format!(
-            "no contact state in equilibrium was found in {} iterations{returned}",
-            steps.len()
-        ),
-        "see whether the loads pull a body off its target, slide it off the target's end or turn \
-         it over; restrain its turning where friction would",
-    )
+    let count = steps.len();
+    let what = format!("no contact state in equilibrium was found in {count} iterations{returned}");
+    let fix = "see whether the loads pull a body off its target, slide it off the target's end or \
+               turn it over; restrain its turning where friction would";
+    InputError::new("loads, contact", what, fix)
 }
 
 /// Returns the set at the start: the nodes that touch or penetrate, else those with the least gap.
@@ -404,12 +397,8 @@ fn first_closed(set: &[bool], pairings: &[Option<Pairing>], u: &DVector<f64>) ->
 
 /// Adds nodes to `set`, as many as it has, those with the least gaps; false where none is left.
 fn enlarge(set: &mut [bool], pairings: &[Option<Pairing>]) -> bool {
-    let mut others: Vec<(f64, usize)> = pairings
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| !set[*i])
-        .filter_map(|(i, p)| p.as_ref().map(|p| (p.gap, i)))
-        .collect();
+    let open = |(i, p): (usize, &Option<Pairing>)| Some((p.as_ref().filter(|_| !set[i])?.gap, i));
+    let mut others: Vec<(f64, usize)> = pairings.iter().enumerate().filter_map(open).collect();
     others.sort_by(|a, b| a.0.total_cmp(&b.0));
     let more = set.iter().filter(|closed| **closed).count().max(1);
     others.iter().take(more).for_each(|(_, i)| set[*i] = true);
@@ -430,10 +419,9 @@ fn size(model: &Model) -> f64 {
 }
 
 fn restrained_along_normal(restrained: RestrainedAlongNormal) -> InputError {
-    InputError::new(
-        "restraints, contact.cnt",
-        format!("contact node {} is restrained along the normal of the contact", restrained.node),
-        "let the body that is held there carry the target surface, or restrain the node in the \
-         other direction",
-    )
+    let node = restrained.node;
+    let what = format!("contact node {node} is restrained along the normal of the contact");
+    let fix = "let the body that is held there carry the target surface, or restrain the node in \
+               the other direction";
+    InputError::new("restraints, contact.cnt", what, fix)
 }

@@ -222,17 +222,15 @@ pub fn on_edges<T: Scalar>(
     node_n: &Table<T>,
 ) -> Vec<NodeToSegment<T>> {
     let node_n = weights_from(sheet, reading, node_n);
-    let in_contact = (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1);
-    in_contact
-        .map(|i1| {
-            let node = NodeId::from_number(sheet.cnt[i1]);
-            let [a, b] = [6, 7].map(|j| NodeId::from_number(sheet.elem[(pairs.ct[i1], j)]));
-            let [x, xa, xb] = [node, a, b].map(|n| place(node_n, n)[0]);
-            let k1 = T::one() - (x - xa) / (xb - xa);
-            let k2 = T::one() - (xb - x) / (xb - xa);
-            NodeToSegment { node, masters: [(a, k1), (b, k2)] }
-        })
-        .collect()
+    let on_edge = |i1: usize| {
+        let node = NodeId::from_number(sheet.cnt[i1]);
+        let [a, b] = [6, 7].map(|j| NodeId::from_number(sheet.elem[(pairs.ct[i1], j)]));
+        let [x, xa, xb] = [node, a, b].map(|n| place(node_n, n)[0]);
+        let k1 = T::one() - (x - xa) / (xb - xa);
+        let k2 = T::one() - (xb - x) / (xb - xa);
+        NodeToSegment { node, masters: [(a, k1), (b, k2)] }
+    };
+    (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1).map(on_edge).collect()
 }
 
 /// Returns the shape from which weights are computed: R5.

@@ -41,14 +41,11 @@ pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pair
             gathered.entry(node).or_default().add(k, &integrals, &covered, surfaces, &target);
         }
     }
-    let tributary = surfaces.tributary(shape);
-    let entries = surfaces.nodes.iter().zip(tributary);
-    entries
-        .map(|(node, tributary)| {
-            let gathered = gathered.remove(node).filter(|g| g.length >= COVERED * tributary)?;
-            Some(gathered.pairing(*node, shape))
-        })
-        .collect()
+    let pairing = |(node, tributary): (&NodeId, f64)| {
+        let gathered = gathered.remove(node).filter(|g| g.length >= COVERED * tributary)?;
+        Some(gathered.pairing(*node, shape))
+    };
+    surfaces.nodes.iter().zip(surfaces.tributary(shape)).map(pairing).collect()
 }
 
 /// A stretch of a contact edge and the target edge that it covers.

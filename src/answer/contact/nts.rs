@@ -32,25 +32,22 @@ pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pair
     let segments = surfaces.segments(shape);
     let normals = normals(surfaces, &target);
     let free = surfaces.free_ends();
-    let tributary = surfaces.tributary(shape);
     let mut listed = HashSet::new();
-    let entries = surfaces.nodes.iter().zip(tributary);
-    entries
-        .map(|(&node, length)| {
-            let p = shape[node.index()];
-            let facing = segments.iter().enumerate().filter(|(k, _)| surfaces.face(node, *k));
-            let rests = |k: usize, closest: &Closest<f64>| rests(closest, free[k]);
-            let (k, _) = closest(facing, p, rests).filter(|_| listed.insert(node))?;
-            let (edge, placed) = (&surfaces.target[k], &target[k]);
-            let xi = placed.along(p).clamp(0.0, 1.0);
-            let [a, b] = normals[k];
-            let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
-            let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
-            let gap = placed.outside(p) * dot(normal, placed.normal);
-            let edge = edge.id.expect("a target edge is one of the model's");
-            Some(Pairing { node, edge, masters, normal, gap, length })
-        })
-        .collect()
+    let pairing = |(&node, length): (&NodeId, f64)| {
+        let p = shape[node.index()];
+        let facing = segments.iter().enumerate().filter(|(k, _)| surfaces.face(node, *k));
+        let rests = |k: usize, closest: &Closest<f64>| rests(closest, free[k]);
+        let (k, _) = closest(facing, p, rests).filter(|_| listed.insert(node))?;
+        let (edge, placed) = (&surfaces.target[k], &target[k]);
+        let xi = placed.along(p).clamp(0.0, 1.0);
+        let [a, b] = normals[k];
+        let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
+        let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
+        let gap = placed.outside(p) * dot(normal, placed.normal);
+        let edge = edge.id.expect("a target edge is one of the model's");
+        Some(Pairing { node, edge, masters, normal, gap, length })
+    };
+    surfaces.nodes.iter().zip(surfaces.tributary(shape)).map(pairing).collect()
 }
 
 /// Returns whether a node rests on the edge of this closest point; `free` marks the ends of the

@@ -27,7 +27,7 @@ pub struct ContactNode {
     pub pressure: f64,
     /// The traction along the tangent, which is the normal turned left, stress.
     pub shear: f64,
-    /// |shear| / pressure, the friction that keeps the node from sliding; None where it pulls.
+    /// |shear| / pressure, the friction that keeps the node from sliding; None without pressure.
     pub friction_needed: Option<f64>,
 }
 
@@ -105,14 +105,10 @@ fn over(a: f64, b: f64) -> f64 {
 /// Returns the distance of each entry from the first along the undeformed contact surface, length.
 pub(in crate::answer) fn arcs(model: &Model) -> Vec<f64> {
     let at = |i: usize| model.at(model.contact.nodes[i]);
-    let mut arc = 0.0;
-    (0..model.contact.nodes.len())
-        .map(|i| {
-            if i > 0 {
-                let ([ax, ay], [bx, by]) = (at(i - 1), at(i));
-                arc += (bx - ax).hypot(by - ay);
-            }
-            arc
-        })
-        .collect()
+    let mut arcs = vec![0.0; model.contact.nodes.len()];
+    for i in 1..arcs.len() {
+        let ([ax, ay], [bx, by]) = (at(i - 1), at(i));
+        arcs[i] = arcs[i - 1] + (bx - ax).hypot(by - ay);
+    }
+    arcs
 }

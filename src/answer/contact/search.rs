@@ -64,8 +64,8 @@ impl<T: Scalar> Segment<T> {
         Closest { xi, side, square: self.square, distance_square }
     }
 
-    /// Returns a number whose sign tells the side of its line on which `p` lies: > 0 on the body's
-    /// side, 0 on the line. In `f64` the sign is exact.
+    /// Returns a number > 0 where `p` lies on the body's side of its line, 0 on the line, else < 0;
+    /// of `f64` the sign is exact.
     pub fn side(&self, p: [T; 2]) -> T {
         T::orientation(self.ends[0], self.ends[1], p)
     }

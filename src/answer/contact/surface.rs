@@ -86,11 +86,8 @@ impl Surfaces {
             let edge = model.edge(id);
             let [a, b] = edge.nodes;
             let nodes = boundary(edge.nodes).ok_or_else(|| {
-                InputError::new(
-                    "contact.trg",
-                    format!("edge {} (nodes {a} and {b}) bounds no triangle", edge.number),
-                    "name edges of the target body's outline",
-                )
+                let what = format!("edge {} (nodes {a} and {b}) bounds no triangle", edge.number);
+                InputError::new("contact.trg", what, "name edges of the target body's outline")
             })?;
             Ok(Edge { id: Some(id), nodes })
         };

@@ -164,9 +164,8 @@ impl Model {
 
     /// Returns the load by degree of freedom, 0 at restrained ones, force.
     pub fn free_load(&self) -> DVector<f64> {
-        self.load.zip_map(&DVector::from_column_slice(&self.restrained), |load, restrained| {
-            if restrained { 0.0 } else { load }
-        })
+        let free = |e, _| if self.restrained[e] { 0.0 } else { self.load[e] };
+        DVector::from_fn(self.dofs(), free)
     }
 
     /// Returns the sum of the loads along x and y, force.

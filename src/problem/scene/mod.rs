@@ -79,11 +79,9 @@ impl Scene {
         let path = if path.is_dir() { path.join("scene.json") } else { path.to_path_buf() };
         let text = std::fs::read(&path).map_err(|why| {
             let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
-            InputError::new(
-                path.display().to_string(),
-                format!("the scene file cannot be read: {why}"),
-                format!("give a path, or one of the scenes {}", names.join(", ")),
-            )
+            let what = format!("the scene file cannot be read: {why}");
+            let fix = format!("give a path, or one of the scenes {}", names.join(", "));
+            InputError::new(path.display().to_string(), what, fix)
         })?;
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
         let beside = |file: &str| read_beside(&folder.join(file));
