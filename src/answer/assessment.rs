@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use super::distance::{Distance, distance};
 use super::error::Error;
-use super::estimates::ErrorBars;
+use super::estimates::ErrorEstimates;
 use super::hertz::Hertz;
 use super::solution::Solution;
 use super::solve::reference;
@@ -17,7 +17,7 @@ pub struct Assessment<'a> {
     /// The largest values of each body.
     pub bodies: Vec<BodySummary>,
     /// The estimated errors from rounding and from the mesh.
-    pub estimates: ErrorBars,
+    pub estimates: ErrorEstimates,
     /// Hertz's contact for the load of the solution; None where his theory does not apply.
     pub hertz: Option<Hertz>,
     /// The comparison with the reference solution, or why there is none; None without contact.
@@ -58,7 +58,7 @@ impl<'a> Assessment<'a> {
     ) -> Self {
         Assessment {
             bodies: summaries(solution),
-            estimates: ErrorBars::new(solution),
+            estimates: ErrorEstimates::new(solution),
             hertz: Hertz::of(solution),
             reference: reference.map(|reference| reference.map(|r| Measured::new(solution, r))),
         }

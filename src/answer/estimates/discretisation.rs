@@ -68,9 +68,9 @@ pub struct LargestVonMises {
     pub at: TriangleId,
     /// The largest of the recovered stresses, typically nearer to the truth than `value`, stress.
     pub recovered: f64,
-    /// The error estimate, stress: the true largest value is expected within `value` ± `bar`.
+    /// The error estimate, stress: the true largest value is expected within `value` ± `error`.
     /// Infinite where nothing is known.
-    pub bar: f64,
+    pub error: f64,
 }
 
 impl Discretisation {
@@ -154,7 +154,7 @@ impl Discretisation {
             value: stress(at),
             at,
             recovered: triangles.iter().map(recovered).fold(0.0, f64::max),
-            bar: SAFETY * triangles.iter().map(error).fold(0.0, f64::max),
+            error: SAFETY * triangles.iter().map(error).fold(0.0, f64::max),
         }
     }
 }

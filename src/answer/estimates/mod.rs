@@ -11,25 +11,23 @@ pub mod discretisation;
 mod patches;
 mod recovery;
 
-use serde::{Deserialize, Serialize};
-
 use super::solution::Solution;
 use discretisation::Discretisation;
 
 /// The error estimates of a run.
 #[derive(Clone, Debug)]
-pub struct ErrorBars {
+pub struct ErrorEstimates {
     /// A bound on the rounding error of any displacement, length; infinite where unknown.
     pub displacement: f64,
     /// The error that the mesh causes in the stresses.
     pub mesh: Discretisation,
     /// The error estimates of each body's largest stress, in the model's order.
-    pub bodies: Vec<BodyBars>,
+    pub bodies: Vec<BodyEstimates>,
 }
 
 /// A body's largest von Mises stress and its error estimates, stress; infinite where unknown.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BodyBars {
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyEstimates {
     /// The name of the body.
     pub name: String,
     /// The largest von Mises stress of its triangles, stress.
@@ -42,7 +40,7 @@ pub struct BodyBars {
     pub arithmetic: f64,
 }
 
-impl ErrorBars {
+impl ErrorEstimates {
     /// Estimates the errors of a run.
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
@@ -52,14 +50,14 @@ impl ErrorBars {
         let bodies = model.bodies.iter().map(|body| {
             let largest = mesh.largest_von_mises(model, &solution.elements, &body.triangles);
             let rounding = body.triangles.iter().map(|id| stress[id.index()]);
-            BodyBars {
+            BodyEstimates {
                 name: body.name.clone(),
                 value: largest.value,
                 recovered: largest.recovered,
-                mesh: largest.bar,
+                mesh: largest.error,
                 arithmetic: rounding.fold(0.0, f64::max),
             }
         });
-        ErrorBars { displacement, bodies: bodies.collect(), mesh }
+        ErrorEstimates { displacement, bodies: bodies.collect(), mesh }
     }
 }
