@@ -1,18 +1,20 @@
-//! Closed sets of choices: readings, variants.
+//! Closed sets of choices, such as readings and variants.
 
-/// A closed set of choices with the names that they have on the command line and in files.
+/// Declares a closed set of choices with their names on the command line and in files.
 #[macro_export]
 macro_rules! choices {
-    ($(#[$doc:meta])* $name:ident { $($(#[$vdoc:meta])* $variant:ident = $text:literal),+ $(,)? }) => {
+    ($(#[$doc:meta])* $name:ident {
+        $($(#[$vdoc:meta])* $variant:ident = $text:literal),+ $(,)?
+    }) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
         pub enum $name { $($(#[$vdoc])* #[serde(rename = $text)] $variant),+ }
 
         impl $name {
-            /// All of them, the default first.
+            /// All of them, with the default first.
             pub const ALL: &'static [$name] = &[$($name::$variant),+];
 
-            /// The name on the command line.
+            /// Returns the name on the command line.
             pub fn name(self) -> &'static str {
                 match self { $($name::$variant => $text),+ }
             }

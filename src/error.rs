@@ -1,25 +1,25 @@
-//! A fault of the input: what, where, how to mend it. A fault of ours is a panic.
+//! Errors of the input: what is wrong, where, and how to fix it. A fault of the program panics.
 
 use std::fmt;
 
-/// What is wrong with the input, where, and how to mend it.
+/// An error of the input: what is wrong, where, and how to fix it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputError {
     /// What is wrong, with the values.
     pub what: String,
-    /// File and field.
+    /// The file and field where it is wrong.
     pub place: String,
-    /// How to mend it.
+    /// How to fix the input.
     pub mend: String,
 }
 
 impl InputError {
-    /// An input error; `place` is a field such as `loads[2].on`.
-    pub fn new(place: impl Into<String>, what: impl Into<String>, mend: impl Into<String>) -> Self {
-        InputError { what: what.into(), place: place.into(), mend: mend.into() }
+    /// Describes an error; `place` is a field such as `loads[2].on`.
+    pub fn new(place: impl Into<String>, what: impl Into<String>, fix: impl Into<String>) -> Self {
+        InputError { what: what.into(), place: place.into(), mend: fix.into() }
     }
 
-    /// The same error, its place inside `outer`.
+    /// Returns the same error with its place inside `outer`.
     pub fn within(mut self, outer: &str) -> Self {
         self.place =
             if self.place.is_empty() { outer.into() } else { format!("{outer}: {}", self.place) };

@@ -1,15 +1,15 @@
-//! Files are written beside their target, then renamed: nothing is ever half written.
+//! Files are written beside their target and then renamed, so that no file is ever half written.
 
 use std::io::Write;
 use std::path::Path;
 
 use crate::error::InputError;
 
-/// Writes `content` to `path`, making its folder where it is missing. A link is followed; what is no ordinary file (a pipe, a
-/// device) is written to as it is.
+/// Writes `content` to `path`, and creates its folder where it is missing. A link is followed; a
+/// target that is no ordinary file (a pipe, a device) is written directly.
 ///
 /// # Errors
-/// The folder or the file cannot be written; a file that was there is left as it was.
+/// The folder or the file cannot be written; an existing file keeps its content.
 pub fn write(path: &Path, content: &str) -> Result<(), InputError> {
     let written = match std::fs::canonicalize(path) {
         Ok(there) if !there.is_file() && !there.is_dir() => std::fs::write(there, content),
@@ -22,7 +22,7 @@ pub fn write(path: &Path, content: &str) -> Result<(), InputError> {
     })
 }
 
-/// Writes beside `path`, then renames.
+/// Writes a file beside `path` and renames it.
 fn replace(path: &Path, content: &str) -> std::io::Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -35,7 +35,7 @@ fn replace(path: &Path, content: &str) -> std::io::Result<()> {
     Ok(())
 }
 
-/// A temporary file with the permissions of an ordinary new file (tempfile's own default is for its owner alone).
+/// Creates a temporary file with an ordinary file's permissions; tempfile's are the owner's alone.
 fn temporary(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".plane-contact-");

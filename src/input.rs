@@ -1,4 +1,4 @@
-//! What a scene and a request are made of: meshes, contact surfaces, and the closed sets of choices.
+//! The parts of a scene and a request: meshes, contact surfaces, and the closed sets of choices.
 
 pub use crate::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
 pub use crate::paper::mirror::Reading;

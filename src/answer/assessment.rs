@@ -1,41 +1,41 @@
-//! What is said of a solution once it is there: the largest values of its bodies, estimates of its errors, and its distance from the
-//! reference solution. Computed once; reports only print it.
+//! The assessment of a solution: the largest values of its bodies, estimates of its errors, and its
+//! distance from the reference solution. It is computed once; reports only print it.
 
 use std::borrow::Cow;
 
 use super::distance::{Distance, distance};
 use super::error::Error;
-use super::estimates::ErrorBars;
+use super::estimates::ErrorEstimates;
 use super::hertz::Hertz;
 use super::solution::Solution;
 use super::solve::reference;
 use super::summary::{BodySummary, summaries};
 use crate::problem::modelling::{Coupling, Variant};
 
-/// What is said of a solution.
+/// The values and estimates that reports print beside a solution.
 pub struct Assessment<'a> {
     /// The largest values of each body.
     pub bodies: Vec<BodySummary>,
-    /// What rounding and the mesh do to its numbers.
-    pub estimates: ErrorBars,
-    /// Hertz's contact, where his theory applies.
+    /// The estimated errors from rounding and from the mesh.
+    pub estimates: ErrorEstimates,
+    /// Hertz's contact for the load of the solution; None where his theory does not apply.
     pub hertz: Option<Hertz>,
-    /// What it is measured against, or why there is none; nothing without contact.
+    /// The comparison with the reference solution, or why there is none; None without contact.
     pub reference: Option<Result<Measured<'a>, Error>>,
 }
 
-/// What a solution is measured against.
+/// The reference solution and the distance of a solution from it.
 pub struct Measured<'a> {
-    /// The reference solution; the solution itself where it is that.
+    /// The reference solution: borrowed where the assessed solution is the reference itself.
     pub reference: Cow<'a, Solution>,
-    /// How far the solution is from it.
+    /// The distance of the assessed solution from the reference solution.
     pub distance: Distance,
-    /// Hertz's contact for the reference solution, where his theory applies.
+    /// Hertz's contact for the reference solution; None where his theory does not apply.
     pub hertz: Option<Hertz>,
 }
 
 impl<'a> Assessment<'a> {
-    /// Assesses a solution; solves for the reference solution where that is another one.
+    /// Assesses a solution, and solves for the reference solution unless it is the same request.
     pub fn new(solution: &'a Solution) -> Self {
         let request = &solution.request;
         let is_reference =
@@ -47,7 +47,7 @@ impl<'a> Assessment<'a> {
         Assessment::measured(solution, solution.model.target().map(|_| other()))
     }
 
-    /// Assesses a solution against a reference solution that is there already.
+    /// Assesses a solution against a reference solution that is already known.
     pub fn against(solution: &'a Solution, reference: Option<&'a Solution>) -> Self {
         Assessment::measured(solution, reference.map(|reference| Ok(Cow::Borrowed(reference))))
     }
@@ -58,13 +58,13 @@ impl<'a> Assessment<'a> {
     ) -> Self {
         Assessment {
             bodies: summaries(solution),
-            estimates: ErrorBars::new(solution),
+            estimates: ErrorEstimates::new(solution),
             hertz: Hertz::of(solution),
             reference: reference.map(|reference| reference.map(|r| Measured::new(solution, r))),
         }
     }
 
-    /// What it is measured against, where there is such a solution.
+    /// Returns the comparison with the reference solution, where that one was solved.
     pub fn measure(&self) -> Option<&Measured<'a>> {
         self.reference.as_ref()?.as_ref().ok()
     }

@@ -1,4 +1,5 @@
-//! How far a run is from the reference solution on the same mesh: `unilateral` with mortar, under the scene's friction.
+//! The distance of a run from the reference solution on the same mesh: `unilateral` with mortar,
+//! under the scene's friction.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,46 +7,44 @@ use super::solution::{Solution, max_displacement};
 use super::stiffness::Stiffness;
 use super::summary::summaries;
 
-/// How far a run is from the reference solution.
+/// The differences between a run and the reference solution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Distance {
-    /// Largest difference of a node's displacement, length.
+    /// The largest difference of a node's displacement, length.
     pub displacement: f64,
-    /// The same over the largest displacement of the reference solution.
+    /// That difference over the largest displacement of the reference solution.
     pub displacement_relative: f64,
-    /// sqrt((u − u*)ᵀ K (u − u*)) over the same of u*, the reference solution.
+    /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the reference solution.
     pub energy_relative: f64,
-    /// By body.
+    /// The largest stresses of each body, in the model's order.
     pub bodies: Vec<BodyDistance>,
 }
 
 /// A body's largest von Mises stress beside that of the reference solution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyDistance {
-    /// Its name.
+    /// The name of the body.
     pub name: String,
-    /// Largest von Mises stress of the run.
+    /// The largest von Mises stress of the run.
     pub von_mises_stress: f64,
-    /// Largest von Mises stress of the reference solution.
+    /// The largest von Mises stress of the reference solution.
     #[serde(rename = "converged")]
     pub reference: f64,
-    /// Their difference over the latter.
+    /// The difference of the two over the reference.
     pub relative: f64,
 }
 
-/// The distance of `solution` from `reference`, a run on the same mesh under the same reading.
+/// Returns the distance of `solution` from `reference`, with the same mesh and reading.
 pub fn distance(solution: &Solution, reference: &Solution) -> Distance {
     let difference = &solution.u - &reference.u;
     let stiffness = Stiffness::new(&reference.model, |x| x);
+    let [energy, scale] = [&difference, &reference.u].map(|u| stiffness.energy_norm(u));
     let displacement = max_displacement(&difference);
     let bodies = summaries(solution).into_iter().zip(summaries(reference));
     Distance {
         displacement,
         displacement_relative: over(displacement, max_displacement(&reference.u)),
-        energy_relative: over(
-            stiffness.energy_norm(&difference),
-            stiffness.energy_norm(&reference.u),
-        ),
+        energy_relative: over(energy, scale),
         bodies: bodies
             .map(|(own, reference)| {
                 let (stress, exact) = (own.max_von_mises_stress, reference.max_von_mises_stress);
@@ -60,7 +59,7 @@ pub fn distance(solution: &Solution, reference: &Solution) -> Distance {
     }
 }
 
-/// A difference over a scale; 0 over 0 is 0.
+/// Returns a difference over a scale, where 0 over 0 is 0.
 fn over(difference: f64, scale: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / scale }
 }

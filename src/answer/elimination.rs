@@ -4,11 +4,11 @@
 //!   eq. (1): u_c = k1·u_a + k2·u_b         a row of T has
 //!                                            one 1        a free equation
 //!     a *-----o-----* b                      weights      an equation of a contact node in contact
-//!             c                              nothing      a restrained equation
+//!             c                              no entry     a restrained equation
 //! ```
 //!
-//! A constraint that closes a gap g along a normal n, n·(u_c − Σ w u_t) = −g, leaves the contact node one free motion, along the
-//! tangent, and moves it by s = −g·n.
+//! A constraint that closes a gap g along a normal n, n·(u_c − Σ w u_t) = −g, leaves the contact
+//! node one free motion along the tangent, and displaces it by s = −g·n.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -16,28 +16,28 @@ use crate::numbers::scalar::Scalar;
 use crate::paper::door::NodeToSegment;
 use crate::problem::model::{Dof, NodeId};
 
-/// What binds a contact node in contact to the target: a constraint on its displacements.
+/// The constraint that binds the displacements of a contact node to the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Constraint<T = f64> {
-    /// The contact node.
+    /// The contact node of the constraint.
     pub node: NodeId,
-    /// The target's nodes that it follows, the master nodes, and their weights.
+    /// The master nodes, which are nodes of the target, and their weights.
     pub masters: Vec<(NodeId, T)>,
-    /// Which of its motions are bound, and where to.
+    /// The motions of the node that are bound, and the place to which they are bound.
     pub motion: Motion<T>,
 }
 
-/// The motions of a contact node that a constraint binds. Lengths.
+/// The motions of a contact node that a constraint binds, in lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion<T = f64> {
-    /// Both components: u_c = Σ w u_t + shift. Eq. (1) where the shift is 0.
+    /// Both components are bound: u_c = Σ w u_t + shift, which is eq. (1) where the shift is 0.
     Both([T; 2]),
-    /// Along a unit normal only: n·u_c = Σ w n·u_t + shift.
+    /// The motion along a unit normal is bound: n·u_c = Σ w n·u_t + shift.
     Along([T; 2], T),
 }
 
 impl<T: Scalar> Constraint<T> {
-    /// The same constraint in other numbers.
+    /// Returns the same constraint in other numbers.
     pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Constraint<U> {
         Constraint {
             node: self.node,
@@ -51,43 +51,43 @@ impl<T: Scalar> Constraint<T> {
 }
 
 impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {
-    /// Eq. (1): u_c = Σ w u_t.
+    /// Binds the node by eq. (1): u_c = Σ w u_t.
     fn from(bound: NodeToSegment<T>) -> Self {
         let motion = Motion::Both([T::zero(), T::zero()]);
         Constraint { node: bound.node, masters: bound.masters.to_vec(), motion }
     }
 }
 
-/// The matrix T, for each degree of freedom its weights on the equations that remain, and the shift s, length.
+/// The matrix T, as rows of weights on the remaining equations, and the shift s, length.
 pub struct Elimination<T = f64> {
     rows: Vec<Vec<(usize, T)>>,
     shift: DVector<T>,
-    /// For each equation that remains the degree of freedom that it was.
+    /// The degree of freedom of each equation that remains.
     free: Vec<Dof>,
 }
 
-/// A contact node that its restraints keep from following its constraint.
+/// A contact node whose restraints prevent it from following its constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RestrainedAlongNormal {
-    /// The contact node.
+    /// The contact node that is restrained along the normal.
     pub node: NodeId,
 }
 
-/// A component of a normal below which a motion across it cannot follow the normal.
+/// The component of a normal below which a motion across it cannot follow the normal.
 const ACROSS: f64 = 1e-6;
 
 impl<T: Scalar> Elimination<T> {
-    /// T under eq. (1) for `constraints`. `restrained`: by degree of freedom; a component that is restrained stays so and is not
-    /// constrained.
+    /// Builds T under eq. (1) for `constraints`. A component that is `restrained`, by degree of
+    /// freedom, stays so and is not constrained.
     pub fn new(restrained: &[bool], constraints: &[Constraint<T>]) -> Self {
         Elimination::with_normals(restrained, constraints)
             .expect("constraints of both components have no normal")
     }
 
-    /// T and s for constraints of either motion.
+    /// Builds T and s for constraints of either motion.
     ///
     /// # Errors
-    /// A contact node that is to follow a normal along which it is restrained.
+    /// A contact node is restrained along the normal that it is to follow.
     pub fn with_normals(
         restrained: &[bool],
         constraints: &[Constraint<T>],
@@ -116,7 +116,7 @@ impl<T: Scalar> Elimination<T> {
         Ok(t)
     }
 
-    /// Adds an equation that remains; returns its place.
+    /// Adds an equation that remains, and returns its index.
     fn add(&mut self, dof: Dof) -> usize {
         self.free.push(dof);
         self.free.len() - 1
@@ -162,7 +162,7 @@ impl<T: Scalar> Elimination<T> {
         Ok(())
     }
 
-    /// `factor` · Σ w n·u_t on the equations that remain.
+    /// Returns `factor` · Σ w n·u_t as weights on the equations that remain.
     fn target_motion(
         &self,
         constraint: &Constraint<T>,
@@ -182,17 +182,17 @@ impl<T: Scalar> Elimination<T> {
         row
     }
 
-    /// Number of equations that remain.
+    /// Returns the number of equations that remain.
     pub fn size(&self) -> usize {
         self.free.len()
     }
 
-    /// The row of T of a degree of freedom: equations that remain, from 0, and their weights.
+    /// Returns a row of T: the equations that remain, from 0, and their weights.
     pub fn row(&self, dof: Dof) -> &[(usize, T)] {
         &self.rows[dof.index()]
     }
 
-    /// Tᵀ K T of a dense K.
+    /// Returns Tᵀ K T of a dense K, in the unit of K.
     pub fn matrix(&self, k: &DMatrix<T>) -> DMatrix<T> {
         let mut reduced = DMatrix::from_element(self.size(), self.size(), T::zero());
         for (j, column) in self.rows.iter().enumerate().filter(|(_, row)| !row.is_empty()) {
@@ -211,7 +211,7 @@ impl<T: Scalar> Elimination<T> {
         reduced
     }
 
-    /// Tᵀ f.
+    /// Returns Tᵀ f on the equations that remain, in the unit of f.
     pub fn load(&self, f: &DVector<T>) -> DVector<T> {
         let mut reduced = DVector::from_element(self.size(), T::zero());
         for (row, value) in self.rows.iter().zip(f.iter()) {
@@ -222,24 +222,24 @@ impl<T: Scalar> Elimination<T> {
         reduced
     }
 
-    /// T q + s: the displacements of all degrees of freedom.
+    /// Returns T q + s, the displacements of all degrees of freedom, length.
     pub fn expand(&self, q: &DVector<T>) -> DVector<T> {
         let of_row = |row: &Vec<(usize, T)>| sum(row.iter().map(|&(p, w)| w * q[p]));
         DVector::from_fn(self.rows.len(), |e, _| of_row(&self.rows[e]) + self.shift[e])
     }
 
-    /// s: the displacements of all degrees of freedom where those that remain are 0, length.
+    /// Returns s, the displacements where all equations that remain are 0, length.
     pub fn shift(&self) -> &DVector<T> {
         &self.shift
     }
 
-    /// The degree of freedom that became column `column` of the reduced matrix.
+    /// Returns the degree of freedom that became column `column` of the reduced matrix.
     pub fn dof(&self, column: usize) -> Dof {
         self.free[column]
     }
 }
 
-/// The sum of `terms`, 0 of none; begun with the first, as a sum of floats is.
+/// Returns the sum of `terms`, begun with the first as a sum of floats is; 0 for none.
 pub(super) fn sum<T: Scalar>(terms: impl Iterator<Item = T>) -> T {
     terms.reduce(|sum, term| sum + term).unwrap_or(T::zero())
 }

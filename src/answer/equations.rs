@@ -1,4 +1,4 @@
-//! The equations of an iteration of a published variant: A(c)·u = f, built and solved.
+//! The equations A(c)·u = f of an iteration of a published variant, assembled and solved.
 
 use nalgebra::DVector;
 
@@ -17,50 +17,51 @@ use crate::paper::mirror::{Km, Pairs, RestraintIndex, Schedule, Worksheet};
 use crate::problem::model::{Dof, Model};
 use crate::problem::modelling::Variant;
 
-/// How the matrix of an iteration comes about.
+/// The source of the matrix of an iteration.
 enum Assembly<T> {
-    /// By `Km` with the contact pairs.
+    /// `Km` with the contact pairs, as printed.
     Printed,
-    /// By elimination from `Km` without contact and without restraints.
+    /// Elimination from the matrix of `Km` without contact and without restraints.
     Dense(Table<T>),
-    /// By elimination from the triangles; solved by the function.
+    /// Elimination from the triangles' matrices, solved by the function.
     Sparse(Sparse<T>),
 }
 
-/// What every iteration of a run solves, but for the contact state.
+/// The parts of the equations that every iteration of a run shares.
 pub(super) struct Equations<'a, T> {
     request: &'a Request,
     model: &'a Model,
     sheet: &'a Worksheet<T>,
     assembly: Assembly<T>,
-    /// The stiffness by triangles.
+    /// The stiffness, triangle by triangle.
     pub stiffness: Stiffness<T>,
-    /// By degree of freedom, whether the run takes it for restrained.
+    /// Whether the run takes each degree of freedom as restrained.
     restrained: Vec<bool>,
-    /// The whole load, force.
+    /// The whole load by degree of freedom, force.
     load: DVector<T>,
-    /// The load that one iteration carries, 0 at restrained equations.
+    /// The load of one iteration by degree of freedom, 0 at restrained ones, force.
     f: DVector<T>,
     /// The whole load over the load of one iteration.
     share: T,
 }
 
-/// What comes of an iteration's own load.
+/// The result of an iteration's own load.
 #[derive(Clone)]
 pub(super) struct Solved<T> {
-    /// Displacements by degree of freedom, length.
+    /// The displacements by degree of freedom, length.
     pub u: DVector<T>,
-    /// Relative residual.
+    /// The relative residual of the solution.
     pub residual: f64,
-    /// What supports the target, force.
+    /// The sum of the forces that support the target, force.
     pub support: [T; 2],
 }
 
 impl<'a, T: Precision> Equations<'a, T> {
-    /// The equations of `request`. `load`: the whole load by degree of freedom; `sparse` solves where sparse Cholesky is asked for.
+    /// Prepares the equations of `request`. `load` is the whole load by degree of freedom, force;
+    /// `sparse` solves where sparse Cholesky is requested.
     ///
     /// # Errors
-    /// An overflow of the stiffness.
+    /// The stiffness overflows.
     pub fn new(
         request: &'a Request,
         model: &'a Model,
@@ -136,10 +137,10 @@ impl<'a, T: Precision> Equations<'a, T> {
         Ok(self.solved(solved.residual, t.expand(&solved.x), constraints))
     }
 
-    /// Tᵀ K T without a dense K.
+    /// Returns Tᵀ K T without a dense K, force/length.
     ///
     /// # Errors
-    /// An overflow, in the words of `Km`.
+    /// An entry overflows, reported in the words of `Km`.
     fn reduced(&self, t: &Elimination<T>) -> Result<SparseSymmetric<T>, Error> {
         let matrix = self.stiffness.reduced(t);
         if matrix.entries().any(|(_, _, value)| !Scalar::is_finite(value)) {
@@ -148,7 +149,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         Ok(matrix)
     }
 
-    /// K u − F of the whole load: forces of contact and restraints, force.
+    /// Returns K u − F of the whole load: the forces of contact and restraints, force.
     pub fn reaction(&self, u: &DVector<T>) -> DVector<T> {
         self.stiffness.times(u) - &self.load
     }
@@ -160,7 +161,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         Solved { residual, support, u }
     }
 
-    /// Why there is no solution, in words; `dof` gives the degree of freedom of a column.
+    /// Returns the error of a system without solution; `dof` maps a column to a degree of freedom.
     fn unsolved(
         &self,
         why: Unsolved,
@@ -204,8 +205,8 @@ impl<'a, T: Precision> Equations<'a, T> {
     }
 }
 
-/// The degrees of freedom that are restrained: the model's, but under reading R2 = printed, where `Km` reads the restraint of y in place of
-/// that of x, those that `Km` takes for restrained.
+/// Returns whether each degree of freedom is restrained: the model's restraints, or under reading
+/// R2 = printed, where `Km` reads the restraint of y in place of that of x, those of `Km`.
 fn restrained(model: &Model, request: &Request) -> Vec<bool> {
     let by_km =
         request.variant == Variant::Printed && request.reading.r2 == RestraintIndex::Printed;

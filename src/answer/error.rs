@@ -1,10 +1,10 @@
-//! Why a run ended without a result, by blame: the input's, the published algorithm's.
+//! The reasons why a run ends without a result, by cause: the input or the published algorithm.
 
 use crate::error::InputError;
 use crate::paper::mathcad;
 use crate::paper::mirror::Failure;
 
-/// Why a command ended without a result.
+/// The reason why a command ended without a result.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The input breaks a condition: exit status 2.
@@ -22,7 +22,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// The exit status that tells who is to blame.
+    /// Returns the exit status of the process, which reports the cause.
     pub fn exit_status(&self) -> u8 {
         match self {
             Error::Input(_) => 2,
@@ -31,30 +31,34 @@ impl Error {
     }
 }
 
-/// A matrix with no unique solution.
+/// A matrix that has no unique solution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "variant {variant} cannot go on: iteration {iteration}: the matrix is singular at node {node}{body}, direction \
-     {direction} (pivot {pivot:e}); {} in contact, and {}",
-    match .in_contact { 0 => "no node is".into(), 1 => "1 node is".into(), n => format!("{n} nodes are") },
+    "variant {variant} cannot go on: iteration {iteration}: the matrix is singular at node \
+     {node}{body}, direction {direction} (pivot {pivot:e}); {} in contact, and {}",
+    match .in_contact {
+        0 => "no node is".into(),
+        1 => "1 node is".into(),
+        n => format!("{n} nodes are"),
+    },
     match .in_contact {
         0 => "the restraints alone do not hold the body",
         _ => "that does not hold the body (finding K6), or to the last digit it does not",
     }
 )]
 pub struct SingularMatrix {
-    /// Name of the variant.
+    /// The name of the variant that was run.
     pub variant: &'static str,
-    /// Iteration, from 1.
+    /// The iteration that failed, from 1.
     pub iteration: usize,
-    /// Node of the equation whose pivot vanished.
+    /// The number of the node of the equation whose pivot vanished.
     pub node: usize,
-    /// `x` or `y`.
+    /// The direction of that equation, `x` or `y`.
     pub direction: char,
-    /// The pivot, force/length.
+    /// The value of the pivot, force/length.
     pub pivot: f64,
-    /// Number of contact nodes with dy = 1.
+    /// The number of contact nodes with dy = 1.
     pub in_contact: usize,
-    /// ` of body "stamp"`, where a body is known.
+    /// The text ` of body "stamp"`, or no text where no body has the node.
     pub body: String,
 }

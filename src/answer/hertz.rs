@@ -1,10 +1,10 @@
-//! Hertz's pressure for the scene at hand, where its surfaces are such that Hertz's theory speaks of them.
+//! Hertz's pressure for a scene whose surfaces meet the assumptions of Hertz's theory.
 //!
 //! ```text
 //!   p(s) = p0 sqrt(1 − (s/a)²)    a² = 4 P R / (π E*)    p0 = 2 P / (π a)    1/E* = Σ (1 − ν²)/E
 //! ```
 //!
-//! R, the relative radius, comes from the gaps of the initial shape: g(s) = g0 + s²/(2R) near the first point of contact.
+//! The gaps of the initial shape near the first point of contact yield R: g(s) = g0 + s²/(2R).
 //!
 //! Source: K. L. Johnson, *Contact Mechanics*, sections 4.2(c), eq. (4.43) to (4.45).
 
@@ -18,43 +18,44 @@ use crate::problem::element::Plane;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Coupling;
 
-/// Gaps may leave the parabola by this part of the parabola's height at the edge of contact.
+/// The allowed departure of gaps from the parabola, over its height at the edge of contact.
 const PARABOLA: f64 = 0.05;
 
-/// A half width beyond this part of the relative radius is beyond the theory.
+/// The half width over the relative radius beyond which the theory does not apply.
 const SHALLOW: f64 = 0.3;
 
-/// Fewer nodes than this in the half width show no curve.
+/// The least number of nodes in the half width that show its curve.
 const FEWEST: usize = 3;
 
-/// Hertz's line contact.
+/// Hertz's contact of two cylinders along a line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hertz {
-    /// Relative radius, length.
+    /// The relative radius of the two surfaces, length.
     pub radius: f64,
-    /// Half width of the contact, length.
+    /// The half width of the contact, length.
     pub half_width: f64,
-    /// Peak pressure, stress.
+    /// The largest pressure, stress.
     pub peak: f64,
-    /// Where the peak stands along the contact surface, length.
+    /// The distance of that pressure along the contact surface, length.
     pub centre: f64,
 }
 
 impl Hertz {
-    /// Hertz's contact for the load that the contact surface of `solution` carries. Nothing where the surfaces are no parabola there, the contact is
-    /// too wide for the theory, or too few nodes lie in it.
+    /// Returns Hertz's contact for the load that the contact surface of `solution` carries. None
+    /// where the surfaces form no parabola there, the contact is too wide for the theory, or too
+    /// few nodes lie in it.
     pub fn of(solution: &Solution) -> Option<Self> {
         let model = &*solution.model;
         let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
         let gaps = gaps(model, &pairings);
         let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
         let at_an_end = first.entry == gaps[0].entry || first.entry == gaps[gaps.len() - 1].entry;
-        // Half a scene that is symmetric about the first point of contact carries half the load.
+        // Half of a scene that is symmetric about the first point of contact carries half the load.
         let sides = if at_an_end { 2.0 } else { 1.0 };
         let load = sides * normal_load(solution)? / model.thickness;
         let modulus = modulus(model, pairings[first.entry].as_ref()?)?;
         let centre = first.arc;
-        // The half width decides which gaps count for the radius: once around is enough to settle it.
+        // The half width decides which gaps count for the radius, which decides the half width.
         let mut half_width = 0.25 * (gaps[gaps.len() - 1].arc - gaps[0].arc);
         let mut radius = 0.0;
         for _ in 0..20 {
@@ -65,7 +66,7 @@ impl Hertz {
         (half_width < SHALLOW * radius && contact.fits(&gaps, first.gap)).then_some(contact)
     }
 
-    /// Pressure at distance `arc` along the contact surface, stress.
+    /// Returns the pressure at distance `arc` along the contact surface, stress.
     pub fn pressure(&self, arc: f64) -> f64 {
         let s = (arc - self.centre) / self.half_width;
         self.peak * (1.0 - s * s).max(0.0).sqrt()
@@ -74,17 +75,18 @@ impl Hertz {
     fn fits(&self, gaps: &[Gap], least: f64) -> bool {
         let height = self.half_width * self.half_width / (2.0 * self.radius);
         let within = gaps.iter().filter(|g| (g.arc - self.centre).abs() <= self.half_width);
-        let off = |g: &Gap| {
+        let departure = |g: &Gap| {
             let s = g.arc - self.centre;
             (g.gap - least - s * s / (2.0 * self.radius)).abs()
         };
-        within.clone().count() >= FEWEST && within.map(off).fold(0.0, f64::max) <= PARABOLA * height
+        within.clone().count() >= FEWEST
+            && within.map(departure).fold(0.0, f64::max) <= PARABOLA * height
     }
 }
 
-/// A contact node's place and gap in the initial shape.
+/// The position and gap of a contact node in the initial shape.
 struct Gap {
-    /// Its place in the contact surface.
+    /// Its index in the contact surface.
     entry: usize,
     arc: f64,
     gap: f64,
@@ -98,7 +100,8 @@ fn gaps(model: &Model, pairings: &[Option<Pairing>]) -> Vec<Gap> {
     faced.filter_map(gap).collect()
 }
 
-/// The relative radius from the gaps within `reach` of `centre`, by least squares; nothing where they do not open.
+/// Returns the relative radius from the gaps within `reach` of `centre` by least squares, length;
+/// None where the gaps do not open.
 fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
     let within = gaps.iter().filter(|g| (g.arc - centre).abs() <= reach);
     let (mut above, mut below) = (0.0, 0.0);
@@ -110,12 +113,12 @@ fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
     (below > 0.0 && above > 0.0).then(|| above / (2.0 * below))
 }
 
-/// Sum of the normal forces of the contact nodes, force.
+/// Returns the sum of the normal forces of the contact nodes, force; None where they do not press.
 fn normal_load(solution: &Solution) -> Option<f64> {
     Some(solution.in_contact().map(|c| c.force).sum::<f64>()).filter(|load| *load > 0.0)
 }
 
-/// E*, stress, of the two materials at a contact node.
+/// Returns E* of the two materials at a contact node, stress.
 fn modulus(model: &Model, pairing: &Pairing) -> Option<f64> {
     let compliance = |node: NodeId| {
         let triangle = model.triangles.iter().find(|triangle| triangle.nodes.contains(&node))?;

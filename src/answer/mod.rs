@@ -1,4 +1,4 @@
-//! The answer: a request, its solution, and how far its numbers may be from the truth.
+//! The answer: a request, its solution, and the estimated errors of its numbers.
 
 mod assessment;
 pub mod contact;

@@ -1,9 +1,10 @@
 //! The iterations that the paper describes: `printed`, `tied`, `stepped`.
 //!
 //! - total load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·U = F; node_n = node + U.
-//! - stepped load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n = node + U.
+//! - stepped load: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n = node + U.
 //!
-//! A(c) is Km(c) under `printed`, else Tᵀ·K·T on the free equations, K being Km without contact and without restraints.
+//! A(c) is Km(c) under `printed`, else Tᵀ·K·T on the free equations, where K is Km without contact
+//! and without restraints.
 
 use std::sync::Arc;
 
@@ -26,11 +27,11 @@ use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet, c_cnt};
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::{Coupling, StatusRule, Variant};
 
-/// Solves a request for one of the variants that the paper describes. `sparse` solves where sparse Cholesky is asked for; without it that
-/// solver gets a dense matrix too.
+/// Solves a request for one of the variants that the paper describes. `sparse` solves where sparse
+/// Cholesky is requested; without it that solver gets a dense matrix.
 ///
 /// # Errors
-/// The published algorithm failing as printed, a matrix that cannot be solved, a dense matrix that does not fit.
+/// The published algorithm fails as printed, a matrix is singular, or it does not fit in memory.
 pub(super) fn published<T: Precision>(
     request: &Request,
     sparse: Option<Sparse<T>>,
@@ -66,13 +67,14 @@ pub(super) fn published<T: Precision>(
     })
 }
 
-/// Checks that no load vanished or lost digits where the scalar has no smaller numbers: an answer of zeros would look like one.
+/// Checks that no load vanished or lost digits where the scalar has no smaller numbers: zero
+/// displacements would look like a result.
 fn check_load<T: Scalar>(
     request: &Request,
     model: &Model,
     load: &DVector<T>,
 ) -> Result<(), InputError> {
-    /// Relative error of a load that is within the scalar's range is 6e-8 in the coarsest, f32.
+    /// The largest relative error of a load in range; it is 6e-8 in the coarsest scalar, f32.
     const ROUNDED: f64 = 1e-6;
     let lost = |(x, y): &(&f64, &T)| {
         y.to_f64().is_finite() && (y.to_f64() - **x).abs() > ROUNDED * x.abs()
@@ -87,9 +89,9 @@ fn check_load<T: Scalar>(
     }
 }
 
-/// Checks that the matrices fit in memory, and exact numbers in a bearable time.
+/// Checks that the matrices fit in memory and that exact numbers end within a bearable time.
 fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), InputError> {
-    // Of the numbers' own size, in units of an f64.
+    // The count is in units of an f64, whatever the size of the scalar.
     let matrices = dense_matrices(request.variant, request.arithmetic)
         * size_of::<T>().div_ceil(size_of::<f64>());
     memory::check(model.nodes.len(), matrices, memory::free())?;
@@ -99,25 +101,26 @@ fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), Inpu
     cost::check(model.free_dofs(), request.reading.r5 == NodeTable::NodeN, request.iterations)
 }
 
-/// What an iteration needs of those before it.
+/// The state of a run that an iteration needs of those before it.
 struct Run<'a, T> {
     request: &'a Request,
     model: &'a Model,
     sheet: &'a Worksheet<T>,
-    /// How the equations of an iteration come about and are solved.
+    /// The equations of every iteration.
     equations: Equations<'a, T>,
-    /// What mortar needs of the surfaces; nothing under `nts`.
+    /// The surfaces that mortar needs; None under `nts`.
     surfaces: Option<Surfaces>,
-    /// Total displacements.
+    /// The total displacements by degree of freedom, length.
     u: DVector<T>,
-    /// What supports the target so far.
+    /// The sum of the forces that support the target so far, force.
     support: [T; 2],
-    /// Contact states visited, each with its solution and the last iteration that visited it. The load of an iteration is always
-    /// the same, so a state that came before has the same matrix and the same solution: nothing is factored again.
+    /// The contact states visited, each with its solution and the last iteration that visited it.
+    /// The load of an iteration is always the same, so a state that returns has the same matrix and
+    /// the same solution, and its matrix is not factored again.
     visited: Vec<Visited<T>>,
 }
 
-/// A contact state, all of k_cnt and the weights of the constraints, and what came of it.
+/// A contact state, which is all of k_cnt and the weights of the constraints, and its solution.
 struct Visited<T> {
     pairs: Pairs<T>,
     constraints: Vec<Constraint<T>>,
@@ -126,12 +129,12 @@ struct Visited<T> {
     solved: Solved<T>,
 }
 
-/// What an iteration found before it solved anything.
+/// The contact state that an iteration found before it solved any equation.
 struct Found<T> {
     node_n: Table<T>,
     pairs: Pairs<T>,
     constraints: Vec<Constraint<T>>,
-    /// The place of each contact node in contact on its target edge: what eq. (1) is measured by.
+    /// The position of each node in contact on its target edge, to measure eq. (1).
     places: Vec<NodeToSegment<T>>,
 }
 
@@ -146,10 +149,9 @@ impl<'a, T: Precision> Run<'a, T> {
     ) -> Result<Self, Error> {
         let mortar = request.contact.coupling == Coupling::Mortar;
         let equations = Equations::new(request, model, sheet, load, sparse, number)?;
-        let surfaces = match mortar && request.variant != Variant::Printed {
-            true => Some(mortar_surfaces(request, model)?),
-            false => None,
-        };
+        let surfaces = (mortar && request.variant != Variant::Printed)
+            .then(|| mortar_surfaces(request, model))
+            .transpose()?;
         Ok(Run {
             request,
             model,
@@ -179,45 +181,44 @@ impl<'a, T: Precision> Run<'a, T> {
         Ok(step)
     }
 
-    /// Searches contact in the shape reached.
+    /// Finds the contact state in the current shape.
     fn search(&self) -> Result<Found<T>, Error> {
         let node_n = door::moved(self.sheet, &self.u);
         let reading = &self.request.reading;
         if !self.model.has_contact() {
-            // Without contact nothing of contact is built: `c_cnt` is not called.
+            // Without contact `c_cnt` is not called.
             let pairs = Pairs::none(self.sheet.R());
             return Ok(Found { node_n, pairs, constraints: Vec::new(), places: Vec::new() });
         }
-        let pairs = match self.request.contact.status {
-            StatusRule::Signs => c_cnt(self.sheet, reading, &node_n)?,
-            _ if self.request.variant == Variant::Printed => c_cnt(self.sheet, reading, &node_n)?,
-            rule => {
-                let found = status::statuses(rule, self.model, self.sheet, reading, &node_n)?;
-                door::pairs(self.model, self.sheet, reading, &node_n, &found)?
-            }
+        let (rule, variant) = (self.request.contact.status, self.request.variant);
+        let pairs = if rule == StatusRule::Signs || variant == Variant::Printed {
+            c_cnt(self.sheet, reading, &node_n)?
+        } else {
+            let found = status::statuses(rule, self.model, self.sheet, reading, &node_n)?;
+            door::pairs(self.model, self.sheet, reading, &node_n, &found)?
         };
         let places = door::on_edges(self.sheet, &pairs, reading, &node_n);
         let constraints = self.constraints(door::linked(self.sheet, &pairs), &node_n);
         Ok(Found { node_n, pairs, constraints, places })
     }
 
-    /// Eq. (1) for the nodes in contact: the weights that were found, or mortar's for the nodes whose edges cover the target.
+    /// Returns eq. (1) for the nodes in contact, with the weights that were found, or with mortar's
+    /// for the nodes whose edges cover the target.
     fn constraints(&self, linked: Vec<NodeToSegment<T>>, node_n: &Table<T>) -> Vec<Constraint<T>> {
         let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
         let Some(surfaces) = &self.surfaces else { return constraints };
         let shape = door::shape(door::weights_from(self.sheet, &self.request.reading, node_n));
         let pairings = surfaces.pairings(Coupling::Mortar, &shape);
         for pairing in pairings.into_iter().flatten() {
-            let bound = constraints.iter_mut().filter(|bound| bound.node == pairing.node);
-            for constraint in bound {
+            for bound in constraints.iter_mut().filter(|bound| bound.node == pairing.node) {
                 let masters = pairing.masters.iter().map(|(master, w)| (*master, T::from_f64(*w)));
-                constraint.masters = masters.collect();
+                bound.masters = masters.collect();
             }
         }
         constraints
     }
 
-    /// From one shape to the next.
+    /// Advances from one shape to the next.
     fn advance(&mut self, solved: &Solved<T>) {
         match self.request.schedule() {
             Schedule::Total => (self.u, self.support) = (solved.u.clone(), solved.support),
@@ -255,7 +256,7 @@ impl<'a, T: Precision> Run<'a, T> {
         }
     }
 
-    /// The contact surface at the end.
+    /// Returns the contact surface at the end.
     fn contact(&self, in_contact: &[bool]) -> Result<Vec<ContactNode>, InputError> {
         if !self.model.has_contact() {
             return Ok(Vec::new());
@@ -275,7 +276,7 @@ impl<'a, T: Precision> Run<'a, T> {
 }
 
 impl<T: Scalar> Visited<T> {
-    /// Whether this is the state that was `found`.
+    /// Returns whether this is the state that was `found`.
     fn is(&self, found: &Found<T>) -> bool {
         let same_weights = |a: &Constraint<T>, b: &Constraint<T>| {
             let mut masters = a.masters.iter().zip(&b.masters);
@@ -291,7 +292,7 @@ impl<T: Scalar> Visited<T> {
     }
 }
 
-/// What mortar needs of the surfaces: its integrals are taken in `f64`.
+/// Returns the surfaces for mortar, whose integrals are computed in `f64` only.
 fn mortar_surfaces(request: &Request, model: &Model) -> Result<Surfaces, InputError> {
     if request.arithmetic.scalar == ScalarName::F64 {
         return Surfaces::new(model);
@@ -300,7 +301,8 @@ fn mortar_surfaces(request: &Request, model: &Model) -> Result<Surfaces, InputEr
     Err(InputError::new("--scalar", what, "use f64, or --coupling nts"))
 }
 
-/// Largest component of u_cont − u_targ over contact nodes, u_targ interpolated between their master nodes.
+/// Returns the largest component of u_cont − u_targ over contact nodes, length; u_targ is
+/// interpolated between their master nodes.
 fn eq1_residual<'a, T: Scalar>(
     bound: impl Iterator<Item = (NodeId, &'a [(NodeId, T)])>,
     u: &DVector<T>,

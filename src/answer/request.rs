@@ -1,4 +1,4 @@
-//! What is asked for: a scene, how contact is modelled, a variant, a reading, and the numbers to compute in.
+//! A request: the scene, the contact model, the variant, the reading, and the numbers.
 
 use std::sync::Arc;
 
@@ -10,27 +10,27 @@ use crate::problem::model::Model;
 use crate::problem::modelling::{ContactModel, Variant};
 use crate::problem::scene::Scene;
 
-/// What is asked for. [`Request::new`] asks for what the scene says; every field may be changed.
+/// A request. [`Request::new`] asks for what the scene says; every field may be changed.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// The scene.
+    /// The scene to be solved.
     pub scene: Scene,
     /// How contact is modelled beyond what the paper prints.
     pub contact: ContactModel,
-    /// What is run.
+    /// The variant to be run.
     pub variant: Variant,
-    /// Number of iterations of the variants that the paper describes.
+    /// The number of iterations of the variants that the paper describes.
     pub iterations: usize,
     /// The reading of the print.
     pub reading: Reading,
-    /// In which numbers, and by which solver.
+    /// The scalar and the solver.
     pub arithmetic: Arithmetic,
     /// The tolerance of the contact search in place of the scene's own, length.
     pub tolerance: Option<f64>,
 }
 
 impl Request {
-    /// What the scene itself says, under the default reading, in `f64`.
+    /// Requests what the scene itself says, under the default reading, in `f64`.
     pub fn new(scene: &Scene) -> Self {
         Request {
             contact: scene.contact,
@@ -43,31 +43,31 @@ impl Request {
         }
     }
 
-    /// The same with another variant.
+    /// Returns the same request with another variant.
     #[must_use]
     pub fn variant(self, variant: Variant) -> Self {
         Request { variant, ..self }
     }
 
-    /// The same under another reading.
+    /// Returns the same request under another reading.
     #[must_use]
     pub fn reading(self, reading: Reading) -> Self {
         Request { reading, ..self }
     }
 
-    /// The same in other numbers or by another solver.
+    /// Returns the same request in other numbers or by another solver.
     #[must_use]
     pub fn arithmetic(self, arithmetic: Arithmetic) -> Self {
         Request { arithmetic, ..self }
     }
 
-    /// The same with contact modelled in another way.
+    /// Returns the same request with another contact model.
     #[must_use]
     pub fn contact(self, contact: ContactModel) -> Self {
         Request { contact, ..self }
     }
 
-    /// What load an iteration carries: R7 where it is given, else the variant's own.
+    /// Returns the load of an iteration: R7 where the reading sets it, else the variant's own.
     pub fn schedule(&self) -> Schedule {
         match self.variant {
             Variant::Unilateral => Schedule::Total,
@@ -76,10 +76,10 @@ impl Request {
         }
     }
 
-    /// The model under the reading and with the tolerance that is asked for.
+    /// Returns the model under the reading and with the requested tolerance.
     ///
     /// # Errors
-    /// A Poisson's ratio that the plane problem of R6 does not allow.
+    /// The plane problem of R6 does not allow a Poisson's ratio.
     pub fn model(&self) -> Result<Arc<Model>, InputError> {
         let mut model = (*self.scene.model).clone();
         if let Some(tolerance) = self.tolerance {

@@ -1,4 +1,4 @@
-//! What comes of a request: displacements, stresses, the contact surface, and the steps that led there.
+//! The solution of a request: displacements, stresses, the contact surface, and the steps.
 
 use std::sync::Arc;
 
@@ -17,27 +17,28 @@ use crate::problem::model::{Model, NodeId};
 /// A step: one iteration of a published variant, or one of the active set.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// Its number, from 1.
+    /// The number of the step, from 1.
     pub k: usize,
-    /// The shape that it started from: coordinates of each node, length.
+    /// The shape from which the step started: the coordinates of each node, length.
     pub shape: Vec<[f64; 2]>,
-    /// What bound contact nodes to the target, by elimination; empty under `printed`.
+    /// The constraints on contact nodes, by elimination; empty under `printed`.
     pub constraints: Vec<Constraint>,
-    /// Number of entries of the contact surface in contact.
+    /// The number of entries of the contact surface in contact.
     pub in_contact: usize,
-    /// Largest |u| of a node, total, length.
+    /// The largest total displacement |u| of a node, length.
     pub max_displacement: f64,
-    /// Where this contact state came before.
+    /// The earlier steps with this contact state; None where it is new.
     pub cycle: Option<Cycle>,
-    /// Sum of the reactions of the target body against the direction of the load applied so far, force; 0 without contact.
+    /// The sum of the target body's reactions against the direction of the load applied so far,
+    /// force; 0 without contact.
     pub target_force: f64,
-    /// Relative residual |A x − b| / (|A| |x| + |b|) of the solution.
+    /// The relative residual |A x − b| / (|A| |x| + |b|) of the solution.
     pub solve_residual: f64,
-    /// What the variant itself knows of the step.
+    /// The results that only this kind of variant has.
     pub detail: Detail,
 }
 
-/// What a step of each kind of variant knows.
+/// The results of a step that depend on the kind of variant.
 #[derive(Clone, Debug)]
 pub enum Detail {
     /// An iteration of a variant that the paper describes.
@@ -49,11 +50,12 @@ pub enum Detail {
 /// An iteration of a variant that the paper describes.
 #[derive(Clone, Debug)]
 pub struct Published {
-    /// What `c_cnt` found in the shape that the iteration started from, in its own arrays.
+    /// The pairs that `c_cnt` found in the shape at the start, in its own arrays.
     pub pairs: Pairs<f64>,
-    /// Eq. (1): largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in contact, total displacements, length.
+    /// The residual of eq. (1): the largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in
+    /// contact, in total displacements, length.
     pub eq1_residual: f64,
-    /// The same on what this iteration solved for: the increment where the load is stepped.
+    /// The same in the displacements solved for: the increment where the load is stepped.
     pub eq1_residual_step: f64,
 }
 
@@ -62,14 +64,14 @@ pub struct Published {
 pub struct Unilateral {
     /// Whether each entry of the contact surface was closed.
     pub closed: Vec<bool>,
-    /// What each entry faced in the shape that the iteration started from.
+    /// The pairing of each entry in the shape from which the iteration started.
     pub pairings: Vec<Option<Pairing>>,
-    /// The largest gap of a closed node or penetration of another one in the shape that the iteration led to, length.
+    /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub violation: f64,
 }
 
 impl Step {
-    /// Whether each entry of the contact surface is in contact.
+    /// Returns whether each entry of the contact surface is in contact.
     pub fn statuses(&self) -> Vec<bool> {
         match &self.detail {
             Detail::Published(step) => step.pairs.dy.iter().map(|dy| *dy == 1).collect(),
@@ -77,7 +79,7 @@ impl Step {
         }
     }
 
-    /// What is left of the contact condition, length: of eq. (1) on total displacements, or of the gaps.
+    /// Returns the residual of the contact condition, length: of eq. (1), or of the gaps.
     pub fn contact_residual(&self) -> f64 {
         match &self.detail {
             Detail::Published(step) => step.eq1_residual,
@@ -85,7 +87,7 @@ impl Step {
         }
     }
 
-    /// The same on what this step solved for.
+    /// Returns the same residual in the displacements that this step solved for.
     pub fn contact_residual_step(&self) -> f64 {
         match &self.detail {
             Detail::Published(step) => step.eq1_residual_step,
@@ -93,64 +95,65 @@ impl Step {
         }
     }
 
-    /// The nodes of `model`'s contact surface in contact.
+    /// Returns the nodes of `model`'s contact surface in contact.
     pub fn contact_set(&self, model: &Model) -> Vec<NodeId> {
         let nodes = model.contact.nodes.iter().zip(self.statuses());
         nodes.filter(|(_, in_contact)| *in_contact).map(|(node, _)| *node).collect()
     }
 }
 
-/// A contact state that came before.
+/// The return of an earlier contact state.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cycle {
-    /// Steps since the state came last; 1 = it did not change.
+    /// The number of steps since the state last occurred; 1 means that it did not change.
     pub length: usize,
     /// Those steps: the last that had this state, and those between.
     pub members: Vec<usize>,
 }
 
-/// What comes of a request.
+/// The solution of a request.
 #[derive(Clone, Debug)]
 pub struct Solution {
-    /// What was asked for.
+    /// The request that was solved.
     pub request: Request,
-    /// The model under the reading that was asked for.
+    /// The model under the requested reading.
     pub model: Arc<Model>,
-    /// The steps, at least one.
+    /// The steps of the run, at least one.
     pub steps: Vec<Step>,
-    /// Displacements by degree of freedom, length.
+    /// The displacements by degree of freedom, length.
     pub u: DVector<f64>,
-    /// Stresses and strains, by triangle.
+    /// The stresses and strains of each triangle.
     pub elements: Vec<State>,
-    /// The contact surface at the end, in order: the nodes that face the target.
+    /// The contact surface at the end: the nodes that face the target, in order.
     pub contact: Vec<ContactNode>,
-    /// Number of matrices factored: one for each contact state.
+    /// The number of matrices that were factored, one for each contact state.
     pub factored: usize,
-    /// `u` with all digits that are worth having, where the scalar has more than an `f64`.
+    /// All significant digits of `u`, where the scalar has more than an `f64`.
     pub digits: Option<Vec<RBig>>,
-    /// A bound on the largest error of an entry of `u` against the same run without rounding, where the scalar keeps one: it
-    /// holds while rounding does not change who is in contact. Length.
+    /// A bound on the largest error of an entry of `u` against the same run without rounding,
+    /// length, where the scalar computes one. It is valid while rounding does not change which
+    /// nodes are in contact.
     pub error_bound: Option<f64>,
 }
 
 impl Solution {
-    /// The last step.
+    /// Returns the last step.
     pub fn last(&self) -> &Step {
         self.steps.last().expect("a run has a step")
     }
 
-    /// The contact nodes in contact at the end.
+    /// Returns the contact nodes in contact at the end.
     pub fn in_contact(&self) -> impl Iterator<Item = &ContactNode> {
         self.contact.iter().filter(|node| node.in_contact)
     }
 
-    /// Displacement of each node, length.
+    /// Returns the displacement of each node, length.
     pub fn displacements(&self) -> Vec<[f64; 2]> {
         self.model.node_ids().map(|node| node.of(&self.u)).collect()
     }
 }
 
-/// Largest |u| of a node.
+/// Returns the largest |u| of a node, length.
 pub fn max_displacement<T: Scalar>(u: &DVector<T>) -> f64 {
     u.as_slice().chunks(2).map(|u| Scalar::hypot(u[0], u[1])).fold(0.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! A request, solved: the variant that is asked for, in the numbers that are asked for.
+//! The solution of a request by the requested variant in the requested numbers.
 
 use super::error::Error;
 use super::published::published;
@@ -15,8 +15,9 @@ use crate::problem::modelling::{Coupling, Variant};
 /// Solves `request`; `watch` is called after each step.
 ///
 /// # Errors
-/// The published algorithm failing as printed; a matrix that cannot be solved; a dense matrix that does not fit in memory; a solver that the
-/// scalar does not have; exact numbers on a scene too large for them; under `unilateral` bodies that contact and restraints do not hold.
+/// The published algorithm fails as printed; a matrix cannot be solved; a dense matrix does not fit
+/// in memory; the scalar does not have the solver; the scene is too large for exact numbers; or
+/// under `unilateral` contact and restraints do not restrain the bodies.
 pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
     request.arithmetic.check()?;
     let solution = match (request.variant, request.arithmetic.scalar) {
@@ -34,22 +35,22 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     Ok(solution)
 }
 
-/// Solves what runs are measured against, the reference solution: `unilateral` with mortar, everything else as `request` has it.
+/// Solves the reference solution: `unilateral` with mortar, everything else as in `request`.
 ///
 /// # Errors
-/// Those of [`solve`].
+/// The errors of [`solve`].
 pub fn reference(request: &Request) -> Result<Solution, Error> {
     solve(&reference_request(request), &mut |_| ())
 }
 
-/// The request that [`reference`] solves.
+/// Returns the request that [`reference`] solves.
 pub fn reference_request(request: &Request) -> Request {
     let mut reference = Request { arithmetic: Default::default(), ..request.clone() };
     reference.contact.coupling = Coupling::Mortar;
     reference.variant(Variant::Unilateral)
 }
 
-/// Checks that `unilateral` is asked for in f64 by sparse Cholesky.
+/// Checks that `unilateral` is requested in f64 by sparse Cholesky.
 fn check_unilateral(request: &Request) -> Result<(), InputError> {
     let arithmetic = request.arithmetic;
     if arithmetic.scalar != ScalarName::F64 {

@@ -1,4 +1,4 @@
-//! The sparse solvers of `tied` and `stepped`: nothing dense is built for them.
+//! The sparse solvers of `tied` and `stepped`, which build no dense matrix.
 
 use nalgebra::DVector;
 
@@ -12,7 +12,7 @@ use crate::problem::modelling::Variant;
 /// Solves A x = b with factors of a sparse A.
 pub(super) type Sparse<T> = fn(SparseSymmetric<T>, &DVector<T>) -> Result<Solved<T>, Unsolved>;
 
-/// By Cholesky factors.
+/// Solves by Cholesky factors.
 pub(super) fn cholesky<T: Native>(
     a: SparseSymmetric<T>,
     b: &DVector<T>,
@@ -22,7 +22,7 @@ pub(super) fn cholesky<T: Native>(
     Ok(Solved { residual: factors.residual(&x, b), x })
 }
 
-/// By Cholesky factors, with a bound on the error of the solution.
+/// Solves by Cholesky factors, with a bound on the error of the solution.
 pub(super) fn bounded(
     a: SparseSymmetric<Bounded>,
     b: &DVector<Bounded>,
@@ -35,7 +35,7 @@ pub(super) fn bounded(
     Ok(Solved { residual, x: x.map(|x| Bounded::new(x, error)) })
 }
 
-/// By LDLᵀ factors.
+/// Solves by LDLᵀ factors.
 pub(super) fn ldlt(
     a: SparseSymmetric<F64x2>,
     b: &DVector<F64x2>,
@@ -44,7 +44,7 @@ pub(super) fn ldlt(
     Ok(Solved { residual: a.residual(&x, b), x })
 }
 
-/// Dense 2R x 2R matrices that a run holds at once, each of `size_of` numbers of the scalar: 0 where all is sparse.
+/// Returns the number of dense 2R x 2R matrices of the scalar in memory at once.
 pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
     let sparse =
         arithmetic.solver() == Solver::SparseCholesky && arithmetic.scalar != ScalarName::Exact;

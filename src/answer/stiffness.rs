@@ -1,4 +1,4 @@
-//! Stiffness without contact and without restraints, triangle by triangle: what `Km` would add up in a dense matrix.
+//! The stiffness without contact and restraints, by triangle, which `Km` adds up in a matrix.
 
 use nalgebra::{DVector, SMatrix, SVector};
 
@@ -8,7 +8,8 @@ use crate::numbers::solve::SparseSymmetric;
 use crate::problem::element::{self, D, Plane, State};
 use crate::problem::model::{Dof, Model, TriangleId};
 
-/// The stiffness matrix K, 2R x 2R, force/length, kept as its triangles' matrices; and what stresses are computed from.
+/// The stiffness matrix K, 2R x 2R, force/length, stored as its triangles' matrices, from which
+/// stresses are computed too.
 pub struct Stiffness<T = f64> {
     plane: Plane,
     dofs: usize,
@@ -17,19 +18,19 @@ pub struct Stiffness<T = f64> {
 
 /// One triangle in the numbers of a run.
 struct Element<T> {
-    /// Its degrees of freedom: x, y of each corner in turn.
+    /// The degrees of freedom of its corners: x, y of each corner in turn.
     dofs: [Dof; 6],
-    /// Elastic modulus, stress, and Poisson's ratio.
+    /// The elastic modulus, stress.
     e: T,
     nu: T,
-    /// Strain matrix, 1/length.
+    /// The strain matrix, 1/length.
     b: SMatrix<T, 3, 6>,
-    /// Ae·Bᵀ·D·B, force/length.
+    /// The stiffness Ae·Bᵀ·D·B, force/length.
     k: SMatrix<T, 6, 6>,
 }
 
 impl<T: Scalar> Stiffness<T> {
-    /// The stiffness of every triangle, computed in T from numbers that go through `number`.
+    /// Computes the stiffness of every triangle in T from numbers that pass through `number`.
     pub fn new(model: &Model, number: impl Fn(f64) -> T) -> Self {
         let triangle = |id: TriangleId| {
             let material = model.triangle(id).material;
@@ -50,7 +51,7 @@ impl<T: Scalar> Stiffness<T> {
         Stiffness { plane: model.plane, dofs: model.dofs(), triangles }
     }
 
-    /// K u: the forces that hold the shape `u`.
+    /// Returns K u, the forces that keep the shape `u`, force.
     pub fn times(&self, u: &DVector<T>) -> DVector<T> {
         let mut force = DVector::from_element(self.dofs, T::zero());
         let (u, common) = T::over_common(u.as_slice().to_vec());
@@ -64,19 +65,19 @@ impl<T: Scalar> Stiffness<T> {
         force.map(|f| f / common)
     }
 
-    /// Tᵀ K T.
+    /// Returns Tᵀ K T, force/length.
     pub fn reduced(&self, t: &Elimination<T>) -> SparseSymmetric<T> {
         let entries = self.triangles.iter().flat_map(|triangle| triangle.reduced(t));
         SparseSymmetric::new(t.size(), entries)
     }
 
-    /// Stresses and strains of every triangle under displacements `u`.
+    /// Returns the stresses and strains of every triangle under displacements `u`.
     pub fn states(&self, u: &DVector<T>) -> Vec<State> {
         let state = |t: &Element<T>| State::new(self.plane, t.e, t.nu, &t.b, &t.displacements(u));
         self.triangles.iter().map(state).collect()
     }
 
-    /// Sigma_x, sigma_y, tau_xy of every triangle under displacements `u`, stress.
+    /// Returns sigma_x, sigma_y, tau_xy of every triangle under displacements `u`, stress.
     pub fn stresses(&self, u: &DVector<T>) -> Vec<SVector<T, 3>> {
         let stress = |t: &Element<T>| D(self.plane, t.e, t.nu) * (t.b * t.displacements(u));
         self.triangles.iter().map(stress).collect()
@@ -84,7 +85,8 @@ impl<T: Scalar> Stiffness<T> {
 }
 
 impl Stiffness {
-    /// sqrt(uᵀ K u): the energy norm, (force · length)^½. Summed by triangle, so that nothing negative is left of a cancellation.
+    /// Returns the energy norm sqrt(uᵀ K u), sqrt(force·length). It is summed by triangle, so that
+    /// no cancellation leaves a negative number.
     pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
         let of_triangle = |triangle: &Element<f64>| {
             let u = triangle.displacements(u);
@@ -95,7 +97,7 @@ impl Stiffness {
 }
 
 impl<T: Scalar> Element<T> {
-    /// What it adds to the lower triangle of Tᵀ K T: row, column, value.
+    /// Returns the entries that it adds to the lower triangle of Tᵀ K T: row, column, value.
     fn reduced(&self, t: &Elimination<T>) -> Vec<(usize, usize, T)> {
         let mut entries = Vec::with_capacity(36);
         for (i, p) in self.dofs.into_iter().enumerate() {

@@ -1,32 +1,32 @@
-//! The largest values of each body.
+//! The largest values of each body, for tables and result files.
 
 use serde::{Deserialize, Serialize};
 
 use super::solution::Solution;
 use crate::problem::model::{Body, TriangleId};
 
-/// The largest values of a body.
+/// The largest displacement, stress and strain of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodySummary {
-    /// The body.
+    /// The name of the body.
     pub name: String,
-    /// Number of its nodes.
+    /// The number of its nodes.
     pub nodes: usize,
-    /// Number of its triangles.
+    /// The number of its triangles.
     pub triangles: usize,
-    /// Largest |u| of a node, length.
+    /// The largest displacement |u| of a node, length.
     pub max_displacement: f64,
-    /// Largest von Mises stress.
+    /// The largest von Mises stress of its triangles.
     pub max_von_mises_stress: f64,
-    /// The triangle that has it.
+    /// The triangle with that stress.
     pub at: TriangleId,
-    /// Centre of that triangle, length.
+    /// The centre of that triangle, length.
     pub centre: [f64; 2],
-    /// Largest von Mises strain.
+    /// The largest von Mises strain of its triangles.
     pub max_von_mises_strain: f64,
 }
 
-/// One summary a body.
+/// Returns a summary of each body, in the model's order.
 pub fn summaries(solution: &Solution) -> Vec<BodySummary> {
     solution.model.bodies.iter().map(|body| summary(body, solution)).collect()
 }

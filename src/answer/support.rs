@@ -1,4 +1,4 @@
-//! What holds the target up: the forces on its restraints, and what constraints pass straight to them.
+//! The support of the target: the forces on its restraints, some of them through constraints.
 
 use nalgebra::DVector;
 
@@ -7,7 +7,8 @@ use super::elimination::{Constraint, Motion, sum};
 use crate::numbers::scalar::Scalar;
 use crate::problem::model::{Model, NodeId};
 
-/// Sum of the target body's reactions, force. `force` is K·u − F by degree of freedom, `restrained` the restraints that the run knows.
+/// Returns the sum of the target body's reactions, force. `force` is K·u − F by degree of freedom;
+/// `restrained` marks the degrees of freedom that the run restrains.
 pub fn support<T: Scalar>(
     model: &Model,
     restrained: &[bool],
@@ -32,7 +33,7 @@ pub fn support<T: Scalar>(
     total
 }
 
-/// The contact force on a constrained node, force.
+/// Returns the contact force on a constrained node, force.
 fn passed<T: Scalar>(
     constraint: &Constraint<T>,
     restrained: &[bool],
@@ -46,7 +47,8 @@ fn passed<T: Scalar>(
     }
 }
 
-/// The component along `normal` of a force that acts along it, from the components that no restraint has a share in.
+/// Returns the component along `normal` of a force that acts along it, from the components in which
+/// no restraint has a share, force.
 fn along<T: Scalar>(normal: [T; 2], free: [bool; 2], force: [T; 2]) -> T {
     match free {
         [true, true] => normal[0] * force[0] + normal[1] * force[1],
@@ -56,7 +58,8 @@ fn along<T: Scalar>(normal: [T; 2], free: [bool; 2], force: [T; 2]) -> T {
     }
 }
 
-/// A contact force's component along the normal, force; where one direction of the node is restrained, from the other one.
+/// Returns a contact force's component along the normal, force; where one direction of the node is
+/// restrained, it follows from the other one.
 pub(super) fn normal_force(model: &Model, pairing: &Pairing, reaction: &DVector<f64>) -> f64 {
     let free = free(model, pairing.node);
     along(pairing.normal, free, pairing.node.of(reaction))
@@ -66,13 +69,13 @@ fn free(model: &Model, node: NodeId) -> [bool; 2] {
     model.restraints_of(node).map(|restrained| !restrained)
 }
 
-/// The reactions taken against the direction of the load, force.
+/// Returns the reactions against the direction of the load, force.
 pub fn against_load(model: &Model, [rx, ry]: [f64; 2]) -> f64 {
     let [fx, fy] = model.total_load();
     let size = fx.hypot(fy);
     if size == 0.0 {
         return rx.hypot(ry);
     }
-    // 0 − x rather than −x: no reaction at all is 0, not −0.
+    // 0 − x rather than −x: without any reaction the result is 0, not −0.
     0.0 - (rx * (fx / size) + ry * (fy / size))
 }

@@ -1,22 +1,25 @@
-//! The reference solution: gaps closed along the target's normal, no node that pulls, none that penetrates.
+//! The reference solution: no gap in contact, no node that pulls, and none that penetrates.
 //!
 //! ```text
 //!   gap g_i = n_i·(x_i − Σ w_ij x_j)       in contact   g_i = 0, pressure ≥ 0
-//!                                            apart        g_i ≥ 0, pressure = 0
+//!                                          apart        g_i ≥ 0, pressure = 0
 //! ```
 //!
-//! A primal-dual active set: each iteration measures normals, weights and gaps in the current shape, closes the gaps of the set, and
-//! takes as the next set the nodes that press or penetrate. It ends when the set repeats and the gaps stay closed as the shape
-//! settles. The shape is the current one, or the initial one for small displacements. Friction is none (the node slides along the
-//! tangent) or sticks: then both components follow the target, as eq. (1) asks, and the node stays at the place of the target that
-//! it faced in the initial shape.
+//! The method is a primal-dual active set: each iteration measures normals, weights and gaps in the
+//! current shape, closes the gaps of the set, and takes as the next set the nodes that press or
+//! penetrate. It ends when the set repeats and the gaps stay closed while the shape settles. The
+//! shape is the current one, or the initial one for small displacements. A node without friction
+//! slides along the tangent. A node that sticks follows the target in both components, as eq. (1)
+//! asks, and stays at the point of the target that it faced in the initial shape.
 //!
-//! A set that came before, other than the last, would return for ever. From then on one node changes at a time, the last along `cnt` of those
-//! that should: that ends for every problem with one solution (K. G. Murty's least-index rule, Opsearch 11 (1974)). Where the set
-//! does not hold the bodies, the node joins it that the load's motion brings to the target first; if none is, those with the least gaps.
+//! A set that returns, other than the last, would return without end. From then on one node changes
+//! at a time, the last along `cnt` of those that should: that ends for every problem with one
+//! solution (K. G. Murty's least-index rule, Opsearch 11 (1974)). Where the set does not restrain
+//! the bodies, the node that the load's motion brings to the target first joins it; where no node
+//! comes nearer, those with the least gaps join.
 //!
-//! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; J. J. Júdice, F. M. Pires,
-//! Comput. Oper. Res. 21 (1994) 587-596 (the fall-back).
+//! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; J.
+//! J. Júdice, F. M. Pires, Comput. Oper. Res. 21 (1994) 587-596 (the fall-back).
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -32,64 +35,66 @@ use super::support::{against_load, normal_force, support};
 use crate::error::InputError;
 use crate::numbers::solve::{SparseCholesky, SparseSymmetric};
 use crate::problem::model::{Dof, Model};
-use crate::problem::modelling::{Friction, Geometry};
+use crate::problem::modelling::Friction;
 
-/// Gaps below this, of the size of the scene, are closed.
+/// The gap over the size of the scene below which it is closed.
 const CLOSED: f64 = 5e-13;
 
-/// The distance from the origin, over the scene's size, beyond which gaps have fewer digits than [`CLOSED`] asks for, turned round: four units in the last
-/// place of a coordinate over [`CLOSED`].
+/// The size of the scene over its distance from the origin below which gaps have fewer digits than
+/// [`CLOSED`] asks for: four units in the last place of a coordinate over [`CLOSED`].
 const RESOLVED: f64 = 4.0 * f64::EPSILON / CLOSED;
 
-/// What presses through a first set of few nodes reaches far beyond the contact to come: of the nodes outside, the second set takes those that
-/// penetrate by this part of the deepest. Measured on Hertz's contact of 800 to 100,000 equations: 12 iterations at most, against 14.
+/// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
+/// second set takes those that penetrate by more than this part of the deepest penetration.
+/// Measured on Hertz's contact of 800 to 100,000 equations: 12 iterations at most, against 14.
 const FIRST_GROWTH: f64 = 0.9;
 
-/// Stiffness of the springs that show how a body moves that nothing holds, of the diagonal.
+/// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
 const SOFT: f64 = 1e-8;
 
-/// A gap that closes by less than this, of the largest motion, stays as it is.
+/// The closing motion of a gap, over the largest motion, below which the gap does not close.
 const STANDING: f64 = 1e-9;
 
-/// Iterations beyond one for each contact node after which no equilibrium is taken to exist.
+/// The number of iterations beyond one for each contact node after which the search ends.
 const PATIENCE: usize = 100;
 
-/// A shape and what each contact node faces in it.
+/// A shape and the target that each contact node faces in it.
 #[derive(Clone)]
 struct Place {
-    /// Coordinates of each node, length.
+    /// The coordinates of each node, length.
     shape: Vec<[f64; 2]>,
-    /// For each entry of the contact surface.
+    /// The pairing of each entry of the contact surface.
     pairings: Vec<Option<Pairing>>,
 }
 
-/// One iteration: the set that was closed and what came of it.
+/// An iteration: the set of closed nodes and its results.
 struct Iteration {
     k: usize,
-    /// Where it started from.
+    /// The place from which it started.
     before: Place,
     /// Whether each entry of the contact surface was closed.
     closed: Vec<bool>,
-    /// What closed them.
+    /// The constraints that closed them.
     constraints: Vec<Constraint>,
-    /// Where this set was closed before.
+    /// The earlier iterations with this set; None where it is new.
     cycle: Option<Cycle>,
-    /// Displacements by degree of freedom, length.
+    /// The displacements by degree of freedom, length.
     u: DVector<f64>,
-    /// K u − F: forces of contact and restraints, force.
+    /// The reaction K u − F: the forces of contact and restraints, force.
     reaction: DVector<f64>,
-    /// Relative residual of the solution.
+    /// The relative residual of the solution.
     residual: f64,
-    /// Where it led to.
+    /// The place to which it led.
     after: Place,
-    /// The largest gap of a closed node or penetration of another one in that shape, length.
+    /// The largest gap of a closed node or penetration of another one afterwards, length.
     violation: f64,
 }
 
-/// Finds the equilibrium; `watch` is called after each iteration. The last step is the answer.
+/// Finds the equilibrium, which is the last step; `watch` is called after each iteration.
 ///
 /// # Errors
-/// Contact and restraints that do not hold the bodies; a contact node restrained along the normal; loads that pull a body away.
+/// Contact and restraints do not restrain the bodies, a contact node is restrained along the
+/// normal, or the loads pull a body away.
 pub(super) fn unilateral(
     request: &Request,
     watch: &mut dyn FnMut(&Step),
@@ -119,21 +124,21 @@ struct Problem<'a> {
     model: &'a Model,
     stiffness: Stiffness,
     surfaces: Surfaces,
-    /// Gaps below this are closed, length.
+    /// The gap below which a node is closed, length.
     closed: f64,
-    /// The load, 0 at restrained degrees of freedom.
+    /// The load by degree of freedom, 0 at restrained ones, force.
     load: DVector<f64>,
 }
 
-/// What comes of an attempt to solve.
+/// The result of an attempt to solve.
 enum Solved {
-    /// Displacements, and the relative residual.
+    /// The displacements, length, and the relative residual of a solution.
     Moved { u: DVector<f64>, residual: f64 },
-    /// Nothing holds this degree of freedom; how soft springs everywhere let the load move the bodies.
+    /// A degree of freedom without restraint, and the motion under the load on soft springs.
     Free { dof: Dof, motion: Option<DVector<f64>> },
 }
 
-/// The sets that were closed, each with the last iteration that closed it; and whether one came back.
+/// The sets that were closed, each with its last iteration, and whether a set returned.
 #[derive(Default)]
 struct Memory {
     visited: HashMap<Vec<bool>, usize>,
@@ -152,29 +157,22 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Whether contact is measured in the current shape; else in the initial one: a node that sticks stays at the place that it faced
-    /// there.
-    fn measures_current_shape(&self) -> bool {
-        let contact = self.request.contact;
-        (contact.friction, contact.geometry) == (Friction::None, Geometry::Current)
-    }
-
-    /// Where contact is measured after displacements `u`.
+    /// Measures contact after displacements `u`.
     fn place(&self, u: &DVector<f64>) -> Place {
-        let (shape, coupling) = (self.model.shape(u), self.request.contact.coupling);
-        if self.measures_current_shape() {
-            let pairings = self.surfaces.pairings(coupling, &shape);
+        let (shape, contact) = (self.model.shape(u), self.request.contact);
+        if contact.measures_current_shape() {
+            let pairings = self.surfaces.pairings(contact.coupling, &shape);
             return Place { shape, pairings };
         }
-        let mut pairings = self.surfaces.pairings(coupling, &self.model.nodes);
+        let mut pairings = self.surfaces.pairings(contact.coupling, &self.model.nodes);
         for pairing in pairings.iter_mut().flatten() {
-            // What a constraint closes: over a bend the distance from the face is another.
+            // A constraint closes this gap; over a bend it differs from the distance to the face.
             pairing.gap = pairing.opening(|n| self.model.at(n)) + pairing.opening(|n| n.of(u));
         }
         Place { shape, pairings }
     }
 
-    /// The next set; nothing once set and shape have settled.
+    /// Returns the next set; None once set and shape have settled.
     fn next(&self, step: &Iteration, memory: &mut Memory) -> Option<Vec<bool>> {
         let wanted = self.wanted(step);
         if wanted == step.closed {
@@ -184,7 +182,7 @@ impl<'a> Problem<'a> {
         Some(if memory.one_at_a_time { last_change(&step.closed, &wanted) } else { wanted })
     }
 
-    /// The nodes that press or penetrate.
+    /// Returns the set of the nodes that press or penetrate.
     fn wanted(&self, step: &Iteration) -> Vec<bool> {
         let presses = |p: &Pairing| normal_force(self.model, p, &step.reaction) >= 0.0;
         let deep = if step.k == 1 { FIRST_GROWTH * step.violation } else { 0.0 }.max(self.closed);
@@ -198,7 +196,7 @@ impl<'a> Problem<'a> {
             .collect()
     }
 
-    /// The largest gap of a closed node or penetration of another one, length.
+    /// Returns the largest gap of a closed node or penetration of another one, length.
     fn violation(&self, pairings: &[Option<Pairing>], closed: &[bool]) -> f64 {
         let of_node = |(p, closed): (&Option<Pairing>, &bool)| match p {
             Some(p) if *closed => p.gap.abs(),
@@ -208,7 +206,7 @@ impl<'a> Problem<'a> {
         pairings.iter().zip(closed).map(of_node).fold(0.0, f64::max)
     }
 
-    /// Closes the gaps of `set`, or of a larger one where that does not hold the bodies.
+    /// Closes the gaps of `set`, or of a larger one where that does not restrain the bodies.
     fn close(
         &self,
         k: usize,
@@ -225,7 +223,7 @@ impl<'a> Problem<'a> {
                     if let Some(i) = first {
                         set[i] = true;
                     } else if !enlarge(&mut set, &place.pairings) {
-                        return Err(self.not_held(&place.pairings, dof));
+                        return Err(self.unrestrained(&place.pairings, dof));
                     }
                 }
             }
@@ -249,7 +247,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Displacements under `constraints`.
+    /// Solves for the displacements under `constraints`.
     fn solve(&self, constraints: &[Constraint]) -> Result<Solved, InputError> {
         let t = Elimination::with_normals(&self.model.restrained, constraints)
             .map_err(restrained_along_normal)?;
@@ -266,12 +264,12 @@ impl<'a> Problem<'a> {
         Ok(Solved::Moved { u: t.expand(&q), residual: cholesky.residual(&q, &f) })
     }
 
-    /// Where the load moves bodies that nothing but soft springs holds: the motion that the constraints leave free.
+    /// Returns the motion that the constraints leave free where only soft springs oppose the load.
     fn free_motion(&self, t: &Elimination, k: &SparseSymmetric) -> Option<DVector<f64>> {
         let diagonal = k.diagonal();
         let springs = (0..k.size()).map(|i| (i, i, SOFT * diagonal[i]));
-        let held = SparseSymmetric::new(k.size(), k.entries().chain(springs));
-        let q = SparseCholesky::new(held).ok()?.solve(&t.load(&self.load));
+        let sprung = SparseSymmetric::new(k.size(), k.entries().chain(springs));
+        let q = SparseCholesky::new(sprung).ok()?.solve(&t.load(&self.load));
         Some(t.expand(&q) - t.shift())
     }
 
@@ -280,7 +278,7 @@ impl<'a> Problem<'a> {
         closed.filter_map(|(p, _)| p.as_ref()).map(|p| self.constraint(p)).collect()
     }
 
-    /// What closes the gap of a pairing.
+    /// Returns the constraint that closes the gap of a pairing.
     fn constraint(&self, pairing: &Pairing) -> Constraint {
         let closing = -pairing.opening(|n| self.model.at(n));
         let motion = match self.request.contact.friction {
@@ -290,7 +288,7 @@ impl<'a> Problem<'a> {
         Constraint { node: pairing.node, masters: pairing.masters.clone(), motion }
     }
 
-    /// An iteration as a step of the solution.
+    /// Returns an iteration as a step of the solution.
     fn step(&self, iteration: &Iteration) -> Step {
         let Iteration { k, before, closed, constraints, cycle, u, reaction, .. } = iteration;
         let support = support(self.model, &self.model.restrained, constraints, reaction);
@@ -311,7 +309,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The answer, the last iteration.
+    /// Returns the solution, which is the last iteration.
     fn solution(&self, model: &Arc<Model>, steps: Vec<Step>, last: Iteration) -> Solution {
         Solution {
             request: self.request.clone(),
@@ -326,9 +324,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The contact surface at the end.
+    /// Returns the contact surface at the end.
     fn contact(&self, last: &Iteration) -> Vec<ContactNode> {
-        let current = self.measures_current_shape();
+        let current = self.request.contact.measures_current_shape();
         let traction = Traction {
             model: self.model,
             surfaces: &self.surfaces,
@@ -340,50 +338,44 @@ impl<'a> Problem<'a> {
         traction.nodes()
     }
 
-    fn not_held(&self, pairings: &[Option<Pairing>], dof: Dof) -> InputError {
+    fn unrestrained(&self, pairings: &[Option<Pairing>], dof: Dof) -> InputError {
         if pairings.iter().all(Option::is_none) {
-            return InputError::new(
-                "contact.cnt, contact.trg",
-                "no contact node faces the target, and nothing else holds the bodies",
-                "name surfaces that face each other; list cnt in order along its surface",
-            );
+            let what = "no contact node faces the target, and nothing else holds the bodies";
+            let fix = "name surfaces that face each other; list cnt in order along its surface";
+            return InputError::new("contact.cnt, contact.trg", what, fix);
         }
         let (node, direction) = (dof.node(), dof.axis());
         let body = self.model.body_of(node);
         let body = body.map_or(String::new(), |b| format!(" of body {:?}", b.name));
-        InputError::new(
-            "restraints, contact.friction",
-            format!("node {node}{body} can move in {direction} with every contact node in contact"),
-            "restrain that motion, or let the surfaces stick (\"friction\": \"stick\")",
-        )
+        let what =
+            format!("node {node}{body} can move in {direction} with every contact node in contact");
+        let fix = "restrain that motion, or let the surfaces stick (\"friction\": \"stick\")";
+        InputError::new("restraints, contact.friction", what, fix)
     }
 }
 
-/// The patience that ran out, and the sets that returned last.
+/// Returns the error for a run out of patience, with the sets that returned last.
 fn no_equilibrium(steps: &[Step]) -> InputError {
     let cycle = steps.iter().filter_map(|step| step.cycle.as_ref()).rfind(|c| c.length > 1);
     let returned = cycle.map_or(String::new(), |cycle| {
         let last = cycle.members[0] + cycle.length - 1;
         format!("; the contact states of iterations {} to {last} return", cycle.members[0])
     });
-    InputError::new(
-        "loads, contact",
-        format!(
-            "no contact state in equilibrium was found in {} iterations{returned}",
-            steps.len()
-        ),
-        "see whether the loads pull a body off its target, slide it off the target's end or turn it over; restrain its turning where friction would",
-    )
+    let count = steps.len();
+    let what = format!("no contact state in equilibrium was found in {count} iterations{returned}");
+    let fix = "see whether the loads pull a body off its target, slide it off the target's end or \
+               turn it over; restrain its turning where friction would";
+    InputError::new("loads, contact", what, fix)
 }
 
-/// The nodes whose gaps are closed at the start: those that touch or penetrate, else those with the least gap.
+/// Returns the set at the start: the nodes that touch or penetrate, else those with the least gap.
 fn first_set(pairings: &[Option<Pairing>], closed: f64) -> Vec<bool> {
     let gaps = pairings.iter().flatten().map(|p| p.gap);
     let least = gaps.fold(f64::INFINITY, f64::min).max(0.0);
     pairings.iter().map(|p| p.as_ref().is_some_and(|p| p.gap <= least + closed)).collect()
 }
 
-/// `before` with the last of the changes that lead to `wanted`.
+/// Returns `before` with the last of the changes that lead to `wanted`.
 fn last_change(before: &[bool], wanted: &[bool]) -> Vec<bool> {
     let mut set = before.to_vec();
     if let Some(i) = (0..set.len()).rev().find(|&i| before[i] != wanted[i]) {
@@ -392,7 +384,7 @@ fn last_change(before: &[bool], wanted: &[bool]) -> Vec<bool> {
     set
 }
 
-/// Of the nodes outside `set` the one whose gap the motion `u` closes first.
+/// Returns the node outside `set` whose gap the motion `u` closes first.
 fn first_closed(set: &[bool], pairings: &[Option<Pairing>], u: &DVector<f64>) -> Option<usize> {
     let time = |(i, p): (usize, &Option<Pairing>)| {
         let p = p.as_ref().filter(|_| !set[i])?;
@@ -403,21 +395,17 @@ fn first_closed(set: &[bool], pairings: &[Option<Pairing>], u: &DVector<f64>) ->
     times.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, i)| i)
 }
 
-/// Adds to `set` as many nodes as it has, at least one, those with the least gaps; false where there are none left.
+/// Adds nodes to `set`, as many as it has, those with the least gaps; false where none is left.
 fn enlarge(set: &mut [bool], pairings: &[Option<Pairing>]) -> bool {
-    let mut others: Vec<(f64, usize)> = pairings
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| !set[*i])
-        .filter_map(|(i, p)| p.as_ref().map(|p| (p.gap, i)))
-        .collect();
+    let open = |(i, p): (usize, &Option<Pairing>)| Some((p.as_ref().filter(|_| !set[i])?.gap, i));
+    let mut others: Vec<(f64, usize)> = pairings.iter().enumerate().filter_map(open).collect();
     others.sort_by(|a, b| a.0.total_cmp(&b.0));
     let more = set.iter().filter(|closed| **closed).count().max(1);
     others.iter().take(more).for_each(|(_, i)| set[*i] = true);
     !others.is_empty()
 }
 
-/// The larger extent of the model, or what its coordinates can resolve of it; length.
+/// Returns the larger extent of the model, or what its coordinates can resolve of it, length.
 fn size(model: &Model) -> f64 {
     let [width, height] = [0, 1].map(|axis| {
         let values = model.nodes.iter().map(|xy| xy[axis]);
@@ -425,15 +413,15 @@ fn size(model: &Model) -> f64 {
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
         most - least
     });
-    // A gap in the current shape is a difference of coordinates: it has no digits below theirs.
+    // A gap in the current shape is a difference of coordinates and has no digits below theirs.
     let farthest = model.nodes.as_flattened().iter().map(|x| x.abs());
     width.max(height).max(RESOLVED * farthest.fold(0.0, f64::max))
 }
 
 fn restrained_along_normal(restrained: RestrainedAlongNormal) -> InputError {
-    InputError::new(
-        "restraints, contact.cnt",
-        format!("contact node {} is restrained along the normal of the contact", restrained.node),
-        "let the body that is held there carry the target surface, or restrain the node in the other direction",
-    )
+    let node = restrained.node;
+    let what = format!("contact node {node} is restrained along the normal of the contact");
+    let fix = "let the body that is held there carry the target surface, or restrain the node in \
+               the other direction";
+    InputError::new("restraints, contact.cnt", what, fix)
 }

@@ -1,4 +1,5 @@
-//! The one door between the finite element model, which counts from 0 by types of its own, and the paper's tables, which count from 1.
+//! The only conversion between the finite element model, which counts from 0 by types of its own,
+//! and the paper's tables, which count from 1.
 //!
 //! ```text
 //!   Model ------- worksheet -----> node, elem, EL, trg, cnt, S, ... --> c_cnt, Km
@@ -18,13 +19,13 @@ use crate::numbers::scalar::Scalar;
 use crate::problem::element;
 use crate::problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
 
-/// The column of `EL` and `elem` where nodes start.
+/// The column of `EL` and `elem` where the nodes start.
 const IND_1: usize = 6;
 
-/// `model` under a reading: R6 sets the plane problem, R8 the unit of the tolerance.
+/// Returns `model` under a reading: R6 sets the plane problem, R8 the unit of the tolerance.
 ///
 /// # Errors
-/// A Poisson's ratio that the plane problem of R6 does not allow.
+/// The plane problem of R6 does not allow a Poisson's ratio.
 pub fn under(mut model: Model, reading: &Reading) -> Result<Model, InputError> {
     if let Some(plane) = reading.r6 {
         model.plane = plane;
@@ -38,7 +39,8 @@ pub fn under(mut model: Model, reading: &Reading) -> Result<Model, InputError> {
     Ok(model)
 }
 
-/// The paper's tables of a model. Each number goes through `number`; `Ae` and `B` are computed from the coordinates in T.
+/// Returns the paper's tables of a model. Each number passes through `number`; `Ae` and `B` are
+/// computed from the coordinates in T.
 pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Worksheet<T> {
     let elem = elem(model);
     let triangles: Vec<usize> = model.rows.iter().filter_map(triangle_number).collect();
@@ -67,7 +69,7 @@ pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Workshe
     }
 }
 
-/// The table `elem`: number, type, number of tags, physical tag, geometric tag, nodes; 0 past a row's end.
+/// Returns `elem`: number, type, number of tags, physical tag, geometric tag, nodes, then zeros.
 fn elem(model: &Model) -> Table<usize> {
     let last = model.rows.last().map_or(0, |row| row.number);
     let mut elem = Table::filled(last, 8, 0);
@@ -86,12 +88,12 @@ fn elem(model: &Model) -> Table<usize> {
     elem
 }
 
-/// The number of a row that is a triangle.
+/// Returns the number of a row that is a triangle; None for any other row.
 fn triangle_number(row: &Row) -> Option<usize> {
     matches!(row.element, Element::Triangle(_)).then_some(row.number)
 }
 
-/// The node table of a shape, the coordinates of each node: number, x, y, z; R x 4.
+/// Returns the node table of a shape, the coordinates of each node: number, x, y, z; R x 4.
 pub fn node_n(model: &Model, shape: &[[f64; 2]]) -> Table<f64> {
     Table::from_fn(shape.len(), 4, |i, j| match j {
         1 => i as f64,
@@ -100,7 +102,7 @@ pub fn node_n(model: &Model, shape: &[[f64; 2]]) -> Table<f64> {
     })
 }
 
-/// node_n = node + U: R x 4, length. `u`: displacements by degree of freedom.
+/// Returns node_n = node + U, R x 4, length, for displacements `u` by degree of freedom.
 pub fn moved<T: Scalar>(sheet: &Worksheet<T>, u: &DVector<T>) -> Table<T> {
     let mut node_n = sheet.node.clone();
     for node in NodeId::all(sheet.R()) {
@@ -111,20 +113,20 @@ pub fn moved<T: Scalar>(sheet: &Worksheet<T>, u: &DVector<T>) -> Table<T> {
     node_n
 }
 
-/// The coordinates of a node in the shape of a node table.
+/// Returns the coordinates of a node in the shape of a node table, length.
 pub fn place<T: Scalar>(node_n: &Table<T>, node: NodeId) -> [T; 2] {
     [2, 3].map(|column| node_n[(node.number(), column)])
 }
 
-/// The coordinates of each node in the shape of a node table.
+/// Returns the coordinates of each node in the shape of a node table, length.
 pub fn shape<T: Scalar>(node_n: &Table<T>) -> Vec<[f64; 2]> {
     NodeId::all(node_n.rows()).map(|node| place(node_n, node).map(T::to_f64)).collect()
 }
 
-/// `Km` without contact and without restraints: 2R x 2R, force/length.
+/// Returns `Km` without contact and without restraints, 2R x 2R, force/length.
 ///
 /// # Errors
-/// An overflow.
+/// An entry of the matrix overflows.
 pub fn free_stiffness<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
@@ -133,20 +135,21 @@ pub fn free_stiffness<T: Scalar>(
     Km(&free, reading, &Table::filled(sheet.R(), 4, T::zero()))
 }
 
-/// What `c_cnt` finds for a contact node.
+/// The status of a contact node, as `c_cnt` finds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactStatus<T = f64> {
-    /// The contact node.
+    /// The node of the contact surface.
     pub node: NodeId,
-    /// Its target edge; none where the search found none.
+    /// The target edge of the node; None where the search found none.
     pub edge: Option<EdgeId>,
-    /// Vertical distance target line minus contact node, length; 0 without a target edge.
+    /// The vertical distance from the contact node to the target line, > 0 where the line is above
+    /// the node, length; 0 without a target edge.
     pub distance: T,
-    /// Whether it is in contact.
+    /// Whether the node is in contact.
     pub in_contact: bool,
 }
 
-/// The statuses that `pairs` holds, in the order of the contact surface.
+/// Returns the statuses in `pairs`, in the order of the contact surface.
 pub fn statuses<T: Scalar>(model: &Model, pairs: &Pairs<T>) -> Vec<ContactStatus<T>> {
     let place = |number: usize| {
         let at = model.edges.binary_search_by_key(&number, |edge| edge.number);
@@ -161,10 +164,11 @@ pub fn statuses<T: Scalar>(model: &Model, pairs: &Pairs<T>) -> Vec<ContactStatus
     model.contact.nodes.iter().enumerate().map(status).collect()
 }
 
-/// Statuses that another rule than the listing's decided, in the listing's arrays, with the weights of its lines 11 to 31.
+/// Returns statuses that another rule than the listing's decided as pairs in the listing's arrays,
+/// with the weights of its lines 11 to 31.
 ///
 /// # Errors
-/// Where those lines fail as printed: the weights of a vertical edge.
+/// Those lines fail as printed: the weights of a vertical edge.
 pub fn pairs<T: Scalar>(
     model: &Model,
     sheet: &Worksheet<T>,
@@ -182,16 +186,16 @@ pub fn pairs<T: Scalar>(
     weights(sheet, reading, node_n, decided)
 }
 
-/// A contact node and the place of the target that it is bound to: two nodes of an edge and their weights.
+/// A contact node and the point of the target to which it is bound, on an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeToSegment<T = f64> {
-    /// The contact node.
+    /// The node of the contact surface.
     pub node: NodeId,
-    /// The target nodes and their weights.
+    /// The master nodes, which are the target edge's nodes, and their weights.
     pub masters: [(NodeId, T); 2],
 }
 
-/// The contact nodes with dy = 1, each once, with what columns 1 to 4 of its row of k_cnt say.
+/// Returns the contact nodes with dy = 1, each once, with columns 1 to 4 of their rows of k_cnt.
 pub fn linked<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>) -> Vec<NodeToSegment<T>> {
     let mut found: Vec<NodeToSegment<T>> = Vec::new();
     for i1 in (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1) {
@@ -208,8 +212,9 @@ pub fn linked<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>) -> Vec<NodeToSe
     found
 }
 
-/// The contact nodes with dy = 1 on their target edges, with the weights that lines 22 and 23 of `c_cnt` compute, before they are added
-/// up in k_cnt: they sum to 1 whatever the reading does to k_cnt.
+/// Returns the contact nodes with dy = 1 on their target edges, with the weights that lines 22 and
+/// 23 of `c_cnt` compute. These are not yet added up in k_cnt, so that they sum to 1 under any
+/// reading.
 pub fn on_edges<T: Scalar>(
     sheet: &Worksheet<T>,
     pairs: &Pairs<T>,
@@ -217,20 +222,18 @@ pub fn on_edges<T: Scalar>(
     node_n: &Table<T>,
 ) -> Vec<NodeToSegment<T>> {
     let node_n = weights_from(sheet, reading, node_n);
-    let in_contact = (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1);
-    in_contact
-        .map(|i1| {
-            let node = NodeId::from_number(sheet.cnt[i1]);
-            let [a, b] = [6, 7].map(|j| NodeId::from_number(sheet.elem[(pairs.ct[i1], j)]));
-            let [x, xa, xb] = [node, a, b].map(|n| place(node_n, n)[0]);
-            let k1 = T::one() - (x - xa) / (xb - xa);
-            let k2 = T::one() - (xb - x) / (xb - xa);
-            NodeToSegment { node, masters: [(a, k1), (b, k2)] }
-        })
-        .collect()
+    let on_edge = |i1: usize| {
+        let node = NodeId::from_number(sheet.cnt[i1]);
+        let [a, b] = [6, 7].map(|j| NodeId::from_number(sheet.elem[(pairs.ct[i1], j)]));
+        let [x, xa, xb] = [node, a, b].map(|n| place(node_n, n)[0]);
+        let k1 = T::one() - (x - xa) / (xb - xa);
+        let k2 = T::one() - (xb - x) / (xb - xa);
+        NodeToSegment { node, masters: [(a, k1), (b, k2)] }
+    };
+    (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1).map(on_edge).collect()
 }
 
-/// The shape that weights come from: R5.
+/// Returns the shape from which weights are computed: R5.
 pub fn weights_from<'a, T: Scalar>(
     sheet: &'a Worksheet<T>,
     reading: &Reading,
@@ -242,21 +245,21 @@ pub fn weights_from<'a, T: Scalar>(
     }
 }
 
-/// One call of `c_cnt` on a model in a shape: what it is given and what it finds.
+/// A call of `c_cnt` on a model in a shape: its arguments and its results.
 pub struct Call {
-    /// The worksheet's tables.
+    /// The worksheet's tables of the model.
     pub sheet: Worksheet<f64>,
-    /// What it finds, in its own arrays.
+    /// The pairs that it finds, in its own arrays.
     pub pairs: Pairs<f64>,
-    /// The same by contact node.
+    /// The statuses that it finds, by contact node.
     pub statuses: Vec<ContactStatus>,
 }
 
 impl Call {
-    /// Calls `c_cnt` in a shape, the coordinates of each node, under `reading`.
+    /// Calls `c_cnt` under `reading` in a shape, given as the coordinates of each node, length.
     ///
     /// # Errors
-    /// Where the listing fails as printed.
+    /// The listing fails as printed.
     pub fn c_cnt(model: &Model, reading: &Reading, shape: &[[f64; 2]]) -> Result<Self, Failure> {
         let sheet = worksheet(model, |x| x);
         let pairs = c_cnt(&sheet, reading, &node_n(model, shape))?;
@@ -264,21 +267,22 @@ impl Call {
         Ok(Call { sheet, pairs, statuses })
     }
 
-    /// No pair at all: what `Km` is given to build the matrix without contact.
+    /// Returns a call without any pair, with which `Km` builds the matrix without contact.
     pub fn without_contact(model: &Model) -> Self {
         let pairs = Pairs::none(model.nodes.len());
         Call { sheet: worksheet(model, |x| x), pairs, statuses: Vec::new() }
     }
 
-    /// Calls `Km` with what `c_cnt` found: `MJS`, a row and a column for each degree of freedom, force/length.
+    /// Calls `Km` with the pairs of `c_cnt`. Returns `MJS`, with a row and a column for each degree
+    /// of freedom, force/length.
     ///
     /// # Errors
-    /// An overflow.
+    /// An entry of the matrix overflows.
     pub fn km(&self, reading: &Reading) -> Result<DMatrix<f64>, Failure> {
         Ok(Km(&self.sheet, reading, &self.pairs.k_cnt)?.into_matrix())
     }
 
-    /// The row of `k_cnt` of a node: mate, weight, mate, weight.
+    /// Returns the row of `k_cnt` of a node: mate, weight, mate, weight.
     pub fn row(&self, node: NodeId) -> [f64; 4] {
         std::array::from_fn(|j| self.pairs.k_cnt[(node.number(), j + 1)])
     }

@@ -1,4 +1,4 @@
-//! The paper's listings, executed as they stand on the arrays of a scene.
+//! The paper's listings, executed as printed on the arrays of a scene.
 
 use std::fmt;
 
@@ -16,23 +16,24 @@ use crate::problem::element;
 /// One of the paper's two listings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// Fig. 2.
+    /// The listing of fig. 2, which finds the contact pairs.
     CCnt,
-    /// Fig. 3.
+    /// The listing of fig. 3, which assembles the stiffness matrix.
     Km,
 }
 
-/// Limits of an execution: 16 million steps, and what arrays of the size of MJS ask for (a step an entry and operation).
+/// Returns the limits of an execution: 16 million steps, and the demand of arrays of the size of
+/// MJS (a step for each entry and operation).
 fn limits(sheet: &Worksheet<f64>) -> Limits {
     let matrix = 4 * sheet.R() as u64 * sheet.R() as u64;
     Limits { steps: (1 << 24) + 8 * matrix, entries: 1 << 27, ..Limits::default() }
 }
 
-/// What an execution leaves besides the values: the lines that `trace` wrote.
+/// The result of an execution: its values, and the lines that `trace` wrote.
 pub type Traced<T> = Result<(T, Vec<String>), Box<Failure>>;
 
 impl Which {
-    /// The name in the print.
+    /// Returns the name in the print.
     pub fn name(self) -> &'static str {
         match self {
             Which::CCnt => "c_cnt",
@@ -40,7 +41,7 @@ impl Which {
         }
     }
 
-    /// The text of record.
+    /// Returns the text of record.
     pub fn text(self) -> &'static str {
         match self {
             Which::CCnt => include_str!("../../listings/c_cnt.txt"),
@@ -48,13 +49,13 @@ impl Which {
         }
     }
 
-    /// The listing whose text begins like one of the paper's.
+    /// Returns the listing whose text begins like one of the paper's.
     pub fn of(text: &str) -> Option<Which> {
         let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty())?;
         [Which::CCnt, Which::Km].into_iter().find(|w| header.trim_start().starts_with(w.name()))
     }
 
-    /// The listing under a reading: the text of record with the reading's edits.
+    /// Returns the listing under a reading: the text of record with the reading's edits.
     pub fn under(self, reading: &Reading) -> Listing {
         let listing =
             Listing::parse(self.name(), self.text()).expect("the text of record is sound");
@@ -64,10 +65,10 @@ impl Which {
         })
     }
 
-    /// Another text in place of the listing.
+    /// Parses another text in place of the listing.
     ///
     /// # Errors
-    /// Where the text leaves the notation.
+    /// The text is not in the notation of the listings.
     pub fn edited(self, text: &str) -> Result<Listing, ParseError> {
         Listing::parse(self.name(), text)
     }
@@ -79,7 +80,7 @@ impl fmt::Display for Which {
     }
 }
 
-/// The edits that a reading makes to a listing's text. R4 is a setting of the worksheet.
+/// Returns the edits that a reading makes to a listing's text. R4 is a setting of the worksheet.
 fn edits(which: Which, reading: &Reading) -> Vec<&'static str> {
     let mut edits = Vec::new();
     match which {
@@ -87,7 +88,7 @@ fn edits(which: Which, reading: &Reading) -> Vec<&'static str> {
             if reading.r5 == NodeTable::NodeN {
                 edits.push(include_str!("../../listings/readings/R5-node_n.edit"));
             }
-            // It only moves lines, so it comes after the edit that rewrites two of them.
+            // This edit only reorders lines, so it follows the edit that rewrites two of them.
             if reading.r1 == LoopPlace::Inside {
                 edits.push(include_str!("../../listings/readings/R1-inside.edit"));
             }
@@ -108,7 +109,7 @@ fn edits(which: Which, reading: &Reading) -> Vec<&'static str> {
     edits
 }
 
-/// The worksheet's settings under a reading: R4.
+/// Returns the worksheet's settings under a reading: R4.
 pub fn settings(reading: &Reading) -> Settings {
     let conjunction = match reading.r4 {
         Order::Guarded => Conjunction::Guarded,
@@ -172,7 +173,7 @@ pub fn km<O: Observer>(
     Ok((matrix, outcome.trace_output))
 }
 
-/// An edited listing that ends without what the paper's listing computes.
+/// Returns the failure of an edited listing that ends without the results of the paper's listing.
 fn unexpected(listing: &Listing, expected: &'static str, name: &str) -> Box<Failure> {
     let last = listing.lines().last();
     Box::new(Failure {
@@ -185,7 +186,7 @@ fn unexpected(listing: &Listing, expected: &'static str, name: &str) -> Box<Fail
     })
 }
 
-/// Defines what stands on the worksheet above the listings.
+/// Defines the names that are above the listings on the worksheet.
 fn define(runner: &mut Runner, sheet: &Worksheet<f64>) {
     let gradients = sheet.B.iter().map(|b| Value::from(Array::from_fn(3, 6, |i, j| b[(i, j)])));
     runner

@@ -1,4 +1,4 @@
-//! The three-node triangle of constant strain (CST): what the paper calls `Ae`, `B` and `D`, and does not print.
+//! The three-node triangle of constant strain (CST), with the paper's `Ae`, `B` and `D`.
 //!
 //! ```text
 //!              3
@@ -7,7 +7,7 @@
 //!           1-----2      strains in the order e_xx e_yy g_xy (engineering shear)
 //! ```
 //!
-//! Source: O. C. Zienkiewicz, R. L. Taylor, *The Finite Element Method*, vol. 1, the three-node triangle.
+//! Source: O. C. Zienkiewicz, R. L. Taylor, *The Finite Element Method*, vol. 1.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 use nalgebra::{SMatrix, SVector};
@@ -19,9 +19,9 @@ use crate::numbers::scalar::Scalar;
 choices! {
     /// The plane problem behind `D` (reading R6: the paper does not print which).
     Plane {
-        /// Plane strain.
+        /// Plane strain: no strain across the plane.
         Strain = "strain",
-        /// Plane stress.
+        /// Plane stress: no stress across the plane.
         Stress = "stress",
     }
 }
@@ -30,7 +30,7 @@ impl Plane {
     /// Checks that `nu` is a Poisson's ratio of the plane problem.
     ///
     /// # Errors
-    /// It is outside (-1, 0.5) in plane strain, (-1, 1) in plane stress.
+    /// The ratio is outside (-1, 0.5) in plane strain, or (-1, 1) in plane stress.
     pub fn check_poisson(self, nu: f64, place: &str) -> Result<(), InputError> {
         let (below, name) = match self {
             Plane::Strain => (0.5, "plane strain"),
@@ -44,16 +44,16 @@ impl Plane {
     }
 }
 
-/// Corner coordinates of a triangle, counted from 0.
+/// The corner coordinates of a triangle, counted from 0, length.
 pub type Corners<T> = [[T; 2]; 3];
 
-/// Signed area of the triangle, length²: negative when its corners run clockwise.
+/// Returns the signed area of the triangle, length²: negative where its corners run clockwise.
 pub fn area<T: Scalar>(p: &Corners<T>) -> T {
     let two = T::one() + T::one();
     ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1])) / two
 }
 
-/// Strain matrix, 3 x 6, 1/length: strains = B · displacements. The triangle's area must not be zero.
+/// Returns the strain matrix, 3 x 6, 1/length: strains = B · displacements, for an area not 0.
 pub fn B<T: Scalar>(p: &Corners<T>) -> SMatrix<T, 3, 6> {
     let double_area = area(p) + area(p);
     let mut b = SMatrix::zeros();
@@ -69,7 +69,7 @@ pub fn B<T: Scalar>(p: &Corners<T>) -> SMatrix<T, 3, 6> {
     b
 }
 
-/// Elasticity matrix, 3 x 3, stress: stresses = D · strains.
+/// Returns the elasticity matrix, 3 x 3, stress: stresses = D · strains.
 pub fn D<T: Scalar>(plane: Plane, E: T, nu: T) -> SMatrix<T, 3, 3> {
     let (zero, one) = (T::zero(), T::one());
     let two = one + one;
@@ -77,40 +77,31 @@ pub fn D<T: Scalar>(plane: Plane, E: T, nu: T) -> SMatrix<T, 3, 3> {
         Plane::Strain => (E / ((one + nu) * (one - two * nu)), one - nu, (one - two * nu) / two),
         Plane::Stress => (E / (one - nu * nu), one, (one - nu) / two),
     };
-    SMatrix::from_row_slice(&[
-        factor * diagonal,
-        factor * nu,
-        zero, //
-        factor * nu,
-        factor * diagonal,
-        zero, //
-        zero,
-        zero,
-        factor * shear,
-    ])
+    let (diagonal, other) = (factor * diagonal, factor * nu);
+    SMatrix::from([[diagonal, other, zero], [other, diagonal, zero], [zero, zero, factor * shear]])
 }
 
-/// What an element carries: one value for the whole of it.
+/// The strains and stresses of an element, each constant over the element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
-    /// sigma_x, sigma_y, tau_xy, stress.
+    /// The stresses sigma_x, sigma_y, tau_xy, stress.
     pub sigma: SVector<f64, 3>,
-    /// e_xx, e_yy, g_xy.
+    /// The strains e_xx, e_yy, g_xy.
     pub epsilon: SVector<f64, 3>,
-    /// Von Mises stress.
+    /// The von Mises stress, stress.
     pub von_mises_stress: f64,
-    /// Von Mises strain.
+    /// The von Mises strain, which has no unit.
     pub von_mises_strain: f64,
 }
 
 impl State {
-    /// Strains, stresses and their von Mises values from the element's six displacements.
+    /// Computes strains, stresses and their von Mises values from the element's six displacements.
     ///
-    /// The paper gives no formula for either von Mises value. Stress: sqrt(3/2 s:s) of the stress deviator, with
-    /// sigma_z = nu (sigma_x + sigma_y) in plane strain. Strain: sqrt(2/3 e:e) of the strain deviator, with
-    /// e_zz = −nu/(1 − nu) (e_xx + e_yy) in plane stress.
+    /// The paper prints no formula for either von Mises value. Stress: sqrt(3/2 s:s) of the stress
+    /// deviator, with sigma_z = nu (sigma_x + sigma_y) in plane strain. Strain: sqrt(2/3 e:e) of
+    /// the strain deviator, with e_zz = −nu/(1 − nu) (e_xx + e_yy) in plane stress.
     ///
-    /// Each is computed in T and rounded once on the way out; of exact numbers the von Mises values are the nearest `f64`.
+    /// Each is computed in T and rounded once at the end, exact numbers to the nearest `f64`.
     pub fn new<T: Scalar>(
         plane: Plane,
         E: T,
@@ -128,30 +119,25 @@ impl State {
             Plane::Stress => T::zero(),
         };
         let epsilon_z = out_of_plane_strain(plane, nu, &epsilon);
+        let stress = [sigma[0], sigma[1], sigma_z, sigma[2]];
+        let strain = [epsilon[0], epsilon[1], epsilon_z, epsilon[2] / two];
         State {
             sigma: sigma.map(|s| (s / common).to_f64()),
             epsilon: epsilon.map(|e| (e / common).to_f64()),
-            von_mises_stress: deviator_norm(
-                three / two,
-                [sigma[0], sigma[1], sigma_z, sigma[2]],
-                common,
-            ),
-            von_mises_strain: deviator_norm(
-                two / three,
-                [epsilon[0], epsilon[1], epsilon_z, epsilon[2] / two],
-                common,
-            ),
+            von_mises_stress: deviator_norm(three / two, stress, common),
+            von_mises_strain: deviator_norm(two / three, strain, common),
         }
     }
 }
 
-/// Von Mises strain by the other formula in use (R10): that of the stress, on strains, divided by 1 + nu.
+/// Returns the von Mises strain by the other common formula (R10): that of the stress, applied to
+/// strains, divided by 1 + nu.
 pub fn von_mises_strain_by_stress_formula(plane: Plane, nu: f64, e: &SVector<f64, 3>) -> f64 {
     let e_zz = out_of_plane_strain(plane, nu, e);
     deviator_norm(1.5, [e[0], e[1], e_zz, e[2] / 2.0], 1.0) / (1.0 + nu)
 }
 
-/// e_zz: 0 in plane strain, −nu/(1 − nu) (e_xx + e_yy) in plane stress.
+/// Returns e_zz: 0 in plane strain, −nu/(1 − nu) (e_xx + e_yy) in plane stress.
 fn out_of_plane_strain<T: Scalar>(plane: Plane, nu: T, e: &SVector<T, 3>) -> T {
     match plane {
         Plane::Strain => T::zero(),
@@ -159,8 +145,8 @@ fn out_of_plane_strain<T: Scalar>(plane: Plane, nu: T, e: &SVector<T, 3>) -> T {
     }
 }
 
-/// sqrt(factor · d:d) of the deviator d of a symmetric tensor, its components xx, yy, zz, xy over `common`; scaled, so that no square
-/// overflows or vanishes.
+/// Returns sqrt(factor · d:d) of the deviator d of a symmetric tensor with the components xx, yy,
+/// zz, xy over `common`; scaled, so that no square overflows or vanishes.
 fn deviator_norm<T: Scalar>(factor: T, tensor: [T; 4], common: T) -> f64 {
     let (two, three) = (T::one() + T::one(), T::one() + T::one() + T::one());
     let largest = tensor.into_iter().fold(T::zero(), |m, x| m.max(x.abs()));

@@ -1,4 +1,4 @@
-//! The problem: triangles, materials, restraints, loads and contact surfaces, and the files that describe them.
+//! The problem: triangles, materials, restraints, loads and contact surfaces, and their files.
 
 pub mod element;
 pub mod model;

@@ -1,4 +1,4 @@
-//! What can be run, and how contact is modelled beyond what the paper prints.
+//! The variants that can be run, and how contact is modelled beyond what the paper prints.
 
 use serde::de::{self, Deserializer};
 use serde::{Deserialize, Serialize};
@@ -16,19 +16,19 @@ choices! {
         Tied = "tied",
         /// `Km` exactly as printed.
         Printed = "printed",
-        /// Gaps closed along the normal, released where they would pull: the converged answer.
+        /// Gaps are closed along the normal and released where they would pull.
         Unilateral = "unilateral",
     }
 }
 
 choices! {
-    /// What a contact node may do along the target's tangent, under `unilateral`.
+    /// The motion of a contact node along the target's tangent under `unilateral`.
     #[derive(Default)]
     Friction {
         /// It follows the target, as eq. (1) asks.
         #[default]
         Stick = "stick",
-        /// It slides.
+        /// It slides without friction.
         None = "0",
     }
 }
@@ -49,16 +49,16 @@ choices! {
     /// The shape in which `unilateral` measures normals, weights and gaps of nodes that slide.
     #[derive(Default)]
     Geometry {
-        /// The current one.
+        /// The current shape of each iteration.
         #[default]
         Current = "current",
-        /// The initial one: the theory of small displacements, as Hertz's.
+        /// The initial shape: the theory of small displacements, as Hertz's.
         Initial = "initial",
     }
 }
 
 choices! {
-    /// How a contact node is bound to the target surface.
+    /// The method that binds a contact node to the target surface.
     #[derive(Default)]
     Coupling {
         /// Node to segment: to the two nodes of one edge, as `c_cnt` does.
@@ -70,41 +70,43 @@ choices! {
 }
 
 choices! {
-    /// How the status of a contact node is decided.
+    /// The rule that decides the status of a contact node.
     #[derive(Default)]
     StatusRule {
-        /// Lines 16 to 18 of `c_cnt` as printed.
+        /// The rule of lines 16 to 18 of `c_cnt` as printed.
         #[default]
         Signs = "signs",
-        /// Line 16, and the text's other remedy: a side of the node's triangles crosses the target surface.
+        /// The rule of line 16, or a side of the node's triangles crosses the target surface.
         Intersection = "intersection",
-        /// The signed distance to the nearest target edge is c_tll or less, and the node at most c_tll past the surface's end.
+        /// The signed distance to the nearest target edge is c_tll or less, and the node at most
+        /// c_tll past the surface's end.
         Projection = "projection",
     }
 }
 
-/// How contact is modelled, beyond what the paper prints.
+/// The model of contact, beyond what the paper prints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct ContactModel {
-    /// How a contact node is bound to the target surface.
+    /// The method that binds a contact node to the target surface.
     pub coupling: Coupling,
-    /// What it may do along the tangent.
+    /// The motion of the node along the tangent.
     pub friction: Friction,
     /// The shape in which contact is measured.
     pub geometry: Geometry,
-    /// How `tied` and `stepped` decide who is in contact.
+    /// The rule by which `tied` and `stepped` decide which nodes are in contact.
     pub status: StatusRule,
 }
 
 impl ContactModel {
-    /// Whether `unilateral` measures contact in the current shape; else in the initial one: a node that sticks stays at the place that it faced there.
+    /// Returns whether `unilateral` measures contact in the current shape. Otherwise it measures in
+    /// the initial shape, and a node that sticks stays at the place that it faced there.
     pub fn measures_current_shape(&self) -> bool {
         (self.friction, self.geometry) == (Friction::None, Geometry::Current)
     }
 }
 
 impl Variant {
-    /// The paper's own: those that search with `c_cnt`.
+    /// The paper's own variants, which search with `c_cnt`.
     pub const OF_THE_PAPER: &'static [Variant] =
         &[Variant::Stepped, Variant::Tied, Variant::Printed];
 }

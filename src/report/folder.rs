@@ -5,7 +5,7 @@ use std::path::Path;
 use super::picture::{self, Contact, Drawing, Field};
 use super::vtu::{Data, VtuMesh, vtu};
 use super::{json, pressure};
-use crate::answer::estimates::ErrorBars;
+use crate::answer::estimates::ErrorEstimates;
 use crate::answer::{Assessment, Solution};
 use crate::error::InputError;
 use crate::files;
@@ -105,7 +105,7 @@ impl Shown {
         }
     }
 
-    fn vtu(&self, solution: &Solution, bars: &ErrorBars) -> String {
+    fn vtu(&self, solution: &Solution, bars: &ErrorEstimates) -> String {
         let error = bars.mesh.error_map();
         let flat = |of: &dyn Fn(&State) -> [f64; 3]| -> Vec<f64> {
             solution.elements.iter().flat_map(of).collect()

@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::answer::contact::ContactNode;
-use crate::answer::estimates::ErrorBars;
+use crate::answer::estimates::ErrorEstimates;
 use crate::answer::{Assessment, BodySummary, Cycle, Distance, Hertz, Solution, Step};
 use crate::numbers::scalar::rational;
 use crate::numbers::solve::{Arithmetic, ScalarName};
@@ -122,7 +122,7 @@ fn digits(solution: &Solution) -> Option<Vec<Vec<String>>> {
 }
 
 /// Null stands for a bar that is not known.
-fn error_bars(bars: &ErrorBars) -> Value {
+fn error_bars(bars: &ErrorEstimates) -> Value {
     let known = |bar: f64| if bar.is_finite() { json!(bar) } else { Value::Null };
     let bodies = bars.bodies.iter().map(|body| {
         json!({

@@ -157,13 +157,13 @@ fn the_largest_von_mises_stress_lies_within_its_bar() {
             m.label,
             m.exact_peak,
             m.peak.value,
-            m.peak.bar,
+            m.peak.error,
             m.peak.recovered,
-            m.peak.bar / missed,
-            m.peak.bar / m.stress_error
+            m.peak.error / missed,
+            m.peak.error / m.stress_error
         );
-        assert!(missed <= m.peak.bar, "{}: missed by {missed}, bar {}", m.label, m.peak.bar);
-        assert!(m.peak.bar <= BAR_WIDTH.limit * m.stress_error, "{}: {:?}", m.label, m.peak);
+        assert!(missed <= m.peak.error, "{}: missed by {missed}, bar {}", m.label, m.peak.error);
+        assert!(m.peak.error <= BAR_WIDTH.limit * m.stress_error, "{}: {:?}", m.label, m.peak);
     }
 }
 
@@ -213,7 +213,7 @@ fn random_field(case: usize, seed: &mut u64) -> (f64, f64) {
     let solution = solve(&grid.scene(&field, THICKNESS));
     let estimate = estimate(&solution);
     let found = largest(&estimate, &solution);
-    ((field.largest_von_mises() - found.value).abs() / found.bar, estimate.relative())
+    ((field.largest_von_mises() - found.value).abs() / found.error, estimate.relative())
 }
 
 /// A bar that does not shrink with the mesh says nothing of the mesh.
@@ -221,7 +221,7 @@ fn random_field(case: usize, seed: &mut u64) -> (f64, f64) {
 fn bars_shrink_with_the_mesh() {
     for b in &BENCHMARKS {
         for kind in KINDS {
-            let bars = b.cells.map(|cells| measure(b, cells, kind).peak.bar);
+            let bars = b.cells.map(|cells| measure(b, cells, kind).peak.error);
             assert!(bars[0] > bars[1] && bars[1] > bars[2], "{} {kind:?}: {bars:?}", b.name);
         }
     }
@@ -259,7 +259,7 @@ fn a_constant_field_has_no_error() {
         let found = estimate(&solution);
         assert_near("eta / |u|", found.relative(), 0.0, 1.0, &CONSTANT_FIELD);
         let peak = largest(&found, &solution);
-        assert_near("bar", peak.bar, 0.0, peak.value, &CONSTANT_FIELD);
+        assert_near("bar", peak.error, 0.0, peak.value, &CONSTANT_FIELD);
         // |u|² = volume · sᵀ D⁻¹ s.
         let energy = 2.0 * THICKNESS * CONSTANT.energy_density(&(CONSTANT.stress)([0.0; 2]));
         assert_near("|u|", found.energy_norm, energy.sqrt(), energy.sqrt(), &CONSTANT_FIELD);
@@ -318,7 +318,7 @@ fn the_error_of_a_lone_triangle_is_unknown() {
     assert_eq!(found.unrecovered, [TriangleId::from_number(triangles.len())]);
     assert_eq!([found.total(), found.relative()], [f64::INFINITY; 2]);
     assert!(found.error_map().iter().all(|x| x.is_finite()));
-    let bar = |body: usize| largest_of(&found, &solution, &solution.model.bodies[body]).bar;
+    let bar = |body: usize| largest_of(&found, &solution, &solution.model.bodies[body]).error;
     assert!(bar(0).is_finite() && bar(0) > 0.0);
     assert_eq!(bar(1), f64::INFINITY);
 }
@@ -334,6 +334,6 @@ fn error_map_of_the_strand() {
     for body in &solution.model.bodies {
         let peak = largest_of(&found, &solution, body);
         println!("{}: {peak:?}, eta {:.3}", body.name, found.relative());
-        assert!(peak.bar > 0.0 && body.triangles.contains(&peak.at));
+        assert!(peak.error > 0.0 && body.triangles.contains(&peak.at));
     }
 }

@@ -1,9 +1,8 @@
-//! Contact: what each contact node faces on the target, who is in contact, and what the contact surface carries.
+//! Contact: the target that each contact node faces, the nodes in contact, and their traction.
 
 mod mortar;
 mod nts;
 mod pairing;
-mod pairings;
 mod pressure;
 pub mod search;
 pub mod status;
@@ -13,3 +12,16 @@ pub use pairing::Pairing;
 pub(super) use pressure::arcs;
 pub use pressure::{ContactNode, Traction};
 pub use surface::Surfaces;
+
+use crate::problem::modelling::Coupling;
+
+impl Surfaces {
+    /// Returns what each entry of the contact surface faces in a shape, given as the coordinates of
+    /// each node, length. None for a node that faces no edge, and for a node's second entry.
+    pub fn pairings(&self, coupling: Coupling, shape: &[[f64; 2]]) -> Vec<Option<Pairing>> {
+        match coupling {
+            Coupling::Nts => nts::pairings(self, shape),
+            Coupling::Mortar => mortar::pairings(self, shape),
+        }
+    }
+}

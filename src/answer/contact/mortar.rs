@@ -1,32 +1,36 @@
-//! Mortar with dual multipliers: each contact node is bound to the average of the target over what its edges cover.
+//! Mortar with dual multipliers: each contact node is bound to the average of the target over the
+//! stretch that its edges cover.
 //!
 //! ```text
-//!   contact edge   s1 o-----------o s2        ψ: dual shape functions, ∫ ψ_i φ_k = δ_ik ∫ φ_k over the stretch covered
-//!                      | | | | | |             D_i = ∫ φ_i,  M_ij = ∫ ψ_i N_j,  weights w_ij = M_ij / D_i
-//!   target edges   *------*----------*         φ, N: linear shape functions of the contact and the target edges
+//!  contact edge  s1 o-----------o s2   φ, N: linear shape functions of contact and target edges
+//!                    | | | | | |       ψ: dual functions, ∫ ψ_i φ_k = δ_ik ∫ φ_k where covered
+//!  target edges  *------*----------*   D_i = ∫ φ_i,  M_ij = ∫ ψ_i N_j,  weights w_ij = M_ij / D_i
 //! ```
 //!
-//! A target edge is cast on a contact edge along the contact edge's normal, so that every integrand is a polynomial of degree two. The
-//! dual functions are made for the stretch covered, so that an edge that hangs over the target's end still passes constant pressure.
+//! A target edge is projected on a contact edge along the contact edge's normal, so that every
+//! integrand is a polynomial of degree two. The dual functions are built on the stretch that is
+//! covered, so that an edge that reaches past the target's end still transfers constant pressure.
 //!
-//! Source: B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012 (dual multipliers); A. Popp, A. Seitz, M. W. Gee, W. A. Wall,
-//! Comput. Methods Appl. Mech. Engrg. 264 (2013) 67-80 (edges covered in part).
+//! Source: B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012 (dual multipliers); A. Popp, A.
+//! Seitz, M. W. Gee, W. A. Wall, Comput. Methods Appl. Mech. Engrg. 264 (2013) 67-80 (edges covered
+//! in part).
 
 use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::pairing::{Pairing, Vector, dot};
+use super::pairing::{Pairing, Vector, unit};
+use super::search::dot;
 use super::surface::{FACING, Placed, Surfaces};
 use crate::problem::model::{EdgeId, NodeId};
 
-/// A shorter overlap, of the contact edge's length, is rounding.
+/// The overlap below which two edges do not overlap, over the contact edge's length: rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A contact node that covers less than this share of what its edges could cover is off the target.
+/// The share of what its edges could cover below which a contact node does not face the target.
 const COVERED: f64 = 0.05;
 
-/// For each entry of the contact surface the average of the target over what its edges cover.
+/// Returns, for each contact surface entry, the average of the target that its edges cover.
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
     let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
     let mut gathered: HashMap<NodeId, Gathered> = HashMap::new();
@@ -37,30 +41,28 @@ pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pair
             gathered.entry(node).or_default().add(k, &integrals, &covered, surfaces, &target);
         }
     }
-    let tributary = surfaces.tributary(shape);
-    let entries = surfaces.nodes.iter().zip(tributary);
-    entries
-        .map(|(node, tributary)| {
-            let gathered = gathered.remove(node).filter(|g| g.length >= COVERED * tributary)?;
-            Some(gathered.pairing(*node, shape))
-        })
-        .collect()
+    let pairing = |(node, tributary): (&NodeId, f64)| {
+        let gathered = gathered.remove(node).filter(|g| g.length >= COVERED * tributary)?;
+        Some(gathered.pairing(*node, shape))
+    };
+    surfaces.nodes.iter().zip(surfaces.tributary(shape)).map(pairing).collect()
 }
 
 /// A stretch of a contact edge and the target edge that it covers.
 struct Stretch {
-    /// The target edge's place in the list of target edges.
+    /// The index of the target edge in the list of target edges.
     edge: usize,
-    /// Where the stretch begins and ends on the contact edge, of its length.
+    /// Where the stretch begins and ends on the contact edge, over the edge's length.
     from: f64,
     to: f64,
-    /// Where the target edge's two nodes are cast on the contact edge.
+    /// The projections of the target edge's two nodes, over the contact edge's length.
     ends: [f64; 2],
-    /// Length of the contact edge.
+    /// The length of the contact edge, length.
     length: f64,
 }
 
-/// The stretches of a contact edge that face a target edge. Of several that face the same place the nearest counts.
+/// Returns the stretches of a contact edge that face a target edge. Where several target edges face
+/// the same stretch, the nearest one counts.
 fn cover(contact: &Placed, target: &[Placed]) -> Vec<Stretch> {
     let mut facing: Vec<(f64, Stretch)> = Vec::new();
     for (edge, placed) in target.iter().enumerate() {
@@ -85,13 +87,14 @@ fn cover(contact: &Placed, target: &[Placed]) -> Vec<Stretch> {
     covered
 }
 
-/// Distance, along the contact edge's normal, from its point `xi` to the target edge's line.
+/// Returns the distance from the contact edge's point `xi` to the target edge's line along the
+/// contact edge's normal, length.
 fn distance(contact: &Placed, target: &Placed, xi: f64) -> f64 {
     let p = [0, 1].map(|d| contact.start[d] + xi * contact.length * contact.tangent[d]);
     (target.outside(p) / dot(target.normal, contact.normal)).abs()
 }
 
-/// What is left of `from` .. `to` outside the stretches that are covered.
+/// Returns the parts of `from` .. `to` outside the stretches that are already covered.
 fn uncovered(covered: &[Stretch], from: f64, to: f64) -> Vec<(f64, f64)> {
     let mut left = vec![(from, to)];
     for stretch in covered {
@@ -104,28 +107,28 @@ fn uncovered(covered: &[Stretch], from: f64, to: f64) -> Vec<(f64, f64)> {
     left
 }
 
-/// Linear shape functions of the contact edge's two nodes.
+/// Returns the linear shape functions of the contact edge's two nodes at `xi`.
 fn phi(xi: f64) -> Vector2<f64> {
     Vector2::new(1.0 - xi, xi)
 }
 
-/// The two Gauss points of a stretch and their weight, length: exact up to degree three.
+/// Returns the two Gauss points of a stretch and their weight, length: exact up to degree three.
 fn gauss(stretch: &Stretch) -> [(f64, f64); 2] {
     let (middle, half) = ((stretch.from + stretch.to) / 2.0, (stretch.to - stretch.from) / 2.0);
     let offset = half / 3.0_f64.sqrt();
     [middle - offset, middle + offset].map(|xi| (xi, half * stretch.length))
 }
 
-/// Integrals over what a contact edge covers.
+/// The integrals over the covered part of a contact edge.
 struct Integrals {
-    /// ∫ φ_k, length.
+    /// The integral ∫ φ_k of each shape function, length.
     phi: Vector2<f64>,
-    /// ψ = dual · φ.
+    /// The matrix of the dual shape functions: ψ = dual · φ.
     dual: Matrix2<f64>,
 }
 
 impl Integrals {
-    /// None where nothing is covered.
+    /// Integrates over `covered`. Returns None where nothing is covered.
     fn over(covered: &[Stretch]) -> Option<Self> {
         let (mut mass, mut sum) = (Matrix2::zeros(), Vector2::zeros());
         for (xi, weight) in covered.iter().flat_map(gauss) {
@@ -137,21 +140,21 @@ impl Integrals {
     }
 }
 
-/// What a contact node gathers from its edges.
+/// The sums of a contact node over its edges.
 #[derive(Default)]
 struct Gathered {
-    /// M_ij by target node, length.
+    /// The integral M_ij by target node, length.
     masters: BTreeMap<NodeId, f64>,
-    /// D_i, length.
+    /// The integral D_i, length.
     length: f64,
-    /// ∫ φ_i n, length.
+    /// The integral ∫ φ_i n, length.
     normal: Vector,
-    /// Length covered, by target edge.
+    /// The share of the node's contact edges that each target edge covers.
     edges: BTreeMap<EdgeId, f64>,
 }
 
 impl Gathered {
-    /// Adds what node `k` (0 or 1) of a contact edge has of `covered`.
+    /// Adds the integrals of node `k` (0 or 1) of a contact edge over `covered`.
     fn add(
         &mut self,
         k: usize,
@@ -164,10 +167,8 @@ impl Gathered {
         for stretch in covered {
             let edge = &surfaces.target[stretch.edge];
             let normal = target[stretch.edge].normal;
-            *self
-                .edges
-                .entry(edge.id.expect("a target edge is one of the model's"))
-                .or_insert(0.0) += stretch.to - stretch.from;
+            let id = edge.id.expect("a target edge is one of the model's");
+            *self.edges.entry(id).or_insert(0.0) += stretch.to - stretch.from;
             for (xi, weight) in gauss(stretch) {
                 let psi = weight * (integrals.dual * phi(xi))[k];
                 let eta = (xi - stretch.ends[0]) / (stretch.ends[1] - stretch.ends[0]);
@@ -181,8 +182,7 @@ impl Gathered {
     }
 
     fn pairing(self, node: NodeId, shape: &[Vector]) -> Pairing {
-        let size = self.normal[0].hypot(self.normal[1]);
-        let normal = [self.normal[0] / size, self.normal[1] / size];
+        let normal = unit(self.normal);
         let masters: Vec<(NodeId, f64)> =
             self.masters.into_iter().map(|(master, m)| (master, m / self.length)).collect();
         let most = self.edges.iter().reduce(|a, b| if b.1 > a.1 { b } else { a });

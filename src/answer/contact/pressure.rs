@@ -1,4 +1,5 @@
-//! What the contact surface carries at the end of a run, whatever the variant: the reaction of the stamp's equations, K u − F.
+//! The traction on the contact surface at the end of a run of any variant: the reaction K u − F of
+//! the contact body's equations.
 
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
@@ -11,26 +12,26 @@ use crate::problem::model::{Model, NodeId};
 /// A contact node at the end of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactNode {
-    /// The node.
+    /// The node of the contact surface.
     pub node: NodeId,
-    /// Distance from the first contact node along the undeformed contact surface, length.
+    /// The distance from the first contact node along the undeformed contact surface, length.
     pub arc: f64,
     /// Whether it is in contact by the variant's own rule.
     #[serde(rename = "dy", with = "as_number")]
     pub in_contact: bool,
-    /// Distance from the target along its normal, length; < 0 where the node penetrates.
+    /// The distance from the target along its normal, length; < 0 where the node penetrates.
     pub gap: f64,
-    /// Force on the node along the normal, force; < 0 where it pulls.
+    /// The force on the node along the normal, force; < 0 where it pulls.
     pub force: f64,
-    /// The same over the undeformed surface that the node stands for: contact pressure, stress.
+    /// The contact pressure: the force over the undeformed surface of the node, stress.
     pub pressure: f64,
-    /// Traction along the tangent (the normal turned left), stress.
+    /// The traction along the tangent, which is the normal turned left, stress.
     pub shear: f64,
-    /// |shear| / pressure: the friction coefficient that keeps the node from sliding; none where it does not press.
+    /// |shear| / pressure, the friction that keeps the node from sliding; None without pressure.
     pub friction_needed: Option<f64>,
 }
 
-/// `dy` in files: 1 or 0.
+/// Writes and reads `dy` in files as 1 or 0.
 mod as_number {
     use serde::{Deserialize, Deserializer, Serializer};
 
@@ -43,24 +44,24 @@ mod as_number {
     }
 }
 
-/// What is known of the contact surface at the end of a run.
+/// The contact surface at the end of a run, from which the tractions are computed.
 pub struct Traction<'a> {
-    /// The model.
+    /// The finite element model of the run.
     pub model: &'a Model,
-    /// Its surfaces.
+    /// The contact and target surfaces of the model.
     pub surfaces: &'a Surfaces,
-    /// The shape in which contact is measured: coordinates of each node, length.
+    /// The shape in which contact is measured: the coordinates of each node, length.
     pub measured_in: &'a [[f64; 2]],
-    /// What each entry of the contact surface faces in it.
+    /// The pairing of each entry of the contact surface in that shape.
     pub pairings: &'a [Option<Pairing>],
-    /// Whether each entry is in contact.
+    /// Whether each entry of the contact surface is in contact.
     pub in_contact: &'a [bool],
-    /// K u − F, force.
+    /// The reaction K u − F by degree of freedom, force.
     pub reaction: &'a DVector<f64>,
 }
 
 impl Traction<'_> {
-    /// The contact nodes that face the target, in order along the surface.
+    /// Returns the contact nodes that face the target, in order along the surface.
     pub fn nodes(&self) -> Vec<ContactNode> {
         let lengths =
             [&self.model.nodes[..], self.measured_in].map(|shape| self.surfaces.tributary(shape));
@@ -73,12 +74,12 @@ impl Traction<'_> {
         (0..self.pairings.len()).filter_map(node).collect()
     }
 
-    /// A contact node that stands for `length` of the undeformed surface.
+    /// Returns the tractions on a node that represents `length` of the undeformed surface.
     fn node(&self, pairing: &Pairing, arc: f64, in_contact: bool, length: f64) -> ContactNode {
         let [rx, ry] = pairing.node.of(self.reaction);
         let [nx, ny] = pairing.normal;
         let normal = normal_force(self.model, pairing, self.reaction);
-        // Of a node that a restraint holds the part along the tangent cannot be told from the restraint's own.
+        // At a restrained node the tangential part may belong to the restraint.
         let restrained = self.model.restraints_of(pairing.node).contains(&true);
         let tangent = if restrained { 0.0 } else { nx * ry - ny * rx };
         let area = length * self.model.thickness;
@@ -96,22 +97,18 @@ impl Traction<'_> {
     }
 }
 
-/// a / b; 0 for a node that stands for no length.
+/// Returns a / b, or 0 for a node that represents no length.
 fn over(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
-/// Distance of each entry of the contact surface from the first along the undeformed surface, length.
+/// Returns the distance of each entry from the first along the undeformed contact surface, length.
 pub(in crate::answer) fn arcs(model: &Model) -> Vec<f64> {
     let at = |i: usize| model.at(model.contact.nodes[i]);
-    let mut arc = 0.0;
-    (0..model.contact.nodes.len())
-        .map(|i| {
-            if i > 0 {
-                let ([ax, ay], [bx, by]) = (at(i - 1), at(i));
-                arc += (bx - ax).hypot(by - ay);
-            }
-            arc
-        })
-        .collect()
+    let mut arcs = vec![0.0; model.contact.nodes.len()];
+    for i in 1..arcs.len() {
+        let ([ax, ay], [bx, by]) = (at(i - 1), at(i));
+        arcs[i] = arcs[i - 1] + (bx - ax).hypot(by - ay);
+    }
+    arcs
 }

@@ -1,8 +1,8 @@
-//! The one search on a surface: the point of its edges that is closest to a point, in any scalar.
+//! The search for the point of a surface that is closest to a given point, in any scalar.
 //!
 //! ```text
-//!        normal ^         o p            side < 0: p is outside the body, which lies on the left of
-//!               |         :              the way from a to b
+//!        normal ^         o p            side < 0: p is outside the body, which lies on the left
+//!               |         :              from a to b
 //!     b *-------+---------x------* a     x: the point closest to p; xi counts from a to b
 //!        . . . . body . . . .
 //!
@@ -13,47 +13,46 @@
 //!             . body .\                                  body
 //! ```
 //!
-//! At a corner both edges are equally near. The edge whose line is farther from p is taken: its side
-//! has the right sign, because the sum of the two normals has it (Bærentzen and Aanæs, IEEE TVCG
-//! 11:243, 2005). What happens past the end of a surface is the caller's rule: `admits`.
+//! At a corner both edges are equally near. The edge whose line is farther from p is taken: its
+//! side has the right sign, because the sum of the two normals has it (Bærentzen and Aanæs, IEEE
+//! TVCG 11:243, 2005). The rule past the end of a surface belongs to the caller: `admits`.
 //!
-//! Nothing takes a square root: distances are compared as squares, so that exact numbers serve too.
+//! No square root is taken: distances are compared as squares, so that exact numbers can be used.
 
 use crate::numbers::scalar::Scalar;
 
-/// An edge in a shape, its body on the left.
+/// An edge in a shape, with its body on the left.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment<T> {
-    /// Its two ends.
+    /// The coordinates of its two ends, length.
     pub ends: [[T; 2]; 2],
-    /// From its first end to its second.
+    /// The vector from its first end to its second, length.
     along: [T; 2],
-    /// The square of its length.
+    /// The square of its length, length².
     square: T,
 }
 
 /// The point of a segment that is closest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest<T> {
-    /// Where it lies on the segment's line: 0 at the first end, 1 at the second, beyond them past the
-    /// ends.
+    /// Its position on the segment's line: 0 at the first end, 1 at the second.
     pub xi: T,
-    /// Twice the area of the two ends and the point: > 0 where it lies on the body's side of the line.
+    /// Twice the area of the two ends and the point, length²: > 0 on the body's side of the line.
     pub side: T,
-    /// The square of the segment's length.
+    /// The square of the segment's length, length².
     pub square: T,
-    /// The square of the distance to the segment.
+    /// The square of the distance to the segment, length².
     pub distance_square: T,
 }
 
 impl<T: Scalar> Segment<T> {
-    /// The segment between two ends.
+    /// Returns the segment between two ends.
     pub fn new(ends: [[T; 2]; 2]) -> Self {
         let along = minus(ends[1], ends[0]);
         Segment { ends, along, square: dot(along, along) }
     }
 
-    /// Its point that is closest to `p`.
+    /// Returns its point that is closest to `p`.
     pub fn closest(&self, p: [T; 2]) -> Closest<T> {
         let xi = dot(self.along, minus(p, self.ends[0])) / self.square;
         let side = self.side(p);
@@ -65,31 +64,32 @@ impl<T: Scalar> Segment<T> {
         Closest { xi, side, square: self.square, distance_square }
     }
 
-    /// On which side of its line `p` lies: > 0 on the body's, 0 on the line; of `f64` with the exact sign.
+    /// Returns a number > 0 where `p` lies on the body's side of its line, 0 on the line, else < 0;
+    /// of `f64` the sign is exact.
     pub fn side(&self, p: [T; 2]) -> T {
         T::orientation(self.ends[0], self.ends[1], p)
     }
 }
 
 impl<T: Scalar> Closest<T> {
-    /// How far the point lies past the nearer end, in lengths of the segment; 0 beside the segment.
+    /// Returns how far the point lies past the nearer end, over the segment's length, or 0.
     pub fn past(&self) -> T {
         let before = T::zero() - self.xi;
         Scalar::max(Scalar::max(before, self.xi - T::one()), T::zero())
     }
 
-    /// Which end it is nearer to.
+    /// Returns the index of the nearer end, 0 or 1.
     pub fn end(&self) -> usize {
         usize::from(self.xi + self.xi > T::one())
     }
 
-    /// The distance, < 0 inside the body; rounded.
+    /// Returns the distance, rounded, length; < 0 inside the body.
     pub fn distance(&self) -> f64 {
         let distance = T::scaled_root(T::one(), T::one(), self.distance_square);
         if self.side > T::zero() { -distance } else { distance }
     }
 
-    /// The square of the distance to the segment's line.
+    /// Returns the square of the distance to the segment's line, length².
     fn line_square(&self) -> T {
         self.side * self.side / self.square
     }
@@ -101,22 +101,22 @@ impl<T: Scalar> Closest<T> {
     }
 }
 
-/// The closest point to `p` on the segments that `admits` takes, and which of them has it.
+/// Returns the closest point to `p` on the segments that `admits` accepts, and its segment.
 pub fn closest<'a, T: Scalar>(
     segments: impl IntoIterator<Item = (usize, &'a Segment<T>)>,
     p: [T; 2],
     admits: impl Fn(usize, &Closest<T>) -> bool,
 ) -> Option<(usize, Closest<T>)> {
-    let seen = segments.into_iter().map(|(k, segment)| (k, segment.closest(p)));
-    let admitted = seen.filter(|(k, closest)| admits(*k, closest));
+    let points = segments.into_iter().map(|(k, segment)| (k, segment.closest(p)));
+    let admitted = points.filter(|(k, closest)| admits(*k, closest));
     admitted.reduce(|best, next| if next.1.is_nearer_than(&best.1) { next } else { best })
 }
 
-fn minus<T: Scalar>(a: [T; 2], b: [T; 2]) -> [T; 2] {
+pub(super) fn minus<T: Scalar>(a: [T; 2], b: [T; 2]) -> [T; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
+pub(super) fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
     a[0] * b[0] + a[1] * b[1]
 }
 

@@ -1,25 +1,30 @@
-//! Who is in contact: the sign rule that the listing prints, the text's other remedy, and the exact answer.
+//! The rules that decide which nodes are in contact: the sign rule that the listing prints, the
+//! text's other remedy, and the exact projection.
 //!
-//! For a node that jumped deeper into the target than c_tol the text names two remedies: "the search for the point of intersection of
-//! the elements that hold this node with the neighbouring elements of the target surface", and "the comparison of the signs of Yi
-//! of neighbouring nodes". The listing has the second only. The first, as built here, word by word:
+//! For a node that jumped deeper into the target than c_tol the text names two remedies: "the
+//! search for the point of intersection of the elements that hold this node with the neighbouring
+//! elements of the target surface", and "the comparison of the signs of Yi of neighbouring nodes".
+//! The listing has only the second. The first is built here, word by word:
 //!
-//! - *the elements that hold this node*: the triangles of which the contact node is a corner. Of their sides those count that end at the
-//!   node: where the opposite side is cut, the node may be on either side of the cut;
-//! - *the neighbouring elements of the target surface*: the target edges (the text calls an edge with nodes 1.1 and 1.2 an element). A
-//!   side meets its neighbours only: an edge whose box does not overlap the side's is passed over;
-//! - *the point of intersection*: a side that leads out of the target crosses the surface once more outwards than inwards.
+//! - *the elements that hold this node*: the triangles of which the contact node is a corner. Only
+//!   their sides that end at the node count: where the opposite side is cut, the node may be on
+//!   either side of the cut;
+//! - *the neighbouring elements of the target surface*: the target edges (the text calls an edge
+//!   with nodes 1.1 and 1.2 an element). A side meets its neighbours only: an edge is skipped if
+//!   its box does not overlap the side's;
+//! - *the point of intersection*: a side that leaves the target crosses it once more outwards.
 //!
 //! ```text
 //!       q1 *-------* q2       c      the contact node, jumped deeper than c_tol
-//!           \     /           q1, q2 the other corners of the triangle that holds it
-//!            \   /            x      points of intersection: c - q1 and c - q2 lead out of the target
-//!     *-------x-x-------*            target edges; below them the target
+//!           \     /           q1, q2 the other corners of a triangle at c
+//!            \   /            x      where c - q1 and c - q2 lead out of the target
+//!     *-------x-x-------*     target edges; the target lies below them
 //!              c
 //! ```
 //!
-//! What the remedy cannot see: a node whose elements have sunk in whole (no side of theirs is cut), and a node beside the target
-//! whose side runs through the target's flank, which is no target edge, and out through the surface.
+//! The remedy does not find a node whose elements have sunk in completely (no side of theirs is
+//! cut), nor a node beside the target whose side enters through the target's flank, which is no
+//! target edge, and leaves through the surface.
 
 use super::search::{Closest, Segment, closest};
 use crate::numbers::scalar::Scalar;
@@ -29,14 +34,16 @@ use crate::paper::mirror::{Failure, Order, Reading, Worksheet, c_cnt};
 use crate::problem::model::{EdgeId, Model, NodeId};
 use crate::problem::modelling::StatusRule;
 
-/// Who is in contact in the shape `node_n` (R x 4), by `rule`. `sheet`: the tables of `model` in T.
+/// Returns the status of each contact node in the shape `node_n` (R x 4) by `rule`. `sheet`
+/// contains the tables of `model` in T.
 ///
-/// Under *signs* edges and distances are `c_cnt`'s. Under *intersection* too, and where it found no edge for a node in contact, the
-/// edge is the nearest. Under *projection* the edge is the nearest one, none past the surface's end, and the distance minus the signed
-/// distance to it: > 0 inside the target.
+/// Under *signs* the edges and distances are those of `c_cnt`. Under *intersection* they are too,
+/// but where `c_cnt` found no edge for a node in contact, the edge is the nearest one. Under
+/// *projection* the edge is the nearest one, None past the surface's end, and the distance is minus
+/// the signed distance to it: > 0 inside the target.
 ///
 /// # Errors
-/// Where the lines of `c_cnt` that the rule keeps fail as printed: all of them under *signs*, 1 to 16 under *intersection*.
+/// The lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 under *intersection*.
 pub fn statuses<T: Scalar>(
     rule: StatusRule,
     model: &Model,
@@ -49,7 +56,7 @@ pub fn statuses<T: Scalar>(
     match rule {
         StatusRule::Signs => printed(reading),
         StatusRule::Intersection => {
-            // The sign rule takes no part: a false operand keeps its lines from failing.
+            // The sign rule is not used: a false operand keeps its lines from failing.
             let printed = printed(&Reading { r4: Order::Guarded, ..*reading })?;
             Ok(by_intersection(model, &target(), sheet.c_tll, node_n, printed))
         }
@@ -59,22 +66,23 @@ pub fn statuses<T: Scalar>(
 
 /// The target edges in a shape.
 pub struct Target<T> {
-    /// Those that bound a triangle with an area: it tells their inner side.
+    /// The edges that bound a triangle with an area, whose inner side is therefore known.
     edges: Vec<TargetEdge>,
     segments: Vec<Segment<T>>,
 }
 
-/// A target edge.
+/// An edge of the target surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TargetEdge {
-    /// Which of the model's edges it is.
+    /// Its place among the model's edges.
     pub id: EdgeId,
-    /// Which of its ends no other target edge shares; the body lies on the left from the first to the second.
+    /// Whether each end is shared with no other target edge. The body lies on the left.
     pub free: [bool; 2],
 }
 
 impl TargetEdge {
-    /// The square of how far a point lies past the end of the surface, along this edge, length²; 0 over the surface.
+    /// Returns the square of the distance of a point past the end of the surface, along this edge,
+    /// length²; 0 over the surface.
     pub fn past_square<T: Scalar>(&self, closest: &Closest<T>) -> T {
         let past = if self.free[closest.end()] { closest.past() } else { T::zero() };
         past * past * closest.square
@@ -82,7 +90,7 @@ impl TargetEdge {
 }
 
 impl<T: Scalar> Target<T> {
-    /// The target edges of `model` in the shape `node_n` (R x 4).
+    /// Finds the target edges of `model` in the shape `node_n` (R x 4).
     pub fn new(model: &Model, node_n: &Table<T>) -> Self {
         let shared =
             |node: NodeId| model.target_edges().filter(|e| e.nodes.contains(&node)).count();
@@ -91,7 +99,7 @@ impl<T: Scalar> Target<T> {
             let place = |node: NodeId| door::place(node_n, node);
             let [a, b] = beside.nodes;
             let inner = T::orientation(place(a), place(b), place(beside.third));
-            // A shape may be folded: it is the shape that tells on which side the triangle lies.
+            // A shape may be folded: the triangle's side is taken from the shape.
             let nodes = if inner > T::zero() { [a, b] } else { [b, a] };
             let ends = nodes.map(place);
             let free = nodes.map(|node| shared(node) == 1);
@@ -101,7 +109,7 @@ impl<T: Scalar> Target<T> {
         Target { edges, segments }
     }
 
-    /// The edge nearest to `p` and its closest point; nothing where the surface has no edge.
+    /// Returns the edge nearest to `p` and its closest point; None where the surface has no edge.
     pub fn nearest(&self, p: [T; 2]) -> Option<(&TargetEdge, Closest<T>)> {
         let (k, closest) = closest(self.segments.iter().enumerate(), p, |_, _| true)?;
         Some((&self.edges[k], closest))
@@ -126,7 +134,7 @@ fn by_intersection<T: Scalar>(
     statuses
 }
 
-/// Whether a side at contact node `n` leads out of the target.
+/// Returns whether a side at contact node `n` leads out of the target.
 fn intersects<T: Scalar>(model: &Model, target: &Target<T>, node_n: &Table<T>, n: NodeId) -> bool {
     let c = door::place(node_n, n);
     sides(model, n).into_iter().any(|q| {
@@ -135,7 +143,7 @@ fn intersects<T: Scalar>(model: &Model, target: &Target<T>, node_n: &Table<T>, n
     })
 }
 
-/// The nodes that share a triangle with node `n`, in order.
+/// Returns the nodes that share a triangle with node `n`, ascending.
 fn sides(model: &Model, n: NodeId) -> Vec<NodeId> {
     let triangles = model.triangles.iter().map(|t| t.nodes).filter(|t| t.contains(&n));
     let mut others: Vec<NodeId> = triangles.flatten().filter(|other| *other != n).collect();
@@ -144,8 +152,9 @@ fn sides(model: &Model, n: NodeId) -> Vec<NodeId> {
     others
 }
 
-/// +1 where the way from `c` to `q` crosses `edge` outwards, −1 inwards, 0 where it does not. It crosses a corner of two edges once. A
-/// way that starts on the edge starts inside; one that ends on it ends outside.
+/// Returns +1 where the segment from `c` to `q` crosses `edge` outwards, −1 inwards, and 0 where it
+/// does not cross. A corner of two edges is crossed once. A segment that starts on the edge starts
+/// inside; one that ends on it ends outside.
 fn crossing<T: Scalar>(edge: &Segment<T>, c: [T; 2], q: [T; 2]) -> i32 {
     let [a, b] = edge.ends;
     if apart([a, b], [c, q]) {
@@ -162,7 +171,7 @@ fn crossing<T: Scalar>(edge: &Segment<T>, c: [T; 2], q: [T; 2]) -> i32 {
     }
 }
 
-/// Whether the boxes around two segments have no point in common.
+/// Returns whether the boxes around two segments have no point in common.
 fn apart<T: Scalar>(one: [[T; 2]; 2], other: [[T; 2]; 2]) -> bool {
     (0..2).any(|axis| {
         let span =

@@ -1,51 +1,53 @@
-//! The two contact surfaces as edges with an inside and an outside.
+//! The contact surface and the target surface as edges with an inner and an outer side.
 
 use std::collections::{HashMap, HashSet};
 
-use super::pairing::{Vector, dot, minus};
-use super::search::Segment;
+use super::pairing::Vector;
+use super::search::{Segment, dot, minus};
 use crate::error::InputError;
 use crate::problem::model::{EdgeId, Model, NodeId, unordered};
 
-/// Cosine between a contact surface's normal and the reverse of a target edge's, beyond which the two do not face each other.
+/// The cosine between a contact surface's normal and the reverse of a target edge's, below which
+/// the two do not face each other.
 pub(super) const FACING: f64 = 0.1;
 
-/// Which nodes and edges may touch, and on which side of each edge its body lies.
+/// The nodes and edges that may touch, and the side of each edge on which its body lies.
 pub struct Surfaces {
     /// The entries of the contact surface.
     pub(super) nodes: Vec<NodeId>,
-    /// Edges of the contact surface.
+    /// The edges of the contact surface, each once.
     pub(super) contact: Vec<Edge>,
-    /// Edges of the target surface.
+    /// The edges of the target surface, in the order of the model.
     pub(super) target: Vec<Edge>,
-    /// In the undeformed shape, the normal of each contact node that bounds an edge, and of each target edge. A shape on the way to the answer may
-    /// be folded: it does not tell what faces what.
+    /// The normal of each contact node that bounds an edge, and of each target edge, in the
+    /// undeformed shape. An intermediate shape of the iterations may be folded, so that its normals
+    /// do not decide which surfaces face each other.
     undeformed: (HashMap<NodeId, Vector>, Vec<Vector>),
 }
 
 /// An edge of a body's surface.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
-    /// The target edge that it is; none for an edge of the contact surface.
+    /// The target edge of the model; None for an edge of the contact surface.
     pub(super) id: Option<EdgeId>,
-    /// Its nodes, the body on their left.
+    /// Its two nodes, with the body on the left from the first to the second.
     pub(super) nodes: [NodeId; 2],
 }
 
 /// An edge in a given shape.
 pub(super) struct Placed {
-    /// Its first node's place, length.
+    /// The coordinates of its first node, length.
     pub(super) start: Vector,
-    /// Unit vector from its first node to its second.
+    /// The unit vector from its first node to its second.
     pub(super) tangent: Vector,
-    /// Unit normal, out of the body.
+    /// The unit normal that points out of the body.
     pub(super) normal: Vector,
-    /// Length.
+    /// The length of the edge, length.
     pub(super) length: f64,
 }
 
 impl Edge {
-    /// The edge in a shape.
+    /// Places the edge in a shape, given as the coordinates of each node, length.
     pub(super) fn place(&self, shape: &[Vector]) -> Placed {
         let [start, end] = self.nodes.map(|n| shape[n.index()]);
         let along = minus(end, start);
@@ -56,22 +58,22 @@ impl Edge {
 }
 
 impl Placed {
-    /// Where the closest point to `p` lies along the edge: 0 at its first node, 1 at its second.
+    /// Returns where `p` projects on the edge's line: 0 at its first node, 1 at its second.
     pub(super) fn along(&self, p: Vector) -> f64 {
         dot(minus(p, self.start), self.tangent) / self.length
     }
 
-    /// Distance of `p` from the edge's line, > 0 outside the body.
+    /// Returns the distance of `p` from the edge's line, length; > 0 outside the body.
     pub(super) fn outside(&self, p: Vector) -> f64 {
         dot(minus(p, self.start), self.normal)
     }
 }
 
 impl Surfaces {
-    /// The surfaces of a model.
+    /// Finds the surfaces of a model.
     ///
     /// # Errors
-    /// A target edge that bounds no triangle: nobody knows which of its sides is outside.
+    /// A target edge bounds no triangle, so that its outer side is unknown.
     pub fn new(model: &Model) -> Result<Self, InputError> {
         let nodes = model.contact.nodes.clone();
         let boundary = |pair: [NodeId; 2]| model.sides.boundary(pair).map(|one| one.nodes);
@@ -80,37 +82,36 @@ impl Surfaces {
             .filter_map(boundary)
             .map(|nodes| Edge { id: None, nodes })
             .collect();
-        let target = model.contact.target.iter().map(|&id| {
+        let target = |&id: &EdgeId| {
             let edge = model.edge(id);
             let [a, b] = edge.nodes;
             let nodes = boundary(edge.nodes).ok_or_else(|| {
-                InputError::new(
-                    "contact.trg",
-                    format!("edge {} (nodes {a} and {b}) bounds no triangle", edge.number),
-                    "name edges of the target body's outline",
-                )
+                let what = format!("edge {} (nodes {a} and {b}) bounds no triangle", edge.number);
+                InputError::new("contact.trg", what, "name edges of the target body's outline")
             })?;
             Ok(Edge { id: Some(id), nodes })
-        });
-        let target = target.collect::<Result<Vec<_>, InputError>>()?;
+        };
+        let target: Vec<Edge> =
+            model.contact.target.iter().map(target).collect::<Result<_, InputError>>()?;
         let normals = target.iter().map(|edge| edge.place(&model.nodes).normal).collect();
         let undeformed = (normals_at_nodes(&contact, &model.nodes), normals);
         Ok(Surfaces { nodes, contact, target, undeformed })
     }
 
-    /// The target edges in a shape, for the search.
+    /// Returns the target edges in a shape, for the search.
     pub(super) fn segments(&self, shape: &[Vector]) -> Vec<Segment<f64>> {
         let ends = |edge: &Edge| edge.nodes.map(|n| shape[n.index()]);
         self.target.iter().map(|edge| Segment::new(ends(edge))).collect()
     }
 
-    /// Whether a contact node and the target edge at `edge` face each other in the undeformed shape; a node without an edge faces all.
+    /// Returns whether a contact node and the target edge number `edge` face each other in the
+    /// undeformed shape. A node without an edge faces every edge.
     pub(super) fn face(&self, node: NodeId, edge: usize) -> bool {
         let (own, target) = &self.undeformed;
         own.get(&node).is_none_or(|normal| dot(*normal, target[edge]) <= -FACING)
     }
 
-    /// For each target edge which of its nodes no other target edge has: there the surface ends.
+    /// Returns which nodes of each target edge no other target edge has: the surface's ends.
     pub(super) fn free_ends(&self) -> Vec<[bool; 2]> {
         let mut edges_at: HashMap<NodeId, HashSet<[NodeId; 2]>> = HashMap::new();
         for edge in &self.target {
@@ -121,8 +122,8 @@ impl Surfaces {
         self.target.iter().map(|edge| edge.nodes.map(|n| edges_at[&n].len() == 1)).collect()
     }
 
-    /// For each entry of the contact surface half the length of the contact edges that it bounds, in a shape; 0 for a node's second
-    /// entry.
+    /// Returns, for each entry of the contact surface, half the length of the contact edges that it
+    /// bounds in a shape, length; 0 for a node's second entry.
     pub fn tributary(&self, shape: &[Vector]) -> Vec<f64> {
         let mut of_node: HashMap<NodeId, f64> = HashMap::new();
         for edge in &self.contact {
@@ -133,7 +134,8 @@ impl Surfaces {
     }
 }
 
-/// The normal of each node of `edges`, out of its body: the mean of its edges', by length; not a unit vector where they meet in a corner.
+/// Returns the normal of each node of `edges`, out of its body: the mean over its edges, weighted
+/// by length. It is no unit vector where the edges meet in a corner.
 fn normals_at_nodes(edges: &[Edge], shape: &[Vector]) -> HashMap<NodeId, Vector> {
     let mut of_node: HashMap<NodeId, (Vector, f64)> = HashMap::new();
     for edge in edges {
@@ -148,8 +150,8 @@ fn normals_at_nodes(edges: &[Edge], shape: &[Vector]) -> HashMap<NodeId, Vector>
     of_node.into_iter().map(mean).collect()
 }
 
-/// Each pair of nodes that follow each other in `nodes` once, and the pair that closes a loop where all of them are boundary edges; the
-/// lower node first.
+/// Returns each pair of successive `nodes` once, the lower node first, and the pair that closes a
+/// loop where all pairs are boundary edges.
 fn chain(nodes: &[NodeId], is_boundary: impl Fn([NodeId; 2]) -> bool) -> Vec<[NodeId; 2]> {
     let mut pairs: Vec<[NodeId; 2]> = Vec::new();
     let mut add = |pair| {

@@ -1,9 +1,10 @@
-//! The algebraic error: what rounding does to displacements and stresses.
+//! The arithmetic error: the effect of rounding on displacements and stresses.
 //!
-//! A run is done again in `f64` with a running bound on the error ([`Bounded`]), by the solver that suits its matrix: the bound of that run and
-//! its distance from the run in question bound the error of the latter, in whatever numbers and by whatever solver it was done.
-//! Under `unilateral` it is the equilibrium of the last contact state, normals and weights as they stand, that is solved again.
-//! Either holds while rounding does not change who is in contact.
+//! A run is repeated in `f64` with a running bound on the error ([`Bounded`]), by the solver that
+//! suits its matrix. The bound of that run and its distance from the assessed run bound the error
+//! of the latter, whatever its numbers and its solver. Under `unilateral` the equilibrium of the
+//! last contact state is solved again, with its normals and weights unchanged. Both bounds are
+//! valid while rounding does not change which nodes are in contact.
 
 use nalgebra::{DVector, SVector};
 
@@ -14,10 +15,10 @@ use crate::problem::element::Plane;
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
 
-/// Roundings in a von Mises value from its stresses, in units of 2^-53.
+/// The number of roundings in a von Mises value from its stresses, in units of 2^-53.
 const ROUNDINGS: f64 = 32.0;
 
-/// A bound on the largest error of an entry of the displacements, length; infinite where nothing is known.
+/// Returns a bound on the error of any displacement, length; infinite where nothing is known.
 pub fn displacement_bound(solution: &Solution) -> f64 {
     let again = match solution.request.variant {
         Variant::Unilateral => last_state(solution),
@@ -29,7 +30,7 @@ pub fn displacement_bound(solution: &Solution) -> f64 {
     })
 }
 
-/// The run again, with a bound on each displacement.
+/// Repeats the run with a bound on each displacement.
 fn bounded_run(solution: &Solution) -> Option<DVector<Bounded>> {
     let solver = match solution.request.variant {
         Variant::Printed => Solver::DenseLu,
@@ -47,7 +48,7 @@ fn bounded_run(solution: &Solution) -> Option<DVector<Bounded>> {
     Some(run.u.map(|u| Bounded::new(u, bound)))
 }
 
-/// The equilibrium of the last contact state of `unilateral`, with a bound on each displacement.
+/// Solves the last contact state of `unilateral` again, with a bound on each displacement.
 fn last_state(solution: &Solution) -> Option<DVector<Bounded>> {
     let model = &*solution.model;
     let constraints = solution.last().constraints.iter().map(|c| c.map(Bounded::from_f64));
@@ -62,7 +63,8 @@ fn last_state(solution: &Solution) -> Option<DVector<Bounded>> {
     Some(t.expand(&x.map(|x| Bounded::new(x, bound))))
 }
 
-/// For each triangle a bound on the error of its von Mises stress where displacements are known to `displacement`; stress.
+/// Returns, for each triangle, a bound on the error of its von Mises stress where displacements are
+/// known to `displacement`, stress.
 pub fn stress_bounds(solution: &Solution, displacement: f64) -> Vec<f64> {
     let model = &*solution.model;
     let u = solution.u.map(|u| Bounded::new(u, displacement));
@@ -76,7 +78,8 @@ pub fn stress_bounds(solution: &Solution, displacement: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Of two stresses the von Mises values differ by at most the von Mises value of their difference: it is a seminorm.
+/// Returns the von Mises value of a stress's error bounds. The von Mises values of two stresses
+/// differ by at most that of their difference, because it is a seminorm.
 fn von_mises_bound(model: &Model, nu: f64, stress: &SVector<Bounded, 3>) -> f64 {
     let [x, y, xy] = [0, 1, 2].map(|k| stress[k].error());
     let z = match model.plane {

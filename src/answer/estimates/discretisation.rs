@@ -1,27 +1,32 @@
-//! The discretisation error of the stresses: what the mesh, not the arithmetic, does to them.
+//! The discretisation error of the stresses: the effect of the mesh, not of the arithmetic.
 //!
-//! A triangle's stress is constant; the true one is not. The recovered stress sigma* (`recovery.rs`) is continuous within
-//! a material and nearer to the truth, so that sigma* − sigma_h stands for the error:
+//! A triangle's stress is constant; the true stress is not. The recovered stress sigma*
+//! (`recovery.rs`) is continuous within a material and nearer to the truth, so that sigma* −
+//! sigma_h estimates the error:
 //!
 //! ```text
 //!  eta_e² = ∫ (sigma* − sigma_h)ᵀ D⁻¹ (sigma* − sigma_h) dV over the triangle,   eta² = Σ eta_e²
 //! ```
 //!
-//! Source: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Methods Eng. 33 (1992) 1331-1364 and 1365-1382.
+//! Source: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Methods Eng. 33 (1992) 1331 and 1365.
 //!
-//! The bar of a largest von Mises stress rests on this: of two stresses, the von Mises values differ by at most the von Mises value
-//! of the difference (it is a seminorm). With d_e the largest von Mises value of sigma* − sigma_h over triangle e, and m the
-//! triangle with the largest stress,
+//! The error estimate of a largest von Mises stress rests on this: the von Mises values of two
+//! stresses differ by at most the von Mises value of their difference, because it is a seminorm.
+//! Let d_e be the largest von Mises value of sigma* − sigma_h over triangle e, vm_e its von Mises
+//! stress, and m the triangle with the largest stress. Then
 //!
 //! ```text
-//!  bar = SAFETY · max( d_e of the triangles that share a node with m ,  vm_e + d_e − vm_m of any triangle of the body )
+//!  estimate = SAFETY · max( d_e1 ,  vm_e2 + d_e2 − vm_m )
 //! ```
 //!
-//! the second term being for a peak that the mesh hides elsewhere. |recovered maximum − maximum| is no bar: on the benchmarks
-//! of `tests/numbers/discretisation.rs` it is some half of the true error, and on coarse meshes about zero. The price is a wide bar: there
-//! it is 2.6 to 10 times the true error as a rule, and more where that error is small by luck. What none of this can do: at a
-//! re-entrant corner, under a point load or at the edge of a sticking contact the true stress has no largest value, and no bar
-//! holds it; nor does a triangle see the error that such a place sends to it from afar.
+//! where e1 is any triangle that shares a node with m, and e2 any triangle of the body: the second
+//! term covers a peak that the mesh hides elsewhere. |recovered maximum − maximum| is no error
+//! estimate: on the benchmarks of `tests/numbers/discretisation.rs` it is about half of the true
+//! error, and on coarse meshes about zero. The price is a wide estimate: there it is typically 2.6
+//! to 10 times the true error, and more where that error happens to be small. At a re-entrant
+//! corner, under a point load or at the edge of a sticking contact the true stress has no largest
+//! value, and no estimate bounds it; nor does a triangle see the error that such a place causes far
+//! away.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 use nalgebra::Matrix3;
@@ -31,41 +36,45 @@ use super::recovery::{Stress, recover};
 use crate::problem::element::{self, Plane, State};
 use crate::problem::model::{Model, Triangle, TriangleId};
 
-/// By how much d_e may underrate the true error near the largest stress: it is an estimate, not a bound. The bar was chosen among
-/// twelve on the benchmarks and 400 random polynomial fields (1.62 would have held them all), then tried on 4,000 other fields, on
-/// four domains and 24 to 400 triangles: 1.1 % of the bars missed; where [`Discretisation::relative`] is at most 0.2, 0.13 %, and where at most 0.1, none.
+/// The factor by which d_e may underrate the true error near the largest stress: it is an estimate,
+/// not a bound. The estimate was chosen among twelve on the benchmarks and 400 random polynomial
+/// fields (1.62 would have covered them all), then tried on 4,000 other fields, on four domains and
+/// 24 to 400 triangles: 1.1 % of the estimates missed; where [`Discretisation::relative`] is at
+/// most 0.2, 0.13 %, and where at most 0.1, none.
 const SAFETY: f64 = 2.0;
 
-/// What the mesh does to a solution.
+/// The estimated error that the mesh causes in a solution.
 #[derive(Clone, Debug)]
 pub struct Discretisation {
-    /// Recovered stresses at the three corners of each triangle, in the order of its nodes.
+    /// The recovered stresses at the corners of each triangle, in the order of its nodes.
     pub recovered: Vec<[Stress; 3]>,
-    /// eta_e of each triangle, in the energy norm: sqrt(force·length).
+    /// The error eta_e of each triangle in the energy norm, sqrt(force·length).
     pub indicators: Vec<f64>,
-    /// d_e of each triangle: largest von Mises value of sigma* − sigma_h; infinite where it is unknown. Stress.
+    /// The error d_e of each triangle, the largest von Mises value of sigma* − sigma_h, stress;
+    /// infinite where it is unknown.
     pub stress_errors: Vec<f64>,
-    /// Energy norm of the solution, sqrt(∫ sigma_hᵀ D⁻¹ sigma_h dV): sqrt(force·length).
+    /// The energy norm of the solution, sqrt(∫ sigma_hᵀ D⁻¹ sigma_h dV), sqrt(force·length).
     pub energy_norm: f64,
-    /// Triangles of parts too small to say anything of their error.
+    /// The triangles of parts that are too small to estimate their error.
     pub unrecovered: Vec<TriangleId>,
 }
 
-/// The largest von Mises stress of a body, and how far the true one may be from it.
+/// The largest von Mises stress of a body, and an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargestVonMises {
-    /// The largest of its triangles, stress.
+    /// The largest von Mises stress of its triangles, stress.
     pub value: f64,
     /// The triangle that has it.
     pub at: TriangleId,
-    /// The largest of the recovered stresses: as a rule nearer to the truth than `value`. Stress.
+    /// The largest of the recovered stresses, typically nearer to the truth than `value`, stress.
     pub recovered: f64,
-    /// The true largest value is expected within `value` ± `bar`; infinite where nothing is known. Stress.
-    pub bar: f64,
+    /// The error estimate, stress: the true largest value is expected within `value` ± `error`.
+    /// Infinite where nothing is known.
+    pub error: f64,
 }
 
 impl Discretisation {
-    /// The error of a solution, estimated from the state of each triangle.
+    /// Estimates the error of a solution from the state of each triangle.
     pub fn new(model: &Model, elements: &[State]) -> Self {
         let patches = Patches::new(model);
         let stresses: Vec<Stress> = elements.iter().map(|state| state.sigma).collect();
@@ -92,12 +101,13 @@ impl Discretisation {
         }
     }
 
-    /// eta, the estimated error in the energy norm: sqrt(force·length). Infinite where some triangle's error is unknown.
+    /// Returns eta, the estimated error in the energy norm, sqrt(force·length); infinite where the
+    /// error of a triangle is unknown.
     pub fn total(&self) -> f64 {
         if self.unrecovered.is_empty() { self.known_part() } else { f64::INFINITY }
     }
 
-    /// eta / |u|, |u|² being estimated by |u_h|² + eta²; 0 of no stress at all, infinite where eta is.
+    /// Returns eta / |u|, where |u|² is estimated by |u_h|² + eta²; infinite where eta is.
     pub fn relative(&self) -> f64 {
         match self.total() {
             eta if eta == 0.0 || eta.is_infinite() => eta,
@@ -105,8 +115,9 @@ impl Discretisation {
         }
     }
 
-    /// For a picture: each eta_e against the energy norm of an average triangle, |u| / sqrt(M). Their quadratic mean is
-    /// [`Self::relative`]; a triangle whose error is unknown has 0.
+    /// Returns, for a picture, each eta_e over the energy norm of an average triangle, |u| /
+    /// sqrt(M). Their quadratic mean is [`Self::relative`]; a triangle whose error is unknown has
+    /// 0.
     pub fn error_map(&self) -> Vec<f64> {
         let whole = self.known_part().hypot(self.energy_norm);
         let average = whole / (self.indicators.len() as f64).sqrt();
@@ -118,9 +129,9 @@ impl Discretisation {
         root_of_squares(self.indicators.iter().copied())
     }
 
-    /// The largest von Mises stress of a body and its bar.
+    /// Returns the largest von Mises stress of a body and its error estimate, from the state of
+    /// each triangle of the model and the body's triangles, at least one.
     ///
-    /// Given: the state of each triangle; the body's triangles, at least one.
     pub fn largest_von_mises(
         &self,
         model: &Model,
@@ -132,7 +143,7 @@ impl Discretisation {
         let at = triangles.iter().copied().reduce(higher).expect("a body has a triangle");
         let nodes = |id: TriangleId| model.triangle(id).nodes;
         let beside = |id: TriangleId| nodes(id).iter().any(|node| nodes(at).contains(node));
-        let bar = |&id: &TriangleId| {
+        let error = |&id: &TriangleId| {
             let (here, peak) = (self.stress_errors[id.index()], stress(id) - stress(at));
             if beside(id) { here } else { here + peak }
         };
@@ -143,18 +154,18 @@ impl Discretisation {
             value: stress(at),
             at,
             recovered: triangles.iter().map(recovered).fold(0.0, f64::max),
-            bar: SAFETY * triangles.iter().map(bar).fold(0.0, f64::max),
+            error: SAFETY * triangles.iter().map(error).fold(0.0, f64::max),
         }
     }
 }
 
-/// Largest von Mises value at the corners of a triangle.
+/// Returns the largest von Mises value at the corners of a triangle, stress.
 fn largest(plane: Plane, triangle: &Triangle, corners: &[Stress; 3]) -> f64 {
     let nu = triangle.material.nu;
     corners.iter().map(|s| von_mises(plane, nu, s)).fold(0.0, f64::max)
 }
 
-/// Von Mises stress, as in [`State::new`]; scaled, so that no square overflows or vanishes.
+/// Returns the von Mises stress, as in [`State::new`]; scaled, so that no square overflows.
 fn von_mises(plane: Plane, nu: f64, stress: &Stress) -> f64 {
     let scale = stress.amax();
     if scale == 0.0 {
@@ -169,7 +180,8 @@ fn von_mises(plane: Plane, nu: f64, stress: &Stress) -> f64 {
     scale * (squares / 2.0 + 3.0 * s[2] * s[2]).sqrt()
 }
 
-/// Energy norm over a triangle of a stress that is linear between its corners: sqrt(force·length). `volume`: length³.
+/// Returns the energy norm over a triangle of a stress that is linear between its corners,
+/// sqrt(force·length). `volume` is in length³.
 fn energy_norm(plane: Plane, triangle: &Triangle, volume: f64, corners: &[Stress; 3]) -> f64 {
     let scale = corners.iter().map(|s| s.amax()).fold(0.0, f64::max);
     if scale == 0.0 {
@@ -183,7 +195,7 @@ fn energy_norm(plane: Plane, triangle: &Triangle, volume: f64, corners: &[Stress
     scale * (volume / triangle.material.e * mean).sqrt()
 }
 
-/// E · D⁻¹, without unit.
+/// Returns E · D⁻¹, which has no unit.
 fn compliance(plane: Plane, nu: f64) -> Matrix3<f64> {
     let (diagonal, other) = match plane {
         Plane::Strain => ((1.0 + nu) * (1.0 - nu), -(1.0 + nu) * nu),
@@ -193,7 +205,7 @@ fn compliance(plane: Plane, nu: f64) -> Matrix3<f64> {
     Matrix3::new(diagonal, other, 0.0, other, diagonal, 0.0, 0.0, 0.0, shear)
 }
 
-/// sqrt(Σ x²); scaled, so that no square overflows or vanishes.
+/// Returns sqrt(Σ x²); scaled, so that no square overflows or vanishes.
 fn root_of_squares(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let scale = values.clone().fold(0.0, f64::max);
     if scale == 0.0 {
@@ -207,7 +219,7 @@ mod tests {
     use super::*;
     use crate::problem::element::D;
 
-    /// Both ways through Hooke's law give the stress back.
+    /// Hooke's law and its inverse cancel each other.
     #[test]
     fn compliance_is_the_inverse_of_elasticity() {
         for plane in [Plane::Strain, Plane::Stress] {
@@ -216,7 +228,7 @@ mod tests {
         }
     }
 
-    /// Neither squares of large nor of small numbers leave the range of floats.
+    /// Squares of very large and of very small numbers stay within the range of floats.
     #[test]
     fn extremes_of_units() {
         let uniaxial = |s: f64| von_mises(Plane::Stress, 0.3, &Stress::new(s, 0.0, 0.0));

@@ -1,8 +1,9 @@
-//! Error bars: how far a printed number may be from the truth. Two a number: what rounding does to it, and what the mesh does.
+//! Error estimates: how far a printed number may be from the truth. Each number has two, for the
+//! effect of rounding and for the effect of the mesh.
 //!
 //! ```text
-//!  Model, States --patches-->  sites --recovery--> smoothed stresses --discretisation--> eta, bars of the mesh
-//!  Solution ---------------------------------------------------------- arithmetic --------> bars of rounding
+//!  Model, States --patches--> sites --recovery--> stresses --discretisation--> errors of the mesh
+//!  Solution ------------------------------------------------ arithmetic -----> errors of rounding
 //! ```
 
 pub mod arithmetic;
@@ -10,39 +11,37 @@ pub mod discretisation;
 mod patches;
 mod recovery;
 
-use serde::{Deserialize, Serialize};
-
 use super::solution::Solution;
 use discretisation::Discretisation;
 
-/// The error bars of a run.
+/// The error estimates of a run.
 #[derive(Clone, Debug)]
-pub struct ErrorBars {
-    /// Rounding: a bound on the largest error of a displacement, length; infinite where nothing is known.
+pub struct ErrorEstimates {
+    /// A bound on the rounding error of any displacement, length; infinite where unknown.
     pub displacement: f64,
-    /// The mesh.
+    /// The error that the mesh causes in the stresses.
     pub mesh: Discretisation,
-    /// By body.
-    pub bodies: Vec<BodyBars>,
+    /// The error estimates of each body's largest stress, in the model's order.
+    pub bodies: Vec<BodyEstimates>,
 }
 
-/// A body's largest von Mises stress and its bars, stress; infinite where nothing is known.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BodyBars {
-    /// Its name.
+/// A body's largest von Mises stress and its error estimates, stress; infinite where unknown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyEstimates {
+    /// The name of the body.
     pub name: String,
-    /// Its largest von Mises stress.
+    /// The largest von Mises stress of its triangles, stress.
     pub value: f64,
-    /// The largest of the recovered stresses: as a rule nearer to the truth.
+    /// The largest of the recovered stresses, typically nearer to the truth, stress.
     pub recovered: f64,
-    /// What the mesh does to `value`.
+    /// The estimated error of `value` that the mesh causes, stress.
     pub mesh: f64,
-    /// What rounding does to it.
+    /// A bound on the error of `value` that rounding causes, stress.
     pub arithmetic: f64,
 }
 
-impl ErrorBars {
-    /// The bars of a run.
+impl ErrorEstimates {
+    /// Estimates the errors of a run.
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
         let displacement = arithmetic::displacement_bound(solution);
@@ -51,14 +50,14 @@ impl ErrorBars {
         let bodies = model.bodies.iter().map(|body| {
             let largest = mesh.largest_von_mises(model, &solution.elements, &body.triangles);
             let rounding = body.triangles.iter().map(|id| stress[id.index()]);
-            BodyBars {
+            BodyEstimates {
                 name: body.name.clone(),
                 value: largest.value,
                 recovered: largest.recovered,
-                mesh: largest.bar,
+                mesh: largest.error,
                 arithmetic: rounding.fold(0.0, f64::max),
             }
         });
-        ErrorBars { displacement, bodies: bodies.collect(), mesh }
+        ErrorEstimates { displacement, bodies: bodies.collect(), mesh }
     }
 }

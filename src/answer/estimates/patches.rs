@@ -1,9 +1,9 @@
-//! Which triangles surround which node, one material at a time.
+//! The triangles that surround each node, one material at a time.
 //!
 //! ```text
-//!   +-----+-----+      A node where two materials meet is two sites: the stress jumps there, and is recovered
-//!   | A  /|\  B |      on each side from that side's triangles alone. Bodies share no node, so no site belongs
-//!   |   / | \   |      to two bodies.
+//!   +-----+-----+    A node where two materials meet is two sites: the stress jumps there, and is
+//!   | A  /|\  B |    recovered on each side from that side's triangles alone. Bodies share no
+//!   |   / | \   |    node, so no site belongs to two bodies.
 //!   +--a--|--b--+
 //! ```
 
@@ -11,11 +11,11 @@ use std::collections::HashMap;
 
 use crate::problem::model::{Model, TriangleId};
 
-/// The triangles around each site; a site is a node as one material sees it. Everything is counted from 0.
+/// The triangles around each site, a node as one material sees it. All numbers count from 0.
 pub struct Patches {
-    /// Coordinates of each site, length.
+    /// The coordinates of each site, length.
     pub points: Vec<[f64; 2]>,
-    /// Centre of each triangle, length.
+    /// The centre of each triangle, length.
     pub centres: Vec<[f64; 2]>,
     /// The sites at the corners of each triangle.
     pub corners: Vec<[usize; 3]>,
@@ -28,7 +28,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// The patches of a model's triangles.
+    /// Finds the patches of a model's triangles.
     pub fn new(model: &Model) -> Self {
         let (corners, points) = sites(model);
         let mut patches = Patches {
@@ -52,7 +52,7 @@ impl Patches {
         patches
     }
 
-    /// Adds what triangle `id` tells of its sites.
+    /// Adds triangle `id` to the patches of its sites.
     fn add(&mut self, model: &Model, id: TriangleId) {
         let triangle = model.triangle(id);
         let sites = self.corners[id.index()];
@@ -71,7 +71,8 @@ impl Patches {
     }
 }
 
-/// The sites of each triangle, and where each site is; numbered as the triangles come to them.
+/// Returns the sites of each triangle and the coordinates of each site, length. Sites are numbered
+/// in the order in which triangles first have them.
 fn sites(model: &Model) -> (Vec<[usize; 3]>, Vec<[f64; 2]>) {
     let (mut numbers, mut points) = (HashMap::new(), Vec::new());
     let corners = model.triangles.iter().map(|triangle| {

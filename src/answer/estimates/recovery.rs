@@ -1,11 +1,12 @@
 //! Superconvergent patch recovery: better stresses at the nodes than the triangles' own.
 //!
-//! A linear polynomial is fitted by least squares to the stresses at the centres of the triangles around an interior
-//! node, and read at the node. A node on an edge of its body or material has too few triangles, all on one side: there the
-//! polynomials of the interior nodes beside it are read, and their mean taken.
+//! A linear polynomial is fitted by least squares to the stresses at the centres of the triangles
+//! around an interior node, and evaluated at the node. A node on an edge of its body or material
+//! has too few triangles, all on one side: there the polynomials of the adjacent interior nodes are
+//! evaluated and averaged.
 //!
-//! Source: O. C. Zienkiewicz, J. Z. Zhu, "The superconvergent patch recovery and a posteriori error estimates, part 1: the
-//! recovery technique", Int. J. Numer. Methods Eng. 33 (1992) 1331-1364.
+//! Source: O. C. Zienkiewicz, J. Z. Zhu, "The superconvergent patch recovery and a posteriori error
+//! estimates, part 1: the recovery technique", Int. J. Numer. Methods Eng. 33 (1992) 1331-1364.
 
 use std::collections::BTreeSet;
 
@@ -13,15 +14,16 @@ use nalgebra::{Matrix2, SMatrix, Vector2, Vector3};
 
 use super::patches::Patches;
 
-/// sigma_x, sigma_y, tau_xy.
+/// The stress components sigma_x, sigma_y, tau_xy.
 pub type Stress = Vector3<f64>;
 
-/// Centres closer to one line than this, as the ratio of the two principal second moments, fix no slope across it.
+/// The ratio of the two principal second moments of the centres below which they lie on one line
+/// and fix no slope across it.
 const COLLINEAR: f64 = 1e-10;
 
-/// Recovered stress at each site; nothing where the site's material has no patch that fixes a slope.
+/// Returns the recovered stress at each site from the stress of each triangle; None where the
+/// site's material has no patch that fixes a slope.
 ///
-/// Given: the patches, the stress of each triangle.
 pub fn recover(patches: &Patches, stresses: &[Stress]) -> Vec<Option<Stress>> {
     let own: Vec<Option<Linear>> = (0..patches.points.len())
         .map(|site| {
@@ -37,7 +39,7 @@ pub fn recover(patches: &Patches, stresses: &[Stress]) -> Vec<Option<Stress>> {
         .collect()
 }
 
-/// The polynomials of the nearest sites that have one, read at `site`: their mean.
+/// Returns the mean at `site` of the polynomials of the nearest sites that have one.
 fn nearest(patches: &Patches, own: &[Option<Linear>], site: usize) -> Option<Stress> {
     let read = |ring: &[usize]| {
         let values: Vec<Stress> =
@@ -47,7 +49,7 @@ fn nearest(patches: &Patches, own: &[Option<Linear>], site: usize) -> Option<Str
     Rings::new(patches, site).find_map(|ring| read(&ring))
 }
 
-/// The polynomial of the smallest patch that fixes one, grown ring by ring.
+/// Returns the value at `site` of the polynomial of the smallest patch of rings that fixes one.
 fn enlarged(patches: &Patches, stresses: &[Stress], site: usize) -> Option<Stress> {
     let mut triangles: BTreeSet<usize> = patches.around[site].iter().copied().collect();
     for ring in Rings::new(patches, site) {
@@ -99,7 +101,7 @@ struct Linear {
 }
 
 impl Linear {
-    /// Least squares at the centres of `triangles`; nothing where they lie on one line.
+    /// Fits by least squares at the centres of `triangles`; None where they lie on one line.
     fn fit(patches: &Patches, triangles: &[usize], stresses: &[Stress]) -> Option<Self> {
         let count = triangles.len() as f64;
         let centre = |t: &usize| Vector2::from(patches.centres[*t]);

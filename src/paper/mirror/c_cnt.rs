@@ -6,28 +6,28 @@ use super::worksheet::Worksheet;
 use crate::numbers::scalar::Scalar;
 use crate::paper::mathcad::array::{Column, Table, max, min, rows};
 
-/// Everything that `c_cnt` computes; the listing returns `k_cnt`.
+/// The arrays that `c_cnt` computes; the listing returns `k_cnt`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pairs<T> {
-    /// `elem` number of each contact node's target edge, 0 = none.
+    /// The `elem` number of each contact node's target edge; 0 for none.
     pub ct: Column<usize>,
-    /// Vertical distance target line minus contact node, length.
+    /// The vertical distance from contact node to target line, > 0 with the line above, length.
     pub yt: Column<T>,
-    /// 1 = in contact.
+    /// The status of each contact node: 1 in contact, 0 not.
     pub dy: Column<usize>,
-    /// Per node: mate, weight, mate, weight. R x 4.
+    /// The rows of all nodes: mate, weight, mate, weight. R x 4.
     pub k_cnt: Table<T>,
 }
 
 impl<T: Scalar> Pairs<T> {
-    /// No pair, for `nodes` nodes: what stands in place of `c_cnt`'s outcome where a scene has no contact.
+    /// Returns the arrays of no pair, for a scene of `nodes` nodes without contact.
     pub fn none(nodes: usize) -> Self {
         let k_cnt = Table::filled(nodes, 4, T::zero());
         let empty = Column::filled(0, 0);
         Pairs { ct: empty.clone(), yt: Column::filled(0, T::zero()), dy: empty, k_cnt }
     }
 
-    /// The same pairs in other numbers.
+    /// Returns the same pairs in other numbers.
     pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Pairs<U> {
         Pairs {
             ct: self.ct.clone(),
@@ -41,8 +41,8 @@ impl<T: Scalar> Pairs<T> {
 /// Finds the contact pairs in the current shape `node_n` (R x 4).
 ///
 /// # Errors
-/// Where the listing as printed fails: a zero x difference (lines 10, 22, 23), `yt` outside its range unless R4 is
-/// *guarded* (lines 17, 18), an overflow.
+/// The listing fails as printed: a zero x difference (lines 10, 22, 23), `yt` outside its range
+/// unless R4 is *guarded* (lines 17, 18), or an overflow.
 pub fn c_cnt<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
@@ -51,10 +51,10 @@ pub fn c_cnt<T: Scalar>(
     listing(sheet, reading, node_n, None)
 }
 
-/// The weights, lines 11 to 31, of nodes whose `ct`, `yt` and `dy` another status rule has `decided`.
+/// Computes the weights, lines 11 to 31, of nodes whose statuses another rule has `decided`.
 ///
 /// # Errors
-/// Where those lines as printed fail: a zero x difference (lines 22, 23), an overflow.
+/// Those lines fail as printed: a zero x difference (lines 22, 23), or an overflow.
 pub fn weights<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
@@ -77,7 +77,7 @@ fn listing<T: Scalar>(
     let mut yt = Column::filled(rows(cnt), zero);
     let mut dy = Column::filled(rows(cnt), 0);
     let mut k_cnt = Table::filled(R, 4, zero);
-    // DIFFERENCE: what another rule has decided stands in place of lines 2 to 10 and 15 to 18.
+    // DIFFERENCE: the results of another rule replace lines 2 to 10 and 15 to 18.
     let (search, is_decided) =
         (1..=if decided.is_some() { 0 } else { rows(cnt) }, decided.is_some());
     if let Some(decided) = decided {
@@ -136,8 +136,8 @@ fn listing<T: Scalar>(
             //# 13 k_cnt[i1,i2] ← 0
             k_cnt[(i1, i2)] = zero;
         }
-        // AMBIGUOUS R1: the weights loop stands beside the zeroing loop (it runs once, after the last row is zeroed), or
-        // inside it (it runs after each row).
+        // AMBIGUOUS R1: the weights loop is beside the zeroing loop (it runs once, after the last
+        // row is zeroed), or inside it (it runs after each row).
         if reading.r1 == LoopPlace::Beside && i1 < R {
             continue;
         }
@@ -151,7 +151,8 @@ fn listing<T: Scalar>(
                 if yt[i1].abs() < c_tll && ct[i1] > 0 {
                     dy[i1] = 1;
                 }
-                // AMBIGUOUS R4: at i1 = rows(cnt) line 17 names yt[i1+1], and at i1 = 1 line 18 names yt[0].
+                // AMBIGUOUS R4: at i1 = rows(cnt) line 17 names yt[i1+1], and at i1 = 1 line 18
+                // names yt[0].
                 //# 17 dy[i1] ← 1 if i1 < rows(cnt) ∧ yt[i1] < 0 ∧ yt[i1+1] > 0 ∧ ct[i1] > 0
                 if and(
                     reading.r4,
@@ -222,7 +223,7 @@ fn listing<T: Scalar>(
     Ok(Pairs { ct, yt, dy, k_cnt })
 }
 
-/// Mathcad's `∧` of several operands under reading R4.
+/// Evaluates Mathcad's `∧` of several operands under reading R4.
 fn and(order: Order, operands: [&dyn Fn() -> Result<bool, Failure>; 4]) -> Result<bool, Failure> {
     match order {
         Order::LeftToRight => {
@@ -244,7 +245,7 @@ fn and(order: Order, operands: [&dyn Fn() -> Result<bool, Failure>; 4]) -> Resul
     }
 }
 
-/// Where the listing stands, for the words of a failure.
+/// The place in the listing that a failure reports.
 #[derive(Clone, Copy, Default)]
 struct Line {
     line: usize,
@@ -263,7 +264,7 @@ impl Line {
         Failure::new("c_cnt", self.line, cause, &[&place, values].concat())
     }
 
-    /// `numerator / denominator`: x/0 and 0/0 are errors.
+    /// Returns `numerator / denominator`; x/0 and 0/0 are errors.
     fn quotient<T: Scalar>(self, numerator: T, denominator: T) -> Result<T, Failure> {
         let (numerator, denominator) = (self.finite(numerator)?, self.finite(denominator)?);
         if denominator == T::zero() {
@@ -274,7 +275,7 @@ impl Line {
         self.finite(numerator / denominator)
     }
 
-    /// `value`, unless it overflowed.
+    /// Returns `value`, unless it overflowed.
     fn finite<T: Scalar>(self, value: T) -> Result<T, Failure> {
         if value.is_finite() {
             return Ok(value);
@@ -282,7 +283,7 @@ impl Line {
         Err(self.failure(Cause::Overflow, &[("value", &value)]))
     }
 
-    /// `yt[index]`, an error outside 1 .. rows(yt).
+    /// Returns `yt[index]`, or an error outside 1 .. rows(yt).
     fn entry<T: Scalar>(self, yt: &Column<T>, index: usize) -> Result<T, Failure> {
         let values: [(&str, &dyn std::fmt::Display); 2] =
             [("index of yt", &index), ("rows(yt)", &yt.rows())];

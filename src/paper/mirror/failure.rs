@@ -1,11 +1,11 @@
-//! The published algorithm failing as printed: an audit result.
+//! The failures of the published algorithm as printed, which are audit results.
 
 use std::fmt::Write as _;
 
-/// What went wrong on a listing's line, as Mathcad would put it.
+/// The cause of a failure on a line of a listing, as Mathcad would report it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// x/0 and 0/0.
+    /// A division by zero: x/0 or 0/0.
     Singularity,
     /// A subscript below `ORIGIN` or past the last entry.
     InvalidIndex,
@@ -14,7 +14,7 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// Mathcad's words.
+    /// Returns the message of Mathcad.
     pub fn words(self) -> &'static str {
         match self {
             Cause::Singularity => {
@@ -26,22 +26,22 @@ impl Cause {
     }
 }
 
-/// A listing that stops with an error: which line, and the values that made it stop.
+/// The failure of a listing: its line, and the values that caused it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{listing}, line {line}: {} {values}", .cause.words())]
 pub struct Failure {
-    /// `c_cnt` or `Km`.
+    /// The name of the listing, `c_cnt` or `Km`.
     pub listing: &'static str,
-    /// Printed line, from 1.
+    /// The printed line, from 1.
     pub line: usize,
-    /// What went wrong.
+    /// The cause of the failure.
     pub cause: Cause,
-    /// Indices and values: `i1 = 3, ct[i1] = 12, ...`.
+    /// The indices and values: `i1 = 3, ct[i1] = 12, ...`.
     pub values: String,
 }
 
 impl Failure {
-    /// A failure on `line` of `listing`; `values` lists names and values in the order of their importance.
+    /// Describes a failure on `line`; `values` lists names and values by importance.
     pub fn new(
         listing: &'static str,
         line: usize,

@@ -1,11 +1,11 @@
 //! Listing `Km` (fig. 3): the global stiffness matrix (`listings/READING.md`, section 3).
 //!
 //! ```text
-//!                V[1]  V[2]   ...   V[6]
-//!         V[1] [  x     x            x   ]     MJS is 2R x 2R. Equation 2n−1 is the x displacement of node n,
-//!         V[2] [  x     x            x   ]     2n its y displacement. K is added at (V, V), and once more,
-//!          ... [                         ]     scaled by a weight, at (W, W), the equations of the mates:
-//!         V[6] [  x     x            x   ]     never at (V, W) (finding K1).
+//!            V[1]  V[2]   ...   V[6]     MJS is 2R x 2R. Equation 2n−1 is the x displacement
+//!     V[1] [  x     x            x   ]   of node n, 2n its y displacement. K is added at (V, V),
+//!     V[2] [  x     x            x   ]   and again, scaled by a weight, at (W, W), the equations
+//!      ... [                         ]   of the mates (column 1 or 3 of c_cnt), but never at
+//!     V[6] [  x     x            x   ]   (V, W) (finding K1).
 //! ```
 
 use super::failure::{Cause, Failure};
@@ -18,7 +18,7 @@ use crate::problem::element;
 /// Assembles `MJS` (2R x 2R, force/length) from the contact pairs `c_cnt` (R x 4, as `k_cnt`).
 ///
 /// # Errors
-/// An overflow, in words that name element and line.
+/// An entry overflows; the error names element and line.
 pub fn Km<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
@@ -43,7 +43,8 @@ pub fn Km<T: Scalar>(
             V[2 * i1 - 1] = 2 * EL[(n, i1 + ind_1 - 1)] - 1;
             //#  6 V[2·i1] ← 2·EL[n,i1+ind_1−1]
             V[2 * i1] = 2 * EL[(n, i1 + ind_1 - 1)];
-            // AMBIGUOUS R2: the index of the x restraint, or, as the scan prints it, that of line 8.
+            // AMBIGUOUS R2: the index of the x restraint, or, as the scan prints it, that of line
+            // 8.
             let odd = if reading.r2 == RestraintIndex::Odd { 1 } else { 0 };
             //#  7 cx[2·i1−1] ← |S[2·EL[n,i1+ind_1−1] − 1] − 1|
             cx[2 * i1 - 1] = (T::from_number(S[2 * EL[(n, i1 + ind_1 - 1)] - odd]) - one).abs();
@@ -87,7 +88,8 @@ pub fn Km<T: Scalar>(
                 //# 20 fl ← c_cnt[EL[n,i1+ind_1−1],2]
                 fl = c_cnt[(EL[(n, i1 + ind_1 - 1)], 2)];
             }
-            // AMBIGUOUS R3: collect leaves the loop here until all three nodes are in W; the others add node by node.
+            // AMBIGUOUS R3: collect leaves the loop here until all three nodes are in W; the others
+            // add node by node.
             if reading.r3 == Wedge::Collect && i1 < 3 {
                 continue;
             }
@@ -138,8 +140,8 @@ pub fn Km<T: Scalar>(
                         }
                     }
                 }
-                // AMBIGUOUS R3: the print clears nothing here; per node and nested clear after each node, as in lines
-                // 24 and 25. Under collect the element is done.
+                // AMBIGUOUS R3: the print clears nothing here; per node and nested clear after each
+                // node, as in lines 24 and 25. Under collect the element is done.
                 fl = zero;
                 W = Column::filled(6, 0);
             }
@@ -149,7 +151,7 @@ pub fn Km<T: Scalar>(
     Ok(MJS)
 }
 
-/// `value`, unless it overflowed while element `n` was added.
+/// Returns `value`, unless it overflowed while element `n` was added.
 fn finite<T: Scalar>(line: usize, n: usize, value: T) -> Result<T, Failure> {
     if value.is_finite() {
         return Ok(value);

@@ -1,13 +1,14 @@
-//! The paper's two listings in Rust, line by line: dense, 1-based, in the printed order of operations.
+//! The paper's two listings in Rust, line by line: dense, 1-based, in the printed order.
 //!
-//! Speed never enters here. Above every piece stands its listing line, quoted as `//# <line> <text>` from `listings/`;
-//! a test compares each quote byte for byte and checks that each line is mirrored once.
+//! The mirror is not optimised. Above every piece is its listing line, quoted as `//# <line>
+//! <text>` from `listings/`; a test compares each quote byte for byte and checks that each line is
+//! mirrored once.
 //!
 //! ```text
 //!            6 *-----* 7      elem[e,6], elem[e,7]: the two nodes of target edge e
 //!               \  ^
-//!      line 10:  \ | yt       vertical distance, target line minus contact node: > 0 when the line is above the node
-//!                 \|
+//!      line 10:  \ | yt       vertical distance from the contact node to the target line,
+//!                 \|          > 0 where the line is above the node
 //!                  o cnt[i1]
 //! ```
 

@@ -6,60 +6,61 @@ use crate::choices;
 use crate::problem::element::Plane;
 
 choices! {
-    /// R1, c_cnt 14: where the weights loop stands.
+    /// R1, c_cnt 14: the place of the weights loop.
     LoopPlace {
-        /// Beside the zeroing loop.
+        /// The weights loop is beside the zeroing loop.
         Beside = "beside",
-        /// Inside it, as the scan indents it: every weight is added again for each row still to be zeroed.
+        /// The weights loop is inside it, as the scan indents it: every weight is added again for
+        /// each row still to be zeroed.
         Inside = "inside",
     }
 }
 choices! {
     /// R2, Km 7: the index under which the x restraint is read.
     RestraintIndex {
-        /// `S[2·EL−1]`, the x restraint.
+        /// The index is that of `S[2·EL−1]`, the x restraint.
         Odd = "odd",
-        /// `S[2·EL]`, as the scan prints it: the y restraint, which line 8 reads too.
+        /// The index is that of `S[2·EL]`, as the scan prints it: the y restraint of line 8.
         Printed = "printed",
     }
 }
 choices! {
-    /// R3, Km 16-33: where the adding loops stand.
+    /// R3, Km 16-33: the place of the adding loops.
     Wedge {
         /// All three nodes fill `W`, then one adding loop.
         Collect = "collect",
         /// The adding loop runs for each node, `W` and `fl` cleared after each.
         PerNode = "per-node",
-        /// As the scan indents it: per node, and lines 26-33 inside the first loop too, so that they run three times.
+        /// As the scan indents it: per node, and lines 26-33 run inside the first loop too.
         Nested = "nested",
     }
 }
 choices! {
-    /// R4, c_cnt 17 and 18: how `∧` is evaluated.
+    /// R4, c_cnt 17 and 18: the evaluation of `∧`.
     Order {
-        /// A false operand decides, whatever the others do.
+        /// A false operand decides, whatever the others are.
         Guarded = "guarded",
-        /// Stops at the first false operand.
+        /// Evaluation stops at the first false operand.
         LeftToRight = "left-to-right",
-        /// Evaluates all operands.
+        /// Evaluation includes all operands.
         Eager = "eager",
     }
 }
 choices! {
-    /// R5, c_cnt 22 and 23: the coordinates under the weights.
+    /// R5, c_cnt 22 and 23: the coordinates from which weights are computed.
     NodeTable {
-        /// Initial coordinates, as printed.
+        /// The initial coordinates, as printed.
         Node = "node",
-        /// Current coordinates.
+        /// The current coordinates of each iteration.
         NodeN = "node_n",
     }
 }
 choices! {
-    /// R7, not printed: what load an iteration carries.
+    /// R7, not printed: the load of an iteration.
     Schedule {
-        /// The whole load from the initial shape.
+        /// The whole load, from the initial shape.
         Total = "total",
-        /// An equal share of it from the last shape.
+        /// An equal share of the load, from the last shape.
         Stepped = "stepped",
     }
 }
@@ -68,28 +69,28 @@ choices! {
     ToleranceUnit {
         /// The scene's own length unit (mm in the paper's example).
         Millimetre = "mm",
-        /// Metres: 1,000 times as much.
+        /// Metres, which are 1,000 times as large.
         Metre = "m",
     }
 }
 
-/// One choice for each ambiguity of the print (`listings/READING.md`, section 4). R6 and R7 are
-/// what the scene and the variant say, unless given here.
+/// A choice for each ambiguity of the print (`listings/READING.md`, section 4). The scene and the
+/// variant set R6 and R7 unless the reading does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reading {
-    /// R1: weights loop beside the zeroing loop, or inside it.
+    /// R1: the weights loop beside the zeroing loop, or inside it.
     pub r1: LoopPlace,
-    /// R2: index of the x restraint.
+    /// R2: the index of the x restraint.
     pub r2: RestraintIndex,
-    /// R3: where the adding loops of `Km` stand.
+    /// R3: the place of the adding loops of `Km`.
     pub r3: Wedge,
-    /// R4: how `∧` is evaluated.
+    /// R4: the evaluation of `∧`.
     pub r4: Order,
-    /// R5: coordinates under the weights.
+    /// R5: the coordinates from which weights are computed.
     pub r5: NodeTable,
-    /// R6: overrides the scene's `plane`.
+    /// R6: the plane problem in place of the scene's `plane`.
     pub r6: Option<Plane>,
-    /// R7: overrides the variant's load.
+    /// R7: the load of an iteration in place of the variant's.
     pub r7: Option<Schedule>,
     /// R8: the unit of c_tol.
     pub r8: ToleranceUnit,
@@ -113,7 +114,7 @@ impl Default for Reading {
 impl FromStr for Reading {
     type Err = String;
 
-    /// Reads `R2=printed,R5=node_n`; what is not named keeps its default.
+    /// Reads a list such as `R2=printed,R5=node_n`; other readings keep their default.
     fn from_str(text: &str) -> Result<Self, String> {
         let (mut reading, mut named) = (Reading::default(), Vec::new());
         for item in text.split(',').map(str::trim).filter(|item| !item.is_empty()) {

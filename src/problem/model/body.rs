@@ -1,29 +1,30 @@
-//! Bodies: the parts of a mesh that share no node, and whether something holds each.
+//! Bodies, which are the parts of a mesh that share no node, and whether each is restrained.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::ids::{NodeId, TriangleId};
 use super::{Model, Triangle};
 
-/// A part of the mesh that shares no node with another.
+/// A part of the mesh that shares no node with another part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
-    /// The names of its materials, joined by `+`; numbered where two bodies would share it.
+    /// The names of its materials, joined by `+`; numbered where two bodies would share the name.
     pub name: String,
-    /// Its triangles, ascending.
+    /// The triangles of the body, ascending.
     pub triangles: Vec<TriangleId>,
-    /// Its nodes, ascending.
+    /// The nodes of the body, ascending.
     pub nodes: Vec<NodeId>,
 }
 
 impl Body {
-    /// Whether `node` is one of its nodes.
+    /// Returns whether `node` is one of its nodes.
     pub fn has(&self, node: NodeId) -> bool {
         self.nodes.binary_search(&node).is_ok()
     }
 }
 
-/// The bodies that `triangles` on `nodes` nodes make, by their lowest node. `material` names the material of each triangle.
+/// Returns the bodies that `triangles` on `nodes` nodes form, by their lowest node. `material`
+/// names the material of each triangle.
 pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[String]) -> Vec<Body> {
     let lowest = lowest_nodes(nodes, triangles);
     let mut found: Vec<(NodeId, Body)> = Vec::new();
@@ -45,7 +46,7 @@ pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[String]) -> Vec<
     bodies
 }
 
-/// For each node the lowest node of its body.
+/// Returns the lowest node of each node's body.
 fn lowest_nodes(nodes: usize, triangles: &[Triangle]) -> Vec<NodeId> {
     let mut root: Vec<usize> = (0..nodes).collect();
     fn lowest(root: &mut [usize], mut n: usize) -> usize {
@@ -84,14 +85,16 @@ fn number_equal_names(bodies: &mut [Body]) {
     }
 }
 
-/// How what has these nodes can still move, as a rigid body, under its restraints alone, in words; nothing where it cannot.
+/// Returns how the part with these nodes can still move as a rigid body under its restraints alone,
+/// in words; None where it cannot move.
 pub fn freedom(model: &Model, nodes: &[NodeId]) -> Option<&'static str> {
     let count = nodes.len() as f64;
     let points = || nodes.iter().map(|&n| model.at(n));
     let sum = points().fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
     let centre = [sum[0] / count, sum[1] / count];
     let size = points().map(|[x, y]| (x - centre[0]).hypot(y - centre[1])).fold(0.0, f64::max);
-    // The three rigid motions' components at each restraint; they leave none free when their Gram matrix has full rank.
+    // The components of the three rigid motions at each restraint leave no motion free where their
+    // Gram matrix has full rank.
     let mut gram = Matrix3::zeros();
     for &n in nodes {
         let [x, y] = model.at(n);

@@ -1,9 +1,10 @@
-//! What is counted in a model, each by a type of its own: nodes, degrees of freedom, triangles, edges. All count from 0; files and
-//! people count nodes and triangles from 1: that is their [`number`](NodeId::number).
+//! The identifiers of nodes, degrees of freedom, triangles and edges, each a type of its own. All
+//! count from 0; files and people count nodes and triangles from 1, by their
+//! [`number`](NodeId::number).
 
 use nalgebra::DVector;
 
-/// Declares a newtype that counts from 0 inside and from 1 for people.
+/// Declares an identifier that counts from 0.
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
@@ -11,34 +12,36 @@ macro_rules! id {
         pub struct $name(usize);
 
         impl $name {
-            /// The one at place `index`, from 0.
+            /// Returns the one at place `index`, from 0.
             pub const fn new(index: usize) -> Self {
                 $name(index)
             }
 
-            /// Its place, from 0.
+            /// Returns its place, from 0.
             pub const fn index(self) -> usize {
                 self.0
             }
 
-            /// The first `count` of them, in order.
-            pub fn all(count: usize) -> impl DoubleEndedIterator<Item = Self> + Clone + ExactSizeIterator {
+            /// Returns the first `count` of them, in order.
+            pub fn all(
+                count: usize,
+            ) -> impl DoubleEndedIterator<Item = Self> + Clone + ExactSizeIterator {
                 (0..count).map($name)
             }
         }
     };
 }
 
-/// Adds the number that people and files use: the place from 1.
+/// Adds the number of an identifier for people and files: its place from 1.
 macro_rules! numbered {
     ($name:ident) => {
         impl $name {
-            /// The one with `number`, from 1.
+            /// Returns the one with `number`, from 1.
             pub const fn from_number(number: usize) -> Self {
                 $name(number - 1)
             }
 
-            /// Its number, from 1.
+            /// Returns its number, from 1.
             pub const fn number(self) -> usize {
                 self.0 + 1
             }
@@ -68,58 +71,59 @@ macro_rules! numbered {
 }
 
 id! {
-    /// A node.
+    /// A node of the model: a place in [`Model::nodes`](super::Model::nodes).
     NodeId
 }
 id! {
-    /// A triangle.
+    /// A triangle of the model: a place in [`Model::triangles`](super::Model::triangles).
     TriangleId
 }
 id! {
-    /// An edge that the mesh names: a place in [`Model::edges`](super::Model::edges). Its number in the mesh file is another.
+    /// An edge that the mesh names: a place in [`Model::edges`](super::Model::edges). Its number in
+    /// the mesh file is different.
     EdgeId
 }
 id! {
-    /// A degree of freedom: the displacement of a node along x or y. Those of node n are 2n and 2n + 1.
+    /// A degree of freedom: a displacement of a node n, 2n along x and 2n + 1 along y.
     Dof
 }
 numbered!(NodeId);
 numbered!(TriangleId);
 
 impl NodeId {
-    /// Its displacement along x.
+    /// Returns its displacement along x.
     pub const fn x(self) -> Dof {
         Dof(2 * self.0)
     }
 
-    /// Its displacement along y.
+    /// Returns its displacement along y.
     pub const fn y(self) -> Dof {
         Dof(2 * self.0 + 1)
     }
 
-    /// Both of its degrees of freedom: x, y.
+    /// Returns both of its degrees of freedom: x, y.
     pub const fn dofs(self) -> [Dof; 2] {
         [self.x(), self.y()]
     }
 
-    /// Its two components of a field over all degrees of freedom.
+    /// Returns its two components of a field over all degrees of freedom.
     pub fn of<T: Copy>(self, field: &DVector<T>) -> [T; 2] {
         self.dofs().map(|dof| field[dof.0])
     }
 }
 
 impl Dof {
-    /// The node that moves.
+    /// Returns the node to which the displacement belongs.
     pub const fn node(self) -> NodeId {
         NodeId(self.0 / 2)
     }
 
-    /// The direction: 0 along x, 1 along y.
+    /// Returns the direction: 0 along x, 1 along y.
     pub const fn direction(self) -> usize {
         self.0 % 2
     }
 
-    /// The letter of its direction.
+    /// Returns the letter of its direction.
     pub const fn axis(self) -> char {
         ['x', 'y'][self.direction()]
     }

@@ -1,7 +1,7 @@
-//! The finite element model: nodes, triangles, materials, restraints, load and contact surfaces, whoever made them.
+//! The finite element model: nodes, triangles, materials, restraints, load, contact surfaces.
 //!
-//! Everything counts from 0, each thing by a type of its own; the paper's tables, which count from 1, are made from a model
-//! behind one door (`paper::door`).
+//! Everything counts from 0, each thing by a type of its own. The paper's tables, which count from
+//! 1, are made from a model in one place (`paper::door`).
 
 mod body;
 mod ids;
@@ -15,61 +15,61 @@ pub use sides::{Beside, Sides, unordered};
 
 use super::element::{Corners, Plane};
 
-/// An elastic material.
+/// An isotropic elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Elastic modulus, stress.
+    /// The elastic modulus, stress.
     pub e: f64,
-    /// Poisson's ratio.
+    /// Poisson's ratio, which has no unit.
     pub nu: f64,
 }
 
-/// A three-node triangle.
+/// A three-node triangle and its material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
-    /// Its nodes, counter-clockwise.
+    /// The nodes of the corners, counter-clockwise.
     pub nodes: [NodeId; 3],
-    /// What it is made of.
+    /// The material of the triangle.
     pub material: Material,
 }
 
 /// An edge that the mesh names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
-    /// Its number in the mesh file.
+    /// The number of the edge in the mesh file.
     pub number: usize,
-    /// Its nodes, in the order of the mesh file.
+    /// The nodes of the edge, in the order of the mesh file.
     pub nodes: [NodeId; 2],
 }
 
-/// The two contact surfaces. Without contact both are empty.
+/// The two contact surfaces, both empty without contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactSurfaces {
-    /// The contact (stamp) surface: its nodes in order along it.
+    /// The nodes of the contact (stamp) surface, in order along it.
     pub nodes: Vec<NodeId>,
-    /// The target surface: its edges in the order in which they are searched.
+    /// The edges of the target surface, in the order in which they are searched.
     pub target: Vec<EdgeId>,
     /// The tolerance of the contact search, length.
     pub tolerance: f64,
 }
 
-/// An element as the mesh file has it: the row of a table that no computation needs but the paper's.
+/// An element of the mesh file: a row of a table that only the paper's computations need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// Its number.
+    /// The number of the element in the mesh file.
     pub number: usize,
-    /// Tag of the first physical group that it belongs to; 0 where it belongs to none.
+    /// The tag of the first physical group to which it belongs; 0 where it belongs to none.
     pub physical: usize,
-    /// Tag of its geometric entity.
+    /// The tag of its geometric entity.
     pub geometric: usize,
-    /// What it is.
+    /// The point, edge or triangle that the row describes.
     pub element: Element,
 }
 
-/// What an element of the mesh file is.
+/// The kind of an element of the mesh file, and its place in the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// A point.
+    /// A point at a node.
     Point(NodeId),
     /// An edge of the model.
     Edge(EdgeId),
@@ -77,124 +77,123 @@ pub enum Element {
     Triangle(TriangleId),
 }
 
-/// The finite element model. Lengths, forces and stresses in any consistent unit.
+/// The finite element model. Lengths, forces and stresses are in any consistent unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    /// Plane strain or plane stress.
+    /// The plane problem: plane strain or plane stress.
     pub plane: Plane,
-    /// Thickness across the plane, length.
+    /// The thickness across the plane, length.
     pub thickness: f64,
-    /// Coordinates of each node, length.
+    /// The coordinates of each node, length.
     pub nodes: Vec<[f64; 2]>,
-    /// The plane's z, length: of the mesh file, and of no effect.
+    /// The z coordinate of the plane, length, as in the mesh file; it has no effect.
     pub z: f64,
-    /// The triangles.
+    /// The triangles, in the order of the mesh file.
     pub triangles: Vec<Triangle>,
-    /// Which triangles have which side.
+    /// The triangles beside each side.
     pub sides: Sides,
     /// The edges that the mesh names, by ascending number.
     pub edges: Vec<Edge>,
-    /// By degree of freedom, whether it is restrained to 0.
+    /// Whether each degree of freedom is restrained to 0.
     pub restrained: Vec<bool>,
-    /// Load by degree of freedom, restrained ones included, force.
+    /// The load by degree of freedom, restrained ones included, force.
     pub load: DVector<f64>,
     /// The bodies, by their lowest node.
     pub bodies: Vec<Body>,
-    /// The two contact surfaces.
+    /// The contact surface and the target surface.
     pub contact: ContactSurfaces,
-    /// The mesh file's elements, by ascending number.
+    /// The elements of the mesh file, by ascending number.
     pub rows: Vec<Row>,
 }
 
 impl Model {
-    /// Number of degrees of freedom, restrained ones included.
+    /// Returns the number of degrees of freedom, restrained ones included.
     pub fn dofs(&self) -> usize {
         2 * self.nodes.len()
     }
 
-    /// Every node, in order.
+    /// Returns every node, in order.
     pub fn node_ids(&self) -> impl DoubleEndedIterator<Item = NodeId> + Clone + use<> {
         NodeId::all(self.nodes.len())
     }
 
-    /// Every triangle, in order.
+    /// Returns every triangle, in order.
     pub fn triangle_ids(&self) -> impl DoubleEndedIterator<Item = TriangleId> + Clone + use<> {
         TriangleId::all(self.triangles.len())
     }
 
-    /// Every degree of freedom, in order.
+    /// Returns every degree of freedom, in order.
     pub fn all_dofs(&self) -> impl DoubleEndedIterator<Item = Dof> + Clone + use<> {
         Dof::all(self.dofs())
     }
 
-    /// Coordinates of a node, length.
+    /// Returns the coordinates of a node, length.
     pub fn at(&self, node: NodeId) -> [f64; 2] {
         self.nodes[node.index()]
     }
 
-    /// A triangle.
+    /// Returns the triangle with this identifier.
     pub fn triangle(&self, id: TriangleId) -> &Triangle {
         &self.triangles[id.index()]
     }
 
-    /// An edge.
+    /// Returns the edge with this identifier.
     pub fn edge(&self, id: EdgeId) -> &Edge {
         &self.edges[id.index()]
     }
 
-    /// Coordinates of the corners of a triangle, length.
+    /// Returns the coordinates of the corners of a triangle, length.
     pub fn corners(&self, id: TriangleId) -> Corners<f64> {
         self.triangle(id).nodes.map(|node| self.at(node))
     }
 
-    /// Whether a degree of freedom is restrained.
+    /// Returns whether a degree of freedom is restrained.
     pub fn is_restrained(&self, dof: Dof) -> bool {
         self.restrained[dof.index()]
     }
 
-    /// Which of a node's two displacements are restrained.
+    /// Returns which of a node's two displacements are restrained.
     pub fn restraints_of(&self, node: NodeId) -> [bool; 2] {
         node.dofs().map(|dof| self.is_restrained(dof))
     }
 
-    /// Number of degrees of freedom that are not restrained.
+    /// Returns the number of degrees of freedom that are not restrained.
     pub fn free_dofs(&self) -> usize {
         self.restrained.iter().filter(|restrained| !**restrained).count()
     }
 
-    /// The load, 0 at restrained degrees of freedom, force.
+    /// Returns the load by degree of freedom, 0 at restrained ones, force.
     pub fn free_load(&self) -> DVector<f64> {
-        self.load.zip_map(&DVector::from_column_slice(&self.restrained), |load, restrained| {
-            if restrained { 0.0 } else { load }
-        })
+        let free = |e, _| if self.restrained[e] { 0.0 } else { self.load[e] };
+        DVector::from_fn(self.dofs(), free)
     }
 
-    /// Sum of the loads, force.
+    /// Returns the sum of the loads along x and y, force.
     pub fn total_load(&self) -> [f64; 2] {
         [0, 1].map(|direction| self.load.iter().skip(direction).step_by(2).sum())
     }
 
-    /// Whether there is a contact surface.
+    /// Returns whether there is a contact surface.
     pub fn has_contact(&self) -> bool {
         !self.contact.nodes.is_empty()
     }
 
-    /// The target edges, in the order in which they are searched.
+    /// Returns the target edges, in the order in which they are searched.
     pub fn target_edges(&self) -> impl Iterator<Item = &Edge> + Clone {
         self.contact.target.iter().map(|id| self.edge(*id))
     }
 
-    /// The body that carries the target surface; none without contact.
+    /// Returns the body that has the target surface; None without contact.
     pub fn target(&self) -> Option<&Body> {
         self.body_of(self.target_edges().next()?.nodes[0])
     }
 
-    /// The body that has `node`.
+    /// Returns the body that has `node`.
     pub fn body_of(&self, node: NodeId) -> Option<&Body> {
         self.bodies.iter().find(|body| body.has(node))
     }
 
-    /// Where displacements `u` bring each node, length.
+    /// Returns the coordinates of each node after displacements `u`, length.
     pub fn shape(&self, u: &DVector<f64>) -> Vec<[f64; 2]> {
         let moved = |(node, [x, y]): (NodeId, &[f64; 2])| {
             let [ux, uy] = node.of(u);

@@ -1,26 +1,26 @@
-//! Which triangles have which side: computed once, for whoever asks for what lies beside an edge.
+//! The triangles beside each side, computed once per model.
 
 use std::collections::HashMap;
 
 use super::ids::{NodeId, TriangleId};
 
-/// The sides of all triangles.
+/// The triangles beside the sides of all triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sides(HashMap<[NodeId; 2], Vec<Beside>>);
 
 /// A triangle beside a side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Beside {
-    /// The triangle.
+    /// The triangle that has the side.
     pub triangle: TriangleId,
-    /// The side's two nodes in the order that leaves the triangle on their left.
+    /// The side's two nodes, in the order that leaves the triangle on their left.
     pub nodes: [NodeId; 2],
-    /// The triangle's third node.
+    /// The third node of the triangle.
     pub third: NodeId,
 }
 
 impl Sides {
-    /// The sides of `triangles`, each given by its nodes counter-clockwise.
+    /// Collects the sides of `triangles`, each given by its nodes counter-clockwise.
     pub fn new(triangles: impl Iterator<Item = [NodeId; 3]>) -> Self {
         let mut sides: HashMap<[NodeId; 2], Vec<Beside>> = HashMap::new();
         for (index, corners) in triangles.enumerate() {
@@ -34,12 +34,13 @@ impl Sides {
         Sides(sides)
     }
 
-    /// The triangles that have the side between two nodes, in their order; the order of the nodes does not matter.
+    /// Returns the triangles that have the side between two nodes in any order, ascending.
     pub fn beside(&self, nodes: [NodeId; 2]) -> &[Beside] {
         self.0.get(&unordered(nodes)).map_or(&[], Vec::as_slice)
     }
 
-    /// The one triangle that has this side, where it bounds the body; nothing for an inner side and for what is no side.
+    /// Returns the one triangle that has this side, where the side bounds the body; None for an
+    /// inner side and for two nodes without a common side.
     pub fn boundary(&self, nodes: [NodeId; 2]) -> Option<Beside> {
         match self.beside(nodes) {
             [one] => Some(*one),
@@ -48,7 +49,7 @@ impl Sides {
     }
 }
 
-/// Two nodes, the lower one first: one key for both directions of an edge.
+/// Returns two nodes, the lower one first: one key for both directions of an edge.
 pub fn unordered([a, b]: [NodeId; 2]) -> [NodeId; 2] {
     [a.min(b), a.max(b)]
 }

@@ -1,4 +1,4 @@
-//! A scene in code: a mesh, and what is said of it.
+//! Scenes in code: a mesh and its description.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::files;
 use crate::problem::element::Plane;
 use crate::problem::modelling::Variant;
 
-/// A scene before it is checked: from code, or from a scene file, which says the same.
+/// A scene before it is checked, from code or from a scene file.
 ///
 /// ```
 /// use plane_contact::problem::element::Plane;
@@ -33,24 +33,24 @@ use crate::problem::modelling::Variant;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneBuilder {
-    /// Name for folders and reports.
+    /// The name for folders and reports.
     pub name: String,
-    /// The mesh.
+    /// The mesh of the scene.
     pub mesh: Mesh,
-    /// What is said of the mesh.
+    /// The plane problem, materials, restraints, loads and contact on that mesh.
     pub description: Description,
 }
 
 impl SceneBuilder {
-    /// A plane problem on a mesh, of which nothing else is said yet.
+    /// Starts a plane problem on a mesh, with no material, restraint or load yet.
     pub fn new(name: impl Into<String>, mesh: Mesh, plane: Plane) -> Self {
         SceneBuilder { name: name.into(), mesh, description: Description::new(plane) }
     }
 
-    /// Reads a scene file and its mesh; `beside` reads a file that lies beside the scene file.
+    /// Reads a scene file and its mesh; `beside` reads a file in the scene file's folder.
     ///
     /// # Errors
-    /// The text of the scene file or of the mesh file is none.
+    /// The text of the scene file or of the mesh file is malformed.
     pub fn read(
         name: &str,
         text: &[u8],
@@ -60,7 +60,7 @@ impl SceneBuilder {
         Ok(SceneBuilder { name: name.into(), mesh: source.read(beside)?, description })
     }
 
-    /// Sets the line for people.
+    /// Sets the title for people.
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.description.title = title.into();
         self
@@ -79,7 +79,7 @@ impl SceneBuilder {
         self
     }
 
-    /// Gives a group of triangles a material: elastic modulus, stress, and Poisson's ratio.
+    /// Sets the material of a group of triangles: elastic modulus, stress, and Poisson's ratio.
     pub fn material(mut self, group: impl Into<GroupRef>, e: f64, nu: f64) -> Self {
         self.description.materials.0.push((group.into(), Material { e, nu }));
         self
@@ -92,14 +92,14 @@ impl SceneBuilder {
         self
     }
 
-    /// Restrains the node of a number in the directions `fix`.
+    /// Restrains the node with number `node` in the directions `fix`.
     pub fn restrain_node(mut self, node: usize, fix: &[Axis]) -> Self {
         let restraint = Restraint { on: None, node: Some(node), fix: fix.to_vec() };
         self.description.restraints.push(restraint);
         self
     }
 
-    /// Loads a group of edges by a pressure, which pushes into the body, stress.
+    /// Loads a group of edges by a pressure that pushes into the body, stress.
     pub fn pressure(self, group: impl Into<GroupRef>, pressure: f64) -> Self {
         self.load(Load { on: Some(group.into()), pressure: Some(pressure), ..Load::default() })
     }
@@ -109,7 +109,7 @@ impl SceneBuilder {
         self.load(Load { on: Some(group.into()), traction: Some(traction), ..Load::default() })
     }
 
-    /// Loads the node of a number by a force along x and y, force.
+    /// Loads the node with number `node` by a force along x and y, force.
     pub fn force(self, node: usize, force: [f64; 2]) -> Self {
         self.load(Load { node: Some(node), force: Some(force), ..Load::default() })
     }
@@ -131,22 +131,22 @@ impl SceneBuilder {
         self
     }
 
-    /// Sets what is run unless the command line says otherwise.
+    /// Sets the variant that is run unless the command line names another.
     pub fn variant(mut self, variant: Variant) -> Self {
         self.description.variant = variant;
         self
     }
 
-    /// Lets nodes that belong to no triangle be dropped.
+    /// Allows nodes that belong to no triangle to be dropped.
     pub fn drop_orphans(mut self) -> Self {
         self.description.drop_orphans = true;
         self
     }
 
-    /// The scene, once it is known to be sound.
+    /// Checks the scene and builds it.
     ///
     /// # Errors
-    /// Anything wrong with the mesh, with what is said of it, or with both together.
+    /// The mesh, the description, or the two together are at fault.
     pub fn build(&self) -> Result<Scene, InputError> {
         self.mesh.check()?;
         let mut description = self.description.clone();
@@ -158,11 +158,10 @@ impl SceneBuilder {
         Scene::assemble(&self.name, description, &mesh, dropped)
     }
 
-    /// Writes the scene to `folder` as `scene.json` and a mesh file of its name, once it is known
-    /// to be sound.
+    /// Checks the scene and writes it to `folder` as `scene.json` and a mesh file of its name.
     ///
     /// # Errors
-    /// Those of [`SceneBuilder::build`]; a file cannot be written.
+    /// The errors of [`SceneBuilder::build`], or a file that cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), InputError> {
         self.build()?;
         let mesh_file = format!("{}.msh", self.name);
@@ -177,7 +176,7 @@ mod tests {
     use super::*;
     use crate::problem::modelling::{Coupling, Friction, Geometry, StatusRule};
 
-    /// Two blocks on each other; node 1 stands apart from both.
+    /// Two blocks on each other, with node 1 apart from both.
     fn blocks() -> SceneBuilder {
         let mut mesh = MeshBuilder::default();
         mesh.node([9.0, 0.0]);
@@ -209,7 +208,7 @@ mod tests {
             .drop_orphans()
     }
 
-    /// Reads the scene back from the two files that it is written as.
+    /// Reads the scene back from the two files as which it is written.
     fn read_back(scene: &SceneBuilder) -> SceneBuilder {
         let text = file::write(&scene.description, "m.msh");
         let beside = |_: &str| Ok(gmsh::write(&scene.mesh).into_bytes());

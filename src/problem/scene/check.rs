@@ -1,4 +1,4 @@
-//! What a scene file says of its mesh, checked: materials, restraints, contact surfaces, bodies that something holds.
+//! Checks of a scene file against its mesh: materials, restraints, contact surfaces, bodies.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,13 +8,13 @@ use super::{groups, surface};
 use crate::error::InputError;
 use crate::problem::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
 
-/// More iterations than anybody waits for.
+/// The largest number of iterations that is accepted.
 const MOST_ITERATIONS: usize = 1_000_000;
 
-/// Checks thickness and number of iterations.
+/// Checks the thickness and the number of iterations.
 ///
 /// # Errors
-/// A thickness that is not positive; no iteration, or too many.
+/// The thickness is not positive, or the number of iterations is 0 or too large.
 pub fn numbers(file: &Description) -> Result<(), InputError> {
     if !(file.thickness > 0.0 && file.thickness.is_finite()) {
         let what = format!("the thickness {} is not positive", file.thickness);
@@ -27,10 +27,10 @@ pub fn numbers(file: &Description) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Each triangle's material and the name of its group, in the order of `EL`.
+/// Returns each triangle's material and the name of its group, in the order of `EL`.
 ///
 /// # Errors
-/// A material out of its range; a triangle with no material or two; a group with no triangle.
+/// A material is out of its range, a triangle has no material or two, or a group has no triangle.
 pub fn materials(
     mesh: &Mesh,
     file: &Description,
@@ -40,21 +40,15 @@ pub fn materials(
         let place = format!("materials.{}", group.text());
         if !(material.e > 0.0 && material.e.is_finite()) {
             let what = format!("E = {} is not positive", material.e);
-            return Err(InputError::new(
-                format!("{place}.E"),
-                what,
-                "give an elastic modulus above 0",
-            ));
+            let place = format!("{place}.E");
+            return Err(InputError::new(place, what, "give an elastic modulus above 0"));
         }
         file.plane.check_poisson(material.nu, &format!("{place}.nu"))?;
         for triangle in groups::members(mesh, 2, group, &place)? {
-            if let Some((_, other)) = of_element.insert(triangle.number, (*material, group.text()))
-            {
-                let what = format!(
-                    "triangle {} has two materials, {other} and {}",
-                    triangle.number,
-                    group.text()
-                );
+            let number = triangle.number;
+            if let Some((_, other)) = of_element.insert(number, (*material, group.text())) {
+                let group = group.text();
+                let what = format!("triangle {number} has two materials, {other} and {group}");
                 return Err(InputError::new(place, what, "give each triangle one material"));
             }
         }
@@ -72,10 +66,10 @@ pub fn materials(
     Ok(found.map(|(m, name)| (model::Material { e: m.e, nu: m.nu }, name)).unzip())
 }
 
-/// By degree of freedom, whether it is restrained.
+/// Returns whether each degree of freedom is restrained.
 ///
 /// # Errors
-/// A restraint that names no place, or two; a node or group that is not there.
+/// A restraint names no place or two, or a node or group that does not exist.
 pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>, InputError> {
     let mut restrained = vec![false; 2 * mesh.nodes.len()];
     for (k, restraint) in file.restraints.iter().enumerate() {
@@ -105,10 +99,10 @@ pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>, InputErr
     Ok(restrained)
 }
 
-/// The two contact surfaces and their tolerance; empty where the scene has no contact.
+/// Returns the two contact surfaces and their tolerance; empty where the scene has no contact.
 ///
 /// # Errors
-/// A negative tolerance; surfaces that are not there or share a node.
+/// The tolerance is negative, or the surfaces do not exist or share a node.
 pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, InputError> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
     if !(contact.tolerance >= 0.0 && contact.tolerance.is_finite()) {
@@ -137,10 +131,11 @@ pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, Input
     })
 }
 
-/// Checks that restraints hold each body that no contact surface touches, and, taken as one, the bodies that contact joins.
+/// Checks that restraints fix each body that no contact surface touches, and, taken as one, the
+/// bodies that contact joins.
 ///
 /// # Errors
-/// A body that can still move, and how.
+/// A body can still move; the error says how.
 pub fn restrained_bodies(model: &Model) -> Result<(), InputError> {
     let target_nodes = model.target_edges().map(|edge| edge.nodes[0]);
     let in_contact: Vec<NodeId> = model.contact.nodes.iter().copied().chain(target_nodes).collect();
@@ -151,11 +146,8 @@ pub fn restrained_bodies(model: &Model) -> Result<(), InputError> {
         if let Some(freedom) = model::freedom(model, &body.nodes) {
             let what =
                 format!("body {:?} is held by no contact and can still {freedom}", body.name);
-            return Err(InputError::new(
-                "restraints",
-                what,
-                "hold it, or give it a contact surface",
-            ));
+            let fix = "hold it, or give it a contact surface";
+            return Err(InputError::new("restraints", what, fix));
         }
     }
     let nodes: Vec<NodeId> = joined.iter().flat_map(|body| body.nodes.iter().copied()).collect();

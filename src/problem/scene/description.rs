@@ -1,5 +1,6 @@
-//! What is said of a mesh: plane problem, materials, restraints, loads, contact surfaces, and what
-//! is to be run. A scene file and code say the same, by [`SceneBuilder`](super::SceneBuilder).
+//! The description of a mesh: plane problem, materials, restraints, loads, contact surfaces, and
+//! the variant to be run. A scene file and code write the same description, by
+//! [`SceneBuilder`](super::SceneBuilder).
 
 use std::str::FromStr;
 
@@ -11,45 +12,45 @@ use super::surface::Surface;
 use crate::problem::element::Plane;
 use crate::problem::modelling::{Coupling, Friction, Geometry, StatusRule, Variant};
 
-/// What is said of a mesh. Lengths, forces and stresses may be in any consistent unit. It is
-/// written without the fields that have their default.
+/// The description of a mesh, without the mesh itself. Lengths, forces and stresses may be in any
+/// consistent unit. Fields with their default are not written.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Description {
-    /// A line for people.
+    /// The title of the scene for people.
     #[serde(skip_serializing_if = "is_default")]
     pub title: String,
-    /// Plane strain or plane stress.
+    /// The plane problem: plane strain or plane stress.
     pub plane: Plane,
-    /// Thickness across the plane, length.
+    /// The thickness across the plane, length.
     #[serde(skip_serializing_if = "is_default_thickness")]
     pub thickness: f64,
-    /// Unit names for tables and pictures; no number is converted.
+    /// The unit names for tables and pictures; no number is converted.
     #[serde(skip_serializing_if = "is_default")]
     pub units: Units,
     /// The material of each physical group of triangles.
     pub materials: Materials,
-    /// Which displacements are restrained to 0.
+    /// The displacements that are restrained to 0.
     #[serde(skip_serializing_if = "is_default")]
     pub restraints: Vec<Restraint>,
-    /// Pressures, tractions and forces.
+    /// The pressures, tractions and forces on the mesh.
     #[serde(skip_serializing_if = "is_default")]
     pub loads: Vec<Load>,
-    /// The two contact surfaces; where there are none, nothing of contact is built.
+    /// The two contact surfaces; without them no contact is modelled.
     #[serde(skip_serializing_if = "is_default")]
     pub contact: Option<Contact>,
-    /// Number of iterations.
+    /// The number of iterations of the variants that the paper describes.
     #[serde(skip_serializing_if = "is_default_iterations")]
     pub iterations: usize,
-    /// What is run unless the command line says otherwise.
+    /// The variant that is run unless the command line names another.
     #[serde(skip_serializing_if = "is_default")]
     pub variant: Variant,
-    /// Whether nodes that belong to no triangle are dropped; else they are refused.
+    /// Whether nodes that belong to no triangle are dropped; otherwise they are refused.
     #[serde(skip_serializing_if = "is_default")]
     pub drop_orphans: bool,
 }
 
 impl Description {
-    /// A plane problem of which nothing else is said: no material yet, thickness 1, no load.
+    /// Describes a plane problem with no material, thickness 1 and no load.
     pub fn new(plane: Plane) -> Self {
         Description {
             title: String::new(),
@@ -67,12 +68,12 @@ impl Description {
     }
 }
 
-/// The thickness of a scene that gives none, length.
+/// Returns the thickness of a scene that sets none, length.
 pub fn default_thickness() -> f64 {
     1.0
 }
 
-/// The number of iterations of a scene that gives none: the paper's.
+/// Returns the number of iterations of a scene that sets none, which is the paper's.
 pub fn default_iterations() -> usize {
     20
 }
@@ -89,33 +90,33 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// Unit names, shown beside numbers.
+/// The unit names that are shown beside numbers.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub struct Units {
-    /// Of lengths and displacements, such as `mm`.
+    /// The unit of lengths and displacements, such as `mm`.
     #[serde(default)]
     pub length: String,
-    /// Of stresses and elastic moduli, such as `MPa`.
+    /// The unit of stresses and elastic moduli, such as `MPa`.
     #[serde(default)]
     pub stress: String,
-    /// Of forces (per unit thickness where the thickness is 1), such as `N`.
+    /// The unit of forces (per unit thickness where the thickness is 1), such as `N`.
     #[serde(default)]
     pub force: String,
 }
 
-/// An elastic material.
+/// An isotropic elastic material.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Elastic modulus, stress.
+    /// The elastic modulus, stress.
     #[serde(rename = "E")]
     pub e: f64,
-    /// Poisson's ratio.
+    /// Poisson's ratio, which has no unit.
     pub nu: f64,
 }
 
-/// The materials in the order in which they are given, each with its physical group of triangles.
+/// The materials in their order in the scene file, each with its physical group of triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Materials(pub Vec<(GroupRef, Material)>);
 
@@ -126,27 +127,27 @@ impl Serialize for Materials {
     }
 }
 
-/// Displacements restrained to 0: of a group's nodes, or of one node.
+/// Displacements restrained to 0: those of a group's nodes, or of one node.
 #[derive(Clone, Debug, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Restraint {
-    /// A physical group, all of whose nodes are restrained; or `node`.
+    /// A physical group, all of whose nodes are restrained; None where `node` is named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<GroupRef>,
-    /// The number of one node.
+    /// The number of a single node that is restrained.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<usize>,
     /// The directions that are restrained.
     pub fix: Vec<Axis>,
 }
 
-/// A direction of the plane.
+/// A coordinate direction of the plane.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
-    /// Horizontal.
+    /// The horizontal direction, x.
     X,
-    /// Vertical.
+    /// The vertical direction, y.
     Y,
 }
 
@@ -154,19 +155,19 @@ pub enum Axis {
 #[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// A physical group of edges.
+    /// A physical group of edges that carries the load.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<GroupRef>,
-    /// Pressure that pushes into the body, stress.
+    /// The pressure that pushes into the body, stress.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure: Option<f64>,
-    /// Force per area along x and y, stress.
+    /// The force per area along x and y, stress.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub traction: Option<[f64; 2]>,
-    /// The number of one node.
+    /// The number of a single node that carries the load.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<usize>,
-    /// Force on that node along x and y, force.
+    /// The force on that node along x and y, force.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force: Option<[f64; 2]>,
 }
@@ -175,30 +176,30 @@ pub struct Load {
 #[derive(Clone, Debug, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
-    /// Contact (stamp) surface: a group of edges, or node numbers in order.
+    /// The contact (stamp) surface: a group of edges, or node numbers in order.
     #[serde(rename = "cnt")]
     pub contact: Surface,
-    /// Target surface: a group of edges, or numbers of edges in order.
+    /// The target surface: a group of edges, or numbers of edges in order.
     #[serde(rename = "trg")]
     pub target: Surface,
     /// The tolerance of the contact search, the text's c_tol, length.
     #[serde(rename = "c_tll")]
     pub tolerance: f64,
-    /// How a contact node is bound to the target.
+    /// The method that binds a contact node to the target.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub coupling: Coupling,
-    /// What it may do along the tangent under `unilateral`: 0 or "stick".
+    /// The motion of the node along the tangent under `unilateral`: 0 (it slides) or "stick".
     #[serde(default, serialize_with = "friction", skip_serializing_if = "is_default")]
     pub friction: Friction,
     /// The shape in which `unilateral` measures contact.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub geometry: Geometry,
-    /// How `tied` and `stepped` decide who is in contact.
+    /// The rule by which `tied` and `stepped` decide which nodes are in contact.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub status: StatusRule,
 }
 
-/// Writes no friction as the number 0: it is a coefficient.
+/// Writes no friction as the number 0, because it is a coefficient.
 fn friction<S: Serializer>(friction: &Friction, serializer: S) -> Result<S::Ok, S::Error> {
     match friction {
         Friction::None => serializer.serialize_u8(0),
@@ -207,7 +208,7 @@ fn friction<S: Serializer>(friction: &Friction, serializer: S) -> Result<S::Ok, 
 }
 
 impl Contact {
-    /// Contact of two surfaces within `tolerance`, length, modelled as the paper does.
+    /// Describes contact of two surfaces within `tolerance`, length, modelled as in the paper.
     pub fn new(contact: impl Into<Surface>, target: impl Into<Surface>, tolerance: f64) -> Self {
         Contact {
             contact: contact.into(),
@@ -221,7 +222,7 @@ impl Contact {
     }
 }
 
-/// Reads one of a closed set by the name that it has on the command line.
+/// Reads a choice of a closed set by its name on the command line.
 pub fn by_name<'de, D: Deserializer<'de>, T: FromStr<Err = String>>(d: D) -> Result<T, D::Error> {
     String::deserialize(d)?.parse().map_err(de::Error::custom)
 }

@@ -1,16 +1,16 @@
-//! The scenes that the program carries, by name.
+//! The scenes that are part of the program, by name.
 
-/// A scene of `golden/<name>/`.
+/// A scene from `golden/<name>/`.
 pub struct Embedded {
-    /// Name on the command line.
+    /// The name on the command line.
     pub name: &'static str,
-    /// The scene file.
+    /// The text of the scene file.
     pub scene: &'static [u8],
-    /// The files beside it that it names.
+    /// The names and contents of the files that the scene file refers to.
     pub files: &'static [(&'static str, &'static [u8])],
 }
 
-/// The scenes of `golden/findings/<id>/`.
+/// Lists the scenes of `golden/findings/<id>/`.
 macro_rules! findings {
     ($($id:literal),+) => {
         &[$(Embedded {
@@ -21,7 +21,7 @@ macro_rules! findings {
     };
 }
 
-/// The scenes of the command line.
+/// The scenes that the command line proposes.
 pub const SCENES: &[Embedded] = &[
     Embedded {
         name: "strand",
@@ -36,7 +36,7 @@ pub const SCENES: &[Embedded] = &[
     },
 ];
 
-/// The smallest scene of each finding.
+/// The smallest scene that shows each finding.
 #[rustfmt::skip]
 pub const FINDING_SCENES: &[Embedded] = findings![
     "C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13", "C14", "C15",

@@ -1,4 +1,4 @@
-//! The scene file: a mesh, and what is said of it, as JSON.
+//! The scene file: a mesh and its description, as JSON.
 
 use std::fmt;
 
@@ -17,17 +17,17 @@ use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::modelling::Variant;
 
-/// A scene file as it stands, before anything is compared with the mesh.
+/// A scene file before it is compared with the mesh.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
     #[serde(default)]
     title: String,
-    /// A Gmsh file beside the scene; or `node` and `elem`.
+    /// The name of a Gmsh file beside the scene file; None where `node` and `elem` are given.
     mesh: Option<String>,
-    /// The paper's node table: rows of number, x, y, z.
+    /// The paper's node table, with rows of number, x, y, z.
     node: Option<Vec<[f64; 4]>>,
-    /// The paper's element table: Gmsh 2 rows with two tags.
+    /// The paper's element table, with Gmsh 2 rows of two tags.
     #[serde(rename = "elem")]
     elements: Option<Vec<Vec<usize>>>,
     #[serde(deserialize_with = "by_name")]
@@ -50,10 +50,10 @@ struct SceneFile {
     drop_orphans: bool,
 }
 
-/// Parses a scene file: where its mesh is, and what it says of it.
+/// Parses a scene file: the source of its mesh, and its description.
 ///
 /// # Errors
-/// What is wrong, with the field's path, the line and the column.
+/// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<(MeshSource, Description), InputError> {
     let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
     let mut deserializer = serde_json::Deserializer::from_slice(text);
@@ -84,8 +84,8 @@ pub fn parse(text: &[u8]) -> Result<(MeshSource, Description), InputError> {
     Ok((MeshSource::new(file.mesh, file.node, file.elements)?, description))
 }
 
-/// The text of a scene file that says `description` of the mesh in the file `mesh` beside it: a
-/// line for each field and, in a list of several, for each item. What has its default is left out.
+/// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line
+/// for each field and, in a list of several, for each item. Fields with their default are left out.
 pub fn write(description: &Description, mesh: &str) -> String {
     let fields = serde_json::to_value(description).expect("a description's keys are strings");
     let mut fields: Vec<String> = fields
@@ -99,7 +99,7 @@ pub fn write(description: &Description, mesh: &str) -> String {
     format!("{{\n{}\n}}\n", fields.join(",\n"))
 }
 
-/// A value on one line; a list of several items with a line for each.
+/// Writes a value on one line, but a list of several items with a line for each.
 fn lines(value: &Value) -> String {
     match value.as_array() {
         Some(list) if list.len() > 1 => {
@@ -125,7 +125,7 @@ impl<'de> Deserialize<'de> for Surface {
     }
 }
 
-/// Reads a group's name or tag and, where `lists`, a list of numbers.
+/// Reads a group's name or tag and, where `lists` is set, a list of numbers.
 struct SurfaceVisitor {
     lists: bool,
 }

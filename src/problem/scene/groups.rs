@@ -1,4 +1,4 @@
-//! Physical groups: from a name or a tag to the elements that carry it.
+//! Physical groups: the elements that belong to a name or a tag.
 
 use std::fmt;
 
@@ -11,14 +11,14 @@ use crate::error::InputError;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(untagged)]
 pub enum GroupRef {
-    /// The group of this name.
+    /// The group that has this name.
     Name(String),
-    /// The group of this tag.
+    /// The group that has this tag.
     Tag(usize),
 }
 
 impl GroupRef {
-    /// The name or tag as plain text.
+    /// Returns the name or tag as plain text.
     pub fn text(&self) -> String {
         match self {
             GroupRef::Name(name) => name.clone(),
@@ -54,13 +54,13 @@ impl From<usize> for GroupRef {
     }
 }
 
-/// What a group's elements are, by dimension.
+/// The names of a group's elements, by dimension.
 const ELEMENT_NAMES: [&str; 3] = ["points", "edges", "triangles"];
 
-/// The elements of dimension `dim` (1: edges, 2: triangles) that carry the group, in mesh order.
+/// Returns the group's elements of dimension `dim` (1: edges, 2: triangles), in mesh order.
 ///
 /// # Errors
-/// There is no such group in that dimension, or it has no element.
+/// No such group exists in that dimension, or it has no element.
 pub fn members<'m>(
     mesh: &'m Mesh,
     dim: usize,
@@ -68,28 +68,22 @@ pub fn members<'m>(
     place: &str,
 ) -> Result<Vec<&'m Element>, InputError> {
     let what = ELEMENT_NAMES[dim];
-    let tag = tag(mesh, dim, group).ok_or_else(|| {
-        InputError::new(
-            place,
-            format!("there is no physical group {group} of {what}"),
-            known(mesh, dim),
-        )
-    })?;
+    let error = |what: String| InputError::new(place, what, known(mesh, dim));
+    let tag = tag(mesh, dim, group)
+        .ok_or_else(|| error(format!("there is no physical group {group} of {what}")))?;
     let members: Vec<_> = mesh.of_dimension(dim).filter(|e| e.physical.contains(&tag)).collect();
     if members.is_empty() {
-        return Err(InputError::new(
-            place,
-            format!("the physical group {group} has no element among the mesh's {what}"),
-            known(mesh, dim),
-        ));
+        return Err(error(format!(
+            "the physical group {group} has no element among the mesh's {what}"
+        )));
     }
     Ok(members)
 }
 
-/// The nodes of a group, ascending: a group of edges, else of points, else of triangles.
+/// Returns the nodes of a group, ascending: a group of edges, else of points, else of triangles.
 ///
 /// # Errors
-/// There is no such group, or it has no element.
+/// No such group exists, or it has no element.
 pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>, InputError> {
     let dim = [1, 0, 2].into_iter().find(|&dim| {
         tag(mesh, dim, group)
@@ -102,22 +96,19 @@ pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>, I
     Ok(nodes)
 }
 
-/// The tag of a group that has elements of dimension `dim`. A name that no group has may be a tag
-/// written as text.
+/// Returns the tag of a group with elements of dimension `dim`. A name may be a tag as text.
 fn tag(mesh: &Mesh, dim: usize, group: &GroupRef) -> Option<usize> {
     let used = |tag: &usize| mesh.of_dimension(dim).any(|e| e.physical.contains(tag));
     match group {
         GroupRef::Tag(tag) => Some(*tag).filter(used),
-        GroupRef::Name(name) => mesh
-            .names
-            .iter()
-            .find(|n| n.dim == dim && n.name == *name)
-            .map(|n| n.tag)
-            .or_else(|| name.parse().ok().filter(used)),
+        GroupRef::Name(name) => {
+            let named = mesh.names.iter().find(|n| n.dim == dim && n.name == *name);
+            named.map(|n| n.tag).or_else(|| name.parse().ok().filter(used))
+        }
     }
 }
 
-/// The groups that do exist, as an error proposes them.
+/// Returns the groups that exist, in the words of an error.
 fn known(mesh: &Mesh, dim: usize) -> String {
     let mut tags: Vec<usize> =
         mesh.of_dimension(dim).flat_map(|e| e.physical.iter().copied()).collect();

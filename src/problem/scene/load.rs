@@ -1,4 +1,4 @@
-//! The load vector, consistent for linear edges.
+//! The load vector, consistent with linear edges.
 
 use std::collections::HashMap;
 
@@ -10,10 +10,10 @@ use super::mesh::Mesh;
 use crate::error::InputError;
 use crate::problem::model::{NodeId, Sides};
 
-/// Forces on all 2R equations, force; restrained equations included.
+/// Returns the forces on all 2R degrees of freedom, restrained ones included, force.
 ///
 /// # Errors
-/// A load that names no place or no value, or two; an edge of no triangle or of two; numbers that are not finite.
+/// A load has another form, its edge bounds no triangle or two, or a number is not finite.
 pub fn vector(
     mesh: &Mesh,
     sides: &Sides,
@@ -24,15 +24,9 @@ pub fn vector(
     for (k, load) in loads.iter().enumerate() {
         let place = format!("loads[{k}]");
         match load {
-            Load {
-                node: Some(n),
-                force: Some(force),
-                on: None,
-                pressure: None,
-                traction: None,
-            } => {
+            Load { node: Some(n), force: Some(p), on: None, pressure: None, traction: None } => {
                 mesh.check_node(*n, &place)?;
-                add(&mut f, *n, *force);
+                add(&mut f, *n, *p);
             }
             Load { on: Some(on), pressure: Some(p), traction: None, node: None, force: None } => {
                 on_edges(&mut f, (mesh, sides), on, thickness, &place, |inward| {
@@ -43,25 +37,19 @@ pub fn vector(
                 on_edges(&mut f, (mesh, sides), on, thickness, &place, |_| *t)?;
             }
             _ => {
-                return Err(InputError::new(
-                    place,
-                    "a load is {on, pressure}, {on, traction} or {node, force}",
-                    "give exactly one of the three pairs",
-                ));
+                let what = "a load is {on, pressure}, {on, traction} or {node, force}";
+                return Err(InputError::new(place, what, "give exactly one of the three pairs"));
             }
         }
         if f.iter().any(|x| !x.is_finite()) {
-            return Err(InputError::new(
-                place,
-                "the load is too large to represent",
-                "choose other units",
-            ));
+            let what = "the load is too large to represent";
+            return Err(InputError::new(place, what, "choose other units"));
         }
     }
     Ok(f)
 }
 
-/// Half of each edge's load on each of its nodes; `traction` is given the unit normal that points into the body.
+/// Adds half of each edge's load to its nodes; `traction` receives the inward unit normal.
 fn on_edges(
     f: &mut DVector<f64>,
     (mesh, sides): (&Mesh, &Sides),
@@ -99,23 +87,22 @@ fn add(f: &mut DVector<f64>, node: usize, force: [f64; 2]) {
     }
 }
 
-/// The node across the edge in the one triangle that it bounds.
+/// Returns the node opposite the edge in the one triangle that it bounds.
 fn third_node(
     sides: &Sides,
     [a, b]: [usize; 2],
     number: usize,
     place: &str,
 ) -> Result<usize, InputError> {
-    let beside = sides.beside([a, b].map(NodeId::from_number));
-    match beside {
+    match sides.beside([a, b].map(NodeId::from_number)) {
         [one] => Ok(one.third.number()),
-        _ => Err(InputError::new(
-            place,
-            format!(
-                "edge {number} (nodes {a} and {b}) bounds {} triangles: a load needs an edge of exactly one",
+        beside => {
+            let what = format!(
+                "edge {number} (nodes {a} and {b}) bounds {} triangles: a load needs an edge of \
+                 exactly one",
                 beside.len()
-            ),
-            "load an outer edge of a body",
-        )),
+            );
+            Err(InputError::new(place, what, "load an outer edge of a body"))
+        }
     }
 }

@@ -1,9 +1,9 @@
-//! The scene: what the user gives, checked, and turned into a [`Model`].
+//! The scene: the user's input, checked and turned into a [`Model`].
 //!
 //! ```text
 //!  scene.json --file--> Description --+
-//!  strand.msh --gmsh--> Mesh ---------+--> SceneBuilder --> Scene (checked): the Model, and what is
-//!  code --------------> both ---------+                     to be done with it
+//!  strand.msh --gmsh--> Mesh ---------+--> SceneBuilder --> Scene (checked): the Model, and the
+//!  code --------------> both ---------+                     variant to be run
 //! ```
 
 mod builder;
@@ -38,34 +38,34 @@ use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, Tria
 use super::modelling::{ContactModel, Variant};
 use crate::error::InputError;
 
-/// A scene that is known to be sound.
+/// A scene that passed all checks.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Name for folders and reports.
+    /// The name for folders and reports.
     pub name: String,
-    /// A line for people.
+    /// The title of the scene for people.
     pub title: String,
-    /// Unit names.
+    /// The unit names that are shown beside numbers.
     pub units: Units,
-    /// The finite element model.
+    /// The finite element model of the scene.
     pub model: Arc<Model>,
-    /// Number of iterations.
+    /// The number of iterations of the variants that the paper describes.
     pub iterations: usize,
-    /// What is run unless the command line says otherwise.
+    /// The variant that is run unless the command line names another.
     pub variant: Variant,
-    /// How contact is modelled beyond what the paper prints.
+    /// The model of contact beyond what the paper prints.
     pub contact: ContactModel,
-    /// Numbers, in the mesh file, of the nodes that were dropped because they belong to no triangle.
+    /// The numbers, in the mesh file, of the dropped nodes, which belong to no triangle.
     pub dropped: Vec<usize>,
-    /// What it was built from; nothing of half a scene.
+    /// The description and mesh from which it was built; None for half a scene.
     source: Option<Arc<(Description, Mesh)>>,
 }
 
 impl Scene {
-    /// Opens a scene by embedded name, or by the path of its file or folder.
+    /// Opens a scene by the name of an embedded scene, or by the path of its file or folder.
     ///
     /// # Errors
-    /// Anything wrong with the scene file, the mesh file, or what they say together.
+    /// The scene file, the mesh file, or the two together are at fault.
     pub fn open(name_or_path: &str) -> Result<Self, InputError> {
         let mut embedded = SCENES.iter().chain(FINDING_SCENES);
         if let Some(embedded) = embedded.find(|s| s.name == name_or_path) {
@@ -79,11 +79,9 @@ impl Scene {
         let path = if path.is_dir() { path.join("scene.json") } else { path.to_path_buf() };
         let text = std::fs::read(&path).map_err(|why| {
             let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
-            InputError::new(
-                path.display().to_string(),
-                format!("the scene file cannot be read: {why}"),
-                format!("give a path, or one of the scenes {}", names.join(", ")),
-            )
+            let what = format!("the scene file cannot be read: {why}");
+            let fix = format!("give a path, or one of the scenes {}", names.join(", "));
+            InputError::new(path.display().to_string(), what, fix)
         })?;
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
         let beside = |file: &str| read_beside(&folder.join(file));
@@ -91,10 +89,10 @@ impl Scene {
             .map_err(|error| error.within(&path.display().to_string()))
     }
 
-    /// Builds a scene from the text of its file; `beside` reads a file that lies beside it.
+    /// Builds a scene from the text of its file; `beside` reads a file in the scene file's folder.
     ///
     /// # Errors
-    /// Anything wrong with the scene file, the mesh file, or what they say together.
+    /// The scene file, the mesh file, or the two together are at fault.
     pub fn build(
         name: &str,
         text: &[u8],
@@ -155,18 +153,18 @@ impl Scene {
     }
 }
 
-/// The corners of a triangle of the mesh.
+/// Returns the corners of a triangle of the mesh.
 fn corners(element: &Element) -> [NodeId; 3] {
     [0, 1, 2].map(|k| NodeId::from_number(element.nodes[k]))
 }
 
-/// An edge of the mesh.
+/// Returns an edge of the mesh as an edge of the model.
 fn edge(element: &Element) -> Edge {
     let nodes = [0, 1].map(|k| NodeId::from_number(element.nodes[k]));
     Edge { number: element.number, nodes }
 }
 
-/// The elements of the mesh file as rows of its table.
+/// Returns the elements of the mesh file as rows of its table.
 fn rows(mesh: &Mesh) -> Vec<Row> {
     let (mut edges, mut triangles) = (0.., 0..);
     let mut next = |element: &Element| match element.kind {
@@ -183,7 +181,7 @@ fn rows(mesh: &Mesh) -> Vec<Row> {
     mesh.elements.iter().map(row).collect()
 }
 
-/// Reads an ordinary file: a device would never end.
+/// Reads an ordinary file; a device would never end.
 fn read_beside(path: &Path) -> Result<Vec<u8>, String> {
     let metadata = std::fs::metadata(path).map_err(|why| why.to_string())?;
     if !metadata.is_file() {
@@ -192,7 +190,7 @@ fn read_beside(path: &Path) -> Result<Vec<u8>, String> {
     std::fs::read(path).map_err(|why| why.to_string())
 }
 
-/// `golden/strand/scene.json` is the scene `strand`, `my/plate.json` the scene `plate`.
+/// Returns a scene's name: `strand` for `golden/strand/scene.json`, `plate` for `my/plate.json`.
 fn name_of(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = path.parent().and_then(Path::file_name).map(|f| f.to_string_lossy().into_owned());

@@ -1,4 +1,4 @@
-//! Nodes that belong to no triangle: refused, or dropped.
+//! Nodes that belong to no triangle, which are refused or dropped.
 
 use super::description::Description;
 use super::mesh::{Mesh, new_number};
@@ -6,7 +6,7 @@ use super::surface::Surface;
 use crate::error::InputError;
 
 /// Drops the nodes `dropped`, which belong to no triangle, where the description allows it, and
-/// gives the nodes that it names their new numbers.
+/// renumbers the nodes that the description names.
 ///
 /// # Errors
 /// Nodes may not be dropped, or the description names a dropped one.
@@ -48,7 +48,7 @@ pub fn drop(
     Ok(mesh.without(dropped))
 }
 
-/// At most ten numbers of a list, and how many more there are.
+/// Returns at most ten numbers of a list, and how many more there are.
 fn short_list(numbers: &[usize]) -> String {
     let shown: Vec<String> = numbers.iter().take(10).map(usize::to_string).collect();
     let more = numbers.len().saturating_sub(10);

@@ -1,8 +1,8 @@
-//! A scene on a finer mesh: every triangle split in four, every edge in two.
+//! A scene on a finer mesh: every triangle is split in four, every edge in two.
 //!
 //! ```text
-//!          c                   new nodes halve the edges; the outline stays the polygon that it was:
-//!        / \                   of a curved surface no more is known than its corners.
+//!          c                   new nodes halve the edges; the outline stays the same polygon,
+//!        / \                   because only the corners of a curved surface are known.
 //!      ca---bc
 //!      / \  / \
 //!     a---ab---b
@@ -17,21 +17,22 @@ use super::surface::Surface;
 use crate::error::InputError;
 use crate::problem::model::NodeId;
 
-/// A finer scene. Nodes keep their numbers, and the triangles 4n − 3 .. 4n (rows of `EL`) are those of triangle n.
+/// A finer scene. Nodes keep their numbers; triangle n (row of `EL`) becomes 4n − 3 .. 4n.
 #[derive(Clone, Debug)]
 pub struct Refined {
-    /// The scene.
+    /// The scene on the finer mesh.
     pub scene: Scene,
     /// The ends of the edge that each new node halves, from node R + 1 on.
     pub parents: Vec<[NodeId; 2]>,
 }
 
 impl Scene {
-    /// The scene on a mesh of half the element size, everything else being the same; nothing of half a scene, which forgot its mesh. A
-    /// restraint or a force on a single node stays on that node.
+    /// Returns the scene on a mesh of half the element size, with everything else unchanged; None
+    /// for half a scene, which has no mesh. A restraint or a force on a single node stays on that
+    /// node.
     ///
     /// # Errors
-    /// As [`Scene::build`].
+    /// The errors of [`Scene::build`].
     pub fn refined(&self) -> Result<Option<Refined>, InputError> {
         let Some(source) = &self.source else { return Ok(None) };
         let (file, mesh) = (&source.0, &source.1);
@@ -53,10 +54,10 @@ impl Scene {
     }
 }
 
-/// The new nodes.
+/// The new nodes of a refined mesh.
 struct Halves {
     parents: Vec<[usize; 2]>,
-    /// From an edge, its nodes ascending, to the node that halves it.
+    /// The node that halves each edge, by the edge's nodes, ascending.
     node: HashMap<[usize; 2], usize>,
 }
 
@@ -86,7 +87,8 @@ impl Halves {
         self.node.get(&[a.min(b), a.max(b)]).copied()
     }
 
-    /// The elements, numbered from 1, children in the place of their parent; and by the parent's number the children's.
+    /// Returns the elements, numbered from 1, with children in the place of their parent, and the
+    /// children's numbers by the parent's.
     fn elements(&self, mesh: &Mesh) -> (Vec<Element>, HashMap<usize, Vec<usize>>) {
         let (mut elements, mut children) = (Vec::new(), HashMap::new());
         for parent in &mesh.elements {
@@ -111,7 +113,7 @@ impl Halves {
         }
     }
 
-    /// The scene file with its lists of contact nodes and target edges refined.
+    /// Returns the description with its lists of contact nodes and target edges refined.
     fn renumbered(&self, file: &Description, children: &HashMap<usize, Vec<usize>>) -> Description {
         let mut file = file.clone();
         let Some(contact) = &mut file.contact else { return file };

@@ -1,22 +1,22 @@
-//! Where a scene file's mesh is: in a Gmsh file beside it, or in its own tables.
+//! The source of a scene file's mesh: a Gmsh file beside it, or its own tables.
 
 use super::gmsh;
 use super::mesh::Mesh;
 use crate::error::InputError;
 
-/// Where a mesh is.
+/// The place of a mesh.
 pub enum MeshSource {
-    /// In a Gmsh file beside the scene file.
+    /// A Gmsh file beside the scene file, by its name.
     File(String),
-    /// In the paper's own tables: rows of `node`, rows of `elem`.
+    /// The paper's own tables: rows of `node`, rows of `elem`.
     Tables(Vec<[f64; 4]>, Vec<Vec<usize>>),
 }
 
 impl MeshSource {
-    /// The source that the fields `mesh`, `node` and `elem` of a scene file give.
+    /// Returns the source that the fields `mesh`, `node` and `elem` of a scene file name.
     ///
     /// # Errors
-    /// They give none, or two.
+    /// The fields name no source, or two.
     pub fn new(
         mesh: Option<String>,
         node: Option<Vec<[f64; 4]>>,
@@ -33,10 +33,10 @@ impl MeshSource {
         }
     }
 
-    /// Reads the mesh; `beside` reads a file that lies beside the scene file.
+    /// Reads the mesh; `beside` reads a file in the scene file's folder.
     ///
     /// # Errors
-    /// A file that cannot be read, or a row of a table that has another form.
+    /// The file cannot be read, or a row of a table has another form.
     pub fn read(
         &self,
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,

@@ -1,4 +1,4 @@
-//! The two contact surfaces, in the order that the listing walks them.
+//! The two contact surfaces, in the order in which the listing visits them.
 
 use std::collections::HashMap;
 
@@ -8,13 +8,13 @@ use super::groups::{self, GroupRef};
 use super::mesh::{Element, Mesh};
 use crate::error::InputError;
 
-/// A contact surface: a group, or the numbers themselves.
+/// A contact surface, as a group or as a list of numbers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Surface {
     /// A physical group of edges.
     Group(GroupRef),
-    /// Node or `elem` numbers, in the order given.
+    /// Node or `elem` numbers, in their order in the list.
     Numbers(Vec<usize>),
 }
 
@@ -36,8 +36,8 @@ impl From<Vec<usize>> for Surface {
     }
 }
 
-/// The node numbers of the contact surface `cnt`, in order along it. A list is taken as it is; a
-/// group's edges are walked as a chain from its first end.
+/// Returns the node numbers of the contact surface `cnt`, in order along it. A list is taken as it
+/// is; a group's edges are followed as a chain from its first end.
 ///
 /// # Errors
 /// A group is no single chain, or a number is no node.
@@ -60,7 +60,7 @@ pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, Input
     }
 }
 
-/// The `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
+/// Returns the `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
 ///
 /// # Errors
 /// A number is no edge.
@@ -80,14 +80,11 @@ pub fn target_edges(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputE
     }
 }
 
-/// The edge with `elem` number `number`.
+/// Returns the edge with `elem` number `number`.
 fn edge<'m>(mesh: &'m Mesh, number: usize, place: &str) -> Result<&'m Element, InputError> {
     mesh.of_dimension(1).find(|e| e.number == number).ok_or_else(|| {
-        InputError::new(
-            place,
-            format!("elem {number} is no edge of the mesh"),
-            "name elem rows of type 1",
-        )
+        let what = format!("elem {number} is no edge of the mesh");
+        InputError::new(place, what, "name elem rows of type 1")
     })
 }
 
@@ -99,8 +96,7 @@ fn not_empty(numbers: &[usize], place: &str) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Walks `edges` as one chain: from the first end in mesh order; a closed chain from its first
-/// edge's first node.
+/// Follows `edges` as one chain from its first end, or a closed one from its first node.
 fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
     let mut at: HashMap<usize, Vec<usize>> = HashMap::new();
     for (k, edge) in edges.iter().enumerate() {
@@ -110,17 +106,17 @@ fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
         return Err(format!("the chain of edges branches at node {node}"));
     }
     let start = edges.iter().flatten().copied().find(|n| at[n].len() == 1).unwrap_or(edges[0][0]);
-    let mut walked = vec![false; edges.len()];
+    let mut visited = vec![false; edges.len()];
     let mut nodes = vec![start];
     let mut here = start;
-    while let Some(&k) = at[&here].iter().find(|&&k| !walked[k]) {
-        walked[k] = true;
+    while let Some(&k) = at[&here].iter().find(|&&k| !visited[k]) {
+        visited[k] = true;
         here = if edges[k][0] == here { edges[k][1] } else { edges[k][0] };
         if here != start {
             nodes.push(here);
         }
     }
-    match walked.iter().position(|walked| !walked) {
+    match visited.iter().position(|visited| !visited) {
         None => Ok(nodes),
         Some(k) => Err(format!(
             "the edges make more than one chain: the one from node {start} ends at node {here}, \

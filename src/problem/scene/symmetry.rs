@@ -1,7 +1,8 @@
 //! Half of a scene that is its own mirror image about a vertical line.
 //!
-//! Mesh, materials, restraints, loads and contact surfaces must be symmetric, and no triangle may lie across the line: then the
-//! solution is symmetric too, the line moves along itself only, and the half right of it, held in x on the line, has the same one.
+//! Mesh, materials, restraints, loads and contact surfaces must be symmetric, and no triangle may
+//! lie across the line. Then the solution is symmetric too, the line moves only along itself, and
+//! the half right of it, restrained in x on the line, has the same solution.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -14,28 +15,28 @@ use crate::problem::model::{
     TriangleId, unordered,
 };
 
-/// How far from its image's place a node may lie, of the scene's size: mesh generators round as they go.
+/// The largest distance of a node from its image, over the scene's size: meshes are rounded.
 const PLACE: f64 = 1e-9;
 
-/// How far a load may be from its image, of the largest.
+/// The largest difference of a load from its image, over the largest load.
 const LOAD: f64 = 1e-9;
 
-/// Half of a scene.
+/// The right half of a symmetric scene.
 #[derive(Clone, Debug)]
 pub struct Half {
-    /// The half right of the line.
+    /// The half right of the line, as a scene.
     pub scene: Scene,
-    /// The whole scene's node for each of its nodes.
+    /// The whole scene's node for each node of the half.
     pub nodes: Vec<NodeId>,
-    /// The whole scene's triangle for each of its triangles.
+    /// The whole scene's triangle for each triangle of the half.
     pub triangles: Vec<TriangleId>,
-    /// Where the line stands: x, length.
+    /// The x coordinate of the line, length.
     pub at: f64,
-    /// Largest distance of a node from its image's place, length.
+    /// The largest distance of a node from its image's place, length.
     pub departure: f64,
 }
 
-/// Half of `scene`; nothing where it is not symmetric about a vertical line.
+/// Returns half of `scene`; None where it is not symmetric about a vertical line.
 pub fn half(scene: &Scene) -> Option<Half> {
     let mirror = Mirror::new(&scene.model)?;
     let model = &scene.model;
@@ -61,9 +62,9 @@ pub fn half(scene: &Scene) -> Option<Half> {
 /// The line about which a model may be symmetric.
 struct Mirror<'a> {
     model: &'a Model,
-    /// x of the line.
+    /// The x coordinate of the line, length.
     at: f64,
-    /// Below this a distance is none.
+    /// The distance below which two places are the same, length.
     place: f64,
 }
 
@@ -77,7 +78,7 @@ impl Images {
 }
 
 impl<'a> Mirror<'a> {
-    /// The only line that can be one; nothing where a triangle lies across it.
+    /// Finds the only possible line; None where a triangle lies across it.
     fn new(model: &'a Model) -> Option<Self> {
         let range = |axis: usize| {
             let values = model.nodes.iter().map(|xy| xy[axis]);
@@ -93,19 +94,19 @@ impl<'a> Mirror<'a> {
         if model.triangles.iter().any(across) { None } else { Some(mirror) }
     }
 
-    /// -1 left of the line, 0 on it, 1 right of it.
+    /// Returns -1 for a node left of the line, 0 on it, 1 right of it.
     fn side(&self, node: NodeId) -> i32 {
         let x = self.model.at(node)[0] - self.at;
         if x.abs() <= self.place { 0 } else { x.signum() as i32 }
     }
 
-    /// From where the image of node `n` should stand to node `m`.
+    /// Returns the distance of node `m` from the place of the image of node `n`, length.
     fn distance(&self, n: NodeId, m: NodeId) -> f64 {
         let ([nx, ny], [mx, my]) = (self.model.at(n), self.model.at(m));
         (2.0 * self.at - nx - mx).hypot(ny - my)
     }
 
-    /// The image of each node; nothing where a node has none.
+    /// Returns the image of each node; None where a node has none.
     fn images(&self) -> Option<Images> {
         let cell = |x: f64| (x / (4.0 * self.place)).round() as i64;
         let mut cells: HashMap<[i64; 2], Vec<NodeId>> = HashMap::new();
@@ -119,7 +120,7 @@ impl<'a> Mirror<'a> {
             let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x + i, y + j]));
             let near = around.filter_map(|at| cells.get(&at)).flatten().copied();
             let found: Vec<NodeId> = near.filter(|&m| self.distance(n, m) <= self.place).collect();
-            // Where bodies touch, two nodes stand at one place: a body on the line is its own image.
+            // Where bodies touch, two nodes are at one place: a body on the line is its own image.
             match found.as_slice() {
                 [one] => Some(*one),
                 several => several.iter().copied().find(|&m| body(m) == body(n)),
@@ -130,7 +131,7 @@ impl<'a> Mirror<'a> {
         self.model.node_ids().all(returns).then_some(images)
     }
 
-    /// Whether triangles and their materials are symmetric.
+    /// Returns whether triangles and their materials are symmetric.
     fn triangles(&self, images: &Images) -> bool {
         let key = |mut nodes: [NodeId; 3], triangle: &Triangle| {
             nodes.sort_unstable();
@@ -141,7 +142,7 @@ impl<'a> Mirror<'a> {
         triangles().all(|t| all.contains(&key(t.nodes.map(|n| images.of(n)), t)))
     }
 
-    /// Whether the contact surfaces are, as sets.
+    /// Returns whether the contact surfaces are symmetric as sets.
     fn surfaces(&self, images: &Images) -> bool {
         let contact: HashSet<NodeId> = self.model.contact.nodes.iter().copied().collect();
         let target: HashSet<[NodeId; 2]> =
@@ -150,7 +151,7 @@ impl<'a> Mirror<'a> {
             && target.iter().all(|edge| target.contains(&unordered(edge.map(|n| images.of(n)))))
     }
 
-    /// Whether restraints and loads are.
+    /// Returns whether restraints and loads are symmetric.
     fn conditions(&self, images: &Images) -> bool {
         let model = self.model;
         let near = LOAD * model.load.amax();
@@ -164,14 +165,14 @@ impl<'a> Mirror<'a> {
     }
 }
 
-/// A model on some of its nodes and triangles; the nodes on the line are restrained in x and carry half of their load.
+/// A half of a model, with nodes on the line restrained in x and with half of their load.
 struct Restriction<'a> {
     mirror: &'a Mirror<'a>,
     nodes: &'a [NodeId],
     triangles: &'a [TriangleId],
-    /// The whole model's edges that are in the half.
+    /// The edges of the whole model that are in the half.
     edges: Vec<EdgeId>,
-    /// The node of the half that each node is.
+    /// The number in the half of each node of the whole model.
     number: HashMap<NodeId, NodeId>,
 }
 
@@ -227,7 +228,7 @@ impl<'a> Restriction<'a> {
         }
     }
 
-    /// Nodes under their new numbers; nothing where one is not in the half.
+    /// Returns nodes under their new numbers; None where one is not in the half.
     fn renumbered<const N: usize>(&self, nodes: [NodeId; N]) -> Option<[NodeId; N]> {
         let inside = nodes.iter().all(|n| self.number.contains_key(n));
         inside.then(|| nodes.map(|n| self.number[&n]))
@@ -239,7 +240,7 @@ impl<'a> Restriction<'a> {
         Triangle { nodes, ..*triangle }
     }
 
-    /// A row of the mesh file under its new numbers; nothing where its element is not in the half.
+    /// Returns a row of the mesh file in the half's numbers; None where it is outside.
     fn row(&self, row: &Row) -> Option<Row> {
         let element = match row.element {
             Element::Point(node) => Element::Point(*self.number.get(&node)?),
@@ -251,7 +252,7 @@ impl<'a> Restriction<'a> {
         Some(Row { element, ..*row })
     }
 
-    /// The place that an edge has in the half.
+    /// Returns the place of an edge in the half.
     fn edge(&self, id: EdgeId) -> Option<EdgeId> {
         self.edges.binary_search(&id).ok().map(EdgeId::new)
     }

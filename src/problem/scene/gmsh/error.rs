@@ -1,25 +1,25 @@
-//! What may be wrong with a file of Gmsh, and where.
+//! The faults of a Gmsh file, and their places.
 
 use std::fmt;
 
 use thiserror::Error;
 
-/// Why a file cannot be read, and where.
+/// The reason why a file cannot be read, and its place.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{place}: {fault}")]
 pub struct GmshError {
-    /// Where the fault was met.
+    /// The place where the fault was found.
     pub place: Place,
-    /// What it is.
+    /// The fault that was found.
     pub fault: Fault,
 }
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// A line of a text file, from 1.
+    /// The number of a line of a text file, from 1.
     Line(usize),
-    /// A byte of a binary file, from 0.
+    /// The number of a byte of a binary file, from 0.
     Byte(usize),
 }
 
@@ -32,13 +32,13 @@ impl fmt::Display for Place {
     }
 }
 
-/// What may be wrong with a file.
+/// A fault of a Gmsh file.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Fault {
-    /// Something else stands where the format asks for `expected`.
+    /// The format requires `expected` where the file has something else.
     #[error("found {found}, expected {expected}")]
     Unexpected { found: String, expected: String },
-    /// The file has a version of the format that is not read.
+    /// The file has a version of the format that cannot be read.
     #[error(
         "the file has MSH version {found}; versions 2.2 and 4.1 can be read: in Gmsh set \
          Mesh.MshFileVersion = 4.1 and save the mesh again"
@@ -50,26 +50,26 @@ pub enum Fault {
     /// The file ends without a section that it must have.
     #[error("the file has no section ${section}")]
     MissingSection { section: &'static str },
-    /// A section comes a second time.
+    /// A section occurs a second time.
     #[error("a second section ${section}, expected one")]
     RepeatedSection { section: String },
-    /// A number or tag that must be unique comes a second time.
+    /// A number or tag that must be unique occurs a second time.
     #[error("{what} comes a second time")]
     Repeated { what: String },
-    /// A total that the file declares is not what its blocks add up to.
+    /// A total that the file declares differs from the sum over its blocks.
     #[error("{declared} {what} are declared but {found} are given")]
     Count { what: &'static str, declared: usize, found: usize },
     /// A coordinate is infinite or not a number.
     #[error("node {node} has the coordinate {value}, expected a finite number")]
     Coordinate { node: usize, value: f64 },
-    /// An element is of a kind that is not read.
+    /// An element is of a kind that cannot be read.
     #[error(
         "element {element} is {kind}; only points, two-node edges and three-node triangles can be \
          read: in Gmsh set Mesh.RecombineAll = 0 and Mesh.ElementOrder = 1, and mesh in two \
          dimensions"
     )]
     Kind { element: usize, kind: String },
-    /// An element stands among those of a geometric entity of another dimension.
+    /// An element is listed in a geometric entity of another dimension.
     #[error(
         "element {element} has dimension {found}, but it is listed in an entity of dimension \
          {expected}"
@@ -86,5 +86,5 @@ pub enum Fault {
     NoEntity { kind: &'static str, tag: i32 },
 }
 
-/// What reading comes to: a value, or the first fault.
+/// The result of reading: a value, or the first fault.
 pub(super) type Result<T, E = GmshError> = std::result::Result<T, E>;

@@ -1,14 +1,14 @@
-//! Names of Gmsh's elements and geometric entities.
+//! The names of Gmsh's elements and geometric entities.
 
 use super::error::{Fault, Result};
 use super::tokens::Tokens;
 use crate::problem::scene::mesh::{KINDS, Kind};
 
-/// The sort of geometric entity of each dimension.
+/// The name of a geometric entity of each dimension.
 pub const ENTITIES: [&str; 4] = ["point", "curve", "surface", "volume"];
 
-/// Names of the kinds of element that are not read, by Gmsh's element type; empty where there is
-/// none or the kind is read.
+/// The names of the kinds of element that are not read, by Gmsh's element type; empty where there
+/// is none or the kind is read.
 #[rustfmt::skip]
 const OTHER_KINDS: [&str; 32] = [
     "", "", "", "a four-node quadrangle", "a four-node tetrahedron", "an eight-node hexahedron",
@@ -22,10 +22,10 @@ const OTHER_KINDS: [&str; 32] = [
     "a 56-node tetrahedron",
 ];
 
-/// The kind of `element`, whose type Gmsh numbers `number`.
+/// Returns the kind of `element`, whose type has the number `number` in Gmsh.
 ///
 /// # Errors
-/// The kind is none of those that are read.
+/// The kind is not among those that are read.
 pub fn kind(tokens: &Tokens, element: usize, number: i32) -> Result<&'static Kind> {
     KINDS.iter().find(|kind| i32::try_from(kind.number) == Ok(number)).ok_or_else(|| {
         let other = usize::try_from(number).ok().and_then(|n| OTHER_KINDS.get(n).copied());
@@ -37,7 +37,7 @@ pub fn kind(tokens: &Tokens, element: usize, number: i32) -> Result<&'static Kin
     })
 }
 
-/// A tag without its sign, which in Gmsh tells orientation.
+/// Returns a tag without its sign, which is an orientation in Gmsh.
 pub fn magnitude(tag: i32) -> usize {
     tag.unsigned_abs() as usize
 }

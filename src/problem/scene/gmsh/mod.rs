@@ -1,5 +1,4 @@
-//! Meshes as files of Gmsh: MSH 2.2 and 4.1, text or binary, of either byte order, are read; MSH
-//! 2.2 is written as text.
+//! Meshes as files of Gmsh: reads MSH 2.2 and 4.1, text or binary, and writes MSH 2.2 as text.
 //!
 //! ```text
 //! $MeshFormat        version, text or binary, bytes of a number
@@ -10,9 +9,9 @@
 //! $...               any other section is skipped
 //! ```
 //!
-//! A grammar is written once for text and binary: both are read as the same run of numbers, by
-//! `Tokens`. Nothing is ever reserved for a count that the file declares: a wrong count runs into
-//! the file's end, not out of memory.
+//! A grammar is written once for text and binary: `Tokens` reads both as the same sequence of
+//! numbers. No memory is reserved for a count that the file declares, so that a wrong count leads
+//! to the end of the file, not out of memory.
 //!
 //! Reference: Gmsh's manual, "MSH file format" and "MSH file format version 2 (Legacy)".
 

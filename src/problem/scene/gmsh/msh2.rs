@@ -16,8 +16,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Reads `$Elements`: a count, then in text `number kind tags nodes` each, and in binary
-    /// blocks.
+    /// Reads `$Elements`: a count, then `number kind tags nodes` each, or binary blocks.
     pub fn elements_2(&mut self) -> Result<()> {
         let declared = self.tokens.count_line("the number of elements")?;
         if self.tokens.encoding == Encoding::Text {
@@ -35,8 +34,7 @@ impl Reader<'_> {
         self.check_count("elements", declared, self.elements.len())
     }
 
-    /// Reads a binary block: kind, number of elements, number of tags; then `number tags nodes` of
-    /// each element.
+    /// Reads a binary block: kind, counts of elements and tags; then `number tags nodes` each.
     fn element_block_2(&mut self) -> Result<()> {
         let kind = self.tokens.int("an element's type")?;
         let count = self.tokens.int_from(1, "the number of elements of a block, 1 or more")?;
@@ -48,8 +46,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Reads the tags and nodes of an element; the first tag is physical (0: none), the second
-    /// geometric.
+    /// Reads an element's tags, the first physical (0: none), the second geometric, and nodes.
     fn element_2(&mut self, number: usize, kind_number: i32, tags: usize) -> Result<()> {
         let kind = kind(&self.tokens, number, kind_number)?;
         let tags: Result<Vec<usize>> =

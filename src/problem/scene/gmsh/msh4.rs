@@ -1,5 +1,5 @@
-//! The sections `$Entities`, `$Nodes` and `$Elements` of MSH 4.1: each element belongs to a
-//! geometric entity, and has its physical tags.
+//! The sections `$Entities`, `$Nodes` and `$Elements` of MSH 4.1, in which each element belongs to
+//! a geometric entity and has its physical tags.
 
 use std::collections::BTreeSet;
 
@@ -23,8 +23,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Reads an entity: tag, place or box, physical tags, and (but for a point) the tags of what
-    /// bounds it.
+    /// Reads an entity: tag, coordinates or box, physical tags, and (except for a point) the tags
+    /// of the entities that bound it.
     fn entity(&mut self, dim: usize) -> Result<()> {
         let tag = self.tokens.int("an entity's tag")?;
         if self.entities.contains_key(&(dim, tag)) {
@@ -43,8 +43,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Reads an entity's physical tags. Each of its elements gets a copy: hence a limit, or a
-    /// hostile file of some kilobytes would take gigabytes.
+    /// Reads an entity's physical tags. Their number is limited, because each element of the entity
+    /// gets a copy: without a limit a hostile file of some kilobytes would take gigabytes.
     fn physical_tags(&mut self) -> Result<Vec<usize>> {
         const MOST: usize = 32;
         let count = self.tokens.size("the number of physical tags")?;
@@ -75,8 +75,7 @@ impl Reader<'_> {
         self.check_count("elements", declared, self.elements.len())
     }
 
-    /// Reads how many blocks and how many nodes or elements a section has; its least and greatest
-    /// number are passed over.
+    /// Reads a section's numbers of blocks and items, and skips the least and greatest number.
     fn totals(&mut self, what: &str) -> Result<(usize, usize)> {
         let blocks = self.tokens.size(&format!("the number of {what} blocks"))?;
         let declared = self.tokens.size(&format!("the number of {what}s"))?;
@@ -85,15 +84,15 @@ impl Reader<'_> {
         Ok((blocks, declared))
     }
 
-    /// Reads a block: `dimension tag parametric count`, the nodes' numbers, then their coordinates,
-    /// which on a parametric entity are followed by as many parameters as it has dimensions.
+    /// Reads a block: `dimension tag parametric count`, the nodes' numbers, then their coordinates.
+    /// On a parametric entity as many parameters as it has dimensions follow each node's
+    /// coordinates.
     fn node_block(&mut self) -> Result<()> {
         let (dim, _) = self.entity_of_block()?;
-        let parametric = self.tokens.int("0 or 1 (parametric)")?;
-        let parameters = match parametric {
+        let parameters = match self.tokens.int("0 or 1 (parametric)")? {
             0 => 0,
             1 => dim,
-            _ => return Err(self.tokens.unexpected(parametric, "0 or 1 (parametric)")),
+            other => return Err(self.tokens.unexpected(other, "0 or 1 (parametric)")),
         };
         let count = self.tokens.size("the number of nodes of a block")?;
         let numbers: Result<Vec<usize>> =
@@ -138,7 +137,7 @@ impl Reader<'_> {
         Ok((dim, self.tokens.int("an entity's tag")?))
     }
 
-    /// The physical tags of an entity; none if the file has no `$Entities` at all.
+    /// Returns the physical tags of an entity; none if the file has no `$Entities` at all.
     fn physical_of(&self, dim: usize, tag: i32) -> Result<Vec<usize>> {
         match self.entities.get(&(dim, tag)) {
             Some(tags) => Ok(tags.clone()),

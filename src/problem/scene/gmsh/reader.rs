@@ -1,4 +1,4 @@
-//! The sections of a file, and what all versions of the format share.
+//! The sections of a file, and the parts that all versions of the format share.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,7 @@ use crate::problem::scene::mesh::{Element, Mesh, Node, PhysicalName};
 /// the file (a reversed orientation) are returned positive.
 ///
 /// # Errors
-/// The first fault met, with its line (text) or byte (binary).
+/// The first fault, with its line (text) or byte (binary).
 pub fn read(bytes: &[u8]) -> Result<Mesh, GmshError> {
     let mut tokens = Tokens::new(bytes);
     tokens.keyword("$MeshFormat", "$MeshFormat, the first line of a Gmsh mesh (MSH 2.2 or 4.1)")?;
@@ -28,7 +28,7 @@ pub fn read(bytes: &[u8]) -> Result<Mesh, GmshError> {
     reader.finish()
 }
 
-/// Reads the body of `$MeshFormat`; from here on `tokens` knows text from binary.
+/// Reads the body of `$MeshFormat`, after which `tokens` knows its encoding.
 fn format(tokens: &mut Tokens) -> Result<Version> {
     let found: String = tokens.parse("a version of the format")?;
     let version = match found.as_str() {
@@ -59,21 +59,21 @@ enum Version {
     V4,
 }
 
-/// What has been read of a file so far.
+/// The parts of a file that have been read so far.
 #[derive(Default)]
 pub struct Reader<'a> {
-    /// The rest of the file.
+    /// The tokens of the rest of the file.
     pub tokens: Tokens<'a>,
     version: Version,
-    /// The sections met, without those that are skipped.
+    /// The names of the sections read so far, without those that are skipped.
     pub sections: BTreeSet<String>,
-    /// Names by dimension and tag.
+    /// The physical names by dimension and tag.
     names: BTreeMap<(usize, usize), String>,
-    /// Physical tags by dimension and tag of the geometric entity.
+    /// The physical tags by dimension and tag of the geometric entity.
     pub entities: BTreeMap<(usize, i32), Vec<usize>>,
-    /// Nodes by number.
+    /// The nodes by their number.
     pub nodes: BTreeMap<usize, Node>,
-    /// Elements by number.
+    /// The elements by their number.
     pub elements: BTreeMap<usize, Element>,
 }
 
@@ -91,8 +91,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads by `body` a section that may come once only; `$Elements` comes after what the elements
-    /// refer to.
+    /// Reads by `body` a section that may occur only once. `$Elements` follows the sections to
+    /// which the elements refer.
     fn once(&mut self, name: &str, body: fn(&mut Self) -> Result<()>) -> Result<()> {
         if name == "Elements" && !self.sections.contains("Nodes") {
             let expected = "$Nodes before it (in Gmsh set Mesh.SaveParametric = 0)";
@@ -107,7 +107,7 @@ impl Reader<'_> {
         body(self)
     }
 
-    /// The mesh, once the file has ended.
+    /// Returns the mesh after the end of the file.
     fn finish(self) -> Result<Mesh> {
         for section in ["Nodes", "Elements"] {
             if !self.sections.contains(section) {
@@ -122,8 +122,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Reads `$PhysicalNames`: a count, then `dimension tag "name"` on a line each. It is text in
-    /// binary files too.
+    /// Reads `$PhysicalNames`: a count, then lines `dimension tag "name"`, always text.
     fn physical_names(&mut self) -> Result<()> {
         let count: usize = self.tokens.parse("the number of physical names")?;
         for _ in 0..count {
@@ -176,7 +175,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Refuses what comes a second time.
+    /// Refuses an item that occurs a second time.
     pub fn repeated(&self, what: String) -> Result<()> {
         Err(self.tokens.error(Fault::Repeated { what }))
     }

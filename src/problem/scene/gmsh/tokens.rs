@@ -1,10 +1,10 @@
-//! The run of numbers and words that a file is: the same for text and for binary.
+//! The sequence of numbers and words in a file, the same for text and for binary.
 
 use std::str::FromStr;
 
 use super::error::{Fault, GmshError, Place, Result};
 
-/// How a file writes its numbers.
+/// The encoding of the numbers in a file.
 #[derive(Clone, Copy, Default, PartialEq)]
 pub enum Encoding {
     #[default]
@@ -13,20 +13,20 @@ pub enum Encoding {
     BigEndian,
 }
 
-/// The run of numbers and words that a file is, whatever its encoding.
+/// The numbers and words of a file of any encoding.
 #[derive(Default)]
 pub struct Tokens<'a> {
     bytes: &'a [u8],
-    /// Where the next token is looked for.
+    /// The place after which the next token is read.
     at: usize,
-    /// Where the last token began: the place that errors report.
+    /// The place where the last token began, which errors report.
     last: usize,
-    /// How numbers are written from here on.
+    /// The encoding of the numbers from here on.
     pub encoding: Encoding,
 }
 
 impl<'a> Tokens<'a> {
-    /// The tokens of a file, which begins as text.
+    /// Starts at the beginning of a file, which is text.
     pub fn new(bytes: &'a [u8]) -> Self {
         Tokens { bytes, at: 0, last: 0, encoding: Encoding::Text }
     }
@@ -94,7 +94,7 @@ impl<'a> Tokens<'a> {
         parsed.ok_or_else(|| self.unexpected(shown(word), expected))
     }
 
-    /// Reads the next word: what stands between white space; empty at the file's end.
+    /// Reads the next word, which ends at white space; empty at the end of the file.
     fn word(&mut self) -> &'a [u8] {
         self.at += run(&self.bytes[self.at..], |byte| byte.is_ascii_whitespace());
         self.last = self.at;
@@ -111,7 +111,7 @@ impl<'a> Tokens<'a> {
         Ok(count)
     }
 
-    /// Reads what stands from the line's first to its last quotation mark.
+    /// Reads the text between the line's first and last quotation mark.
     pub fn quoted(&mut self, expected: &str) -> Result<String> {
         let line = self.line();
         let name = std::str::from_utf8(line)
@@ -123,14 +123,13 @@ impl<'a> Tokens<'a> {
         })
     }
 
-    /// Reads the end of the line, with no more than blanks before it; the file's end will do.
+    /// Reads the end of the line, with only blanks before it; the end of the file is accepted.
     pub fn line_end(&mut self) -> Result<()> {
         let line = self.line().trim_ascii();
-        if line.is_empty() {
-            Ok(())
-        } else {
-            Err(self.unexpected(shown(line), "the end of the line"))
+        if !line.is_empty() {
+            return Err(self.unexpected(shown(line), "the end of the line"));
         }
+        Ok(())
     }
 
     /// Reads the rest of the line.
@@ -142,7 +141,7 @@ impl<'a> Tokens<'a> {
         &rest[..length]
     }
 
-    /// Reads the name of the section that begins here, without its `$`; none at the file's end.
+    /// Reads the name of the section that begins here, without `$`; None at the file's end.
     pub fn section(&mut self) -> Result<Option<String>> {
         let word = self.word();
         if word.is_empty() {
@@ -166,7 +165,7 @@ impl<'a> Tokens<'a> {
         self.line_end()
     }
 
-    /// Goes to the next place where `keyword` stands.
+    /// Skips to the next occurrence of `keyword`.
     pub fn skip_to(&mut self, keyword: &str) -> Result<()> {
         self.last = self.bytes.len();
         let mut windows = self.bytes[self.at..].windows(keyword.len());
@@ -185,12 +184,12 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// An error at the last token: `found` stands where `expected` should.
+    /// Returns an error at the last token: `found` in place of `expected`.
     pub fn unexpected(&self, found: impl ToString, expected: impl ToString) -> GmshError {
         self.error(Fault::Unexpected { found: found.to_string(), expected: expected.to_string() })
     }
 
-    /// An error at the last token.
+    /// Returns an error at the last token.
     pub fn error(&self, fault: Fault) -> GmshError {
         let place = match self.encoding {
             Encoding::Text => {
@@ -203,12 +202,12 @@ impl<'a> Tokens<'a> {
     }
 }
 
-/// How many of the first bytes are `such`.
+/// Returns how many of the first bytes are `such`.
 fn run(bytes: &[u8], such: impl Fn(&u8) -> bool) -> usize {
     bytes.iter().position(|byte| !such(byte)).unwrap_or(bytes.len())
 }
 
-/// A word as an error shows it: in quotation marks and cut short, or the file's end.
+/// Returns a word for an error message: in quotation marks and cut short, or the end of the file.
 fn shown(word: &[u8]) -> String {
     const MOST: usize = 40;
     match word.len() {

@@ -1,12 +1,12 @@
-//! A mesh as text.
+//! A mesh as the text of a Gmsh file.
 
 use std::fmt::Write;
 
 use crate::problem::scene::mesh::Mesh;
 
-/// The mesh as a file of Gmsh: MSH 2.2, text. Each coordinate is written as the shortest number
-/// that reads back to the same bits. The format has room for one physical group: the first of each
-/// element's, or 0.
+/// Returns the mesh as a Gmsh file: MSH 2.2, text. Each coordinate is written as the shortest
+/// number that reads back to the same bits. The format stores one physical group: the first of each
+/// element, or 0.
 pub fn write(mesh: &Mesh) -> String {
     let mut out = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
     section(&mut out, "PhysicalNames", &mesh.names, |out, group| {

@@ -1,4 +1,4 @@
-//! A mesh in code. Rows of nodes are joined by triangles, whatever their numbers of segments.
+//! Meshes in code. Triangles join rows of nodes of any numbers of segments.
 //!
 //! ```text
 //!   outer   b0----b1----b2            b0----------b1
@@ -11,10 +11,10 @@ use super::{Element, KINDS, Mesh, Node, PhysicalName};
 use crate::problem::element;
 use crate::problem::scene::groups::GroupRef;
 
-/// A mesh as it grows. Nodes are numbered from 1 in the order in which they come. Physical groups
-/// stand in the order in which they are first named, edges before triangles, and their elements are
-/// numbered in that order. A group named by a tag has that tag; to one named by a name the next
-/// free tag is given.
+/// A mesh under construction. Nodes are numbered from 1 in the order in which they are added.
+/// Physical groups are sorted by their first mention, edges before triangles, and their elements
+/// are numbered in that order. A group that is named by a tag has that tag; a group with a name
+/// gets the next free tag.
 #[derive(Clone, Debug, Default)]
 pub struct MeshBuilder {
     nodes: Vec<[f64; 2]>,
@@ -30,18 +30,18 @@ struct Group<const N: usize> {
 }
 
 impl MeshBuilder {
-    /// Adds a node at `xy`, length; returns its number.
+    /// Adds a node at `xy`, length, and returns its number.
     pub fn node(&mut self, xy: [f64; 2]) -> usize {
         self.nodes.push(xy);
         self.nodes.len()
     }
 
-    /// Adds a node at each of `points`, length; returns their numbers.
+    /// Adds a node at each of `points`, length, and returns their numbers.
     pub fn row(&mut self, points: impl IntoIterator<Item = [f64; 2]>) -> Vec<usize> {
         points.into_iter().map(|xy| self.node(xy)).collect()
     }
 
-    /// Coordinates of node `n`, length.
+    /// Returns the coordinates of node `n`, length.
     pub fn xy(&self, n: usize) -> [f64; 2] {
         self.nodes[n - 1]
     }
@@ -61,14 +61,14 @@ impl MeshBuilder {
         elements_of(&mut self.triangles, group.into()).extend(triangles);
     }
 
-    /// Fills the strip between two rows with triangles of a group. Equal rows are cut along inner k
-    /// - outer k + 1; a row of one node is the tip of a fan.
+    /// Fills the strip between two rows with triangles of a group. Equal rows are cut along the
+    /// diagonals from inner node k to outer node k + 1. A row of one node is the tip of a fan.
     pub fn join(&mut self, group: impl Into<GroupRef>, inner: &[usize], outer: &[usize]) {
         let (n, m) = (inner.len() - 1, outer.len() - 1);
         let (mut i, mut j) = (0, 0);
         let mut triangles = Vec::with_capacity(n + m);
         while i < n || j < m {
-            // The segment whose middle comes first along its row.
+            // The next segment is the one whose middle comes first along its row.
             let inner_first = j == m || (i < n && (2 * i + 1) * m < (2 * j + 1) * n);
             let third = if inner_first { inner[i + 1] } else { outer[j + 1] };
             triangles.push(self.counter_clockwise([inner[i], third, outer[j]]));
@@ -82,13 +82,13 @@ impl MeshBuilder {
         rows.windows(2).for_each(|pair| self.join(group, &pair[0], &pair[1]));
     }
 
-    /// The nodes of a triangle, the last two exchanged where they run clockwise.
+    /// Returns the nodes of a triangle, with the last two exchanged where they run clockwise.
     fn counter_clockwise(&self, [a, b, c]: [usize; 3]) -> [usize; 3] {
         let area = element::area(&[a, b, c].map(|n| self.xy(n)));
         if area > 0.0 { [a, b, c] } else { [a, c, b] }
     }
 
-    /// The mesh, its elements numbered from 1.
+    /// Returns the mesh with its elements numbered from 1.
     pub fn finish(self) -> Mesh {
         let numbered = self.nodes.iter().enumerate();
         let nodes = numbered.map(|(k, &[x, y])| Node { number: k + 1, xyz: [x, y, 0.0] });
@@ -102,7 +102,7 @@ impl MeshBuilder {
     }
 }
 
-/// The elements of the group `name`, which is added where it is new.
+/// Returns the elements of the group `name`, which is added where it is new.
 fn elements_of<const N: usize>(groups: &mut Vec<Group<N>>, name: GroupRef) -> &mut Vec<[usize; N]> {
     let at = groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
         groups.push(Group { name, elements: Vec::new() });
@@ -111,7 +111,7 @@ fn elements_of<const N: usize>(groups: &mut Vec<Group<N>>, name: GroupRef) -> &m
     &mut groups[at].elements
 }
 
-/// The tag of each group: its own, or the next that no group has.
+/// Returns the tag of each group: its own, or the next that no group has.
 fn tags(names: Vec<GroupRef>) -> Vec<usize> {
     let mut free = (1..).filter(|tag| !names.contains(&GroupRef::Tag(*tag)));
     let tag = |name: &GroupRef| match name {
@@ -148,7 +148,7 @@ fn add_groups<const N: usize>(
 mod tests {
     use super::MeshBuilder;
 
-    /// The triangles between two rows of `inner` and `outer` segments.
+    /// Returns the triangles between two rows of `inner` and `outer` segments.
     fn triangles(inner: usize, outer: usize) -> Vec<Vec<usize>> {
         let mut mesh = MeshBuilder::default();
         let place = |k: usize, n: usize| if n == 0 { 0.5 } else { k as f64 / n as f64 };

@@ -1,4 +1,4 @@
-//! What every computation takes for granted of a mesh.
+//! The conditions on a mesh that every computation assumes.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ impl Mesh {
     /// Checks that `n` is a node of the mesh.
     ///
     /// # Errors
-    /// It is not.
+    /// The mesh has no such node.
     pub fn check_node(&self, n: usize, place: &str) -> Result<(), InputError> {
         let r = self.nodes.len();
         if (1..=r).contains(&n) {
@@ -22,11 +22,12 @@ impl Mesh {
         Err(InputError::new(place, what, fix))
     }
 
-    /// Checks what the listings take for granted: nodes are numbered 1 to R and lie in one plane,
-    /// elements name them, triangles have a positive area and none comes twice.
+    /// Checks the conditions that the listings assume: nodes are numbered 1 to R and lie in one
+    /// plane, elements name existing nodes, triangles have a positive area, and no triangle occurs
+    /// twice.
     ///
     /// # Errors
-    /// The first condition that is broken, by node or element number.
+    /// The first condition that is violated, by node or element number.
     pub fn check(&self) -> Result<(), InputError> {
         self.check_names()?;
         self.check_nodes()?;
@@ -102,8 +103,8 @@ impl Mesh {
         Ok(())
     }
 
-    /// Checks an element's number, which must not be far beyond the number of elements, and that it
-    /// names different nodes of the mesh.
+    /// Checks that an element's number is not far beyond the number of elements, and that the
+    /// element names different nodes of the mesh.
     fn check_element(&self, element: &Element) -> Result<(), InputError> {
         let place = "the mesh's elements";
         let (number, nodes, count) = (element.number, &element.nodes, self.elements.len());

@@ -1,4 +1,4 @@
-//! The mesh: nodes, elements and physical groups, whoever made them.
+//! The mesh: nodes, elements and physical groups, from any source.
 //!
 //! ```text
 //!  strand.msh ---gmsh::read---+
@@ -17,58 +17,58 @@ use crate::problem::element::Corners;
 /// Nodes and elements in ascending order of number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// Nodes.
+    /// The nodes of the mesh.
     pub nodes: Vec<Node>,
-    /// Points, edges and triangles. An element of two physical groups stands twice in a Gmsh file
-    /// of version 2.2, under two numbers, and once, with two tags, in one of version 4.1.
+    /// The points, edges and triangles. An element of two physical groups occurs twice in a Gmsh
+    /// file of version 2.2, under two numbers, and once, with two tags, in one of version 4.1.
     pub elements: Vec<Element>,
-    /// Names of physical groups.
+    /// The names of the physical groups.
     pub names: Vec<PhysicalName>,
 }
 
-/// A node.
+/// A node of the mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Its number.
+    /// The number of the node.
     pub number: usize,
-    /// Coordinates, length.
+    /// The coordinates x, y, z, length.
     pub xyz: [f64; 3],
 }
 
-/// A point, an edge or a triangle.
+/// An element of the mesh: a point, an edge or a triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
-    /// Its number: the row of `elem`.
+    /// The number of the element: its row in `elem`.
     pub number: usize,
-    /// Gmsh's element type: 15 point, 1 edge, 2 triangle.
+    /// The element type of Gmsh: 15 point, 1 edge, 2 triangle.
     pub kind: usize,
-    /// Tags of the physical groups that it belongs to, ascending.
+    /// The tags of the physical groups to which it belongs, ascending.
     pub physical: Vec<usize>,
-    /// Tag of its geometric entity.
+    /// The tag of its geometric entity.
     pub geometric: usize,
-    /// Numbers of its nodes.
+    /// The numbers of its nodes.
     pub nodes: Vec<usize>,
 }
 
 /// The name of a physical group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhysicalName {
-    /// Dimension of the group's elements: 0 points, 1 edges, 2 triangles. Tags of different
+    /// The dimension of the group's elements: 0 points, 1 edges, 2 triangles. Tags of different
     /// dimensions are independent.
     pub dim: usize,
-    /// The group's tag.
+    /// The tag of the group.
     pub tag: usize,
-    /// Its name.
+    /// The name of the group.
     pub name: String,
 }
 
 /// A kind of element.
 pub struct Kind {
-    /// Gmsh's element type.
+    /// The element type of Gmsh.
     pub number: usize,
-    /// Its dimension.
+    /// The dimension of the element.
     pub dim: usize,
-    /// How many nodes it has.
+    /// The number of its nodes.
     pub nodes: usize,
 }
 
@@ -80,23 +80,23 @@ pub const KINDS: [Kind; 3] = [
 ];
 
 impl Mesh {
-    /// The elements of a dimension: 0 points, 1 edges, 2 triangles.
+    /// Returns the elements of a dimension: 0 points, 1 edges, 2 triangles.
     pub fn of_dimension(&self, dim: usize) -> impl Iterator<Item = &Element> {
         self.elements.iter().filter(move |e| e.kind == KINDS[dim].number)
     }
 
-    /// Coordinates of node `n` in the plane, length.
+    /// Returns the coordinates of node `n` in the plane, length.
     pub fn xy(&self, n: usize) -> [f64; 2] {
         let [x, y, _] = self.nodes[n - 1].xyz;
         [x, y]
     }
 
-    /// Coordinates of the corners of a triangle, length.
+    /// Returns the coordinates of the corners of a triangle, length.
     pub fn corners(&self, triangle: &Element) -> Corners<f64> {
         [0, 1, 2].map(|k| self.xy(triangle.nodes[k]))
     }
 
-    /// The nodes that belong to no triangle, ascending.
+    /// Returns the nodes that belong to no triangle, ascending.
     pub fn orphans(&self) -> Vec<usize> {
         let mut used = vec![false; self.nodes.len()];
         for n in self.of_dimension(2).flat_map(|t| &t.nodes) {
@@ -105,8 +105,8 @@ impl Mesh {
         (1..=used.len()).filter(|n| !used[n - 1]).collect()
     }
 
-    /// The mesh without the nodes `dropped` and the points and edges on them; the other nodes are
-    /// numbered 1 to R again.
+    /// Returns the mesh without the nodes `dropped` and the points and edges on them, with the
+    /// other nodes numbered 1 to R again.
     pub fn without(&self, dropped: &[usize]) -> Mesh {
         let kept = |n: &usize| dropped.binary_search(n).is_err();
         let mut mesh = self.clone();
@@ -124,7 +124,7 @@ impl Mesh {
     }
 }
 
-/// The number of node `n` once the nodes `dropped` are gone.
+/// Returns the number of node `n` without the nodes `dropped`.
 pub fn new_number(n: usize, dropped: &[usize]) -> usize {
     n - dropped.partition_point(|d| *d < n)
 }

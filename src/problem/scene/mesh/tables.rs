@@ -1,4 +1,4 @@
-//! A mesh from the paper's own tables.
+//! Meshes from the paper's own tables.
 
 use super::{Element, KINDS, Mesh, Node};
 use crate::error::InputError;
