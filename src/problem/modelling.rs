@@ -1,7 +1,7 @@
 //! The variants that can be run, and how contact is modelled beyond what the paper prints.
 
-use serde::de::{self, Deserializer};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::choices;
 
@@ -24,6 +24,7 @@ choices! {
 choices! {
     /// The motion of a contact node along the target's tangent under `unilateral`.
     #[derive(Default)]
+    #[serde(try_from = "Value")]
     Friction {
         /// It follows the target, as eq. (1) asks.
         #[default]
@@ -33,15 +34,16 @@ choices! {
     }
 }
 
-impl<'de> Deserialize<'de> for Friction {
-    /// Reads `0` or `"stick"`.
-    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
-        let text = match serde_json::Value::deserialize(d)? {
-            serde_json::Value::String(text) => text,
+impl TryFrom<Value> for Friction {
+    type Error = String;
+
+    /// Reads `0`, as a number or as text, or `"stick"`.
+    fn try_from(value: Value) -> Result<Self, String> {
+        let text = match value {
+            Value::String(text) => text,
             other => other.to_string(),
         };
-        text.parse()
-            .map_err(|_| de::Error::custom(format!("friction {text} is neither 0 nor \"stick\"")))
+        text.parse().map_err(|_| format!("friction {text} is neither 0 nor \"stick\""))
     }
 }
 
@@ -85,7 +87,7 @@ choices! {
 }
 
 /// The model of contact, beyond what the paper prints.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ContactModel {
     /// The method that binds a contact node to the target surface.
     pub coupling: Coupling,

@@ -46,7 +46,7 @@ choices! {
 }
 
 /// In which numbers, by which solver, and to which tolerance a run computes.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Arithmetic {
     pub scalar: ScalarName,
     /// The solver; with none, the scalar's own: dense LU in numbers of the machine, sparse LDLᵀ in
