@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::not_finite::or_nan;
 use super::solution::{Solution, max_displacement};
 use super::stiffness::Stiffness;
 use super::summary::summaries;
@@ -13,8 +14,10 @@ pub struct Distance {
     /// The largest difference of a node's displacement, length.
     pub displacement: f64,
     /// That difference over the largest displacement of the reference solution.
+    #[serde(deserialize_with = "or_nan")]
     pub displacement_relative: f64,
     /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the reference solution.
+    #[serde(deserialize_with = "or_nan")]
     pub energy_relative: f64,
     /// The largest stresses of each body, in the model's order.
     pub bodies: Vec<BodyDistance>,
@@ -31,6 +34,7 @@ pub struct BodyDistance {
     #[serde(rename = "converged")]
     pub reference: f64,
     /// The difference of the two over the reference.
+    #[serde(deserialize_with = "or_nan")]
     pub relative: f64,
 }
 

@@ -8,6 +8,7 @@ mod equations;
 pub mod error;
 pub mod estimates;
 mod hertz;
+mod not_finite;
 mod published;
 mod request;
 mod solution;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::pairing::Pairing;
 use super::surface::Surfaces;
+use crate::answer::not_finite::or_nan;
 use crate::answer::support::normal_force;
 use crate::problem::model::{Model, NodeId};
 
@@ -22,10 +23,13 @@ pub struct ContactNode {
     /// The distance from the target along its normal, length; < 0 where the node penetrates.
     pub gap: f64,
     /// The force on the node along the normal, force; < 0 where it pulls.
+    #[serde(deserialize_with = "or_nan")]
     pub force: f64,
     /// The contact pressure: the force over the undeformed surface of the node, stress.
+    #[serde(deserialize_with = "or_nan")]
     pub pressure: f64,
     /// The traction along the tangent, which is the normal turned left, stress.
+    #[serde(deserialize_with = "or_nan")]
     pub shear: f64,
     /// |shear| / pressure, the friction that keeps the node from sliding; None without pressure.
     pub friction_needed: Option<f64>,
