@@ -1,20 +1,38 @@
 //! What a run leaves: tables for people, pictures for the eye, files for machines.
 //!
-//! The same input gives the same bytes: no clock, no hash order, no machine in them.
+//! Reports print and draw what [`answer`](crate::answer) and [`studies`](crate::studies) found, and
+//! solve nothing. The same input gives the same bytes: no clock, no hash order and no machine is in
+//! them, but for the times and the memory that `trade` measures.
+//!
+//! | module                                             | what it writes                         |
+//! |----------------------------------------------------|----------------------------------------|
+//! | `tables`, `folder`, `result_file`, `pressure`      | a run: tables, folder, `result.json`   |
+//! | `audit`, `comparison`, `extremes`, `plan`, `trace` | a study each                           |
+//! | `statuses`, `trade`                                | a study each                           |
+//! | `picture`, `vtu`, `xml`                            | pictures and files for viewers         |
+//! | `json`, `matrix_market`, `output`                  | other files                            |
+//! | `layout`, `numbers`                                | columns of words, numbers as text      |
 
 pub mod audit;
 pub mod comparison;
 pub mod extremes;
 pub mod folder;
 pub mod json;
+mod layout;
 pub mod matrix_market;
+mod numbers;
+mod output;
 pub mod picture;
 pub mod plan;
 pub mod pressure;
+mod result_file;
 pub mod statuses;
 pub mod tables;
 pub mod trace;
 pub mod trade;
-pub mod uncertain;
 pub mod vtu;
 mod xml;
+
+pub use result_file::{
+    BodyEstimates, ElementRow, IterationRow, KnownEstimates, ReadingInForce, ResultFile,
+};

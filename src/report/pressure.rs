@@ -1,24 +1,27 @@
 //! The contact pressure along the contact surface, several runs in one picture.
 
+use super::numbers::quantity;
 use super::picture::{Axis, Series, Style, chart};
-use super::tables::with_unit;
 use crate::answer::contact::ContactNode;
 use crate::answer::{Hertz, Solution};
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 
-/// How far beyond the outermost node in contact the picture shows, of the width of the contact.
+/// How far the picture reaches beyond the outermost node in contact, as a part of the width of the
+/// contact.
 const MARGIN: f64 = 0.25;
 
-/// Points of Hertz's curve.
+/// How many points Hertz's curve is drawn through.
 const POINTS: usize = 101;
 
-/// Pressure against distance along the undeformed contact surface: a curve a run, and `hertz`'s.
+/// Draws the contact pressure against the distance along the undeformed contact surface: a curve of
+/// each run, and `hertz`'s.
 pub fn picture(scene: &Scene, runs: &[&Solution], hertz: Option<&Hertz>) -> String {
     let [from, to] = shown(runs);
     let mut series: Vec<Series> = runs.iter().map(|run| curve(run, [from, to])).collect();
     let mut captions = vec![String::from(
-        "Pressure of a node: the reaction of its equations, K u − F, along the target's normal, over the length that the node stands for.",
+        "Pressure of a node: the reaction of its equations, K u − F, along the target's normal, \
+         over the length that the node stands for.",
     )];
     if let Some(hertz) = hertz {
         series.push(hertz_curve(hertz, [from, to]));
@@ -27,14 +30,15 @@ pub fn picture(scene: &Scene, runs: &[&Solution], hertz: Option<&Hertz>) -> Stri
             hertz.half_width, hertz.peak, hertz.radius
         ));
     }
-    let x = with_unit("distance along the contact surface", &scene.units.length);
-    let y = with_unit("contact pressure", &scene.units.stress);
+    let x = quantity("distance along the contact surface", &scene.units.length);
+    let y = quantity("contact pressure", &scene.units.stress);
     let axis = |label| Axis { label, logarithmic: false };
     let title = format!("{}: contact pressure", scene.title);
     chart(&title, [axis(&x), axis(&y)], &series, &captions)
 }
 
-/// The stretch of the surface that any run has in contact, with a margin; all of it where none has.
+/// Returns the stretch of the surface that any run has in contact, with a margin; all of it where
+/// none has. Lengths along the surface.
 fn shown(runs: &[&Solution]) -> [f64; 2] {
     let nodes = || runs.iter().flat_map(|run| &run.contact);
     let extent = |nodes: &mut dyn Iterator<Item = &ContactNode>| {
@@ -58,7 +62,7 @@ fn curve(run: &Solution, [from, to]: [f64; 2]) -> Series {
     }
 }
 
-/// The run in words: its variant, and its coupling where that is not `c_cnt`'s.
+/// Names the run by its variant, and by how contact was modelled where the variant leaves a choice.
 pub fn name(run: &Solution) -> String {
     let (variant, contact) = (run.request.variant, run.request.contact);
     match variant {

@@ -9,7 +9,7 @@ use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 
-use super::uncertain::uncertain;
+use super::numbers::uncertain;
 
 /// Rows of cells in columns, the first row being the heading: numbers to the right, words to the left.
 pub(super) fn aligned(rows: &[Vec<String>]) -> String {

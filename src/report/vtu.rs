@@ -1,47 +1,53 @@
-//! Mesh and results as a VTU file (VTK's XML format for unstructured grids), for ParaView and its kin.
+//! Mesh and results as a VTU file: VTK's XML format for unstructured grids, as ParaView reads it.
 
-use std::fmt::Display;
-
+use super::picture::Drawing;
 use super::xml::Element;
+use crate::answer::{Assessment, Solution};
+use crate::problem::element::State;
 
 /// VTK's number for a triangle of three nodes.
 const TRIANGLE: u8 = 5;
 
-/// What goes into the file. Points and triangles count from 0.
-pub struct VtuMesh<'a> {
-    /// x and y of each node; z is written as 0.
-    pub points: &'a [[f64; 2]],
-    /// The corners of each triangle, as indices of points.
-    pub triangles: &'a [[usize; 3]],
-    /// Results per point: the displacement.
-    pub point_data: &'a [Data<'a>],
-    /// Results per triangle: stress, strain, the body's number.
-    pub cell_data: &'a [Data<'a>],
-}
+/// A result: the name that the viewer lists, the number of its components, and all components of
+/// the first point or triangle, then of the second, and so on.
+type Data<'a> = (&'a str, usize, &'a [f64]);
 
-/// A named result.
-pub struct Data<'a> {
-    /// The name that the viewer lists.
-    pub name: &'a str,
-    /// Numbers per point or triangle. A vector in the plane has 2 and is written with a third, 0: viewers warp by 3.
-    pub components: usize,
-    /// All components of the first point or triangle, then of the second, and so on; finite.
-    pub values: &'a [f64],
-}
-
-/// The file's text. Every number reads back to the same bits.
+/// Writes the mesh of `drawing`, the displacements of its points, and the stresses, the strains,
+/// the body and the estimated error of its triangles. Every number reads back to the same bits.
 ///
 /// # Panics
 ///
-/// If a result has not `components` finite values for every point or triangle.
-pub fn vtu(mesh: &VtuMesh) -> String {
+/// If a result is not finite.
+pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> String {
+    let elements = &solution.elements;
+    let three = |of: fn(&State) -> [f64; 3]| elements.iter().flat_map(of).collect::<Vec<_>>();
+    let one = |of: fn(&State) -> f64| elements.iter().map(of).collect::<Vec<_>>();
+    let body: Vec<f64> = drawing.region.iter().map(|region| *region as f64).collect();
+    let triangles: [Data; 6] = [
+        ("sigma_x sigma_y tau_xy", 3, &three(|s| s.sigma.into())),
+        ("epsilon_x epsilon_y gamma_xy", 3, &three(|s| s.epsilon.into())),
+        ("von_mises_stress", 1, &one(|s| s.von_mises_stress)),
+        ("von_mises_strain", 1, &one(|s| s.von_mises_strain)),
+        ("body", 1, &body),
+        ("mesh_error", 1, &assessment.estimates.mesh.error_map()),
+    ];
+    let points: [Data; 1] = [("displacement", 2, solution.u.as_slice())];
+    document(&drawing.points, &drawing.triangles, &points, &triangles)
+}
+
+fn document(
+    points: &[[f64; 2]],
+    triangles: &[[usize; 3]],
+    of_points: &[Data],
+    of_triangles: &[Data],
+) -> String {
     let piece = Element::new("Piece")
-        .set("NumberOfPoints", mesh.points.len().to_string())
-        .set("NumberOfCells", mesh.triangles.len().to_string())
-        .with(results("PointData", mesh.point_data, mesh.points.len()))
-        .with(results("CellData", mesh.cell_data, mesh.triangles.len()))
-        .with(Element::new("Points").with(floats("Points", 2, mesh.points.as_flattened())))
-        .with(cells(mesh.triangles));
+        .set("NumberOfPoints", points.len().to_string())
+        .set("NumberOfCells", triangles.len().to_string())
+        .with(results("PointData", of_points, points.len()))
+        .with(results("CellData", of_triangles, triangles.len()))
+        .with(Element::new("Points").with(floats(&("Points", 2, points.as_flattened()))))
+        .with(cells(triangles));
     Element::new("VTKFile")
         .set("type", "UnstructuredGrid")
         .set("version", "1.0")
@@ -52,55 +58,48 @@ pub fn vtu(mesh: &VtuMesh) -> String {
 }
 
 fn results(place: &'static str, data: &[Data], count: usize) -> Element {
-    let array = |data: &Data| {
-        let expected = data.components * count;
+    for (name, components, values) in data {
         assert_eq!(
-            data.values.len(),
-            expected,
-            "{}: {} values for each of {count}",
-            data.name,
-            data.components
+            values.len(),
+            components * count,
+            "{name}: {components} values for each of {count}"
         );
-        floats(data.name, data.components, data.values)
-    };
-    Element::new(place).with_all(data.iter().map(array))
+    }
+    Element::new(place).with_all(data.iter().map(floats))
 }
 
 fn cells(triangles: &[[usize; 3]]) -> Element {
-    let corners = lines(triangles);
-    let offsets: Vec<_> = (1..=triangles.len()).map(|triangle| [3 * triangle]).collect();
+    let corners = triangles.iter().map(|corners| corners.map(|point| point.to_string()));
+    let offsets = (1..=triangles.len()).map(|count| [(3 * count).to_string()]);
+    let types = triangles.iter().map(|_| [TRIANGLE.to_string()]);
     Element::new("Cells")
         .with(array("Int64", "connectivity", corners))
-        .with(array("Int64", "offsets", lines(&offsets)))
-        .with(array("UInt8", "types", lines(&vec![[TRIANGLE]; triangles.len()])))
+        .with(array("Int64", "offsets", offsets))
+        .with(array("UInt8", "types", types))
 }
 
-/// Floats in the shortest text that reads back to the same bits, a point or triangle per line.
-fn floats(name: &str, components: usize, values: &[f64]) -> Element {
+/// Writes floats in the shortest text that reads back to the same bits, a point or triangle on each
+/// line. A vector in the plane gets a third component, 0: viewers warp by three.
+fn floats((name, components, values): &Data) -> Element {
     assert!(
         values.iter().all(|value| value.is_finite()),
         "{name}: a file for a viewer needs finite numbers"
     );
-    let line = |values: &[f64]| match values {
-        [x, y] => format!("{x:?} {y:?} 0.0"),
-        _ => spaced(values.iter().map(|value| format!("{value:?}"))),
+    let plane = *components == 2;
+    let text = |value: &f64| format!("{value:?}");
+    let row = |row: &[f64]| -> Vec<String> {
+        row.iter().map(text).chain(plane.then(|| text(&0.0))).collect()
     };
-    let text: Vec<_> = values.chunks(components).map(line).collect();
-    let written = if components == 2 { 3 } else { components };
-    array("Float64", name, text.join("\n")).set("NumberOfComponents", written.to_string())
+    let written = if plane { 3 } else { *components };
+    let rows = values.chunks(*components).map(row);
+    array("Float64", name, rows).set("NumberOfComponents", written.to_string())
 }
 
-fn lines<const N: usize>(rows: &[[impl Display; N]]) -> String {
-    let rows: Vec<_> = rows.iter().map(|row| spaced(row.iter().map(ToString::to_string))).collect();
-    rows.join("\n")
-}
-
-fn spaced(words: impl Iterator<Item = String>) -> String {
-    words.collect::<Vec<_>>().join(" ")
-}
-
-fn array(kind: &str, name: &str, text: String) -> Element {
-    Element::with_text("DataArray", text).set("type", kind).set("Name", name).set("format", "ascii")
+/// Writes an array of numbers, a row of them on each line.
+fn array(kind: &str, name: &str, rows: impl IntoIterator<Item = impl AsRef<[String]>>) -> Element {
+    let rows: Vec<_> = rows.into_iter().map(|row| row.as_ref().join(" ")).collect();
+    let element = Element::with_text("DataArray", &rows.join("\n"));
+    element.set("type", kind).set("Name", name).set("format", "ascii")
 }
 
 #[cfg(test)]
@@ -115,19 +114,15 @@ mod tests {
         [0.1 + 0.2, -1e-300, 5e-324, 0.0, -0.0, f64::MAX, f64::EPSILON, -2.5];
 
     fn written() -> String {
-        vtu(&VtuMesh {
-            points: &POINTS,
-            triangles: &TRIANGLES,
-            point_data: &[Data { name: "displacement", components: 2, values: &DISPLACEMENT }],
-            cell_data: &[Data { name: "a < b", components: 1, values: &[6.3, f64::MIN_POSITIVE] }],
-        })
+        let of_triangles = [("a < b", 1, &[6.3, f64::MIN_POSITIVE][..])];
+        document(&POINTS, &TRIANGLES, &[("displacement", 2, &DISPLACEMENT)], &of_triangles)
     }
 
-    /// Components and numbers of an array, as a reader finds them.
+    /// Returns the components and the numbers of an array, as a reader finds them.
     fn read(file: &str, name: &str) -> (Option<String>, Vec<String>) {
         let document = Document::parse(file).unwrap();
-        let array =
-            document.descendants().find(|node| node.attribute("Name") == Some(name)).unwrap();
+        let mut arrays = document.descendants().filter(|n| n.attribute("Name") == Some(name));
+        let array = arrays.next().unwrap();
         let numbers = array.text().unwrap().split_whitespace().map(String::from).collect();
         (array.attribute("NumberOfComponents").map(String::from), numbers)
     }
@@ -136,17 +131,16 @@ mod tests {
         numbers.iter().map(|number| number.parse::<f64>().unwrap().to_bits()).collect()
     }
 
-    fn bits_with_zero(vectors: &[[f64; 2]]) -> Vec<u64> {
-        vectors.iter().flat_map(|&[x, y]| [x, y, 0.0]).map(f64::to_bits).collect()
-    }
-
     #[test]
     fn floats_read_back_to_the_same_bits() {
+        let with_zero = |vectors: &[[f64; 2]]| -> Vec<u64> {
+            vectors.iter().flat_map(|&[x, y]| [x, y, 0.0]).map(f64::to_bits).collect()
+        };
         let file = written();
-        assert_eq!(bits(&read(&file, "Points").1), bits_with_zero(&POINTS));
+        assert_eq!(bits(&read(&file, "Points").1), with_zero(&POINTS));
         let (components, displacement) = read(&file, "displacement");
         assert_eq!(components.as_deref(), Some("3"));
-        assert_eq!(bits(&displacement), bits_with_zero(DISPLACEMENT.as_chunks().0));
+        assert_eq!(bits(&displacement), with_zero(DISPLACEMENT.as_chunks().0));
         assert_eq!(bits(&read(&file, "a < b").1), [6.3, f64::MIN_POSITIVE].map(f64::to_bits));
     }
 
@@ -161,7 +155,6 @@ mod tests {
     #[test]
     #[should_panic(expected = "displacement: 2 values for each of 4")]
     fn missing_values_are_refused() {
-        let data = [Data { name: "displacement", components: 2, values: &DISPLACEMENT[..6] }];
-        vtu(&VtuMesh { points: &POINTS, triangles: &TRIANGLES, point_data: &data, cell_data: &[] });
+        document(&POINTS, &TRIANGLES, &[("displacement", 2, &DISPLACEMENT[..6])], &[]);
     }
 }

@@ -1,64 +1,50 @@
-//! A tree of XML elements and its text.
+//! XML, an element on each line.
 
-/// An element with its attributes and what stands inside it.
-#[derive(Clone, Debug)]
+/// An element of XML, written as far as it is known.
 pub struct Element {
     name: &'static str,
-    attributes: Vec<(&'static str, String)>,
-    inside: Inside,
-}
-
-#[derive(Clone, Debug)]
-enum Inside {
-    Elements(Vec<Element>),
-    Text(String),
+    attributes: String,
+    inside: Option<String>,
 }
 
 impl Element {
-    /// An element with nothing in it yet.
+    /// Makes an element with nothing in it yet.
     pub fn new(name: &'static str) -> Self {
-        Self { name, attributes: Vec::new(), inside: Inside::Elements(Vec::new()) }
+        Self { name, attributes: String::new(), inside: None }
     }
 
-    /// An element that holds text.
-    pub fn with_text(name: &'static str, text: impl Into<String>) -> Self {
-        Self { name, attributes: Vec::new(), inside: Inside::Text(text.into()) }
+    /// Makes an element that holds text.
+    pub fn with_text(name: &'static str, text: &str) -> Self {
+        Self { inside: Some(escape(text)), ..Self::new(name) }
     }
 
-    /// The element with one attribute more.
+    /// Adds an attribute to the element.
     #[must_use]
-    pub fn set(mut self, name: &'static str, value: impl Into<String>) -> Self {
-        self.attributes.push((name, value.into()));
+    pub fn set(mut self, name: &str, value: impl AsRef<str>) -> Self {
+        self.attributes.extend([" ", name, "=\"", &escape(value.as_ref()), "\""]);
         self
     }
 
-    /// The element with one more element inside.
+    /// Adds an element inside this one.
     #[must_use]
     pub fn with(mut self, child: Element) -> Self {
         self.push(child);
         self
     }
 
-    /// The element with more elements inside.
+    /// Adds elements inside this one.
     #[must_use]
     pub fn with_all(mut self, children: impl IntoIterator<Item = Element>) -> Self {
         children.into_iter().for_each(|child| self.push(child));
         self
     }
 
-    /// Puts one more element inside.
-    ///
-    /// # Panics
-    ///
-    /// If the element holds text: mixed content is not needed here.
+    /// Adds an element inside this one.
     pub fn push(&mut self, child: Element) {
-        match &mut self.inside {
-            Inside::Elements(elements) => elements.push(child),
-            Inside::Text(_) => panic!("<{}> holds text and can hold no element", self.name),
-        }
+        child.write(self.inside.get_or_insert_with(|| "\n".into()));
     }
 
-    /// The whole document: the declaration, then this element, one line per element.
+    /// Writes the whole document: the declaration, then this element.
     pub fn document(&self) -> String {
         let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
         self.write(&mut out);
@@ -66,34 +52,17 @@ impl Element {
     }
 
     fn write(&self, out: &mut String) {
-        self.write_start(out);
-        match &self.inside {
-            Inside::Elements(elements) if elements.is_empty() => {
-                out.push_str("/>\n");
-                return;
-            }
-            Inside::Elements(elements) => {
-                out.push_str(">\n");
-                elements.iter().for_each(|element| element.write(out));
-            }
-            Inside::Text(text) => {
-                out.push('>');
-                out.push_str(&escape(text));
-            }
-        }
-        out.extend(["</", self.name, ">\n"]);
-    }
-
-    /// `<name a="b"`, without the closing bracket.
-    fn write_start(&self, out: &mut String) {
-        out.extend(["<", self.name]);
-        for (name, value) in &self.attributes {
-            out.extend([" ", name, "=\"", &escape(value), "\""]);
+        let Self { name, attributes, inside } = self;
+        out.extend(["<", name, attributes]);
+        match inside {
+            None => out.push_str("/>\n"),
+            Some(inside) => out.extend([">", inside, "</", name, ">\n"]),
         }
     }
 }
 
-/// `text` for a place between tags or quotes. A character that XML 1.0 forbids becomes U+FFFD.
+/// Returns `text` for a place between tags or quotes. A character that XML 1.0 forbids becomes
+/// U+FFFD.
 fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

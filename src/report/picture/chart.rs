@@ -1,34 +1,39 @@
 //! A chart: curves over one axis, each axis linear or logarithmic.
 
-use super::numbers::{power_of_ten, ticks};
-use super::page::{DARK, INNER, MARGIN, Page, Sign, TEXT_SIZE};
-use super::svg::{Anchor, Paint, Pixel, circle, group, line, path, text};
+use super::page::{INNER, MARGIN, Page, Sign};
+use super::svg::{Anchor, DARK, Pixel, circle, group, line, path, text};
+use crate::report::numbers::{power_of_ten, ticks};
 use crate::report::xml::Element;
 
+/// The height of the area inside the axes, pixels.
 const HEIGHT: f64 = 440.0;
-/// Room for the labels of the vertical axis.
+
+/// The room for the labels of the vertical axis, pixels.
 const LEFT: f64 = 78.0;
+
+/// The colour of the lines across the area.
 const GRID: &str = "#dddddd";
 
 /// Colours that the colour-blind tell apart (M. Okabe, K. Ito, 2008), then repeated.
 const COLOURS: [&str; 8] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#222222", "#f0e442"];
 
-/// An axis.
+/// An axis: what it shows, and how.
 pub struct Axis<'a> {
-    /// What is measured, with its unit.
+    /// The quantity along the axis, with its unit.
     pub label: &'a str,
-    /// Powers of ten at equal distances; values that are not positive are left out.
+    /// Whether powers of ten stand at equal distances; values that are not positive are then left
+    /// out.
     pub logarithmic: bool,
 }
 
 /// A curve or a set of points.
 pub struct Series {
-    /// Its name in the legend.
+    /// The name in the legend.
     pub name: String,
-    /// Places on the two axes, finite, in the order in which a line joins them.
+    /// The places on the two axes, finite, in the order in which a line joins them.
     pub points: Vec<[f64; 2]>,
-    /// How it is drawn.
+    /// How the points are drawn.
     pub style: Style,
 }
 
@@ -37,15 +42,15 @@ pub struct Series {
 pub enum Style {
     /// A line with a dot at each point.
     Dotted,
-    /// A line alone.
+    /// A line without dots.
     Line,
-    /// Dots alone.
+    /// Dots without a line.
     Dots,
     /// Rings, around dots of other series.
     Rings,
 }
 
-/// A chart of `series` as a picture, with paragraphs under it.
+/// Draws a chart of `series`, with paragraphs under it.
 pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[String]) -> String {
     let mut page = Page::new(title);
     page.paragraph(y.label);
@@ -55,12 +60,8 @@ pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[Stri
     for (k, series) in series.iter().enumerate() {
         page.put(plot.series(series, COLOURS[k % COLOURS.len()]));
     }
-    page.put(text(
-        [MARGIN + LEFT + (INNER - LEFT) / 2.0, plot.top + HEIGHT + 40.0],
-        TEXT_SIZE,
-        Anchor::Middle,
-        x.label,
-    ));
+    let under = [MARGIN + LEFT + (INNER - LEFT) / 2.0, plot.top + HEIGHT + 40.0];
+    page.put(text(under, Anchor::Middle, x.label));
     page.y = plot.top + HEIGHT + 56.0;
     page.legend(&legend(series));
     captions.iter().for_each(|words| page.paragraph(words));
@@ -76,7 +77,7 @@ fn legend(series: &[Series]) -> Vec<(Sign, String)> {
     series.iter().enumerate().map(|(k, s)| (sign(k, s.style), s.name.clone())).collect()
 }
 
-/// The range of an axis, in powers of ten where it is logarithmic.
+/// The range of an axis; of a logarithmic one `low` and `high` are exponents of ten.
 struct Scale {
     low: f64,
     high: f64,
@@ -86,11 +87,10 @@ struct Scale {
 impl Scale {
     fn of(axis: &Axis, series: &[Series], column: usize) -> Self {
         let logarithmic = axis.logarithmic;
-        let values = series.iter().flat_map(|s| &s.points).map(|p| p[column]);
-        let shown = values.filter(|x| !logarithmic || *x > 0.0);
-        let shown = shown.map(|x| if logarithmic { x.log10() } else { x });
-        let (low, high) =
-            shown.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        let points = series.iter().flat_map(|series| &series.points);
+        let shown = points.filter_map(|point| on_axis(point[column], logarithmic));
+        let nothing = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = shown.fold(nothing, |(low, high), x| (low.min(x), high.max(x)));
         let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
         if logarithmic {
             let (low, high) = (low.floor(), high.ceil());
@@ -100,29 +100,30 @@ impl Scale {
         Scale { low: low - room, high: high + room, logarithmic }
     }
 
-    /// Where a value stands between the ends of the axis, 0 to 1; nothing where a logarithmic axis cannot show it.
-    fn fraction(&self, value: f64) -> Option<f64> {
-        if self.logarithmic && value <= 0.0 {
-            return None;
-        }
-        let value = if self.logarithmic { value.log10() } else { value };
-        Some((value - self.low) / (self.high - self.low))
+    /// Returns where a number of the range stands between the ends of the axis, 0 to 1.
+    fn place(&self, number: f64) -> f64 {
+        (number - self.low) / (self.high - self.low)
     }
 
-    /// Values that are marked, each between the ends of the axis, 0 to 1, with its words.
+    /// Returns the places that are marked, each with its words.
     fn ticks(&self) -> Vec<(f64, String)> {
-        let place = |value: f64| (value - self.low) / (self.high - self.low);
         if !self.logarithmic {
             let marked = ticks(self.low, self.high).into_iter();
-            return marked.map(|(value, words)| (place(value), words)).collect();
+            return marked.map(|(value, words)| (self.place(value), words)).collect();
         }
         let (low, high) = (self.low as i32, self.high as i32);
         let step = ((high - low) / 9 + 1) as usize;
-        (low..=high).step_by(step).map(|e| (place(f64::from(e)), power_of_ten(e))).collect()
+        let marked = (low..=high).step_by(step);
+        marked.map(|e| (self.place(f64::from(e)), power_of_ten(e))).collect()
     }
 }
 
-/// The area inside the axes.
+/// Returns what a value counts on an axis; nothing where a logarithmic one cannot show it.
+fn on_axis(value: f64, logarithmic: bool) -> Option<f64> {
+    if logarithmic { (value > 0.0).then(|| value.log10()) } else { Some(value) }
+}
+
+/// The area inside the axes, `top` pixels from the upper end of the picture.
 struct Plot {
     scales: [Scale; 2],
     top: f64,
@@ -139,12 +140,12 @@ impl Plot {
         for (x, label) in self.scales[0].ticks() {
             lines.push(line(self.at(x, 0.0), self.at(x, 1.0)));
             let [px, py] = self.at(x, 0.0);
-            words.push(text([px, py + 18.0], TEXT_SIZE, Anchor::Middle, &label));
+            words.push(text([px, py + 18.0], Anchor::Middle, &label));
         }
         for (y, label) in self.scales[1].ticks() {
             lines.push(line(self.at(0.0, y), self.at(1.0, y)));
             let [px, py] = self.at(0.0, y);
-            words.push(text([px - 8.0, py + 5.0], TEXT_SIZE, Anchor::End, &label));
+            words.push(text([px - 8.0, py + 5.0], Anchor::End, &label));
         }
         let axes = group()
             .stroke(DARK, 1.0)
@@ -154,9 +155,9 @@ impl Plot {
     }
 
     fn series(&self, series: &Series, colour: &str) -> Element {
-        let place = |p: &[f64; 2]| {
-            Some(self.at(self.scales[0].fraction(p[0])?, self.scales[1].fraction(p[1])?))
-        };
+        let place = |scale: &Scale, value| Some(scale.place(on_axis(value, scale.logarithmic)?));
+        let [scale_x, scale_y] = &self.scales;
+        let place = |[x, y]: &[f64; 2]| Some(self.at(place(scale_x, *x)?, place(scale_y, *y)?));
         let points: Vec<Pixel> = series.points.iter().filter_map(place).collect();
         let mut drawn = group();
         if series.style == Style::Rings {

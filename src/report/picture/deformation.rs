@@ -1,43 +1,37 @@
-//! The deformed mesh: how much to enlarge its deformation, where its points go, which edges bound it.
+//! The deformed mesh: how much its deformation is enlarged, and which edges bound it.
 
 use std::collections::BTreeMap;
 
-use super::numbers::Round;
 use super::view::Bounds;
+use crate::report::numbers::Decimal;
 
-/// The part of the picture's size that the largest displacement is drawn at, as near as a round magnification comes.
+/// The largest displacement as it is drawn, about, as a part of the picture's size.
 const DRAWN_DISPLACEMENT: f64 = 0.035;
 
-/// How many times the deformation is enlarged: the largest displacement comes to about 3.5 % of the picture's size.
-pub fn magnification(points: &[[f64; 2]], displacement: &[[f64; 2]]) -> Round {
+/// Returns how many times the deformation is enlarged: the largest displacement comes to about
+/// 3.5 % of the picture's size.
+pub fn magnification(points: &[[f64; 2]], displacement: &[[f64; 2]]) -> Decimal {
     let largest = largest_displacement(displacement);
     if largest == 0.0 {
-        return Round::ONE;
+        return Decimal::ONE;
     }
     let ratio = Bounds::of(points).larger_side() / largest * DRAWN_DISPLACEMENT;
-    Round::nearest(ratio.clamp(1e-300, 1e300))
+    Decimal::nearest_round(ratio.clamp(1e-300, 1e300))
 }
 
-/// The points, displaced so many times.
-pub fn deformed(
-    points: &[[f64; 2]],
-    displacement: &[[f64; 2]],
-    magnification: Round,
-) -> Vec<[f64; 2]> {
-    let times = magnification.value();
-    points
-        .iter()
-        .zip(displacement)
-        .map(|(point, u)| [0, 1].map(|axis| point[axis] + times * u[axis]))
-        .collect()
+/// Returns the points, displaced so many times.
+pub fn deformed(points: &[[f64; 2]], displacement: &[[f64; 2]], times: Decimal) -> Vec<[f64; 2]> {
+    let times = times.value();
+    let moved = points.iter().zip(displacement);
+    moved.map(|(point, u)| [0, 1].map(|axis| point[axis] + times * u[axis])).collect()
 }
 
-/// The length of the longest displacement.
+/// Returns the length of the longest displacement.
 pub fn largest_displacement(displacement: &[[f64; 2]]) -> f64 {
     displacement.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
 }
 
-/// The edges that belong to one triangle only, the rims of holes among them, as indices of points.
+/// Returns the edges that belong to one triangle only, rims of holes too, as indices of points.
 pub fn boundary_edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
     let mut owners = BTreeMap::new();
     for &[a, b, c] in triangles {
@@ -72,26 +66,15 @@ mod tests {
             corners.flat_map(|a| [[a, a + 1, a + 5], [a, a + 5, a + 4]]).collect();
         let edges = boundary_edges(&triangles);
         assert_eq!(edges.len(), 12 + 4);
-        assert!(
-            [[5, 6], [5, 9], [6, 10], [9, 10]].iter().all(|edge| edges.contains(edge)),
-            "{edges:?}"
-        );
+        let rim = [[5, 6], [5, 9], [6, 10], [9, 10]];
+        assert!(rim.iter().all(|edge| edges.contains(edge)), "{edges:?}");
     }
 
     #[test]
     fn magnification_is_round() {
-        let cases = [
-            (0.0, 1.0),
-            (0.0035, 100.0),
-            (0.003, 100.0),
-            (0.35, 1.0),
-            (7.0, 0.05),
-            (1e-299, 5e298),
-        ];
-        for (largest, expected) in cases {
-            let displacement = [[0.0, 0.0], [0.0, -largest]];
-            assert_eq!(magnification(&SQUARE, &displacement).value(), expected, "{largest}");
-        }
+        let scaled = [0.0, 0.0035, 0.003, 0.35, 7.0, 1e-299]
+            .map(|largest| magnification(&SQUARE, &[[0.0, 0.0], [0.0, -largest]]).value());
+        assert_eq!(scaled, [1.0, 100.0, 100.0, 1.0, 0.05, 5e298]);
     }
 
     #[test]

@@ -1,40 +1,47 @@
 //! A field on the deformed mesh, and what is said under it.
 
 use super::colour::{ColourScale, with_unit};
-use super::deformation::{boundary_edges, largest_displacement};
-use super::numbers::{Round, significant};
-use super::svg::{Paint, Pixel, circle, group, path, polygon, segments};
+use super::deformation::{boundary_edges, deformed, largest_displacement, magnification};
+use super::drawing::{Drawing, Field};
+use super::svg::{Pixel, circle, group, path, polygon, segments};
 use super::view::{Bounds, View};
-use super::{Drawing, Field};
+use crate::report::numbers::{Decimal, significant};
 use crate::report::xml::Element;
 
+/// The colour of the deformed outline.
 const OUTLINE: &str = "#111111";
+
+/// The colour of the undeformed outline.
 const UNDEFORMED_OUTLINE: &str = "#b5b5b5";
 
 /// All that the panels and the captions of a field need.
 pub struct FieldPicture<'a> {
     /// The colours of its values.
     pub scale: ColourScale,
-    drawing: &'a Drawing<'a>,
+    /// The points of the mesh, displaced `magnification` times.
+    pub deformed: Vec<[f64; 2]>,
+    magnification: Decimal,
+    drawing: &'a Drawing,
     field: &'a Field<'a>,
-    deformed: &'a [[f64; 2]],
     boundary: Vec<[usize; 2]>,
     smallest: usize,
     largest: usize,
 }
 
 impl<'a> FieldPicture<'a> {
-    /// A picture of `field` with the points of the mesh at `deformed`.
-    pub fn new(drawing: &'a Drawing<'a>, field: &'a Field<'a>, deformed: &'a [[f64; 2]]) -> Self {
+    /// Prepares a picture of `field`.
+    pub fn new(drawing: &'a Drawing, field: &'a Field<'a>) -> Self {
         let [smallest, largest] = extremes(field.values);
         let scale = ColourScale::of(field.values);
-        let boundary = boundary_edges(drawing.triangles);
-        Self { scale, drawing, field, deformed, boundary, smallest, largest }
+        let magnification = magnification(&drawing.points, field.displacement);
+        let deformed = deformed(&drawing.points, field.displacement, magnification);
+        let boundary = boundary_edges(&drawing.triangles);
+        Self { scale, deformed, magnification, drawing, field, boundary, smallest, largest }
     }
 
-    /// The content of a panel: triangles, outlines, the marker of the largest value.
+    /// Draws the content of a panel: triangles, outlines, the marker of the largest value.
     pub fn draw(&self, view: &View) -> Element {
-        let [before, after] = [self.drawing.points, self.deformed].map(|points| view.all(points));
+        let [before, after] = [&self.drawing.points, &self.deformed].map(|points| view.all(points));
         let width = if view.enlarged { 1.6 } else { 1.1 };
         let largest = self.drawing.triangles[self.largest].map(|point| after[point]);
         group()
@@ -45,20 +52,22 @@ impl<'a> FieldPicture<'a> {
             .with_all((!self.scale.is_uniform()).then(|| marker(middle(largest))))
     }
 
-    /// The sentences under the picture.
-    pub fn captions(&self, magnification: Round) -> Vec<String> {
+    /// Writes the sentences under the picture.
+    pub fn captions(&self) -> Vec<String> {
         let overlap = "Displacements are magnified, gaps are not: \
                        bodies that overlap here need not do so in the calculation.";
-        let flat = "One flat colour per triangle: the value is constant within an element, and nothing is smoothed.";
-        let mut captions = vec![self.range_in_words(), self.deformation_in_words(magnification)];
-        if self.drawing.contact.is_some() && magnification != Round::ONE {
-            captions.push(String::from(overlap));
-        }
-        captions.push(String::from(flat));
-        captions
+        let flat = "One flat colour per triangle: the value is constant within an element, \
+                    and nothing is smoothed.";
+        let touching = self.drawing.contact.is_some() && self.magnification != Decimal::ONE;
+        [self.range_in_words(), self.deformation_in_words()]
+            .into_iter()
+            .chain(touching.then(|| overlap.into()))
+            .chain([flat.into()])
+            .collect()
     }
 
-    /// Each triangle in its colour, also along its edges so that no white shows between two; the stamp over the block.
+    /// Draws each triangle in its colour, also along its edges so that no white shows between two;
+    /// the stamp is drawn over the block.
     fn triangles(&self, view: &View, pixels: &[Pixel]) -> Element {
         let mut order: Vec<_> = (0..self.drawing.triangles.len()).collect();
         order.sort_by_key(|&triangle| self.drawing.region[triangle]);
@@ -72,7 +81,7 @@ impl<'a> FieldPicture<'a> {
         group.with_all(seen.map(shape))
     }
 
-    /// The edges of the triangles, faint.
+    /// Draws the edges of the triangles, faint.
     fn grid(&self, view: &View, pixels: &[Pixel]) -> Element {
         let ring = |&[a, b, c]: &[usize; 3]| [a, b, c, a].map(|point| pixels[point]);
         let rings = self.drawing.triangles.iter().map(ring);
@@ -88,40 +97,40 @@ impl<'a> FieldPicture<'a> {
         if self.scale.is_uniform() {
             return format!("The value is the same in every triangle: {largest}.");
         }
-        let [low, high] =
-            [self.smallest, self.largest].map(|triangle| self.place_in_words(triangle));
+        let [low, high] = [self.smallest, self.largest].map(|at| self.place_in_words(at));
         format!(
             "Largest value {largest} at {high} (red circle); smallest value {smallest} at {low}."
         )
     }
 
-    /// Where the middle of a triangle was before the deformation.
+    /// Writes where the middle of a triangle was before the deformation.
     fn place_in_words(&self, triangle: usize) -> String {
-        let points = self.drawing.points;
+        let points = &self.drawing.points;
         let round_off = Bounds::of(points).larger_side() * 1e-6;
         let place = middle(self.drawing.triangles[triangle].map(|point| points[point]));
         let [x, y] = place.map(|x| significant(if x.abs() < round_off { 0.0 } else { x }, 4));
         // No-break spaces: a line must not end with the sign.
-        format!("x\u{a0}=\u{a0}{x}, y\u{a0}=\u{a0}{}", with_unit(&y, self.drawing.length_unit))
+        format!("x\u{a0}=\u{a0}{x}, y\u{a0}=\u{a0}{}", with_unit(&y, &self.drawing.length_unit))
     }
 
-    fn deformation_in_words(&self, magnification: Round) -> String {
+    fn deformation_in_words(&self) -> String {
         let largest = significant(largest_displacement(self.field.displacement), 4);
         format!(
-            "Deformation × {magnification} (largest displacement {}). \
+            "Deformation × {} (largest displacement {}). \
              Dark line: deformed outline; thin light line: undeformed outline.",
-            with_unit(&largest, self.drawing.length_unit)
+            significant(self.magnification.value(), 1),
+            with_unit(&largest, &self.drawing.length_unit)
         )
     }
 }
 
-/// A ring that stands out from any colour.
+/// Draws a ring that stands out from any colour.
 fn marker(at: Pixel) -> Element {
     let ring = |colour, width| circle(at, 7.0).fill("none").stroke(colour, width);
     group().with(ring("#ffffff", 4.5)).with(ring("#d4001a", 2.2))
 }
 
-/// The triangles with the smallest and the largest value, the first of equals.
+/// Returns the triangles with the smallest and the largest value, the first of equals.
 fn extremes(values: &[f64]) -> [usize; 2] {
     let triangles = || 0..values.len();
     let smallest = triangles().min_by(|&a, &b| values[a].total_cmp(&values[b]));
@@ -129,7 +138,7 @@ fn extremes(values: &[f64]) -> [usize; 2] {
     [smallest, largest].map(|triangle| triangle.expect("at least one triangle"))
 }
 
-/// The centre of a triangle.
+/// Returns the centre of a triangle.
 fn middle(corners: [[f64; 2]; 3]) -> [f64; 2] {
     [0, 1].map(|axis| corners.iter().map(|corner| corner[axis] / 3.0).sum())
 }

@@ -1,24 +1,35 @@
-//! The shapes of SVG that the pictures use, as XML elements. Lengths in pixels, y downwards.
+//! The shapes of SVG that the pictures use, as XML elements. Lengths are in pixels, y downwards.
 
 use crate::report::xml::Element;
 
 /// The fonts to look for, in this order.
 const FONTS: &str = "Arial, Helvetica, Liberation Sans, DejaVu Sans, sans-serif";
 
+/// The size of all text but the title, pixels.
+pub const TEXT_SIZE: f64 = 14.0;
+
+/// The size of the title, pixels.
+pub const TITLE_SIZE: f64 = 20.0;
+
+/// The colour of text, axes and frames.
+pub const DARK: &str = "#222222";
+
 /// A point of the picture.
 pub type Pixel = [f64; 2];
 
-/// Where a text stands with respect to its point.
+/// The part of a text that stands at its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
+    /// Its left end stands there.
     Start,
+    /// Its middle stands there.
     Middle,
     /// Its right end stands there.
     End,
 }
 
-/// The picture as a file: a white page with a title for screen readers, then `content`.
-pub fn document(width: f64, height: f64, title: &str, content: Element) -> String {
+/// Writes the picture as a file: a white page with a title for screen readers, then `content`.
+pub fn document([width, height]: [f64; 2], title: &str, content: Element) -> String {
     Element::new("svg")
         .set("xmlns", "http://www.w3.org/2000/svg")
         .set("width", number(width))
@@ -32,55 +43,51 @@ pub fn document(width: f64, height: f64, title: &str, content: Element) -> Strin
         .document()
 }
 
-/// A group.
+/// Makes a group of shapes.
 pub fn group() -> Element {
     Element::new("g")
 }
 
-/// A rectangle from its upper left corner.
-pub fn rect(corner: Pixel, size: [f64; 2]) -> Element {
-    place(Element::new("rect"), corner).set("width", number(size[0])).set("height", number(size[1]))
+/// Makes a rectangle from its upper left corner.
+pub fn rect([x, y]: Pixel, [width, height]: [f64; 2]) -> Element {
+    shape("rect", [("x", x), ("y", y), ("width", width), ("height", height)])
 }
 
-/// A straight line.
-pub fn line(from: Pixel, to: Pixel) -> Element {
-    Element::new("line")
-        .set("x1", number(from[0]))
-        .set("y1", number(from[1]))
-        .set("x2", number(to[0]))
-        .set("y2", number(to[1]))
+/// Makes a straight line between two points.
+pub fn line([x1, y1]: Pixel, [x2, y2]: Pixel) -> Element {
+    shape("line", [("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)])
 }
 
-/// A circle.
-pub fn circle(centre: Pixel, radius: f64) -> Element {
-    Element::new("circle")
-        .set("cx", number(centre[0]))
-        .set("cy", number(centre[1]))
-        .set("r", number(radius))
+/// Makes a circle about its centre.
+pub fn circle([x, y]: Pixel, radius: f64) -> Element {
+    shape("circle", [("cx", x), ("cy", y), ("r", radius)])
 }
 
-/// A closed polygon.
+fn shape<const N: usize>(name: &'static str, lengths: [(&str, f64); N]) -> Element {
+    let set = |shape: Element, (name, length)| shape.set(name, number(length));
+    lengths.into_iter().fold(Element::new(name), set)
+}
+
+/// Makes a closed polygon through its corners.
 pub fn polygon(corners: &[Pixel]) -> Element {
-    let corners: Vec<_> = corners.iter().map(pair).collect();
-    Element::new("polygon").set("points", corners.join(" "))
+    Element::new("polygon").set("points", places(corners))
 }
 
-/// Many lines in one element: each of `lines` is one run of points.
+/// Makes one element of many lines, each a run of points.
 pub fn path<'a>(lines: impl IntoIterator<Item = &'a [Pixel]>) -> Element {
-    let run = |line: &[Pixel]| format!("M{}", line.iter().map(pair).collect::<Vec<_>>().join(" "));
-    let runs: Vec<_> = lines.into_iter().map(run).collect();
-    Element::new("path").set("d", runs.join("")).set("fill", "none")
+    let runs = lines.into_iter().map(|line| format!("M{}", places(line)));
+    Element::new("path").set("d", runs.collect::<String>()).set("fill", "none")
 }
 
-/// Straight lines with round ends, each between two of `points`.
+/// Makes straight lines with round ends, each between two of `points`.
 pub fn segments(ends: &[[usize; 2]], points: &[Pixel]) -> Element {
     let lines: Vec<_> = ends.iter().map(|ends| ends.map(|end| points[end])).collect();
     path(lines.iter().map(<[Pixel; 2]>::as_slice)).set("stroke-linecap", "round")
 }
 
-/// A line of text; `at` is on its base line.
-pub fn text(at: Pixel, size: f64, anchor: Anchor, words: &str) -> Element {
-    let element = place(Element::with_text("text", words), at).set("font-size", number(size));
+/// Makes a line of text; `at` is on its base line.
+pub fn text(at: Pixel, anchor: Anchor, words: &str) -> Element {
+    let element = text_of_size(TEXT_SIZE, at, words);
     match anchor {
         Anchor::Start => element,
         Anchor::Middle => element.set("text-anchor", "middle"),
@@ -88,33 +95,37 @@ pub fn text(at: Pixel, size: f64, anchor: Anchor, words: &str) -> Element {
     }
 }
 
-/// A clip path under the name `id`: what refers to it shows inside the rectangle only.
+/// Makes a line of the title; `at` is the left end of its base line.
+pub fn title(at: Pixel, words: &str) -> Element {
+    text_of_size(TITLE_SIZE, at, words).set("font-weight", "bold")
+}
+
+fn text_of_size(size: f64, [x, y]: Pixel, words: &str) -> Element {
+    let element = Element::with_text("text", words).set("x", number(x)).set("y", number(y));
+    element.set("font-size", number(size))
+}
+
+/// Makes a clip path under the name `id`: what refers to it shows inside the rectangle only.
 pub fn clip(id: &str, corner: Pixel, size: [f64; 2]) -> Element {
     Element::new("clipPath").set("id", id).with(rect(corner, size))
 }
 
-/// How shapes are painted.
-pub trait Paint {
-    /// Fills with `colour`.
+impl Element {
+    /// Fills the shape with `colour`.
     #[must_use]
-    fn fill(self, colour: &str) -> Self;
-
-    /// Draws the outline in `colour`, `width` pixels wide.
-    #[must_use]
-    fn stroke(self, colour: &str, width: f64) -> Self;
-}
-
-impl Paint for Element {
-    fn fill(self, colour: &str) -> Self {
+    pub fn fill(self, colour: &str) -> Self {
         self.set("fill", colour)
     }
-    fn stroke(self, colour: &str, width: f64) -> Self {
+
+    /// Draws the outline of the shape in `colour`, `width` pixels wide.
+    #[must_use]
+    pub fn stroke(self, colour: &str, width: f64) -> Self {
         self.set("stroke", colour).set("stroke-width", number(width))
     }
 }
 
-/// A length in pixels with at most two decimals, without trailing zeros and never `-0`.
-pub fn number(x: f64) -> String {
+/// Writes a length with at most two decimals, without trailing zeros and never as `-0`.
+fn number(x: f64) -> String {
     let text = format!("{x:.2}");
     match text.trim_end_matches('0').trim_end_matches('.') {
         "-0" => String::from("0"),
@@ -122,12 +133,11 @@ pub fn number(x: f64) -> String {
     }
 }
 
-fn pair(point: &Pixel) -> String {
-    format!("{},{}", number(point[0]), number(point[1]))
-}
-
-fn place(element: Element, at: Pixel) -> Element {
-    element.set("x", number(at[0])).set("y", number(at[1]))
+/// Writes points with a space between two.
+fn places(points: &[Pixel]) -> String {
+    let places: Vec<_> =
+        points.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y))).collect();
+    places.join(" ")
 }
 
 #[cfg(test)]
@@ -145,17 +155,5 @@ mod tests {
         let lines = [[[0.0, 0.0], [1.0, 2.0]], [[3.0, 4.0], [5.0, 6.0]]];
         let written = path(lines.iter().map(<[Pixel; 2]>::as_slice)).document();
         assert!(written.contains("d=\"M0,0 1,2M3,4 5,6\""), "{written}");
-    }
-
-    #[test]
-    fn document_is_well_formed() {
-        let written = document(
-            10.0,
-            20.0,
-            "a < b",
-            group().with(text([1.0, 2.0], 14.0, Anchor::Middle, "x & y")),
-        );
-        let read = roxmltree::Document::parse(&written).unwrap();
-        assert_eq!(read.root_element().attribute("viewBox"), Some("0 0 10 20"));
     }
 }

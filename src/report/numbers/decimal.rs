@@ -1,0 +1,93 @@
+//! Decimal numbers of one digit or two, and the decimal exponent of a float.
+
+/// The number digits · 10^place. Everything that is said of it holds from 1e-300 to 1e300.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Decimal {
+    digits: u32,
+    place: i32,
+}
+
+impl Decimal {
+    /// The number 1.
+    pub const ONE: Self = Self { digits: 1, place: 0 };
+
+    /// Returns the round number (1, 2 or 5 times a power of ten) that is nearest to `x` > 0 as a
+    /// ratio.
+    pub fn nearest_round(x: f64) -> Self {
+        Self::round(x, [2.0, 10.0, 50.0].map(f64::sqrt))
+    }
+
+    /// Returns the largest round number that is at most `x` > 0.
+    pub fn round_at_most(x: f64) -> Self {
+        Self::round(x, [2.0, 5.0, 10.0])
+    }
+
+    /// Returns the round number of the size of `x`; from each of the three mantissas in `limits` on
+    /// that is 2, 5 and 10 in turn.
+    fn round(x: f64, limits: [f64; 3]) -> Self {
+        let text = format!("{x:e}");
+        let (mantissa, place) = split(&text);
+        let mantissa: f64 = mantissa.parse().expect("a mantissa");
+        match limits.iter().filter(|&&limit| mantissa >= limit).count() {
+            0 => Self { digits: 1, place },
+            1 => Self { digits: 2, place },
+            2 => Self { digits: 5, place },
+            _ => Self { digits: 1, place: place + 1 },
+        }
+    }
+
+    /// Returns the smallest number of one digit that is not below `x` ≥ 0, or nothing for 0; where
+    /// `finer`, a number that starts with 1 or 2 has two digits. `x` counts with six digits, so
+    /// that 0.1 + 0.2 is 0.3.
+    pub fn at_least(x: f64, finer: bool) -> Option<Self> {
+        let text = format!("{x:.5e}");
+        let (mantissa, exponent) = split(&text);
+        let digits: u32 = mantissa.replace('.', "").parse().expect("six digits");
+        match digits.div_ceil(10_000) {
+            0 => None,
+            tenths if finer && tenths < 30 => Some(Self { digits: tenths, place: exponent - 1 }),
+            tenths => Some(Self { digits: tenths.div_ceil(10), place: exponent }),
+        }
+    }
+
+    /// Returns the place of its last digit: −2 for hundredths.
+    pub fn place(self) -> i32 {
+        self.place
+    }
+
+    /// Returns the float nearest to the number.
+    pub fn value(self) -> f64 {
+        format!("{}e{}", self.digits, self.place).parse().expect("digits and an exponent")
+    }
+}
+
+/// Returns how many decimals reach down to a place: 2 for −2, and 0 from the units upwards.
+pub fn decimals(place: i32) -> usize {
+    usize::try_from(-place).unwrap_or(0)
+}
+
+/// Returns the decimal exponent of `x`, as its shortest text has it; 0 of 0 and of what is not
+/// finite.
+pub fn exponent(x: f64) -> i32 {
+    if x.is_finite() { split(&format!("{x:e}")).1 } else { 0 }
+}
+
+/// Returns the mantissa and the exponent of a number in scientific notation.
+pub fn split(scientific: &str) -> (&str, i32) {
+    let (mantissa, exponent) = scientific.split_once('e').expect("scientific notation");
+    (mantissa, exponent.parse().expect("an exponent"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_numbers() {
+        let numbers = [1.0, 1.5, 120.0, 0.034, 8.0, 3e299, 3e-300];
+        let nearest = numbers.map(|x| Decimal::nearest_round(x).value());
+        assert_eq!(nearest, [1.0, 2.0, 100.0, 0.05, 10.0, 2e299, 2e-300]);
+        let at_most = [1.99, 2.0, 12.5, 0.7, 9.99e-301].map(|x| Decimal::round_at_most(x).value());
+        assert_eq!(at_most, [1.0, 2.0, 10.0, 0.5, 5e-301]);
+    }
+}

@@ -1,0 +1,50 @@
+//! How numbers are written: short and with their units in tables, with the digits that their error
+//! leaves them, and typeset in pictures.
+
+mod decimal;
+mod typeset;
+mod uncertain;
+
+pub use decimal::Decimal;
+pub use typeset::{common_exponent, power_of_ten, shifted, significant, ticks};
+pub use uncertain::uncertain;
+
+/// Writes a whole number as it is, another one with five decimals, and one that is very large or
+/// very small in scientific notation.
+pub fn short(x: f64) -> String {
+    match x.abs() {
+        size if size < 1e9 && x.fract() == 0.0 => format!("{x:.0}"),
+        size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),
+        _ => format!("{x:.3e}"),
+    }
+}
+
+/// Writes a part of 1 in per cent: 0.125 with one decimal is `12.5 %`.
+pub fn percent(part: f64, decimals: usize) -> String {
+    format!("{:.decimals$} %", 100.0 * part)
+}
+
+/// Writes a place of the mesh, x and y.
+pub fn place([x, y]: [f64; 2], decimals: usize) -> String {
+    format!("{x:.decimals$}, {y:.decimals$}")
+}
+
+/// Writes a value by `written`, and `-` where there is none.
+pub fn or_dash<T>(value: Option<T>, written: impl Fn(T) -> String) -> String {
+    value.map_or("-".into(), written)
+}
+
+/// Writes what a column or an axis shows and its unit, `arc, mm`; the name alone where the scene
+/// names no unit.
+pub fn quantity(name: &str, unit: &str) -> String {
+    before_unit(name, ", ", unit)
+}
+
+/// Writes a number and its unit, `3 mm`; the number alone where the scene names no unit.
+pub fn with_unit(number: &str, unit: &str) -> String {
+    before_unit(number, " ", unit)
+}
+
+fn before_unit(text: &str, separator: &str, unit: &str) -> String {
+    if unit.is_empty() { text.into() } else { [text, separator, unit].concat() }
+}

@@ -1,0 +1,111 @@
+//! Numbers as the pictures write them: a true minus sign, and powers of ten raised.
+
+use super::decimal::{Decimal, decimals, exponent, split};
+
+/// Returns the multiples of a round number from `low` to `high` (`low` < `high`), four to nine of
+/// them, as value and text.
+pub fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
+    const SLACK: f64 = 1e-9;
+    let step = Decimal::round_at_most((high - low) / 3.2);
+    let first = (low / step.value() - SLACK).ceil() as i64;
+    let last = (high / step.value() + SLACK).floor() as i64;
+    let tick = |index: i64| {
+        let value = index as f64 * step.value();
+        (value, minus(&format!("{value:.*}", decimals(step.place()))))
+    };
+    (first..=last).map(tick).collect()
+}
+
+/// Writes `x` with so many significant digits, without trailing zeros; a very large or a very small
+/// one as 2.5·10⁻⁷.
+pub fn significant(x: f64, digits: usize) -> String {
+    let rounded = format!("{x:.*e}", digits - 1);
+    let (mantissa, exponent) = split(&rounded);
+    if x == 0.0 || (-3..6).contains(&exponent) {
+        let value: f64 = rounded.parse().expect("what was written as a float reads as one");
+        return minus(&value.to_string());
+    }
+    let mantissa: f64 = mantissa.parse().expect("a mantissa");
+    match mantissa {
+        1.0 => power_of_ten(exponent),
+        -1.0 => format!("−{}", power_of_ten(exponent)),
+        _ => minus(&format!("{mantissa}·{}", power_of_ten(exponent))),
+    }
+}
+
+/// Writes 10⁻³ for −3.
+pub fn power_of_ten(exponent: i32) -> String {
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        _ => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c as usize - '0' as usize).expect("a decimal digit"),
+    };
+    format!("10{}", exponent.to_string().chars().map(raised).collect::<String>())
+}
+
+/// Returns the exponent to take out of numbers of this size: 0 of handy ones, else a multiple of
+/// three.
+pub fn common_exponent(largest: f64) -> i32 {
+    let exponent = exponent(largest);
+    if (-2..5).contains(&exponent) { 0 } else { exponent.div_euclid(3) * 3 }
+}
+
+/// Returns x·10ⁿ, in two steps: 10ⁿ itself may lie outside the range of floats.
+pub fn shifted(x: f64, exponent: i32) -> f64 {
+    let half = exponent / 2;
+    x * 10_f64.powi(half) * 10_f64.powi(exponent - half)
+}
+
+/// Returns the text with a true minus sign, and without one before zero.
+fn minus(text: &str) -> String {
+    match text.strip_prefix('-') {
+        Some(rest) if rest.chars().all(|c| "0.".contains(c)) => String::from(rest),
+        Some(rest) => format!("−{rest}"),
+        None => String::from(text),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(low: f64, high: f64) -> Vec<String> {
+        ticks(low, high).into_iter().map(|(_, text)| text).collect()
+    }
+
+    #[test]
+    fn ticks_are_round() {
+        assert_eq!(texts(0.0, 1.0), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(texts(-7.0, 12.3), ["−5", "0", "5", "10"]);
+        assert_eq!(
+            texts(100.001, 100.002),
+            ["100.0010", "100.0012", "100.0014", "100.0016", "100.0018", "100.0020"]
+        );
+    }
+
+    #[test]
+    fn tick_count() {
+        for tenths in 10..=100 {
+            let count = ticks(0.0, f64::from(tenths) / 10.0).len();
+            assert!((4..=9).contains(&count), "{count} ticks up to {tenths}/10");
+        }
+    }
+
+    #[test]
+    fn significant_digits() {
+        let numbers = [0.0, -0.0, 12.3456, -250.0, 1e5, 2.5e-7, -1e300, 1e6, 123_456_789.0];
+        let texts = ["0", "0", "12.35", "−250", "100000", "2.5·10⁻⁷", "−10³⁰⁰", "10⁶", "1.235·10⁸"];
+        assert_eq!(numbers.map(|x| significant(x, 4)), texts);
+    }
+
+    #[test]
+    fn common_exponents() {
+        let numbers = [0.0, 0.02, 99_999.0, 2.1e-4, 6.3e6, 1e300, 1e-300];
+        assert_eq!(numbers.map(common_exponent), [0, 0, 0, -6, 6, 300, -300]);
+    }
+
+    #[test]
+    fn shifts_out_of_range() {
+        assert!((shifted(3e-300, 300) - 3.0).abs() < 1e-12);
+        assert!((shifted(3e-320, 320) - 3.0).abs() < 1e-3);
+    }
+}

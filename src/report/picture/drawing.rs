@@ -1,0 +1,76 @@
+//! What the pictures of a mesh draw on.
+
+use crate::problem::model::{Model, NodeId};
+use crate::problem::scene::Scene;
+
+/// A mesh with its bodies and its contact surfaces. Points, triangles and regions count from 0; all
+/// coordinates are finite.
+pub struct Drawing {
+    /// The title, which says what was calculated.
+    pub title: String,
+    /// The coordinates x and y of each node, y upwards.
+    pub points: Vec<[f64; 2]>,
+    /// The corners of each triangle, as indices of points.
+    pub triangles: Vec<[usize; 3]>,
+    /// The region of each triangle: 0 is the block (the target), then the stamp and other bodies.
+    pub region: Vec<usize>,
+    /// The name of each region.
+    pub region_names: Vec<String>,
+    /// The unit of lengths, empty where the scene names none.
+    pub length_unit: String,
+    /// The surfaces that may touch, in a scene with contact.
+    pub contact: Option<Contact>,
+}
+
+/// The two surfaces that may touch.
+pub struct Contact {
+    /// The nodes of the contact surface (the stamp's) in order, as indices of points.
+    pub nodes: Vec<usize>,
+    /// The edges of the target surface (the block's), as pairs of indices of points.
+    pub edges: Vec<[usize; 2]>,
+}
+
+/// A value for each triangle, and the displacements under which it came.
+pub struct Field<'a> {
+    /// The name of the quantity, such as `von Mises stress`.
+    pub quantity: &'a str,
+    /// Its unit: `""` where the scene names none, `"1"` of a quantity without dimension.
+    pub unit: &'a str,
+    /// Its value in each triangle, finite.
+    pub values: &'a [f64],
+    /// The displacement of each point, finite, length.
+    pub displacement: &'a [[f64; 2]],
+}
+
+impl Drawing {
+    /// Returns the mesh of a scene under a title.
+    pub fn new(scene: &Scene, title: &str) -> Self {
+        let model = &*scene.model;
+        let (region, region_names) = regions(model);
+        Drawing {
+            title: title.into(),
+            points: model.nodes.clone(),
+            triangles: model.triangles.iter().map(|t| t.nodes.map(NodeId::index)).collect(),
+            region,
+            region_names,
+            length_unit: scene.units.length.clone(),
+            contact: model.target().map(|_| Contact {
+                nodes: model.contact.nodes.iter().map(|node| node.index()).collect(),
+                edges: model.target_edges().map(|e| e.nodes.map(NodeId::index)).collect(),
+            }),
+        }
+    }
+}
+
+/// Returns the region of each triangle, 0 in the target and then body by body, and their names.
+fn regions(model: &Model) -> (Vec<usize>, Vec<String>) {
+    let target = model.target().unwrap_or(&model.bodies[0]);
+    let others = model.bodies.iter().filter(|body| body.name != target.name);
+    let mut region = vec![0; model.triangles.len()];
+    let mut names = Vec::new();
+    for (k, body) in std::iter::once(target).chain(others).enumerate() {
+        names.push(body.name.clone());
+        body.triangles.iter().for_each(|id| region[id.index()] = k);
+    }
+    (region, names)
+}

@@ -1,0 +1,325 @@
+//! `result.json`: everything that a machine needs of a run, written and read back.
+
+use serde::{Deserialize, Serialize};
+
+use super::{json, plan};
+use crate::answer::contact::ContactNode;
+use crate::answer::{Assessment, BodySummary, Cycle, Distance, Hertz, Solution, Step};
+use crate::error::InputError;
+use crate::numbers::scalar::rational;
+use crate::numbers::solve::{Arithmetic, ScalarName};
+use crate::paper::mirror::{
+    LoopPlace, NodeTable, Order, Reading, RestraintIndex, Schedule, ToleranceUnit, Wedge,
+};
+use crate::problem::element::Plane;
+use crate::problem::modelling::{ContactModel, Variant};
+use crate::problem::scene::Units;
+use crate::studies::plan::Plan;
+
+/// The content of `result.json`. Lengths, stresses and forces are in the units of the scene. Every
+/// float reads back to the same bits; one that is not finite is null, and reads back as NaN.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ResultFile {
+    /// The name of the scene.
+    pub scene: String,
+    /// The scene's line for people, which may be empty.
+    pub title: String,
+    /// The variant that was run.
+    pub variant: Variant,
+    /// The reading of the print that was in force.
+    pub reading: ReadingInForce,
+    /// How contact was modelled: `coupling`, `friction`, `geometry` and `status`.
+    #[serde(flatten)]
+    pub modelled: ContactModel,
+    /// The names of the scene's units, each empty where the scene names none.
+    pub units: Units,
+    /// The scalar and the solver; absent where that is `f64` by the variant's own solver.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arithmetic: Option<Arithmetic>,
+    /// A bound on the error of each entry of `u`, length, where the scalar keeps a finite one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_bound: Option<f64>,
+    /// What was built and what not, in one line; absent where no plan was made.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plan: Option<String>,
+    /// The sum of all loads along x and y, force.
+    pub load: [f64; 2],
+    /// The numbers, in the mesh file, of the nodes that belong to no triangle and were dropped.
+    pub dropped: Vec<usize>,
+    /// What each iteration came to, in order.
+    pub iterations: Vec<IterationRow>,
+    /// The largest values of each body.
+    pub bodies: Vec<BodySummary>,
+    /// The contact nodes that face the target at the end, in order along the contact surface.
+    pub contact: Vec<ContactNode>,
+    /// Hertz's contact, where his theory applies.
+    pub hertz: Option<Hertz>,
+    /// How far the numbers may be from the truth.
+    pub error_bars: KnownEstimates,
+    /// How far the run is from the reference solution, where there is one.
+    pub distance: Option<Distance>,
+    /// The displacement of each node along x and y, length.
+    pub u: Vec<[f64; 2]>,
+    /// The same in decimal with all digits, where the scalar has more than an `f64`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub u_digits: Option<Vec<[String; 2]>>,
+    /// The stresses and strains of each triangle.
+    pub elements: Vec<ElementRow>,
+}
+
+/// The reading in force of each ambiguity of the print (`listings/READING.md`, section 4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+pub struct ReadingInForce {
+    /// R1: where the weights loop of `c_cnt` stands.
+    pub r1: LoopPlace,
+    /// R2: the index under which `Km` reads the restraint along x.
+    pub r2: RestraintIndex,
+    /// R3: where the adding loops of `Km` stand.
+    pub r3: Wedge,
+    /// R4: how `∧` is evaluated.
+    pub r4: Order,
+    /// R5: the coordinates that the weights come from.
+    pub r5: NodeTable,
+    /// R6: the plane problem.
+    pub r6: Plane,
+    /// R7: the load that an iteration carries.
+    pub r7: Schedule,
+    /// R8: the unit of c_tol.
+    pub r8: ToleranceUnit,
+}
+
+/// What an iteration came to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct IterationRow {
+    /// The number of the iteration, from 1.
+    pub k: usize,
+    /// How many contact nodes were in contact.
+    pub in_contact: usize,
+    /// Which entries of the contact surface were in contact: 1 or 0 for each.
+    pub dy: Vec<u8>,
+    /// The largest displacement of a node, total, length.
+    pub max_displacement: f64,
+    /// Where this contact state came before; nothing where it is new.
+    pub cycle: Option<Cycle>,
+    /// What is left of eq. (1) on total displacements, or of the gaps under `unilateral`, length.
+    pub eq1_residual: f64,
+    /// The same on what this iteration solved for, length: the increment where the load is stepped.
+    pub eq1_residual_step: f64,
+    /// The sum of the reactions of the target against the direction of the load, force.
+    pub target_force: f64,
+    /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations.
+    pub solve_residual: f64,
+}
+
+/// How far the numbers of a run may be from the truth; nothing where that is not known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KnownEstimates {
+    /// What rounding may do to a displacement, length.
+    pub displacement_arithmetic: Option<f64>,
+    /// The error of the mesh in the energy norm, relative to the norm of the solution.
+    pub mesh_energy_relative: Option<f64>,
+    /// The estimates for each body.
+    pub bodies: Vec<BodyEstimates>,
+}
+
+/// How far a body's largest von Mises stress may be from the truth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodyEstimates {
+    /// The name of the body.
+    pub name: String,
+    /// Its largest von Mises stress.
+    pub von_mises_stress: f64,
+    /// The largest von Mises value of the recovered stresses, as a rule nearer to the truth.
+    pub recovered: f64,
+    /// What the mesh may do to it, stress; nothing where that is not known.
+    pub mesh: Option<f64>,
+    /// What rounding may do to it, stress; nothing where that is not known.
+    pub arithmetic: Option<f64>,
+}
+
+/// The stresses and strains of a triangle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ElementRow {
+    /// Its number, from 1: its row of `EL`.
+    pub n: usize,
+    /// The stresses sigma_x, sigma_y, tau_xy.
+    pub sigma: [f64; 3],
+    /// The strains e_xx, e_yy, g_xy.
+    pub epsilon: [f64; 3],
+    /// Its von Mises stress.
+    pub von_mises_stress: f64,
+    /// Its von Mises strain.
+    pub von_mises_strain: f64,
+}
+
+impl ResultFile {
+    /// Gathers what there is to say of a run that followed `plan`.
+    pub fn new(solution: &Solution, assessment: &Assessment, plan: Option<&Plan>) -> Self {
+        let request = &solution.request;
+        let scene = &request.scene;
+        ResultFile {
+            scene: scene.name.clone(),
+            title: scene.title.clone(),
+            variant: request.variant,
+            reading: ReadingInForce::new(solution),
+            modelled: request.contact,
+            units: scene.units.clone(),
+            arithmetic: Some(request.arithmetic).filter(|a| !a.is_default()),
+            error_bound: solution.error_bound.and_then(known),
+            plan: plan.map(plan::line),
+            load: solution.model.total_load(),
+            dropped: scene.dropped.clone(),
+            iterations: solution.steps.iter().map(IterationRow::new).collect(),
+            bodies: assessment.bodies.clone(),
+            contact: solution.contact.clone(),
+            hertz: assessment.hertz,
+            error_bars: KnownEstimates::new(assessment),
+            distance: assessment.measure().map(|measured| measured.distance.clone()),
+            u: solution.displacements(),
+            u_digits: digits(solution),
+            elements: elements(solution),
+        }
+    }
+
+    /// Writes the content of the file.
+    pub fn to_json(&self) -> String {
+        json::line(self)
+    }
+
+    /// Reads the content of a file.
+    ///
+    /// # Errors
+    /// Names the field that is wrong or that lacks one, or what follows the result.
+    pub fn from_json(text: &str) -> Result<Self, InputError> {
+        let fault = |place: String, why: &serde_json::Error| {
+            InputError::new(place, why.to_string(), "give a result.json as solve writes it")
+        };
+        let mut deserializer = serde_json::Deserializer::from_str(text);
+        let result = serde_path_to_error::deserialize(&mut deserializer)
+            .map_err(|e| fault(format!("field {} of the result", e.path()), e.inner()))?;
+        deserializer.end().map_err(|e| fault("the end of the result".into(), &e))?;
+        Ok(result)
+    }
+}
+
+impl ReadingInForce {
+    fn new(solution: &Solution) -> Self {
+        let Reading { r1, r2, r3, r4, r5, r8, .. } = solution.request.reading;
+        let (r6, r7) = (solution.model.plane, solution.request.schedule());
+        ReadingInForce { r1, r2, r3, r4, r5, r6, r7, r8 }
+    }
+}
+
+impl IterationRow {
+    fn new(step: &Step) -> Self {
+        IterationRow {
+            k: step.k,
+            in_contact: step.in_contact,
+            dy: step.statuses().into_iter().map(u8::from).collect(),
+            max_displacement: step.max_displacement,
+            cycle: step.cycle.clone(),
+            eq1_residual: step.contact_residual(),
+            eq1_residual_step: step.contact_residual_step(),
+            target_force: step.target_force,
+            solve_residual: step.solve_residual,
+        }
+    }
+}
+
+impl KnownEstimates {
+    fn new(assessment: &Assessment) -> Self {
+        let estimates = &assessment.estimates;
+        let bodies = estimates.bodies.iter().map(|body| BodyEstimates {
+            name: body.name.clone(),
+            von_mises_stress: body.value,
+            recovered: body.recovered,
+            mesh: known(body.mesh),
+            arithmetic: known(body.arithmetic),
+        });
+        KnownEstimates {
+            displacement_arithmetic: known(estimates.displacement),
+            mesh_energy_relative: known(estimates.mesh.relative()),
+            bodies: bodies.collect(),
+        }
+    }
+}
+
+fn known(estimate: f64) -> Option<f64> {
+    Some(estimate).filter(|estimate| estimate.is_finite())
+}
+
+fn digits(solution: &Solution) -> Option<Vec<[String; 2]>> {
+    let digits = match solution.request.arithmetic.scalar {
+        ScalarName::Exact => 40,
+        _ => 32,
+    };
+    let decimal = |u| rational::decimal(u, digits);
+    let pairs = solution.digits.as_ref()?.as_chunks().0;
+    Some(pairs.iter().map(|[x, y]| [decimal(x), decimal(y)]).collect())
+}
+
+fn elements(solution: &Solution) -> Vec<ElementRow> {
+    let rows = solution.elements.iter().zip(1..);
+    rows.map(|(state, n)| ElementRow {
+        n,
+        sigma: state.sigma.into(),
+        epsilon: state.epsilon.into(),
+        von_mises_stress: state.von_mises_stress,
+        von_mises_strain: state.von_mises_strain,
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::answer::{Request, solve};
+    use crate::problem::modelling::Friction;
+    use crate::problem::scene::Scene;
+
+    fn result(scene: &str, changed: impl Fn(Request) -> Request) -> ResultFile {
+        let scene = Scene::open(scene).expect("an embedded scene");
+        let solution = solve(&changed(Request::new(&scene)), &mut |_| ()).expect("it is solved");
+        let plan = Plan::new(&solution.request).expect("it was solved");
+        ResultFile::new(&solution, &Assessment::new(&solution), Some(&plan))
+    }
+
+    #[test]
+    fn results_read_back() {
+        let exact = Arithmetic { scalar: ScalarName::Exact, ..Arithmetic::default() };
+        let sliding = ContactModel { friction: Friction::None, ..ContactModel::default() };
+        for written in [
+            result("fig1", |request| request),
+            result("two-blocks", |request| request.arithmetic(exact)),
+            result("fig1", |request| request.variant(Variant::Unilateral).contact(sliding)),
+        ] {
+            let text = written.to_json();
+            let read = ResultFile::from_json(&text).expect("it was written by the same type");
+            assert_eq!(read, written);
+            assert_eq!(read.to_json(), text);
+        }
+    }
+
+    #[test]
+    fn what_is_not_finite_is_null() {
+        let mut result = result("fig1", |request| request);
+        result.error_bars.mesh_energy_relative = known(f64::INFINITY);
+        let distance = result.distance.as_mut().expect("fig1 has a reference solution");
+        distance.displacement_relative = f64::INFINITY;
+        result.contact[0].force = f64::INFINITY;
+        let text = result.to_json();
+        for field in ["mesh_energy_relative", "displacement_relative", "force"] {
+            assert!(text.contains(&format!("\"{field}\":null")), "{field}: {text}");
+        }
+        assert_eq!(ResultFile::from_json(&text).map(|read| read.to_json()), Ok(text));
+    }
+
+    #[test]
+    fn a_wrong_field_is_named() {
+        let text = result("fig1", |request| request).to_json();
+        let wrong = text.replace("\"k\":2,", "\"k\":\"second\",");
+        let error = ResultFile::from_json(&wrong).expect_err("a number is asked for");
+        assert_eq!(error.place, "field iterations[1].k of the result");
+    }
+}
