@@ -2,9 +2,11 @@
 
 use serde_json::json;
 
-use super::tables::{aligned, short};
+use super::json::line;
+use super::layout::{Table, aligned, listed};
+use super::numbers::{or_dash, percent, short};
 use crate::answer::contact::ContactNode;
-use crate::answer::{BodySummary, Cycle};
+use crate::answer::{BodySummary, Cycle, Distance};
 use crate::paper::listings::Which;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
@@ -13,53 +15,59 @@ use crate::studies::audit::readings::Effect;
 use crate::studies::audit::variants::{End, VariantRow};
 use crate::studies::audit::{Audit, Converged, FindingRow};
 
-/// The tables.
+/// Friction coefficients at which slipping nodes are listed.
+const FRICTION: [f64; 4] = [0.1, 0.2, 0.4, 0.8];
+
+/// Lays out the audit of a scene in tables.
 pub fn text(audit: &Audit, scene: &Scene) -> String {
     format!(
-        "Audit of scene {} ({})\n\n1. Readings: what the other reading changes, at the initial shape and at the end\n{}\n\
-         2. Findings (`audit --finding C4` explains one)\n{}\n3. Variants side by side\n{}{}{}",
+        "Audit of scene {} ({})\n\n\
+         1. Readings: what the other reading changes, at the initial shape and at the end\n{}\n\
+         2. Findings (`audit --finding C4` explains one)\n{}\n\
+         3. Variants side by side\n{}{}{}",
         scene.name,
         scene.title,
         readings(&audit.readings),
         findings(&audit.findings),
         variants(&audit.variants),
-        audit.converged.as_ref().map_or(String::new(), converged),
+        audit.converged.as_ref().map_or(String::new(), reference),
         sticking(&audit.sticking)
     )
 }
 
+/// Lays out the readings; why one fails stands under the table, each reason once.
 fn readings(effects: &[Effect]) -> String {
-    let head = ["id", "reading", "lines", "dy changed", "MJS entries", "largest difference", "of"];
-    let mut notes: Vec<String> = Vec::new();
-    let rows: Vec<Vec<String>> = effects
-        .iter()
-        .map(|effect| {
-            let remark = match (&effect.failure, effect.changes()) {
-                (Some(why), _) => {
-                    let note = first_line(why).to_string();
-                    let known = notes.iter().position(|n| *n == note);
-                    let at = known.unwrap_or_else(|| {
-                        notes.push(note);
-                        notes.len() - 1
-                    });
-                    format!(": fails ({})", at + 1)
-                }
-                (None, true) => String::new(),
-                (None, false) => ": nothing depends on it".into(),
-            };
-            vec![
-                effect.id.into(),
-                effect.reading.clone(),
-                effect.lines.into(),
-                effect.statuses.map_or("-".into(), |n| n.to_string()),
-                effect.entries.map_or("-".into(), |n| n.to_string()),
-                effect.displacement.map_or("-".into(), short),
-                effect.of.clone() + &remark,
-            ]
-        })
-        .collect();
-    let notes = notes.iter().enumerate().map(|(k, note)| format!("  ({}) {note}\n", k + 1));
-    table(&head, rows.into_iter()) + &notes.collect::<String>()
+    let mut failures: Vec<&str> = Vec::new();
+    for why in effects.iter().filter_map(failure) {
+        if !failures.contains(&why) {
+            failures.push(why);
+        }
+    }
+    let remark = |effect: &Effect| match failure(effect) {
+        Some(why) => {
+            let at = failures.iter().position(|known| *known == why).expect("it was collected");
+            format!(": fails ({})", at + 1)
+        }
+        None if effect.changes() => String::new(),
+        None => ": nothing depends on it".into(),
+    };
+    let count = |count: Option<usize>| or_dash(count, |n| n.to_string());
+    let table = Table::of(effects)
+        .column("id", |effect| effect.id)
+        .column("reading", |effect| effect.reading.clone())
+        .column("lines", |effect| effect.lines)
+        .column("dy changed", |effect| count(effect.statuses))
+        .column("MJS entries", |effect| count(effect.entries))
+        .column("largest difference", |effect| or_dash(effect.displacement, short))
+        .column("of", |effect| effect.of.clone() + &remark(effect))
+        .text();
+    let notes = failures.iter().zip(1..).map(|(why, k)| format!("  ({k}) {why}\n"));
+    table + &notes.collect::<String>()
+}
+
+/// Returns why a reading cannot be run, in one line.
+fn failure(effect: &Effect) -> Option<&str> {
+    effect.failure.as_deref().map(first_line)
 }
 
 fn first_line(text: &str) -> &str {
@@ -70,24 +78,14 @@ fn first_line(text: &str) -> &str {
 }
 
 fn findings(findings: &[(&Finding, Measured)]) -> String {
-    let head =
-        ["id", "line", "verdict", "number", "what the listing does that the text does not say"];
-    let rows = findings.iter().map(|(finding, measured)| {
-        vec![
-            finding.id.into(),
-            place(finding),
-            measured.verdict.name().into(),
-            short(measured.number),
-            finding.title.into(),
-        ]
-    });
-    table(&head, rows)
-}
-
-/// `c_cnt 17, 18`.
-fn place(finding: &Finding) -> String {
-    let lines: Vec<String> = finding.lines.iter().map(usize::to_string).collect();
-    format!("{} {}", finding.listing, lines.join(", ")).trim_end().into()
+    let lines = |of: &Finding| format!("{} {}", of.listing, listed(of.lines));
+    Table::of(findings)
+        .column("id", |(finding, _)| finding.id)
+        .column("line", |(finding, _)| lines(finding).trim_end().to_string())
+        .column("verdict", |(_, measured)| measured.verdict.name())
+        .column("number", |(_, measured)| short(measured.number))
+        .column("what the listing does that the text does not say", |(finding, _)| finding.title)
+        .text()
 }
 
 fn variants(rows: &[VariantRow]) -> String {
@@ -103,8 +101,14 @@ fn variants(rows: &[VariantRow]) -> String {
         "friction needed",
         "pulling",
     ];
-    let rows = rows.iter().map(|row| match &row.end {
-        End::Failure { failure } => vec![row.variant.to_string(), first_line(failure).into()],
+    aligned(head, rows.iter().map(variant))
+}
+
+/// Returns the cells of a variant; of one that failed its name, and why.
+fn variant(row: &VariantRow) -> Vec<String> {
+    let name = row.variant.to_string();
+    match &row.end {
+        End::Failure { failure } => vec![name, first_line(failure).into()],
         End::Result {
             in_contact,
             target_share,
@@ -116,79 +120,27 @@ fn variants(rows: &[VariantRow]) -> String {
             pulling,
             ..
         } => {
-            let stresses: Vec<String> = bodies
-                .iter()
-                .map(|b| format!("{} {}", b.name, short(b.max_von_mises_stress)))
-                .collect();
+            let off = |of: fn(&Distance) -> f64| or_dash(distance.as_ref(), |d| percent(of(d), 2));
             vec![
-                row.variant.to_string(),
+                name,
                 in_contact.last().map_or(String::new(), usize::to_string),
                 match row.variant {
                     Variant::Unilateral => "in equilibrium".into(),
-                    _ => state(cycle),
+                    _ => state(cycle.as_ref()),
                 },
-                format!("{:.1} %", 100.0 * target_share),
+                percent(*target_share, 1),
                 short(*eq1_residual),
-                stresses.join(", "),
-                distance
-                    .as_ref()
-                    .map_or("-".into(), |d| format!("{:.2} %", 100.0 * d.displacement_relative)),
-                distance
-                    .as_ref()
-                    .map_or("-".into(), |d| format!("{:.2} %", 100.0 * d.energy_relative)),
-                friction_needed.map_or("-".into(), short),
+                stresses(bodies),
+                off(|distance| distance.displacement_relative),
+                off(|distance| distance.energy_relative),
+                or_dash(*friction_needed, short),
                 pulling.len().to_string(),
             ]
         }
-    });
-    table(&head, rows)
-}
-
-/// What the variants are off from.
-fn converged(converged: &Converged) -> String {
-    let of_body = |b: &BodySummary| format!("{} {}", b.name, short(b.max_von_mises_stress));
-    let bodies: Vec<String> = converged.bodies.iter().map(of_body).collect();
-    format!(
-        "  off: beside the converged answer (unilateral, {}, friction {}): {} in contact, von Mises stress {}\n",
-        converged.model.coupling,
-        converged.model.friction,
-        converged.in_contact,
-        bodies.join(", ")
-    )
-}
-
-/// Friction coefficients at which slipping nodes are counted.
-const FRICTION: [f64; 4] = [0.1, 0.2, 0.4, 0.8];
-
-/// What friction it takes that the nodes of the converged answer stick, and where they would have slipped.
-fn sticking(nodes: &[ContactNode]) -> String {
-    if nodes.is_empty() {
-        return String::new();
     }
-    let head = ["node", "pressure", "shear", "friction needed"];
-    let rows = nodes.iter().map(|c| {
-        let needed = c.friction_needed.map_or("-".into(), short);
-        vec![c.node.to_string(), short(c.pressure), short(c.shear), needed]
-    });
-    let slipping = FRICTION.map(|coefficient| {
-        let slips = nodes.iter().filter(|c| c.friction_needed.is_some_and(|f| f > coefficient));
-        let slips: Vec<String> = slips.map(|c| c.node.to_string()).collect();
-        match slips.as_slice() {
-            [] => format!("  at a friction coefficient of {coefficient} none would slip\n"),
-            some => format!(
-                "  at a friction coefficient of {coefficient} nodes {} would slip\n",
-                some.join(", ")
-            ),
-        }
-    });
-    format!(
-        "\n4. What friction it takes that the nodes of the converged answer stick\n{}{}",
-        table(&head, rows),
-        slipping.concat()
-    )
 }
 
-fn state(cycle: &Option<Cycle>) -> String {
+fn state(cycle: Option<&Cycle>) -> String {
     match cycle {
         None => "new in the last iteration".into(),
         Some(Cycle { length: 1, .. }) => "settled".into(),
@@ -196,30 +148,67 @@ fn state(cycle: &Option<Cycle>) -> String {
     }
 }
 
-fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let head = head.iter().map(|cell| cell.to_string()).collect();
-    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+/// Writes the largest von Mises stress of each body behind its name.
+fn stresses(bodies: &[BodySummary]) -> String {
+    listed(bodies.iter().map(|body| format!("{} {}", body.name, short(body.max_von_mises_stress))))
 }
 
-/// The audit as JSON.
+/// Tells of the reference solution, which the variants are off from.
+fn reference(reference: &Converged) -> String {
+    format!(
+        "  off: beside the converged answer (unilateral, {}, friction {}): {} in contact, \
+         von Mises stress {}\n",
+        reference.model.coupling,
+        reference.model.friction,
+        reference.in_contact,
+        stresses(&reference.bodies)
+    )
+}
+
+/// Lays out what friction the nodes of the reference solution take to stick, and which would slip.
+fn sticking(nodes: &[ContactNode]) -> String {
+    if nodes.is_empty() {
+        return String::new();
+    }
+    let needed = Table::of(nodes)
+        .column("node", |c| c.node)
+        .column("pressure", |c| short(c.pressure))
+        .column("shear", |c| short(c.shear))
+        .column("friction needed", |c| or_dash(c.friction_needed, short))
+        .text();
+    let slipping = FRICTION.map(|coefficient| {
+        let slips = nodes.iter().filter(|c| c.friction_needed.is_some_and(|f| f > coefficient));
+        let slipping = match listed(slips.map(|c| c.node)) {
+            nodes if nodes.is_empty() => "none".into(),
+            nodes => format!("nodes {nodes}"),
+        };
+        format!("  at a friction coefficient of {coefficient} {slipping} would slip\n")
+    });
+    format!(
+        "\n4. What friction it takes that the nodes of the converged answer stick\n{needed}{}",
+        slipping.concat()
+    )
+}
+
+/// Writes the audit as JSON.
 pub fn json(audit: &Audit, scene: &Scene) -> String {
-    let findings: Vec<FindingRow> = audit
-        .findings
-        .iter()
-        .map(|(finding, measured)| FindingRow::new(finding, measured))
-        .collect();
-    let document = json!({
-        "scene": scene.name, "readings": audit.readings, "findings": findings, "variants": audit.variants,
+    let findings = audit.findings.iter();
+    let findings: Vec<FindingRow> = findings.map(|(f, m)| FindingRow::new(f, m)).collect();
+    line(&json!({
+        "scene": scene.name,
+        "readings": audit.readings,
+        "findings": findings,
+        "variants": audit.variants,
         "converged": audit.converged,
         "sticking": audit.sticking,
-    });
-    document.to_string() + "\n"
+    }))
 }
 
-/// One finding explained: the listing's lines, the values on `scene`, why it matters, what a repair would be.
+/// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.
 pub fn explain(finding: &Finding, measured: &Measured, scene: &Scene) -> String {
     format!(
-        "{}: {}\n\nListing\n{}\nOn scene {}: {} ({} {})\n  {}\n\nWhy it matters\n  {}\n\nA repair\n  {}\n",
+        "{}: {}\n\nListing\n{}\nOn scene {}: {} ({} {})\n  {}\n\n\
+         Why it matters\n  {}\n\nA repair\n  {}\n",
         finding.id,
         finding.title,
         quoted(finding),
@@ -233,7 +222,7 @@ pub fn explain(finding: &Finding, measured: &Measured, scene: &Scene) -> String 
     )
 }
 
-/// The finding's lines as printed.
+/// Quotes the finding's lines as printed.
 fn quoted(finding: &Finding) -> String {
     let Some(which) = [Which::CCnt, Which::Km].into_iter().find(|w| w.name() == finding.listing)
     else {
