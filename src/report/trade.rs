@@ -1,12 +1,15 @@
-//! Speed against accuracy, for people, for machines, and as a picture.
+//! Speed against accuracy, for people, for machines and as a picture.
 
 use std::path::Path;
 
+use super::layout::Table;
+use super::numbers::or_dash;
+use super::output::{csv as csv_of, write_all};
 use super::picture::{Axis, Series, Style, chart};
-use super::tables::aligned;
 use crate::error::InputError;
-use crate::files;
-use crate::studies::trade::{Order, Reached, Row, Section, Trade};
+use crate::studies::trade::{Errors, Order, Reached, Row, Section, Trade};
+
+pub use super::json::line as json;
 
 /// The columns of `trade.csv`.
 pub const COLUMNS: [&str; 18] = [
@@ -33,35 +36,31 @@ pub const COLUMNS: [&str; 18] = [
 /// Writes `trade.json`, `trade.csv` and `trade.svg` to `folder`; gives back the first.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// Names the file that cannot be written.
 pub fn write(folder: &Path, trade: &Trade) -> Result<String, InputError> {
     let json = json(trade);
-    files::write(&folder.join("trade.json"), &json)?;
-    files::write(&folder.join("trade.csv"), &csv(trade))?;
-    files::write(&folder.join("trade.svg"), &picture(trade))?;
+    let (csv, picture) = (csv(trade), picture(trade));
+    write_all(folder, &[("trade.json", &json), ("trade.csv", &csv), ("trade.svg", &picture)])?;
     Ok(json)
 }
 
-/// All of it as JSON.
-pub fn json(trade: &Trade) -> String {
-    serde_json::to_string(trade).expect("string keys only") + "\n"
-}
-
-/// A row for each trial.
+/// Lays out a line for each trial, its cells being those of [`COLUMNS`].
 pub fn csv(trade: &Trade) -> String {
-    let rows = trade.sections.iter().flat_map(|section| {
-        section.rows.iter().map(|row| cells(section, row).map(|cell| quoted(&cell)).join(","))
-    });
-    let head = COLUMNS.join(",");
-    std::iter::once(head).chain(rows).map(|line| line + "\n").collect()
+    let rows = trade
+        .sections
+        .iter()
+        .flat_map(|section| section.rows.iter().map(move |row| cells(section, row)));
+    csv_of(&COLUMNS.join(","), rows)
 }
 
-fn cells(section: &Section, row: &Row) -> [String; COLUMNS.len()] {
+fn cells(section: &Section, row: &Row) -> Vec<String> {
     fn text<T: ToString>(value: Option<T>) -> String {
         value.map_or(String::new(), |value| value.to_string())
     }
-    let (error, change) = (row.error, row.change);
-    [
+    let parts = [row.error, row.change].map(|errors| {
+        [errors.map(|e| e.displacement), errors.map(|e| e.energy), errors.map(|e| e.von_mises)]
+    });
+    let start = [
         section.knob.to_string(),
         row.variant.to_string(),
         row.label.clone(),
@@ -72,37 +71,24 @@ fn cells(section: &Section, row: &Row) -> [String; COLUMNS.len()] {
         text(row.seconds),
         row.runs.to_string(),
         text(row.peak_bytes),
-        text(error.map(|e| e.displacement)),
-        text(error.map(|e| e.energy)),
-        text(error.map(|e| e.von_mises)),
-        text(change.map(|e| e.displacement)),
-        text(change.map(|e| e.energy)),
-        text(change.map(|e| e.von_mises)),
-        row.pareto.to_string(),
-        row.failure.clone().unwrap_or_default(),
-    ]
+    ];
+    let end = [row.pareto.to_string(), row.failure.clone().unwrap_or_default()];
+    start.into_iter().chain(parts.concat().into_iter().map(text)).chain(end).collect()
 }
 
-/// A cell as RFC 4180 has it.
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.into()
-    }
-}
-
-/// A table for each knob, and its answers.
+/// Lays out a table for each knob, and its answers.
 pub fn text(trade: &Trade) -> String {
     let mut text = format!(
-        "Speed against accuracy: scene {}, {} nodes, {} triangles; median of up to {} runs, in turn\n\
-         errors are relative; * is on the Pareto front of its table, > where the scene has the knob\n",
+        "Speed against accuracy: scene {}, {} nodes, {} triangles; \
+         median of up to {} runs, in turn\n\
+         errors are relative; * is on the Pareto front of its table, \
+         > where the scene has the knob\n",
         trade.scene, trade.nodes, trade.triangles, trade.runs
     );
     for section in &trade.sections {
         text += &format!("\n{}, errors against {}\n", section.knob, section.against);
         if !section.rows.is_empty() {
-            text += &table(section);
+            text += &trials(section);
         }
         if !section.orders.is_empty() {
             text += &orders(&section.orders);
@@ -114,85 +100,58 @@ pub fn text(trade: &Trade) -> String {
     text
 }
 
-fn table(section: &Section) -> String {
-    let head = [
-        "",
-        "variant",
-        section.knob.name(),
-        "equations",
-        "in contact",
-        "time, s",
-        "peak, MB",
-        "displacement",
-        "energy",
-        "von Mises",
-        "moved by",
-    ];
-    let rows = section.rows.iter().map(cells_for_people);
-    let head = head.map(String::from).to_vec();
-    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
-}
-
-fn cells_for_people(row: &Row) -> Vec<String> {
-    fn shown<T>(value: Option<T>, show: impl Fn(T) -> String) -> String {
-        value.map_or("-".into(), show)
+fn trials(section: &Section) -> String {
+    let mark = |is: bool, mark| if is { mark } else { "" };
+    let error = |errors: Option<Errors>, of: fn(&Errors) -> f64| match errors.as_ref().map(of) {
+        Some(0.0) => "0".into(),
+        error => or_dash(error, |error| format!("{error:.1e}")),
+    };
+    let table = Table::of(&section.rows)
+        .column("", |row| [mark(row.pareto, "*"), mark(row.own, ">")].concat())
+        .column("variant", |row| row.variant)
+        .column(section.knob, |row| row.label.clone())
+        .column("equations", |row| row.equations)
+        .column("in contact", |row| or_dash(row.in_contact, |n| n.to_string()))
+        .column("time, s", |row| or_dash(row.seconds, |s| format!("{s:.4}")))
+        .column("peak, MB", |row| or_dash(row.peak_bytes, |b| format!("{:.0}", b as f64 / 1e6)))
+        .column("displacement", |row| error(row.error, |e| e.displacement))
+        .column("energy", |row| error(row.error, |e| e.energy))
+        .column("von Mises", |row| error(row.error, |e| e.von_mises))
+        .column("moved by", |row| error(row.change, |e| e.displacement));
+    if section.rows.iter().all(|row| row.failure.is_none()) {
+        return table.text();
     }
-    let error =
-        |of: Option<f64>| shown(of, |e| if e == 0.0 { "0".into() } else { format!("{e:.1e}") });
-    let marks = [if row.pareto { "*" } else { "" }, if row.own { ">" } else { "" }].concat();
-    let mut cells = vec![
-        marks,
-        row.variant.to_string(),
-        row.label.clone(),
-        row.equations.to_string(),
-        shown(row.in_contact, |n| n.to_string()),
-        shown(row.seconds, |s| format!("{s:.4}")),
-        shown(row.peak_bytes, |b| format!("{:.0}", b as f64 / 1e6)),
-        error(row.error.map(|e| e.displacement)),
-        error(row.error.map(|e| e.energy)),
-        error(row.error.map(|e| e.von_mises)),
-        error(row.change.map(|e| e.displacement)),
-    ];
-    if let Some(failure) = &row.failure {
-        cells.push(failure.lines().next().unwrap_or_default().into());
-    }
-    cells
+    let first_line = |why: &String| why.lines().next().unwrap_or_default().to_string();
+    table.column("", |row| row.failure.as_ref().map_or(String::new(), first_line)).text()
 }
 
 fn orders(orders: &[Order]) -> String {
-    let head = ["quantity", "order", "scatter", "left on the finest"].map(String::from).to_vec();
-    let rows = orders.iter().map(|order| {
-        let shown = |value: Option<f64>| value.map_or("-".into(), |x| format!("{x:.2}"));
-        vec![
-            order.quantity.into(),
-            shown(order.order),
-            shown(order.scatter),
-            order.left.map_or("-".into(), |x| format!("{x:.1e}")),
-        ]
-    });
-    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+    let decimals = |value: Option<f64>| or_dash(value, |x| format!("{x:.2}"));
+    Table::of(orders)
+        .column("quantity", |order| order.quantity)
+        .column("order", |order| decimals(order.order))
+        .column("scatter", |order| decimals(order.scatter))
+        .column("left on the finest", |order| or_dash(order.left, |x| format!("{x:.1e}")))
+        .text()
 }
 
-/// Time against error, a series for each knob, rings around what is on its front.
+/// Draws time against error: a series for each knob, and rings around what is on its front.
 pub fn picture(trade: &Trade) -> String {
     let place = |row: &Row| row.seconds.zip(row.error).map(|(s, e)| [s, e.displacement]);
     let shown = |p: &[f64; 2]| p[1] > 0.0 && p[1].is_finite();
-    let mut series: Vec<Series> = trade
-        .sections
-        .iter()
-        .map(|section| Series {
-            name: section.knob.to_string(),
-            points: section.rows.iter().filter_map(place).filter(shown).collect(),
-            style: Style::Dots,
-        })
-        .collect();
+    let of_section = |section: &Section| Series {
+        name: section.knob.to_string(),
+        points: section.rows.iter().filter_map(place).filter(shown).collect(),
+        style: Style::Dots,
+    };
     let rows = trade.sections.iter().flat_map(|section| &section.rows);
     let front = rows.filter(|row| row.pareto).filter_map(place).filter(shown);
-    series.push(Series {
+    let front = Series {
         name: "Pareto front of its table".into(),
         points: front.collect(),
         style: Style::Rings,
-    });
+    };
+    let series: Vec<Series> = trade.sections.iter().map(of_section).chain([front]).collect();
     let axes = ["time, s", "relative error of the displacements"]
         .map(|label| Axis { label, logarithmic: true });
     let references = trade.sections.iter().map(|s| format!("{}: against {}.", s.knob, s.against));
@@ -201,7 +160,7 @@ pub fn picture(trade: &Trade) -> String {
     chart(&format!("Speed against accuracy: {}", trade.scene), axes, &series, &captions)
 }
 
-/// What `solve --accuracy` did, in words.
+/// Tells what `solve --accuracy` did to reach `accuracy`, a part of the largest displacement.
 pub fn reached(reached: &Reached, accuracy: f64) -> String {
     let mut text = format!("\nAccuracy {accuracy:e} asked of the displacements, rounding alone\n");
     for attempt in &reached.attempts {
@@ -211,13 +170,9 @@ pub fn reached(reached: &Reached, accuracy: f64) -> String {
             Some(found) if found <= accuracy => format!("run; {kind} {found:.0e}: taken"),
             Some(found) => format!("run; {kind} {found:.0e}: missed, so up one rung"),
         };
-        let arithmetic = attempt.arithmetic;
-        text += &format!(
-            "  {} by {}: {:.0e} predicted, {came}\n",
-            arithmetic.scalar,
-            arithmetic.solver(),
-            attempt.predicted
-        );
+        let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver());
+        let predicted = attempt.predicted;
+        text += &format!("  {scalar} by {solver}: {predicted:.0e} predicted, {came}\n");
     }
     if !reached.solution.contact.is_empty() {
         text += "  This holds while rounding does not change who is in contact.\n";
@@ -229,10 +184,9 @@ fn mesh(error: f64, accuracy: f64) -> String {
     if !error.is_finite() {
         return "  What the mesh adds is not known: it is too small to tell.\n".into();
     }
-    let verdict = if error > accuracy {
-        "larger than what was asked, and no arithmetic mends that: refine the mesh"
-    } else {
-        "not larger than what was asked"
+    let verdict = match error > accuracy {
+        true => "larger than what was asked, and no arithmetic mends that: refine the mesh",
+        false => "not larger than what was asked",
     };
     format!("  The mesh's own error is about {error:.0e} in the energy norm: {verdict}.\n")
 }
