@@ -1,14 +1,17 @@
-//! The status rules measured, for people and for machines.
+//! The status rules measured, for people, for machines and as a picture.
 
+use super::layout::aligned;
 use super::picture::{Axis, Series, Style, chart};
-use super::tables::aligned;
 use crate::problem::modelling::StatusRule;
 use crate::studies::audit::statuses::{Measurement, Row};
 
-/// Two tables: wrong statuses by depth, operations by size.
+pub use super::json::line as json;
+
+/// Lays out two tables: the wrong statuses by depth, and the operations by size.
 pub fn text(measured: &Measurement) -> String {
     format!(
-        "Status rules on random scenes ({} a row, seed {})\n\n1. Wrong statuses, missed + false, by depth of the jump\n{}\n\
+        "Status rules on random scenes ({} a row, seed {})\n\n\
+         1. Wrong statuses, missed + false, by depth of the jump\n{}\n\
          2. Operations of one call for each contact node, by size\n{}",
         measured.scenes,
         measured.seed,
@@ -17,7 +20,7 @@ pub fn text(measured: &Measurement) -> String {
     )
 }
 
-/// Share of wrong statuses by depth of the jump: a curve a rule and side of the target.
+/// Draws the share of wrong statuses by depth: a curve for each rule and side of the target.
 pub fn picture(measured: &Measurement) -> String {
     let curves = StatusRule::ALL.iter().enumerate().flat_map(|(k, rule)| {
         ["below", "above"].map(|target| {
@@ -32,39 +35,27 @@ pub fn picture(measured: &Measurement) -> String {
     chart("Wrong statuses by depth of the jump", [x, y], &curves.collect::<Vec<_>>(), &[])
 }
 
-/// The measurement as JSON.
-pub fn json(measured: &Measurement) -> String {
-    serde_json::to_string(measured).expect("string keys only") + "\n"
-}
-
 fn wrong(rows: &[Row]) -> String {
-    let mut head = ["depth / c_tll", "target", "nodes", "in contact"].map(String::from).to_vec();
-    for rule in StatusRule::ALL {
-        head.extend([rule.to_string(), "%".into()]);
-    }
+    let start = ["depth / c_tll", "target", "nodes", "in contact"].map(String::from);
+    let rules = StatusRule::ALL.iter().flat_map(|rule| [rule.to_string(), "%".into()]);
     let rows = rows.iter().map(|row| {
-        let start = [
-            row.depth.to_string(),
-            row.target.into(),
-            row.nodes.to_string(),
-            row.touching.to_string(),
-        ];
+        let [nodes, touching] = [row.nodes, row.touching].map(|count| count.to_string());
+        let start = [row.depth.to_string(), row.target.into(), nodes, touching];
         let scores = row.rules.iter().flat_map(|score| {
             let share = 100.0 * score.wrong_share(row.nodes);
             [format!("{} + {}", score.missed, score.false_contacts), format!("{share:.1}")]
         });
         start.into_iter().chain(scores).collect()
     });
-    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+    aligned(start.into_iter().chain(rules), rows)
 }
 
 fn operations(rows: &[Row]) -> String {
-    let mut head = ["target edges", "nodes"].map(String::from).to_vec();
-    head.extend(StatusRule::ALL.iter().map(StatusRule::to_string));
+    let start = ["target edges", "nodes"].map(String::from);
     let rows = rows.iter().map(|row| {
         let each = |operations: u64| format!("{:.1}", operations as f64 / row.nodes.max(1) as f64);
         let scores = row.rules.iter().map(|score| each(score.operations));
-        [row.edges.to_string(), row.nodes.to_string()].into_iter().chain(scores).collect()
+        [row.edges, row.nodes].map(|count| count.to_string()).into_iter().chain(scores).collect()
     });
-    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+    aligned(start.into_iter().chain(StatusRule::ALL.iter().map(StatusRule::to_string)), rows)
 }
