@@ -1,49 +1,45 @@
-//! Stability at the extremes, for people, for machines and for the eye.
+//! Stability at the extremes, for people, for machines and as a picture.
 
+use super::layout::{Table, aligned};
 use super::picture::{Axis, Series, Style, chart};
-use super::tables::aligned;
 use crate::studies::extremes::{Break, Column, Generator, Measured, Verdict};
 
-/// The generators' names.
+pub use super::json::line as json;
+
+/// Lists the generators and what each sweeps.
 pub fn list(generators: &[Generator]) -> String {
-    aligned_with(
-        &["generator", "what is swept", ""],
-        generators.iter().map(|g| vec![g.name.into(), g.magnitude.into(), g.title.into()]),
-    )
+    Table::of(generators)
+        .column("generator", |generator| generator.name)
+        .column("what is swept", |generator| generator.magnitude)
+        .column("", |generator| generator.title)
+        .text()
 }
 
-/// For each generator where its ways give, then what came of every magnitude.
+/// Lays out for each generator where its methods break down, then what came of every magnitude.
 pub fn text(measured: &[Measured]) -> String {
     let of = |m: &Measured| format!("{}: {}\n\n{}\n{}", m.name, m.title, breaks(m), sweep(m));
     measured.iter().map(of).collect::<Vec<_>>().join("\n\n")
 }
 
-/// The measurement as JSON.
-pub fn json(measured: &[Measured]) -> String {
-    serde_json::to_string(measured).expect("string keys only") + "\n"
-}
-
-/// Digits kept against magnitude.
+/// Draws the digits that each method keeps against the magnitude.
 pub fn picture(measured: &Measured) -> String {
     let series: Vec<Series> =
         measured.columns.iter().map(|column| curve(measured, column)).collect();
-    let label = match measured.logarithmic {
-        true => measured.magnitude.into(),
+    let (label, magnitudes) = match measured.logarithmic {
+        true => (measured.magnitude, measured.magnitude.into()),
         false => {
             let names = measured.labels.iter().enumerate();
-            names.map(|(k, name)| format!("{}: {name}", k + 1)).collect::<Vec<_>>().join("; ")
+            let names = names.map(|(k, name)| format!("{}: {name}", k + 1));
+            ("case", names.collect::<Vec<_>>().join("; "))
         }
     };
     let axes = [
-        Axis {
-            label: if measured.logarithmic { measured.magnitude } else { "case" },
-            logarithmic: measured.logarithmic,
-        },
+        Axis { label, logarithmic: measured.logarithmic },
         Axis { label: "digits kept", logarithmic: false },
     ];
     let captions = [
         "A curve has a gap where a run is refused; 0 is an answer without a right digit.".into(),
-        label,
+        magnitudes,
     ];
     chart(measured.title, axes, &series, &captions)
 }
@@ -54,64 +50,42 @@ fn curve(measured: &Measured, column: &Column) -> Series {
     Series { name: column.name.clone(), points, style: Style::Dotted }
 }
 
-/// A row a way: digits where the sweep is kindest, and where it gives.
+/// Lays out a line for each method: the digits where the sweep is kindest, and where it breaks
+/// down. Nothing where the magnitudes are no numbers.
 fn breaks(measured: &Measured) -> String {
     if !measured.logarithmic {
         return String::new();
     }
-    aligned_with(
-        &["way", "best", "gives below", "there", "gives above", "there"],
-        measured.columns.iter().map(|column| {
-            let [below, above] = [&column.below, &column.above].map(broken);
-            [vec![column.name.clone(), best(column)], below, above].concat()
-        }),
-    )
+    let exponent = |at: &Break| format!("1e{:.0}", at.exponent.round());
+    let at = |at: &Option<Break>| at.as_ref().map_or("-".into(), exponent);
+    let there = |at: &Option<Break>| at.as_ref().map_or("-".into(), |at| at.verdict.to_string());
+    Table::of(&measured.columns)
+        .column("way", |column| column.name.clone())
+        .column("best", |column| {
+            let digits = column.verdicts.iter().filter_map(|v| v.digits(column.carried));
+            format!("{:.0}", digits.fold(0.0, f64::max).floor())
+        })
+        .column("gives below", |column| at(&column.below))
+        .column("there", |column| there(&column.below))
+        .column("gives above", |column| at(&column.above))
+        .column("there", |column| there(&column.above))
+        .text()
 }
 
-fn best(column: &Column) -> String {
-    let digits = column.verdicts.iter().filter_map(|v| v.digits(column.carried));
-    format!("{:.0}", digits.fold(0.0, f64::max).floor())
-}
-
-fn broken(at: &Option<Break>) -> Vec<String> {
-    match at {
-        None => vec!["-".into(), "-".into()],
-        Some(at) => vec![format!("1e{:.0}", at.exponent.round()), at.verdict.to_string()],
-    }
-}
-
-/// A row a magnitude, a column a way, under numbers that the legend explains.
+/// Lays out a line for each magnitude and a column for each method, and a legend above them.
 fn sweep(measured: &Measured) -> String {
-    let numbers = (1..=measured.columns.len()).map(|k| format!("({k})"));
-    let head: Vec<String> =
-        std::iter::once(measured.magnitude.to_string()).chain(numbers).collect();
+    let numbered = || measured.columns.iter().zip(1..);
+    let names: Vec<String> = numbered().map(|(c, k)| format!("  ({k}) {}", c.name)).collect();
+    let numbers = numbered().map(|(_, k)| format!("({k})"));
     let rows = measured.labels.iter().enumerate().map(|(k, label)| {
-        let cell = |verdict: &Verdict| match measured.logarithmic {
-            true => short(verdict),
-            false => verdict.to_string(),
+        let cell = |column: &Column| match (&column.verdicts[k], measured.logarithmic) {
+            // The table above tells what was refused or wrong.
+            (Verdict::Refused(_), true) => "refused".into(),
+            (Verdict::Wrong(_), true) => "WRONG".into(),
+            (verdict, _) => verdict.to_string(),
         };
-        let cells = measured.columns.iter().map(|column| cell(&column.verdicts[k]));
-        std::iter::once(label.clone()).chain(cells).collect()
+        std::iter::once(label.clone()).chain(measured.columns.iter().map(cell)).collect()
     });
-    let names = measured.columns.iter().enumerate();
-    let names: Vec<String> = names.map(|(k, c)| format!("  ({}) {}", k + 1, c.name)).collect();
-    format!(
-        "{}\n{}",
-        names.join("\n"),
-        aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
-    )
-}
-
-/// A verdict without the place of the error: the table of breaking points has it.
-fn short(verdict: &Verdict) -> String {
-    match verdict {
-        Verdict::Refused(_) => "refused".into(),
-        Verdict::Wrong(_) => "WRONG".into(),
-        other => other.to_string(),
-    }
-}
-
-fn aligned_with(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let head = head.iter().map(|cell| cell.to_string()).collect();
-    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
+    let head = std::iter::once(measured.magnitude.to_string()).chain(numbers);
+    format!("{}\n{}", names.join("\n"), aligned(head, rows))
 }
