@@ -1,10 +1,11 @@
 //! A trace for people and for machines.
 
-use std::fmt::Write as _;
+use std::collections::BTreeSet;
 
 use serde_json::{Value as Json, json};
 
-use super::json::pairs_value;
+use super::json::{line, pairs_value};
+use super::layout::listed;
 use crate::paper::listings::Which;
 use crate::paper::mathcad::Listing;
 use crate::paper::mathcad::array::Table;
@@ -12,37 +13,49 @@ use crate::paper::mirror::Pairs;
 use crate::problem::model::{Model, TriangleId};
 use crate::studies::audit::trace::{Access, MOST_STEPS, Product, Step, Trace, text_of};
 
-/// The trace as text: the steps turn by turn, what `trace()` wrote, and what came out.
+/// Changed entries of a matrix that are listed at most.
+const MOST_CHANGES: usize = 20;
+
+/// Writes the steps turn by turn, then those outside the turns, then what `trace()` wrote.
 pub fn text(trace: &Trace, listing: &Listing, model: &Model) -> String {
+    let turns: BTreeSet<usize> = trace.steps.iter().filter_map(|step| step.turn).collect();
     let mut text = String::new();
-    for turn in turns(trace) {
-        writeln!(text, "\n{}", heading(trace.which, turn, model)).expect("a String takes any text");
+    for turn in turns {
+        text += &format!("\n{}\n", heading(trace.which, turn, model));
         let steps: Vec<&Step> = trace.steps.iter().filter(|s| s.turn == Some(turn)).collect();
-        let (kept, skipped) = without_missed_edges(trace.which, listing, &steps);
-        for step in kept {
-            write_step(&mut text, listing, step);
-        }
+        let (shown, skipped) = without_missed_edges(trace.which, listing, &steps);
+        text.extend(shown.into_iter().map(|step| step_in_words(listing, step)));
         if skipped > 0 {
-            writeln!(
-                text,
-                "  (lines 4-7 for {skipped} more edges: the node is outside their boxes)"
-            )
-            .expect("a String takes any text");
+            text += &format!(
+                "  (lines 4-7 for {skipped} more edges: the node is outside their boxes)\n"
+            );
         }
     }
     text += &outside(trace, listing);
     if trace.steps.len() == MOST_STEPS {
-        writeln!(text, "\n(only the first {MOST_STEPS} statements are shown)")
-            .expect("a String takes any text");
+        text += &format!("\n(only the first {MOST_STEPS} statements are shown)\n");
     }
     if !trace.output.is_empty() {
-        writeln!(text, "\ntrace() wrote: {}", trace.output.join(" | "))
-            .expect("a String takes any text");
+        text += &format!("\ntrace() wrote: {}\n", trace.output.join(" | "));
     }
     text
 }
 
-/// The statements outside the turns, a line each: how often it was executed, and what it wrote last.
+fn heading(which: Which, turn: usize, model: &Model) -> String {
+    match which {
+        Which::CCnt => {
+            let nodes = &model.contact.nodes;
+            let node = nodes.get(turn - 1).map_or(0, |node| node.number());
+            format!("contact node {node} (i1 = {turn} of {})", nodes.len())
+        }
+        Which::Km => {
+            let nodes = listed(model.triangle(TriangleId::from_number(turn)).nodes);
+            format!("element n = {turn} of {} (nodes {nodes})", model.triangles.len())
+        }
+    }
+}
+
+/// Writes the lines outside the turns: how often each was executed, and what it wrote last.
 fn outside(trace: &Trace, listing: &Listing) -> String {
     let mut lines: Vec<(usize, usize, &Step)> = Vec::new();
     for step in trace.steps.iter().filter(|step| step.turn.is_none()) {
@@ -54,41 +67,15 @@ fn outside(trace: &Trace, listing: &Listing) -> String {
     if lines.is_empty() {
         return String::new();
     }
-    let mut text = "\noutside these\n".to_string();
-    for (line, times, last) in lines {
-        let written = listed(&last.writes, " ← ");
+    let in_words = |(line, times, last): (usize, usize, &Step)| {
+        let written = accesses(&last.writes, " ← ");
         let last = if written.is_empty() { String::new() } else { format!(", last ⇒ {written}") };
-        let printed = text_of(listing, line);
-        writeln!(text, "  {line:>2}  {printed}   ({times} times{last})")
-            .expect("a String takes any text");
-    }
-    text
+        format!("  {line:>2}  {}   ({times} times{last})\n", text_of(listing, line))
+    };
+    "\noutside these\n".to_string() + &lines.into_iter().map(in_words).collect::<String>()
 }
 
-/// The turns in ascending order.
-fn turns(trace: &Trace) -> Vec<usize> {
-    let mut turns: Vec<usize> = trace.steps.iter().filter_map(|step| step.turn).collect();
-    turns.sort_unstable();
-    turns.dedup();
-    turns
-}
-
-fn heading(which: Which, turn: usize, model: &Model) -> String {
-    match which {
-        Which::CCnt => format!(
-            "contact node {} (i1 = {turn} of {})",
-            model.contact.nodes.get(turn - 1).map_or(0, |node| node.number()),
-            model.contact.nodes.len()
-        ),
-        Which::Km => {
-            let triangle = model.triangle(TriangleId::from_number(turn));
-            let nodes = triangle.nodes.map(|node| node.to_string()).join(", ");
-            format!("element n = {turn} of {} (nodes {nodes})", model.triangles.len())
-        }
-    }
-}
-
-/// Leaves out, for `c_cnt`, the turns over target edges that wrote no `ct`; tells how many they were.
+/// Leaves out, for `c_cnt`, the turns over target edges that wrote no `ct`; counts them.
 fn without_missed_edges<'s>(
     which: Which,
     listing: &Listing,
@@ -97,7 +84,7 @@ fn without_missed_edges<'s>(
     if which == Which::Km {
         return (steps.to_vec(), 0);
     }
-    let (mut kept, mut skipped) = (Vec::new(), 0);
+    let (mut shown, mut skipped) = (Vec::new(), 0);
     let over_edges = |s: &Step| text_of(listing, s.line).contains("rows(trg)");
     let mut rest = steps;
     while let Some(first) = rest.first() {
@@ -108,33 +95,31 @@ fn without_missed_edges<'s>(
         if over_edges(first) && !wrote_ct {
             skipped += 1;
         } else {
-            kept.extend(turn);
+            shown.extend(turn);
         }
         rest = after;
     }
-    (kept, skipped)
+    (shown, skipped)
 }
 
-/// A printed line, what it read, what it wrote.
-fn write_step(text: &mut String, listing: &Listing, step: &Step) {
+/// Writes a printed line, what it read, and what it wrote.
+fn step_in_words(listing: &Listing, step: &Step) -> String {
     let printed = text_of(listing, step.line);
-    let mut line = format!("  {:>2}  {printed}\n", step.line);
-    let reads = listed(&step.reads, " = ");
+    let mut text = format!("  {:>2}  {printed}\n", step.line);
+    let [reads, writes] = [accesses(&step.reads, " = "), accesses(&step.writes, " ← ")];
     if !reads.is_empty() {
-        line += &format!("        {reads}\n");
+        text += &format!("        {reads}\n");
     }
-    let writes = listed(&step.writes, " ← ");
     if !writes.is_empty() {
-        line += &format!("      ⇒ {writes}\n");
-    } else if printed.contains(" if ") || printed.starts_with("if ") {
-        let held = printed.starts_with("if ");
-        line += if held { "" } else { "      ⇒ the condition does not hold\n" };
+        text += &format!("      ⇒ {writes}\n");
+    } else if printed.contains(" if ") && !printed.starts_with("if ") {
+        text += "      ⇒ the condition does not hold\n";
     }
-    text.push_str(&line);
+    text
 }
 
-/// Names and values, each once.
-fn listed(accesses: &[Access], sign: &str) -> String {
+/// Writes names and values, each pair once.
+fn accesses(accesses: &[Access], sign: &str) -> String {
     let mut seen: Vec<String> = Vec::new();
     for access in accesses {
         let item = format!("{}{sign}{}", access.name, value(&access.value));
@@ -142,10 +127,10 @@ fn listed(accesses: &[Access], sign: &str) -> String {
             seen.push(item);
         }
     }
-    seen.join(", ")
+    listed(seen)
 }
 
-/// A number, `(a  b)` for a column, `(a  b; c  d)` for a matrix, or what the value is.
+/// Writes a number, `(a  b)` for a column, `(a  b;  c  d)` for a matrix, or the kind of value.
 fn value(value: &Json) -> String {
     match value {
         Json::String(text) => text.clone(),
@@ -165,27 +150,22 @@ fn row(value: &Json) -> String {
     }
 }
 
-/// The trace as JSON.
+/// Writes the trace as JSON.
 pub fn json(trace: &Trace, listing: &Listing, scene: &str) -> String {
-    let steps: Vec<Json> = trace
-        .steps
-        .iter()
-        .map(|step| {
-            json!({
-                "turn": step.turn, "line": step.line, "text": text_of(listing, step.line),
-                "reads": step.reads, "writes": step.writes,
-            })
+    let step = |step: &Step| {
+        json!({
+            "turn": step.turn, "line": step.line, "text": text_of(listing, step.line),
+            "reads": step.reads, "writes": step.writes,
         })
-        .collect();
-    let (result, failure) = match &trace.result {
-        Ok(product) => (product_value(product), Json::Null),
-        Err(failure) => (Json::Null, Json::from(failure.to_string())),
     };
-    let document = json!({
-        "scene": scene, "listing": trace.which.name(), "steps": steps, "trace": trace.output, "result": result,
-        "failure": failure,
-    });
-    document.to_string() + "\n"
+    line(&json!({
+        "scene": scene,
+        "listing": trace.which.name(),
+        "steps": trace.steps.iter().map(step).collect::<Vec<_>>(),
+        "trace": trace.output,
+        "result": trace.result.as_ref().ok().map(product_value),
+        "failure": trace.result.as_ref().err().map(ToString::to_string),
+    }))
 }
 
 fn product_value(product: &Product) -> Json {
@@ -198,28 +178,20 @@ fn product_value(product: &Product) -> Json {
     }
 }
 
-/// Entries that are not zero: row, column, value.
+/// Returns the values of `of` that are not zero, each with its row and its column in `matrix`.
 fn entries(matrix: &Table<f64>, of: impl Fn(usize, usize) -> f64) -> Vec<(usize, usize, f64)> {
     let places = (1..=matrix.rows()).flat_map(|i| (1..=matrix.cols()).map(move |j| (i, j)));
     places.map(|(i, j)| (i, j, of(i, j))).filter(|(_, _, x)| *x != 0.0).collect()
 }
 
-/// What an edited listing changes against the listing as printed.
+/// Tells what an edited listing changes against the listing as printed.
 pub fn changes(printed: &Product, edited: &Product, model: &Model) -> String {
     let lines = match (printed, edited) {
         (Product::Pairs(a), Product::Pairs(b)) => pair_changes(a, b, model),
         (Product::Matrix(a), Product::Matrix(b))
             if (a.rows(), a.cols()) == (b.rows(), b.cols()) =>
         {
-            let changed = entries(a, |i, j| b[(i, j)] - a[(i, j)]);
-            let mut lines = vec![format!("{} entries of MJS", changed.len())];
-            lines.extend(changed.iter().take(20).map(|(i, j, _)| {
-                format!("MJS[{i},{j}]: {} as printed, {} edited", a[(*i, *j)], b[(*i, *j)])
-            }));
-            if changed.len() > 20 {
-                lines.push(format!("and {} more", changed.len() - 20));
-            }
-            if changed.is_empty() { vec![] } else { lines }
+            matrix_changes(a, b)
         }
         _ => vec!["the shape of the result".into()],
     };
@@ -229,17 +201,31 @@ pub fn changes(printed: &Product, edited: &Product, model: &Model) -> String {
     }
 }
 
+fn matrix_changes(a: &Table<f64>, b: &Table<f64>) -> Vec<String> {
+    let changed = entries(a, |i, j| b[(i, j)] - a[(i, j)]);
+    if changed.is_empty() {
+        return Vec::new();
+    }
+    let line = |(i, j, _): &(usize, usize, f64)| {
+        format!("MJS[{i},{j}]: {} as printed, {} edited", a[(*i, *j)], b[(*i, *j)])
+    };
+    let more = changed.len().saturating_sub(MOST_CHANGES);
+    std::iter::once(format!("{} entries of MJS", changed.len()))
+        .chain(changed.iter().take(MOST_CHANGES).map(line))
+        .chain((more > 0).then(|| format!("and {more} more")))
+        .collect()
+}
+
 fn pair_changes(a: &Pairs<f64>, b: &Pairs<f64>, model: &Model) -> Vec<String> {
     let mut lines = Vec::new();
     let mut compare = |what: String, a: Option<f64>, b: Option<f64>| {
         if a.map(f64::to_bits) != b.map(f64::to_bits) {
-            let show = |x: Option<f64>| x.map_or("none".to_string(), |x| x.to_string());
-            lines.push(format!("{what}: {} as printed, {} edited", show(a), show(b)));
+            let [a, b] = [a, b].map(|x| x.map_or("none".to_string(), |x| x.to_string()));
+            lines.push(format!("{what}: {a} as printed, {b} edited"));
         }
     };
-    for (k, node) in model.contact.nodes.iter().enumerate() {
+    for (i1, node) in (1..).zip(&model.contact.nodes) {
         let number = |n: Option<&usize>| n.map(|n| *n as f64);
-        let i1 = k + 1;
         compare(format!("ct[{i1}] (node {node})"), number(a.ct.get(i1)), number(b.ct.get(i1)));
         compare(format!("yt[{i1}] (node {node})"), a.yt.get(i1).copied(), b.yt.get(i1).copied());
         compare(format!("dy[{i1}] (node {node})"), number(a.dy.get(i1)), number(b.dy.get(i1)));
