@@ -1,5 +1,6 @@
-//! The numbers to reach: whole processes from the outside, time and peak memory beside their limits; then the interpreter
-//! against the mirror, in turn in one run. Prints tables; asserts no time, for machines differ.
+//! The numbers to reach: whole processes from the outside, time and peak memory beside their
+//! limits; then the interpreter against the mirror, in turn in one run. Prints tables; asserts no
+//! time, for machines differ.
 
 use std::path::Path;
 use std::process::{Command, Stdio};

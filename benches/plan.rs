@@ -1,5 +1,6 @@
-//! What `plan` predicts against what `solve` takes, whole processes from the outside: peak memory within 20 %. Beside it the operations that are
-//! planned and the time taken. Then half of the strand against the whole of it. Prints tables; a ratio beyond its limit is marked.
+//! What `plan` predicts against what `solve` takes, whole processes from the outside: peak memory
+//! within 20 %. Beside it the operations that are planned and the time taken. Then half of the
+//! strand against the whole of it. Prints tables; a ratio beyond its limit is marked.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -171,7 +172,8 @@ fn once(args: &[String], folder: &Path) -> f64 {
     kilobytes * 1024.0 / 1e6
 }
 
-/// Processor time of all children that have ended, s: fields 16 and 17 of /proc/self/stat, in hundredths.
+/// Processor time of all children that have ended, s: fields 16 and 17 of /proc/self/stat, in
+/// hundredths.
 fn children() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let after_name = stat.rsplit(')').next().unwrap_or_default();

@@ -10,13 +10,13 @@ pub struct InputError {
     /// The file and field where it is wrong.
     pub place: String,
     /// How to fix the input.
-    pub mend: String,
+    pub fix: String,
 }
 
 impl InputError {
     /// Describes an error; `place` is a field such as `loads[2].on`.
     pub fn new(place: impl Into<String>, what: impl Into<String>, fix: impl Into<String>) -> Self {
-        InputError { what: what.into(), place: place.into(), mend: fix.into() }
+        InputError { what: what.into(), place: place.into(), fix: fix.into() }
     }
 
     /// Returns the same error with its place inside `outer`.
@@ -29,7 +29,7 @@ impl InputError {
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}\n  where: {}\n  mend:  {}", self.what, self.place, self.mend)
+        write!(f, "{}\n  where: {}\n  fix:   {}", self.what, self.place, self.fix)
     }
 }
 

@@ -62,3 +62,5 @@ pub use answer::error::Error;
 pub use answer::{Request, Solution, distance as compare, reference, solve};
 #[doc(inline)]
 pub use problem::scene::{Scene, SceneBuilder};
+#[doc(inline)]
+pub use report::ResultFile;

@@ -11,13 +11,14 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// Audited reimplementation of a published plane contact algorithm (Filipov & Khomenko): finite elements, contact pairs by
-/// the listing c_cnt, stiffness by the listing Km.
+/// Audited reimplementation of a published plane contact algorithm (Filipov & Khomenko): finite
+/// elements, contact pairs by the listing c_cnt, stiffness by the listing Km.
 #[derive(Parser)]
 #[command(
     version,
     after_help = "\
-Exit status: 0 done; 2 the input is at fault; 3 the published algorithm fails as printed (an audit result).
+Exit status: 0 done; 2 the input is at fault; 3 the published algorithm fails as printed (an audit
+result).
 
 Examples:
   plane-contact solve                        the paper's example

@@ -31,7 +31,6 @@ pub struct BodyDistance {
     /// The largest von Mises stress of the run.
     pub von_mises_stress: f64,
     /// The largest von Mises stress of the reference solution.
-    #[serde(rename = "converged")]
     pub reference: f64,
     /// The difference of the two over the reference.
     #[serde(deserialize_with = "or_nan")]

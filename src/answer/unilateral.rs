@@ -340,7 +340,7 @@ impl<'a> Problem<'a> {
 
     fn unrestrained(&self, pairings: &[Option<Pairing>], dof: Dof) -> InputError {
         if pairings.iter().all(Option::is_none) {
-            let what = "no contact node faces the target, and nothing else holds the bodies";
+            let what = "no contact node faces the target, and nothing else restrains the bodies";
             let fix = "name surfaces that face each other; list cnt in order along its surface";
             return InputError::new("contact.cnt, contact.trg", what, fix);
         }
@@ -421,7 +421,7 @@ fn size(model: &Model) -> f64 {
 fn restrained_along_normal(restrained: RestrainedAlongNormal) -> InputError {
     let node = restrained.node;
     let what = format!("contact node {node} is restrained along the normal of the contact");
-    let fix = "let the body that is held there carry the target surface, or restrain the node in \
+    let fix = "let the body that is restrained there carry the target surface, or restrain the node in \
                the other direction";
     InputError::new("restraints, contact.cnt", what, fix)
 }

@@ -17,8 +17,9 @@ use super::{print, waiting};
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Three tables: the readings (what the other reading changes), the findings (holds, does not arise, contradicted; with a number), and
-the variants side by side. --finding explains one on its smallest scene, or on SCENE where that is given.
+Three tables: the readings (what the other reading changes), the findings (holds, does not arise,
+contradicted; with a number), and the variants side by side. --finding explains one on its
+smallest scene, or on SCENE where that is given.
 
 Examples:
   plane-contact audit
@@ -27,7 +28,8 @@ Examples:
   plane-contact audit strand --finding K1
   plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, a picture a finding and a variant")]
 pub struct Args {
-    /// Path of a scene, or the name of an embedded one [default: strand; with --finding, the finding's own].
+    /// Path of a scene, or the name of an embedded one [default: strand; with --finding, the
+    /// finding's own].
     #[arg(value_name = "SCENE")]
     scene: Option<String>,
     /// Explain one finding.

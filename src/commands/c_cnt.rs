@@ -11,8 +11,9 @@ use super::{ReadingArg, print};
 /// Call the listing c_cnt once, at the initial shape.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Prints, by contact node, ct (elem number of the target edge), yt (vertical distance), dy (1 = in contact), then the rows of
-k_cnt that are not zero. --json: {\"ct\": [...], \"yt\": [...], \"dy\": [...], \"k_cnt\": [[mate, weight, mate, weight], ...]}.
+Prints, by contact node, ct (elem number of the target edge), yt (vertical distance), dy (1 = in
+contact), then the rows of k_cnt that are not zero. --json: {\"ct\": [...], \"yt\": [...], \"dy\":
+[...], \"k_cnt\": [[mate, weight, mate, weight], ...]}.
 
 Examples:
   plane-contact c-cnt fig1

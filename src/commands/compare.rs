@@ -12,11 +12,14 @@ use super::{print, waiting};
 /// Run a scene here and in another code, and show the differences.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Exports the scene to a temporary folder, runs ccx there and reads its results. Writes to --out: compare.json, nodes.csv, elements.csv,
-von_mises_stress.svg (this program), von_mises_stress_calculix.svg, difference.svg.
+Exports the scene to a temporary folder, runs ccx there and reads its results. Writes to --out:
+compare.json, nodes.csv, elements.csv, von_mises_stress.svg (this program),
+von_mises_stress_calculix.svg, difference.svg.
 
---contact equation: the same linear systems solved by both; where the load is stepped, a deck for each contact state, summed.
---contact pair: CalculiX's own contact; the two differ by the penalty and by what each takes for contact.
+--contact equation: the same linear systems solved by both; where the load is stepped, a deck for
+each contact state, summed.
+--contact pair: CalculiX's own contact; the two differ by the penalty and by what each takes for
+contact.
 
 Examples:
   plane-contact compare strand --with calculix --variant tied

@@ -22,8 +22,9 @@ plane_contact::choices! {
 /// Write a scene as the input deck of another code.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The deck runs as it is: ccx FILE without .inp. --contact equation writes eq. (1) as the variant's last iteration has it, with the
-whole load; --contact pair lets CalculiX look for contact itself, from the initial shape.
+The deck runs as it is: ccx FILE without .inp. --contact equation writes eq. (1) as the variant's
+last iteration has it, with the whole load; --contact pair lets CalculiX look for contact itself,
+from the initial shape.
 
 Examples:
   plane-contact export fig1 --to calculix
@@ -47,7 +48,8 @@ pub struct DeckArgs {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
     pub scene: String,
-    /// equation: the ties of the last iteration; pair: the other code's own contact, by penalty.
+    /// equation: the constraints of the last iteration; pair: the other code's own contact, by
+    /// penalty.
     #[arg(long, default_value_t = ContactKind::Equation)]
     pub contact: ContactKind,
     /// tied, stepped or unilateral; with --contact pair also printed [default: the scene's].
@@ -55,7 +57,8 @@ pub struct DeckArgs {
     pub variant: Option<Variant>,
     #[command(flatten)]
     pub reading: ReadingArg,
-    /// Pressure over penetration of a pair, stress/length [default: 10 times the largest E over the target's mean edge].
+    /// Pressure over penetration of a pair, stress/length [default: 10 times the largest E over the
+    /// target's mean edge].
     #[arg(long, value_name = "K", value_parser = penalty)]
     pub penalty: Option<f64>,
     #[command(flatten)]

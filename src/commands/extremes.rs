@@ -10,11 +10,12 @@ use plane_contact::studies::extremes::{Generator, generators, measure};
 
 use super::{print, waiting};
 
-/// Sweep magnitudes until something gives, every answer held against exact numbers.
+/// Sweep magnitudes until something breaks down, every answer compared with exact numbers.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Each generator sweeps one magnitude. A cell is exact, a number of right digits, WRONG (an answer without a right digit, or another
-contact), or refused (and by which error). A way gives where it is refused or keeps fewer than 3 digits; that point is bisected.
+Each generator sweeps one magnitude. A cell is exact, a number of right digits, WRONG (an answer
+without a right digit, or another contact), or refused (and by which error). A method breaks down
+where it is refused or keeps fewer than 3 digits; that point is bisected.
 
 Examples:
   plane-contact extremes

@@ -10,8 +10,8 @@ use super::print;
 /// Generate a benchmark: a structured mesh and its scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Writes scene.json and KIND.msh (Gmsh MSH 2.2, text, with named physical groups) to --out; solve runs that folder.
-mesh KIND --help tells what is known of its solution.
+Writes scene.json and KIND.msh (Gmsh MSH 2.2, text, with named physical groups) to --out; solve
+runs that folder. mesh KIND --help says what is known of its solution.
 
 Examples:
   plane-contact mesh cook --n 32 --out cook

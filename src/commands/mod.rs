@@ -26,9 +26,9 @@ use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geomet
 pub struct ReadingArg {
     /// Readings that differ from the default, such as R2=printed,R5=node_n.
     ///
-    /// R1 beside|inside, R2 odd|printed, R3 collect|per-node|nested, R4 guarded|left-to-right|eager, R5 node|node_n,
-    /// R6 strain|stress (default: the scene's), R7 total|stepped (default: the variant's), R8 mm|m (unit of c_tol in a
-    /// scene in mm).
+    /// R1 beside|inside, R2 odd|printed, R3 collect|per-node|nested, R4
+    /// guarded|left-to-right|eager, R5 node|node_n, R6 strain|stress (default: the scene's), R7
+    /// total|stepped (default: the variant's), R8 mm|m (unit of c_tol in a scene in mm).
     #[arg(long, value_name = "LIST", default_value = "")]
     pub reading: ReadingText,
 }
@@ -36,18 +36,21 @@ pub struct ReadingArg {
 /// How contact is modelled beyond what the paper prints, in place of what the scene says.
 #[derive(clap::Args)]
 pub struct ModelArgs {
-    /// nts: node to segment, two weights a node, as c_cnt does; mortar: averaged over what the node's edges cover [default: the scene's].
+    /// nts: node to segment, two weights a node, as c_cnt does; mortar: averaged over what the
+    /// node's edges cover [default: the scene's].
     #[arg(long)]
     coupling: Option<Coupling>,
-    /// Under unilateral: 0 (contact nodes slide) or stick (they follow the target, as eq. (1) asks) [default: the scene's].
+    /// Under unilateral: 0 (contact nodes slide) or stick (they follow the target, as eq. (1) asks)
+    /// [default: the scene's].
     #[arg(long)]
     friction: Option<Friction>,
-    /// Under unilateral, the shape in which the contact of sliding nodes is measured: current, or initial (small displacements) [default: the
-    /// scene's].
+    /// Under unilateral, the shape in which the contact of sliding nodes is measured: current, or
+    /// initial (small displacements) [default: the scene's].
     #[arg(long)]
     geometry: Option<Geometry>,
-    /// Under tied and stepped, who is in contact: signs (as c_cnt prints), intersection (the text's other remedy), projection (signed distance
-    /// to the nearest target edge) [default: the scene's].
+    /// Under tied and stepped, who is in contact: signs (as c_cnt prints), intersection (the text's
+    /// other remedy), projection (signed distance to the nearest target edge) [default: the
+    /// scene's].
     #[arg(long, value_name = "RULE")]
     status: Option<StatusRule>,
 }
@@ -90,7 +93,8 @@ pub fn print(text: &str) -> Result<(), Error> {
     }
 }
 
-/// A sign of life on standard error for what may take over two seconds; it shows only in a terminal.
+/// A sign of life on standard error for what may take over two seconds; it shows only in a
+/// terminal.
 pub fn waiting(what: &'static str) -> ProgressBar {
     let spinner = ProgressBar::new_spinner().with_message(what);
     spinner.enable_steady_tick(Duration::from_millis(500));

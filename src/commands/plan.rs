@@ -14,9 +14,10 @@ use super::{ModelArgs, ReadingArg, print};
 /// What solve will build and what not, why, and what it will cost; nothing is solved.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Bodies, free equations, contact candidates after a test of boxes, the rung, dense or sparse, the numbers in the factors (exact: from a
-symbolic factorisation), predicted bytes and operations, and what is left out or could be: orphan nodes, restrained equations, bodies that
-nothing moves, half of a symmetric scene.
+Bodies, free equations, contact candidates after a test of boxes, the solver, dense or sparse, the
+numbers in the factors (exact: from a symbolic factorisation), predicted bytes and operations, and
+what is left out or could be: orphan nodes, restrained equations, bodies that nothing moves, half
+of a symmetric scene.
 
 Examples:
   plane-contact plan

@@ -18,9 +18,10 @@ use super::{ModelArgs, ReadingArg, print};
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Prints a table of the iterations, one of the bodies, one of the contact nodes, the error bars, and how far this is from the converged
-answer. Writes to --out:
-mesh.svg (the paper's fig. 4), von_mises_stress.svg and von_mises_strain.svg (fig. 5), pressure.svg, fields.vtu (ParaView), result.json.
+Prints a table of the iterations, one of the bodies, one of the contact nodes, the error
+estimates, and how far this is from the reference solution. Writes to --out: mesh.svg (the paper's
+fig. 4), von_mises_stress.svg and von_mises_strain.svg (fig. 5), pressure.svg, fields.vtu
+(ParaView), result.json.
 
 Examples:
   plane-contact solve
@@ -35,16 +36,17 @@ pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
     scene: String,
-    /// printed: Km as printed; tied: eq. (1) on total displacements; stepped: eq. (1) on increments; unilateral: gaps closed along the
-    /// normal, the converged answer [default: the scene's].
+    /// printed: Km as printed; tied: eq. (1) on total displacements; stepped: eq. (1) on
+    /// increments; unilateral: gaps closed along the normal, the reference solution [default: the
+    /// scene's].
     #[arg(long)]
     variant: Option<Variant>,
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
     arithmetic: ArithmeticArgs,
-    /// Take the cheapest arithmetic whose rounding moves displacements by at most this part of the largest, and say what was done; the
-    /// mesh's own error is told beside it.
+    /// Take the cheapest precision whose rounding changes displacements by at most this part of the
+    /// largest, and say what was done; the mesh's own error is reported beside it.
     #[arg(long, value_name = "A", conflicts_with_all = ["scalar", "solver", "tol", "inputs"])]
     accuracy: Option<f64>,
     #[command(flatten)]
@@ -60,18 +62,21 @@ pub struct Args {
 /// In which numbers a run computes, and how it solves.
 #[derive(clap::Args)]
 pub struct ArithmeticArgs {
-    /// f64, f32, f64x2 (31 digits), f64-bounded (f64 with a bound on the error of the displacements), exact (rational numbers, for some
-    /// hundred equations).
+    /// f64, f32, f64x2 (31 digits), f64-bounded (f64 with a bound on the error of the
+    /// displacements), exact (rational numbers, for some hundred equations).
     #[arg(long, value_name = "NAME", default_value = "f64")]
     scalar: ScalarName,
-    /// dense-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients to --tol), refined (factors in the scalar below, refined to --tol)
-    /// [default: dense-lu; sparse-cholesky in f64x2, exact and under unilateral].
+    /// dense-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients to --tol), refined
+    /// (factors in the scalar below, refined to --tol) [default: dense-lu; sparse-cholesky in
+    /// f64x2, exact and under unilateral].
     #[arg(long, value_name = "NAME")]
     solver: Option<Solver>,
-    /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop [default: 16 eps of the scalar].
+    /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop [default:
+    /// 16 eps of the scalar].
     #[arg(long, value_name = "T")]
     tol: Option<f64>,
-    /// What the numbers of the scene stand for: binary, the exact value of their f64; decimal, the shortest decimal that reads back to it.
+    /// What the numbers of the scene stand for: binary, the exact value of their f64; decimal, the
+    /// shortest decimal that reads back to it.
     #[arg(long, value_name = "NAME", default_value = "binary")]
     inputs: Inputs,
 }
@@ -101,7 +106,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
         return print(&result);
     }
     let tables = tables::solution(&solution, &assessment)
-        + &tables::error_bars(&solution, &assessment)
+        + &tables::error_estimates(&solution, &assessment)
         + &tables::distance(&solution, &assessment)
         + &accuracy;
     let plan = report::plan::line(&plan);
@@ -121,7 +126,7 @@ fn solve(args: &Args, request: &Request) -> Result<(Solution, String), Error> {
     Ok((solution, String::new()))
 }
 
-/// A bar on standard error; it shows only in a terminal.
+/// A progress bar on standard error; it shows only in a terminal.
 fn progress(iterations: usize) -> ProgressBar {
     let style = ProgressStyle::with_template("iteration {pos} of {len} {wide_bar} {eta}");
     let bar = ProgressBar::new(iterations as u64).with_style(style.expect("the template is sound"));

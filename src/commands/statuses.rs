@@ -12,8 +12,9 @@ use super::{print, waiting};
 /// Compare the rules that decide who is in contact, on random scenes whose statuses are known.
 #[derive(clap::Args)]
 #[command(after_help = "\
-For a node that jumped deeper into the target than c_tol the paper names two remedies and takes the cheaper: signs, as the listing
-prints it, and intersection. projection is the exact answer. Wrong statuses are counted by depth of the jump, operations by size.
+For a node that jumped deeper into the target than c_tol the paper names two remedies and takes
+the cheaper: signs, as the listing prints it, and intersection. projection is the exact answer.
+Wrong statuses are counted by depth of the jump, operations by size.
 
 Examples:
   plane-contact statuses

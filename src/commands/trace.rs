@@ -19,9 +19,10 @@ use super::{ReadingArg, print};
 /// Execute a listing and show, line by line, what each statement read and wrote.
 #[derive(clap::Args)]
 #[command(after_help = "\
-c_cnt is executed on the initial shape and shown by contact node; Km on the pairs that c_cnt found there, and shown by element:
-those that have a linked node, or those of --node. --listing FILE executes an edited listing on the same scene, and tells what the
-edit changes (notation: listings/README.md).
+c_cnt is executed on the initial shape and shown by contact node; Km on the pairs that c_cnt found
+there, and shown by element: those that have a linked node, or those of --node. --listing FILE
+executes an edited listing on the same scene, and reports what the edit changes (notation:
+listings/README.md).
 
 Examples:
   plane-contact trace fig1
@@ -152,7 +153,7 @@ fn turns(
     if !turns.is_empty() {
         return Ok(turns);
     }
-    let (place, what, mend) = match (which, node) {
+    let (place, what, fix) = match (which, node) {
         (Which::CCnt, Some(node)) => {
             ("--node", format!("node {node} is no contact node"), "name a contact node, or none")
         }
@@ -166,5 +167,5 @@ fn turns(
             ("SCENE", "no element has a linked node".into(), "name a node with --node")
         }
     };
-    Err(InputError::new(place, what, mend).into())
+    Err(InputError::new(place, what, fix).into())
 }

@@ -14,11 +14,12 @@ use plane_contact::studies::trade::{self, Knob, Options, Trial, peak};
 
 use super::{ReadingArg, print};
 
-/// Measure speed against accuracy: the rungs of the ladder and the paper's own knobs.
+/// Measure speed against accuracy: precisions, solvers and the paper's own knobs.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Times are medians of several runs in one process, in turn (A B C A B C ...); what takes over 4 s is run once. Peak memory is that of a process of
-its own, program included. Knobs of contact are turned in f64 by sparse-cholesky, meshes under unilateral. Writes trade.json, trade.csv and
+Times are medians of several runs in one process, in turn (A B C A B C ...); what takes over 4 s
+is run once. Peak memory is that of a process of its own, program included. Settings of contact
+are varied in f64 by sparse-cholesky, meshes under unilateral. Writes trade.json, trade.csv and
 trade.svg to --out.
 
 Examples:
@@ -32,7 +33,8 @@ pub struct Args {
     /// Runs of each trial.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
-    /// What to vary: arithmetic, solver, mesh, c_tll, iterations, status, coupling, symmetry [default: all].
+    /// What to vary: arithmetic, solver, mesh, c_tll, iterations, status, coupling, symmetry
+    /// [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     only: Vec<Knob>,
     #[command(flatten)]
@@ -73,7 +75,8 @@ pub fn run(args: &Args) -> Result<(), Error> {
     print(&format!("{}\nWritten to {}\n", report::text(&measured), out.display()))
 }
 
-/// The peak memory of a process that runs nothing but `trial`: this command again, with one more option.
+/// The peak memory of a process that runs nothing but `trial`: this command again, with one more
+/// option.
 fn in_a_process(trial: &Trial) -> Option<u64> {
     let mut command = Command::new(std::env::current_exe().ok()?);
     command.args(std::env::args_os().skip(1)).arg(format!("--peak-of={}", trial.name()));
@@ -90,7 +93,7 @@ fn peak_of(request: &Request, name: &str) -> Result<(), Error> {
     print(&bytes.map_or(String::new(), |bytes| format!("{bytes}\n")))
 }
 
-/// A bar on standard error; it shows only in a terminal.
+/// A progress bar on standard error; it shows only in a terminal.
 fn progress(steps: usize) -> ProgressBar {
     let style = ProgressStyle::with_template("{pos} of {len} {wide_bar} {eta} {msg}");
     let bar = ProgressBar::new(steps as u64).with_style(style.expect("the template is sound"));

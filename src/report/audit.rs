@@ -96,8 +96,8 @@ fn variants(rows: &[VariantRow]) -> String {
         "force on target",
         "eq. (1), total u",
         "von Mises stress",
-        "off in |u|",
-        "off in energy",
+        "error in |u|",
+        "error in energy",
         "friction needed",
         "pulling",
     ];
@@ -156,7 +156,7 @@ fn stresses(bodies: &[BodySummary]) -> String {
 /// Tells of the reference solution, which the variants are off from.
 fn reference(reference: &Converged) -> String {
     format!(
-        "  off: beside the converged answer (unilateral, {}, friction {}): {} in contact, \
+        "  error: against the reference solution (unilateral, {}, friction {}): {} in contact, \
          von Mises stress {}\n",
         reference.model.coupling,
         reference.model.friction,
@@ -185,7 +185,7 @@ fn sticking(nodes: &[ContactNode]) -> String {
         format!("  at a friction coefficient of {coefficient} {slipping} would slip\n")
     });
     format!(
-        "\n4. What friction it takes that the nodes of the converged answer stick\n{needed}{}",
+        "\n4. What friction it takes that the nodes of the reference solution stick\n{needed}{}",
         slipping.concat()
     )
 }
@@ -199,7 +199,7 @@ pub fn json(audit: &Audit, scene: &Scene) -> String {
         "readings": audit.readings,
         "findings": findings,
         "variants": audit.variants,
-        "converged": audit.converged,
+        "reference": audit.converged,
         "sticking": audit.sticking,
     }))
 }

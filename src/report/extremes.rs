@@ -60,14 +60,14 @@ fn breaks(measured: &Measured) -> String {
     let at = |at: &Option<Break>| at.as_ref().map_or("-".into(), exponent);
     let there = |at: &Option<Break>| at.as_ref().map_or("-".into(), |at| at.verdict.to_string());
     Table::of(&measured.columns)
-        .column("way", |column| column.name.clone())
+        .column("method", |column| column.name.clone())
         .column("best", |column| {
             let digits = column.verdicts.iter().filter_map(|v| v.digits(column.carried));
             format!("{:.0}", digits.fold(0.0, f64::max).floor())
         })
-        .column("gives below", |column| at(&column.below))
+        .column("breaks down below", |column| at(&column.below))
         .column("there", |column| there(&column.below))
-        .column("gives above", |column| at(&column.above))
+        .column("breaks down above", |column| at(&column.above))
         .column("there", |column| there(&column.above))
         .text()
 }

@@ -79,7 +79,7 @@ fn built(plan: &Plan) -> String {
         None => rows.push(row("contact", "none", "the scene names no contact surfaces")),
         Some(contact) => rows.extend(of_contact(contact)),
     }
-    rows.push(row("rung", format!("{} in {}", plan.solver, plan.scalar), "--solver, --scalar"));
+    rows.push(row("solver", format!("{} in {}", plan.solver, plan.scalar), "--solver, --scalar"));
     let numbers = format!("{} numbers in its factors", plan.factors.nonzeros);
     rows.push(row("matrix", plan.storage, numbers));
     aligned(["", "", "why"], rows)
@@ -113,7 +113,7 @@ fn cost(plan: &Plan) -> String {
     let (cost, bytes) = (plan.cost, plan.cost.bytes);
     let reference = match cost.reference_states {
         0 => String::new(),
-        states => format!(", {states} of the converged answer beside it"),
+        states => format!(", {states} of the reference solution beside it"),
     };
     let [program, mesh, matrices, iterations] =
         [bytes.program, bytes.mesh, bytes.matrices, bytes.iterations].map(megabytes);

@@ -55,7 +55,7 @@ pub struct ResultFile {
     /// Hertz's contact, where his theory applies.
     pub hertz: Option<Hertz>,
     /// How far the numbers may be from the truth.
-    pub error_bars: KnownEstimates,
+    pub error_estimates: KnownEstimates,
     /// How far the run is from the reference solution, where there is one.
     pub distance: Option<Distance>,
     /// The displacement of each node along x and y, length.
@@ -174,7 +174,7 @@ impl ResultFile {
             bodies: assessment.bodies.clone(),
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
-            error_bars: KnownEstimates::new(assessment),
+            error_estimates: KnownEstimates::new(assessment),
             distance: assessment.measure().map(|measured| measured.distance.clone()),
             u: solution.displacements(),
             u_digits: digits(solution),
@@ -304,7 +304,7 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_null() {
         let mut result = result("fig1", |request| request);
-        result.error_bars.mesh_energy_relative = known(f64::INFINITY);
+        result.error_estimates.mesh_energy_relative = known(f64::INFINITY);
         let distance = result.distance.as_mut().expect("fig1 has a reference solution");
         distance.displacement_relative = f64::INFINITY;
         result.contact[0].force = f64::INFINITY;

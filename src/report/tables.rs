@@ -58,7 +58,7 @@ fn arithmetic(solution: &Solution) -> String {
     if let Some(bound) = solution.error_bound {
         let unit = &solution.request.scene.units.length;
         text += &match bound.is_finite() {
-            true => format!("; rounding moves no displacement by more than {bound:.1e} {unit}"),
+            true => format!("; rounding changes no displacement by more than {bound:.1e} {unit}"),
             false => "; how far rounding leads is not known".into(),
         };
     }
@@ -135,12 +135,12 @@ fn contact_surface(solution: &Solution) -> String {
 }
 
 /// Lays out how far the numbers of a run may be from the truth.
-pub fn error_bars(solution: &Solution, assessment: &Assessment) -> String {
+pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
     let (units, estimates) = (&solution.request.scene.units, &assessment.estimates);
     let moved = assessment.bodies.iter().map(|body| body.max_displacement).fold(0.0, f64::max);
     let of_displacement = [(estimates.displacement, "arithmetic")];
     let mut text = format!(
-        "\nError bars\n  largest |u|: {}\n",
+        "\nError estimates\n  largest |u|: {}\n",
         uncertain(moved, &units.length, &of_displacement)
     );
     for body in &estimates.bodies {
@@ -154,7 +154,7 @@ pub fn error_bars(solution: &Solution, assessment: &Assessment) -> String {
         false => "  error of the mesh: unknown, a body is too small for an estimate".into(),
     };
     if relative > FAIR {
-        text += ": too coarse for its bars to be relied on";
+        text += ": too coarse for its estimates to be relied on";
     }
     text + "\n"
 }
@@ -163,7 +163,9 @@ pub fn error_bars(solution: &Solution, assessment: &Assessment) -> String {
 pub fn distance(solution: &Solution, assessment: &Assessment) -> String {
     let measured = match &assessment.reference {
         None => return String::new(),
-        Some(Err(why)) => return format!("\nNo converged answer to measure this against: {why}\n"),
+        Some(Err(why)) => {
+            return format!("\nNo reference solution to measure this against: {why}\n");
+        }
         Some(Ok(measured)) => measured,
     };
     let units = &solution.request.scene.units;
@@ -183,10 +185,10 @@ pub fn distance(solution: &Solution, assessment: &Assessment) -> String {
         ]
     });
     format!(
-        "\nDistance to the converged answer ({}; {} in contact)\n{}",
+        "\nDistance from the reference solution ({}; {} in contact)\n{}",
         pressure::name(reference),
         reference.in_contact().count(),
-        aligned(["", "this run", "converged", "difference"], wholes.into_iter().chain(bodies))
+        aligned(["", "this run", "reference", "difference"], wholes.into_iter().chain(bodies))
     )
 }
 

@@ -15,7 +15,7 @@ pub use super::json::line as json;
 pub const COLUMNS: [&str; 18] = [
     "knob",
     "variant",
-    "rung",
+    "setting",
     "own",
     "equations",
     "in_contact",
@@ -168,7 +168,7 @@ pub fn reached(reached: &Reached, accuracy: f64) -> String {
         let came = match attempt.found {
             None => "too large: not run".into(),
             Some(found) if found <= accuracy => format!("run; {kind} {found:.0e}: taken"),
-            Some(found) => format!("run; {kind} {found:.0e}: missed, so up one rung"),
+            Some(found) => format!("run; {kind} {found:.0e}: missed, so up one precision"),
         };
         let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver());
         let predicted = attempt.predicted;
@@ -185,7 +185,7 @@ fn mesh(error: f64, accuracy: f64) -> String {
         return "  What the mesh adds is not known: it is too small to tell.\n".into();
     }
     let verdict = match error > accuracy {
-        true => "larger than what was asked, and no arithmetic mends that: refine the mesh",
+        true => "larger than what was asked, and no precision fixes that: refine the mesh",
         false => "not larger than what was asked",
     };
     format!("  The mesh's own error is about {error:.0e} in the energy norm: {verdict}.\n")

@@ -1,10 +1,14 @@
-//! SOURCE: R. D. Cook, "Improved two-dimensional finite element", J. Struct. Div. ASCE 100 (1974) 1851-1863.
+//! SOURCE: R. D. Cook, "Improved two-dimensional finite element", J. Struct. Div. ASCE 100 (1974)
+//! 1851-1863.
 //!
-//! GOAL: the vertical displacement of (48, 52) on each mesh, as other programs give it for the same triangles; 23.96 in the limit.
+//! GOAL: the vertical displacement of (48, 52) on each mesh, as other programs give it for the same
+//! triangles; 23.96 in the limit.
 //!
-//! MESH: n x n mapped cells, each cut from its lower left to its upper right corner; n = 2, 4, ..., 64.
+//! MESH: n x n mapped cells, each cut from its lower left to its upper right corner; n = 2, 4, ...,
+//! 64.
 //!
-//! BOUNDARY CONDITIONS: left side held, a shear load of 1 spread over the right side. E = 1, nu = 1/3, plane stress, thickness 1.
+//! BOUNDARY CONDITIONS: left side held, a shear load of 1 spread over the right side. E = 1, nu =
+//! 1/3, plane stress, thickness 1.
 
 use crate::common::recovery::{node_at, solved};
 use crate::common::tolerances::{COOK, assert_near};

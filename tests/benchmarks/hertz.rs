@@ -1,15 +1,17 @@
-//! SOURCE: NAFEMS, Benchmark Tests for Various Finite Element Contact Problems, CGS-1; closed form: K. L. Johnson, Contact Mechanics,
-//! section 4.2.
+//! SOURCE: NAFEMS, Benchmark Tests for Various Finite Element Contact Problems, CGS-1; closed form:
+//! K. L. Johnson, Contact Mechanics, section 4.2.
 //!
 //! GOAL: a cylinder on a block: half width 6.2146 mm, peak pressure 3585.36 MPa.
 //!
-//! MESH: half model, graded towards the contact, 3,806 equations (20 edges on the half width) and 30,090 (59).
+//! MESH: half model, graded towards the contact, 3,806 equations (20 edges on the half width) and
+//! 30,090 (59).
 //!
-//! BOUNDARY CONDITIONS: R = 50 mm, 35 kN/mm on the top of the cylinder, bottom held in y, axis in x, frictionless. E = 210 and 70 GPa,
-//! nu = 0.3, plane strain.
+//! BOUNDARY CONDITIONS: R = 50 mm, 35 kN/mm on the top of the cylinder, bottom held in y, axis in
+//! x, frictionless. E = 210 and 70 GPa, nu = 0.3, plane strain.
 //!
-//! Half width and peak are those of the best p² = p0² (1 − (s/a)²) through the pressures: a node resolves either to an edge length only. The
-//! node on the axis is left out: the triangles that meet there stand for half of a symmetric patch whose diagonals do not mirror. So is the last
+//! Half width and peak are those of the best p² = p0² (1 − (s/a)²) through the pressures: a node
+//! resolves either to an edge length only. The node on the axis is left out: the triangles that
+//! meet there stand for half of a symmetric patch whose diagonals do not mirror. So is the last
 //! tenth: the contact ends between two nodes, and the last one or two share what lies between.
 
 use crate::common::recovery::solved_by;
@@ -72,8 +74,8 @@ fn at_30_000_equations_within_half_a_percent() {
     }
 }
 
-/// Known: in the current shape the surfaces have shortened by 1 to 3 % under the pressure, so the cylinder is more curved; Hertz's theory leaves
-/// that out.
+/// Known: in the current shape the surfaces have shortened by 1 to 3 % under the pressure, so the
+/// cylinder is more curved; Hertz's theory leaves that out.
 #[test]
 fn in_the_current_shape_the_peak_is_higher() {
     let current = over_hertz(40, LOAD, |m| m.geometry = Geometry::Current);

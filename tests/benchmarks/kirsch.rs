@@ -1,11 +1,13 @@
 //! SOURCE: G. Kirsch, 1898; S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 35.
 //!
-//! GOAL: a circular hole in an infinite sheet under unit tension in x: sigma_x = 3 at (0, 1), sigma_y = -1 at (1, 0).
+//! GOAL: a circular hole in an infinite sheet under unit tension in x: sigma_x = 3 at (0, 1),
+//! sigma_y = -1 at (1, 0).
 //!
-//! MESH: a quarter from the hole of radius 1 to radius 5, n cells around, near square, each cut into two triangles; n = 16, 32, 64.
+//! MESH: a quarter from the hole of radius 1 to radius 5, n cells around, near square, each cut
+//! into two triangles; n = 16, 32, 64.
 //!
-//! BOUNDARY CONDITIONS: the closed form's traction at the middle of each outer edge, the axes held across themselves. E = 1000,
-//! nu = 0.3, plane stress.
+//! BOUNDARY CONDITIONS: the closed form's traction at the middle of each outer edge, the axes held
+//! across themselves. E = 1000, nu = 0.3, plane stress.
 //!
 //! Stresses: extrapolated (`common::recovery`).
 

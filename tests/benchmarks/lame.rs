@@ -1,12 +1,13 @@
 //! SOURCE: G. Lamé; S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 28.
 //!
-//! GOAL: a thick-walled cylinder under internal pressure: u(ri) = 0.00613333 mm, hoop stress at the bore 16.6667 MPa;
-//! displacements of second order.
+//! GOAL: a thick-walled cylinder under internal pressure: u(ri) = 0.00613333 mm, hoop stress at the
+//! bore 16.6667 MPa; displacements of second order.
 //!
-//! MESH: a quarter, n x 2n cells of polar coordinates, each cut into two triangles; n = 4, 8, 16, 32, 64.
+//! MESH: a quarter, n x 2n cells of polar coordinates, each cut into two triangles; n = 4, 8, 16,
+//! 32, 64.
 //!
-//! BOUNDARY CONDITIONS: 10 MPa on the bore, the axes held across themselves. ri = 10 mm, ro = 20 mm, E = 30000 MPa, nu = 0.2,
-//! plane strain.
+//! BOUNDARY CONDITIONS: 10 MPa on the bore, the axes held across themselves. ri = 10 mm, ro = 20
+//! mm, E = 30000 MPa, nu = 0.2, plane strain.
 //!
 //! Measured where the quarter's diagonal meets the bore. Stress: extrapolated (`common::recovery`).
 

@@ -2,13 +2,15 @@
 //!
 //! GOAL: sigma_y = 92.7 MPa at (2, 0) of an elliptic membrane.
 //!
-//! MESH: a quarter, n x n cells, cut into two triangles each; n = 8, 16, 32, 64. Nodes stand at equal parametric angles of both ellipses
-//! and at equal parts of the lines between: (2 cos t, sin t) to (3.25 cos t, 2.75 sin t).
+//! MESH: a quarter, n x n cells, cut into two triangles each; n = 8, 16, 32, 64. Nodes stand at
+//! equal parametric angles of both ellipses and at equal parts of the lines between: (2 cos t, sin
+//! t) to (3.25 cos t, 2.75 sin t).
 //!
-//! BOUNDARY CONDITIONS: 10 MPa outward on the outer ellipse, the axes held across themselves. E = 210000 MPa, nu = 0.3, thickness 0.1 m,
-//! plane stress.
+//! BOUNDARY CONDITIONS: 10 MPa outward on the outer ellipse, the axes held across themselves. E =
+//! 210000 MPa, nu = 0.3, thickness 0.1 m, plane stress.
 //!
-//! Stresses: averaged, as other programs give them on the same meshes; extrapolated, which comes near the limit (`common::recovery`).
+//! Stresses: averaged, as other programs give them on the same meshes; extrapolated, which comes
+//! near the limit (`common::recovery`).
 
 use crate::common::recovery::{averaged, extrapolated, node_at, solved};
 use crate::common::tolerances::{LE1_GRID, LE1_LIMIT, assert_near};

@@ -1,4 +1,5 @@
-//! Generated benchmarks: sound scenes, exact sizes, complete groups, files that read back to the same mesh.
+//! Generated benchmarks: sound scenes, exact sizes, complete groups, files that read back to the
+//! same mesh.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};

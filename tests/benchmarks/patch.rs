@@ -1,11 +1,13 @@
-//! SOURCE: the contact patch test: R. L. Taylor, P. Papadopoulos (1991); why node to segment misses it: G. Zavarise, L. De Lorenzis, Int. J.
-//! Numer. Meth. Engng 79 (2009) 379-416.
+//! SOURCE: the contact patch test: R. L. Taylor, P. Papadopoulos (1991); why node to segment misses
+//! it: G. Zavarise, L. De Lorenzis, Int. J. Numer. Meth. Engng 79 (2009) 379-416.
 //!
-//! GOAL: two stacked blocks under uniform pressure carry it unchanged: sigma_y = -p everywhere, von Mises 5.774 MPa, top -0.010080 mm.
+//! GOAL: two stacked blocks under uniform pressure carry it unchanged: sigma_y = -p everywhere, von
+//! Mises 5.774 MPa, top -0.010080 mm.
 //!
 //! MESH: 50 x 25 mm each; 7 divisions of the upper block on 10 of the lower, and 7 on 7.
 //!
-//! BOUNDARY CONDITIONS: p = 6.3 MPa on the top, bottom held in y, left sides in x, frictionless. E = 30000 MPa, nu = 0.2, plane strain.
+//! BOUNDARY CONDITIONS: p = 6.3 MPa on the top, bottom held in y, left sides in x, frictionless. E
+//! = 30000 MPa, nu = 0.2, plane strain.
 
 use crate::common::recovery::solved_by;
 use crate::common::tolerances::{KNOWN_NTS, PATCH_TEST, assert_near};
@@ -50,8 +52,8 @@ fn matching_nodes_pass_either_way() {
     assert_exact(&blocks(10, Coupling::Nts));
 }
 
-/// Known: the force of a contact node goes to the two nodes of one edge, as if it acted at a point; a uniform pressure on the lower block is
-/// another split. No refinement helps.
+/// Known: the force of a contact node goes to the two nodes of one edge, as if it acted at a point;
+/// a uniform pressure on the lower block is another split. No refinement helps.
 #[test]
 fn node_to_segment_misses_by_a_known_amount() {
     let [least, largest] = sigma_y(&blocks(7, Coupling::Nts));

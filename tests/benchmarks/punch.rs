@@ -1,10 +1,13 @@
 //! SOURCE: K. L. Johnson, Contact Mechanics, section 2.8(a).
 //!
-//! GOAL: a flat stiff punch on a half plane, frictionless: p(x) = P / (pi sqrt(a² − x²)) away from the corner.
+//! GOAL: a flat stiff punch on a half plane, frictionless: p(x) = P / (pi sqrt(a² − x²)) away from
+//! the corner.
 //!
-//! MESH: half model, 24 and 48 edges on the half width, graded towards the corner, as far as 20 half widths.
+//! MESH: half model, 24 and 48 edges on the half width, graded towards the corner, as far as 20
+//! half widths.
 //!
-//! BOUNDARY CONDITIONS: axis held in x, the outer boundary in both; the punch 10,000 times as stiff as the foundation. a = 1.
+//! BOUNDARY CONDITIONS: axis held in x, the outer boundary in both; the punch 10,000 times as stiff
+//! as the foundation. a = 1.
 
 use std::f64::consts::PI;
 

@@ -1,11 +1,14 @@
-//! SOURCE: R. L. Taylor, P. Papadopoulos, On a patch test for contact problems in two dimensions, in: Computational Methods in Nonlinear
-//! Mechanics (1991).
+//! SOURCE: R. L. Taylor, P. Papadopoulos, On a patch test for contact problems in two dimensions,
+//! in: Computational Methods in Nonlinear Mechanics (1991).
 //!
-//! GOAL: a punch on a wider foundation, the same pressure on the punch and beside it: sigma_y = -p everywhere.
+//! GOAL: a punch on a wider foundation, the same pressure on the punch and beside it: sigma_y = -p
+//! everywhere.
 //!
-//! MESH: foundation 8 x 5, punch 2 x 2 on its middle; 6 divisions of the punch on edges of another length.
+//! MESH: foundation 8 x 5, punch 2 x 2 on its middle; 6 divisions of the punch on edges of another
+//! length.
 //!
-//! BOUNDARY CONDITIONS: p = 1; bottom held in y, axes in x, frictionless. E = 1000, nu = 0.4, plane strain.
+//! BOUNDARY CONDITIONS: p = 1; bottom held in y, axes in x, frictionless. E = 1000, nu = 0.4, plane
+//! strain.
 
 use crate::common::recovery::solved_by;
 use crate::common::tolerances::{PATCH_TEST, assert_near};

@@ -10,8 +10,8 @@ pub fn assert_golden(folder: &str, name: &str, text: &str) {
     assert_golden_by(folder, name, text, same_text);
 }
 
-/// Words equal to the letter, floats (a `.` or an exponent in them) within `GOLDEN` of the largest float of their line, or
-/// within `GOLDEN_FLOOR`.
+/// Words equal to the letter, floats (a `.` or an exponent in them) within `GOLDEN` of the largest
+/// float of their line, or within `GOLDEN_FLOOR`.
 pub fn same_text(expected: &str, value: &str) -> bool {
     let (expected, value) = (expected.trim_end(), value.trim_end());
     expected.lines().count() == value.lines().count()

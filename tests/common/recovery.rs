@@ -1,4 +1,5 @@
-//! Benchmarks run, and stresses at their nodes: a three-node triangle has one stress for the whole of it.
+//! Benchmarks run, and stresses at their nodes: a three-node triangle has one stress for the whole
+//! of it.
 
 use std::collections::BTreeSet;
 
@@ -36,7 +37,8 @@ pub fn node_at(model: &Model, [x, y]: [f64; 2]) -> NodeId {
     model.node_ids().find(here).expect("a node stands there")
 }
 
-/// sigma_x, sigma_y, tau_xy at a node: the mean over its triangles, weighted by area. At a boundary first order only.
+/// sigma_x, sigma_y, tau_xy at a node: the mean over its triangles, weighted by area. At a boundary
+/// first order only.
 pub fn averaged(solution: &Solution, node: NodeId) -> [f64; 3] {
     let around = patch(&solution.model, &BTreeSet::from([node]));
     let area = |t: &TriangleId| element::area(&solution.model.corners(*t));
@@ -45,9 +47,10 @@ pub fn averaged(solution: &Solution, node: NodeId) -> [f64; 3] {
     sum.fold(Vector3::zeros(), |a, b| a + b).scale(1.0 / total).into()
 }
 
-/// sigma_x, sigma_y, tau_xy at a node of the boundary: the plane through the stresses at the centroids around an inner node, by least
-/// squares, taken at the node; the mean over the inner nodes next to it, or next to those where it has none. Second order, for the
-/// errors of the triangles around an inner node cancel on a mapped grid.
+/// sigma_x, sigma_y, tau_xy at a node of the boundary: the plane through the stresses at the
+/// centroids around an inner node, by least squares, taken at the node; the mean over the inner
+/// nodes next to it, or next to those where it has none. Second order, for the errors of the
+/// triangles around an inner node cancel on a mapped grid.
 ///
 /// Source: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Methods Eng. 33 (1992) 1331-1364.
 pub fn extrapolated(solution: &Solution, node: NodeId) -> [f64; 3] {

@@ -133,7 +133,8 @@ fn each_rule_on_hand_made_scenes() {
     }
 }
 
-/// Mirrored in y and turned, statuses by projection stay; so do those by intersection away from line 16's vertical distance (C1, C3).
+/// Mirrored in y and turned, statuses by projection stay; so do those by intersection away from
+/// line 16's vertical distance (C1, C3).
 #[test]
 fn projection_and_intersection_do_not_depend_on_the_axes() {
     for (k, (name, chain, node, expected)) in NEAR.iter().chain(FAR).enumerate() {
@@ -157,7 +158,8 @@ fn projection_and_intersection_do_not_depend_on_the_axes() {
     }
 }
 
-/// C4: node 1 is apart, node 2 inside. The sign rule takes each for the other, and upside down it does not.
+/// C4: node 1 is apart, node 2 inside. The sign rule takes each for the other, and upside down it
+/// does not.
 #[test]
 fn the_sign_rule_depends_on_which_way_is_up() {
     let model = model(SLOPE, &[[0.8, 0.17], [1.2, 0.23]], UPRIGHT);
@@ -180,7 +182,8 @@ fn without_a_tolerance_a_touching_node_is_in_contact_by_projection() {
     assert_eq!(dy(StatusRule::Projection, &model, &model.nodes), [1]);
 }
 
-/// A vertical edge: line 10, which intersection keeps, divides by zero where the node is in the edge's box; projection knows.
+/// A vertical edge: line 10, which intersection keeps, divides by zero where the node is in the
+/// edge's box; projection knows.
 #[test]
 fn a_vertical_edge_stops_what_keeps_line_10() {
     let model = model(&[[-1.0, 0.0], [1.0, 0.0]], &[[0.3, 0.0005]], UPRIGHT);
@@ -199,7 +202,8 @@ fn a_vertical_edge_stops_what_keeps_line_10() {
     );
 }
 
-/// Sharp corners, where one of the two edges has the point on its wrong side, whichever comes first.
+/// Sharp corners, where one of the two edges has the point on its wrong side, whichever comes
+/// first.
 #[test]
 fn the_closest_point_at_a_corner_has_the_right_side() {
     let sharp = [[-0.2, 0.0], [0.0, 1.0], [0.2, 0.0]];
@@ -247,7 +251,8 @@ fn the_closest_point() {
     }
 }
 
-/// Where a contact node faces the surface: edge, place, gap, and the normal out of the target, turned.
+/// Where a contact node faces the surface: edge, place, gap, and the normal out of the target,
+/// turned.
 #[test]
 fn the_normal_at_the_closest_point() {
     for (point, edge, xi, gap) in [([0.25, 0.5], 2, 0.25, 0.5), ([-0.25, -0.5], 1, 0.75, -0.5)] {
@@ -298,7 +303,8 @@ fn a_lost_node_gets_the_nearest_edge_and_its_weights() {
 /// Readings that concern the weights.
 const OF_WEIGHTS: [&str; 4] = ["", "R1=inside", "R5=node_n", "R1=inside,R5=node_n"];
 
-/// Where statuses and edges are the listing's, so are the weights, to the last bit, under R1 and R5, and for a node listed twice (C12).
+/// Where statuses and edges are the listing's, so are the weights, to the last bit, under R1 and
+/// R5, and for a node listed twice (C12).
 #[test]
 fn weights_are_those_of_the_listing() {
     let contact = [[-0.7, 0.0005], [-0.3, -0.0004], [0.2, 0.0], [0.6, 0.0003]];
@@ -341,8 +347,9 @@ fn a_run_binds_by_the_weights_of_its_shapes() {
     }
 }
 
-/// The paper's example with a duct of radius `duct` instead of 7.7 mm: the block's nodes move outwards along their radius, less and less
-/// to the block's sides, and the stamp is let down so that it touches the duct's lowest point.
+/// The paper's example with a duct of radius `duct` instead of 7.7 mm: the block's nodes move
+/// outwards along their radius, less and less to the block's sides, and the stamp is let down so
+/// that it touches the duct's lowest point.
 fn wider_duct(duct: f64) -> Scene {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/strand");
     let mesh = std::fs::read_to_string(format!("{folder}/strand.msh")).unwrap();
@@ -379,8 +386,9 @@ fn stepped(rule: StatusRule, scene: &Scene) -> Solution {
     answer::solve(&by_rule(rule, scene), &mut |_| ()).expect("the variant runs")
 }
 
-/// Where a node passes c_tll between two steps the sign rule loses it for a while, its contact set comes and goes, and what bears the load
-/// is pressed harder (C4, C9). By projection the set only grows, and nothing is left inside the block.
+/// Where a node passes c_tll between two steps the sign rule loses it for a while, its contact set
+/// comes and goes, and what bears the load is pressed harder (C4, C9). By projection the set only
+/// grows, and nothing is left inside the block.
 #[test]
 fn in_a_wider_duct_stepped_differs_by_rule() {
     let counts = |solution: &Solution| -> Vec<usize> {
@@ -422,7 +430,8 @@ fn signs_are_the_default() {
     assert_eq!(StatusRule::default(), StatusRule::Signs);
 }
 
-/// Nodes, nodes in contact, then for signs, intersection, projection: missed + false, operations. Seed 1, 20 scenes a row.
+/// Nodes, nodes in contact, then for signs, intersection, projection: missed + false, operations.
+/// Seed 1, 20 scenes a row.
 const BY_DEPTH: &str = "\
 16 0.5 below: 158 23, 2 + 9 18021, 0 + 0 75781, 0 + 0 57752
 16 0.5 above: 152 21, 1 + 0 17923, 0 + 0 72189, 0 + 1 54790

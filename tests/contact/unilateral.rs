@@ -128,7 +128,8 @@ fn the_reference_is_at_no_distance_from_itself() {
     }
 }
 
-/// Two unit squares, the upper one on the lower one; `load` on the top edge, `held` of the upper square's left side.
+/// Two unit squares, the upper one on the lower one; `load` on the top edge, `held` of the upper
+/// square's left side.
 fn stacked(load: [f64; 2], held: &[&str], friction: serde_json::Value) -> serde_json::Value {
     let mut restraints =
         vec![json!({ "node": 1, "fix": ["x", "y"] }), json!({ "node": 2, "fix": ["x", "y"] })];
@@ -256,7 +257,8 @@ fn bodies_that_touch_without_a_load_rest() {
     }
 }
 
-/// All of the upper square's outline listed: only its lower side faces the target, and its corners stand for half of each side.
+/// All of the upper square's outline listed: only its lower side faces the target, and its corners
+/// stand for half of each side.
 #[test]
 fn a_closed_contact_surface_has_an_edge_from_its_last_node_to_its_first() {
     for contact in every_coupling_and_geometry() {
@@ -296,7 +298,8 @@ fn a_surface_that_does_not_face_the_target_is_the_inputs_fault() {
     }
 }
 
-/// A wedge over a roof of two faces, 0.4 above its ridge: the normal is the mean of the faces', and the gap is measured along it.
+/// A wedge over a roof of two faces, 0.4 above its ridge: the normal is the mean of the faces', and
+/// the gap is measured along it.
 #[test]
 fn a_gap_over_a_ridge_closes() {
     let scene = json!({
@@ -323,8 +326,9 @@ fn a_gap_over_a_ridge_closes() {
     }
 }
 
-/// A square on a longer target whose surface falls away from the middle, loaded right of where it first touches: it tips over that node until
-/// another one touches. The nodes left of it, with gaps as small, would pull.
+/// A square on a longer target whose surface falls away from the middle, loaded right of where it
+/// first touches: it tips over that node until another one touches. The nodes left of it, with gaps
+/// as small, would pull.
 #[test]
 fn a_body_that_tips_comes_to_rest_on_the_side_that_it_tips_to() {
     let surface = |x: f64| 1.0 - 0.05 * (x - 0.4) * (x - 0.4);
@@ -372,7 +376,8 @@ fn a_body_that_tips_comes_to_rest_on_the_side_that_it_tips_to() {
     }
 }
 
-/// The stack pushed to +x by a fifth of what presses it: the target pushes back, to the left, which is the tangent's direction.
+/// The stack pushed to +x by a fifth of what presses it: the target pushes back, to the left, which
+/// is the tangent's direction.
 #[test]
 fn shear_and_the_friction_needed_balance_a_push_along_the_surface() {
     let solution = solved(&stacked([0.2, -1.0], &[], json!("stick"))).unwrap();

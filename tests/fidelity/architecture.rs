@@ -1,10 +1,11 @@
-//! The architecture, held to what README.md says of it: no import runs upwards, none runs in a circle, and the paper's names stay in
-//! the paper's room.
+//! The architecture, held to what README.md says of it: no import runs upwards, none runs in a
+//! circle, and the paper's names stay in the paper's room.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The rooms of `src/`, each of which may import those before it: the folders that the listing of `src/` shows, from the bottom up.
+/// The rooms of `src/`, each of which may import those before it: the folders that the listing of
+/// `src/` shows, from the bottom up.
 const LAYERS: &[&[&str]] = &[
     &["choices", "error", "files"],
     &["numbers"],
@@ -128,7 +129,8 @@ fn imports(source: &Source) -> Vec<Vec<String>> {
             open(&[], &statement[at + 4..], &mut found);
         }
     }
-    // Paths that stand in the code itself. One that ends in `::` is the head of braces, opened above.
+    // Paths that stand in the code itself. One that ends in `::` is the head of braces, opened
+    // above.
     let words = source.text.split(|c: char| !(is_word(c) || c == ':'));
     for word in words.filter(|word| word.contains("::") && !word.ends_with("::")) {
         found.push(word.split("::").filter(|part| !part.is_empty()).map(String::from).collect());
@@ -169,7 +171,8 @@ fn split_outside_braces(text: &str) -> Vec<&str> {
     parts
 }
 
-/// Which file each file imports. A name that a folder's `mod.rs` passes on from one of its files counts as that file's.
+/// Which file each file imports. A name that a folder's `mod.rs` passes on from one of its files
+/// counts as that file's.
 struct Graph {
     files: BTreeMap<Vec<String>, usize>,
     passed_on: BTreeMap<(Vec<String>, String), Vec<String>>,

@@ -1,5 +1,5 @@
-//! Listing = mirror, bit for bit: on random scenes and under every reading that concerns a listing, interpreter and mirror give
-//! the same bits, or fail at the same line for the same cause.
+//! Listing = mirror, bit for bit: on random scenes and under every reading that concerns a listing,
+//! interpreter and mirror give the same bits, or fail at the same line for the same cause.
 //!
 //! `PROPTEST_CASES=100000 cargo test --release --test fidelity bitwise` runs any number of scenes;
 //! without it, 2,000.
@@ -59,9 +59,11 @@ struct Draw {
     duplicated_node: bool,
     c_tll: f64,
     scale: f64,
-    /// Of x before scaling: at a scale of 1e308 a difference of coordinates then overflows, the coordinates do not.
+    /// Of x before scaling: at a scale of 1e308 a difference of coordinates then overflows, the
+    /// coordinates do not.
     shift: f64,
-    /// Elastic modulus of the first triangle; near the largest number, sums of stiffnesses overflow.
+    /// Elastic modulus of the first triangle; near the largest number, sums of stiffnesses
+    /// overflow.
     modulus: f64,
     /// Displacements of the nodes; empty: the initial shape.
     moved: Vec<[f64; 2]>,
@@ -366,7 +368,8 @@ fn listing_and_mirror_agree_on_random_scenes() {
     }
 }
 
-/// The shipped scenes, at the initial shape, under every reading that concerns a listing: 72 combinations.
+/// The shipped scenes, at the initial shape, under every reading that concerns a listing: 72
+/// combinations.
 #[test]
 fn listing_and_mirror_agree_on_the_shipped_scenes() {
     for scene in SCENES.iter().filter(|s| s.name != "strand") {

@@ -1,9 +1,11 @@
 //! Citations: what the repository's sources and pages name is there.
 //!
-//! - `listings/READING.md` is cited in sources as `` `listings/READING.md`, section N `` and in no other form; section N exists.
+//! - `listings/READING.md` is cited in sources as `` `listings/READING.md`, section N `` and in no
+//!   other form; section N exists.
 //! - Every reading and finding that is named has a row in READING.md's tables, and every row is a
 //!   reading, or a finding of the register with its lines and its folder.
-//! - Every page (`*.md`) and every file of the repository that is named is there, and every link of a page
+//! - Every page (`*.md`) and every file of the repository that is named is there, and every link of
+//!   a page
 //!   leads to a file. What was written outside the repository is not cited.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -110,7 +112,8 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
     line.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }
 
-/// The paths that a line names: runs of what paths are made of, without the full stop of a sentence.
+/// The paths that a line names: runs of what paths are made of, without the full stop of a
+/// sentence.
 fn paths(line: &str) -> impl Iterator<Item = &str> {
     line.split(|c: char| !c.is_ascii_alphanumeric() && !"/._-<>*".contains(c))
         .map(|path| path.trim_end_matches(['.', '-']))
@@ -161,8 +164,8 @@ fn faults(text: &Text, sections: &BTreeSet<usize>, ids: &BTreeSet<String>) -> Ve
     faults
 }
 
-/// For each mention of READING.md in a line the section that it cites; nothing where a source cites in
-/// another form. A page may name it, or link to it, without a section.
+/// For each mention of READING.md in a line the section that it cites; nothing where a source cites
+/// in another form. A page may name it, or link to it, without a section.
 fn cited_sections(line: &str, page: bool) -> Vec<Option<usize>> {
     let mut cited = Vec::new();
     for (at, _) in line.match_indices("READING.md") {

@@ -1,4 +1,5 @@
-//! What the golden scenes reach of the listings: every line executed, every condition both ways, each operand of each `∧` decisive.
+//! What the golden scenes reach of the listings: every line executed, every condition both ways,
+//! each operand of each `∧` decisive.
 
 use std::fmt::Write as _;
 

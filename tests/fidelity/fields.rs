@@ -21,9 +21,9 @@ fn displacements_and_stresses_of_every_variant() {
     }
 }
 
-/// A line for each node: u, v, length. A line for each triangle: sigma_x, sigma_y, tau_xy and the von
-/// Mises stress, then a line with e_xx, e_yy, g_xy and the von Mises strain: a tolerance is relative to
-/// its line.
+/// A line for each node: u, v, length. A line for each triangle: sigma_x, sigma_y, tau_xy and the
+/// von Mises stress, then a line with e_xx, e_yy, g_xy and the von Mises strain: a tolerance is
+/// relative to its line.
 fn fields(solution: &Solution) -> String {
     let mut text = String::from("node: u v\n");
     for node in solution.model.node_ids() {

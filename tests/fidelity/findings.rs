@@ -1,5 +1,5 @@
-//! The register of findings: each on its own scene, with the number worked out by hand; each on a scene changed so that it
-//! cannot show; all of them on the scenes that the program carries.
+//! The register of findings: each on its own scene, with the number worked out by hand; each on a
+//! scene changed so that it cannot show; all of them on the scenes that the program carries.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -207,7 +207,8 @@ fn c4_leaves_out_nodes_that_lose_their_edge() {
     assert_eq!(measured.verdict, Verdict::DoesNotArise, "{}", measured.detail);
 }
 
-/// C5 with the target above: of three nodes deep inside between two apart, the ends are flagged and the middle is lost.
+/// C5 with the target above: of three nodes deep inside between two apart, the ends are flagged and
+/// the middle is lost.
 #[test]
 fn c5_keeps_the_ends_of_a_run_when_the_target_is_above() {
     let mut json = scene_json("C5");
@@ -224,7 +225,8 @@ fn c5_keeps_the_ends_of_a_run_when_the_target_is_above() {
     shows("C5", &finding("C5").measure(&case(&json)), 1.0, &["node 6: yt -3.000e-1 dy 0"]);
 }
 
-/// C9: over a horizontal edge the sign rule fires at |yt| = c_tll exactly, where line 16 does not, and nowhere else.
+/// C9: over a horizontal edge the sign rule fires at |yt| = c_tll exactly, where line 16 does not,
+/// and nowhere else.
 #[test]
 fn c9_the_sign_rule_over_a_horizontal_edge_acts_at_c_tll_exactly() {
     let dy = |y: f64| {
@@ -250,7 +252,8 @@ fn c11_one_bit_of_a_neighbour_decides() {
     assert_eq!(dy(0.3_f64.next_up()), [1, 0]);
 }
 
-/// C12: eq. (1) with the weights of a node listed twice moves it twice as far as the target below it.
+/// C12: eq. (1) with the weights of a node listed twice moves it twice as far as the target below
+/// it.
 #[test]
 fn c12_the_stamp_moves_twice_as_far_as_the_target() {
     let mut json = scene_json("C12");
@@ -279,7 +282,8 @@ fn c13_the_printed_displacements_depend_on_the_order_of_cnt() {
     assert!((as_is - &reversed).amax() > 0.1 * reversed.amax());
 }
 
-/// C14: at the height 2 · c_tll of the falling edge the box vanishes; at other heights it holds the node again.
+/// C14: at the height 2 · c_tll of the falling edge the box vanishes; at other heights it holds the
+/// node again.
 #[test]
 fn c14_the_box_vanishes_at_twice_c_tll() {
     for (height, missed) in [(0.0625, false), (0.125, true), (0.25, false)] {
@@ -298,7 +302,8 @@ fn c14_the_box_vanishes_at_twice_c_tll() {
     }
 }
 
-/// K1: MJS of the scene, by hand: 3 from the target's triangle at node 1 plus half of the stamp's at node 5.
+/// K1: MJS of the scene, by hand: 3 from the target's triangle at node 1 plus half of the stamp's
+/// at node 5.
 #[test]
 fn k1_the_stamp_is_added_to_the_target_and_the_target_to_the_stamp() {
     let model = Request::new(&finding("K1").scene()).model().unwrap();
@@ -345,7 +350,8 @@ fn verdicts() {
     assert_golden("findings", "verdicts", &text);
 }
 
-/// Each finding has its folder, with a picture and the numbers by hand, and each folder its finding.
+/// Each finding has its folder, with a picture and the numbers by hand, and each folder its
+/// finding.
 #[test]
 fn every_folder_is_a_findings() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/findings");

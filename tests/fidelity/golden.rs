@@ -28,7 +28,8 @@ fn integers_are_exact_and_floats_within_the_tolerance_of_their_line() {
     assert!(!same_text("yes", "no"));
 }
 
-/// What c_cnt finds at every iteration: ct, yt and dy by contact node, then the rows of k_cnt that are not zero.
+/// What c_cnt finds at every iteration: ct, yt and dy by contact node, then the rows of k_cnt that
+/// are not zero.
 #[test]
 fn pairs_at_every_iteration() {
     for scene in SCENES {
@@ -55,8 +56,8 @@ fn steps(solution: &Solution) -> String {
     text
 }
 
-/// What c_cnt found; under `unilateral` the same in its terms: ct the edge that a node faces, yt the gap along the normal, dy 1 where it
-/// is closed.
+/// What c_cnt found; under `unilateral` the same in its terms: ct the edge that a node faces, yt
+/// the gap along the normal, dy 1 where it is closed.
 fn found(model: &Model, step: &Step) -> Pairs<f64> {
     let step = match &step.detail {
         Detail::Published(step) => return step.pairs.clone(),
@@ -109,7 +110,8 @@ fn rows(matrix: &Table<f64>) -> String {
     text
 }
 
-/// The summary of every variant: iterations, then bodies. A float a line, for the tolerance is relative to the line.
+/// The summary of every variant: iterations, then bodies. A float a line, for the tolerance is
+/// relative to the line.
 #[test]
 fn summary_of_every_variant() {
     for scene in SCENES {

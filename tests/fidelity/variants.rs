@@ -105,7 +105,8 @@ fn tied_and_stepped_carry_the_load_to_the_target() {
     }
 }
 
-/// K5 on the paper's example: under `tied` the contact set ends in a cycle, under `stepped` it settles.
+/// K5 on the paper's example: under `tied` the contact set ends in a cycle, under `stepped` it
+/// settles.
 #[test]
 fn k5_tied_cycles_and_stepped_settles_on_the_strand() {
     let (_, tied) = solve("strand", Variant::Tied);
@@ -129,8 +130,8 @@ fn a_state_met_before_is_not_factored_again() {
     assert_eq!(published(of(18)).pairs, published(of(20)).pairs);
 }
 
-/// A mirror image of `fig1`: coordinates times `signs`, triangles turned back counter-clockwise, target edges running
-/// towards +x again, both surfaces in order of x.
+/// A mirror image of `fig1`: coordinates times `signs`, triangles turned back counter-clockwise,
+/// target edges running towards +x again, both surfaces in order of x.
 fn mirrored(signs: [f64; 2]) -> Scene {
     let mut scene = scene_json("fig1");
     for row in scene["node"].as_array_mut().unwrap() {
@@ -170,8 +171,9 @@ fn a_scene_mirrored_in_x_has_the_mirrored_answer() {
     }
 }
 
-/// C7 and K2: as printed the answer depends on the order of the contact nodes, for a target node keeps only the last one's
-/// number, and an element only the last weight. The image, whose nodes come in the other order, is no mirror image.
+/// C7 and K2: as printed the answer depends on the order of the contact nodes, for a target node
+/// keeps only the last one's number, and an element only the last weight. The image, whose nodes
+/// come in the other order, is no mirror image.
 #[test]
 fn c7_k2_a_scene_mirrored_in_x_has_another_answer_as_printed() {
     let (_, scene) = solve("fig1", Variant::Printed);
@@ -181,8 +183,9 @@ fn c7_k2_a_scene_mirrored_in_x_has_another_answer_as_printed() {
     assert!(difference.fold(0.0, f64::max) > 0.1 * scene.u.amax());
 }
 
-/// C4: the sign rule is one-sided. With the target below, node 2.4 is deep inside and is lost, and the separated node 2.3
-/// beside it is flagged; turn the scene upside down and it is the other way round.
+/// C4: the sign rule is one-sided. With the target below, node 2.4 is deep inside and is lost, and
+/// the separated node 2.3 beside it is flagged; turn the scene upside down and it is the other way
+/// round.
 #[test]
 fn c4_a_scene_mirrored_in_y_has_another_answer() {
     let (_, scene) = solve("fig1", Variant::Tied);
@@ -192,8 +195,8 @@ fn c4_a_scene_mirrored_in_y_has_another_answer() {
     assert_eq!(call.pairs.dy.as_slice(), [1, 1, 0, 1, 1]);
 }
 
-/// The residual of eq. (1) is measured on the target edge, not by the weights that were imposed: where a reading or a scene inflates
-/// them, it shows.
+/// The residual of eq. (1) is measured on the target edge, not by the weights that were imposed:
+/// where a reading or a scene inflates them, it shows.
 #[test]
 fn the_residual_of_eq_1_shows_inflated_weights() {
     let mut once = scene_json("fig1");
@@ -207,7 +210,8 @@ fn the_residual_of_eq_1_shows_inflated_weights() {
     assert!(published(&solution.steps[0]).eq1_residual > 1e-4);
 }
 
-/// Under R2 = printed `Km` takes other equations for restrained than S names; a force there stays a force.
+/// Under R2 = printed `Km` takes other equations for restrained than S names; a force there stays a
+/// force.
 #[test]
 fn r2_printed_holds_what_km_holds() {
     let mut scene = scene_json("fig1");

@@ -1,4 +1,5 @@
-//! The scalars beside exact rational numbers: double-double within its proven errors, exact numbers to the last bit.
+//! The scalars beside exact rational numbers: double-double within its proven errors, exact numbers
+//! to the last bit.
 
 use crate::common::tolerances::{DOUBLE_DOUBLE, Tolerance};
 use dashu_ratio::RBig;
@@ -18,7 +19,8 @@ fn float(range: i32) -> impl Strategy<Value = f64> {
         .prop_map(|(m, e, minus)| if minus { -m * 2f64.powi(e) } else { m * 2f64.powi(e) })
 }
 
-/// A double-double whose low half is anything from half a unit in the last place of the high one to 0.
+/// A double-double whose low half is anything from half a unit in the last place of the high one to
+/// 0.
 fn double_double(range: i32) -> impl Strategy<Value = F64x2> {
     (float(range), -1.0..1.0_f64, 0..60)
         .prop_map(|(hi, m, e)| F64x2::from_f64(hi) + F64x2::from_f64(hi * m * 2f64.powi(-53 - e)))
@@ -196,7 +198,8 @@ fn found<T: Scalar>(
     c_cnt(&sheet, reading, &sheet.node).map(|pairs| (pairs.ct, pairs.dy))
 }
 
-/// Listing failures are the same in every scalar: the smallest scenes of findings C3 (a vertical edge) and C10.
+/// Listing failures are the same in every scalar: the smallest scenes of findings C3 (a vertical
+/// edge) and C10.
 #[test]
 fn the_mirror_fails_at_the_same_line_in_every_scalar() {
     let mut failures = 0;

@@ -1,8 +1,9 @@
 //! The discretisation error bar against fields that are known exactly.
 //!
-//! GOAL: effectivity (estimated / true error in the energy norm) between 0.8 and 1.3; the largest von Mises stress within its bar.
-//! MESH: structured, three sizes, both cuts of a cell, uniform and distorted. BOUNDARY: the exact tractions of the field all
-//! around, three restraints against rigid motion, so that the field is the exact solution on the polygon that is meshed.
+//! GOAL: effectivity (estimated / true error in the energy norm) between 0.8 and 1.3; the largest
+//! von Mises stress within its bar. MESH: structured, three sizes, both cuts of a cell, uniform and
+//! distorted. BOUNDARY: the exact tractions of the field all around, three restraints against rigid
+//! motion, so that the field is the exact solution on the polygon that is meshed.
 
 mod fields;
 mod meshes;
@@ -147,7 +148,8 @@ fn effectivity_on_smooth_fields() {
     }
 }
 
-/// The bar holds the truth and is not wider than BAR_WIDTH times the true stress error in the triangle with the largest stress.
+/// The bar holds the truth and is not wider than BAR_WIDTH times the true stress error in the
+/// triangle with the largest stress.
 #[test]
 fn the_largest_von_mises_stress_lies_within_its_bar() {
     for m in BENCHMARKS.iter().flat_map(all_measured) {
@@ -173,8 +175,8 @@ fn random(seed: &mut u64) -> f64 {
     (*seed >> 33) as f64 / 2f64.powi(30) - 1.0
 }
 
-/// Linear and quadratic stresses drawn at random, on meshes from 24 triangles up: the bar is an estimate and may miss, but
-/// seldom, and hardly ever where the mesh is fair.
+/// Linear and quadratic stresses drawn at random, on meshes from 24 triangles up: the bar is an
+/// estimate and may miss, but seldom, and hardly ever where the mesh is fair.
 #[test]
 fn bars_of_random_fields() {
     let mut seed = 3;
@@ -266,12 +268,14 @@ fn a_constant_field_has_no_error() {
     }
 }
 
-/// Two layers of different E, pulled alike: the stress is constant in each and jumps between them, which is no error.
+/// Two layers of different E, pulled alike: the stress is constant in each and jumps between them,
+/// which is no error.
 #[test]
 fn stresses_are_not_averaged_across_materials() {
     let grid = Grid { cells: [4, 6], map: rectangle, cut: Cut::Alternating, distortion: 0.0 };
     let (points, triangles) = (grid.points(), grid.triangles());
-    // At x = 2, thirty times the force on the upper half; a third of an edge's force on each end would bend, a half does not.
+    // At x = 2, thirty times the force on the upper half; a third of an edge's force on each end
+    // would bend, a half does not.
     let force = |j: usize| match j {
         0 => 0.5,
         1 | 2 => 1.0,
@@ -323,7 +327,8 @@ fn the_error_of_a_lone_triangle_is_unknown() {
     assert_eq!(bar(1), f64::INFINITY);
 }
 
-/// The quadratic mean of the map is the relative error; on the paper's own example, whose bodies share no node.
+/// The quadratic mean of the map is the relative error; on the paper's own example, whose bodies
+/// share no node.
 #[test]
 fn error_map_of_the_strand() {
     let (_, solution) = solve_embedded("strand", Variant::Tied);

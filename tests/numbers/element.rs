@@ -25,7 +25,8 @@ fn linear(p: &Corners<f64>, a: [f64; 2], g: [[f64; 2]; 2]) -> SVector<f64, 6> {
 }
 
 proptest! {
-    /// Closed form: K of a triangle by its edge vectors, t/(4A) · (...), written out for one entry of each kind.
+    /// Closed form: K of a triangle by its edge vectors, t/(4A) · (...), written out for one entry
+    /// of each kind.
     #[test]
     fn stiffness_has_its_closed_form(p in triangle(), E in 1.0..1e6, nu in 0.0..0.45) {
         let d = D(Plane::Stress, E, nu);

@@ -1,4 +1,5 @@
-//! The bars of rounding: true bounds, and not absurdly wide ones, on every rung; the numbers of `unilateral` beside exact ones.
+//! The bars of rounding: true bounds, and not absurdly wide ones, on every rung; the numbers of
+//! `unilateral` beside exact ones.
 
 use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{BAR_WIDTH_OF_ROUNDING, Tolerance};
@@ -25,7 +26,8 @@ fn off(u: &DVector<f64>, v: &DVector<f64>) -> f64 {
     (u - v).amax()
 }
 
-/// That `bound` holds `error`, and is at most 1,000 times as wide as it or as half a unit in the last place of `scale`.
+/// That `bound` holds `error`, and is at most 1,000 times as wide as it or as half a unit in the
+/// last place of `scale`.
 fn assert_bound(what: &str, bound: f64, error: f64, scale: f64) {
     assert!(error <= bound, "{what}: error {error:e} is beyond its bound {bound:e}");
     let Tolerance { limit, reason } = BAR_WIDTH_OF_ROUNDING;
@@ -68,7 +70,8 @@ fn the_bar_of_rounding_holds_on_every_rung() {
     assert!(held > 50, "only {held} runs could be compared");
 }
 
-/// Displacements of the last contact state of `unilateral`, its normals and weights taken as they stand, in rational numbers.
+/// Displacements of the last contact state of `unilateral`, its normals and weights taken as they
+/// stand, in rational numbers.
 fn exact_state(solution: &Solution) -> DVector<f64> {
     let model = &*solution.model;
     scope(|| {

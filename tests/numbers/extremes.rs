@@ -1,4 +1,5 @@
-//! The extremes: the whole table against its golden file, and what must not happen in any of its cells.
+//! The extremes: the whole table against its golden file, and what must not happen in any of its
+//! cells.
 
 use std::sync::LazyLock;
 
@@ -31,8 +32,10 @@ fn moved(by: f64) -> Vec<Measured> {
     measured
 }
 
-/// Whether a table is the golden one. `tables`: it, and what it would be with a little fewer and a little more right digits. Cells are apart by two
-/// blanks or more. Each is to the letter that of one of the three, or a power of ten within a tolerance; the first of a line, its name, to the letter.
+/// Whether a table is the golden one. `tables`: it, and what it would be with a little fewer and a
+/// little more right digits. Cells are apart by two blanks or more. Each is to the letter that of
+/// one of the three, or a power of ten within a tolerance; the first of a line, its name, to the
+/// letter.
 fn same_table(golden: &str, tables: [&str; 3]) -> bool {
     let lines = |text: &str| text.trim_end().lines().map(cells).collect::<Vec<_>>();
     let (golden, tables) = (lines(golden), tables.map(lines));
@@ -84,7 +87,8 @@ fn a_table_differs_by_words_and_by_more_than_half_a_digit() {
     }
 }
 
-/// A digit and a half off in every cell is another table, and so is a golden one whose kinds are others.
+/// A digit and a half off in every cell is another table, and so is a golden one whose kinds are
+/// others.
 #[test]
 fn a_table_that_is_off_is_told() {
     let [fewer, table, more] = [1.0, 1.5, 2.0].map(|by| report::text(&moved(by)));
@@ -111,8 +115,9 @@ fn nothing_is_ever_nan() {
     }
 }
 
-/// Whatever the published variants compute in f64 and f64x2 is right or refused, but where a duplicate inflates weights and where a
-/// tolerance of the bodies' own size pairs nodes with edges that they do not face.
+/// Whatever the published variants compute in f64 and f64x2 is right or refused, but where a
+/// duplicate inflates weights and where a tolerance of the bodies' own size pairs nodes with edges
+/// that they do not face.
 #[test]
 fn published_variants_are_right_or_refused() {
     for of in MEASURED.iter().filter(|of| !["tolerance", "surfaces"].contains(&of.name)) {
@@ -136,7 +141,8 @@ fn underflow_is_met() {
     }
 }
 
-/// C3: near the vertical the printed formulas lose a digit a decade, and projection on the edge loses none.
+/// C3: near the vertical the printed formulas lose a digit a decade, and projection on the edge
+/// loses none.
 #[test]
 fn c3_projection_does_not_feel_the_angle() {
     for (angle, verdict) in column("steep-edge", "projected weight f64") {

@@ -1,4 +1,5 @@
-//! One solve on several rungs: each against exact numbers, and the bound on the error against the error.
+//! One solve on several rungs: each against exact numbers, and the bound on the error against the
+//! error.
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
@@ -99,7 +100,8 @@ fn both_exact_solvers_give_the_same_digits() {
     }
 }
 
-/// GOAL: uniaxial strain of two blocks under pressure p, as written in decimals: v = −p h (1 + nu) (1 − 2 nu) / (E (1 − nu)) of each.
+/// GOAL: uniaxial strain of two blocks under pressure p, as written in decimals: v = −p h (1 + nu)
+/// (1 − 2 nu) / (E (1 − nu)) of each.
 #[test]
 fn two_blocks_in_decimals_is_its_closed_form_exactly() {
     let scene = Scene::open("two-blocks").unwrap();
@@ -114,7 +116,8 @@ fn two_blocks_in_decimals_is_its_closed_form_exactly() {
     let expected = -(shortening("30000", "0.2") + shortening("210000", "0.3"));
     let top = &solution.digits.unwrap()[NodeId::from_number(18).y().index()];
     assert_eq!(*top, expected);
-    // The stress is p nu / (1 − nu) across and p along: von Mises 6.3 (1 − 2 nu) / (1 − nu), plane strain.
+    // The stress is p nu / (1 − nu) across and p along: von Mises 6.3 (1 − 2 nu) / (1 − nu), plane
+    // strain.
     let mises =
         number("6.3") * (RBig::ONE - RBig::from(2) * number("0.2")) / (RBig::ONE - number("0.2"));
     assert_eq!(solution.elements[0].von_mises_stress, mises.to_f64().value());
@@ -156,8 +159,8 @@ fn bound_holds(scene: &Scene, variant: Variant) -> bool {
     true
 }
 
-/// `two-blocks` with its nodes moved by up to a fifth of its edges; those of the interface together and along it, so that they stay in
-/// contact.
+/// `two-blocks` with its nodes moved by up to a fifth of its edges; those of the interface together
+/// and along it, so that they stay in contact.
 fn disturbed(moves: &[[f64; 2]], moduli: [f64; 2], nu: [f64; 2]) -> Scene {
     let mut json = scene_json("two-blocks");
     for (k, [dx, dy]) in moves.iter().enumerate() {

@@ -167,11 +167,13 @@ fn the_published_algorithm_failing_is_exit_status_3() {
     assert!(!folder.path().join("out").exists(), "nothing is written");
 }
 
-/// A stamp that touches nothing and that nothing holds in y: the matrix of the first iteration is singular.
+/// A stamp that touches nothing and that nothing holds in y: the matrix of the first iteration is
+/// singular.
 #[test]
 fn a_singular_matrix_is_exit_status_3() {
     let folder = TempDir::new().unwrap();
-    // Without a tolerance line 16 flags no node (C8), and with node 2.4 above the target nor do lines 17 and 18.
+    // Without a tolerance line 16 flags no node (C8), and with node 2.4 above the target nor do
+    // lines 17 and 18.
     let scene = include_str!("../../golden/fig1/scene.json")
         .replace("\"c_tll\": 0.001", "\"c_tll\": 0.0")
         .replace("[8, 2.3, 0.032,", "[8, 2.3, 0.038,");
@@ -202,7 +204,7 @@ fn bad_input_is_exit_status_2_and_loses_no_file() {
     succeeds(folder.path(), &["solve", "two-blocks", "--out", "kept"]);
     let kept = std::fs::read(folder.path().join("kept/result.json")).unwrap();
     std::fs::write(folder.path().join("bad.json"), "{ \"plane\": 3 }").unwrap();
-    fails(folder.path(), &["solve", "bad.json", "--out", "kept"], 2, &["field plane", "mend"]);
+    fails(folder.path(), &["solve", "bad.json", "--out", "kept"], 2, &["field plane", "fix"]);
     assert_eq!(std::fs::read(folder.path().join("kept/result.json")).unwrap(), kept);
     std::fs::write(folder.path().join("file"), "").unwrap();
     fails(folder.path(), &["solve", "fig1", "--out", "file"], 2, &["cannot be written"]);
@@ -264,7 +266,8 @@ fn trace_shows_what_each_line_read_and_wrote() {
     fails(folder.path(), &["trace", "fig1", "--node", "1"], 2, &["node 1 is no contact node"]);
 }
 
-/// An edited listing runs on the same scene; what it changes is told. Line 18 without its slip on the sign, for example.
+/// An edited listing runs on the same scene; what it changes is told. Line 18 without its slip on
+/// the sign, for example.
 #[test]
 fn trace_runs_an_edited_listing() {
     let folder = TempDir::new().unwrap();
@@ -317,7 +320,8 @@ fn trace_runs_an_edited_listing() {
     );
 }
 
-/// Edits that end in something else than the paper's listing does, that never end, or that are no listing: errors, no panic.
+/// Edits that end in something else than the paper's listing does, that never end, or that are no
+/// listing: errors, no panic.
 #[test]
 fn trace_survives_hostile_listings() {
     let folder = TempDir::new().unwrap();

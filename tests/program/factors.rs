@@ -1,4 +1,5 @@
-//! What the plan says of the sparse factors, against numbers worked out by hand, and against what the solver does.
+//! What the plan says of the sparse factors, against numbers worked out by hand, and against what
+//! the solver does.
 
 use std::cell::Cell;
 
@@ -16,9 +17,11 @@ fn planned(scene: &Scene, solver: Solver) -> FactorSize {
     Plan::new(&request).expect("the scene is sound").factors
 }
 
-/// fig1 by hand, contact left out. Of the block, nodes 1 to 4 have two equations each, and three sides between them: a chain. Of the stamp, 5 to 9
-/// have two, 12 and 13 one, and eleven sides between them: a strip of triangles. A node of two equations has 3 entries, one of one 1; a side 4, 2
-/// or 1. Eliminated from its ends neither fills anything in: columns of 4 and 3 three times, then 2, 1; of 5 and 4 four times, then 4, 3, 2, 1.
+/// fig1 by hand, contact left out. Of the block, nodes 1 to 4 have two equations each, and three
+/// sides between them: a chain. Of the stamp, 5 to 9 have two, 12 and 13 one, and eleven sides
+/// between them: a strip of triangles. A node of two equations has 3 entries, one of one 1; a side
+/// 4, 2 or 1. Eliminated from its ends neither fills anything in: columns of 4 and 3 three times,
+/// then 2, 1; of 5 and 4 four times, then 4, 3, 2, 1.
 #[test]
 fn the_factors_of_fig1_are_those_worked_out_by_hand() {
     let fig1 = Scene::open("fig1").expect("embedded");
@@ -66,8 +69,9 @@ impl Field for Counting {
     }
 }
 
-/// What the sparse solver does with the matrix under `constraints`. Of a column of L with c entries it divides c − 1, and subtracts c (c − 1) / 2
-/// products from what is left of the matrix; with the pivot that is (c − 1) + 2 · c (c − 1) / 2 + 1 = c² operations.
+/// What the sparse solver does with the matrix under `constraints`. Of a column of L with c entries
+/// it divides c − 1, and subtracts c (c − 1) / 2 products from what is left of the matrix; with the
+/// pivot that is (c − 1) + 2 · c (c − 1) / 2 + 1 = c² operations.
 fn factored(model: &Model, constraints: &[Constraint]) -> FactorSize {
     let t = Elimination::new(&model.restrained, constraints);
     let matrix = Stiffness::new(model, |x| x).reduced(&t);
@@ -94,7 +98,8 @@ fn what_is_predicted_is_what_the_solver_factors() {
     }
 }
 
-/// In contact at the end: of fig1 nodes 5, 6, 7 and 9, two equations each; of two-blocks 10 and 12, held in x, and 11.
+/// In contact at the end: of fig1 nodes 5, 6, 7 and 9, two equations each; of two-blocks 10 and 12,
+/// held in x, and 11.
 #[test]
 fn a_node_in_contact_takes_its_own_equations_out() {
     for (name, taken) in [("fig1", 8), ("two-blocks", 4)] {

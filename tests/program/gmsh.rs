@@ -1,4 +1,5 @@
-//! Gmsh's mesh files: one mesh in every encoding, against what meshio reads; faulty files; random damage.
+//! Gmsh's mesh files: one mesh in every encoding, against what meshio reads; faulty files; random
+//! damage.
 
 use std::fs;
 

@@ -1,4 +1,5 @@
-//! The plan of a run: counts are exact, estimates grow with what is asked, nothing that could be left out is passed over.
+//! The plan of a run: counts are exact, estimates grow with what is asked, nothing that could be
+//! left out is passed over.
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
@@ -34,8 +35,8 @@ fn equations_are_counted() {
     }
 }
 
-/// fig1: x = 0.3 and 2.8 lie within half an edge of one edge, 1.2, 1.7 and 2.3 of two. two-blocks: an end node meets one edge, the middle
-/// one two.
+/// fig1: x = 0.3 and 2.8 lie within half an edge of one edge, 1.2, 1.7 and 2.3 of two. two-blocks:
+/// an end node meets one edge, the middle one two.
 #[test]
 fn candidates_are_those_whose_boxes_overlap() {
     let fig1 = plan("fig1", Variant::Stepped).contact.expect("fig1 has contact").candidates;
@@ -146,7 +147,8 @@ fn as_printed_no_load_reaches_the_block() {
     assert_eq!(idle, [Some(Idle::NotCoupled), None]);
 }
 
-/// The line of fig1: 5 dense factorisations and 3 sparse ones of the converged answer, 5 · 5333 + 3 · 274 operations.
+/// The line of fig1: 5 dense factorisations and 3 sparse ones of the converged answer, 5 · 5333 + 3
+/// · 274 operations.
 #[test]
 fn the_line_says_what_is_planned() {
     let text = line(&plan("fig1", Variant::Stepped));

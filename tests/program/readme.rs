@@ -4,8 +4,8 @@ use plane_contact::answer::Assessment;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Variant};
 use plane_contact::{Request, Scene, Solution, solve};
 
-/// The row's cells behind its words: contact nodes at the end, load that reaches the block, largest von
-/// Mises stress of block and stamp, error against the reference solution in the energy norm.
+/// The row's cells behind its words: contact nodes at the end, load that reaches the block, largest
+/// von Mises stress of block and stamp, error against the reference solution in the energy norm.
 fn cells(request: &Request) -> String {
     let solution = solve(request, &mut |_| ()).expect("the variant runs");
     let assessment = Assessment::new(&solution);

@@ -1,4 +1,5 @@
-//! Scenes that are refused: what is wrong, where, and how to mend it; and the forms that a scene may take.
+//! Scenes that are refused: what is wrong, where, and how to fix it; and the forms that a scene may
+//! take.
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
@@ -24,7 +25,7 @@ fn says(error: &InputError, place: &str, words: &[&str]) {
     for word in words {
         assert!(error.what.contains(word), "{word:?} is missing: {error}");
     }
-    assert!(!error.mend.is_empty());
+    assert!(!error.fix.is_empty());
 }
 
 /// The paper's tables of a scene.
@@ -124,7 +125,7 @@ fn materials() {
     says(&e, "materials", &["triangle 14 has no material"]);
     let e = refused(|s| s["materials"]["3"] = json!({ "E": 1.0, "nu": 0.0 }));
     says(&e, "materials.3", &["no physical group \"3\" of triangles"]);
-    assert!(e.mend.contains("the mesh's groups of triangles are 1, 2"), "{e}");
+    assert!(e.fix.contains("the mesh's groups of triangles are 1, 2"), "{e}");
     let mut stress = scene_json("fig1");
     stress["plane"] = json!("stress");
     stress["materials"]["1"]["nu"] = json!(0.7);
@@ -216,7 +217,8 @@ fn bodies_that_nothing_holds() {
     build(&held).expect("three restraints hold a body");
 }
 
-/// A node in no triangle is named, and dropped only where the scene says so; the scene's node numbers follow.
+/// A node in no triangle is named, and dropped only where the scene says so; the scene's node
+/// numbers follow.
 #[test]
 fn orphans() {
     let add = |s: &mut Value| {
@@ -251,7 +253,8 @@ fn orphans() {
     );
 }
 
-/// Pressure pushes into the body whatever way the edge runs; thickness multiplies load and stiffness.
+/// Pressure pushes into the body whatever way the edge runs; thickness multiplies load and
+/// stiffness.
 #[test]
 fn loads_are_consistent_and_pressure_pushes_inwards() {
     let mut scene = scene_json("fig1");

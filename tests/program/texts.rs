@@ -1,7 +1,7 @@
 //! What users read, under snapshot: the texts of commands on fixed scenes, and every page of help.
 //!
-//! Words are exact. A number may differ by one in its last printed digit, and is not compared where it
-//! is rounding itself (below 1e-9): residuals and what rounding does to a displacement.
+//! Words are exact. A number may differ by one in its last printed digit, and is not compared where
+//! it is rounding itself (below 1e-9): residuals and what rounding does to a displacement.
 
 use std::path::Path;
 use std::process::Command;

@@ -145,15 +145,15 @@ pub fn restrained_bodies(model: &Model) -> Result<(), InputError> {
     for body in alone {
         if let Some(freedom) = model::freedom(model, &body.nodes) {
             let what =
-                format!("body {:?} is held by no contact and can still {freedom}", body.name);
-            let fix = "hold it, or give it a contact surface";
+                format!("body {:?} is restrained by no contact and can still {freedom}", body.name);
+            let fix = "restrain it, or give it a contact surface";
             return Err(InputError::new("restraints", what, fix));
         }
     }
     let nodes: Vec<NodeId> = joined.iter().flat_map(|body| body.nodes.iter().copied()).collect();
     if let Some(freedom) = model::freedom(model, &nodes).filter(|_| !joined.is_empty()) {
         let what = format!("the bodies that contact joins can still {freedom}, all together");
-        return Err(InputError::new("restraints", what, "hold one of them"));
+        return Err(InputError::new("restraints", what, "restrain one of them"));
     }
     Ok(())
 }

@@ -81,7 +81,8 @@ fn cantilever([x, y]: [f64; 2]) -> Stress {
     Stress::new(-(8.0 - x) * y / i, 0.0, (1.0 - y * y) / (2.0 * i))
 }
 
-/// Linear stresses, of a cubic Airy function, on a rectangle 2 x 1; von Mises stress, a seminorm, is largest at a corner.
+/// Linear stresses, of a cubic Airy function, on a rectangle 2 x 1; von Mises stress, a seminorm,
+/// is largest at a corner.
 pub const LINEAR: Field<'static> =
     Field { plane: Plane::Strain, e: 500.0, nu: 0.35, stress: &linear, peak: [2.0, 0.0] };
 
@@ -97,8 +98,8 @@ fn constant(_: [f64; 2]) -> Stress {
     Stress::new(3.0, -1.0, 0.7)
 }
 
-/// Stresses of the Airy function of degree 3 and 4 that eight coefficients give: x³, x²y, xy², y³, x⁴, x³y, xy³, y⁴; the ninth, of
-/// x²y², follows from ∇⁴ = 0.
+/// Stresses of the Airy function of degree 3 and 4 that eight coefficients give: x³, x²y, xy², y³,
+/// x⁴, x³y, xy³, y⁴; the ninth, of x²y², follows from ∇⁴ = 0.
 pub fn polynomial(k: [f64; 8], [x, y]: [f64; 2]) -> Stress {
     let even = -3.0 * (k[4] + k[7]);
     Stress::new(

@@ -79,7 +79,8 @@ impl Grid {
         (0..ny).flat_map(|j| (0..nx).flat_map(move |i| cell(i, j))).collect()
     }
 
-    /// The scene of `field`: the exact tractions as loads, and three restraints against rigid motion.
+    /// The scene of `field`: the exact tractions as loads, and three restraints against rigid
+    /// motion.
     pub fn scene(&self, field: &Field, thickness: f64) -> Scene {
         let (points, triangles) = (self.points(), self.triangles());
         let forces = tractions(field, &points, &triangles, thickness);
