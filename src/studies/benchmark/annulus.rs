@@ -1,35 +1,29 @@
 //! A thick-walled cylinder under internal pressure: Lamé.
 
 use super::line::{part, quarter};
+use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, scene};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// Lame: a quarter of a thick-walled cylinder under internal pressure.
-///
-/// Radii 10 and 20 mm, 10 MPa inside, E = 30000 MPa, nu = 0.2, plane strain. At the bore: u =
-/// 0.00613333 mm, hoop stress 16.6667 MPa.
-///
-/// Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 28.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(after_help = "\
+parameters! {
+    /// Lame: a quarter of a thick-walled cylinder under internal pressure.
+    ///
+    /// Radii 10 and 20 mm, 10 MPa inside, E = 30000 MPa, nu = 0.2, plane strain. At the bore: u =
+    /// 0.00613333 mm, hoop stress 16.6667 MPa.
+    ///
+    /// Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 28.
+    #[command(after_help = "\
 Examples:
   plane-contact mesh annulus
   plane-contact mesh annulus --radial 32 --around 64")]
-pub struct Annulus {
-    /// Divisions through the wall.
-    #[arg(long, default_value_t = Annulus::default().radial)]
-    pub radial: usize,
-    /// Divisions around the quarter.
-    #[arg(long, default_value_t = Annulus::default().around)]
-    pub around: usize,
-}
-
-impl Default for Annulus {
-    fn default() -> Self {
-        Annulus { radial: 8, around: 16 }
+    Annulus {
+        /// Divisions through the wall.
+        radial: usize = 8,
+        /// Divisions around the quarter.
+        around: usize = 16,
     }
 }
 

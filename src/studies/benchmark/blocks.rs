@@ -1,33 +1,27 @@
 //! Two stacked blocks under uniform pressure: the contact patch test.
 
 use super::line::part;
+use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, frictionless, scene};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// Contact patch test: two stacked blocks, sigma_y = -6.3 MPa everywhere.
-///
-/// Each 50 x 25 mm, E = 30000 MPa, nu = 0.2, plane strain: von Mises 5.774 MPa, top displacement
-/// -0.010080 mm.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(after_help = "\
+parameters! {
+    /// Contact patch test: two stacked blocks, sigma_y = -6.3 MPa everywhere.
+    ///
+    /// Each 50 x 25 mm, E = 30000 MPa, nu = 0.2, plane strain: von Mises 5.774 MPa, top
+    /// displacement -0.010080 mm.
+    #[command(after_help = "\
 Examples:
   plane-contact mesh blocks
   plane-contact mesh blocks --upper 10 --lower 10      matching nodes")]
-pub struct Blocks {
-    /// Divisions of the upper block along the contact line.
-    #[arg(long, default_value_t = Blocks::default().upper)]
-    pub upper: usize,
-    /// Divisions of the lower block along the contact line.
-    #[arg(long, default_value_t = Blocks::default().lower)]
-    pub lower: usize,
-}
-
-impl Default for Blocks {
-    fn default() -> Self {
-        Blocks { upper: 7, lower: 10 }
+    Blocks {
+        /// Divisions of the upper block along the contact line.
+        upper: usize = 7,
+        /// Divisions of the lower block along the contact line.
+        lower: usize = 10,
     }
 }
 

@@ -1,33 +1,28 @@
 //! Cook's membrane.
 
 use super::line::{between, part};
+use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, scene};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// Cook's membrane: a tapered cantilever under a shear load of 1 on its right edge.
-///
-/// Corners (0, 0), (48, 44), (48, 60), (0, 44); E = 1, nu = 1/3, plane stress. Vertical
-/// displacement of (48, 52): 23.96 in the limit.
-///
-/// Source: R. D. Cook, "Improved two-dimensional finite element", J. Struct. Div. ASCE 100 (1974)
-/// 1851-1863.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(after_help = "\
+parameters! {
+    /// Cook's membrane: a tapered cantilever under a shear load of 1 on its right edge.
+    ///
+    /// Corners (0, 0), (48, 44), (48, 60), (0, 44); E = 1, nu = 1/3, plane stress. Vertical
+    /// displacement of (48, 52): 23.96 in the limit.
+    ///
+    /// Source: R. D. Cook, "Improved two-dimensional finite element", J. Struct. Div. ASCE 100
+    /// (1974) 1851-1863.
+    #[command(after_help = "\
 Examples:
   plane-contact mesh cook
   plane-contact mesh cook --n 32")]
-pub struct Cook {
-    /// Divisions of each side; (48, 52) is a node where it is even.
-    #[arg(long, default_value_t = Cook::default().n)]
-    pub n: usize,
-}
-
-impl Default for Cook {
-    fn default() -> Self {
-        Cook { n: 16 }
+    Cook {
+        /// Divisions of each side; (48, 52) is a node where it is even.
+        n: usize = 16,
     }
 }
 

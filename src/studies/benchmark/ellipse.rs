@@ -1,32 +1,27 @@
 //! The elliptic membrane, NAFEMS LE1.
 
 use super::line::{between, part, quarter};
+use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, scene};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// NAFEMS LE1: a quarter of an elliptic membrane under outward pressure.
-///
-/// Inner ellipse 2 x 1 m, outer 3.25 x 2.75 m, thickness 0.1 m, 10 MPa outward on the outer edge, E
-/// = 210000 MPa, nu = 0.3, plane stress. sigma_y = 92.7 MPa at (2, 0).
-///
-/// Source: NAFEMS, The Standard NAFEMS Benchmarks, TNSB rev. 3, 1990, test LE1.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(after_help = "\
+parameters! {
+    /// NAFEMS LE1: a quarter of an elliptic membrane under outward pressure.
+    ///
+    /// Inner ellipse 2 x 1 m, outer 3.25 x 2.75 m, thickness 0.1 m, 10 MPa outward on the outer
+    /// edge, E = 210000 MPa, nu = 0.3, plane stress. sigma_y = 92.7 MPa at (2, 0).
+    ///
+    /// Source: NAFEMS, The Standard NAFEMS Benchmarks, TNSB rev. 3, 1990, test LE1.
+    #[command(after_help = "\
 Examples:
   plane-contact mesh ellipse
   plane-contact mesh ellipse --n 64")]
-pub struct Ellipse {
-    /// Divisions between the ellipses and along each of them.
-    #[arg(long, default_value_t = Ellipse::default().n)]
-    pub n: usize,
-}
-
-impl Default for Ellipse {
-    fn default() -> Self {
-        Ellipse { n: 16 }
+    Ellipse {
+        /// Divisions between the ellipses and along each of them.
+        n: usize = 16,
     }
 }
 

@@ -3,36 +3,31 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::line::{geometric, quarter};
+use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, scene};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// Kirsch: a circular hole in an infinite sheet under unit tension in x.
-///
-/// Hole of radius 1, E = 1000, nu = 0.3, plane stress. A quarter of the sheet is cut out along a
-/// circle, and each outer edge carries the traction of the closed form at its middle: the sheet is
-/// infinite at any outer radius. At the hole sigma_x = 3 at (0, 1) and sigma_y = -1 at (1, 0).
-///
-/// Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 35.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(after_help = "\
+parameters! {
+    /// Kirsch: a circular hole in an infinite sheet under unit tension in x.
+    ///
+    /// Hole of radius 1, E = 1000, nu = 0.3, plane stress. A quarter of the sheet is cut out along
+    /// a circle, and each outer edge carries the traction of the closed form at its middle: the
+    /// sheet is infinite at any outer radius. At the hole sigma_x = 3 at (0, 1) and sigma_y = -1 at
+    /// (1, 0).
+    ///
+    /// Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 35.
+    #[command(after_help = "\
 Examples:
   plane-contact mesh hole
   plane-contact mesh hole --around 64 --outer 20")]
-pub struct Hole {
-    /// Divisions around the quarter; cells are near square.
-    #[arg(long, default_value_t = Hole::default().around)]
-    pub around: usize,
-    /// Radius at which the sheet is cut, in radii of the hole.
-    #[arg(long, default_value_t = Hole::default().outer)]
-    pub outer: f64,
-}
-
-impl Default for Hole {
-    fn default() -> Self {
-        Hole { around: 16, outer: 5.0 }
+    Hole {
+        /// Divisions around the quarter; cells are near square.
+        around: usize = 16,
+        /// Radius at which the sheet is cut, in radii of the hole.
+        outer: f64 = 5.0,
     }
 }
 

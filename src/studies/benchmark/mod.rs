@@ -21,6 +21,7 @@ mod ellipse;
 mod hertz;
 mod hole;
 mod line;
+mod parameters;
 mod punch;
 mod punch_patch;
 mod rows;

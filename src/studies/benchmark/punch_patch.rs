@@ -1,41 +1,34 @@
 //! The contact patch test of Taylor and Papadopoulos.
 
 use super::line::part;
+use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, frictionless, scene};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// Taylor and Papadopoulos' contact patch test: a punch on the middle of a wider foundation, one
-/// pressure on both.
-///
-/// Foundation 8 x 5, punch 2 x 2, E = 1000, nu = 0.4, plane strain. The pressure acts on the
-/// punch's top and on what the punch leaves free of the foundation's top, so sigma_y = -pressure
-/// everywhere and nothing else but sigma_z.
-///
-/// Source: R. L. Taylor, P. Papadopoulos, "On a patch test for contact problems in two dimensions",
-/// in Computational Methods in Nonlinear Mechanics, Springer, 1991.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(after_help = "\
+parameters! {
+    /// Taylor and Papadopoulos' contact patch test: a punch on the middle of a wider foundation,
+    /// one pressure on both.
+    ///
+    /// Foundation 8 x 5, punch 2 x 2, E = 1000, nu = 0.4, plane strain. The pressure acts on the
+    /// punch's top and on what the punch leaves free of the foundation's top, so sigma_y =
+    /// -pressure everywhere and nothing else but sigma_z.
+    ///
+    /// Source: R. L. Taylor, P. Papadopoulos, "On a patch test for contact problems in two
+    /// dimensions", in Computational Methods in Nonlinear Mechanics, Springer, 1991.
+    #[command(after_help = "\
 Examples:
   plane-contact mesh punch-patch
   plane-contact mesh punch-patch --punch 4 --foundation 4      matching nodes")]
-pub struct PunchPatch {
-    /// Divisions of the punch along the contact line, even.
-    #[arg(long, default_value_t = PunchPatch::default().punch)]
-    pub punch: usize,
-    /// Divisions of the foundation below the punch, even.
-    #[arg(long, default_value_t = PunchPatch::default().foundation)]
-    pub foundation: usize,
-    /// The pressure.
-    #[arg(long, default_value_t = PunchPatch::default().pressure)]
-    pub pressure: f64,
-}
-
-impl Default for PunchPatch {
-    fn default() -> Self {
-        PunchPatch { punch: 6, foundation: 4, pressure: 1.0 }
+    PunchPatch {
+        /// Divisions of the punch along the contact line, even.
+        punch: usize = 6,
+        /// Divisions of the foundation below the punch, even.
+        foundation: usize = 4,
+        /// The pressure.
+        pressure: f64 = 1.0,
     }
 }
 

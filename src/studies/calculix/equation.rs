@@ -3,21 +3,12 @@
 use crate::answer::{Constraint, Motion, Step};
 use crate::problem::model::{Dof, Model, NodeId};
 
-/// A coefficient on one displacement.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Term {
-    /// The displacement.
-    pub dof: Dof,
-    /// Its coefficient.
-    pub coefficient: f64,
-}
-
 /// Σ coefficient · displacement = constant. The first term is the dependent one: its displacement
 /// is not restrained, and no other equation has it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equation {
-    /// The terms, the dependent one first.
-    pub terms: Vec<Term>,
+    /// The displacements and their coefficients, the dependent one first.
+    pub terms: Vec<(Dof, f64)>,
     /// The right-hand side, length.
     pub constant: f64,
 }
@@ -32,17 +23,15 @@ impl Equation {
     /// The equations of a constraint: one along its normal, or one in each direction in which its
     /// node is not restrained.
     pub fn of_constraint(model: &Model, constraint: &Constraint) -> Vec<Equation> {
+        let along = |normal, shift| Equation::along(model, constraint, normal, shift);
         match constraint.motion {
-            Motion::Along(normal, shift) => {
-                vec![Equation::along(model, constraint, normal, shift)]
+            Motion::Along(normal, shift) => vec![along(normal, shift)],
+            Motion::Both([x, y]) => {
+                let [fixed_x, fixed_y] = model.restraints_of(constraint.node);
+                let in_x = (!fixed_x).then(|| along([1.0, 0.0], x));
+                let in_y = (!fixed_y).then(|| along([0.0, 1.0], y));
+                in_x.into_iter().chain(in_y).collect()
             }
-            Motion::Both(shift) => [[1.0, 0.0], [0.0, 1.0]]
-                .into_iter()
-                .zip(shift)
-                .zip(constraint.node.dofs())
-                .filter(|(_, dof)| !model.is_restrained(*dof))
-                .map(|((normal, shift), _)| Equation::along(model, constraint, normal, shift))
-                .collect(),
         }
     }
 
@@ -52,12 +41,9 @@ impl Equation {
         let larger = usize::from(normal[1].abs() > normal[0].abs());
         let directions = [larger, 1 - larger].into_iter().filter(|&d| normal[d] != 0.0);
         let of_node = |node: NodeId, weight: f64| {
-            directions.clone().map(move |direction| Term {
-                dof: node.dofs()[direction],
-                coefficient: weight * normal[direction],
-            })
+            directions.clone().map(move |d| (node.dofs()[d], weight * normal[d]))
         };
-        let own = of_node(constraint.node, 1.0).filter(|term| !model.is_restrained(term.dof));
+        let own = of_node(constraint.node, 1.0).filter(|(dof, _)| !model.is_restrained(*dof));
         let masters = constraint.masters.iter().filter(|(_, weight)| *weight != 0.0);
         let masters = masters.flat_map(|&(master, weight)| of_node(master, -weight));
         Equation { terms: own.chain(masters).collect(), constant }
@@ -79,7 +65,7 @@ mod tests {
         let masters = masters.map(|(number, weight)| (NodeId::from_number(number), weight));
         let node = NodeId::from_number(node);
         let constraint = Constraint { node, masters: masters.to_vec(), motion };
-        let term = |t: &Term| (t.dof.node().number(), t.dof.direction(), t.coefficient);
+        let term = |(dof, x): &(Dof, f64)| (dof.node().number(), dof.direction(), *x);
         let plain = |e: &Equation| (e.terms.iter().map(term).collect(), e.constant);
         let scene = Scene::open("two-blocks").unwrap();
         Equation::of_constraint(&scene.model, &constraint).iter().map(plain).collect()

@@ -19,39 +19,39 @@ choices! {
     }
 }
 
-/// What a deck describes.
+/// The problem that a deck describes.
 pub struct Problem<'a> {
     /// The scene, which gives the title.
     pub scene: &'a Scene,
     /// The scene's model under the reading that was asked for.
     pub model: &'a Model,
-    /// How the bodies touch.
+    /// How the bodies touch in the deck.
     pub contact: &'a Contact,
 }
 
 /// How the bodies touch.
 #[derive(Clone, Debug)]
 pub enum Contact {
-    /// These equations hold.
+    /// By these equations, which `ccx` satisfies.
     Equations(Vec<Equation>),
     /// `ccx` looks for contact itself.
     Pair(Pair),
 }
 
-/// A contact pair.
+/// A contact pair of `ccx`, node to surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
     /// Pressure over penetration, stress/length.
     pub penalty: f64,
-    /// Friction.
+    /// Whether nodes in contact slide or stick.
     pub friction: Friction,
 }
 
 /// One of the problems whose sum is a run: the whole load on one contact state.
 pub struct Part {
-    /// How the bodies touch.
+    /// How the bodies touch in it.
     pub contact: Contact,
-    /// Its share of the run.
+    /// Its share of the run, from 0 to 1.
     pub share: f64,
 }
 
@@ -64,9 +64,10 @@ impl Contact {
     /// The variant is `printed`, which constrains nothing.
     pub fn parts(solution: &Solution) -> Result<Vec<Part>, InputError> {
         if solution.request.variant == Variant::Printed {
-            let what = "the variant printed adds stiffness and ties nothing: there are no equations to write";
-            let mend = "choose tied, stepped or unilateral, or --contact pair";
-            return Err(InputError::new("--variant", what, mend));
+            let what = "the variant printed adds stiffness and ties nothing: there are no \
+                        equations to write";
+            let fix = "choose tied, stepped or unilateral, or --contact pair";
+            return Err(InputError::new("--variant", what, fix));
         }
         let steps = solution.steps.len();
         let carried = match solution.request.schedule() {
@@ -77,8 +78,8 @@ impl Contact {
         let mut states: Vec<(Vec<Equation>, f64)> = Vec::new();
         for step in &solution.steps[carried] {
             let equations = Equation::of_step(&solution.model, step);
-            let met = states.iter().position(|(other, _)| *other == equations);
-            let before = met.map_or(0.0, |k| states.remove(k).1);
+            let same = states.iter().position(|(other, _)| *other == equations);
+            let before = same.map_or(0.0, |k| states.remove(k).1);
             states.push((equations, before + share));
         }
         let part = |(equations, share)| Part { contact: Contact::Equations(equations), share };
@@ -105,13 +106,12 @@ impl Pair {
 
 /// Mean length of the target's edges; 1 where there is none.
 fn mean_edge(model: &Model) -> f64 {
-    let count = model.contact.target.len();
-    if count == 0 {
-        return 1.0;
-    }
     let length = |edge: &Edge| {
         let [[ax, ay], [bx, by]] = edge.nodes.map(|node| model.at(node));
         (bx - ax).hypot(by - ay)
     };
-    model.target_edges().map(length).sum::<f64>() / count as f64
+    match model.contact.target.len() {
+        0 => 1.0,
+        count => model.target_edges().map(length).sum::<f64>() / count as f64,
+    }
 }

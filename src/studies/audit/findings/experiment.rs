@@ -1,6 +1,9 @@
-//! What the measures share: the shapes that a case meets, and how an experiment on them is summed up.
+//! What the measures share: the shapes that a case leads to, and how an experiment on them is
+//! summed up.
 
-use super::{Measured, Verdict};
+use nalgebra::DMatrix;
+
+use super::{Measured, Outcome};
 use crate::paper::door::Call;
 use crate::paper::mirror::{Failure, Reading};
 use crate::problem::model::Model;
@@ -16,47 +19,45 @@ const SHOWN: usize = 6;
 /// What counts as a difference, relative to the largest entry: sums in another order differ by less.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-impl Measured {
-    /// A measure of the verdict `holds` or `does not arise`.
-    pub(super) fn holds_if(holds: bool, number: f64, detail: impl Into<String>) -> Self {
-        let verdict = if holds { Verdict::Holds } else { Verdict::DoesNotArise };
-        Measured { verdict, number, detail: detail.into() }
+/// The number of `found`, each in words; the finding holds where there is one.
+pub(super) fn count(found: impl IntoIterator<Item = String>) -> Measured {
+    let found: Vec<String> = found.into_iter().collect();
+    let mut detail = found[..found.len().min(SHOWN)].join("; ");
+    if found.len() > SHOWN {
+        detail += &format!("; and {} more", found.len() - SHOWN);
     }
-
-    /// Nothing to count.
-    pub(super) fn nothing(why: impl Into<String>) -> Self {
-        Measured::holds_if(false, 0.0, why)
-    }
-
-    /// The number of `found`, each in words; it holds where there is one.
-    pub(super) fn count(found: &[String]) -> Self {
-        let more = found.len().saturating_sub(SHOWN);
-        let mut detail = found.iter().take(SHOWN).cloned().collect::<Vec<_>>().join("; ");
-        if more > 0 {
-            detail += &format!("; and {more} more");
-        }
-        let detail = if found.is_empty() { "none".into() } else { detail };
-        Measured::holds_if(!found.is_empty(), found.len() as f64, detail)
-    }
+    let detail = if found.is_empty() { "none".into() } else { detail };
+    Measured::holds_if(!found.is_empty(), found.len() as f64, detail)
 }
 
-/// An experiment at the initial shape and at the last shape of each variant that runs: the heaviest verdict, and of equal
-/// ones the largest number. A shape at which a listing fails shows nothing.
+/// Counts the entries of the contact surface of which `words` has something to say.
+pub(super) fn count_nodes(model: &Model, words: impl Fn(usize) -> Option<String>) -> Measured {
+    let nodes = model.contact.nodes.iter().enumerate();
+    count(nodes.filter_map(|(i, node)| Some(format!("node {node}: {}", words(i)?))))
+}
+
+/// An experiment at the initial shape and at the last shape of each variant that runs: the heaviest
+/// verdict, and of equal ones the largest number. A shape at which a listing fails shows nothing.
 pub(super) fn at_shapes(
     case: &Case,
     experiment: impl Fn(&Shape) -> Result<Measured, Failure>,
-) -> Measured {
+) -> Outcome<'_> {
     let mut heaviest: Option<Measured> = None;
     for (name, shape) in shapes(case) {
-        let mut here =
-            experiment(&shape).unwrap_or_else(|failure| Measured::nothing(failure.to_string()));
+        let nothing = |failure: Failure| Measured::holds_if(false, 0.0, failure.to_string());
+        let mut here = experiment(&shape).unwrap_or_else(nothing);
         here.detail = format!("{name}: {}", here.detail);
         let weight = |m: &Measured| (m.verdict, m.number.abs());
         if heaviest.as_ref().is_none_or(|most| weight(&here) > weight(most)) {
             heaviest = Some(here);
         }
     }
-    heaviest.expect("every case has its initial shape")
+    Ok(heaviest.expect("every case has its initial shape"))
+}
+
+/// The same on what `c_cnt` finds in each shape.
+pub(super) fn at_calls(case: &Case, experiment: impl Fn(&Shape, &Call) -> Measured) -> Outcome<'_> {
+    at_shapes(case, |shape| Ok(experiment(shape, &c_cnt(case.model(), shape)?)))
 }
 
 fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
@@ -71,11 +72,13 @@ fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
 }
 
 /// What `c_cnt` finds in the first shape, of those that a case comes to, with a node in contact.
-pub(super) fn first_in_contact(case: &Case) -> Option<Call> {
-    shapes(case).into_iter().find_map(|(_, shape)| {
-        let call = c_cnt(case.model(), &shape).ok()?;
-        call.statuses.iter().any(|status| status.in_contact).then_some(call)
-    })
+///
+/// # Errors
+/// There is no such shape.
+pub(super) fn first_in_contact(case: &Case) -> Result<Call, &'static str> {
+    let shapes = shapes(case).into_iter();
+    let mut calls = shapes.filter_map(|(_, shape)| c_cnt(case.model(), &shape).ok());
+    calls.find(|call| call.statuses.iter().any(|status| status.in_contact)).ok_or("no contact")
 }
 
 /// `c_cnt` under the default reading.
@@ -84,23 +87,8 @@ pub(super) fn c_cnt(model: &Model, shape: &Shape) -> Result<Call, Failure> {
 }
 
 /// `Km` of the pairs found in a shape, under the default reading.
-pub(super) fn mjs(model: &Model, shape: &Shape) -> Result<nalgebra::DMatrix<f64>, Failure> {
+pub(super) fn mjs(model: &Model, shape: &Shape) -> Result<DMatrix<f64>, Failure> {
     c_cnt(model, shape)?.km(&Reading::default())
-}
-
-/// The entries of the contact surface of which `is` is true, each in `words`.
-pub(super) fn contact_nodes(
-    model: &Model,
-    is: impl Fn(usize) -> bool,
-    words: impl Fn(usize) -> String,
-) -> Vec<String> {
-    let entries = model.contact.nodes.iter().enumerate().filter(|(i, _)| is(*i));
-    entries.map(|(i, node)| format!("node {node}: {}", words(i))).collect()
-}
-
-/// The number of an entry's target edge in the mesh file, 0 without one: the listing's `ct`.
-pub(super) fn ct(model: &Model, call: &Call, i: usize) -> usize {
-    call.statuses[i].edge.map_or(0, |edge| model.edge(edge).number)
 }
 
 /// 1 where an entry is in contact, else 0: the listing's `dy`.

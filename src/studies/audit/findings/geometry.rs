@@ -1,15 +1,16 @@
-//! The contact surfaces seen from outside the listing: which side of an edge is inside, what lies in the target.
+//! The contact surfaces seen from outside the listing: which side of an edge is inside, what lies in
+//! the target.
 
 use super::experiment::Shape;
 use crate::problem::element::area;
 use crate::problem::model::{EdgeId, Model, NodeId, TriangleId};
 
-/// A node's place in a shape.
+/// A node's coordinates in a shape, length.
 pub(super) fn place(shape: &Shape, node: NodeId) -> [f64; 2] {
     shape[node.index()]
 }
 
-/// The ends of an edge in a shape.
+/// The coordinates of the ends of an edge in a shape, length.
 pub(super) fn ends(model: &Model, shape: &Shape, edge: EdgeId) -> [[f64; 2]; 2] {
     model.edge(edge).nodes.map(|node| place(shape, node))
 }
@@ -20,7 +21,8 @@ pub(super) fn rise([a, b]: [[f64; 2]; 2], point: [f64; 2]) -> Option<f64> {
     (b[0] != a[0]).then(|| a[1] + slope * (point[0] - a[0]) - point[1])
 }
 
-/// Whether entry `i` of the contact surface lies inside a triangle of the target, its sides excluded.
+/// Whether entry `i` of the contact surface lies inside a triangle of the target, its sides
+/// excluded.
 pub(super) fn inside_target(model: &Model, shape: &Shape, i: usize) -> bool {
     let point = place(shape, model.contact.nodes[i]);
     let inside = |id: &TriangleId| {
@@ -30,8 +32,8 @@ pub(super) fn inside_target(model: &Model, shape: &Shape, i: usize) -> bool {
     model.target().is_some_and(|target| target.triangles.iter().any(inside))
 }
 
-/// The sign of `yt` inside the target at an edge: +1 where the target lies below it, −1 where above. Nothing for a vertical edge, or one
-/// that bounds no triangle.
+/// The sign of `yt` inside the target at an edge: +1 where the target lies below it, −1 where above.
+/// Nothing for a vertical edge, or one that bounds no triangle.
 pub(super) fn inner_sign(model: &Model, shape: &Shape, edge: EdgeId) -> Option<f64> {
     let third = model.sides.beside(model.edge(edge).nodes).first()?.third;
     rise(ends(model, shape, edge), place(shape, third)).map(f64::signum)
