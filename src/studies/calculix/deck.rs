@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use super::equation::Equation;
-use super::number::field;
-use super::problem::{Contact, Pair, Problem};
+use super::problem::{Contact, Equation, Pair, Problem};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::model::{Dof, Material, Model, NodeId, unordered};
 use crate::problem::modelling::Friction;
 
+/// ccx reads no more characters of a field.
+const WIDTH: usize = 20;
 /// ccx takes no more terms on a line of an equation.
 const TERMS_ON_A_LINE: usize = 4;
 /// Coefficient of friction that nothing overcomes.
@@ -190,4 +190,29 @@ fn step(problem: &Problem) -> String {
 
 fn line(text: &mut String, line: String) {
     writeln!(text, "{line}").expect("a String takes any text");
+}
+
+/// `x` in at most 20 characters, with as many of its digits as fit: all that it has, or at least
+/// 13.
+pub fn field(x: f64) -> String {
+    let exact = [format!("{x}"), format!("{x:e}")];
+    let rounded = (0..WIDTH).rev().map(|digits| format!("{x:.digits$e}"));
+    let mut written = exact.into_iter().chain(rounded);
+    written.find(|text| text.len() <= WIDTH).expect("one digit and an exponent fit")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::field;
+
+    #[test]
+    fn a_number_keeps_the_digits_that_fit() {
+        assert_eq!(field(0.1), "0.1");
+        assert_eq!(field(-210000.0), "-210000");
+        assert_eq!(field(-0.1234567890123456), "-0.1234567890123456");
+        assert_eq!(field(1.0 / 3.0), "0.3333333333333333");
+        assert_eq!(field(1e300), "1e300");
+        assert_eq!(field(-1.2345678901234567e-4), "-1.23456789012346e-4");
+        assert_eq!(field(-1.2345678901234567e-300), "-1.234567890123e-300");
+    }
 }

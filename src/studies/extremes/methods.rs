@@ -33,20 +33,9 @@ pub fn in_scalar(variant: Variant, scalar: ScalarName, blocks: BlocksOf) -> Meth
     run(format!("{variant} {scalar}"), variant, (scalar, None), Answer::displacement, blocks)
 }
 
-/// Displacements of `variant` in `f64`, by a solver that is not the scalar's own.
-pub fn solved_by(variant: Variant, solver: Solver, blocks: BlocksOf) -> Method {
-    let name = format!("{variant} f64 {solver}");
-    run(name, variant, (DOUBLE, Some(solver)), Answer::displacement, blocks)
-}
-
-/// Von Mises stresses of `variant` in one scalar; they leave a run as `f64`.
-pub fn mises(variant: Variant, scalar: ScalarName, blocks: BlocksOf) -> Method {
-    let name = format!("{variant} {scalar}, von Mises");
-    run(name, variant, (scalar, None), Answer::mises, blocks).carrying(16.0)
-}
-
-/// A run of `variant` against the exact run of the same inputs.
-fn run(
+/// A run of `variant` in a scalar, by its own solver unless another is given, against the exact run
+/// of the same inputs.
+pub fn run(
     name: String,
     variant: Variant,
     (scalar, solver): (ScalarName, Option<Solver>),

@@ -23,7 +23,7 @@ use crate::answer::{Request, dense_matrices};
 use crate::choices;
 use crate::error::InputError;
 use crate::numbers::solve::{FactorSize, ScalarName, Solver, memory};
-use crate::problem::model::{Model, NodeId};
+use crate::problem::model::Model;
 use crate::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use crate::problem::scene::symmetry::half;
 
@@ -123,7 +123,9 @@ impl Plan {
             _ => arithmetic.solver(),
         };
         let equations = equations(model, variant, &bodies);
-        let contact = contact(model, request.contact);
+        let ContactModel { coupling, friction, status, .. } = request.contact;
+        let plan = |candidates| ContactPlan { coupling, friction, status, candidates };
+        let contact = Candidates::find(model).map(plan);
         let dense = dense_matrices(variant, arithmetic);
         let sparse = FactorSize::sparse_cholesky(equations.free, pattern(model).into_iter());
         let factors = match solver {
@@ -175,40 +177,21 @@ fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations 
     Equations { all, restrained: all - free, free, solved, idle }
 }
 
-fn contact(model: &Model, modelled: ContactModel) -> Option<ContactPlan> {
-    let ContactModel { coupling, friction, status, .. } = modelled;
-    let candidates = Candidates::find(model)?;
-    Some(ContactPlan { coupling, friction, status, candidates })
-}
-
 /// Row and column, from 0, of the entries of K on the free equations, lower triangle. Contact is
 /// left out: it changes a few.
 fn pattern(model: &Model) -> Vec<(usize, usize)> {
     let mut free = 0..;
     let place = |restrained: &bool| if *restrained { None } else { free.next() };
     let place: Vec<Option<usize>> = model.restrained.iter().map(place).collect();
-    let equations = |node: NodeId| node.dofs().map(|dof| place[dof.index()]);
     let mut entries = Vec::new();
-    for (node, neighbours) in model.node_ids().zip(neighbours(model)) {
-        for i in equations(node).into_iter().flatten() {
-            let columns = neighbours.iter().flat_map(|m| equations(*m)).flatten();
-            entries.extend(columns.filter(|j| *j <= i).map(|j| (i, j)));
-        }
-    }
-    entries
-}
-
-/// For each node the nodes up to itself that share a triangle with it, itself among them.
-fn neighbours(model: &Model) -> Vec<Vec<NodeId>> {
-    let mut of_node: Vec<Vec<NodeId>> = model.node_ids().map(|n| vec![n]).collect();
     for triangle in &model.triangles {
-        for a in triangle.nodes {
-            of_node[a.index()].extend(triangle.nodes.into_iter().filter(|b| *b < a));
+        let dofs = triangle.nodes.into_iter().flat_map(|node| node.dofs());
+        let equations: Vec<usize> = dofs.filter_map(|dof| place[dof.index()]).collect();
+        for i in &equations {
+            entries.extend(equations.iter().filter(|j| *j <= i).map(|j| (*i, *j)));
         }
     }
-    for neighbours in &mut of_node {
-        neighbours.sort_unstable();
-        neighbours.dedup();
-    }
-    of_node
+    entries.sort_unstable();
+    entries.dedup();
+    entries
 }

@@ -71,25 +71,25 @@ pub fn solve_to(request: &Request, accuracy: f64) -> Result<Reached, Error> {
     let mut attempts = Vec::new();
     for arithmetic in precisions(request) {
         let predicted = ROUNDINGS * eps(arithmetic.scalar) * amplification;
-        let mut attempt = Attempt { arithmetic, predicted, found: None, bound: false };
-        if predicted <= accuracy {
-            let solution = match solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
-                // What is singular to few digits need not be so to more.
-                Err(Error::Singular(_)) if arithmetic.scalar == ScalarName::F32 => {
-                    attempts.push(attempt);
-                    continue;
-                }
-                solved => solved?,
-            };
-            let (error, bound) = rounding_error(&solution);
-            (attempt.found, attempt.bound) = (Some(error), bound);
-            if error <= accuracy {
-                attempts.push(attempt);
-                let mesh = Discretisation::new(&solution.model, &solution.elements).relative();
-                return Ok(Reached { solution, attempts, mesh });
-            }
+        let not_run = Attempt { arithmetic, predicted, found: None, bound: false };
+        if predicted.is_nan() || predicted > accuracy {
+            attempts.push(not_run);
+            continue;
         }
-        attempts.push(attempt);
+        let solution = match solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
+            // What is singular to few digits need not be so to more.
+            Err(Error::Singular(_)) if arithmetic.scalar == ScalarName::F32 => {
+                attempts.push(not_run);
+                continue;
+            }
+            solved => solved?,
+        };
+        let (error, bound) = rounding_error(&solution);
+        attempts.push(Attempt { found: Some(error), bound, ..not_run });
+        if error <= accuracy {
+            let mesh = Discretisation::new(&solution.model, &solution.elements).relative();
+            return Ok(Reached { solution, attempts, mesh });
+        }
     }
     Err(unmet(accuracy, &attempts).into())
 }

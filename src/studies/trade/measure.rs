@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use super::errors::{Errors, meshes, prolonged};
 use super::order::Order;
-use super::pareto::pareto;
 use super::rows::{Row, Section, Trade};
 use super::trials::{Against, Trial, trials};
 use super::{Knob, words};
@@ -233,4 +232,12 @@ fn mark_front(rows: &mut [Row]) {
     for (k, front) in at.into_iter().zip(pareto(&points)) {
         rows[k].pareto = front;
     }
+}
+
+/// Whether each point of (time, error) is on the Pareto front: no other is better in one and at
+/// least as good in the other.
+pub fn pareto(points: &[[f64; 2]]) -> Vec<bool> {
+    let beats =
+        |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && (a[0] < b[0] || a[1] < b[1]);
+    points.iter().map(|b| !points.iter().any(|a| beats(a, b))).collect()
 }

@@ -4,7 +4,7 @@
 //! ```text
 //!  Request, Knob --trials--> Trial --> Request --measure--> seconds, bytes, Solution
 //!                                                              |
-//!  words <-- Section (rows, orders of convergence) <-- errors, pareto, order
+//!  words <-- Section (rows, orders of convergence) <-- errors, order, pareto
 //! ```
 //!
 //! Everything but times, peak memory and the Pareto front, which is drawn from the times, is the
@@ -14,16 +14,14 @@ mod accuracy;
 mod errors;
 mod measure;
 mod order;
-mod pareto;
 pub mod peak;
 mod rows;
 mod trials;
 mod words;
 
 pub use accuracy::{Reached, solve_to};
-pub use measure::{Options, measure};
+pub use measure::{Options, measure, pareto};
 pub use order::Order;
-pub use pareto::pareto;
 pub use rows::{Row, Section, Trade};
 pub use trials::{Trial, find, trials};
 

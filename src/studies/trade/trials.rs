@@ -103,11 +103,19 @@ impl Trial {
             Setting::Coupling(coupling) => request.contact.coupling = coupling,
             Setting::Refined(times) => {
                 for _ in 0..times {
-                    request.scene = request.scene.refined()?.ok_or_else(no_mesh)?.scene;
+                    let refined = request.scene.refined()?.ok_or_else(|| {
+                        let what = "half a scene cannot be refined";
+                        InputError::new("the scene", what, "refine the whole scene")
+                    })?;
+                    request.scene = refined.scene;
                 }
             }
             Setting::Half => {
-                request.scene = symmetry::half(&request.scene).ok_or_else(no_half)?.scene;
+                let half = symmetry::half(&request.scene).ok_or_else(|| {
+                    let what = "the scene is not symmetric about a vertical line";
+                    InputError::new("the scene", what, "run the whole scene")
+                })?;
+                request.scene = half.scene;
             }
         }
         Ok(request)
@@ -117,15 +125,6 @@ impl Trial {
     pub fn name(&self) -> String {
         format!("{}/{}/{}", self.knob, self.variant, self.label)
     }
-}
-
-fn no_mesh() -> InputError {
-    InputError::new("the scene", "half a scene cannot be refined", "refine the whole scene")
-}
-
-fn no_half() -> InputError {
-    let what = "the scene is not symmetric about a vertical line";
-    InputError::new("the scene", what, "run the whole scene")
 }
 
 /// The trial of that name ([`Trial::name`]).

@@ -16,10 +16,11 @@ const NOTICEABLE: f64 = 0.01;
 /// What the rows of a knob say, a sentence for each question.
 pub fn answers(request: &Request, knob: Knob, rows: &[Row], orders: &[Order]) -> Vec<String> {
     let scene = &request.scene;
-    if rows.is_empty() {
-        return vec![nothing(knob).into()];
-    }
     match knob {
+        Knob::Symmetry if rows.is_empty() => {
+            vec!["The scene is not symmetric about a vertical line: it has no half.".into()]
+        }
+        _ if rows.is_empty() => vec!["The scene has no contact: there is nothing to turn.".into()],
         Knob::Arithmetic => arithmetic(request, rows),
         Knob::Solver => solver(rows),
         Knob::Mesh => mesh(rows, orders),
@@ -27,13 +28,6 @@ pub fn answers(request: &Request, knob: Knob, rows: &[Row], orders: &[Order]) ->
         Knob::Iterations => by_variant(scene, rows, iterations),
         Knob::Status | Knob::Coupling => by_variant(scene, rows, nearest),
         Knob::Symmetry => halves(scene, rows),
-    }
-}
-
-fn nothing(knob: Knob) -> &'static str {
-    match knob {
-        Knob::Symmetry => "The scene is not symmetric about a vertical line: it has no half.",
-        _ => "The scene has no contact: there is nothing to turn.",
     }
 }
 

@@ -6,7 +6,6 @@
 //! iterations.
 
 mod experiment;
-mod geometry;
 mod register;
 mod search;
 mod status;

@@ -1,7 +1,8 @@
 //! Findings of the search for a target edge: c_cnt 1-10.
 
-use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy};
-use super::geometry::{ends, inside_target, place, rise};
+use super::experiment::{
+    Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, ends, inside_target, place, rise,
+};
 use super::{Measured, Outcome};
 use crate::paper::door::{Call, ContactStatus};
 use crate::problem::model::{EdgeId, Model};

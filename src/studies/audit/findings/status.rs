@@ -1,7 +1,6 @@
 //! Findings of the contact status: c_cnt 15-18.
 
-use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy};
-use super::geometry::inner_sign;
+use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, inner_sign};
 use super::{Measured, Outcome};
 use crate::paper::door::Call;
 use crate::paper::mirror::{Cause, Order, Reading};

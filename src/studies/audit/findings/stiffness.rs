@@ -2,8 +2,9 @@
 
 use nalgebra::DMatrix;
 
-use super::experiment::{ROUNDING, at_calls, at_shapes, count, count_nodes, first_in_contact, mjs};
-use super::geometry::away;
+use super::experiment::{
+    ROUNDING, at_calls, at_shapes, away, count, count_nodes, first_in_contact, mjs,
+};
 use super::{Measured, Outcome, Verdict};
 use crate::answer::{Constraint, Detail, Elimination, Solution, max_displacement};
 use crate::numbers::solve::DenseLu;
@@ -35,9 +36,9 @@ fn target_moves(case: &Case) -> String {
         return "printed does not run".into();
     };
     let norm = |n: &NodeId| solution.u.rows(n.x().index(), 2).norm();
-    let moved = target.nodes.iter().map(norm).fold(0.0, f64::max);
+    let largest = target.nodes.iter().map(norm).fold(0.0, f64::max);
     let most = max_displacement(&solution.u);
-    format!("printed: the target moves by {moved:e}, the stamp by {most:.3e}")
+    format!("printed: the target moves by {largest:e}, the stamp by {most:.3e}")
 }
 
 /// The weights of the linked nodes of a triangle, in its order: pair 1 or 2 of k_cnt.

@@ -145,20 +145,13 @@ fn scene(surface: &[[f64; 2]], stamp: &[[f64; 2]], kind: Kind, turned: bool) -> 
         let [a, b] = [edge[0], edge[1]];
         mesh.edges("surface", &if turned { [b, a] } else { [a, b] });
     }
-    mesh.triangles("target", strip(&bottom, &target, kind.above));
-    mesh.triangles("stamp", strip(&contact, &top, kind.above));
+    // Which diagonal cuts a cell counts: under `intersection` a node's sides decide.
+    mesh.join("target", &target, &bottom);
+    mesh.join("stamp", &top, &contact);
     SceneBuilder::new("statuses", mesh.finish(), Plane::Strain)
         .material("target", 1.0, 0.0)
         .material("stamp", 1.0, 0.0)
         .restrain("target", &[Axis::X, Axis::Y])
         .restrain("stamp", &[Axis::X, Axis::Y])
         .contact(Contact::new(contact, "surface", C_TLL))
-}
-
-/// Triangles between a lower and an upper row of as many nodes: counter-clockwise, also where the
-/// rows are mirrored in y.
-fn strip(lower: &[usize], upper: &[usize], mirrored: bool) -> Vec<[usize; 3]> {
-    let pairs = lower.windows(2).zip(upper.windows(2));
-    let triangles = pairs.flat_map(|(a, b)| [[a[0], a[1], b[0]], [a[1], b[1], b[0]]]);
-    triangles.map(|[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect()
 }

@@ -67,7 +67,7 @@ pub struct Row {
 }
 
 /// What a rule made of the scenes of a row.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Score {
     /// Which rule decided.
     pub rule: StatusRule,
@@ -84,7 +84,8 @@ pub struct Score {
 pub fn measure(scenes: usize, seed: u64) -> Measurement {
     let mut rng = Rng::with_seed(seed);
     let mut row = |edges, depth, target: &'static str| {
-        let rules = StatusRule::ALL.iter().map(|rule| Score::new(*rule)).collect();
+        let score = |rule: &StatusRule| Score { rule: *rule, ..Score::default() };
+        let rules = StatusRule::ALL.iter().map(score).collect();
         let mut row = Row { edges, depth, target, nodes: 0, touching: 0, rules };
         for k in 0..scenes {
             let above = if target == "both" { k % 2 == 1 } else { target == "above" };
@@ -102,10 +103,6 @@ pub fn measure(scenes: usize, seed: u64) -> Measurement {
 }
 
 impl Score {
-    fn new(rule: StatusRule) -> Self {
-        Score { rule, missed: 0, false_contacts: 0, operations: 0 }
-    }
-
     /// Share of wrong statuses among `nodes`.
     pub fn wrong_share(&self, nodes: usize) -> f64 {
         (self.missed + self.false_contacts) as f64 / nodes.max(1) as f64
