@@ -13,7 +13,7 @@ use crate::problem::scene::Scene;
 use crate::studies::audit::findings::{Finding, Measured};
 use crate::studies::audit::readings::Effect;
 use crate::studies::audit::variants::{End, VariantRow};
-use crate::studies::audit::{Audit, Converged, FindingRow};
+use crate::studies::audit::{Audit, ReferenceSummary};
 
 /// Friction coefficients at which slipping nodes are listed.
 const FRICTION: [f64; 4] = [0.1, 0.2, 0.4, 0.8];
@@ -30,7 +30,7 @@ pub fn text(audit: &Audit, scene: &Scene) -> String {
         readings(&audit.readings),
         findings(&audit.findings),
         variants(&audit.variants),
-        audit.converged.as_ref().map_or(String::new(), reference),
+        audit.reference.as_ref().map_or(String::new(), reference),
         sticking(&audit.sticking)
     )
 }
@@ -153,8 +153,8 @@ fn stresses(bodies: &[BodySummary]) -> String {
     listed(bodies.iter().map(|body| format!("{} {}", body.name, short(body.max_von_mises_stress))))
 }
 
-/// Tells of the reference solution, which the variants are off from.
-fn reference(reference: &Converged) -> String {
+/// Describes the reference solution, which the errors of the variants are against.
+fn reference(reference: &ReferenceSummary) -> String {
     format!(
         "  error: against the reference solution (unilateral, {}, friction {}): {} in contact, \
          von Mises stress {}\n",
@@ -193,13 +193,13 @@ fn sticking(nodes: &[ContactNode]) -> String {
 /// Writes the audit as JSON.
 pub fn json(audit: &Audit, scene: &Scene) -> String {
     let findings = audit.findings.iter();
-    let findings: Vec<FindingRow> = findings.map(|(f, m)| FindingRow::new(f, m)).collect();
+    let findings: Vec<serde_json::Value> = findings.map(|(f, m)| f.row(m)).collect();
     line(&json!({
         "scene": scene.name,
         "readings": audit.readings,
         "findings": findings,
         "variants": audit.variants,
-        "reference": audit.converged,
+        "reference": audit.reference,
         "sticking": audit.sticking,
     }))
 }

@@ -26,7 +26,7 @@ pub fn even(option: &str, n: usize) -> Result<(), InputError> {
     if n.is_multiple_of(2) {
         return Ok(());
     }
-    let what = format!("{n} divisions leave no node in the middle, where the body is held");
+    let what = format!("{n} divisions leave no node in the middle, where the body is restrained");
     Err(InputError::new(option, what, format!("give an even number, such as {}", n + 1)))
 }
 

@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use super::equation::{Equation, Term};
-use super::number::field;
-use super::problem::{Contact, Pair, Problem};
+use super::problem::{Contact, Equation, Pair, Problem};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::model::{Dof, Material, Model, NodeId, unordered};
 use crate::problem::modelling::Friction;
 
+/// ccx reads no more characters of a field.
+const WIDTH: usize = 20;
 /// ccx takes no more terms on a line of an equation.
 const TERMS_ON_A_LINE: usize = 4;
 /// Coefficient of friction that nothing overcomes.
@@ -23,23 +23,20 @@ const STICK_SLOPE: f64 = 0.1;
 /// # Errors
 /// The surfaces of a pair bound no triangle.
 pub fn deck(problem: &Problem) -> Result<String, InputError> {
-    let mut text = heading(problem);
-    text += &nodes(problem.model);
-    text += &elements(problem.model);
-    match problem.contact {
-        Contact::Equations(equations) => text += &equation_cards(problem.model, equations),
-        Contact::Pair(_) if !problem.model.has_contact() => {}
-        Contact::Pair(pair) => text += &pair_cards(problem.model, pair)?,
-    }
-    text += &restraints(problem.model);
-    text += &step(problem);
-    Ok(text)
+    let model = problem.model;
+    let contact = match problem.contact {
+        Contact::Equations(equations) => equation_cards(model, equations),
+        Contact::Pair(_) if !model.has_contact() => String::new(),
+        Contact::Pair(pair) => pair_cards(model, pair)?,
+    };
+    let before = heading(problem) + &nodes(model) + &elements(model);
+    Ok(before + &contact + &restraints(model) + &step(problem))
 }
 
-/// Comment lines that say what the deck is.
+/// Comment lines: the scene's title, the plane problem, and how the bodies touch.
 fn heading(problem: &Problem) -> String {
-    let title: Vec<&str> = problem.scene.title.split_whitespace().collect();
-    let title: String = title.join(" ").chars().take(100).collect();
+    let words: Vec<&str> = problem.scene.title.split_whitespace().collect();
+    let title: String = words.join(" ").chars().take(100).collect();
     let contact = match problem.contact {
         Contact::Equations(equations) => format!("{} equations", equations.len()),
         Contact::Pair(Pair { penalty, friction }) => {
@@ -103,24 +100,20 @@ fn equation_cards(model: &Model, equations: &[Equation]) -> String {
             let own = NodeId::new(nodes);
             nodes += 1;
             line(&mut text, format!("*NODE\n{own},0,0\n*BOUNDARY\n{own},1,1,{}", field(-constant)));
-            terms.push(Term { dof: own.x(), coefficient: 1.0 });
+            terms.push((own.x(), 1.0));
         }
         line(&mut text, format!("*EQUATION\n{}", terms.len()));
         for some in terms.chunks(TERMS_ON_A_LINE) {
-            let some: Vec<String> = some.iter().map(term).collect();
-            line(&mut text, some.join(","));
+            let some = some.iter().map(|(dof, x)| format!("{},{}", place(*dof), field(*x)));
+            line(&mut text, some.collect::<Vec<_>>().join(","));
         }
     }
     text
 }
 
-fn term(term: &Term) -> String {
-    format!("{},{},{}", term.dof.node(), direction(term.dof), field(term.coefficient))
-}
-
-/// The number by which ccx knows the direction of a degree of freedom: 1 for x, 2 for y.
-fn direction(dof: Dof) -> usize {
-    dof.direction() + 1
+/// The node and the direction by which ccx knows a degree of freedom: 1 for x, 2 for y.
+fn place(dof: Dof) -> String {
+    format!("{},{}", dof.node(), dof.direction() + 1)
 }
 
 /// The two surfaces and the pair. Both surfaces are made of element faces: with a slave surface of
@@ -169,8 +162,7 @@ fn surface(
 fn restraints(model: &Model) -> String {
     let mut text = String::from("*BOUNDARY\n");
     for dof in model.all_dofs().filter(|dof| model.is_restrained(*dof)) {
-        let (node, direction) = (dof.node(), direction(dof));
-        line(&mut text, format!("{node},{direction},{direction}"));
+        line(&mut text, format!("{},{}", place(dof), dof.direction() + 1));
     }
     text
 }
@@ -186,8 +178,7 @@ fn step(problem: &Problem) -> String {
     let model = problem.model;
     for (dof, force) in model.all_dofs().zip(model.load.iter()) {
         if *force != 0.0 && !model.is_restrained(dof) {
-            let (node, direction) = (dof.node(), direction(dof));
-            line(&mut text, format!("*CLOAD\n{node},{direction},{}", field(*force)));
+            line(&mut text, format!("*CLOAD\n{},{}", place(dof), field(*force)));
         }
     }
     line(&mut text, "*NODE PRINT, NSET=NODES\nU".into());
@@ -199,4 +190,29 @@ fn step(problem: &Problem) -> String {
 
 fn line(text: &mut String, line: String) {
     writeln!(text, "{line}").expect("a String takes any text");
+}
+
+/// `x` in at most 20 characters, with as many of its digits as fit: all that it has, or at least
+/// 13.
+pub fn field(x: f64) -> String {
+    let exact = [format!("{x}"), format!("{x:e}")];
+    let rounded = (0..WIDTH).rev().map(|digits| format!("{x:.digits$e}"));
+    let mut written = exact.into_iter().chain(rounded);
+    written.find(|text| text.len() <= WIDTH).expect("one digit and an exponent fit")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::field;
+
+    #[test]
+    fn a_number_keeps_the_digits_that_fit() {
+        assert_eq!(field(0.1), "0.1");
+        assert_eq!(field(-210000.0), "-210000");
+        assert_eq!(field(-0.1234567890123456), "-0.1234567890123456");
+        assert_eq!(field(1.0 / 3.0), "0.3333333333333333");
+        assert_eq!(field(1e300), "1e300");
+        assert_eq!(field(-1.2345678901234567e-4), "-1.23456789012346e-4");
+        assert_eq!(field(-1.2345678901234567e-300), "-1.234567890123e-300");
+    }
 }
