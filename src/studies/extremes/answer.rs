@@ -4,31 +4,25 @@ use dashu_ratio::RBig;
 
 use super::verdict::Verdict;
 use crate::answer::error::Error;
-use crate::answer::{self, Request, Solution};
+use crate::answer::{self, Request};
 use crate::numbers::solve::{Arithmetic, ScalarName, Solver};
-use crate::problem::model::{Dof, NodeId};
+use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::SceneBuilder;
 
-/// What is compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Displacements, relative to the largest of their body.
-    Displacement,
-    /// Von Mises stresses, relative to the largest.
-    Mises,
-}
+/// What is compared of an answer and the exact one, whoever is in contact.
+pub type Quantity = fn(&Answer, &Answer) -> Verdict;
 
-/// An answer.
+/// What a run computed, with all the digits that its scalar has.
 pub struct Answer {
     /// Displacements by degree of freedom, length.
-    pub u: Vec<RBig>,
-    /// Von Mises stresses.
+    u: Vec<RBig>,
+    /// Von Mises stress of each triangle.
     mises: Vec<f64>,
-    /// Who is in contact at the end.
+    /// Whether each contact node is in contact at the end.
     in_contact: Vec<bool>,
-    /// Degrees of freedom of each body.
-    bodies: Vec<Vec<Dof>>,
+    /// Places in `u` of the degrees of freedom of each body.
+    bodies: Vec<Vec<usize>>,
 }
 
 /// Runs `variant` on `scene` in `scalar`, by its own solver unless another is given.
@@ -44,23 +38,19 @@ pub fn solve(
     let scene = scene.build()?;
     let arithmetic = Arithmetic { scalar, solver, ..Arithmetic::default() };
     let request = Request::new(&scene).variant(variant).arithmetic(arithmetic);
-    Ok(Answer::new(&answer::solve(&request, &mut |_| ())?))
+    let solution = answer::solve(&request, &mut |_| ())?;
+    let value = |x: &f64| RBig::try_from(*x).expect("a run's displacements are finite");
+    let dofs = |node: &NodeId| node.dofs().map(|dof| dof.index());
+    let bodies = solution.model.bodies.iter();
+    Ok(Answer {
+        mises: solution.elements.iter().map(|state| state.von_mises_stress).collect(),
+        in_contact: solution.last().statuses(),
+        bodies: bodies.map(|body| body.nodes.iter().flat_map(dofs).collect()).collect(),
+        u: solution.digits.unwrap_or_else(|| solution.u.iter().map(value).collect()),
+    })
 }
 
 impl Answer {
-    /// The answer of a run, with all the digits that its scalar has.
-    pub fn new(solution: &Solution) -> Self {
-        let value = |x: &f64| RBig::try_from(*x).expect("a run's displacements are finite");
-        let dofs = |nodes: &[NodeId]| nodes.iter().flat_map(|node| node.dofs()).collect();
-        let doubles = || solution.u.iter().map(value).collect();
-        Answer {
-            u: solution.digits.clone().unwrap_or_else(doubles),
-            mises: solution.elements.iter().map(|state| state.von_mises_stress).collect(),
-            in_contact: solution.last().statuses(),
-            bodies: solution.model.bodies.iter().map(|body| dofs(&body.nodes)).collect(),
-        }
-    }
-
     /// The answer with its displacements times `factor`.
     pub fn times(mut self, factor: f64) -> Self {
         let factor = RBig::try_from(factor).expect("a power of two");
@@ -68,39 +58,35 @@ impl Answer {
         self
     }
 
-    /// This answer against the `exact` one: another contact state is wrong, whatever the
-    /// displacements.
+    /// This answer against the `exact` one: another contact state is wrong, whatever `quantity` is.
     pub fn against(&self, exact: &Answer, quantity: Quantity) -> Verdict {
-        if self.in_contact != exact.in_contact {
-            return Verdict::of_status(false);
+        match self.in_contact == exact.in_contact {
+            true => quantity(self, exact),
+            false => Verdict::of_status(false),
         }
-        self.beside(exact, quantity)
     }
 
-    /// The same, whoever is in contact.
-    pub fn beside(&self, exact: &Answer, quantity: Quantity) -> Verdict {
-        match quantity {
-            Quantity::Displacement => {
-                let of_body = |dofs: &Vec<Dof>| self.error(exact, dofs);
-                Verdict::of_error(exact.bodies.iter().map(of_body).fold(0.0, f64::max))
-            }
-            Quantity::Mises => {
-                let pairs = self.mises.iter().zip(&exact.mises);
-                let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                Verdict::of_error(error / exact.mises.iter().fold(0.0, |m: f64, x| m.max(*x)))
-            }
-        }
+    /// Displacements, relative to the largest of their body.
+    pub fn displacement(&self, exact: &Answer) -> Verdict {
+        let of_body = |dofs: &Vec<usize>| self.error(exact, dofs);
+        Verdict::of_error(exact.bodies.iter().map(of_body).fold(0.0, f64::max))
+    }
+
+    /// Von Mises stresses, relative to the largest.
+    pub fn mises(&self, exact: &Answer) -> Verdict {
+        let pairs = self.mises.iter().zip(&exact.mises);
+        let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        Verdict::of_error(error / exact.mises.iter().fold(0.0, |m: f64, x| m.max(*x)))
     }
 
     /// Largest error over the largest displacement of a body; infinite where the exact one is 0 and
     /// this is not.
-    fn error(&self, exact: &Answer, dofs: &[Dof]) -> f64 {
+    fn error(&self, exact: &Answer, dofs: &[usize]) -> f64 {
         let abs = |x: RBig| if x < RBig::ZERO { -x } else { x };
-        let largest = |x: &dyn Fn(usize) -> RBig| {
-            dofs.iter().map(|dof| abs(x(dof.index()))).max().unwrap_or(RBig::ZERO)
-        };
-        let (error, size) =
-            (largest(&|e| &self.u[e] - &exact.u[e]), largest(&|e| exact.u[e].clone()));
+        let largest =
+            |of: &dyn Fn(usize) -> RBig| dofs.iter().map(|&e| abs(of(e))).max().unwrap_or_default();
+        let error = largest(&|e| &self.u[e] - &exact.u[e]);
+        let size = largest(&|e| exact.u[e].clone());
         match () {
             _ if error.is_zero() => 0.0,
             _ if size.is_zero() => f64::INFINITY,
@@ -109,23 +95,9 @@ impl Answer {
     }
 }
 
-/// Runs `variant` on `scene` in `scalar` and compares it with the exact run.
-pub fn against_exact(
-    scene: &SceneBuilder,
-    variant: Variant,
-    scalar: ScalarName,
-    solver: Option<Solver>,
-    quantity: Quantity,
-) -> Verdict {
-    match solve(scene, variant, scalar, solver) {
-        Err(error) => error.into(),
-        Ok(answer) => compared(&answer, scene, variant, quantity),
-    }
-}
-
 /// Compares `answer` with the exact run of `variant` on `scene`; `unilateral` has no exact run and
 /// is compared with `tied`, which is its answer where nothing opens.
-pub fn compared(
+pub fn against_exact(
     answer: &Answer,
     scene: &SceneBuilder,
     variant: Variant,

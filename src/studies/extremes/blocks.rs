@@ -14,7 +14,7 @@ use crate::problem::element::Plane;
 use crate::problem::modelling::{Geometry, Variant};
 use crate::problem::scene::{Axis, Contact, Mesh, MeshBuilder, SceneBuilder};
 
-/// What may be changed of the scene.
+/// What a generator may change of the scene.
 #[derive(Clone, Debug)]
 pub struct Blocks {
     /// Factor of all coordinates.
@@ -56,24 +56,16 @@ impl Default for Blocks {
     }
 }
 
-/// Coordinates of the nodes.
-const NODES: [[f64; 2]; 10] = [
-    [0.0, 0.0],
-    [3.0, 0.0],
-    [3.0, 2.0],
-    [0.0, 2.0],
-    [1.6, 2.0],
-    [0.4, 2.0],
-    [1.3, 2.0],
-    [2.7, 2.0],
-    [2.5, 3.7],
-    [0.6, 3.7],
-];
+/// The blocks of a magnitude.
+pub type BlocksOf = fn(f64) -> Blocks;
 
-/// Tags of the bodies' groups of triangles.
+/// Coordinates x and y of the ten nodes, in lengths.
+const X: [f64; 10] = [0.0, 3.0, 3.0, 0.0, 1.6, 0.4, 1.3, 2.7, 2.5, 0.6];
+const Y: [f64; 10] = [0.0, 0.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 3.7, 3.7];
+
+/// Tags of the bodies' groups of triangles, then of the groups of edges.
 const BLOCK: usize = 1;
 const STAMP: usize = 2;
-/// Tags of the groups of edges.
 const BOTTOM: usize = 10;
 const TARGET: usize = 11;
 const CONTACT: usize = 20;
@@ -103,7 +95,7 @@ impl Blocks {
     fn mesh(&self) -> Mesh {
         let mut mesh = MeshBuilder::default();
         let beside = |height: f64| [0.45 * 1.6 + 0.78 * height, 0.45 * 2.0 - 0.62 * height];
-        let points = NODES.into_iter().chain(self.sliver.map(beside));
+        let points = X.into_iter().zip(Y).map(<[f64; 2]>::from).chain(self.sliver.map(beside));
         mesh.row(points.map(|p| p.map(|x| x * self.length + self.origin)));
         mesh.edges(TARGET, &[4, 5, 3]);
         mesh.edges(CONTACT, &[6, 7, 8]);

@@ -2,12 +2,11 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::answer::{Quantity, compared, solve};
-use super::blocks::Blocks;
-use super::precision::{DOUBLE, SINGLE, carried, in_each_scalar, joined, solved_by};
-use super::sweep::{Method, Sweep};
+use super::answer::{Answer, against_exact, solve};
+use super::blocks::{Blocks, BlocksOf};
+use super::methods::{DOUBLE, SINGLE, in_each_scalar, joined, power_of_two, run};
+use super::sweep::{Generator, Method, Sweep};
 use super::verdict::Verdict;
-use super::{Generator, remedies};
 use crate::answer::error::Error;
 use crate::answer::{self, Request};
 use crate::numbers::solve::{ScalarName, Solver};
@@ -17,18 +16,14 @@ use crate::studies::benchmark::Annulus;
 
 /// E of the stamp over E of the block.
 pub fn moduli() -> Generator {
-    fn blocks(ratio: f64) -> Blocks {
-        Blocks { e: [30000.0, 30000.0 * ratio], ..Blocks::default() }
-    }
-    let mut methods = joined(blocks);
-    methods.extend(in_each_scalar(Variant::Printed, blocks));
-    Generator {
-        name: "moduli",
-        title: "Moduli of the two bodies far apart",
-        magnitude: "E of the stamp / E of the block",
-        sweep: Sweep::Decades { from: -15, to: 15, step: 3, start: 0 },
-        methods,
-    }
+    let blocks: BlocksOf = |ratio| Blocks { e: [30000.0, 30000.0 * ratio], ..Blocks::default() };
+    Generator::new(
+        "moduli",
+        "Moduli of the two bodies far apart",
+        "E of the stamp / E of the block",
+        Sweep::Decades { from: -15, to: 15, step: 3 },
+        [joined(blocks), in_each_scalar(Variant::Printed, blocks)],
+    )
 }
 
 /// 1 − 2 nu down to the last bit; the mesh locks long before the arithmetic breaks down.
@@ -36,60 +31,37 @@ pub fn incompressible() -> Generator {
     fn nu(rest: f64) -> f64 {
         0.5 - rest / 2.0
     }
-    fn blocks(rest: f64) -> Blocks {
-        Blocks { nu: nu(rest), ..Blocks::default() }
-    }
-    let mut methods = joined(blocks);
-    methods.extend([4, 16].map(|radial| {
+    let against_lame = [4, 16].map(|radial| {
         let name = format!("f64, {radial} x {} mesh against Lame", 2 * radial);
-        Method::new(name, 16.0, move |rest| lame(nu(rest), radial)).down_to(1.0)
-    }));
-    Generator {
-        name: "incompressible",
-        title: "Poisson's ratio to 0.5: arithmetic against exact numbers, and locking against \
-                Lame's closed form",
-        magnitude: "1 - 2 nu",
-        sweep: Sweep::Decades { from: -17, to: 0, step: 1, start: 0 },
-        methods,
-    }
+        Method::new(name, DOUBLE, move |rest| lame(nu(rest), radial)).down_to(1.0)
+    });
+    Generator::new(
+        "incompressible",
+        "Poisson's ratio to 0.5: arithmetic against exact numbers, and locking against Lame's \
+         closed form",
+        "1 - 2 nu",
+        Sweep::Decades { from: -17, to: 0, step: 1 },
+        [joined(|rest| Blocks { nu: nu(rest), ..Blocks::default() }), against_lame.into()],
+    )
 }
 
 /// 1 + nu down to the last bit.
 pub fn auxetic() -> Generator {
-    fn blocks(rest: f64) -> Blocks {
-        Blocks { nu: rest - 1.0, ..Blocks::default() }
-    }
-    Generator {
-        name: "auxetic",
-        title: "Poisson's ratio to -1",
-        magnitude: "1 + nu",
-        sweep: Sweep::Decades { from: -17, to: 0, step: 1, start: 0 },
-        methods: joined(blocks),
-    }
+    Generator::new(
+        "auxetic",
+        "Poisson's ratio to -1",
+        "1 + nu",
+        Sweep::Decades { from: -17, to: 0, step: 1 },
+        [joined(|rest| Blocks { nu: rest - 1.0, ..Blocks::default() })],
+    )
 }
 
-/// The radial displacement of the bore on a mesh against Lamé's.
-fn lame(nu: f64, radial: usize) -> Verdict {
-    match bore(nu, radial) {
-        Err(error) => error.into(),
-        Ok(u) => {
-            // (1 + nu) p a² / (E (b² − a²)) · ((1 − 2 nu) a + b²/a): a = 10, b = 20, p = 10, E =
-            // 30000.
-            let exact = (1.0 + nu) * 1000.0 / (30000.0 * 300.0) * ((1.0 - 2.0 * nu) * 10.0 + 40.0);
-            match Verdict::of_error((u - exact).abs() / exact) {
-                Verdict::Wrong("no digit") => Verdict::Wrong("locked"),
-                other => other,
-            }
-        }
-    }
-}
-
-/// The radial displacement where the quarter's diagonal meets the bore, mm.
-fn bore(nu: f64, radial: usize) -> Result<f64, Error> {
+/// The radial displacement where the quarter's diagonal meets the bore, on a mesh of `radial`
+/// divisions of the wall, against Lamé's.
+fn lame(nu: f64, radial: usize) -> Result<Verdict, Error> {
     let mut annulus = Annulus { radial, around: 2 * radial }.generate()?;
     annulus.description.materials.0[0].1.nu = nu;
-    let scene = annulus.build()?;
-    let request = Request::new(&scene).variant(Variant::Unilateral);
+    let request = Request::new(&annulus.build()?).variant(Variant::Unilateral);
     let solution = answer::solve(&request, &mut |_| ())?;
     let model = &solution.model;
     let far = |node: &NodeId| {
@@ -98,45 +70,44 @@ fn bore(nu: f64, radial: usize) -> Result<f64, Error> {
     };
     let nearest = model.node_ids().min_by(|a, b| far(a).total_cmp(&far(b)));
     let [x, y] = nearest.expect("a mesh has nodes").of(&solution.u);
-    Ok(x.hypot(y))
+    let u = x.hypot(y);
+    // (1 + nu) p a² / (E (b² − a²)) · ((1 − 2 nu) a + b²/a): a = 10, b = 20, p = 10, E = 30000.
+    let exact = (1.0 + nu) * 1000.0 / (30000.0 * 300.0) * ((1.0 - 2.0 * nu) * 10.0 + 40.0);
+    Ok(match Verdict::of_error((u - exact).abs() / exact) {
+        Verdict::Wrong("no digit") => Verdict::Wrong("locked"),
+        other => other,
+    })
 }
 
 /// K3: 1 on the diagonal of restrained equations among stiffnesses of any size.
 pub fn unit_diagonal() -> Generator {
-    fn blocks(e: f64) -> Blocks {
-        Blocks { e: [e, 7.0 * e], ..Blocks::default() }
-    }
-    let mut methods = in_each_scalar(Variant::Printed, blocks);
-    methods.push(solved_by(Variant::Printed, Solver::Cg, blocks));
-    methods.extend([SINGLE, DOUBLE].into_iter().map(|scalar| {
-        Method::new(format!("printed {scalar}, E scaled to 1"), carried(scalar), move |e| {
-            scaled(e, scalar, None)
-        })
-    }));
-    methods.push(Method::new("printed f64 cg, E scaled to 1", 16.0, |e| {
-        scaled(e, DOUBLE, Some(Solver::Cg))
-    }));
-    Generator {
-        name: "unit-diagonal",
-        title: "K3: the unit diagonal of restrained equations among stiffnesses of another size",
-        magnitude: "E",
-        sweep: Sweep::Decades { from: -12, to: 12, step: 3, start: 0 },
-        methods,
-    }
+    let blocks: BlocksOf = |e| Blocks { e: [e, 7.0 * e], ..Blocks::default() };
+    let (name, by_cg) = ("printed f64 cg".to_string(), (DOUBLE, Some(Solver::Cg)));
+    let others = vec![
+        run(name, Variant::Printed, by_cg, Answer::displacement, blocks),
+        scaled("printed f32, E scaled to 1", SINGLE, None),
+        scaled("printed f64, E scaled to 1", DOUBLE, None),
+        scaled("printed f64 cg, E scaled to 1", DOUBLE, Some(Solver::Cg)),
+    ];
+    Generator::new(
+        "unit-diagonal",
+        "K3: the unit diagonal of restrained equations among stiffnesses of another size",
+        "E",
+        Sweep::Decades { from: -12, to: 12, step: 3 },
+        [in_each_scalar(Variant::Printed, blocks), others],
+    )
 }
 
 /// `printed` with E and the load divided by the power of two next to E: the unit diagonal is then
 /// one of the stiffnesses, and displacements stay.
-fn scaled(e: f64, scalar: ScalarName, solver: Option<Solver>) -> Verdict {
-    let scene = |e: f64, pressure: f64| {
+fn scaled(name: &str, scalar: ScalarName, solver: Option<Solver>) -> Method {
+    let scene = |e: f64, unit: f64| {
+        let Blocks { pressure, .. } = Blocks::default();
+        let (e, pressure) = (e / unit, pressure / unit);
         Blocks { e: [e, 7.0 * e], pressure, ..Blocks::default() }.scene(Variant::Printed)
     };
-    let unit = remedies::power_of_two(e);
-    let pressure = Blocks::default().pressure;
-    match solve(&scene(e / unit, pressure / unit), Variant::Printed, scalar, solver) {
-        Err(error) => error.into(),
-        Ok(answer) => {
-            compared(&answer, &scene(e, pressure), Variant::Printed, Quantity::Displacement)
-        }
-    }
+    Method::new(name, scalar, move |e| {
+        let answer = solve(&scene(e, power_of_two(e)), Variant::Printed, scalar, solver)?;
+        Ok(against_exact(&answer, &scene(e, 1.0), Variant::Printed, Answer::displacement))
+    })
 }

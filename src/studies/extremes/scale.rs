@@ -1,106 +1,99 @@
 //! Generators of size and place: coordinates far from the origin, lengths and loads of any size,
 //! slivers, many iterations.
 
-use super::Generator;
-use super::answer::{Quantity, solve};
-use super::blocks::Blocks;
-use super::precision::{
-    BlocksOf, DOUBLE, SCALARS, SINGLE, carried, in_each_scalar, in_scalar, joined, mises,
+use super::answer::{Answer, solve};
+use super::blocks::{Blocks, BlocksOf};
+use super::methods::{
+    DOUBLE, SCALARS, SINGLE, in_each_scalar, in_scalar, joined, length_scaled, load_scaled, run,
+    shifted,
 };
-use super::remedies::{length_scaled, load_scaled, shifted};
-use super::sweep::{Method, Sweep};
+use super::sweep::{Generator, Method, Sweep};
 use super::verdict::Verdict;
+use crate::answer::error::Error;
 use crate::numbers::solve::ScalarName;
 use crate::problem::modelling::Variant;
 
-/// Coordinates moved off the origin.
+/// Coordinates far from the origin.
 pub fn offset() -> Generator {
-    fn once(origin: f64) -> Blocks {
-        Blocks { origin, ..Blocks::default() }
-    }
     fn twice(origin: f64) -> Blocks {
-        Blocks { iterations: 2, ..once(origin) }
+        Blocks { origin, iterations: 2, ..Blocks::default() }
     }
-    let mut methods = joined(twice);
-    methods.push(in_scalar(Variant::Printed, DOUBLE, once));
-    methods.extend([SINGLE, DOUBLE].map(|scalar| shifted(scalar, twice)));
-    methods.push(Method::new("exact, but for the input's rounding", 16.0, |origin| {
-        beside_exact(&twice(origin), Variant::Tied, ScalarName::Exact, &twice(0.0))
-    }));
-    Generator {
-        name: "offset",
-        title: "Coordinates moved off the origin: against exact numbers on the moved scene, and \
-                that against the scene unmoved",
-        magnitude: "distance from the origin / edge length",
-        sweep: Sweep::Decades { from: 0, to: 16, step: 1, start: 0 },
-        methods,
-    }
+    let once: BlocksOf = |origin| Blocks { origin, ..Blocks::default() };
+    let others = vec![
+        in_scalar(Variant::Printed, DOUBLE, once),
+        shifted(SINGLE, twice),
+        shifted(DOUBLE, twice),
+        Method::new("exact, but for the input's rounding", DOUBLE, |origin| {
+            beside_exact(&twice(origin), Variant::Tied, ScalarName::Exact, &twice(0.0))
+        }),
+    ];
+    Generator::new(
+        "offset",
+        "Coordinates moved off the origin: against exact numbers on the moved scene, and that \
+         against the scene unmoved",
+        "distance from the origin / edge length",
+        Sweep::Decades { from: 0, to: 16, step: 1 },
+        [joined(twice), others],
+    )
 }
 
 /// Compares `variant` in `scalar` on `blocks` with the exact `tied` run on others.
-fn beside_exact(blocks: &Blocks, variant: Variant, scalar: ScalarName, others: &Blocks) -> Verdict {
-    let answer = solve(&blocks.scene(variant), variant, scalar, None);
-    let exact = solve(&others.scene(Variant::Tied), Variant::Tied, ScalarName::Exact, None);
-    match (answer, exact) {
-        (Ok(answer), Ok(exact)) => answer.against(&exact, Quantity::Displacement),
-        (Err(error), _) | (_, Err(error)) => error.into(),
-    }
+fn beside_exact(
+    blocks: &Blocks,
+    variant: Variant,
+    scalar: ScalarName,
+    others: &Blocks,
+) -> Result<Verdict, Error> {
+    let answer = solve(&blocks.scene(variant), variant, scalar, None)?;
+    let exact = solve(&others.scene(Variant::Tied), Variant::Tied, ScalarName::Exact, None)?;
+    Ok(answer.against(&exact, Answer::displacement))
 }
 
 /// Lengths, the tolerance among them.
 pub fn lengths() -> Generator {
-    fn blocks(length: f64) -> Blocks {
-        Blocks { length, c_tll: 1e-3 * length, ..Blocks::default() }
-    }
-    let mut methods = of_any_size(blocks);
-    methods.extend([SINGLE, DOUBLE].map(|scalar| length_scaled(scalar, blocks)));
-    Generator {
-        name: "lengths",
-        title: "Lengths of any size",
-        magnitude: "length unit",
-        sweep: Sweep::Decades { from: -300, to: 300, step: 20, start: 0 },
-        methods,
-    }
+    let blocks = |length| Blocks { length, c_tll: 1e-3 * length, ..Blocks::default() };
+    of_any_size("lengths", "Lengths of any size", "length unit", blocks, length_scaled)
 }
 
 /// Loads; one iteration, which is linear in them.
 pub fn loads() -> Generator {
-    fn blocks(pressure: f64) -> Blocks {
-        Blocks { pressure, ..Blocks::default() }
-    }
-    let mut methods = of_any_size(blocks);
-    methods.extend([SINGLE, DOUBLE].map(|scalar| load_scaled(scalar, blocks)));
-    Generator {
-        name: "loads",
-        title: "Loads of any size, one iteration",
-        magnitude: "pressure",
-        sweep: Sweep::Decades { from: -300, to: 300, step: 20, start: 0 },
-        methods,
-    }
+    let blocks = |pressure| Blocks { pressure, ..Blocks::default() };
+    of_any_size("loads", "Loads of any size, one iteration", "pressure", blocks, load_scaled)
 }
 
-/// The variants that join the bodies, and `printed` in `f64`.
-fn of_any_size(blocks: BlocksOf) -> Vec<Method> {
-    let mut methods = joined(blocks);
-    methods.push(in_scalar(Variant::Printed, DOUBLE, blocks));
-    methods
+/// The variants that join the bodies, `printed` in `f64`, and a remedy.
+fn of_any_size(
+    name: &'static str,
+    title: &'static str,
+    magnitude: &'static str,
+    blocks: BlocksOf,
+    remedy: fn(ScalarName, BlocksOf) -> Method,
+) -> Generator {
+    let printed = in_scalar(Variant::Printed, DOUBLE, blocks);
+    let others = vec![printed, remedy(SINGLE, blocks), remedy(DOUBLE, blocks)];
+    let sweep = Sweep::Decades { from: -300, to: 300, step: 20 };
+    Generator::new(name, title, magnitude, sweep, [joined(blocks), others])
 }
 
 /// Two triangles of ever smaller angle.
 pub fn slivers() -> Generator {
-    fn blocks(height: f64) -> Blocks {
-        Blocks { sliver: Some(height), ..Blocks::default() }
-    }
-    let mut methods = in_each_scalar(Variant::Tied, blocks);
-    methods.extend(SCALARS.map(|scalar| mises(Variant::Tied, scalar, blocks)));
-    methods.push(in_scalar(Variant::Unilateral, DOUBLE, blocks));
-    Generator {
-        name: "slivers",
-        title: "A triangle pressed flat",
-        magnitude: "height / length of the triangle",
-        sweep: Sweep::Decades { from: -18, to: 0, step: 1, start: 0 },
-        methods,
-    }
+    let blocks: BlocksOf = |height| Blocks { sliver: Some(height), ..Blocks::default() };
+    // Stresses leave a run as `f64`.
+    let mises = |scalar: ScalarName| {
+        let name = format!("tied {scalar}, von Mises");
+        run(name, Variant::Tied, (scalar, None), Answer::mises, blocks).carrying(16.0)
+    };
+    Generator::new(
+        "slivers",
+        "A triangle pressed flat",
+        "height / length of the triangle",
+        Sweep::Decades { from: -18, to: 0, step: 1 },
+        [
+            in_each_scalar(Variant::Tied, blocks),
+            SCALARS.map(mises).into(),
+            vec![in_scalar(Variant::Unilateral, DOUBLE, blocks)],
+        ],
+    )
 }
 
 /// The load in many steps; contact does not change, so that one step has the exact answer.
@@ -109,17 +102,16 @@ pub fn iterations() -> Generator {
         Blocks { iterations: steps.round() as usize, ..Blocks::default() }
     }
     let drift = |variant: Variant, scalar: ScalarName| {
-        Method::new(format!("{variant} {scalar}"), carried(scalar), move |steps| {
+        Method::new(format!("{variant} {scalar}"), scalar, move |steps| {
             beside_exact(&blocks(steps), variant, scalar, &blocks(1.0))
         })
     };
-    let mut methods: Vec<Method> = SCALARS.map(|scalar| drift(Variant::Stepped, scalar)).into();
-    methods.push(drift(Variant::Tied, DOUBLE));
-    Generator {
-        name: "iterations",
-        title: "Drift over many iterations",
-        magnitude: "iterations",
-        sweep: Sweep::Decades { from: 0, to: 4, step: 1, start: 0 },
-        methods,
-    }
+    let stepped = SCALARS.map(|scalar| drift(Variant::Stepped, scalar));
+    Generator::new(
+        "iterations",
+        "Drift over many iterations",
+        "iterations",
+        Sweep::Decades { from: 0, to: 4, step: 1 },
+        [stepped.into(), vec![drift(Variant::Tied, DOUBLE)]],
+    )
 }

@@ -3,9 +3,11 @@
 
 use nalgebra::DVector;
 
+use super::sweep::Method;
 use super::verdict::Verdict;
 use crate::answer::error::Error;
-use crate::numbers::scalar::{Exact, Scalar, scope};
+use crate::numbers::scalar::{Exact, F64x2, Scalar, scope};
+use crate::numbers::solve::ScalarName;
 use crate::paper::door;
 use crate::paper::mirror::{Reading, c_cnt};
 use crate::problem::element::Plane;
@@ -28,7 +30,7 @@ pub struct Search {
 }
 
 /// What a search finds of its node.
-pub struct Difference<T> {
+struct Difference<T> {
     /// Its gap to the edge: as printed a length, projected in edge lengths.
     gap: T,
     /// Its weight at the edge's first node.
@@ -39,7 +41,7 @@ pub struct Difference<T> {
 
 impl Search {
     /// As printed: c_cnt under R5 = node_n, which takes weights from the current shape too.
-    pub fn printed<T: Scalar>(&self) -> Result<Difference<T>, Error> {
+    fn printed<T: Scalar>(&self) -> Result<Difference<T>, Error> {
         let scene = self.scene().build()?;
         let reading: Reading = "R5=node_n".parse().expect("a reading");
         let sheet = door::worksheet(&scene.model, T::from_f64);
@@ -55,7 +57,7 @@ impl Search {
 
     /// The remedy: distance along the normal and weight by projection, over the edge length, from
     /// coordinates about `origin`.
-    pub fn projected<T: Scalar>(&self, origin: [f64; 2]) -> Difference<T> {
+    fn projected<T: Scalar>(&self, origin: [f64; 2]) -> Difference<T> {
         let at = |p: [f64; 2], u: [f64; 2]| {
             [0, 1].map(|d| T::from_f64(p[d] - origin[d]) + T::from_f64(u[d]))
         };
@@ -97,45 +99,72 @@ fn minus<T: Scalar>([ax, ay]: [T; 2], [bx, by]: [T; 2]) -> [T; 2] {
 }
 
 /// What is compared of a search.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 pub enum Of {
-    /// The gap.
+    /// The gap, whatever the status is.
     Gap,
     /// The weight, where the status is right.
     Weight,
-    /// The status.
+    /// The status alone.
     Status,
 }
 
+/// The searches of a magnitude.
+pub type SearchOf = fn(f64) -> Search;
+
+/// A search by the printed formulas in f32, f64 and f64x2.
+pub fn printed(name: &str, of: Of, search: SearchOf) -> Vec<Method> {
+    vec![
+        method::<f32>(name, ScalarName::F32, of, search, None),
+        method::<f64>(name, ScalarName::F64, of, search, None),
+        method::<F64x2>(name, ScalarName::F64x2, of, search, None),
+    ]
+}
+
+/// The same by the remedy, projection on the edge about an origin, in f32 and f64.
+pub fn projected(name: &str, of: Of, search: SearchOf, origin: Origin) -> Vec<Method> {
+    vec![
+        method::<f32>(name, ScalarName::F32, of, search, Some(origin)),
+        method::<f64>(name, ScalarName::F64, of, search, Some(origin)),
+    ]
+}
+
+/// The origin of the coordinates of a search, length.
+type Origin = fn(&Search) -> [f64; 2];
+
 /// The printed formulas in `T`, or the projected ones about an origin, against the same in exact
 /// numbers.
-pub fn against_exact<T: Scalar>(search: &Search, of: Of, projected: Option<[f64; 2]>) -> Verdict {
-    scope(|| {
-        let (found, exact) = match projected {
-            Some(origin) => {
-                (Ok(search.projected::<T>(origin)), Ok(search.projected::<Exact>([0.0, 0.0])))
-            }
-            None => (search.printed::<T>(), search.printed::<Exact>()),
-        };
-        match (found, exact) {
-            (Err(error), _) => error.into(),
-            (_, Err(_)) => Verdict::Wrong("exact refuses"),
-            (Ok(found), Ok(exact)) => found.against(&exact, of),
-        }
+fn method<T: Scalar>(
+    name: &str,
+    scalar: ScalarName,
+    of: Of,
+    search: SearchOf,
+    origin: Option<Origin>,
+) -> Method {
+    Method::new(format!("{name} {scalar}"), scalar, move |x| {
+        let search = search(x);
+        scope(|| {
+            let (found, exact) = match origin {
+                Some(origin) => {
+                    (search.projected::<T>(origin(&search)), Ok(search.projected([0.0, 0.0])))
+                }
+                None => (search.printed::<T>()?, search.printed::<Exact>()),
+            };
+            Ok(exact.map_or(Verdict::Wrong("exact refuses"), |exact| found.against(&exact, of)))
+        })
     })
 }
 
 impl<T: Scalar> Difference<T> {
     fn against(&self, exact: &Difference<Exact>, of: Of) -> Verdict {
         let error = |x: T, y: Exact| match (x.to_rational(), y.to_rational()) {
-            (Some(x), Some(y)) => (x - y).to_f64().value().abs(),
-            _ => f64::NAN,
+            (Some(x), Some(y)) => Verdict::of_error((x - y).to_f64().value().abs()),
+            _ => Verdict::of_error(f64::NAN),
         };
         match of {
-            Of::Status => Verdict::of_status(self.dy == exact.dy),
-            Of::Gap => Verdict::of_error(error(self.gap, exact.gap)),
-            Of::Weight if self.dy != exact.dy => Verdict::of_status(false),
-            Of::Weight => Verdict::of_error(error(self.weight, exact.weight)),
+            Of::Gap => error(self.gap, exact.gap),
+            Of::Weight if self.dy == exact.dy => error(self.weight, exact.weight),
+            Of::Weight | Of::Status => Verdict::of_status(self.dy == exact.dy),
         }
     }
 }

@@ -1,13 +1,11 @@
 //! Generators of the contact search: steep edges, gaps at the tolerance, the tolerance itself,
 //! unusual surfaces.
 
-use super::Generator;
-use super::answer::{Quantity, solve};
-use super::blocks::Blocks;
-use super::precision::{BlocksOf, DOUBLE, carried, in_each_scalar, in_scalar};
-use super::search::{Of, Search, against_exact};
-use super::sweep::{Method, Sweep};
-use crate::numbers::scalar::F64x2;
+use super::answer::solve;
+use super::blocks::{Blocks, BlocksOf};
+use super::methods::{DOUBLE, in_each_scalar, in_scalar};
+use super::search::{Of, Search, SearchOf, printed, projected};
+use super::sweep::{Generator, Method, Sweep};
 use crate::numbers::solve::ScalarName;
 use crate::problem::modelling::Variant;
 
@@ -22,7 +20,7 @@ fn at_angle(angle: f64, gap: f64) -> Search {
     Search { a, b: [a[0] + angle, a[1] + 1.0], n, moved, c_tll: 10.0 }
 }
 
-/// A node on the edge.
+/// A node exactly on the edge.
 fn steep(angle: f64) -> Search {
     at_angle(angle, 0.0)
 }
@@ -32,71 +30,42 @@ fn near(angle: f64) -> Search {
     at_angle(angle, 7e-4)
 }
 
-/// A search by the printed formulas in f32, f64 and f64x2.
-fn in_each(name: &str, of: Of, search: fn(f64) -> Search) -> Vec<Method> {
-    let name = |scalar: ScalarName| format!("{name} {scalar}");
-    vec![
-        Method::new(name(ScalarName::F32), 7.0, move |x| {
-            against_exact::<f32>(&search(x), of, None)
-        }),
-        Method::new(name(DOUBLE), 16.0, move |x| against_exact::<f64>(&search(x), of, None)),
-        Method::new(name(ScalarName::F64x2), 31.0, move |x| {
-            against_exact::<F64x2>(&search(x), of, None)
-        }),
-    ]
-}
-
-/// The same by the remedy, projection on the edge, in f32 and f64.
-fn projected(name: &str, of: Of, search: fn(f64) -> Search, shifted: bool) -> Vec<Method> {
-    let origin = move |s: &Search| if shifted { s.a } else { [0.0, 0.0] };
-    let single = move |x: f64| {
-        let s = search(x);
-        against_exact::<f32>(&s, of, Some(origin(&s)))
-    };
-    let double = move |x: f64| {
-        let s = search(x);
-        against_exact::<f64>(&s, of, Some(origin(&s)))
-    };
-    vec![
-        Method::new(format!("{name} f32"), 7.0, single),
-        Method::new(format!("{name} f64"), 16.0, double),
-    ]
-}
-
 /// C3: the target edge turned to the vertical.
 pub fn steep_edge() -> Generator {
-    let mut methods = in_each("yt", Of::Gap, steep);
-    methods.extend(in_each("yt 7e-4 off the edge", Of::Gap, near));
-    methods.extend(projected("normal gap 7e-4 off", Of::Gap, near, false));
-    methods.extend(in_each("weight", Of::Weight, steep));
-    methods.extend(projected("projected weight", Of::Weight, steep, false));
-    Generator {
-        name: "steep-edge",
-        title: "C3: a target edge turned to the vertical; errors over the edge length, so that 3 \
-                digits are the paper's c_tol of 0.001",
-        magnitude: "angle from the vertical, rad",
-        sweep: Sweep::Decades { from: -18, to: 0, step: 1, start: 0 },
-        methods,
-    }
+    Generator::new(
+        "steep-edge",
+        "C3: a target edge turned to the vertical; errors over the edge length, so that 3 digits \
+         are the paper's c_tol of 0.001",
+        "angle from the vertical, rad",
+        Sweep::Decades { from: -18, to: 0, step: 1 },
+        [
+            printed("yt", Of::Gap, steep),
+            printed("yt 7e-4 off the edge", Of::Gap, near),
+            projected("normal gap 7e-4 off", Of::Gap, near, |_| [0.0, 0.0]),
+            printed("weight", Of::Weight, steep),
+            projected("projected weight", Of::Weight, steep, |_| [0.0, 0.0]),
+        ],
+    )
 }
 
 /// The gap of a node over a sloping edge far from the origin.
 pub fn offset_gap() -> Generator {
-    fn search(origin: f64) -> Search {
+    let search: SearchOf = |origin| {
         let home = near(1.0);
         let moved = |p: [f64; 2]| p.map(|x| x + origin);
         Search { a: moved(home.a), b: moved(home.b), n: moved(home.n), ..home }
-    }
-    let mut methods = in_each("yt", Of::Gap, search);
-    methods.extend(projected("normal gap, origin shifted", Of::Gap, search, true));
-    methods.extend(in_each("weight", Of::Weight, search));
-    Generator {
-        name: "offset-gap",
-        title: "Gap and weights far from the origin; errors over the edge length",
-        magnitude: "distance from the origin / edge length",
-        sweep: Sweep::Decades { from: 0, to: 16, step: 1, start: 0 },
-        methods,
-    }
+    };
+    Generator::new(
+        "offset-gap",
+        "Gap and weights far from the origin; errors over the edge length",
+        "distance from the origin / edge length",
+        Sweep::Decades { from: 0, to: 16, step: 1 },
+        [
+            printed("yt", Of::Gap, search),
+            projected("normal gap, origin shifted", Of::Gap, search, |search| search.a),
+            printed("weight", Of::Weight, search),
+        ],
+    )
 }
 
 const ULPS: &[&str] = &[
@@ -121,13 +90,13 @@ fn at_tolerance(case: f64) -> Search {
 
 /// The gap within a unit in the last place of c_tll: who is in contact.
 pub fn gap_at_tolerance() -> Generator {
-    Generator {
-        name: "gap-at-tolerance",
-        title: "A gap within a unit in the last place of c_tll: is the node in contact",
-        magnitude: "case",
-        sweep: Sweep::Cases(ULPS),
-        methods: in_each("status", Of::Status, at_tolerance),
-    }
+    Generator::new(
+        "gap-at-tolerance",
+        "A gap within a unit in the last place of c_tll: is the node in contact",
+        "case",
+        Sweep::Cases(ULPS),
+        [printed("status", Of::Status, at_tolerance)],
+    )
 }
 
 const TOLERANCES: &[&str] = &[
@@ -137,32 +106,28 @@ const TOLERANCES: &[&str] = &[
 
 /// c_tll of any size, the gaps being 0.
 pub fn tolerance() -> Generator {
-    fn blocks(case: f64) -> Blocks {
+    let blocks: BlocksOf = |case| {
         let c_tll = TOLERANCES[case as usize].parse().expect("a number");
         Blocks { c_tll, ..Blocks::default() }
-    }
-    let mut methods = in_each_scalar(Variant::Tied, blocks);
-    methods.extend(beside("beside c_tll = 1e-3", blocks, |_| Blocks::default()));
-    Generator {
-        name: "tolerance",
-        title: "c_tll 0, subnormal, huge; all gaps are 0",
-        magnitude: "case",
-        sweep: Sweep::Cases(TOLERANCES),
-        methods,
-    }
+    };
+    let beside = beside("beside c_tll = 1e-3", blocks, |_| Blocks::default());
+    Generator::new(
+        "tolerance",
+        "c_tll 0, subnormal, huge; all gaps are 0",
+        "case",
+        Sweep::Cases(TOLERANCES),
+        [in_each_scalar(Variant::Tied, blocks), beside.into()],
+    )
 }
 
 /// `tied` and `unilateral` in f64 on blocks, each beside `others`, whoever is in contact: `tied`
 /// beside exact numbers, `unilateral`, which has none, beside itself.
 fn beside(name: &str, blocks: BlocksOf, others: BlocksOf) -> [Method; 2] {
     [(Variant::Tied, ScalarName::Exact), (Variant::Unilateral, DOUBLE)].map(|(variant, scalar)| {
-        Method::new(format!("{variant} f64, {name}"), carried(DOUBLE), move |case| {
-            let answer = solve(&blocks(case).scene(variant), variant, DOUBLE, None);
-            let other = solve(&others(case).scene(variant), variant, scalar, None);
-            match (answer, other) {
-                (Ok(answer), Ok(other)) => answer.beside(&other, Quantity::Displacement),
-                (Err(error), _) | (_, Err(error)) => error.into(),
-            }
+        Method::new(format!("{variant} f64, {name}"), DOUBLE, move |case| {
+            let answer = solve(&blocks(case).scene(variant), variant, DOUBLE, None)?;
+            let other = solve(&others(case).scene(variant), variant, scalar, None)?;
+            Ok(answer.displacement(&other))
         })
     })
 }
@@ -191,15 +156,16 @@ pub fn surfaces() -> Generator {
     fn once(case: f64) -> Blocks {
         if case > 2.0 { Blocks::default() } else { blocks(case) }
     }
-    let mut methods = in_each_scalar(Variant::Tied, blocks);
-    methods.extend(in_each_scalar(Variant::Printed, blocks));
-    methods.push(in_scalar(Variant::Stepped, DOUBLE, blocks));
-    methods.extend(beside("beside each once", blocks, once));
-    Generator {
-        name: "surfaces",
-        title: "One contact node, one edge, a node or an edge named twice",
-        magnitude: "case",
-        sweep: Sweep::Cases(SURFACES),
-        methods,
-    }
+    Generator::new(
+        "surfaces",
+        "One contact node, one edge, a node or an edge named twice",
+        "case",
+        Sweep::Cases(SURFACES),
+        [
+            in_each_scalar(Variant::Tied, blocks),
+            in_each_scalar(Variant::Printed, blocks),
+            vec![in_scalar(Variant::Stepped, DOUBLE, blocks)],
+            beside("beside each once", blocks, once).into(),
+        ],
+    )
 }

@@ -4,60 +4,95 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::verdict::Verdict;
+use crate::answer::error::Error;
+use crate::numbers::solve::ScalarName;
 
 /// Fewer right digits than these, and an engineer is misled.
 const LEAST: f64 = 3.0;
 
+/// A family of problems with one magnitude.
+pub struct Generator {
+    /// The generator's name on the command line.
+    pub name: &'static str,
+    /// What the generator tries, in a line for people.
+    pub title: &'static str,
+    /// What is swept, with its unit.
+    pub magnitude: &'static str,
+    sweep: Sweep,
+    methods: Vec<Method>,
+}
+
 /// What a generator sweeps.
-#[derive(Clone, Copy, Debug)]
 pub enum Sweep {
-    /// Powers of ten `from` .. `to` by `step`, walked from `start` outwards.
-    Decades { from: i32, to: i32, step: usize, start: i32 },
+    /// Powers of ten `from` .. `to` by `step`, walked from 1 outwards.
+    Decades { from: i32, to: i32, step: usize },
     /// Named cases; the magnitude is the case's number, from 0.
     Cases(&'static [&'static str]),
 }
 
-/// A method of doing a problem.
+/// How a problem is solved: a variant or a remedy, and a scalar.
 pub struct Method {
-    /// Its name: variant or remedy, and scalar.
-    pub name: String,
+    name: String,
     /// Digits that its scalar carries.
-    pub carried: f64,
+    carried: f64,
     /// Fewer digits than these count as broken.
-    pub least: f64,
-    /// What comes of a magnitude.
-    measure: Box<dyn Fn(f64) -> Verdict + Send + Sync>,
+    least: f64,
+    measure: Box<dyn Fn(f64) -> Result<Verdict, Error> + Send + Sync>,
 }
 
 impl Method {
-    /// A method whose scalar carries `carried` digits.
+    /// A method in `scalar`; `measure` solves the problem of a magnitude and judges the answer.
     pub fn new(
         name: impl Into<String>,
-        carried: f64,
-        measure: impl Fn(f64) -> Verdict + Send + Sync + 'static,
+        scalar: ScalarName,
+        measure: impl Fn(f64) -> Result<Verdict, Error> + Send + Sync + 'static,
     ) -> Self {
+        let carried = match scalar {
+            ScalarName::F32 => 7.0,
+            ScalarName::F64x2 => 31.0,
+            _ => 16.0,
+        };
         Method { name: name.into(), carried, least: LEAST, measure: Box::new(measure) }
+    }
+
+    /// The same method, of which no more than `carried` digits are known.
+    pub fn carrying(self, carried: f64) -> Self {
+        Method { carried: self.carried.min(carried), ..self }
     }
 
     /// The same method, which breaks down only with fewer than `least` digits.
     pub fn down_to(self, least: f64) -> Self {
         Method { least, ..self }
     }
+
+    fn at(&self, magnitude: f64) -> Verdict {
+        (self.measure)(magnitude).unwrap_or_else(Verdict::from).at_most(self.carried)
+    }
 }
 
-/// Where a method breaks down.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Break {
-    /// Power of ten, bisected to half a decade.
-    pub exponent: f64,
-    /// What comes of it there.
-    pub verdict: Verdict,
+/// What was measured of a generator.
+#[derive(Clone, Debug, Serialize)]
+pub struct Measured {
+    /// The generator's name.
+    pub name: &'static str,
+    /// The generator's line for people.
+    pub title: &'static str,
+    /// What was swept, with its unit.
+    pub magnitude: &'static str,
+    /// The magnitudes as words.
+    pub labels: Vec<String>,
+    /// The magnitudes; the number of a case, from 1, where they are no numbers.
+    pub magnitudes: Vec<f64>,
+    /// Whether the magnitudes are powers of ten.
+    pub logarithmic: bool,
+    /// What was measured of each method.
+    pub columns: Vec<Column>,
 }
 
-/// What came of one method.
+/// What was measured of one method.
 #[derive(Clone, Debug, Serialize)]
 pub struct Column {
-    /// The method's name.
+    /// The method's name: variant or remedy, and scalar.
     pub name: String,
     /// Digits that its scalar carries.
     pub carried: f64,
@@ -69,17 +104,56 @@ pub struct Column {
     pub above: Option<Break>,
 }
 
+/// Where a method breaks down.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Break {
+    /// Power of ten, bisected to half a decade.
+    pub exponent: f64,
+    /// The verdict at that power.
+    pub verdict: Verdict,
+}
+
+impl Generator {
+    /// A generator that tries each of `methods` on what is swept.
+    pub fn new(
+        name: &'static str,
+        title: &'static str,
+        magnitude: &'static str,
+        sweep: Sweep,
+        methods: impl IntoIterator<Item = Vec<Method>>,
+    ) -> Self {
+        let methods = methods.into_iter().flatten().collect();
+        Generator { name, title, magnitude, sweep, methods }
+    }
+
+    /// Tries every method on every magnitude.
+    pub fn measure(&self) -> Measured {
+        let Generator { name, title, magnitude, ref sweep, ref methods } = *self;
+        let points = sweep.points();
+        let logarithmic = matches!(sweep, Sweep::Decades { .. });
+        let of = |p: &i32| sweep.magnitude(f64::from(*p)) + if logarithmic { 0.0 } else { 1.0 };
+        Measured {
+            name,
+            title,
+            magnitude,
+            labels: points.iter().map(|p| sweep.label(*p)).collect(),
+            magnitudes: points.iter().map(of).collect(),
+            logarithmic,
+            columns: methods.par_iter().map(|method| sweep.run(method)).collect(),
+        }
+    }
+}
+
 impl Sweep {
     /// Exponents or numbers of the cases.
-    pub fn points(&self) -> Vec<i32> {
+    fn points(&self) -> Vec<i32> {
         match *self {
-            Sweep::Decades { from, to, step, .. } => (from..=to).step_by(step).collect(),
+            Sweep::Decades { from, to, step } => (from..=to).step_by(step).collect(),
             Sweep::Cases(names) => (0..names.len() as i32).collect(),
         }
     }
 
-    /// The name of a point.
-    pub fn label(&self, point: i32) -> String {
+    fn label(&self, point: i32) -> String {
         match self {
             Sweep::Decades { .. } => format!("1e{point}"),
             Sweep::Cases(names) => names[point as usize].into(),
@@ -87,7 +161,7 @@ impl Sweep {
     }
 
     /// The magnitude of a point, or of one between.
-    pub fn magnitude(&self, point: f64) -> f64 {
+    fn magnitude(&self, point: f64) -> f64 {
         match self {
             // A power of ten is read, not computed: correctly rounded on every machine.
             Sweep::Decades { .. } if point.fract() == 0.0 => {
@@ -98,48 +172,48 @@ impl Sweep {
         }
     }
 
-    /// What comes of `method`.
-    pub fn run(&self, method: &Method) -> Column {
+    fn run(&self, method: &Method) -> Column {
         let points = self.points();
-        let at = |point: f64| (method.measure)(self.magnitude(point)).at_most(method.carried);
+        let at = |point: f64| method.at(self.magnitude(point));
         let verdicts: Vec<Verdict> = points.par_iter().map(|p| at(f64::from(*p))).collect();
-        let (below, above) = match *self {
+        let (below, above) = match self {
             Sweep::Cases(_) => (None, None),
-            Sweep::Decades { start, .. } => {
-                let (down, up): (Vec<_>, Vec<_>) =
-                    points.iter().zip(&verdicts).partition(|(p, _)| **p < start);
-                let inwards = down.into_iter().rev().collect::<Vec<_>>();
-                let first = up.first().copied();
-                let below = first.into_iter().chain(inwards).collect::<Vec<_>>();
-                (breakdown(&below, method, &at), breakdown(&up, method, &at))
+            Sweep::Decades { .. } => {
+                let known: Vec<(i32, &Verdict)> = points.iter().copied().zip(&verdicts).collect();
+                let start = points.partition_point(|p| *p < 0);
+                let downwards = known[..=start].iter().rev();
+                (breakdown(downwards, method, at), breakdown(known[start..].iter(), method, at))
             }
         };
-        let (name, carried) = (method.name.clone(), method.carried);
-        Column { name, carried, verdicts, below, above }
+        Column { name: method.name.clone(), carried: method.carried, verdicts, below, above }
     }
 }
 
-/// The first point outwards at which a method breaks down, bisected; nothing where there is none.
-fn breakdown(
-    outwards: &[(&i32, &Verdict)],
+/// The first of the points outwards at which a method breaks down, bisected towards the point
+/// before it; nothing where there is none. `at` judges a point between.
+fn breakdown<'a>(
+    outwards: impl Iterator<Item = &'a (i32, &'a Verdict)>,
     method: &Method,
-    at: &dyn Fn(f64) -> Verdict,
+    at: impl Fn(f64) -> Verdict,
 ) -> Option<Break> {
-    let first = outwards.iter().position(|(_, verdict)| verdict.breaks_down(method.least))?;
-    let (point, verdict) = outwards[first];
-    let mut broken = Break { exponent: f64::from(*point), verdict: verdict.clone() };
-    if first == 0 {
+    let mut sound = None;
+    for (point, verdict) in outwards {
+        let exponent = f64::from(*point);
+        if !verdict.breaks_down(method.least) {
+            sound = Some(exponent);
+            continue;
+        }
+        let mut broken = Break { exponent, verdict: (*verdict).clone() };
+        while let Some(inner) = sound.filter(|inner| (broken.exponent - inner).abs() > 0.5) {
+            let exponent = (broken.exponent + inner) / 2.0;
+            let verdict = at(exponent);
+            if verdict.breaks_down(method.least) {
+                broken = Break { exponent, verdict };
+            } else {
+                sound = Some(exponent);
+            }
+        }
         return Some(broken);
     }
-    let mut holds = f64::from(*outwards[first - 1].0);
-    while (broken.exponent - holds).abs() > 0.5 {
-        let middle = (broken.exponent + holds) / 2.0;
-        let verdict = at(middle);
-        if verdict.breaks_down(method.least) {
-            broken = Break { exponent: middle, verdict };
-        } else {
-            holds = middle;
-        }
-    }
-    Some(broken)
+    None
 }

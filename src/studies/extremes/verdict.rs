@@ -10,9 +10,9 @@ use crate::answer::error::Error;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "verdict", content = "detail", rename_all = "lowercase")]
 pub enum Verdict {
-    /// No error at all.
+    /// The answer has no error at all.
     Exact,
-    /// Digits that are right.
+    /// How many digits are right.
     Digits(f64),
     /// An answer without a right digit, and in what: a silent wrong answer.
     Wrong(&'static str),
