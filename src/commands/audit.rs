@@ -10,7 +10,7 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{audit as report, folder, pressure};
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
-use plane_contact::studies::audit::{Audit, Case, FindingRow, audit};
+use plane_contact::studies::audit::{Audit, Case, audit};
 
 use super::{print, waiting};
 
@@ -70,8 +70,7 @@ fn explain(args: &Args, finding: &Finding) -> Result<(), Error> {
         files::write(&out.join(format!("{}.svg", finding.id)), &folder::mesh_picture(&case.scene))?;
     }
     if args.json {
-        let row = FindingRow::new(finding, &measured);
-        return print(&(serde_json::to_string(&row).expect("string keys only") + "\n"));
+        return print(&(finding.row(&measured).to_string() + "\n"));
     }
     print(&report::explain(finding, &measured, &case.scene))
 }
@@ -97,14 +96,14 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
         let picture = folder::mesh_picture(&own.scene);
         files::write(&out.join("findings").join(format!("{}.svg", finding.id)), &picture)?;
     }
-    let reference = case.model().target().and_then(|_| case.reference().as_ref().ok());
+    let reference = case.reference();
     for variant in Variant::ALL {
         if let Ok(solution) = case.run(*variant) {
             let assessment = Assessment::against(solution, reference);
             folder::write(&out.join(variant.name()), solution, &assessment, None)?;
         }
     }
-    let own = Variant::ALL.iter().filter_map(|v| case.run(*v).as_ref().ok());
+    let own = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
     let runs: Vec<&Solution> = own.chain(reference).collect();
     if let Some(last) = runs.last().filter(|_| case.model().target().is_some()) {
         let picture = pressure::picture(&case.scene, &runs, Hertz::of(last).as_ref());

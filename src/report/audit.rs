@@ -11,7 +11,7 @@ use crate::problem::scene::Scene;
 use crate::studies::audit::findings::{Finding, Measured};
 use crate::studies::audit::readings::Effect;
 use crate::studies::audit::variants::{End, VariantRow};
-use crate::studies::audit::{Audit, Converged, FindingRow};
+use crate::studies::audit::{Audit, ReferenceSummary};
 
 /// The tables.
 pub fn text(audit: &Audit, scene: &Scene) -> String {
@@ -23,7 +23,7 @@ pub fn text(audit: &Audit, scene: &Scene) -> String {
         readings(&audit.readings),
         findings(&audit.findings),
         variants(&audit.variants),
-        audit.converged.as_ref().map_or(String::new(), converged),
+        audit.reference.as_ref().map_or(String::new(), converged),
         sticking(&audit.sticking)
     )
 }
@@ -145,7 +145,7 @@ fn variants(rows: &[VariantRow]) -> String {
 }
 
 /// What the variants are off from.
-fn converged(converged: &Converged) -> String {
+fn converged(converged: &ReferenceSummary) -> String {
     let of_body = |b: &BodySummary| format!("{} {}", b.name, short(b.max_von_mises_stress));
     let bodies: Vec<String> = converged.bodies.iter().map(of_body).collect();
     format!(
@@ -203,14 +203,11 @@ fn table(head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
 
 /// The audit as JSON.
 pub fn json(audit: &Audit, scene: &Scene) -> String {
-    let findings: Vec<FindingRow> = audit
-        .findings
-        .iter()
-        .map(|(finding, measured)| FindingRow::new(finding, measured))
-        .collect();
+    let findings = audit.findings.iter().map(|(finding, measured)| finding.row(measured));
+    let findings: Vec<serde_json::Value> = findings.collect();
     let document = json!({
         "scene": scene.name, "readings": audit.readings, "findings": findings, "variants": audit.variants,
-        "converged": audit.converged,
+        "converged": audit.reference,
         "sticking": audit.sticking,
     });
     document.to_string() + "\n"

@@ -23,3 +23,4 @@ pub use bounded::Bounded;
 pub use exact::{Exact, scope};
 pub use f64x2::F64x2;
 pub use number::{Scalar, Subscript};
+pub(crate) use operators::operators;

@@ -1,6 +1,6 @@
 //! What an audit looks at: a scene, and a run of each variant under the default reading.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use crate::answer::error::Error;
 use crate::answer::{Request, Solution, reference, solve};
@@ -10,19 +10,16 @@ use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 
-/// A run, or why there is none.
-pub type Run = Result<Solution, Arc<Error>>;
-
 /// A scene under audit. Runs are made when they are first asked for, once.
 pub struct Case {
-    /// The scene.
+    /// The scene that is audited.
     pub scene: Scene,
-    runs: [OnceLock<Run>; Variant::ALL.len()],
-    reference: OnceLock<Run>,
+    runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
+    reference: OnceLock<Option<Solution>>,
 }
 
 impl Case {
-    /// The case of a scene.
+    /// The case of a scene, of which nothing has run yet.
     pub fn new(scene: Scene) -> Self {
         Case { scene, runs: Default::default(), reference: OnceLock::new() }
     }
@@ -37,17 +34,20 @@ impl Case {
         Request::new(&self.scene).variant(variant)
     }
 
-    /// The run of a variant under the default reading.
-    pub fn run(&self, variant: Variant) -> &Run {
+    /// The run of a variant under the default reading, or why there is none.
+    ///
+    /// # Errors
+    /// Those of [`solve`].
+    pub fn run(&self, variant: Variant) -> Result<&Solution, &Error> {
         let at = Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant");
-        let run = || solve(&self.request(variant), &mut |_| ()).map_err(Arc::new);
-        self.runs[at].get_or_init(run)
+        self.runs[at].get_or_init(|| solve(&self.request(variant), &mut |_| ())).as_ref()
     }
 
-    /// The reference solution that runs are measured against.
-    pub fn reference(&self) -> &Run {
-        let run = || reference(&Request::new(&self.scene)).map_err(Arc::new);
-        self.reference.get_or_init(run)
+    /// The reference solution that runs are measured against; nothing without contact, and where
+    /// it does not run.
+    pub fn reference(&self) -> Option<&Solution> {
+        self.model().target()?;
+        self.reference.get_or_init(|| reference(&Request::new(&self.scene)).ok()).as_ref()
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.

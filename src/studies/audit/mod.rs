@@ -7,31 +7,43 @@ pub mod statuses;
 pub mod trace;
 pub mod variants;
 
+use rayon::prelude::*;
+use serde::Serialize;
+
 pub use case::Case;
 
 use crate::answer::contact::ContactNode;
 use crate::answer::{BodySummary, summaries};
 use crate::problem::modelling::{ContactModel, Friction};
-use rayon::prelude::*;
-use serde::Serialize;
-
 use findings::{FINDINGS, Finding, Measured};
 use readings::Effect;
 use variants::VariantRow;
 
 /// All that an audit finds.
 pub struct Audit {
-    /// A row a reading.
+    /// What each other reading changes, in the order of `listings/READING.md`, section 4.
     pub readings: Vec<Effect>,
-    /// A row a finding.
+    /// What the scene shows of each finding, in the order of the register.
     pub findings: Vec<(&'static Finding, Measured)>,
-    /// A row a variant.
+    /// The end of each variant, in the order of `Variant::ALL`.
     pub variants: Vec<VariantRow>,
-    /// What the variants are measured against: the bodies of the converged answer; nothing without contact, and where there is none.
-    pub converged: Option<Converged>,
-    /// The contact nodes of the converged answer that are in contact, where they stick: what friction that takes. Empty where they slide, without
-    /// contact, and where there is no converged answer.
+    /// What the variants are measured against; nothing without contact, and where the reference
+    /// solution does not run.
+    pub reference: Option<ReferenceSummary>,
+    /// The contact nodes of the reference solution that are in contact, where they stick: what
+    /// friction that takes. Empty where they slide, and where there is no reference solution.
     pub sticking: Vec<ContactNode>,
+}
+
+/// The reference solution in short.
+#[derive(Clone, Debug, Serialize)]
+pub struct ReferenceSummary {
+    /// How contact was modelled.
+    pub model: ContactModel,
+    /// Number of contact nodes in contact at the end.
+    pub in_contact: usize,
+    /// The largest displacement and stress of each body.
+    pub bodies: Vec<BodySummary>,
 }
 
 /// Audits a scene.
@@ -39,75 +51,18 @@ pub fn audit(case: &Case) -> Audit {
     let variants = variants::side_by_side(case);
     let readings = readings::effects(case);
     let findings = FINDINGS.par_iter().map(|finding| (finding, finding.measure(case))).collect();
-    let converged = converged(case);
-    Audit { readings, findings, variants, converged, sticking: sticking(case) }
-}
-
-/// The converged answer in short.
-#[derive(Clone, Debug, Serialize)]
-pub struct Converged {
-    /// How contact was modelled.
-    pub model: ContactModel,
-    /// Its contact nodes in contact.
-    pub in_contact: usize,
-    /// Its bodies.
-    pub bodies: Vec<BodySummary>,
-}
-
-fn converged(case: &Case) -> Option<Converged> {
-    case.model().target()?;
-    let reference = case.reference().as_ref().ok()?;
-    Some(Converged {
-        model: reference.request.contact,
-        in_contact: reference.in_contact().count(),
-        bodies: summaries(reference),
-    })
-}
-
-fn sticking(case: &Case) -> Vec<ContactNode> {
-    match case.reference() {
-        Ok(reference)
-            if case.model().target().is_some() && case.scene.contact.friction != Friction::None =>
-        {
-            reference.in_contact().cloned().collect()
-        }
-        _ => Vec::new(),
-    }
-}
-
-/// A finding's row for machines.
-#[derive(Serialize)]
-pub struct FindingRow<'a> {
-    /// `C4`.
-    pub id: &'a str,
-    /// The listing.
-    pub listing: &'a str,
-    /// Its lines.
-    pub lines: &'a [usize],
-    /// What the listing does that the text does not say.
-    pub title: &'a str,
-    /// On this scene: holds, does not arise, contradicted.
-    pub verdict: String,
-    /// The number.
-    pub number: f64,
-    /// What the number is.
-    pub of: &'a str,
-    /// The values.
-    pub detail: &'a str,
-}
-
-impl<'a> FindingRow<'a> {
-    /// The row of a finding and what was measured.
-    pub fn new(finding: &'a Finding, measured: &'a Measured) -> Self {
-        FindingRow {
-            id: finding.id,
-            listing: finding.listing,
-            lines: finding.lines,
-            title: finding.title,
-            verdict: measured.verdict.name().to_string(),
-            number: measured.number,
-            of: finding.number,
-            detail: &measured.detail,
-        }
+    let reference = case.reference();
+    let sticks = case.scene.contact.friction != Friction::None;
+    let sticking = reference.iter().filter(|_| sticks).flat_map(|solution| solution.in_contact());
+    Audit {
+        readings,
+        findings,
+        variants,
+        reference: reference.map(|solution| ReferenceSummary {
+            model: solution.request.contact,
+            in_contact: solution.in_contact().count(),
+            bodies: summaries(solution),
+        }),
+        sticking: sticking.cloned().collect(),
     }
 }

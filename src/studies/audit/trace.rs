@@ -1,4 +1,5 @@
-//! What a listing reads and writes as it runs, line by line, by contact node (`c_cnt`) or by element (`Km`).
+//! What a listing reads and writes as it runs, line by line, by contact node (`c_cnt`) or by element
+//! (`Km`).
 
 use serde::Serialize;
 use serde_json::Value as Json;
@@ -7,56 +8,58 @@ use crate::paper::door::Call;
 use crate::paper::listings::{self, Which};
 use crate::paper::mathcad::array::Table;
 use crate::paper::mathcad::observe::{Executed, Named};
-use crate::paper::mathcad::{Failure, Listing, Recorder, Settings, Value};
+use crate::paper::mathcad::{Failure, Listing, Observer, Recorder, Settings, Value};
 use crate::paper::mirror::Pairs;
 
 /// An execution of a listing.
 pub struct Trace {
-    /// The listing.
+    /// Which of the paper's listings was executed, as printed or edited.
     pub which: Which,
-    /// Its statements in order of execution, each with the turn of the outer loop that it belongs to.
+    /// Its statements in order of execution, each with the turn of the outer loop that it belongs
+    /// to; at most [`MOST_STEPS`].
     pub steps: Vec<Step>,
     /// The lines that the listing's own `trace` wrote.
     pub output: Vec<String>,
-    /// What came out, or the failure that stopped it.
+    /// What it computed, or the failure that stopped it.
     pub result: Result<Product, Box<Failure>>,
 }
 
 /// What a listing computes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Product {
-    /// Of `c_cnt`.
+    /// What `c_cnt` computes: ct, yt, dy, k_cnt.
     Pairs(Pairs<f64>),
-    /// Of `Km`.
+    /// What `Km` computes: MJS, 2R x 2R, force/length.
     Matrix(Table<f64>),
 }
 
-/// A statement executed.
+/// A statement that was executed.
 pub struct Step {
-    /// The contact node's place in `cnt`, or the element's row in `EL`; nothing outside those loops.
+    /// The contact node's place in `cnt`, or the element's row in `EL`; nothing outside those
+    /// loops.
     pub turn: Option<usize>,
-    /// The printed line.
+    /// The number of the printed line, from 1.
     pub line: usize,
     /// What was read, in order.
     pub reads: Vec<Access>,
-    /// What was written.
+    /// What was written, in order.
     pub writes: Vec<Access>,
 }
 
 /// A name or entry, and its value.
 #[derive(Clone, Debug, Serialize)]
 pub struct Access {
-    /// `ct[3]`.
+    /// The name, with the subscripts of an entry: `ct[3]`.
     pub name: String,
-    /// Its value.
+    /// The value that was read or written.
     pub value: Json,
 }
 
 /// Statements kept at most: what comes after is executed, but not shown.
 pub const MOST_STEPS: usize = 200_000;
 
-/// Executes `listing` (as `which`) on the tables of `call`: `c_cnt` on the initial shape, `Km` on the contact pairs that were found. Only
-/// the turns that `wanted` asks for are kept.
+/// Executes `listing` (as `which`) on the tables of `call`: `c_cnt` on the initial shape, `Km` on
+/// the contact pairs that were found. Only the turns that `wanted` asks for are kept.
 pub fn trace(
     which: Which,
     listing: &Listing,
@@ -66,18 +69,17 @@ pub fn trace(
 ) -> Trace {
     let mut steps = Vec::new();
     let mut turn = None;
-    let outcome = {
-        let mut recorder = Recorder::new(|done: &Executed| {
-            let text = text_of(listing, done.line);
-            if let Some(begun) = turn_begun(which, text, done) {
-                turn = begun;
-            }
-            if turn.is_none_or(&wanted) && steps.len() < MOST_STEPS {
-                steps.push(Step::new(turn, done));
-            }
-        });
-        run(which, listing, settings, call, &mut recorder)
-    };
+    let mut recorder = Recorder::new(|done: &Executed| {
+        let text = text_of(listing, done.line);
+        if let Some(begun) = turn_begun(which, text, done) {
+            turn = begun;
+        }
+        if turn.is_none_or(&wanted) && steps.len() < MOST_STEPS {
+            steps.push(Step::new(turn, done));
+        }
+    });
+    let outcome = run(which, listing, settings, call, &mut recorder);
+    drop(recorder);
     let (result, output) = match outcome {
         Ok((product, output)) => (Ok(product), output),
         Err(failure) => (Err(failure), vec![]),
@@ -85,11 +87,11 @@ pub fn trace(
     Trace { which, steps, output, result }
 }
 
-/// Executes a listing and tells what came out.
+/// Executes a listing and returns what it computes, with the lines that its own `trace` wrote.
 ///
 /// # Errors
 /// The failure that stopped it.
-pub fn run<O: crate::paper::mathcad::Observer>(
+pub fn run<O: Observer>(
     which: Which,
     listing: &Listing,
     settings: &Settings,
@@ -104,12 +106,13 @@ pub fn run<O: crate::paper::mathcad::Observer>(
     }
 }
 
-/// The text of a printed line.
+/// The text of a printed line; empty where the listing has no such line.
 pub fn text_of(listing: &Listing, printed: usize) -> &str {
     listing.lines().iter().find(|line| line.printed == printed).map_or("", |line| &line.text)
 }
 
-/// Whether a `for` line begins another turn: over the contact nodes, over the elements, or over something else (none).
+/// Whether a `for` line begins another turn: over the contact nodes, over the elements, or over
+/// something else (none).
 fn turn_begun(which: Which, text: &str, done: &Executed) -> Option<Option<usize>> {
     let range = text.strip_prefix("for ")?;
     let written = done.writes.first().and_then(|written| written.value.number())?;
@@ -139,7 +142,8 @@ impl Access {
     }
 }
 
-/// A number as a number, a small array as its entries (a matrix as its rows), anything else by its kind.
+/// A number as a number, a small array as its entries (a matrix as its rows), anything else by its
+/// kind.
 fn json(value: &Value) -> Json {
     match value {
         Value::Number(x) => Json::from(*x),

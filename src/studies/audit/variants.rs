@@ -8,23 +8,23 @@ use crate::answer::{BodySummary, Cycle, Distance, Solution, distance, summaries}
 use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
 
-/// What a variant comes to on a scene.
+/// A variant on a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct VariantRow {
-    /// The variant.
+    /// Which variant was run.
     pub variant: Variant,
-    /// What came of it.
+    /// How its run ended.
     #[serde(flatten)]
     pub end: End,
 }
 
-/// The end of a run.
+/// How a run ended.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum End {
-    /// A result.
+    /// The run has a result.
     Result {
-        /// Contact nodes with dy = 1 at each iteration.
+        /// Number of contact nodes with dy = 1, by iteration.
         in_contact: Vec<usize>,
         /// The contact nodes themselves at the last one.
         contact_set: Vec<NodeId>,
@@ -32,11 +32,11 @@ pub enum End {
         target_share: f64,
         /// Residual of eq. (1) at the end, total displacements, length.
         eq1_residual: f64,
-        /// Where the last contact state was met before.
+        /// Where the last contact state came before.
         cycle: Option<Cycle>,
-        /// The bodies.
+        /// The largest displacement and stress of each body.
         bodies: Vec<BodySummary>,
-        /// How far this is from the converged answer; none without contact, and where there is none.
+        /// How far this is from the reference solution; nothing where there is none.
         distance: Option<Distance>,
         /// The largest friction coefficient that a node in contact would need not to slide.
         friction_needed: Option<f64>,
@@ -45,12 +45,12 @@ pub enum End {
     },
     /// The published algorithm fails.
     Failure {
-        /// Why.
+        /// Why the run ended without a result.
         failure: String,
     },
 }
 
-/// Every variant on a scene.
+/// Every variant on a scene, in the order of `Variant::ALL`.
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
     let row = |variant: &Variant| {
         let end = match case.run(*variant) {
@@ -74,10 +74,7 @@ fn end(case: &Case, solution: &Solution) -> End {
         eq1_residual: last.contact_residual(),
         cycle: last.cycle.clone(),
         bodies: summaries(solution),
-        distance: model
-            .target()
-            .and_then(|_| case.reference().as_ref().ok())
-            .map(|reference| distance(solution, reference)),
+        distance: case.reference().map(|reference| distance(solution, reference)),
         friction_needed: needed.reduce(f64::max),
         pulling: solution.in_contact().filter(|c| c.force < 0.0).map(|c| c.node).collect(),
     }

@@ -1,9 +1,13 @@
-//! What the measures share: the shapes that a case meets, and how an experiment on them is summed up.
+//! What the measures share: the shapes that a case leads to, how an experiment on them is summed up,
+//! and the contact surfaces seen from outside the listing.
 
-use super::{Measured, Verdict};
+use nalgebra::DMatrix;
+
+use super::{Measured, Outcome};
 use crate::paper::door::Call;
 use crate::paper::mirror::{Failure, Reading};
-use crate::problem::model::Model;
+use crate::problem::element::area;
+use crate::problem::model::{EdgeId, Model, NodeId, TriangleId};
 use crate::problem::modelling::Variant;
 use crate::studies::audit::Case;
 
@@ -16,47 +20,45 @@ const SHOWN: usize = 6;
 /// What counts as a difference, relative to the largest entry: sums in another order differ by less.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-impl Measured {
-    /// A measure of the verdict `holds` or `does not arise`.
-    pub(super) fn holds_if(holds: bool, number: f64, detail: impl Into<String>) -> Self {
-        let verdict = if holds { Verdict::Holds } else { Verdict::DoesNotArise };
-        Measured { verdict, number, detail: detail.into() }
+/// The number of `found`, each in words; the finding holds where there is one.
+pub(super) fn count(found: impl IntoIterator<Item = String>) -> Measured {
+    let found: Vec<String> = found.into_iter().collect();
+    let mut detail = found[..found.len().min(SHOWN)].join("; ");
+    if found.len() > SHOWN {
+        detail += &format!("; and {} more", found.len() - SHOWN);
     }
-
-    /// Nothing to count.
-    pub(super) fn nothing(why: impl Into<String>) -> Self {
-        Measured::holds_if(false, 0.0, why)
-    }
-
-    /// The number of `found`, each in words; it holds where there is one.
-    pub(super) fn count(found: &[String]) -> Self {
-        let more = found.len().saturating_sub(SHOWN);
-        let mut detail = found.iter().take(SHOWN).cloned().collect::<Vec<_>>().join("; ");
-        if more > 0 {
-            detail += &format!("; and {more} more");
-        }
-        let detail = if found.is_empty() { "none".into() } else { detail };
-        Measured::holds_if(!found.is_empty(), found.len() as f64, detail)
-    }
+    let detail = if found.is_empty() { "none".into() } else { detail };
+    Measured::holds_if(!found.is_empty(), found.len() as f64, detail)
 }
 
-/// An experiment at the initial shape and at the last shape of each variant that runs: the heaviest verdict, and of equal
-/// ones the largest number. A shape at which a listing fails shows nothing.
+/// Counts the entries of the contact surface of which `words` has something to say.
+pub(super) fn count_nodes(model: &Model, words: impl Fn(usize) -> Option<String>) -> Measured {
+    let nodes = model.contact.nodes.iter().enumerate();
+    count(nodes.filter_map(|(i, node)| Some(format!("node {node}: {}", words(i)?))))
+}
+
+/// An experiment at the initial shape and at the last shape of each variant that runs: the heaviest
+/// verdict, and of equal ones the largest number. A shape at which a listing fails shows nothing.
 pub(super) fn at_shapes(
     case: &Case,
     experiment: impl Fn(&Shape) -> Result<Measured, Failure>,
-) -> Measured {
+) -> Outcome<'_> {
     let mut heaviest: Option<Measured> = None;
     for (name, shape) in shapes(case) {
-        let mut here =
-            experiment(&shape).unwrap_or_else(|failure| Measured::nothing(failure.to_string()));
+        let nothing = |failure: Failure| Measured::holds_if(false, 0.0, failure.to_string());
+        let mut here = experiment(&shape).unwrap_or_else(nothing);
         here.detail = format!("{name}: {}", here.detail);
         let weight = |m: &Measured| (m.verdict, m.number.abs());
         if heaviest.as_ref().is_none_or(|most| weight(&here) > weight(most)) {
             heaviest = Some(here);
         }
     }
-    heaviest.expect("every case has its initial shape")
+    Ok(heaviest.expect("every case has its initial shape"))
+}
+
+/// The same on what `c_cnt` finds in each shape.
+pub(super) fn at_calls(case: &Case, experiment: impl Fn(&Shape, &Call) -> Measured) -> Outcome<'_> {
+    at_shapes(case, |shape| Ok(experiment(shape, &c_cnt(case.model(), shape)?)))
 }
 
 fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
@@ -71,11 +73,13 @@ fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
 }
 
 /// What `c_cnt` finds in the first shape, of those that a case comes to, with a node in contact.
-pub(super) fn first_in_contact(case: &Case) -> Option<Call> {
-    shapes(case).into_iter().find_map(|(_, shape)| {
-        let call = c_cnt(case.model(), &shape).ok()?;
-        call.statuses.iter().any(|status| status.in_contact).then_some(call)
-    })
+///
+/// # Errors
+/// There is no such shape.
+pub(super) fn first_in_contact(case: &Case) -> Result<Call, &'static str> {
+    let shapes = shapes(case).into_iter();
+    let mut calls = shapes.filter_map(|(_, shape)| c_cnt(case.model(), &shape).ok());
+    calls.find(|call| call.statuses.iter().any(|status| status.in_contact)).ok_or("no contact")
 }
 
 /// `c_cnt` under the default reading.
@@ -84,26 +88,53 @@ pub(super) fn c_cnt(model: &Model, shape: &Shape) -> Result<Call, Failure> {
 }
 
 /// `Km` of the pairs found in a shape, under the default reading.
-pub(super) fn mjs(model: &Model, shape: &Shape) -> Result<nalgebra::DMatrix<f64>, Failure> {
+pub(super) fn mjs(model: &Model, shape: &Shape) -> Result<DMatrix<f64>, Failure> {
     c_cnt(model, shape)?.km(&Reading::default())
-}
-
-/// The entries of the contact surface of which `is` is true, each in `words`.
-pub(super) fn contact_nodes(
-    model: &Model,
-    is: impl Fn(usize) -> bool,
-    words: impl Fn(usize) -> String,
-) -> Vec<String> {
-    let entries = model.contact.nodes.iter().enumerate().filter(|(i, _)| is(*i));
-    entries.map(|(i, node)| format!("node {node}: {}", words(i))).collect()
-}
-
-/// The number of an entry's target edge in the mesh file, 0 without one: the listing's `ct`.
-pub(super) fn ct(model: &Model, call: &Call, i: usize) -> usize {
-    call.statuses[i].edge.map_or(0, |edge| model.edge(edge).number)
 }
 
 /// 1 where an entry is in contact, else 0: the listing's `dy`.
 pub(super) fn dy(call: &Call, i: usize) -> usize {
     usize::from(call.statuses[i].in_contact)
+}
+
+/// A node's coordinates in a shape, length.
+pub(super) fn place(shape: &Shape, node: NodeId) -> [f64; 2] {
+    shape[node.index()]
+}
+
+/// The coordinates of the ends of an edge in a shape, length.
+pub(super) fn ends(model: &Model, shape: &Shape, edge: EdgeId) -> [[f64; 2]; 2] {
+    model.edge(edge).nodes.map(|node| place(shape, node))
+}
+
+/// Vertical distance from `point` up to the line through `ends`; nothing where that is vertical.
+pub(super) fn rise([a, b]: [[f64; 2]; 2], point: [f64; 2]) -> Option<f64> {
+    let slope = (b[1] - a[1]) / (b[0] - a[0]);
+    (b[0] != a[0]).then(|| a[1] + slope * (point[0] - a[0]) - point[1])
+}
+
+/// Whether entry `i` of the contact surface lies inside a triangle of the target, its sides
+/// excluded.
+pub(super) fn inside_target(model: &Model, shape: &Shape, i: usize) -> bool {
+    let point = place(shape, model.contact.nodes[i]);
+    let inside = |id: &TriangleId| {
+        let [a, b, c] = model.triangle(*id).nodes.map(|node| place(shape, node));
+        [[a, b], [b, c], [c, a]].iter().all(|[p, q]| area(&[*p, *q, point]) > 0.0)
+    };
+    model.target().is_some_and(|target| target.triangles.iter().any(inside))
+}
+
+/// The sign of `yt` inside the target at an edge: +1 where the target lies below it, −1 where above.
+/// Nothing for a vertical edge, or one that bounds no triangle.
+pub(super) fn inner_sign(model: &Model, shape: &Shape, edge: EdgeId) -> Option<f64> {
+    let third = model.sides.beside(model.edge(edge).nodes).first()?.third;
+    rise(ends(model, shape, edge), place(shape, third)).map(f64::signum)
+}
+
+/// The unit normal of a target edge that points away from the target.
+pub(super) fn away(model: &Model, shape: &Shape, edge: EdgeId) -> Option<[f64; 2]> {
+    let [a, b] = ends(model, shape, edge);
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let scale = inner_sign(model, shape, edge)? * dx.signum() / dx.hypot(dy);
+    Some([-dy * scale, dx * scale])
 }

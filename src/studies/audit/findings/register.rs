@@ -2,14 +2,16 @@
 
 use super::{Finding, search, status, stiffness, weights};
 
-/// All of them: C1 to C15, K1 to K9.
+/// All findings: C1 to C15, K1 to K9.
 pub const FINDINGS: &[Finding] = &[
     Finding {
         id: "C1",
         listing: "c_cnt",
         lines: &[5, 6],
-        title: "the search box grows by c_tll for an edge that runs towards +x (+y) and shrinks by c_tll for one that runs the other way",
-        why: "the direction in which a mesh generator happened to write an edge decides who is in contact",
+        title: "the search box grows by c_tll for an edge that runs towards +x (+y) and shrinks by \
+                c_tll for one that runs the other way",
+        why: "the direction in which a mesh generator happened to write an edge decides who is in \
+              contact",
         repair: "order the two coordinates first: min − c_tll .. max + c_tll",
         number: "contact nodes found or flagged otherwise once every target edge is turned round",
         measure: search::turned_edges,
@@ -18,8 +20,10 @@ pub const FINDINGS: &[Finding] = &[
         id: "C2",
         listing: "c_cnt",
         lines: &[7],
-        title: "the loop over the target edges does not stop at a hit: where boxes overlap, the last edge in trg wins",
-        why: "the order of trg, which the text never mentions, decides which edge a node near a joint is tied to",
+        title: "the loop over the target edges does not stop at a hit: where boxes overlap, the \
+                last edge in trg wins",
+        why: "the order of trg, which the text never mentions, decides which edge a node near a \
+              joint is tied to",
         repair: "keep the edge with the smallest distance",
         number: "contact nodes with another target edge once trg is reversed",
         measure: search::reversed_target,
@@ -29,7 +33,8 @@ pub const FINDINGS: &[Finding] = &[
         listing: "c_cnt",
         lines: &[10],
         title: "the distance is vertical, not normal",
-        why: "on a slope of angle t the tolerance acts as c_tll · cos t, and a vertical edge divides by zero",
+        why: "on a slope of angle t the tolerance acts as c_tll · cos t, and a vertical edge \
+              divides by zero",
         repair: "project on the edge's normal",
         number: "contact nodes nearer than c_tll along the normal that are not in contact",
         measure: search::vertical_distance,
@@ -38,20 +43,25 @@ pub const FINDINGS: &[Finding] = &[
         id: "C4",
         listing: "c_cnt",
         lines: &[17, 18],
-        title: "the sign rule is one-sided: it flags a node with yt < 0 beside one with yt > 0, never the other",
-        why: "with the target below the stamp it takes the separated node and leaves the one that went in; upside down it is the other way round",
+        title: "the sign rule is one-sided: it flags a node with yt < 0 beside one with yt > 0, \
+                never the other",
+        why: "with the target below the stamp it takes the separated node and leaves the one that \
+              went in; upside down it is the other way round",
         repair: "flag the node that is inside, by the side on which the target lies",
-        number: "contact nodes, their target edge unchanged, whose dy changes once the scene is turned upside down",
+        number: "contact nodes, their target edge unchanged, whose dy changes once the scene is \
+                 turned upside down",
         measure: status::upside_down,
     },
     Finding {
         id: "C5",
         listing: "c_cnt",
         lines: &[17, 18],
-        title: "the sign rule compares neighbours only: in a run of nodes deeper inside than c_tll it sees the ends, or nothing",
+        title: "the sign rule compares neighbours only: in a run of nodes deeper inside than c_tll \
+                it sees the ends, or nothing",
         why: "a step that carries two neighbours in loses both, for good",
         repair: "flag every node that is inside",
-        number: "contact nodes in runs of two or more deeper inside than c_tll that are not flagged",
+        number: "contact nodes in runs of two or more deeper inside than c_tll that are not \
+                 flagged",
         measure: status::deep_runs,
     },
     Finding {
@@ -68,17 +78,19 @@ pub const FINDINGS: &[Finding] = &[
         id: "C7",
         listing: "c_cnt",
         lines: &[27, 28, 29, 30],
-        title: "a target node keeps the last contact node's number and the sum of all weights; its columns 3 and 4 are never set",
+        title: "a target node keeps the last contact node's number and the sum of all weights; its \
+                columns 3 and 4 are never set",
         why: "the text promises two pairs for every node; Km puts the weights of all on the last",
         repair: "a list of pairs for each node",
         number: "target nodes to which two or more contact nodes are tied",
-        measure: weights::forgotten_mates,
+        measure: weights::shared_nodes,
     },
     Finding {
         id: "C8",
         listing: "c_cnt",
         lines: &[16],
-        title: "the comparison is strict: with c_tll = 0 line 16 flags nothing; lines 17 and 18 still can, over sloping edges",
+        title: "the comparison is strict: with c_tll = 0 line 16 flags nothing; lines 17 and 18 \
+                still can, over sloping edges",
         why: "a node exactly on its edge is not in contact while a separated one beside it may be",
         repair: "≤ in place of <",
         number: "contact nodes exactly on their edge that are not flagged with c_tll = 0",
@@ -88,8 +100,10 @@ pub const FINDINGS: &[Finding] = &[
         id: "C9",
         listing: "c_cnt",
         lines: &[5, 6, 7, 9, 17, 18],
-        title: "only a node inside some edge's box gets a ct, and without one its yt is 0; over a horizontal edge the box is 2 · c_tll high",
-        why: "the node that jumped deeper than c_tll, for which the text has the sign rule, is lost; over a horizontal edge the rule can fire at |yt| = c_tll at most",
+        title: "only a node inside some edge's box gets a ct, and without one its yt is 0; over a \
+                horizontal edge the box is 2 · c_tll high",
+        why: "the node that jumped deeper than c_tll, for which the text has the sign rule, is \
+              lost; over a horizontal edge the rule can fire at |yt| = c_tll at most",
         repair: "search along the normal, without a box",
         number: "contact nodes inside the target, deeper than c_tll, without a target edge",
         measure: search::lost_inside,
@@ -99,7 +113,8 @@ pub const FINDINGS: &[Finding] = &[
         listing: "c_cnt",
         lines: &[18],
         title: "the line names yt[i1−1] before its own guard i1 ≥ 2",
-        why: "evaluated from left to right the listing stops with an index error as soon as the first contact node has a target edge and yt[1] < 0",
+        why: "evaluated from left to right the listing stops with an index error as soon as the \
+              first contact node has a target edge and yt[1] < 0",
         repair: "the guard first, as in line 17",
         number: "yt of the first contact node at the initial shape, length",
         measure: status::left_to_right,
@@ -108,7 +123,8 @@ pub const FINDINGS: &[Finding] = &[
         id: "C11",
         listing: "c_cnt",
         lines: &[17, 18],
-        title: "yt is compared with exactly 0: of a node that lies on its edge it is a rounding error, and its sign decides on the neighbours",
+        title: "yt is compared with exactly 0: of a node that lies on its edge it is a rounding \
+                error, and its sign decides on the neighbours",
         why: "another processor, another order of operations, another contact set",
         repair: "compare with c_tll",
         number: "contact nodes whose dy changes as a node on its edge moves by a rounding error",
@@ -138,18 +154,22 @@ pub const FINDINGS: &[Finding] = &[
         id: "C14",
         listing: "c_cnt",
         lines: &[5, 6, 7],
-        title: "the box of an edge that falls by h is |h − 2 · c_tll| high (of one that rises, h + 2 · c_tll)",
+        title: "the box of an edge that falls by h is |h − 2 · c_tll| high (of one that rises, h + \
+                2 · c_tll)",
         why: "a node that lies on the edge is not found; of a symmetric scene one half is",
         repair: "as C1",
-        number: "contact nodes over a target edge and nearer to it than c_tll without a target edge",
+        number: "contact nodes over a target edge and nearer to it than c_tll without a target \
+                 edge",
         measure: search::missed_near,
     },
     Finding {
         id: "C15",
         listing: "c_cnt",
         lines: &[16, 17, 18],
-        title: "the text gives the nodes within c_tol a fixed Y before signs are compared (which, it does not say); the listing compares yt itself",
-        why: "a node that merely touches, with 0 < yt < c_tll, puts its separated neighbour in contact",
+        title: "the text gives the nodes within c_tol a fixed Y before signs are compared (which, \
+                it does not say); the listing compares yt itself",
+        why: "a node that merely touches, with 0 < yt < c_tll, puts its separated neighbour in \
+              contact",
         repair: "leave nodes that line 16 flags out of the comparison",
         number: "contact nodes apart by c_tll or more, flagged beside nodes that only touch",
         measure: status::touching_neighbour,
@@ -168,7 +188,8 @@ pub const FINDINGS: &[Finding] = &[
         id: "K2",
         listing: "Km",
         lines: &[20, 30],
-        title: "one fl for the whole element: of several linked nodes the last one's weight scales all",
+        title: "one fl for the whole element: of several linked nodes the last one's weight scales \
+                all",
         why: "the other weights are lost",
         repair: "a weight for each row and column",
         number: "triangles in which linked nodes have different weights",
@@ -199,7 +220,8 @@ pub const FINDINGS: &[Finding] = &[
         listing: "-",
         lines: &[],
         title: "eq. (1) on total displacements takes a gap that closed back to its initial width",
-        why: "the node leaves contact and returns: the contact set cycles, and where in the cycle the 20th iteration falls decides the result",
+        why: "the node leaves contact and returns: the contact set cycles, and where in the cycle \
+              the 20th iteration falls decides the result",
         repair: "increments (variant stepped), or the gap itself in eq. (1)",
         number: "iterations after which the contact state of tied comes back, 1 = settled",
         measure: stiffness::cycle,
@@ -218,10 +240,12 @@ pub const FINDINGS: &[Finding] = &[
         id: "K7",
         listing: "Km",
         lines: &[20, 21, 30, 31],
-        title: "fl is weight and switch in one: a last weight of exactly 0 leaves the whole addition out",
+        title: "fl is weight and switch in one: a last weight of exactly 0 leaves the whole \
+                addition out",
         why: "a contact node over the end of an edge takes its neighbours' additions with it",
         repair: "a switch of its own, a weight for each node",
-        number: "additions (triangle, pair) left out because the last weight is 0 and another is not",
+        number: "additions (triangle, pair) left out because the last weight is 0 and another is \
+                 not",
         measure: stiffness::switched_off,
     },
     Finding {
@@ -238,8 +262,10 @@ pub const FINDINGS: &[Finding] = &[
         id: "K9",
         listing: "-",
         lines: &[],
-        title: "the status looks at the gap only and eq. (1) ties both components: nothing releases a node that pulls, and nothing lets it slide",
-        why: "a contact that carries tension stays, against the text's own condition of no penetration and friction",
+        title: "the status looks at the gap only and eq. (1) ties both components: nothing \
+                releases a node that pulls, and nothing lets it slide",
+        why: "a contact that carries tension stays, against the text's own condition of no \
+              penetration and friction",
         repair: "release a node whose contact force pulls",
         number: "nodes that the target holds with a pull at the end of stepped",
         measure: stiffness::pulls,

@@ -1,11 +1,10 @@
 //! Findings of the contact status: c_cnt 15-18.
 
-use super::experiment::{Shape, at_shapes, c_cnt, contact_nodes, dy};
-use super::geometry::inner_sign;
-use super::{Measured, Verdict};
+use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, inner_sign};
+use super::{Measured, Outcome};
 use crate::paper::door::Call;
 use crate::paper::mirror::{Cause, Order, Reading};
-use crate::problem::model::{Model, NodeId};
+use crate::problem::model::NodeId;
 use crate::studies::audit::Case;
 
 /// A shape with every y changed by `f(node, y)`.
@@ -14,29 +13,25 @@ fn with_y(shape: &Shape, f: impl Fn(NodeId, f64) -> f64) -> Vec<[f64; 2]> {
 }
 
 /// C4: the scene upside down. Only nodes that keep their target edge count: C1 is kept out.
-pub(super) fn upside_down(case: &Case) -> Measured {
+pub(super) fn upside_down(case: &Case) -> Outcome<'_> {
     at_shapes(case, |shape| {
         let as_is = c_cnt(case.model(), shape)?;
         let mirrored = c_cnt(case.model(), &with_y(shape, |_, y| -y))?;
-        Ok(Measured::count(&contact_nodes(
-            case.model(),
-            |i| {
-                let (own, other) = (as_is.statuses[i], mirrored.statuses[i]);
-                own.edge == other.edge && own.in_contact != other.in_contact
-            },
-            |i| {
-                let yt = as_is.statuses[i].distance;
-                format!("yt {yt:.3e} dy {}, upside down dy {}", dy(&as_is, i), dy(&mirrored, i))
-            },
-        )))
+        Ok(count_nodes(case.model(), |i| {
+            let (own, other) = (as_is.statuses[i], mirrored.statuses[i]);
+            let words = || {
+                let [own, other] = [&as_is, &mirrored].map(|call| dy(call, i));
+                format!("yt {:.3e} dy {own}, upside down dy {other}", as_is.statuses[i].distance)
+            };
+            (own.edge == other.edge && own.in_contact != other.in_contact).then(words)
+        }))
     })
 }
 
 /// C5: of runs of two or more neighbours deeper inside than c_tll, those that are not flagged.
-pub(super) fn deep_runs(case: &Case) -> Measured {
+pub(super) fn deep_runs(case: &Case) -> Outcome<'_> {
     let model = case.model();
-    at_shapes(case, |shape| {
-        let call = c_cnt(model, shape)?;
+    at_calls(case, |shape, call| {
         let least = model.contact.tolerance.max(f64::MIN_POSITIVE);
         let deep = |i: usize| {
             let Some(status) = call.statuses.get(i) else { return false };
@@ -44,16 +39,16 @@ pub(super) fn deep_runs(case: &Case) -> Measured {
             sign.is_some_and(|sign| sign * status.distance >= least)
         };
         let beside = |i: usize| i.checked_sub(1).is_some_and(deep) || deep(i + 1);
-        Ok(Measured::count(&contact_nodes(
-            model,
-            |i| !call.statuses[i].in_contact && deep(i) && beside(i),
-            |i| format!("yt {:.3e} dy 0", call.statuses[i].distance),
-        )))
+        count_nodes(model, |i| {
+            let status = call.statuses[i];
+            let missed = !status.in_contact && deep(i) && beside(i);
+            missed.then(|| format!("yt {:.3e} dy 0", status.distance))
+        })
     })
 }
 
 /// C8: c_tll = 0: nodes on their edge that are not flagged.
-pub(super) fn strictly_less(case: &Case) -> Measured {
+pub(super) fn strictly_less(case: &Case) -> Outcome<'_> {
     let mut model = case.model().clone();
     model.contact.tolerance = 0.0;
     at_shapes(case, |shape| {
@@ -62,40 +57,35 @@ pub(super) fn strictly_less(case: &Case) -> Measured {
             |i: usize| call.statuses[i].edge.is_some() && call.statuses[i].distance == 0.0;
         let flagged = |i: usize| call.statuses[i].in_contact;
         let words = |i: usize| format!("yt {:.3e} dy {}", call.statuses[i].distance, dy(&call, i));
-        let mut measured = Measured::count(&contact_nodes(&model, touches, words));
+        let on_edge = count_nodes(&model, |i| touches(i).then(|| words(i)));
         if (0..call.statuses.len()).any(|i| touches(i) && flagged(i)) {
-            return Ok(Measured { verdict: Verdict::Contradicted, ..measured });
+            return Ok(Measured::must_hold(false, on_edge.number, on_edge.detail));
         }
-        let by_sign = Measured::count(&contact_nodes(&model, flagged, words));
-        measured.detail += &format!("; flagged by lines 17-18: {}", by_sign.detail);
-        Ok(measured)
+        let by_sign = count_nodes(&model, |i| flagged(i).then(|| words(i))).detail;
+        let detail = format!("{}; flagged by lines 17-18: {by_sign}", on_edge.detail);
+        Ok(Measured { detail, ..on_edge })
     })
 }
 
 /// C10: `∧` evaluated from left to right, at the initial shape.
-pub(super) fn left_to_right(case: &Case) -> Measured {
+pub(super) fn left_to_right(case: &Case) -> Outcome<'_> {
     let reading = Reading { r4: Order::LeftToRight, ..Reading::default() };
-    let Ok(call) = case.initial() else {
-        return Measured::nothing("c_cnt fails before line 18");
-    };
-    let Some(first) = call.statuses.first().map(|status| status.distance) else {
-        return Measured::nothing("no contact node");
-    };
-    match Call::c_cnt(case.model(), &reading, &case.model().nodes) {
+    let call = case.initial().map_err(|_| "c_cnt fails before line 18")?;
+    let first = call.statuses.first().ok_or("no contact node")?.distance;
+    Ok(match Call::c_cnt(case.model(), &reading, &case.model().nodes) {
         Err(f) if f.line == 18 && f.cause == Cause::InvalidIndex => {
             Measured::holds_if(true, first, f.to_string())
         }
-        _ if first < 0.0 => Measured {
-            verdict: Verdict::Contradicted,
-            number: first,
-            detail: "yt[1] < 0, and line 18 does not stop".into(),
-        },
+        _ if first < 0.0 => {
+            Measured::must_hold(false, first, "yt[1] < 0, and line 18 does not stop")
+        }
         _ => Measured::holds_if(false, first, "yt[1] is not below 0"),
-    }
+    })
 }
 
-/// C11: nodes that lie on their edge but for rounding, moved up and down by as much: whose status follows?
-pub(super) fn rounding_noise(case: &Case) -> Measured {
+/// C11: nodes that lie on their edge but for rounding, moved up and down by as much: whose status
+/// follows?
+pub(super) fn rounding_noise(case: &Case) -> Outcome<'_> {
     let model = case.model();
     at_shapes(case, |shape| {
         let call = c_cnt(model, shape)?;
@@ -109,14 +99,12 @@ pub(super) fn rounding_noise(case: &Case) -> Measured {
         let moved = |by: f64| with_y(shape, |node, y| if touching(node) { y + by } else { y });
         let up = c_cnt(model, &moved(2.0 * noise))?;
         let down = c_cnt(model, &moved(-2.0 * noise))?;
-        Ok(Measured::count(&contact_nodes(
-            model,
-            |i| !on_edge(i) && up.statuses[i].in_contact != down.statuses[i].in_contact,
-            |i| {
-                let (yt, up, down) = (call.statuses[i].distance, dy(&up, i), dy(&down, i));
-                format!("yt {yt:.3e}, dy {up} or {down} as its neighbour moves by ±{noise:.0e}")
-            },
-        )))
+        Ok(count_nodes(model, |i| {
+            let (yt, up, down) = (call.statuses[i].distance, dy(&up, i), dy(&down, i));
+            let words =
+                || format!("yt {yt:.3e}, dy {up} or {down} as its neighbour moves by ±{noise:.0e}");
+            (!on_edge(i) && up != down).then(words)
+        }))
     })
 }
 
@@ -127,23 +115,16 @@ fn noise(shape: &Shape) -> f64 {
 }
 
 /// C15: nodes flagged only because a neighbour that is itself within c_tll has yt > 0.
-pub(super) fn touching_neighbour(case: &Case) -> Measured {
-    let model = case.model();
-    at_shapes(case, |shape| {
-        let call = c_cnt(model, shape)?;
-        Ok(Measured::count(&contact_nodes(
-            model,
-            |i| by_touching_neighbour(model, &call, i),
-            |i| format!("yt {:.3e} dy 1", call.statuses[i].distance),
-        )))
+pub(super) fn touching_neighbour(case: &Case) -> Outcome<'_> {
+    let tolerance = case.model().contact.tolerance;
+    at_calls(case, |_, call| {
+        count_nodes(case.model(), |i| {
+            let status = call.statuses[i];
+            let beside = [i.checked_sub(1), Some(i + 1)].into_iter().flatten();
+            let distances = beside.filter_map(|i| Some(call.statuses.get(i)?.distance));
+            let only_touch = distances.filter(|yt| *yt > 0.0).all(|yt| yt < tolerance);
+            let apart = status.in_contact && status.distance <= -tolerance;
+            (apart && only_touch).then(|| format!("yt {:.3e} dy 1", status.distance))
+        })
     })
-}
-
-fn by_touching_neighbour(model: &Model, call: &Call, i: usize) -> bool {
-    let tolerance = model.contact.tolerance;
-    let beside = [i.checked_sub(1), Some(i + 1)].into_iter().flatten();
-    let mut above =
-        beside.filter_map(|i| Some(call.statuses.get(i)?.distance)).filter(|yt| *yt > 0.0);
-    let apart = call.statuses[i].in_contact && call.statuses[i].distance <= -tolerance;
-    apart && above.all(|yt| yt < tolerance)
 }

@@ -2,27 +2,23 @@
 
 use nalgebra::DMatrix;
 
-use super::experiment::{ROUNDING, at_shapes, c_cnt, contact_nodes, first_in_contact, mjs};
-use super::geometry::away;
-use super::{Measured, Verdict};
+use super::experiment::{
+    ROUNDING, at_calls, at_shapes, away, count, count_nodes, first_in_contact, mjs,
+};
+use super::{Measured, Outcome, Verdict};
 use crate::answer::{Constraint, Detail, Elimination, Solution, max_displacement};
 use crate::numbers::solve::DenseLu;
-use crate::paper::door::{self, Call, NodeToSegment};
+use crate::paper::door::{self, Call};
 use crate::paper::mirror::{Failure, Reading};
 use crate::problem::model::{Body, Model, NodeId, TriangleId};
 use crate::problem::modelling::Variant;
 use crate::studies::audit::Case;
 
 /// K1: entries of MJS that join two bodies, at the first shape with contact.
-pub(super) fn nothing_joins(case: &Case) -> Measured {
-    let Some(call) = first_in_contact(case) else { return Measured::nothing("no contact") };
-    let mjs = match call.km(&Reading::default()) {
-        Ok(mjs) => mjs,
-        Err(failure) => return Measured::nothing(failure.to_string()),
-    };
+pub(super) fn nothing_joins(case: &Case) -> Outcome<'_> {
+    let mjs = first_in_contact(case)?.km(&Reading::default())?;
     let joins: usize = case.model().bodies.iter().map(|body| joins(&mjs, body)).sum();
-    let verdict = if joins == 0 { Verdict::Holds } else { Verdict::Contradicted };
-    Measured { verdict, number: joins as f64, detail: target_moves(case) }
+    Ok(Measured::must_hold(joins == 0, joins as f64, target_moves(case)))
 }
 
 /// Entries of `mjs` in a row of `body` and a column of another.
@@ -40,22 +36,20 @@ fn target_moves(case: &Case) -> String {
         return "printed does not run".into();
     };
     let norm = |n: &NodeId| solution.u.rows(n.x().index(), 2).norm();
-    let moved = target.nodes.iter().map(norm).fold(0.0, f64::max);
+    let largest = target.nodes.iter().map(norm).fold(0.0, f64::max);
     let most = max_displacement(&solution.u);
-    format!("printed: the target moves by {moved:e}, the stamp by {most:.3e}")
+    format!("printed: the target moves by {largest:e}, the stamp by {most:.3e}")
 }
 
 /// The weights of the linked nodes of a triangle, in its order: pair 1 or 2 of k_cnt.
 fn linked(model: &Model, call: &Call, id: TriangleId, pair: usize) -> Vec<f64> {
-    let nodes = model.triangle(id).nodes;
-    let of_pair = nodes.into_iter().map(|node| {
-        let row = call.row(node);
-        (row[2 * pair - 2], row[2 * pair - 1])
-    });
+    let rows = model.triangle(id).nodes.into_iter().map(|node| call.row(node));
+    let of_pair = rows.map(|row| (row[2 * pair - 2], row[2 * pair - 1]));
     of_pair.filter(|(mate, _)| *mate > 0.0).map(|(_, weight)| weight).collect()
 }
 
-/// The additions (triangle, pair) of which `is` is true of the weights of the linked nodes, each in words.
+/// The additions (triangle, pair) of which `is` is true of the weights of the linked nodes, each in
+/// words.
 fn additions(model: &Model, call: &Call, is: impl Fn(&[f64]) -> bool) -> Vec<(TriangleId, String)> {
     let all = model.triangle_ids().flat_map(|id| [1, 2].map(|pair| (id, pair)));
     all.map(|(id, pair)| (id, pair, linked(model, call, id, pair)))
@@ -65,27 +59,25 @@ fn additions(model: &Model, call: &Call, is: impl Fn(&[f64]) -> bool) -> Vec<(Tr
 }
 
 /// K2: triangles with two linked nodes of different weight.
-pub(super) fn one_weight_for_all(case: &Case) -> Measured {
-    at_shapes(case, |shape| {
-        let call = c_cnt(case.model(), shape)?;
-        let mut found = additions(case.model(), &call, |w| w.windows(2).any(|w| w[0] != w[1]));
+pub(super) fn one_weight_for_all(case: &Case) -> Outcome<'_> {
+    at_calls(case, |_, call| {
+        let different = |w: &[f64]| w.windows(2).any(|w| w[0] != w[1]);
+        let mut found = additions(case.model(), call, different);
         found.dedup_by_key(|(id, _)| *id);
-        Ok(Measured::count(&found.into_iter().map(|(_, words)| words).collect::<Vec<_>>()))
+        count(found.into_iter().map(|(_, words)| words))
     })
 }
 
 /// K7: additions whose last weight is 0 while another is not.
-pub(super) fn switched_off(case: &Case) -> Measured {
-    at_shapes(case, |shape| {
-        let call = c_cnt(case.model(), shape)?;
+pub(super) fn switched_off(case: &Case) -> Outcome<'_> {
+    at_calls(case, |_, call| {
         let off = |w: &[f64]| w.last() == Some(&0.0) && w.iter().any(|k| *k != 0.0);
-        let found = additions(case.model(), &call, off);
-        Ok(Measured::count(&found.into_iter().map(|(_, words)| words).collect::<Vec<_>>()))
+        count(additions(case.model(), call, off).into_iter().map(|(_, words)| words))
     })
 }
 
 /// K3: the 1 of a restrained equation outside the range of the other diagonal entries.
-pub(super) fn ones_on_the_diagonal(case: &Case) -> Measured {
+pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<'_> {
     at_shapes(case, |shape| {
         let diagonal = mjs(case.model(), shape)?.diagonal();
         let range = |restrained: bool| {
@@ -93,15 +85,15 @@ pub(super) fn ones_on_the_diagonal(case: &Case) -> Measured {
             let of = entries.filter(|(_, is)| **is == restrained);
             of.fold((f64::INFINITY, 0.0_f64), |(low, high), (x, _)| (low.min(*x), high.max(*x)))
         };
-        let ((low, high), (held, _)) = (range(false), range(true));
-        let detail = format!("held: {held}, others {low:.4e} to {high:.4e}");
-        let outside = held < low || (held > high && held.is_finite());
-        Ok(Measured::holds_if(outside, high.max(held) / low.min(held), detail))
+        let ((low, high), (one, _)) = (range(false), range(true));
+        let detail = format!("held: {one}, others {low:.4e} to {high:.4e}");
+        let outside = one < low || (one > high && one.is_finite());
+        Ok(Measured::holds_if(outside, high.max(one) / low.min(one), detail))
     })
 }
 
 /// K8: the smallest diagonal entry of MJS.
-pub(super) fn stiffness_taken_away(case: &Case) -> Measured {
+pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<'_> {
     at_shapes(case, |shape| {
         let diagonal = mjs(case.model(), shape)?.diagonal();
         let (at, smallest) = diagonal.argmin();
@@ -111,43 +103,26 @@ pub(super) fn stiffness_taken_away(case: &Case) -> Measured {
 }
 
 /// K4: rows of zeros that one node without a triangle adds, free or restrained.
-pub(super) fn orphan(case: &Case) -> Measured {
+pub(super) fn orphan(case: &Case) -> Outcome<'_> {
     let zero_rows = |orphans: usize, restrained: bool| -> Result<usize, Failure> {
-        let model = with_orphans(case.model(), orphans, restrained);
+        let mut model = case.model().clone();
+        model.nodes.extend(vec![[0.0; 2]; orphans]);
+        model.restrained.extend(vec![restrained; 2 * orphans]);
         let mjs = Call::without_contact(&model).km(&Reading::default())?;
         Ok(mjs.row_iter().filter(|row| row.iter().all(|x| *x == 0.0)).count())
     };
-    let counted =
-        zero_rows(0, false).and_then(|own| Ok((own, zero_rows(1, false)?, zero_rows(1, true)?)));
-    match counted {
-        Ok((own, free, held)) => Measured {
-            verdict: if free == own + 2 { Verdict::Holds } else { Verdict::Contradicted },
-            number: (free - own) as f64,
-            detail: format!(
-                "rows of zeros: {own} without the node, {free} with it, {held} where S holds it"
-            ),
-        },
-        Err(failure) => Measured::nothing(failure.to_string()),
-    }
-}
-
-/// The model with nodes added that belong to no triangle, restrained or not.
-fn with_orphans(model: &Model, orphans: usize, restrained: bool) -> Model {
-    let mut model = model.clone();
-    model.nodes.extend(vec![[0.0; 2]; orphans]);
-    model.restrained.extend(vec![restrained; 2 * orphans]);
-    model
+    let (own, free, restrained) = (zero_rows(0, false)?, zero_rows(1, false)?, zero_rows(1, true)?);
+    let detail = format!(
+        "rows of zeros: {own} without the node, {free} with it, {restrained} where S holds it"
+    );
+    Ok(Measured::must_hold(free == own + 2, (free - own) as f64, detail))
 }
 
 /// K5: the cycle in which `tied` ends.
-pub(super) fn cycle(case: &Case) -> Measured {
-    let steps = match case.run(Variant::Tied) {
-        Ok(solution) => &solution.steps,
-        Err(error) => return Measured::nothing(error.to_string()),
-    };
-    let Some(cycle) = steps.last().and_then(|step| step.cycle.as_ref()) else {
-        return Measured::nothing(format!("no state came back in {} iterations", steps.len()));
-    };
+pub(super) fn cycle(case: &Case) -> Outcome<'_> {
+    let steps = &case.run(Variant::Tied)?.steps;
+    let cycle = steps.last().and_then(|step| step.cycle.as_ref());
+    let cycle = cycle.ok_or_else(|| format!("no state came back in {} iterations", steps.len()))?;
     let counts = cycle.members.iter().map(|k| steps[k - 1].in_contact);
     let detail = format!("nodes in contact: {:?}", counts.collect::<Vec<_>>());
     let entered = steps.iter().any(|step| step.statuses() != steps[0].statuses());
@@ -156,19 +131,15 @@ pub(super) fn cycle(case: &Case) -> Measured {
         1 => Verdict::DoesNotArise,
         _ => Verdict::Holds,
     };
-    Measured { verdict, number: cycle.length as f64, detail }
+    Ok(Measured { verdict, number: cycle.length as f64, detail })
 }
 
-/// K9: nodes that eq. (1) holds on the target with a pull, at the end of `stepped`.
-pub(super) fn pulls(case: &Case) -> Measured {
+/// K9: nodes that eq. (1) binds to the target with a pull, at the end of `stepped`.
+pub(super) fn pulls(case: &Case) -> Outcome<'_> {
     let model = case.model();
-    let free = door::free_stiffness(&door::worksheet(model, |x| x), &Reading::default());
-    let (solution, k) = match (case.run(Variant::Stepped), free) {
-        (Ok(solution), Ok(k)) => (solution, k),
-        (Err(error), _) => return Measured::nothing(error.to_string()),
-        (_, Err(failure)) => return Measured::nothing(failure.to_string()),
-    };
-    // What eq. (1) adds at each equation; at a restrained one it cannot be told from the support's reaction.
+    let solution = case.run(Variant::Stepped)?;
+    let k = door::free_stiffness(&door::worksheet(model, |x| x), &Reading::default())?;
+    // What eq. (1) adds at each equation; at a restrained one the support's reaction is part of it.
     let force = k.as_matrix() * &solution.u - &model.load;
     let rounding = ROUNDING * force.amax();
     let statuses = last_statuses(solution);
@@ -178,11 +149,10 @@ pub(super) fn pulls(case: &Case) -> Measured {
         let free = statuses[i].node.dofs().into_iter().filter(|dof| !model.is_restrained(*dof));
         free.map(|dof| force[dof.index()] * away[dof.direction()]).sum::<f64>()
     };
-    Measured::count(&contact_nodes(
-        model,
-        |i| statuses[i].in_contact && push(i) < -rounding,
-        |i| format!("held with {:.3e}", -push(i)),
-    ))
+    Ok(count_nodes(model, |i| {
+        let pulls = statuses[i].in_contact && push(i) < -rounding;
+        pulls.then(|| format!("held with {:.3e}", -push(i)))
+    }))
 }
 
 /// What `c_cnt` found in the last step of a published variant.
@@ -194,18 +164,15 @@ fn last_statuses(solution: &Solution) -> Vec<door::ContactStatus> {
 }
 
 /// K6: the stamp released from its restraints, eq. (1) on one and on two of its nodes in contact.
-pub(super) fn hinge(case: &Case) -> Measured {
-    let Some(call) = first_in_contact(case) else { return Measured::nothing("no contact") };
-    let k = match door::free_stiffness(&call.sheet, &Reading::default()) {
-        Ok(k) => k,
-        Err(failure) => return Measured::nothing(failure.to_string()),
-    };
-    let bound = door::linked(&call.sheet, &call.pairs);
+pub(super) fn hinge(case: &Case) -> Outcome<'_> {
+    let call = first_in_contact(case)?;
+    let k = door::free_stiffness(&call.sheet, &Reading::default())?;
+    let linked = door::linked(&call.sheet, &call.pairs);
     let restrained = released(case.model(), case.model().contact.nodes[0]);
     // Nothing where the scene has not so many nodes in contact.
     let singular = [1, 2].map(|count| {
         let few: Vec<Constraint> =
-            bound.get(..count)?.iter().map(|bound: &NodeToSegment| (*bound).into()).collect();
+            linked.get(..count)?.iter().map(|bound| (*bound).into()).collect();
         Some(DenseLu::new(Elimination::new(&restrained, &few).matrix(k.as_matrix())).is_err())
     });
     let most = singular.iter().rposition(|singular| *singular == Some(true)).map_or(0, |at| at + 1);
@@ -214,12 +181,11 @@ pub(super) fn hinge(case: &Case) -> Measured {
         Some(false) => "solvable",
         None => "not in this scene",
     });
-    let verdict = if singular[0] == Some(true) { Verdict::Holds } else { Verdict::Contradicted };
     let detail = format!("one linked node: {one}; two: {two}");
-    Measured { verdict, number: most as f64, detail }
+    Ok(Measured::must_hold(singular[0] == Some(true), most as f64, detail))
 }
 
-/// The restraints with the body of `node` held by nothing.
+/// The restraints, none of them on the body of `node`.
 fn released(model: &Model, node: NodeId) -> Vec<bool> {
     let mut restrained = model.restrained.clone();
     for dof in model.body_of(node).into_iter().flat_map(|body| &body.nodes).flat_map(|n| n.dofs()) {

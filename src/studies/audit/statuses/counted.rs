@@ -1,23 +1,20 @@
-//! A number that counts what is done with it: the mirror, generic over its scalar, tells by it how many operations the listing takes.
+//! A number that counts what is done with it: the mirror, generic over its scalar, counts by it how
+//! many operations the listing takes.
 
 use std::cell::Cell;
+use std::cmp::Ordering;
 use std::fmt;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use num_traits::{One, Zero};
 
-use crate::numbers::scalar::{Scalar, Subscript};
+use crate::numbers::scalar::{Scalar, Subscript, operators};
 
 thread_local! {
     static OPERATIONS: Cell<u64> = const { Cell::new(0) };
 }
 
-fn one_more() {
-    OPERATIONS.set(OPERATIONS.get() + 1);
-}
-
-/// What `work` gives, and the sums, differences, products, quotients and comparisons that it made, one each. A test for 0 or for
-/// overflow is Mathcad's and counts nothing.
+/// What `work` returns, and the sums, differences, products, quotients and comparisons that it
+/// made, one each. A test for 0 or for overflow is Mathcad's and counts nothing.
 pub fn counting<R>(work: impl FnOnce() -> R) -> (R, u64) {
     let before = OPERATIONS.get();
     let result = work();
@@ -28,48 +25,39 @@ pub fn counting<R>(work: impl FnOnce() -> R) -> (R, u64) {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Counted(f64);
 
-macro_rules! counted {
-    ($($trait:ident $method:ident),+) => {
-        $(impl $trait for Counted {
-            type Output = Counted;
-            fn $method(self, other: Counted) -> Counted {
-                one_more();
-                Counted(self.0.$method(other.0))
-            }
-        })+
-    };
+/// Counts one operation, which led to `result`.
+fn one_more<R>(result: R) -> R {
+    OPERATIONS.set(OPERATIONS.get() + 1);
+    result
 }
-counted!(Add add, Sub sub, Mul mul, Div div);
 
-impl Neg for Counted {
-    type Output = Counted;
-    fn neg(self) -> Counted {
-        Counted(-self.0)
+impl Counted {
+    fn sum(x: Self, y: Self) -> Self {
+        Counted(one_more(x.0 + y.0))
+    }
+
+    fn difference(x: Self, y: Self) -> Self {
+        Counted(one_more(x.0 - y.0))
+    }
+
+    fn product(x: Self, y: Self) -> Self {
+        Counted(one_more(x.0 * y.0))
+    }
+
+    fn quotient(x: Self, y: Self) -> Self {
+        Counted(one_more(x.0 / y.0))
+    }
+
+    fn negative(x: Self) -> Self {
+        Counted(-x.0)
     }
 }
 
-impl AddAssign for Counted {
-    fn add_assign(&mut self, other: Counted) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Counted {
-    fn sub_assign(&mut self, other: Counted) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Counted {
-    fn mul_assign(&mut self, other: Counted) {
-        *self = *self * other;
-    }
-}
+operators!(Counted);
 
 impl PartialOrd for Counted {
-    fn partial_cmp(&self, other: &Counted) -> Option<std::cmp::Ordering> {
-        one_more();
-        self.0.partial_cmp(&other.0)
+    fn partial_cmp(&self, other: &Counted) -> Option<Ordering> {
+        one_more(self.0.partial_cmp(&other.0))
     }
 }
 

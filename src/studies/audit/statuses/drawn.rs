@@ -17,8 +17,8 @@ use crate::problem::element::Plane;
 use crate::problem::model::Model;
 use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
-/// The text's c_tol.
-pub const C_TLL: f64 = 0.001;
+/// The tolerance of the contact search, length: the text's c_tol.
+const C_TLL: f64 = 0.001;
 /// Width of the target, length.
 const WIDTH: f64 = 4.0;
 /// Steepest slope of a broken surface.
@@ -26,7 +26,7 @@ const STEEPEST: f64 = 0.6;
 /// Height of the target's lower side.
 const BOTTOM: f64 = -6.0;
 
-/// What is drawn.
+/// What the scenes of a row have in common.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {
     /// Number of target edges.
@@ -44,7 +44,7 @@ impl Kind {
     }
 }
 
-/// A scene and the statuses of its contact nodes.
+/// A scene that was drawn, and the statuses of its contact nodes.
 pub struct Drawn {
     /// The model in the shape after the jump.
     pub model: Arc<Model>,
@@ -52,14 +52,13 @@ pub struct Drawn {
     pub touching: Vec<bool>,
 }
 
-/// Draws a scene.
+/// Draws a scene of a kind.
 pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
     let surface = surface(rng, kind);
     let (stamp, touching) = stamp(rng, &surface, kind);
     let turned = rng.bool();
-    let scene =
-        scene(&surface, &stamp, kind, turned).build().expect("a scene that is drawn is sound");
-    Drawn { model: scene.model, touching }
+    let scene = scene(&surface, &stamp, kind, turned).build();
+    Drawn { model: scene.expect("a scene that is drawn is sound").model, touching }
 }
 
 /// A number between `low` and `high`.
@@ -146,20 +145,13 @@ fn scene(surface: &[[f64; 2]], stamp: &[[f64; 2]], kind: Kind, turned: bool) -> 
         let [a, b] = [edge[0], edge[1]];
         mesh.edges("surface", &if turned { [b, a] } else { [a, b] });
     }
-    mesh.triangles("target", strip(&bottom, &target, kind.above));
-    mesh.triangles("stamp", strip(&contact, &top, kind.above));
+    // Which diagonal cuts a cell counts: under `intersection` a node's sides decide.
+    mesh.join("target", &target, &bottom);
+    mesh.join("stamp", &top, &contact);
     SceneBuilder::new("statuses", mesh.finish(), Plane::Strain)
         .material("target", 1.0, 0.0)
         .material("stamp", 1.0, 0.0)
         .restrain("target", &[Axis::X, Axis::Y])
         .restrain("stamp", &[Axis::X, Axis::Y])
         .contact(Contact::new(contact, "surface", C_TLL))
-}
-
-/// Triangles between a lower and an upper row of as many nodes: counter-clockwise, also where the
-/// rows are mirrored in y.
-fn strip(lower: &[usize], upper: &[usize], mirrored: bool) -> Vec<[usize; 3]> {
-    let pairs = lower.windows(2).zip(upper.windows(2));
-    let triangles = pairs.flat_map(|(a, b)| [[a[0], a[1], b[0]], [a[1], b[1], b[0]]]);
-    triangles.map(|[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect()
 }

@@ -1,11 +1,13 @@
-//! The paper's own trade measured: "the second option appears preferable from the point of view of the volume of computation".
+//! The paper's own trade measured: "the second option appears preferable from the point of view of
+//! the volume of computation".
 //!
-//! On random scenes whose statuses are known, for each status rule: how many contact nodes it gets wrong, by how deep the stamp
-//! jumped, and how many operations it takes, by the number of nodes. The listing's count is the mirror's, whose `∧` on line 7 stops early:
-//! the least that Mathcad can do.
+//! On random scenes whose statuses are known, for each status rule: how many contact nodes it gets
+//! wrong, by how deep the stamp jumped, and how many operations it takes, by the number of nodes. The
+//! listing's count is the mirror's, whose `∧` on line 7 stops early: the least that Mathcad can do.
 //!
-//! What projection gets wrong lies at the target's ends: its flank is no target edge, so under a sloping last edge a node beside the
-//! target may stand over the surface, and one inside past its end.
+//! What projection gets wrong lies at the target's ends: its flank is no target edge, so under a
+//! sloping last edge a node beside the target may stand over the surface, and one inside past its
+//! end.
 
 mod counted;
 mod drawn;
@@ -21,20 +23,23 @@ use crate::problem::modelling::StatusRule;
 use counted::{Counted, counting};
 use drawn::{Drawn, Kind, draw};
 
-/// Depths of the jump, in c_tll. Target edges are about 250 c_tll long: the last sinks whole elements.
+/// Depths of the jump, in c_tll. Target edges are about 250 c_tll long: the last sinks whole
+/// elements.
 const DEPTHS: [f64; 6] = [0.5, 2.0, 8.0, 32.0, 128.0, 512.0];
 /// Number of target edges where the depth is varied.
 const EDGES: usize = 16;
-/// Numbers of target edges where the operations are counted, and the depth there: no element sinks whole.
+/// Numbers of target edges where the operations are counted, and the depth there: no element sinks
+/// whole.
 const SIZES: [usize; 6] = [8, 16, 32, 64, 128, 256];
 const DEPTH: f64 = 4.0;
-/// Operations of lines 22 to 30 for a node in contact: all rules share them, none is charged for them.
+/// Operations of lines 22 to 30 for a node in contact: all rules share them, none is charged for
+/// them.
 const WEIGHTS: u64 = 12;
 
-/// What was measured.
+/// What was measured, in numbers that the seed determines.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measurement {
-    /// Scenes of each row.
+    /// Number of scenes of each row.
     pub scenes: usize,
     /// The seed that they come from.
     pub seed: u64,
@@ -55,16 +60,16 @@ pub struct Row {
     pub target: &'static str,
     /// Contact nodes of all its scenes.
     pub nodes: usize,
-    /// Those truly in contact.
+    /// Those of them that are truly in contact.
     pub touching: usize,
     /// What each rule made of them.
     pub rules: Vec<Score>,
 }
 
 /// What a rule made of the scenes of a row.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Score {
-    /// The rule.
+    /// Which rule decided.
     pub rule: StatusRule,
     /// Nodes in contact that it takes for apart.
     pub missed: usize,
@@ -74,14 +79,20 @@ pub struct Score {
     pub operations: u64,
 }
 
-/// Measures on `scenes` scenes for each depth and orientation, and for each size. The same seed gives the same numbers.
+/// Measures on `scenes` scenes for each depth and orientation, and for each size. The same seed
+/// leads to the same numbers.
 pub fn measure(scenes: usize, seed: u64) -> Measurement {
     let mut rng = Rng::with_seed(seed);
     let mut row = |edges, depth, target: &'static str| {
-        let mut row = Row::new(edges, depth, target);
+        let score = |rule: &StatusRule| Score { rule: *rule, ..Score::default() };
+        let rules = StatusRule::ALL.iter().map(score).collect();
+        let mut row = Row { edges, depth, target, nodes: 0, touching: 0, rules };
         for k in 0..scenes {
             let above = if target == "both" { k % 2 == 1 } else { target == "above" };
-            row.add(&draw(&mut rng, Kind { edges, depth, above }));
+            let scene = draw(&mut rng, Kind { edges, depth, above });
+            row.nodes += scene.touching.len();
+            row.touching += scene.touching.iter().filter(|touching| **touching).count();
+            row.rules.iter_mut().for_each(|score| score.add(&scene));
         }
         row
     };
@@ -89,23 +100,6 @@ pub fn measure(scenes: usize, seed: u64) -> Measurement {
     let by_depth = depths.map(|(depth, target)| row(EDGES, depth, target)).collect();
     let by_size = SIZES.iter().map(|edges| row(*edges, DEPTH, "both")).collect();
     Measurement { scenes, seed, by_depth, by_size }
-}
-
-impl Row {
-    fn new(edges: usize, depth: f64, target: &'static str) -> Self {
-        let score =
-            |rule: &StatusRule| Score { rule: *rule, missed: 0, false_contacts: 0, operations: 0 };
-        let rules = StatusRule::ALL.iter().map(score).collect();
-        Row { edges, depth, target, nodes: 0, touching: 0, rules }
-    }
-
-    fn add(&mut self, scene: &Drawn) {
-        self.nodes += scene.touching.len();
-        self.touching += scene.touching.iter().filter(|touching| **touching).count();
-        for score in &mut self.rules {
-            score.add(scene);
-        }
-    }
 }
 
 impl Score {
