@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::confocal::{self, Ring};
 use super::line::{between, part};
+use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, frictionless, scene};
 use crate::error::InputError;
@@ -11,40 +12,32 @@ use crate::problem::element::Plane;
 use crate::problem::modelling::Geometry;
 use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
-/// Hertz, NAFEMS CGS-1: a cylinder pressed on a block, frictionless.
-///
-/// Half model of a cylinder of radius 50 mm (E = 210000 MPa) on a block of 200 x 200 mm (E = 70000
-/// MPa), nu = 0.3, plane strain, 35000 N/mm, of which the model carries half: half width 6.2146 mm,
-/// peak pressure 3585.4 MPa. The load is a point load on the top of the whole cylinder, as in the
-/// benchmark: a pressure on the diameter of a lower half would bend that half and with it the
-/// contact arc, where the point load is a diameter away.
-///
-/// Contact is measured in the initial shape, as Hertz's theory of small displacements does: in the
-/// current one the peak is 1.8 % higher at any mesh, for the surfaces shorten by 1 to 3 % under the
-/// pressure.
-///
-/// Source: NAFEMS, Benchmark Tests for Various Finite Element Contact Problems, CGS-1; closed form:
-/// K. L. Johnson, Contact Mechanics, 1985, section 4.2.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(after_help = "\
+parameters! {
+    /// Hertz, NAFEMS CGS-1: a cylinder pressed on a block, frictionless.
+    ///
+    /// Half model of a cylinder of radius 50 mm (E = 210000 MPa) on a block of 200 x 200 mm (E =
+    /// 70000 MPa), nu = 0.3, plane strain, 35000 N/mm, of which the model carries half: half width
+    /// 6.2146 mm, peak pressure 3585.4 MPa. The load is a point load on the top of the whole
+    /// cylinder, as in the benchmark: a pressure on the diameter of a lower half would bend that
+    /// half and with it the contact arc, where the point load is a diameter away.
+    ///
+    /// Contact is measured in the initial shape, as Hertz's theory of small displacements does: in
+    /// the current one the peak is 1.8 % higher at any mesh, for the surfaces shorten by 1 to 3 %
+    /// under the pressure.
+    ///
+    /// Source: NAFEMS, Benchmark Tests for Various Finite Element Contact Problems, CGS-1; closed
+    /// form: K. L. Johnson, Contact Mechanics, 1985, section 4.2.
+    #[command(after_help = "\
 Examples:
   plane-contact mesh hertz                about 4,000 equations
   plane-contact mesh hertz --size 59      about 30,000")]
-pub struct Hertz {
-    /// Elements on the contact half width.
-    #[arg(long, default_value_t = Hertz::default().size)]
-    pub size: usize,
-    /// Radius of the cylinder, mm.
-    #[arg(long, default_value_t = Hertz::default().radius)]
-    pub radius: f64,
-    /// Load on the whole cylinder, N/mm.
-    #[arg(long, default_value_t = Hertz::default().load)]
-    pub load: f64,
-}
-
-impl Default for Hertz {
-    fn default() -> Self {
-        Hertz { size: 20, radius: 50.0, load: 35000.0 }
+    Hertz {
+        /// Elements on the contact half width.
+        size: usize = 20,
+        /// Radius of the cylinder, mm.
+        radius: f64 = 50.0,
+        /// Load on the whole cylinder, N/mm.
+        load: f64 = 35000.0,
     }
 }
 

@@ -9,30 +9,23 @@
 //! | [`Annulus`], [`Hole`] | Lamé's and Kirsch's closed forms |
 //! | [`Cook`], [`Ellipse`] | a displacement; a stress (NAFEMS LE1) |
 //!
-//! Every mesh is made of rows of nodes, joined two by two by triangles: the same parameters give
-//! the same bytes.
+//! Every mesh is made of rows of nodes, joined two by two by triangles: the same parameters lead
+//! to the same bytes.
 
-mod annulus;
-mod blocks;
 mod check;
 mod confocal;
-mod cook;
-mod ellipse;
 mod hertz;
-mod hole;
 mod line;
+mod parameters;
+mod patches;
+mod plates;
 mod punch;
-mod punch_patch;
 mod rows;
 
-pub use annulus::Annulus;
-pub use blocks::Blocks;
-pub use cook::Cook;
-pub use ellipse::Ellipse;
 pub use hertz::Hertz;
-pub use hole::Hole;
+pub use patches::{Blocks, PunchPatch};
+pub use plates::{Annulus, Cook, Ellipse, Hole};
 pub use punch::Punch;
-pub use punch_patch::PunchPatch;
 
 use crate::error::InputError;
 use crate::problem::element::Plane;

@@ -1,40 +1,34 @@
 //! A flat rigid punch on a half plane.
 
 use super::line::{part, quarter};
+use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, confocal, frictionless, scene};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
-/// A flat stiff punch, frictionless, on a half plane: p(x) = P / (pi sqrt(a^2 - x^2)).
-///
-/// Half model: punch a x a with a = 1 and E = 1e7, foundation E = 1000, nu = 0.3, plane strain, P =
-/// 2 on both halves (1 on the model). The foundation ends, held, along an ellipse that is nearly a
-/// circle of radius --outer. Nodes on the contact line stand at a cos(angle), equal angles apart,
-/// so each carries the same share of P in the closed form, the two end nodes half of it.
-///
-/// Source: K. L. Johnson, Contact Mechanics, 1985, section 2.8.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(after_help = "\
+parameters! {
+    /// A flat stiff punch, frictionless, on a half plane: p(x) = P / (pi sqrt(a^2 - x^2)).
+    ///
+    /// Half model: punch a x a with a = 1 and E = 1e7, foundation E = 1000, nu = 0.3, plane strain,
+    /// P = 2 on both halves (1 on the model). The foundation ends, held, along an ellipse that is
+    /// nearly a circle of radius --outer. Nodes on the contact line stand at a cos(angle), equal
+    /// angles apart, so each carries the same share of P in the closed form, the two end nodes half
+    /// of it.
+    ///
+    /// Source: K. L. Johnson, Contact Mechanics, 1985, section 2.8.
+    #[command(after_help = "\
 Examples:
   plane-contact mesh punch
   plane-contact mesh punch --punch 24 --foundation 32 --outer 50")]
-pub struct Punch {
-    /// Divisions of the punch along the contact line.
-    #[arg(long, default_value_t = Punch::default().punch)]
-    pub punch: usize,
-    /// Divisions of the foundation along the contact line.
-    #[arg(long, default_value_t = Punch::default().foundation)]
-    pub foundation: usize,
-    /// Radius of the foundation, in half widths of the punch.
-    #[arg(long, default_value_t = Punch::default().outer)]
-    pub outer: f64,
-}
-
-impl Default for Punch {
-    fn default() -> Self {
-        Punch { punch: 24, foundation: 24, outer: 20.0 }
+    Punch {
+        /// Divisions of the punch along the contact line.
+        punch: usize = 24,
+        /// Divisions of the foundation along the contact line.
+        foundation: usize = 24,
+        /// Radius of the foundation, in half widths of the punch.
+        outer: f64 = 20.0,
     }
 }
 

@@ -20,12 +20,12 @@ impl Rows {
         Rows(rows)
     }
 
-    /// The first row.
+    /// The nodes of the first row.
     pub fn first(&self) -> &[usize] {
         &self.0[0]
     }
 
-    /// The last row.
+    /// The nodes of the last row.
     pub fn last(&self) -> &[usize] {
         &self.0[self.0.len() - 1]
     }
