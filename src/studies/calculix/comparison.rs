@@ -7,18 +7,18 @@ use crate::problem::model::{Body, Model, NodeId, TriangleId};
 
 /// Two results of one model, node by node and triangle by triangle.
 pub struct Comparison {
-    /// By this program.
+    /// The result of this program.
     pub ours: Fields,
-    /// By CalculiX.
+    /// The result of CalculiX.
     pub theirs: Fields,
     /// Von Mises stress of each triangle, by this program and by CalculiX.
     pub von_mises: [Vec<f64>; 2],
-    /// Displacements, by node.
+    /// Length of the difference of displacements, by node.
     pub displacement: Difference<NodeId>,
     /// Stresses, by triangle: the largest component of sigma_x, sigma_y, tau_xy; relative to the
     /// largest von Mises stress.
     pub stress: Difference<TriangleId>,
-    /// Von Mises stress, by body.
+    /// The largest von Mises stress of each body, by both.
     pub bodies: Vec<BodyStress>,
 }
 
@@ -26,18 +26,18 @@ pub struct Comparison {
 pub struct Difference<Place> {
     /// Every place, in order, and the difference there.
     pub at: Vec<(Place, f64)>,
-    /// The largest one.
+    /// The largest difference, and where it is.
     pub largest: Largest<Place>,
-    /// Root of the mean square.
+    /// Root of the mean of the squares of all differences.
     pub rms: f64,
 }
 
-/// The largest difference.
+/// The largest difference, where it is, and against what.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Largest<Place> {
     /// The node or triangle that has it.
     pub at: Place,
-    /// The difference.
+    /// The difference there, length or stress.
     pub difference: f64,
     /// The largest value by this program.
     pub scale: f64,
@@ -48,36 +48,31 @@ pub struct Largest<Place> {
 /// The largest von Mises stress of a body by each.
 #[derive(Clone, Debug, Serialize)]
 pub struct BodyStress {
-    /// The body.
+    /// The name of the body.
     pub name: String,
-    /// By this program.
+    /// Its largest stress by this program.
     pub ours: f64,
-    /// By CalculiX.
+    /// Its largest stress by CalculiX.
     pub calculix: f64,
 }
 
 impl Comparison {
-    /// Puts `ours` beside `theirs`.
+    /// Puts `ours` beside `theirs`, two results of `model`.
     pub fn new(model: &Model, ours: Fields, theirs: Fields) -> Self {
         let length = |[x, y]: &[f64; 2]| x.hypot(*y);
-        let moved = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).hypot(a[1] - b[1]);
+        let apart = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).hypot(a[1] - b[1]);
         // sigma_x, sigma_y, tau_xy: sigma_z is no unknown of a plane problem.
         let stressed = |(a, b): (&[f64; 6], &[f64; 6])| {
             [0, 1, 3].into_iter().map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max)
         };
         let von_mises = [ours.von_mises(), theirs.von_mises()];
+        let u = ours.u.iter().zip(&theirs.u).map(apart);
+        let stress = ours.sigma.iter().zip(&theirs.sigma).map(stressed);
+        let (u_scale, stress_scale) =
+            (largest(ours.u.iter().map(length)), largest(von_mises[0].iter().copied()));
         Comparison {
-            displacement: Difference::new(
-                model.node_ids().zip(ours.u.iter().zip(&theirs.u).map(moved)).collect(),
-                largest(ours.u.iter().map(length)),
-            ),
-            stress: Difference::new(
-                model
-                    .triangle_ids()
-                    .zip(ours.sigma.iter().zip(&theirs.sigma).map(stressed))
-                    .collect(),
-                largest(von_mises[0].iter().copied()),
-            ),
+            displacement: Difference::new(model.node_ids().zip(u).collect(), u_scale),
+            stress: Difference::new(model.triangle_ids().zip(stress).collect(), stress_scale),
             bodies: bodies(model, &von_mises),
             von_mises,
             ours,

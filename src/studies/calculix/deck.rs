@@ -1,15 +1,13 @@
 //! The input deck of `ccx`.
 
-use std::fmt::Write as _;
-
-use super::equation::{Equation, Term};
-use super::number::field;
-use super::problem::{Contact, Pair, Problem};
+use super::problem::{Contact, Equation, Pair, Problem};
 use crate::error::InputError;
 use crate::problem::element::Plane;
 use crate::problem::model::{Dof, Material, Model, NodeId, unordered};
 use crate::problem::modelling::Friction;
 
+/// ccx reads no more characters of a field.
+const WIDTH: usize = 20;
 /// ccx takes no more terms on a line of an equation.
 const TERMS_ON_A_LINE: usize = 4;
 /// Coefficient of friction that nothing overcomes.
@@ -23,23 +21,20 @@ const STICK_SLOPE: f64 = 0.1;
 /// # Errors
 /// The surfaces of a pair bound no triangle.
 pub fn deck(problem: &Problem) -> Result<String, InputError> {
-    let mut text = heading(problem);
-    text += &nodes(problem.model);
-    text += &elements(problem.model);
-    match problem.contact {
-        Contact::Equations(equations) => text += &equation_cards(problem.model, equations),
-        Contact::Pair(_) if !problem.model.has_contact() => {}
-        Contact::Pair(pair) => text += &pair_cards(problem.model, pair)?,
-    }
-    text += &restraints(problem.model);
-    text += &step(problem);
-    Ok(text)
+    let model = problem.model;
+    let contact = match problem.contact {
+        Contact::Equations(equations) => equation_cards(model, equations),
+        Contact::Pair(_) if !model.has_contact() => String::new(),
+        Contact::Pair(pair) => pair_cards(model, pair)?,
+    };
+    let before = heading(problem) + &nodes(model) + &elements(model);
+    Ok(before + &contact + &restraints(model) + &step(problem))
 }
 
-/// Comment lines that say what the deck is.
+/// Comment lines: the scene's title, the plane problem, and how the bodies touch.
 fn heading(problem: &Problem) -> String {
-    let title: Vec<&str> = problem.scene.title.split_whitespace().collect();
-    let title: String = title.join(" ").chars().take(100).collect();
+    let words: Vec<&str> = problem.scene.title.split_whitespace().collect();
+    let title: String = words.join(" ").chars().take(100).collect();
     let contact = match problem.contact {
         Contact::Equations(equations) => format!("{} equations", equations.len()),
         Contact::Pair(Pair { penalty, friction }) => {
@@ -53,7 +48,7 @@ fn nodes(model: &Model) -> String {
     let mut text = String::from("*NODE, NSET=NODES\n");
     for node in model.node_ids() {
         let [x, y] = model.at(node).map(field);
-        line(&mut text, format!("{node},{x},{y}"));
+        text += &format!("{node},{x},{y}\n");
     }
     text
 }
@@ -67,16 +62,16 @@ fn elements(model: &Model) -> String {
     let mut text = String::new();
     for (k, material) in materials(model).into_iter().enumerate() {
         let name = format!("MATERIAL{}", k + 1);
-        line(&mut text, format!("*ELEMENT, TYPE={kind}, ELSET={name}"));
+        text += &format!("*ELEMENT, TYPE={kind}, ELSET={name}\n");
         let all = model.triangle_ids().zip(&model.triangles);
         for (id, triangle) in all.filter(|(_, triangle)| triangle.material == material) {
             let [a, b, c] = triangle.nodes;
-            line(&mut text, format!("{id},{a},{b},{c}"));
+            text += &format!("{id},{a},{b},{c}\n");
         }
         let [e, nu] = [material.e, material.nu].map(field);
-        line(&mut text, format!("*MATERIAL, NAME={name}\n*ELASTIC\n{e},{nu}"));
-        line(&mut text, format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}"));
-        line(&mut text, field(model.thickness));
+        text += &format!("*MATERIAL, NAME={name}\n*ELASTIC\n{e},{nu}\n");
+        text += &format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}\n");
+        text += &(field(model.thickness) + "\n");
     }
     text
 }
@@ -102,25 +97,21 @@ fn equation_cards(model: &Model, equations: &[Equation]) -> String {
         if *constant != 0.0 {
             let own = NodeId::new(nodes);
             nodes += 1;
-            line(&mut text, format!("*NODE\n{own},0,0\n*BOUNDARY\n{own},1,1,{}", field(-constant)));
-            terms.push(Term { dof: own.x(), coefficient: 1.0 });
+            text += &format!("*NODE\n{own},0,0\n*BOUNDARY\n{own},1,1,{}\n", field(-constant));
+            terms.push((own.x(), 1.0));
         }
-        line(&mut text, format!("*EQUATION\n{}", terms.len()));
+        text += &format!("*EQUATION\n{}\n", terms.len());
         for some in terms.chunks(TERMS_ON_A_LINE) {
-            let some: Vec<String> = some.iter().map(term).collect();
-            line(&mut text, some.join(","));
+            let some = some.iter().map(|(dof, x)| format!("{},{}", place(*dof), field(*x)));
+            text += &(some.collect::<Vec<_>>().join(",") + "\n");
         }
     }
     text
 }
 
-fn term(term: &Term) -> String {
-    format!("{},{},{}", term.dof.node(), direction(term.dof), field(term.coefficient))
-}
-
-/// The number by which ccx knows the direction of a degree of freedom: 1 for x, 2 for y.
-fn direction(dof: Dof) -> usize {
-    dof.direction() + 1
+/// The node and the direction by which ccx knows a degree of freedom: 1 for x, 2 for y.
+fn place(dof: Dof) -> String {
+    format!("{},{}", dof.node(), dof.direction() + 1)
 }
 
 /// The two surfaces and the pair. Both surfaces are made of element faces: with a slave surface of
@@ -132,15 +123,13 @@ fn pair_cards(model: &Model, pair: &Pair) -> Result<String, InputError> {
         model.target_edges().any(|edge| unordered(edge.nodes) == unordered(side))
     })?;
     let mut text = slave + &master + "*SURFACE INTERACTION, NAME=CONTACT\n";
-    line(&mut text, "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR".into());
-    line(&mut text, field(pair.penalty));
+    text += "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n";
+    text += &(field(pair.penalty) + "\n");
     if pair.friction == Friction::Stick {
         let slope = field(STICK_SLOPE * pair.penalty);
-        line(&mut text, format!("*FRICTION\n{},{slope}", field(STICKING)));
+        text += &format!("*FRICTION\n{},{slope}\n", field(STICKING));
     }
-    line(&mut text, "*CONTACT PAIR, INTERACTION=CONTACT, TYPE=NODE TO SURFACE".into());
-    line(&mut text, "SLAVE,MASTER".into());
-    Ok(text)
+    Ok(text + "*CONTACT PAIR, INTERACTION=CONTACT, TYPE=NODE TO SURFACE\nSLAVE,MASTER\n")
 }
 
 /// The faces of triangles whose sides `wanted` takes, as a surface.
@@ -154,7 +143,7 @@ fn surface(
     for (id, triangle) in model.triangle_ids().zip(&model.triangles) {
         let corners = triangle.nodes;
         for k in (0..3).filter(|&k| wanted([corners[k], corners[(k + 1) % 3]])) {
-            line(&mut text, format!("{id},S{}", k + 1));
+            text += &format!("{id},S{}\n", k + 1);
             faces += 1;
         }
     }
@@ -165,12 +154,10 @@ fn surface(
     Ok(text)
 }
 
-/// The displacements that are restrained.
 fn restraints(model: &Model) -> String {
     let mut text = String::from("*BOUNDARY\n");
     for dof in model.all_dofs().filter(|dof| model.is_restrained(*dof)) {
-        let (node, direction) = (dof.node(), direction(dof));
-        line(&mut text, format!("{node},{direction},{direction}"));
+        text += &format!("{},{}\n", place(dof), dof.direction() + 1);
     }
     text
 }
@@ -181,22 +168,42 @@ fn step(problem: &Problem) -> String {
     if let Contact::Pair(_) = problem.contact {
         // A tenth of the load first: from the whole of it at once ccx may settle on another contact
         // zone.
-        line(&mut text, "0.1,1".into());
+        text += "0.1,1\n";
     }
     let model = problem.model;
     for (dof, force) in model.all_dofs().zip(model.load.iter()) {
         if *force != 0.0 && !model.is_restrained(dof) {
-            let (node, direction) = (dof.node(), direction(dof));
-            line(&mut text, format!("*CLOAD\n{node},{direction},{}", field(*force)));
+            text += &format!("*CLOAD\n{},{}\n", place(dof), field(*force));
         }
     }
-    line(&mut text, "*NODE PRINT, NSET=NODES\nU".into());
+    text += "*NODE PRINT, NSET=NODES\nU\n";
     for k in 1..=materials(model).len() {
-        line(&mut text, format!("*EL PRINT, ELSET=MATERIAL{k}\nS"));
+        text += &format!("*EL PRINT, ELSET=MATERIAL{k}\nS\n");
     }
     text + "*END STEP\n"
 }
 
-fn line(text: &mut String, line: String) {
-    writeln!(text, "{line}").expect("a String takes any text");
+/// `x` in at most 20 characters, with as many of its digits as fit: all that it has, or at least
+/// 13.
+fn field(x: f64) -> String {
+    let exact = [format!("{x}"), format!("{x:e}")];
+    let rounded = (0..WIDTH).rev().map(|digits| format!("{x:.digits$e}"));
+    let mut written = exact.into_iter().chain(rounded);
+    written.find(|text| text.len() <= WIDTH).expect("one digit and an exponent fit")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::field;
+
+    #[test]
+    fn a_number_keeps_the_digits_that_fit() {
+        assert_eq!(field(0.1), "0.1");
+        assert_eq!(field(-210000.0), "-210000");
+        assert_eq!(field(-0.1234567890123456), "-0.1234567890123456");
+        assert_eq!(field(1.0 / 3.0), "0.3333333333333333");
+        assert_eq!(field(1e300), "1e300");
+        assert_eq!(field(-1.2345678901234567e-4), "-1.23456789012346e-4");
+        assert_eq!(field(-1.2345678901234567e-300), "-1.234567890123e-300");
+    }
 }

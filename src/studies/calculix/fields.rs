@@ -1,10 +1,10 @@
-//! Displacements and stresses.
+//! Displacements and stresses, by either program.
 
 use crate::answer::Solution;
 use crate::problem::element::{Plane, State};
 use crate::problem::model::Triangle;
 
-/// Displacements and stresses.
+/// Displacements by node and stresses by triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
     /// x and y of each node, length.
@@ -38,11 +38,11 @@ impl Fields {
 
     /// Adds `share` times `other`.
     pub fn add(&mut self, share: f64, other: &Fields) {
-        let add = |a: &mut f64, b: &f64| *a += share * b;
-        let (u, other_u) = (self.u.as_flattened_mut(), other.u.as_flattened());
-        u.iter_mut().zip(other_u).for_each(|(a, b)| add(a, b));
-        let (sigma, other_sigma) = (self.sigma.as_flattened_mut(), other.sigma.as_flattened());
-        sigma.iter_mut().zip(other_sigma).for_each(|(a, b)| add(a, b));
+        let add = |to: &mut [f64], from: &[f64]| {
+            to.iter_mut().zip(from).for_each(|(a, b)| *a += share * b);
+        };
+        add(self.u.as_flattened_mut(), other.u.as_flattened());
+        add(self.sigma.as_flattened_mut(), other.sigma.as_flattened());
     }
 
     /// Von Mises stress of each triangle.

@@ -30,16 +30,13 @@
 
 mod comparison;
 mod deck;
-mod equation;
 mod fields;
-mod number;
 mod problem;
 mod results;
 mod run;
 
-pub use comparison::{BodyStress, Comparison, Difference, Largest};
+pub use comparison::{Comparison, Difference};
 pub use deck::deck;
-pub use equation::{Equation, Term};
 pub use fields::Fields;
 pub use problem::{Contact, ContactKind, Pair, Part, Problem};
 pub use results::parse;

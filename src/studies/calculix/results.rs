@@ -3,14 +3,14 @@
 use super::fields::Fields;
 use crate::error::InputError;
 
-/// What the lines of a block hold.
+/// What the lines of a block say.
 #[derive(Clone, Copy)]
 enum Block {
     /// Node, u_x, u_y, u_z.
     Displacements,
     /// Element, integration point, the six stresses.
     Stresses,
-    /// Something else.
+    /// Something that is not read.
     Other,
 }
 
@@ -23,7 +23,7 @@ enum Block {
 /// A node or a triangle is missing; something is no number.
 pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields, InputError> {
     let mut u = vec![None; nodes];
-    let mut stresses = vec![Points::default(); triangles];
+    let mut points: Vec<Vec<[f64; 6]>> = vec![Vec::new(); triangles];
     let mut block = Block::Other;
     for line in text.lines().filter(|line| !line.trim().is_empty()) {
         if line.trim_start().starts_with(|c: char| c.is_ascii_alphabetic()) {
@@ -32,40 +32,32 @@ pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields, Input
         }
         match block {
             Block::Displacements => {
-                let (node, [], values) = row::<0, 3>(line)?;
-                *entry(&mut u, node, line)? = Some([values[0], values[1]]);
+                let ([node], [x, y, _]) = row(line)?;
+                *entry(&mut u, node, line)? = Some([x, y]);
             }
             Block::Stresses => {
-                let (triangle, [point], values) = row::<1, 6>(line)?;
-                entry(&mut stresses, triangle, line)?.set(point, values);
+                let ([triangle, point], stress) = row(line)?;
+                let points = entry(&mut points, triangle, line)?;
+                if point == 1 {
+                    // A new increment begins.
+                    points.clear();
+                }
+                points.push(stress);
             }
             Block::Other => {}
         }
     }
     let u = u.into_iter().enumerate().map(|(k, u)| u.ok_or_else(|| missing("node", k + 1)));
-    let stresses = stresses.iter().enumerate();
-    let stresses = stresses.map(|(k, s)| s.mean().ok_or_else(|| missing("element", k + 1)));
+    let stresses = points.iter().enumerate();
+    let stresses = stresses.map(|(k, of)| mean(of).ok_or_else(|| missing("element", k + 1)));
     Ok(Fields { u: u.collect::<Result<_, _>>()?, sigma: stresses.collect::<Result<_, _>>()? })
 }
 
-/// The stresses at the integration points of an element.
-#[derive(Clone, Debug, Default)]
-struct Points(Vec<[f64; 6]>);
-
-impl Points {
-    /// Adds what is printed of a point; point 1 begins a new increment.
-    fn set(&mut self, point: usize, values: [f64; 6]) {
-        if point == 1 {
-            self.0.clear();
-        }
-        self.0.push(values);
-    }
-
-    fn mean(&self) -> Option<[f64; 6]> {
-        let count = self.0.len() as f64;
-        let sum = |c: usize| self.0.iter().map(|point| point[c]).sum::<f64>();
-        (!self.0.is_empty()).then(|| std::array::from_fn(|c| sum(c) / count))
-    }
+/// The mean of the stresses at the integration points of an element; nothing without any.
+fn mean(points: &[[f64; 6]]) -> Option<[f64; 6]> {
+    let count = points.len() as f64;
+    let sum = |c: usize| points.iter().map(|point| point[c]).sum::<f64>();
+    (!points.is_empty()).then(|| std::array::from_fn(|c| sum(c) / count))
 }
 
 fn heading(line: &str) -> Block {
@@ -80,20 +72,16 @@ fn entry<'a, T>(of: &'a mut [T], number: usize, line: &str) -> Result<&'a mut T,
     number.checked_sub(1).and_then(|k| of.get_mut(k)).ok_or_else(|| not_understood(line))
 }
 
-/// A number, `I` numbers more, then `V` values.
-fn row<const I: usize, const V: usize>(
-    line: &str,
-) -> Result<(usize, [usize; I], [f64; V]), InputError> {
+/// `I` numbers, then `V` values.
+fn row<const I: usize, const V: usize>(line: &str) -> Result<([usize; I], [f64; V]), InputError> {
     let words: Vec<&str> = line.split_whitespace().collect();
-    if words.len() != 1 + I + V {
-        return Err(not_understood(line));
-    }
-    let whole = |word: &&str| word.parse::<usize>().map_err(|_| not_understood(line));
-    let real = |word: &&str| float(word).ok_or_else(|| not_understood(line));
-    let numbers: Vec<usize> = words[..=I].iter().map(whole).collect::<Result<_, _>>()?;
-    let values: Vec<f64> = words[1 + I..].iter().map(real).collect::<Result<_, _>>()?;
-    let indices = std::array::from_fn(|k| numbers[1 + k]);
-    Ok((numbers[0], indices, std::array::from_fn(|k| values[k])))
+    let parsed = || -> Option<([usize; I], [f64; V])> {
+        let (numbers, values) = words.split_at_checked(I)?;
+        let numbers: Option<Vec<usize>> = numbers.iter().map(|word| word.parse().ok()).collect();
+        let values: Option<Vec<f64>> = values.iter().map(|word| float(word)).collect();
+        Some((numbers?.try_into().ok()?, values?.try_into().ok()?))
+    };
+    parsed().ok_or_else(|| not_understood(line))
 }
 
 /// A finite number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent has three

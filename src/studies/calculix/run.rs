@@ -1,4 +1,4 @@
-//! A run of `ccx`.
+//! Runs of `ccx`, each in a temporary folder.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -15,11 +15,11 @@ use crate::problem::scene::Scene;
 /// How many of the last lines of a failed run are shown.
 const TAIL: usize = 12;
 
-/// What a run gave.
+/// What a run of `ccx` computed.
 pub struct Ran {
-    /// The version that `ccx` says it is.
+    /// The version that `ccx` reports.
     pub version: String,
-    /// Its results.
+    /// The sum of the results of its decks.
     pub fields: Fields,
 }
 
@@ -47,12 +47,12 @@ fn print(program: &str, deck: &str) -> Result<String, InputError> {
     })?;
     files::write(&folder.path().join("job.inp"), deck)?;
     let output = start(program, &["job"], folder.path())?;
-    let said = text(&output);
-    if !output.status.success() || said.contains("*ERROR") {
-        return Err(failed(program, &format!("failed ({})", output.status), &said));
+    let text = text(&output);
+    if !output.status.success() || text.contains("*ERROR") {
+        return Err(failed(program, &format!("failed ({})", output.status), &text));
     }
     std::fs::read_to_string(folder.path().join("job.dat"))
-        .map_err(|why| failed(program, &format!("left no results ({why})"), &said))
+        .map_err(|why| failed(program, &format!("left no results ({why})"), &text))
 }
 
 /// The last word of `ccx -v`: "This is Version 2.20".
@@ -67,18 +67,18 @@ fn start(program: &str, args: &[&str], folder: &Path) -> Result<Output, InputErr
     command.args(args).current_dir(folder).env("OMP_NUM_THREADS", "1");
     command.output().map_err(|why| {
         let what = format!("{program} cannot be started: {why}");
-        let mend = "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name its program with --ccx";
-        InputError::new("ccx", what, mend)
+        let fix = "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name \
+                   its program with --ccx";
+        InputError::new("ccx", what, fix)
     })
 }
 
 fn text(output: &Output) -> String {
-    let both = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes));
-    both.concat()
+    [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes)).concat()
 }
 
-fn failed(program: &str, how: &str, said: &str) -> InputError {
-    let lines: Vec<&str> = said.lines().filter(|line| !line.trim().is_empty()).collect();
+fn failed(program: &str, how: &str, output: &str) -> InputError {
+    let lines: Vec<&str> = output.lines().filter(|line| !line.trim().is_empty()).collect();
     let tail = lines[lines.len().saturating_sub(TAIL)..].join("\n  ");
     let what = format!("{program} {how}; the end of its output:\n  {tail}");
     InputError::new("ccx", what, "export the deck and run it by hand, or choose another penalty")
