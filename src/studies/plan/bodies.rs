@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::choices;
-use crate::problem::model::{Body, Model};
+use crate::problem::model::{Body, Dof, Model};
 use crate::problem::modelling::Variant;
 
 choices! {
@@ -11,40 +11,40 @@ choices! {
     Idle {
         /// No load acts on a free equation of it, and no contact surface lies on it.
         NoLoadNoContact = "no load, no contact",
-        /// No load acts on a free equation of it, and `Km` as printed passes none between bodies (finding K1).
+        /// No load acts on a free equation of it, and `Km` as printed passes none between bodies
+        /// (finding K1).
         NotCoupled = "no load, and Km as printed couples no bodies (K1)",
-        /// All its equations are restrained.
+        /// All its equations are restrained, so that nothing can.
         Restrained = "all its equations are restrained",
     }
 }
 
-/// A body.
+/// A body of the model, and what moves it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodyPlan {
-    /// Its name.
+    /// The name of the body.
     pub name: String,
-    /// Its nodes.
+    /// Number of its nodes.
     pub nodes: usize,
-    /// Its triangles.
+    /// Number of its triangles.
     pub triangles: usize,
-    /// Its free equations.
+    /// Number of its free equations.
     pub free: usize,
     /// Whether a contact surface lies on it.
     pub in_contact: bool,
-    /// Why nothing moves it; nothing where something may.
+    /// Why it does not move; nothing where it may.
     pub idle: Option<Idle>,
 }
 
-/// The bodies of a model.
+/// The bodies of a model as `variant` runs it.
 pub fn plan(model: &Model, variant: Variant) -> Vec<BodyPlan> {
     model.bodies.iter().map(|body| of_body(model, variant, body)).collect()
 }
 
 fn of_body(model: &Model, variant: Variant, body: &Body) -> BodyPlan {
     let dofs = body.nodes.iter().flat_map(|n| n.dofs());
-    let free: Vec<usize> =
-        dofs.filter(|dof| !model.is_restrained(*dof)).map(|dof| dof.index()).collect();
-    let loaded = free.iter().any(|e| model.load[*e] != 0.0);
+    let free: Vec<Dof> = dofs.filter(|dof| !model.is_restrained(*dof)).collect();
+    let loaded = free.iter().any(|dof| model.load[dof.index()] != 0.0);
     let in_contact = touched(model, body);
     let idle = match (free.is_empty(), loaded, in_contact) {
         (true, ..) => Some(Idle::Restrained),

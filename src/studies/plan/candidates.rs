@@ -1,4 +1,4 @@
-//! Which contact nodes can meet which target edges: a test of boxes.
+//! Which contact nodes can come to which target edges: a test of boxes.
 //!
 //! ```text
 //!        o node            the edge's box, grown on all sides by c_tll + MARGIN · (its length);
@@ -14,20 +14,21 @@ use serde::Serialize;
 use crate::answer::contact::search::Segment;
 use crate::problem::model::{Edge, Model};
 
-/// How far a node may move, in lengths of the edge: one that moves further passes over half of it in one step, which the contact search is not
-/// made for either.
+/// How far a node may move, in lengths of the edge: one that moves further passes over half of it in
+/// one step, which the contact search is not made for either.
 pub const MARGIN: f64 = 0.5;
 
-/// Contact nodes and target edges, and the pairs of them that can meet in the initial shape.
+/// Contact nodes and target edges, and the pairs of them that can come together from the initial
+/// shape.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Candidates {
-    /// Entries of the contact surface.
+    /// Number of entries of the contact surface.
     pub nodes: usize,
-    /// Target edges.
+    /// Number of target edges.
     pub edges: usize,
-    /// Pairs of a node and an edge that can meet.
+    /// Pairs of a node and an edge that can come together.
     pub pairs: usize,
-    /// Nodes that can meet an edge.
+    /// Nodes that can come to an edge.
     pub near: usize,
     /// Of those, nodes within c_tll of an edge.
     pub touching: usize,
@@ -55,7 +56,7 @@ impl Candidates {
         })
     }
 
-    /// Pairs that the search as printed walks at every call: all.
+    /// Pairs that the search as printed visits at every call: all.
     pub fn all(&self) -> usize {
         self.nodes * self.edges
     }

@@ -1,7 +1,7 @@
 //! What a run takes: operations and bytes.
 //!
-//! Counted: operations of the factorisations, numbers in the matrices. Measured, on meshes of 13 to 15,045 nodes, and stated as constants: what a
-//! node, a triangle, an entry takes besides.
+//! Counted: operations of the factorisations, numbers in the matrices. Measured, on meshes of 13 to
+//! 15,045 nodes, and stated as constants: what a node, a triangle, an entry takes besides.
 
 use serde::Serialize;
 
@@ -12,29 +12,32 @@ use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Variant};
 
 /// What is to be done.
-pub struct Work<'a> {
+pub(super) struct Work<'a> {
     /// What is asked for.
     pub request: &'a Request,
-    /// The model.
+    /// The model under the reading that is asked for.
     pub model: &'a Model,
-    /// Dense matrices held at once.
+    /// Dense matrices in memory at once.
     pub dense: usize,
     /// One factorisation of the run.
     pub factors: FactorSize,
-    /// One factorisation of a sparse matrix of the same equations: of the run itself where `dense` is 0, and of the converged answer.
+    /// One factorisation of a sparse matrix of the same equations: of the run itself where `dense`
+    /// is 0, and of the reference solution.
     pub sparse: FactorSize,
-    /// The contact; none where the scene has none.
+    /// Who can come into contact; nothing where the scene has no contact.
     pub candidates: Option<&'a Candidates>,
 }
 
 /// What a run takes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cost {
-    /// Dense 2R x 2R matrices of `f64` that are held at once: what is compared with the memory that is free.
+    /// Dense 2R x 2R matrices of `f64` in memory at once: what is compared with the memory that is
+    /// free.
     pub dense_matrices: usize,
-    /// Contact states that are likely to be met: each is factored once.
+    /// Contact states that are likely to come: each is factored once.
     pub states: usize,
-    /// The same for the converged answer that `solve` measures the run against; 0 where it runs nothing more.
+    /// The same for the reference solution that `solve` measures the run against; 0 where it runs
+    /// nothing more.
     pub reference_states: usize,
     /// Additions and multiplications of all factorisations.
     pub operations: f64,
@@ -45,83 +48,81 @@ pub struct Cost {
 /// Peak memory of the process, bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bytes {
-    /// The program itself.
+    /// What the program itself takes.
     pub program: f64,
     /// Mesh, worksheet, results and files.
     pub mesh: f64,
-    /// Matrices and factors.
+    /// Matrices and their factors.
     pub matrices: f64,
     /// What is kept of each iteration.
     pub iterations: f64,
 }
 
 impl Bytes {
-    /// All.
+    /// The sum of all parts, bytes.
     pub fn total(&self) -> f64 {
         self.program + self.mesh + self.matrices + self.iterations
     }
 }
 
-/// Bytes, measured.
-mod bytes {
-    /// The program's pages and the allocator's first ones.
-    pub const PROGRAM: f64 = 14.5e6;
-    /// A triangle and its share of the nodes: worksheet, strain matrix, stiffness, states, sparse matrix, pictures.
-    pub const TRIANGLE: f64 = 3700.0;
-    /// What is freed and not given back at once, a triangle; and at most. Without contact, and with it.
-    pub const FREED: [[f64; 2]; 2] = [[12e3, 17e6], [25e3, 13e6]];
-    /// A node in an iteration that is kept: shape, k_cnt, what its solution keeps.
-    pub const KEPT: f64 = 160.0;
-    /// An entry of the printed matrix while its error bar is found: the matrix with a bound on each entry, its values, their factors.
-    pub const PRINTED_BAR: f64 = 43.0;
-    /// A number of sparse factors: its value, and its share of a row's number.
-    pub const FACTOR: f64 = 10.0;
-}
+/// The program's pages and the allocator's first ones, bytes.
+const PROGRAM: f64 = 14.5e6;
+/// Bytes of a triangle and its share of the nodes: worksheet, strain matrix, stiffness, states,
+/// sparse matrix, pictures.
+const TRIANGLE: f64 = 3700.0;
+/// Bytes that are freed and not given back at once, of a triangle; and at most. Without contact, and
+/// with it.
+const FREED: [[f64; 2]; 2] = [[12e3, 17e6], [25e3, 13e6]];
+/// Bytes of a node in an iteration that is kept: shape, k_cnt, what its solution keeps.
+const KEPT: f64 = 160.0;
+/// Bytes of an entry of the printed matrix while its error is bounded: the matrix with a bound on
+/// each entry, its values, their factors.
+const PRINTED_BOUND: f64 = 43.0;
+/// Bytes of a number of sparse factors: its value, and its share of a row's number.
+const FACTOR: f64 = 10.0;
 
-/// Contact states that a run is likely to meet.
-mod states {
-    /// Measured on `strand`: printed, stepped, tied, unilateral where nodes stick.
-    pub const PRINTED: usize = 3;
-    pub const STEPPED: usize = 5;
-    pub const TIED: usize = 8;
-    pub const STICKING: usize = 3;
-    /// Measured on Hertz's contact with 5 to 59 elements on the half width: where nodes slide, one more for each so many that do not touch yet.
-    pub const NODES: usize = 2;
-}
+/// Contact states of `unilateral` where nodes stick, measured on `strand`.
+const STICKING_STATES: usize = 3;
+/// Where nodes slide, one state more for each so many that do not touch yet: measured on Hertz's
+/// contact with 5 to 59 elements on the half width.
+const NODES_OF_A_STATE: usize = 2;
 
 impl Work<'_> {
-    /// What the run takes, with what `solve` adds: files, and the converged answer where there is contact and the run is not itself that.
+    /// What the run takes, with what `solve` adds: files, and the reference solution where there is
+    /// contact and the run is not itself that.
     pub fn cost(&self) -> Cost {
+        let (states, reference_states) = (self.states(), self.reference_states());
         Cost {
             dense_matrices: self.dense * self.width(),
-            states: self.states(),
-            reference_states: self.reference_states(),
-            operations: self.states() as f64 * self.factors.operations
-                + self.reference_states() as f64 * self.sparse.operations,
-            bytes: self.bytes(),
+            states,
+            reference_states,
+            operations: states as f64 * self.factors.operations
+                + reference_states as f64 * self.sparse.operations,
+            bytes: self.bytes(states + reference_states),
         }
     }
 
+    /// Contact states that the run is likely to come to; of the paper's variants as on `strand`.
     fn states(&self) -> usize {
         let most = match self.request.variant {
-            Variant::Unilateral => return self.converging(),
-            Variant::Printed => states::PRINTED,
-            Variant::Stepped => states::STEPPED,
-            Variant::Tied => states::TIED,
+            Variant::Unilateral => return self.unilateral_states(),
+            Variant::Printed => 3,
+            Variant::Stepped => 5,
+            Variant::Tied => 8,
         };
         if self.settled() { 1 } else { most.min(self.request.iterations) }
     }
 
-    /// Iterations that the converged answer takes.
-    fn converging(&self) -> usize {
+    fn unilateral_states(&self) -> usize {
         match (self.candidates, self.request.contact.friction) {
-            (Some(found), Friction::None) => 1 + (found.near - found.touching) / states::NODES,
+            (Some(found), Friction::None) => 1 + (found.near - found.touching) / NODES_OF_A_STATE,
             _ if self.settled() => 1,
-            _ => states::STICKING,
+            _ => STICKING_STATES,
         }
     }
 
-    /// Whether every node that can meet an edge touches one already: there is no contact, or the first state is likely the last.
+    /// Whether every node that can come to an edge touches one already: there is no contact, or the
+    /// first state is likely the last.
     fn settled(&self) -> bool {
         self.candidates.is_none_or(|found| found.near == found.touching)
     }
@@ -129,16 +130,7 @@ impl Work<'_> {
     fn reference_states(&self) -> usize {
         let same = self.request.variant == Variant::Unilateral
             && self.request.contact.coupling == Coupling::Mortar;
-        if self.candidates.is_none() || same { 0 } else { self.converging() }
-    }
-
-    /// Iterations of which something is kept.
-    fn kept(&self) -> usize {
-        let own = match self.request.variant {
-            Variant::Unilateral => self.states(),
-            _ => self.request.iterations,
-        };
-        own + self.reference_states()
+        if self.candidates.is_none() || same { 0 } else { self.unilateral_states() }
     }
 
     /// Size of a number, in units of an `f64`.
@@ -149,15 +141,19 @@ impl Work<'_> {
         }
     }
 
-    fn bytes(&self) -> Bytes {
+    /// `states`: contact states of the run and of the reference solution.
+    fn bytes(&self, states: usize) -> Bytes {
         let (r, m) = (self.model.nodes.len() as f64, self.model.triangles.len() as f64);
-        let [each, most] = bytes::FREED[usize::from(self.candidates.is_some())];
-        let freed = (each * m).min(most);
+        let [each, most] = FREED[usize::from(self.candidates.is_some())];
+        let kept = match self.request.variant {
+            Variant::Unilateral => states,
+            _ => self.request.iterations + self.reference_states(),
+        };
         Bytes {
-            program: bytes::PROGRAM,
-            mesh: bytes::TRIANGLE * m + freed,
-            matrices: self.dense_bytes() + bytes::FACTOR * self.sparse.nonzeros as f64,
-            iterations: bytes::KEPT * r * self.kept() as f64,
+            program: PROGRAM,
+            mesh: TRIANGLE * m + (each * m).min(most),
+            matrices: self.dense_bytes() + FACTOR * self.sparse.nonzeros as f64,
+            iterations: KEPT * r * kept as f64,
         }
     }
 
@@ -173,7 +169,7 @@ impl Work<'_> {
         match (self.dense, self.request.variant) {
             (0, _) => 0.0,
             (matrices, Variant::Printed) => {
-                (matrices as f64 * square(all)).max(bytes::PRINTED_BAR * (all as f64).powi(2))
+                (matrices as f64 * square(all)).max(PRINTED_BOUND * (all as f64).powi(2))
             }
             (matrices, _) => square(all) + (matrices - 1) as f64 * square(solved),
         }

@@ -14,23 +14,25 @@ mod cost;
 use serde::Serialize;
 
 pub use bodies::{BodyPlan, Idle};
-pub use candidates::{Candidates, MARGIN};
-pub use cost::{Bytes, Cost, Work};
+pub use candidates::MARGIN;
+
+use candidates::Candidates;
+use cost::{Cost, Work};
 
 use crate::answer::{Request, dense_matrices};
 use crate::choices;
 use crate::error::InputError;
-use crate::numbers::solve::{Arithmetic, FactorSize, ScalarName, Solver, memory};
-use crate::problem::model::{Model, NodeId};
+use crate::numbers::solve::{FactorSize, ScalarName, Solver, memory};
+use crate::problem::model::Model;
 use crate::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use crate::problem::scene::symmetry::half;
 
 choices! {
     /// How the matrices of a run are kept.
     Storage {
-        /// Every entry.
+        /// Every entry is kept.
         Dense = "dense",
-        /// The entries that are not 0.
+        /// Only the entries that are not 0 are kept.
         Sparse = "sparse",
     }
 }
@@ -40,21 +42,21 @@ choices! {
 pub struct Plan {
     /// Name of the scene.
     pub scene: String,
-    /// What will be run.
+    /// The variant that will be run.
     pub variant: Variant,
-    /// Nodes, R.
+    /// Number of nodes, R.
     pub nodes: usize,
-    /// Triangles, M.
+    /// Number of triangles, M.
     pub triangles: usize,
-    /// The bodies.
+    /// The bodies of the model, each with what moves it.
     pub bodies: Vec<BodyPlan>,
-    /// The equations.
+    /// How many equations there are, and of which kind.
     pub equations: Equations,
-    /// The contact; none where the scene has none.
+    /// The contact; nothing where the scene has none.
     pub contact: Option<ContactPlan>,
-    /// The number type.
+    /// The number type of the run.
     pub scalar: ScalarName,
-    /// The solver.
+    /// The solver of the run.
     pub solver: Solver,
     /// How its matrices are kept.
     pub storage: Storage,
@@ -68,18 +70,19 @@ pub struct Plan {
     pub half: Option<HalfPlan>,
 }
 
-/// The equations: 2R.
+/// Numbers of equations, two a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Equations {
-    /// All.
+    /// All equations: 2R.
     pub all: usize,
-    /// Restrained.
+    /// Equations whose displacement is restrained.
     pub restrained: usize,
-    /// Free, before ties take out those of nodes in contact.
+    /// Free equations, before constraints take out those of nodes in contact.
     pub free: usize,
-    /// Of those in the matrix: all where `Km` is built as printed, 1 on the diagonal of a restrained one.
+    /// Of those in the matrix: all where `Km` is built as printed, 1 on the diagonal of a restrained
+    /// one.
     pub solved: usize,
-    /// Free ones of bodies that nothing moves.
+    /// Free equations of bodies that nothing moves.
     pub idle: usize,
 }
 
@@ -92,7 +95,7 @@ pub struct HalfPlan {
     pub nodes: usize,
 }
 
-/// The contact.
+/// How contact is modelled, and who can come into contact.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactPlan {
     /// How a node is bound to the target; `printed`: by `Km` as printed.
@@ -101,7 +104,7 @@ pub struct ContactPlan {
     pub friction: Friction,
     /// How `tied` and `stepped` decide who is in contact.
     pub status: StatusRule,
-    /// Who can meet whom.
+    /// Which contact nodes can come to which target edges.
     pub candidates: Candidates,
 }
 
@@ -109,16 +112,20 @@ impl Plan {
     /// The plan of `request`. Neither a matrix is built nor an equation solved.
     ///
     /// # Errors
-    /// A Poisson's ratio that R6 does not allow; a rung that is not there.
+    /// A Poisson's ratio that R6 does not allow; a solver that the scalar does not have.
     pub fn new(request: &Request) -> Result<Self, InputError> {
-        let Request { scene, variant, arithmetic, .. } = request;
-        let (variant, arithmetic) = (*variant, *arithmetic);
+        let Request { ref scene, variant, arithmetic, .. } = *request;
         arithmetic.check()?;
         let model = &*request.model()?;
         let bodies = bodies::plan(model, variant);
-        let solver = solver(variant, arithmetic);
+        let solver = match variant {
+            Variant::Unilateral => Solver::SparseCholesky,
+            _ => arithmetic.solver(),
+        };
         let equations = equations(model, variant, &bodies);
-        let contact = contact(model, request.contact);
+        let ContactModel { coupling, friction, status, .. } = request.contact;
+        let plan = |candidates| ContactPlan { coupling, friction, status, candidates };
+        let contact = Candidates::find(model).map(plan);
         let dense = dense_matrices(variant, arithmetic);
         let sparse = FactorSize::sparse_cholesky(equations.free, pattern(model).into_iter());
         let factors = match solver {
@@ -126,14 +133,8 @@ impl Plan {
             Solver::DenseCholesky => FactorSize::dense_cholesky(equations.solved),
             _ => sparse,
         };
-        let work = Work {
-            request,
-            model,
-            dense,
-            factors,
-            sparse,
-            candidates: contact.as_ref().map(|contact| &contact.candidates),
-        };
+        let candidates = contact.as_ref().map(|contact| &contact.candidates);
+        let work = Work { request, model, dense, factors, sparse, candidates };
         Ok(Plan {
             scene: scene.name.clone(),
             variant,
@@ -152,26 +153,20 @@ impl Plan {
         })
     }
 
-    /// Whether half of the scene has the same solution. Under the other variants it has not: the print's search goes along the surface in one
-    /// direction, and gives a symmetric scene an answer that is not symmetric.
+    /// Whether half of the scene has the same solution. Under the other variants it has not: the
+    /// print's search goes along the surface in one direction, and leads on a symmetric scene to an
+    /// answer that is not symmetric.
     pub fn half_would_do(&self) -> bool {
         self.half.is_some() && (self.contact.is_none() || self.variant == Variant::Unilateral)
     }
 
-    /// That what the run holds in dense matrices fits in `free` bytes: what `solve` asks before it starts.
+    /// Checks that the dense matrices of the run fit in `free` bytes: what `solve` asks before it
+    /// starts.
     ///
     /// # Errors
-    /// It does not.
+    /// They do not.
     pub fn check_memory(&self, free: Option<u128>) -> Result<(), InputError> {
         memory::check(self.nodes, self.cost.dense_matrices, free)
-    }
-}
-
-/// The solver: `unilateral` has its own.
-fn solver(variant: Variant, arithmetic: Arithmetic) -> Solver {
-    match variant {
-        Variant::Unilateral => Solver::SparseCholesky,
-        _ => arithmetic.solver(),
     }
 }
 
@@ -182,39 +177,21 @@ fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations 
     Equations { all, restrained: all - free, free, solved, idle }
 }
 
-fn contact(model: &Model, modelled: ContactModel) -> Option<ContactPlan> {
-    let ContactModel { coupling, friction, status, .. } = modelled;
-    let candidates = Candidates::find(model)?;
-    Some(ContactPlan { coupling, friction, status, candidates })
-}
-
-/// Row and column, from 0, of the entries of K on the free equations, lower triangle. Contact is left out: it changes a few.
+/// Row and column, from 0, of the entries of K on the free equations, lower triangle. Contact is
+/// left out: it changes a few.
 fn pattern(model: &Model) -> Vec<(usize, usize)> {
     let mut free = 0..;
     let place = |restrained: &bool| if *restrained { None } else { free.next() };
     let place: Vec<Option<usize>> = model.restrained.iter().map(place).collect();
-    let equations = |node: NodeId| node.dofs().map(|dof| place[dof.index()]);
     let mut entries = Vec::new();
-    for (node, neighbours) in model.node_ids().zip(neighbours(model)) {
-        for i in equations(node).into_iter().flatten() {
-            let columns = neighbours.iter().flat_map(|m| equations(*m)).flatten();
-            entries.extend(columns.filter(|j| *j <= i).map(|j| (i, j)));
-        }
-    }
-    entries
-}
-
-/// For each node the nodes up to itself that share a triangle with it, itself among them.
-fn neighbours(model: &Model) -> Vec<Vec<NodeId>> {
-    let mut of_node: Vec<Vec<NodeId>> = model.node_ids().map(|n| vec![n]).collect();
     for triangle in &model.triangles {
-        for a in triangle.nodes {
-            of_node[a.index()].extend(triangle.nodes.into_iter().filter(|b| *b < a));
+        let dofs = triangle.nodes.into_iter().flat_map(|node| node.dofs());
+        let equations: Vec<usize> = dofs.filter_map(|dof| place[dof.index()]).collect();
+        for i in &equations {
+            entries.extend(equations.iter().filter(|j| *j <= i).map(|j| (*i, *j)));
         }
     }
-    for neighbours in &mut of_node {
-        neighbours.sort_unstable();
-        neighbours.dedup();
-    }
-    of_node
+    entries.sort_unstable();
+    entries.dedup();
+    entries
 }
