@@ -19,8 +19,8 @@ use crate::answer::{
 };
 use crate::error::InputError;
 use crate::numbers::solve::{Arithmetic, Factors, ScalarName, SparseCholesky, inverse_norm};
-use crate::paper::door;
-use crate::paper::mirror::{Reading, c_cnt};
+use crate::paper::door::{self, Call};
+use crate::paper::mirror::Reading;
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Variant};
 
@@ -35,17 +35,17 @@ pub struct Attempt {
     pub arithmetic: Arithmetic,
     /// The error that was predicted.
     pub predicted: f64,
-    /// The bar that was found; nothing where the prediction was already too large, so that nothing
-    /// was run.
+    /// The error estimate or bound of the run; nothing where the prediction was already too large,
+    /// so that nothing was run.
     pub found: Option<f64>,
-    /// Whether the bar is a bound, not an estimate.
+    /// Whether what was found is a bound, not an estimate.
     pub bound: bool,
 }
 
-/// A solution that meets an accuracy.
+/// A solution that is accurate enough.
 #[derive(Clone, Debug)]
 pub struct Reached {
-    /// The solution.
+    /// The solution in the last precision that was tried.
     pub solution: Solution,
     /// What was tried, the last one with success.
     pub attempts: Vec<Attempt>,
@@ -62,8 +62,8 @@ pub struct Reached {
 pub fn solve_to(request: &Request, accuracy: f64) -> Result<Reached, Error> {
     if !(accuracy > 0.0 && accuracy < 1.0) {
         let what = format!("the accuracy {accuracy:e} is not between 0 and 1");
-        let mend = "give a relative error of the displacements, as 1e-3";
-        return Err(InputError::new("--accuracy", what, mend).into());
+        let fix = "give a relative error of the displacements, as 1e-3";
+        return Err(InputError::new("--accuracy", what, fix).into());
     }
     let model = request.model()?;
     let constraints = first_constraints(&model, &request.reading);
@@ -71,25 +71,25 @@ pub fn solve_to(request: &Request, accuracy: f64) -> Result<Reached, Error> {
     let mut attempts = Vec::new();
     for arithmetic in precisions(request) {
         let predicted = ROUNDINGS * eps(arithmetic.scalar) * amplification;
-        let mut attempt = Attempt { arithmetic, predicted, found: None, bound: false };
-        if predicted <= accuracy {
-            let solution = match solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
-                // What is singular to few digits need not be so to more.
-                Err(Error::Singular(_)) if arithmetic.scalar == ScalarName::F32 => {
-                    attempts.push(attempt);
-                    continue;
-                }
-                solved => solved?,
-            };
-            let (bar, bound) = bar(&solution);
-            (attempt.found, attempt.bound) = (Some(bar), bound);
-            if bar <= accuracy {
-                attempts.push(attempt);
-                let mesh = Discretisation::new(&solution.model, &solution.elements).relative();
-                return Ok(Reached { solution, attempts, mesh });
-            }
+        let not_run = Attempt { arithmetic, predicted, found: None, bound: false };
+        if predicted.is_nan() || predicted > accuracy {
+            attempts.push(not_run);
+            continue;
         }
-        attempts.push(attempt);
+        let solution = match solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
+            // What is singular to few digits need not be so to more.
+            Err(Error::Singular(_)) if arithmetic.scalar == ScalarName::F32 => {
+                attempts.push(not_run);
+                continue;
+            }
+            solved => solved?,
+        };
+        let (error, bound) = rounding_error(&solution);
+        attempts.push(Attempt { found: Some(error), bound, ..not_run });
+        if error <= accuracy {
+            let mesh = Discretisation::new(&solution.model, &solution.elements).relative();
+            return Ok(Reached { solution, attempts, mesh });
+        }
     }
     Err(unmet(accuracy, &attempts).into())
 }
@@ -103,7 +103,7 @@ fn precisions(request: &Request) -> Vec<Arithmetic> {
     [ScalarName::F32, ScalarName::Bounded, ScalarName::F64x2].map(sparse).to_vec()
 }
 
-/// The unit of rounding.
+/// The largest relative error of one rounding.
 fn eps(scalar: ScalarName) -> f64 {
     match scalar {
         ScalarName::F32 => f64::from(f32::EPSILON) / 2.0,
@@ -113,9 +113,9 @@ fn eps(scalar: ScalarName) -> f64 {
     }
 }
 
-/// The error bar of a solution, relative to its largest displacement, and whether it is a bound.
-/// This is the one place that asks for it.
-fn bar(solution: &Solution) -> (f64, bool) {
+/// The error of a solution by rounding, estimated or bounded, relative to its largest displacement,
+/// and whether it is a bound.
+fn rounding_error(solution: &Solution) -> (f64, bool) {
     let largest = max_displacement(&solution.u);
     if let Some(bound) = solution.error_bound {
         return (if bound == 0.0 { 0.0 } else { bound / largest }, true);
@@ -130,12 +130,8 @@ fn bar(solution: &Solution) -> (f64, bool) {
 /// Eq. (1) for what the listing finds in the initial shape; nothing where it fails, as the run then
 /// does.
 fn first_constraints(model: &Model, reading: &Reading) -> Vec<Constraint> {
-    if !model.has_contact() {
-        return Vec::new();
-    }
-    let sheet = door::worksheet(model, |x| x);
-    let pairs = c_cnt(&sheet, reading, &door::node_n(model, &model.nodes));
-    let linked = pairs.map_or(Vec::new(), |pairs| door::linked(&sheet, &pairs));
+    let call = model.has_contact().then(|| Call::c_cnt(model, reading, &model.nodes).ok());
+    let linked = call.flatten().map_or(Vec::new(), |call| door::linked(&call.sheet, &call.pairs));
     linked.into_iter().map(Constraint::from).collect()
 }
 
@@ -167,10 +163,9 @@ fn amplification(
 }
 
 fn unmet(accuracy: f64, attempts: &[Attempt]) -> InputError {
-    let tried: Vec<String> = attempts
-        .iter()
-        .map(|a| format!("{} {:.0e}", a.arithmetic.scalar, a.found.unwrap_or(a.predicted)))
-        .collect();
+    let error = |a: &Attempt| a.found.unwrap_or(a.predicted);
+    let tried = attempts.iter().map(|a| format!("{} {:.0e}", a.arithmetic.scalar, error(a)));
+    let tried: Vec<String> = tried.collect();
     let what = format!("no rung meets an accuracy of {accuracy:e}: {}", tried.join(", "));
     InputError::new("--accuracy", what, "ask for less, or run --scalar exact")
 }

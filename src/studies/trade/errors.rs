@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 use serde::Serialize;
 
-use super::trials::{Setting, Trial};
+use super::trials::Setting;
 use crate::answer::{Solution, distance};
 use crate::error::InputError;
 use crate::problem::scene::{Refined, Scene, symmetry};
@@ -13,7 +13,7 @@ use crate::problem::scene::{Refined, Scene, symmetry};
 pub struct Errors {
     /// Largest difference of a node's displacement over the largest displacement.
     pub displacement: f64,
-    /// Energy norm of the difference.
+    /// Energy norm of the difference over that of the solution compared with.
     pub energy: f64,
     /// Largest difference of a body's largest von Mises stress.
     pub von_mises: f64,
@@ -29,40 +29,25 @@ impl Errors {
             von_mises: of.bodies.iter().map(|body| body.relative.abs()).fold(0.0, f64::max),
         }
     }
-}
 
-/// A solution to measure and another to measure it against, on one mesh.
-pub(super) struct Pair {
-    pub solution: Solution,
-    pub truth: Solution,
-}
-
-impl Pair {
-    /// Brings the solutions of `trial` and of `best`, what it is measured against, to one mesh;
-    /// `scene` is the scene of both as it came.
-    pub fn new(
+    /// The errors of the solution of one trial against that of another, each with the trial's
+    /// setting: both are brought to one mesh. `scene` is the scene of both as it came.
+    pub(super) fn between(
         scene: &Scene,
-        (trial, solution): (&Trial, &Solution),
+        (setting, solution): (Setting, &Solution),
         (best, truth): (Setting, &Solution),
     ) -> Result<Self, InputError> {
-        let (solution, truth) = (solution.clone(), truth.clone());
-        match (trial.setting, best) {
+        Ok(match (setting, best) {
             (Setting::Refined(coarse), Setting::Refined(fine)) => {
                 let meshes = meshes(scene, fine)?;
-                let solution = prolonged(solution, &meshes[coarse..], &truth);
-                Ok(Pair { solution, truth })
+                Errors::new(&prolonged(solution.clone(), &meshes[coarse..], truth), truth)
             }
             (Setting::Half, Setting::Own) => {
                 let half = symmetry::half(scene).expect("its half was run");
-                let truth = restricted(&truth, &half, &solution);
-                Ok(Pair { solution, truth })
+                Errors::new(solution, &restricted(truth, &half, solution))
             }
-            _ => Ok(Pair { solution, truth }),
-        }
-    }
-
-    pub fn errors(&self) -> Errors {
-        Errors::new(&self.solution, &self.truth)
+            _ => Errors::new(solution, truth),
+        })
     }
 }
 

@@ -2,9 +2,8 @@
 
 use std::time::Instant;
 
-use super::errors::{Errors, Pair, meshes, prolonged};
+use super::errors::{Errors, meshes, prolonged};
 use super::order::Order;
-use super::pareto::pareto;
 use super::rows::{Row, Section, Trade};
 use super::trials::{Against, Trial, trials};
 use super::{Knob, words};
@@ -14,7 +13,7 @@ use crate::answer::{Request, Solution, Stiffness, max_displacement, reference, s
 /// Seconds beyond which a trial is not run again: the median of one is itself.
 const PATIENCE: f64 = 4.0;
 
-/// What is measured.
+/// What is measured, and how often.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// How many times each trial is run, in turn: A B C A B C ...
@@ -72,14 +71,14 @@ fn against(knob: Knob) -> &'static str {
     }
 }
 
-/// What came of the runs of a trial.
+/// The runs of a trial: how long each took, and what all of them computed.
 struct Run {
     seconds: Vec<f64>,
     equations: usize,
     solution: Result<Solution, String>,
 }
 
-/// Runs the trials in turn.
+/// Runs the trials in turn, `rounds` times.
 fn timed(
     request: &Request,
     trials: &[Trial],
@@ -140,59 +139,45 @@ impl Bench<'_> {
             seconds: solution.map(|_| median(&run.seconds)),
             runs: run.seconds.len(),
             peak_bytes: peak_bytes.filter(|_| solution.is_some()),
-            error: self.error(place)?,
-            change: self.change(place)?,
+            error: match trial.against {
+                Against::Trial(best) => self.between(place, self.best_that_ran(place, best))?,
+                Against::Reference => {
+                    solution.zip(self.reference).map(|(own, truth)| Errors::new(own, truth))
+                }
+            },
+            change: self.between(place, self.unchanged(trial))?,
             own: trial.own,
             pareto: false,
             failure: run.solution.as_ref().err().cloned(),
         })
     }
 
-    fn error(&self, place: usize) -> Result<Option<Errors>, Error> {
-        match self.trials[place].against {
-            Against::Trial(best) => match self.best_that_ran(place, best) {
-                Some(best) => self.between(place, best),
-                None => Ok(None),
-            },
-            Against::Reference => {
-                let solution = self.runs[place].solution.as_ref().ok();
-                let both = solution.zip(self.reference);
-                Ok(both.map(|(solution, reference)| Errors::new(solution, reference)))
-            }
-        }
-    }
-
     /// `best`, or where it failed the last trial before it that did not.
     fn best_that_ran(&self, place: usize, best: usize) -> Option<usize> {
-        if self.trials[place].knob == Knob::Symmetry {
-            return Some(best);
-        }
-        (place..=best).rev().find(|k| self.runs[*k].solution.is_ok())
-    }
-
-    /// How far the run at `place` is from the same variant where the scene has the knob; knobs that
-    /// change the mesh have their own measure.
-    fn change(&self, place: usize) -> Result<Option<Errors>, Error> {
-        let trial = &self.trials[place];
-        if matches!(trial.knob, Knob::Mesh | Knob::Symmetry) {
-            return Ok(None);
-        }
-        let same = |other: &Trial| other.own && other.variant == trial.variant;
-        match self.trials.iter().position(same) {
-            Some(own) => self.between(place, own),
-            None => Ok(None),
+        match self.trials[place].knob {
+            Knob::Symmetry => Some(best),
+            _ => (place..=best).rev().find(|k| self.runs[*k].solution.is_ok()),
         }
     }
 
-    /// How far the run at `place` is from that at `best`.
-    fn between(&self, place: usize, best: usize) -> Result<Option<Errors>, Error> {
-        let [solution, truth] = [place, best].map(|k| &self.runs[k].solution);
-        let (Ok(solution), Ok(truth)) = (solution, truth) else {
-            return Ok(None);
+    /// The trial of the same variant where the scene has the knob; knobs that change the mesh have
+    /// their own measure.
+    fn unchanged(&self, trial: &Trial) -> Option<usize> {
+        let mesh = matches!(trial.knob, Knob::Mesh | Knob::Symmetry);
+        let same = |other: &Trial| !mesh && other.own && other.variant == trial.variant;
+        self.trials.iter().position(same)
+    }
+
+    /// How far the run at `place` is from that at `best`; nothing where one of them failed.
+    fn between(&self, place: usize, best: Option<usize>) -> Result<Option<Errors>, Error> {
+        let solution_of = |place: usize| {
+            let solution = self.runs[place].solution.as_ref().ok()?;
+            Some((self.trials[place].setting, solution))
         };
-        let best = (self.trials[best].setting, truth);
-        let pair = Pair::new(&self.request.scene, (&self.trials[place], solution), best)?;
-        Ok(Some(pair.errors()))
+        match (solution_of(place), best.and_then(solution_of)) {
+            (Some(own), Some(truth)) => Ok(Some(Errors::between(&self.request.scene, own, truth)?)),
+            _ => Ok(None),
+        }
     }
 
     /// Orders of convergence, from meshes each of half the element size of the one before.
@@ -205,27 +190,26 @@ impl Bench<'_> {
         let Some(&finest) = solutions.last() else { return Ok(Vec::new()) };
         let meshes = meshes(&self.request.scene, solutions.len() - 1)?;
         let stiffness = Stiffness::new(&finest.model, |x| x);
-        let on_finest: Vec<Solution> = solutions
-            .iter()
-            .enumerate()
+        let levels = solutions.iter().enumerate();
+        let on_finest: Vec<Solution> = levels
             .map(|(level, solution)| prolonged((*solution).clone(), &meshes[level..], finest))
             .collect();
         let norm = stiffness.energy_norm(&finest.u);
-        let energy = on_finest
-            .windows(2)
-            .map(|pair| stiffness.energy_norm(&(&pair[0].u - &pair[1].u)) / norm);
-        let mut orders = vec![Order::fit("energy norm", energy.collect())];
+        let between = |pair: &[Solution]| stiffness.energy_norm(&(&pair[0].u - &pair[1].u)) / norm;
         let displacements = solutions.iter().map(|s| max_displacement(&s.u)).collect();
-        orders.push(of_values("largest displacement", displacements));
         let stress = |solution: &Solution| {
             let bodies = summaries(solution);
             bodies.iter().map(|body| body.max_von_mises_stress).fold(0.0, f64::max)
         };
-        orders.push(of_values("largest von Mises stress", on_finest.iter().map(stress).collect()));
-        Ok(orders)
+        Ok(vec![
+            Order::fit("energy norm", on_finest.windows(2).map(between).collect()),
+            of_values("largest displacement", displacements),
+            of_values("largest von Mises stress", on_finest.iter().map(stress).collect()),
+        ])
     }
 }
 
+/// The order in which the differences of `values` fall, relative to the last.
 fn of_values(quantity: &'static str, values: Vec<f64>) -> Order {
     let last = values.last().copied().unwrap_or(1.0);
     let differences = values.windows(2).map(|pair| ((pair[0] - pair[1]) / last).abs());
@@ -248,4 +232,12 @@ fn mark_front(rows: &mut [Row]) {
     for (k, front) in at.into_iter().zip(pareto(&points)) {
         rows[k].pareto = front;
     }
+}
+
+/// Whether each point of (time, error) is on the Pareto front: no other is better in one and at
+/// least as good in the other.
+pub fn pareto(points: &[[f64; 2]]) -> Vec<bool> {
+    let beats =
+        |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && (a[0] < b[0] || a[1] < b[1]);
+    points.iter().map(|b| !points.iter().any(|a| beats(a, b))).collect()
 }

@@ -1,10 +1,10 @@
 //! Speed against accuracy: what each number type and solver and each of the paper's own knobs
-//! costs, and what it gives.
+//! costs, and how accurate it is.
 //!
 //! ```text
 //!  Request, Knob --trials--> Trial --> Request --measure--> seconds, bytes, Solution
 //!                                                              |
-//!  words <-- Section (rows, orders of convergence) <-- errors, pareto, order
+//!  words <-- Section (rows, orders of convergence) <-- errors, order, pareto
 //! ```
 //!
 //! Everything but times, peak memory and the Pareto front, which is drawn from the times, is the
@@ -14,36 +14,33 @@ mod accuracy;
 mod errors;
 mod measure;
 mod order;
-mod pareto;
 pub mod peak;
 mod rows;
 mod trials;
 mod words;
 
-pub use accuracy::{Attempt, Reached, solve_to};
-pub use errors::Errors;
-pub use measure::{Options, measure};
+pub use accuracy::{Reached, solve_to};
+pub use measure::{Options, measure, pareto};
 pub use order::Order;
-pub use pareto::pareto;
 pub use rows::{Row, Section, Trade};
-pub use trials::{Against, Setting, Trial, find, trials};
+pub use trials::{Trial, find, trials};
 
 use crate::choices;
 
 choices! {
-    /// What is varied.
+    /// What is varied: number type, solver, mesh, a parameter of contact, or the half of a scene.
     Knob {
-        /// The number type.
+        /// The number type in which a run computes.
         Arithmetic = "arithmetic",
         /// How the equations are solved.
         Solver = "solver",
-        /// The element size.
+        /// The element size, by refinement of the mesh.
         Mesh = "mesh",
         /// The tolerance of the contact search.
         Tolerance = "c_tll",
         /// The number of iterations, or of steps.
         Iterations = "iterations",
-        /// Who is in contact.
+        /// The rule that decides who is in contact.
         Status = "status",
         /// How a contact node is bound.
         Coupling = "coupling",

@@ -10,7 +10,7 @@ use serde::Serialize;
 /// An order of convergence and its fit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Order {
-    /// What converges.
+    /// The name of what converges.
     pub quantity: &'static str,
     /// Differences between neighbouring meshes, relative to the finest one's value, the coarsest
     /// first.
@@ -25,7 +25,7 @@ pub struct Order {
 }
 
 impl Order {
-    /// Fits p to `differences`.
+    /// Fits p to `differences` of the quantity between neighbouring meshes.
     pub fn fit(quantity: &'static str, differences: Vec<f64>) -> Self {
         let falling = differences.len() > 1
             && differences.windows(2).all(|d| d[1] < d[0])
@@ -35,8 +35,8 @@ impl Order {
         }
         let logs: Vec<f64> = differences.iter().map(|d| d.log2()).collect();
         let (slope, start) = line(&logs);
-        let off = logs.iter().enumerate().map(|(l, y)| (y - start - slope * l as f64).abs());
-        let scatter = if logs.len() > 2 { Some(off.fold(0.0, f64::max).exp2()) } else { None };
+        let apart = logs.iter().enumerate().map(|(l, y)| (y - start - slope * l as f64).abs());
+        let scatter = (logs.len() > 2).then(|| apart.fold(0.0, f64::max).exp2());
         let left = differences[differences.len() - 1] / ((-slope).exp2() - 1.0);
         Order { quantity, differences, order: Some(-slope), scatter, left: Some(left) }
     }

@@ -1,7 +1,7 @@
-//! The most memory that a process held.
+//! The most memory that a process took.
 
 /// Most bytes that this process had in memory at once, its program included; nothing where the
-/// system (Linux: `VmHWM` of `/proc/self/status`) does not tell.
+/// system (Linux: `VmHWM` of `/proc/self/status`) does not report it.
 pub fn of_this_process() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

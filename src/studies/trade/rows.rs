@@ -11,7 +11,7 @@ use crate::problem::modelling::Variant;
 /// Speed against accuracy on a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Trade {
-    /// The scene.
+    /// The name of the scene.
     pub scene: String,
     /// Number of its nodes.
     pub nodes: usize,
@@ -19,18 +19,18 @@ pub struct Trade {
     pub triangles: usize,
     /// How many times each trial was run.
     pub runs: usize,
-    /// What came of each knob.
+    /// What was measured of each knob.
     pub sections: Vec<Section>,
 }
 
-/// What came of a knob.
+/// What was measured of a knob.
 #[derive(Clone, Debug, Serialize)]
 pub struct Section {
-    /// The knob.
+    /// The knob that was turned.
     pub knob: Knob,
     /// What errors are measured against, in words.
     pub against: &'static str,
-    /// Its trials.
+    /// What was measured of each trial, in the order of the trials.
     pub rows: Vec<Row>,
     /// Orders of convergence, of the element size only.
     pub orders: Vec<Order>,
@@ -38,15 +38,15 @@ pub struct Section {
     pub answers: Vec<String>,
 }
 
-/// What came of a trial. Times and peaks are this machine's.
+/// What was measured of a trial. Times and peaks are this machine's.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Where the knob stood, in words.
     #[serde(rename = "rung")]
     pub label: String,
-    /// What was run.
+    /// The variant that was run.
     pub variant: Variant,
-    /// In which numbers and by which solver; not in the files, where the label tells it.
+    /// In which numbers and by which solver; not in the files, where the label names it.
     #[serde(skip)]
     pub arithmetic: Arithmetic,
     /// Number of degrees of freedom, restrained ones included.
@@ -55,7 +55,7 @@ pub struct Row {
     pub in_contact: Option<usize>,
     /// Iterations after which the contact state at the end returns; 1 = settled.
     pub cycle: Option<usize>,
-    /// Median of the times, s.
+    /// Median of the times of its runs, s.
     pub seconds: Option<f64>,
     /// How many times it was run.
     pub runs: usize,

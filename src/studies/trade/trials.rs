@@ -10,39 +10,34 @@ use crate::problem::scene::{Scene, symmetry};
 
 /// Seconds beyond which exact numbers are left out.
 const EXACT: f64 = 10.0;
-
 /// Degrees of freedom beyond which no finer mesh is tried.
 const EQUATIONS: usize = 150_000;
-
 /// How many meshes are tried at most.
 const MESHES: usize = 5;
-
-/// The tolerances of the contact search, in the scene's unit of length.
+/// The tolerances of the contact search that are tried, in the scene's unit of length.
 const TOLERANCES: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
-
-/// The numbers of iterations.
+/// The numbers of iterations that are tried, beside the scene's own.
 const ITERATIONS: [usize; 9] = [1, 2, 5, 10, 20, 40, 80, 160, 320];
-
-/// The variants whose knobs are turned.
-const TURNED: [Variant; 2] = [Variant::Tied, Variant::Stepped];
+/// The variants that carry load across; the last one is not the paper's.
+const CARRYING: [Variant; 3] = [Variant::Tied, Variant::Stepped, Variant::Unilateral];
 
 /// How a trial's request differs from the one whose knobs are turned, beside variant and
 /// arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Setting {
-    /// Not at all.
+    /// Its request does not differ.
     Own,
-    /// The tolerance of the contact search, length.
+    /// Another tolerance of the contact search, length.
     Tolerance(f64),
-    /// The number of iterations.
+    /// Another number of iterations.
     Iterations(usize),
-    /// The status rule.
+    /// Another rule that decides who is in contact.
     Status(StatusRule),
-    /// The coupling.
+    /// Another coupling of contact nodes and target.
     Coupling(Coupling),
     /// The scene with its mesh refined so many times.
     Refined(usize),
-    /// Half of the scene.
+    /// Half of a symmetric scene.
     Half,
 }
 
@@ -55,14 +50,14 @@ pub enum Against {
     Trial(usize),
 }
 
-/// Something to measure.
+/// A run to measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
     /// The knob that is turned.
     pub knob: Knob,
     /// Where it stands, in words.
     pub label: String,
-    /// What is run.
+    /// The variant that is run.
     pub variant: Variant,
     /// In which numbers, by which solver.
     pub arithmetic: Arithmetic,
@@ -75,6 +70,20 @@ pub struct Trial {
 }
 
 impl Trial {
+    /// `variant` as the request has it, in the quickest arithmetic that rounds as little as Mathcad
+    /// does, against the reference solution.
+    fn new(knob: Knob, label: impl Into<String>, variant: Variant) -> Self {
+        Trial {
+            knob,
+            label: label.into(),
+            variant,
+            arithmetic: sparse(ScalarName::F64),
+            setting: Setting::Own,
+            against: Against::Reference,
+            own: false,
+        }
+    }
+
     /// What it asks for, where everything but the knob is as `request` has it.
     ///
     /// # Errors
@@ -89,11 +98,19 @@ impl Trial {
             Setting::Coupling(coupling) => request.contact.coupling = coupling,
             Setting::Refined(times) => {
                 for _ in 0..times {
-                    request.scene = request.scene.refined()?.ok_or_else(no_mesh)?.scene;
+                    let refined = request.scene.refined()?.ok_or_else(|| {
+                        let what = "half a scene cannot be refined";
+                        InputError::new("the scene", what, "refine the whole scene")
+                    })?;
+                    request.scene = refined.scene;
                 }
             }
             Setting::Half => {
-                request.scene = symmetry::half(&request.scene).ok_or_else(no_half)?.scene;
+                let half = symmetry::half(&request.scene).ok_or_else(|| {
+                    let what = "the scene is not symmetric about a vertical line";
+                    InputError::new("the scene", what, "run the whole scene")
+                })?;
+                request.scene = half.scene;
             }
         }
         Ok(request)
@@ -103,15 +120,6 @@ impl Trial {
     pub fn name(&self) -> String {
         format!("{}/{}/{}", self.knob, self.variant, self.label)
     }
-}
-
-fn no_mesh() -> InputError {
-    InputError::new("the scene", "half a scene cannot be refined", "refine the whole scene")
-}
-
-fn no_half() -> InputError {
-    let what = "the scene is not symmetric about a vertical line";
-    InputError::new("the scene", what, "run the whole scene")
 }
 
 /// The trial of that name ([`Trial::name`]).
@@ -129,16 +137,45 @@ pub fn trials(request: &Request, knob: Knob) -> Vec<Trial> {
         Knob::Mesh => meshes(&request.scene),
         Knob::Symmetry => halves(request, contact),
         _ if !contact => Vec::new(),
-        Knob::Tolerance => turned(knob, tolerances(request)),
-        Knob::Iterations => turned(knob, iterations(request)),
-        Knob::Status => turned(knob, statuses(request)),
-        Knob::Coupling => couplings(request),
+        Knob::Tolerance => {
+            let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
+            let place = |c: f64| (format!("{c:e}"), Setting::Tolerance(c));
+            turned(knob, &tolerances(own), own, place)
+        }
+        Knob::Iterations => {
+            let place = |n: usize| (n.to_string(), Setting::Iterations(n));
+            turned(knob, &iterations(request.iterations), request.iterations, place)
+        }
+        Knob::Status => {
+            let place = |rule: StatusRule| (rule.to_string(), Setting::Status(rule));
+            turned(knob, StatusRule::ALL, request.contact.status, place)
+        }
+        Knob::Coupling => {
+            let place = |c: Coupling| (c.to_string(), Setting::Coupling(c));
+            turned(knob, Coupling::ALL, request.contact.coupling, place)
+        }
     }
 }
 
-/// The quickest arithmetic that rounds as little as Mathcad does: that in which knobs are turned.
-fn quick() -> Arithmetic {
-    sparse(ScalarName::F64)
+/// A knob at each of `values` under each variant that has it and carries load across; the scene has
+/// the knob at `own`.
+fn turned<T: Copy + PartialEq>(
+    knob: Knob,
+    values: &[T],
+    own: T,
+    place: impl Fn(T) -> (String, Setting),
+) -> Vec<Trial> {
+    // Only the coupling is a knob of `unilateral` too.
+    let variants = if knob == Knob::Coupling { &CARRYING[..] } else { &CARRYING[..2] };
+    let trial = |(variant, value): (Variant, T)| {
+        let (label, setting) = place(value);
+        Trial { setting, own: value == own, ..Trial::new(knob, label, variant) }
+    };
+    let of = |variant: &Variant| {
+        let variant = *variant;
+        values.iter().map(move |value| (variant, *value))
+    };
+    variants.iter().flat_map(of).map(trial).collect()
 }
 
 /// Numbers of type `scalar`, solved by sparse Cholesky.
@@ -208,13 +245,9 @@ fn against_the_last(
 ) -> Vec<Trial> {
     let against = Against::Trial(arithmetics.len() - 1);
     let trial = |(label, arithmetic): (&str, Arithmetic)| Trial {
-        knob,
-        label: label.into(),
-        variant: measured_variant(request),
         arithmetic,
-        setting: Setting::Own,
         against,
-        own: false,
+        ..Trial::new(knob, label, measured_variant(request))
     };
     arithmetics.into_iter().map(trial).collect()
 }
@@ -224,69 +257,32 @@ fn meshes(scene: &Scene) -> Vec<Trial> {
     let equations = |times: usize| scene.model.dofs() << (2 * times);
     let count = (1..MESHES).take_while(|times| equations(*times) <= EQUATIONS).count() + 1;
     let trial = |times: usize| Trial {
-        knob: Knob::Mesh,
-        label: format!("h / {}", 1 << times),
-        variant: Variant::Unilateral,
-        arithmetic: quick(),
         setting: Setting::Refined(times),
         against: Against::Trial(count - 1),
         own: times == 0,
+        ..Trial::new(Knob::Mesh, format!("h / {}", 1 << times), Variant::Unilateral)
     };
     (0..count).map(trial).collect()
 }
 
-/// A knob under each variant of the paper that carries load across.
-fn turned(knob: Knob, places: Vec<(String, Setting, bool)>) -> Vec<Trial> {
-    TURNED.iter().flat_map(|variant| under(knob, *variant, &places)).collect()
-}
-
-fn under(knob: Knob, variant: Variant, places: &[(String, Setting, bool)]) -> Vec<Trial> {
-    let trial = |(label, setting, own): &(String, Setting, bool)| Trial {
-        knob,
-        label: label.clone(),
-        variant,
-        arithmetic: quick(),
-        setting: *setting,
-        against: Against::Reference,
-        own: *own,
-    };
-    places.iter().map(trial).collect()
-}
-
-fn tolerances(request: &Request) -> Vec<(String, Setting, bool)> {
-    let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
+/// The tolerances that are tried, the scene's `own` among them.
+fn tolerances(own: f64) -> Vec<f64> {
     let mut values = TOLERANCES.to_vec();
     if !values.contains(&own) {
         values.push(own);
         values.sort_by(f64::total_cmp);
     }
-    let place = |c: f64| (format!("{c:e}"), Setting::Tolerance(c), c == own);
-    values.into_iter().map(place).collect()
+    values
 }
 
-fn iterations(request: &Request) -> Vec<(String, Setting, bool)> {
-    let own = request.iterations;
+/// The numbers of iterations that are tried, the scene's `own` among them, and one more, which
+/// shows what a cycle of two does.
+fn iterations(own: usize) -> Vec<usize> {
     let mut values = ITERATIONS.to_vec();
-    // One more than the scene's shows what a cycle of two does.
     values.extend([own, own + 1]);
     values.sort_unstable();
     values.dedup();
-    let place = |n: usize| (n.to_string(), Setting::Iterations(n), n == own);
-    values.into_iter().map(place).collect()
-}
-
-fn statuses(request: &Request) -> Vec<(String, Setting, bool)> {
-    let own = request.contact.status;
-    let place = |rule: &StatusRule| (rule.to_string(), Setting::Status(*rule), *rule == own);
-    StatusRule::ALL.iter().map(place).collect()
-}
-
-fn couplings(request: &Request) -> Vec<Trial> {
-    let own = request.contact.coupling;
-    let place = |c: &Coupling| (c.to_string(), Setting::Coupling(*c), *c == own);
-    let places: Vec<_> = Coupling::ALL.iter().map(place).collect();
-    let variants = TURNED.into_iter().chain([Variant::Unilateral]);
-    variants.flat_map(|variant| under(Knob::Coupling, variant, &places)).collect()
+    values
 }
 
 /// The whole scene, then its half, under each variant.
@@ -295,19 +291,13 @@ fn halves(request: &Request, contact: bool) -> Vec<Trial> {
         return Vec::new();
     }
     let own = [measured_variant(request)];
-    let all = [Variant::Tied, Variant::Stepped, Variant::Unilateral];
-    let variants: &[Variant] = if contact { &all } else { &own };
+    let variants: &[Variant] = if contact { &CARRYING } else { &own };
     let trial = |(k, variant): (usize, &Variant)| {
-        let trial = |label: &str, setting, own| Trial {
-            knob: Knob::Symmetry,
-            label: label.into(),
-            variant: *variant,
-            arithmetic: quick(),
-            setting,
-            against: Against::Trial(2 * k),
-            own,
-        };
-        [trial("whole", Setting::Own, true), trial("half", Setting::Half, false)]
+        let against = Against::Trial(2 * k);
+        let whole = Trial { against, own: true, ..Trial::new(Knob::Symmetry, "whole", *variant) };
+        let half =
+            Trial { setting: Setting::Half, own: false, label: "half".into(), ..whole.clone() };
+        [whole, half]
     };
     variants.iter().enumerate().flat_map(trial).collect()
 }

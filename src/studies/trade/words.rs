@@ -13,35 +13,35 @@ use crate::problem::scene::{Scene, symmetry};
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
 
-/// The answers to a knob's questions.
+/// What the rows of a knob say, a sentence for each question.
 pub fn answers(request: &Request, knob: Knob, rows: &[Row], orders: &[Order]) -> Vec<String> {
     let scene = &request.scene;
-    if rows.is_empty() {
-        return vec![nothing(knob).into()];
-    }
     match knob {
+        Knob::Symmetry if rows.is_empty() => {
+            vec!["The scene is not symmetric about a vertical line: it has no half.".into()]
+        }
+        _ if rows.is_empty() => vec!["The scene has no contact: there is nothing to turn.".into()],
         Knob::Arithmetic => arithmetic(request, rows),
         Knob::Solver => solver(rows),
         Knob::Mesh => mesh(rows, orders),
-        Knob::Tolerance => by_variant(rows, |variant, rows| tolerance(scene, variant, rows)),
-        Knob::Iterations => by_variant(rows, iterations),
-        Knob::Status | Knob::Coupling => by_variant(rows, nearest),
+        Knob::Tolerance => by_variant(scene, rows, tolerance),
+        Knob::Iterations => by_variant(scene, rows, iterations),
+        Knob::Status | Knob::Coupling => by_variant(scene, rows, nearest),
         Knob::Symmetry => halves(scene, rows),
     }
 }
 
-fn nothing(knob: Knob) -> &'static str {
-    match knob {
-        Knob::Symmetry => "The scene is not symmetric about a vertical line: it has no half.",
-        _ => "The scene has no contact: there is nothing to turn.",
-    }
-}
-
-fn by_variant(rows: &[Row], of: impl Fn(Variant, &[&Row]) -> Option<String>) -> Vec<String> {
-    let rows_of =
-        |variant: Variant| -> Vec<&Row> { rows.iter().filter(|r| r.variant == variant).collect() };
-    let sentence = |variant: &Variant| of(*variant, &rows_of(*variant));
-    Variant::ALL.iter().filter_map(sentence).collect()
+/// A sentence for each variant that has something to say of its rows.
+fn by_variant(
+    scene: &Scene,
+    rows: &[Row],
+    sentence: fn(&Scene, Variant, &[&Row]) -> Option<String>,
+) -> Vec<String> {
+    let of = |variant: &Variant| {
+        let rows: Vec<&Row> = rows.iter().filter(|row| row.variant == *variant).collect();
+        sentence(scene, *variant, &rows)
+    };
+    Variant::ALL.iter().filter_map(of).collect()
 }
 
 /// A share in percent: `0.12 %`, or a power of ten where that is shorter.
@@ -59,11 +59,8 @@ fn seen(errors: &Errors) -> f64 {
 }
 
 fn both(errors: &Errors) -> String {
-    format!(
-        "displacements by {}, von Mises stresses by {}",
-        percent(errors.displacement),
-        percent(errors.von_mises)
-    )
+    let [displacement, stress] = [errors.displacement, errors.von_mises].map(percent);
+    format!("displacements by {displacement}, von Mises stresses by {stress}")
 }
 
 fn arithmetic(request: &Request, rows: &[Row]) -> Vec<String> {
@@ -74,8 +71,8 @@ fn arithmetic(request: &Request, rows: &[Row]) -> Vec<String> {
     let mut sentences = Vec::new();
     if let (Some(single), Some(double)) = (error(ScalarName::F32), error(ScalarName::F64)) {
         sentences.push(format!(
-            "Rounding moves displacements by {single:.0e} of the largest in f32, by {double:.0e} in f64; below 1e-16 nothing shows, for \
-             rows are compared in f64."
+            "Rounding moves displacements by {single:.0e} of the largest in f32, by {double:.0e} \
+             in f64; below 1e-16 nothing shows, for rows are compared in f64."
         ));
     }
     if error(ScalarName::Exact).is_none() {
@@ -94,51 +91,57 @@ fn solver(rows: &[Row]) -> Vec<String> {
     let loose = rows.iter().find(|row| row.arithmetic == cg(1e-4)).and_then(|row| row.error);
     let mut sentences =
         vec![format!("Direct solvers differ by {direct:.0e} of the largest displacement at most.")];
-    if let Some(loose) = loose {
-        sentences.push(format!(
-            "A residual is no error: conjugate gradients stopped at a relative residual of 1e-4 are wrong by {:.0e}.",
+    sentences.extend(loose.map(|loose| {
+        format!(
+            "A residual is no error: conjugate gradients stopped at a relative residual of 1e-4 \
+             are wrong by {:.0e}.",
             loose.displacement
-        ));
-    }
+        )
+    }));
     sentences
 }
 
 fn mesh(rows: &[Row], orders: &[Order]) -> Vec<String> {
     let mut sentences: Vec<String> = orders.iter().map(order).collect();
-    if let Some(error) = rows.first().and_then(|row| row.error) {
+    sentences.extend(rows.first().and_then(|row| row.error).map(|error| {
         let [displacement, energy, stress] =
             [error.displacement, error.energy, error.von_mises].map(percent);
-        sentences.push(format!(
-            "The scene's own mesh is {displacement} of the largest displacement from the finest one, {energy} in the energy norm, {stress} of \
-             the largest von Mises stress."
-        ));
-    }
+        format!(
+            "The scene's own mesh is {displacement} of the largest displacement from the finest \
+             one, {energy} in the energy norm, {stress} of the largest von Mises stress."
+        )
+    }));
     sentences.push(
-        "The outline is the polygon of the scene's own mesh on every rung: what a curved surface loses to its chords is not in these numbers."
+        "The outline is the polygon of the scene's own mesh on every rung: what a curved surface \
+         loses to its chords is not in these numbers."
             .into(),
     );
     sentences
 }
 
 fn order(order: &Order) -> String {
-    let listed: Vec<String> = order.differences.iter().map(|d| format!("{d:.1e}")).collect();
+    let Order { quantity, differences, order, scatter, left } = order;
+    let listed: Vec<String> = differences.iter().map(|d| format!("{d:.1e}")).collect();
     let listed = listed.join(", ");
-    match (order.order, order.left) {
-        (Some(p), Some(left)) => {
-            let scatter = order.scatter.map_or("two differences only".into(), |s| {
-                format!("the differences are off the fitted line by a factor of {s:.2} at most")
-            });
-            format!(
-                "The {} converges with order {p:.2} (differences from mesh to mesh {listed}; {scatter}); the finest mesh is about {} from the limit.",
-                order.quantity,
-                percent(left)
-            )
-        }
-        _ => format!(
-            "The {} shows no order of convergence on these meshes (differences {listed}).",
-            order.quantity
-        ),
-    }
+    let (Some(p), Some(left)) = (order, left) else {
+        return format!(
+            "The {quantity} shows no order of convergence on these meshes (differences {listed})."
+        );
+    };
+    let scatter = scatter.map_or("two differences only".into(), |s| {
+        format!("the differences are off the fitted line by a factor of {s:.2} at most")
+    });
+    format!(
+        "The {quantity} converges with order {p:.2} (differences from mesh to mesh {listed}; \
+         {scatter}); the finest mesh is about {} from the limit.",
+        percent(*left)
+    )
+}
+
+/// How far two rows are from the reference solution.
+fn from_the_reference([a, b]: [&Row; 2]) -> String {
+    let far = |row: &Row| row.error.map_or("-".into(), |e| percent(e.displacement));
+    format!("From the converged answer: {} at {}, {} at {}.", far(a), a.label, far(b), b.label)
 }
 
 fn tolerance(scene: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
@@ -146,28 +149,21 @@ fn tolerance(scene: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
     let below = rows.iter().take_while(|row| !row.own);
     let most = below.filter_map(|row| row.change).max_by(|a, b| seen(a).total_cmp(&seen(b)))?;
     let verdict = if seen(&most) < NOTICEABLE { "is" } else { "is not" };
-    let from = |row: &Row| row.error.map_or("-".into(), |e| percent(e.displacement));
-    let far = format!(
-        " From the converged answer: {} at {}, {} at {}.",
-        from(own),
-        own.label,
-        from(rows[0]),
-        rows[0].label
-    );
-    let unit = &scene.units.length;
     let above = rows.iter().rev().find(|row| !row.own).and_then(|row| row.change);
     let above = above.map_or(String::new(), |change| {
         format!(" The largest c_tll tried moves {}.", both(&change))
     });
     Some(format!(
-        "{variant}: c_tll = {} {unit} {verdict} small enough: going down to {} moves {}.{far}{above}",
+        "{variant}: c_tll = {} {} {verdict} small enough: going down to {} moves {}. {}{above}",
         own.label,
+        scene.units.length,
         rows[0].label,
-        both(&most)
+        both(&most),
+        from_the_reference([own, rows[0]])
     ))
 }
 
-fn iterations(variant: Variant, rows: &[&Row]) -> Option<String> {
+fn iterations(_: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
     let (at, last) = (rows.iter().position(|row| row.own)?, rows.last()?);
     let own = rows[at];
     let (next, change) = (rows.get(at + 1)?.change?, last.change?);
@@ -178,32 +174,25 @@ fn iterations(variant: Variant, rows: &[&Row]) -> Option<String> {
         Some(length) => format!("contact states repeat in a cycle of {length}, for ever"),
         None => "the contact state still changes".into(),
     };
-    let far = |row: &Row| row.error.map_or("-".into(), |e| percent(e.displacement));
     Some(format!(
-        "{variant}: {} iterations {verdict}: {state}; one more moves {}; {} of them move {}. From the converged answer: {} at {}, {} at {}.",
+        "{variant}: {} iterations {verdict}: {state}; one more moves {}; {} of them move {}. {}",
         own.label,
         both(&next),
         last.label,
         both(&change),
-        far(own),
-        own.label,
-        far(last),
-        last.label
+        from_the_reference([own, last])
     ))
 }
 
-fn nearest(variant: Variant, rows: &[&Row]) -> Option<String> {
-    let error = |row: &Row| row.error.map(|e| e.displacement);
-    let ran = rows.iter().filter(|row| error(row).is_some());
-    let best = ran.min_by(|a, b| error(a).unwrap_or(0.0).total_cmp(&error(b).unwrap_or(0.0)))?;
-    let listed: Vec<String> = rows
-        .iter()
-        .filter_map(|row| error(row).map(|e| format!("{} {}", row.label, percent(e))))
-        .collect();
-    let all_same = rows.iter().filter_map(|row| error(row)).all(|e| Some(e) == error(best));
+fn nearest(_: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
+    let errors = rows.iter().filter_map(|row| Some((row, row.error?.displacement)));
+    let (best, least) = errors.clone().min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    let all_same = errors.clone().all(|(_, error)| error == least);
+    let listed = errors.map(|(row, error)| format!("{} {}", row.label, percent(error)));
     let verdict =
         if all_same { "all the same".into() } else { format!("{} is nearest", best.label) };
-    Some(format!("{variant}: {verdict} ({} from the converged answer).", listed.join(", ")))
+    let listed = listed.collect::<Vec<_>>().join(", ");
+    Some(format!("{variant}: {verdict} ({listed} from the converged answer)."))
 }
 
 fn halves(scene: &Scene, rows: &[Row]) -> Vec<String> {
@@ -217,7 +206,8 @@ fn halves(scene: &Scene, rows: &[Row]) -> Vec<String> {
         let Some(error) = half.error else { continue };
         let count = |row: &Row| row.in_contact.map_or("-".into(), |n| n.to_string());
         sentences.push(format!(
-            "{}: the half differs from the whole by {:.0e} of the largest displacement ({} nodes in contact, {} in the half).",
+            "{}: the half differs from the whole by {:.0e} of the largest displacement ({} nodes \
+             in contact, {} in the half).",
             half.variant,
             error.displacement,
             count(whole),
