@@ -1,4 +1,4 @@
-//! Studies: what many runs, or a run beside another code, tell.
+//! Studies: what many runs show, or a run beside another code.
 
 pub mod audit;
 pub mod benchmark;
