@@ -79,8 +79,8 @@ pub struct Equations {
     pub restrained: usize,
     /// Free equations, before constraints take out those of nodes in contact.
     pub free: usize,
-    /// Of those in the matrix: all where `Km` is built as printed, 1 on the diagonal of a restrained
-    /// one.
+    /// Of those in the matrix: all where `Km` is built as printed, 1 on the diagonal of a
+    /// restrained one.
     pub solved: usize,
     /// Free equations of bodies that nothing moves.
     pub idle: usize,
