@@ -73,7 +73,7 @@ pub struct Plan {
 /// Numbers of equations, two a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Equations {
-    /// All equations: 2R.
+    /// Number of all equations, 2R.
     pub all: usize,
     /// Equations whose displacement is restrained.
     pub restrained: usize,

@@ -70,7 +70,7 @@ pub struct Row {
 /// What a rule made of the scenes of a row.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Score {
-    /// Which rule decided.
+    /// The rule that decided who is in contact.
     pub rule: StatusRule,
     /// Nodes in contact that it takes for apart.
     pub missed: usize,
