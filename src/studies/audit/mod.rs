@@ -46,7 +46,7 @@ pub struct ReferenceSummary {
     pub bodies: Vec<BodySummary>,
 }
 
-/// Audits a scene.
+/// Audits a scene: readings, findings and variants, each against the default.
 pub fn audit(case: &Case) -> Audit {
     let variants = variants::side_by_side(case);
     let readings = readings::effects(case);

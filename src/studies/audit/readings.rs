@@ -18,7 +18,7 @@ use crate::problem::modelling::{StatusRule, Variant};
 /// What another reading changes.
 #[derive(Clone, Debug, Serialize)]
 pub struct Effect {
-    /// `R1` to `R10`.
+    /// The ambiguity's name, `R1` to `R10`.
     pub id: &'static str,
     /// What differs from the default: `R1 = inside`, or a setting of the worksheet.
     pub reading: String,

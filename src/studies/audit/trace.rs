@@ -1,5 +1,5 @@
-//! What a listing reads and writes as it runs, line by line, by contact node (`c_cnt`) or by element
-//! (`Km`).
+//! What a listing reads and writes as it runs, line by line, by contact node (`c_cnt`) or by
+//! element (`Km`).
 
 use serde::Serialize;
 use serde_json::Value as Json;

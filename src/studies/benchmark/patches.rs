@@ -1,4 +1,5 @@
-//! Contact patch tests: two stacked blocks; a punch on a wider foundation (Taylor and Papadopoulos).
+//! Contact patch tests: two stacked blocks; a punch on a wider foundation (Taylor and
+//! Papadopoulos).
 
 use super::line::part;
 use super::parameters::parameters;

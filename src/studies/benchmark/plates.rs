@@ -1,5 +1,5 @@
-//! Plates without contact whose solution is known: a thick-walled cylinder (Lamé), a circular hole in
-//! an infinite sheet (Kirsch), Cook's membrane, an elliptic membrane (NAFEMS LE1).
+//! Plates without contact whose solution is known: a thick-walled cylinder (Lamé), a circular hole
+//! in an infinite sheet (Kirsch), Cook's membrane, an elliptic membrane (NAFEMS LE1).
 
 use std::f64::consts::FRAC_PI_2;
 

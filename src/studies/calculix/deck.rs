@@ -1,7 +1,5 @@
 //! The input deck of `ccx`.
 
-use std::fmt::Write as _;
-
 use super::problem::{Contact, Equation, Pair, Problem};
 use crate::error::InputError;
 use crate::problem::element::Plane;
@@ -50,7 +48,7 @@ fn nodes(model: &Model) -> String {
     let mut text = String::from("*NODE, NSET=NODES\n");
     for node in model.node_ids() {
         let [x, y] = model.at(node).map(field);
-        line(&mut text, format!("{node},{x},{y}"));
+        text += &format!("{node},{x},{y}\n");
     }
     text
 }
@@ -64,16 +62,16 @@ fn elements(model: &Model) -> String {
     let mut text = String::new();
     for (k, material) in materials(model).into_iter().enumerate() {
         let name = format!("MATERIAL{}", k + 1);
-        line(&mut text, format!("*ELEMENT, TYPE={kind}, ELSET={name}"));
+        text += &format!("*ELEMENT, TYPE={kind}, ELSET={name}\n");
         let all = model.triangle_ids().zip(&model.triangles);
         for (id, triangle) in all.filter(|(_, triangle)| triangle.material == material) {
             let [a, b, c] = triangle.nodes;
-            line(&mut text, format!("{id},{a},{b},{c}"));
+            text += &format!("{id},{a},{b},{c}\n");
         }
         let [e, nu] = [material.e, material.nu].map(field);
-        line(&mut text, format!("*MATERIAL, NAME={name}\n*ELASTIC\n{e},{nu}"));
-        line(&mut text, format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}"));
-        line(&mut text, field(model.thickness));
+        text += &format!("*MATERIAL, NAME={name}\n*ELASTIC\n{e},{nu}\n");
+        text += &format!("*SOLID SECTION, ELSET={name}, MATERIAL={name}\n");
+        text += &(field(model.thickness) + "\n");
     }
     text
 }
@@ -99,13 +97,13 @@ fn equation_cards(model: &Model, equations: &[Equation]) -> String {
         if *constant != 0.0 {
             let own = NodeId::new(nodes);
             nodes += 1;
-            line(&mut text, format!("*NODE\n{own},0,0\n*BOUNDARY\n{own},1,1,{}", field(-constant)));
+            text += &format!("*NODE\n{own},0,0\n*BOUNDARY\n{own},1,1,{}\n", field(-constant));
             terms.push((own.x(), 1.0));
         }
-        line(&mut text, format!("*EQUATION\n{}", terms.len()));
+        text += &format!("*EQUATION\n{}\n", terms.len());
         for some in terms.chunks(TERMS_ON_A_LINE) {
             let some = some.iter().map(|(dof, x)| format!("{},{}", place(*dof), field(*x)));
-            line(&mut text, some.collect::<Vec<_>>().join(","));
+            text += &(some.collect::<Vec<_>>().join(",") + "\n");
         }
     }
     text
@@ -125,15 +123,13 @@ fn pair_cards(model: &Model, pair: &Pair) -> Result<String, InputError> {
         model.target_edges().any(|edge| unordered(edge.nodes) == unordered(side))
     })?;
     let mut text = slave + &master + "*SURFACE INTERACTION, NAME=CONTACT\n";
-    line(&mut text, "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR".into());
-    line(&mut text, field(pair.penalty));
+    text += "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n";
+    text += &(field(pair.penalty) + "\n");
     if pair.friction == Friction::Stick {
         let slope = field(STICK_SLOPE * pair.penalty);
-        line(&mut text, format!("*FRICTION\n{},{slope}", field(STICKING)));
+        text += &format!("*FRICTION\n{},{slope}\n", field(STICKING));
     }
-    line(&mut text, "*CONTACT PAIR, INTERACTION=CONTACT, TYPE=NODE TO SURFACE".into());
-    line(&mut text, "SLAVE,MASTER".into());
-    Ok(text)
+    Ok(text + "*CONTACT PAIR, INTERACTION=CONTACT, TYPE=NODE TO SURFACE\nSLAVE,MASTER\n")
 }
 
 /// The faces of triangles whose sides `wanted` takes, as a surface.
@@ -147,7 +143,7 @@ fn surface(
     for (id, triangle) in model.triangle_ids().zip(&model.triangles) {
         let corners = triangle.nodes;
         for k in (0..3).filter(|&k| wanted([corners[k], corners[(k + 1) % 3]])) {
-            line(&mut text, format!("{id},S{}", k + 1));
+            text += &format!("{id},S{}\n", k + 1);
             faces += 1;
         }
     }
@@ -158,11 +154,10 @@ fn surface(
     Ok(text)
 }
 
-/// The displacements that are restrained.
 fn restraints(model: &Model) -> String {
     let mut text = String::from("*BOUNDARY\n");
     for dof in model.all_dofs().filter(|dof| model.is_restrained(*dof)) {
-        line(&mut text, format!("{},{}", place(dof), dof.direction() + 1));
+        text += &format!("{},{}\n", place(dof), dof.direction() + 1);
     }
     text
 }
@@ -173,28 +168,24 @@ fn step(problem: &Problem) -> String {
     if let Contact::Pair(_) = problem.contact {
         // A tenth of the load first: from the whole of it at once ccx may settle on another contact
         // zone.
-        line(&mut text, "0.1,1".into());
+        text += "0.1,1\n";
     }
     let model = problem.model;
     for (dof, force) in model.all_dofs().zip(model.load.iter()) {
         if *force != 0.0 && !model.is_restrained(dof) {
-            line(&mut text, format!("*CLOAD\n{},{}", place(dof), field(*force)));
+            text += &format!("*CLOAD\n{},{}\n", place(dof), field(*force));
         }
     }
-    line(&mut text, "*NODE PRINT, NSET=NODES\nU".into());
+    text += "*NODE PRINT, NSET=NODES\nU\n";
     for k in 1..=materials(model).len() {
-        line(&mut text, format!("*EL PRINT, ELSET=MATERIAL{k}\nS"));
+        text += &format!("*EL PRINT, ELSET=MATERIAL{k}\nS\n");
     }
     text + "*END STEP\n"
 }
 
-fn line(text: &mut String, line: String) {
-    writeln!(text, "{line}").expect("a String takes any text");
-}
-
 /// `x` in at most 20 characters, with as many of its digits as fit: all that it has, or at least
 /// 13.
-pub fn field(x: f64) -> String {
+fn field(x: f64) -> String {
     let exact = [format!("{x}"), format!("{x:e}")];
     let rounded = (0..WIDTH).rev().map(|digits| format!("{x:.digits$e}"));
     let mut written = exact.into_iter().chain(rounded);

@@ -29,7 +29,7 @@ pub struct Blocks {
     pub pressure: f64,
     /// Tolerance of the contact search, length.
     pub c_tll: f64,
-    /// Number of iterations.
+    /// Number of iterations of the published variants.
     pub iterations: usize,
     /// Numbers of the contact nodes.
     pub contact: Vec<usize>,

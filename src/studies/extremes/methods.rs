@@ -8,11 +8,11 @@ use crate::numbers::solve::{ScalarName, Solver};
 use crate::problem::modelling::Variant;
 use crate::problem::scene::SceneBuilder;
 
-/// Single precision.
+/// Single precision, 7 digits.
 pub const SINGLE: ScalarName = ScalarName::F32;
-/// Double precision.
+/// Double precision, 16 digits.
 pub const DOUBLE: ScalarName = ScalarName::F64;
-/// The scalars that are compared.
+/// The scalars that are compared with exact numbers.
 pub const SCALARS: [ScalarName; 3] = [SINGLE, DOUBLE, ScalarName::F64x2];
 
 /// Displacements of the variants that join the bodies: `tied` in each scalar, `unilateral` in

@@ -105,7 +105,7 @@ pub enum Of {
     Gap,
     /// The weight, where the status is right.
     Weight,
-    /// The status alone.
+    /// The status, 1 in contact and 0 apart.
     Status,
 }
 

@@ -73,7 +73,7 @@ impl Method {
 /// What was measured of a generator.
 #[derive(Clone, Debug, Serialize)]
 pub struct Measured {
-    /// The generator's name.
+    /// The generator's name on the command line.
     pub name: &'static str,
     /// The generator's line for people.
     pub title: &'static str,

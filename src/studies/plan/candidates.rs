@@ -14,8 +14,8 @@ use serde::Serialize;
 use crate::answer::contact::search::Segment;
 use crate::problem::model::{Edge, Model};
 
-/// How far a node may move, in lengths of the edge: one that moves further passes over half of it in
-/// one step, which the contact search is not made for either.
+/// How far a node may move, in lengths of the edge: one that moves further passes over half of it
+/// in one step, which the contact search is not made for either.
 pub const MARGIN: f64 = 0.5;
 
 /// Contact nodes and target edges, and the pairs of them that can come together from the initial

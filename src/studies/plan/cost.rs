@@ -70,8 +70,8 @@ const PROGRAM: f64 = 14.5e6;
 /// Bytes of a triangle and its share of the nodes: worksheet, strain matrix, stiffness, states,
 /// sparse matrix, pictures.
 const TRIANGLE: f64 = 3700.0;
-/// Bytes that are freed and not given back at once, of a triangle; and at most. Without contact, and
-/// with it.
+/// Bytes that are freed and not given back at once, of a triangle; and at most. Without contact,
+/// and with it.
 const FREED: [[f64; 2]; 2] = [[12e3, 17e6], [25e3, 13e6]];
 /// Bytes of a node in an iteration that is kept: shape, k_cnt, what its solution keeps.
 const KEPT: f64 = 160.0;

@@ -73,14 +73,14 @@ pub struct Plan {
 /// Numbers of equations, two a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Equations {
-    /// All equations: 2R.
+    /// Number of all equations, 2R.
     pub all: usize,
     /// Equations whose displacement is restrained.
     pub restrained: usize,
     /// Free equations, before constraints take out those of nodes in contact.
     pub free: usize,
-    /// Of those in the matrix: all where `Km` is built as printed, 1 on the diagonal of a restrained
-    /// one.
+    /// Of those in the matrix: all where `Km` is built as printed, 1 on the diagonal of a
+    /// restrained one.
     pub solved: usize,
     /// Free equations of bodies that nothing moves.
     pub idle: usize,

@@ -19,8 +19,8 @@ use crate::answer::{
 };
 use crate::error::InputError;
 use crate::numbers::solve::{Arithmetic, Factors, ScalarName, SparseCholesky, inverse_norm};
-use crate::paper::door;
-use crate::paper::mirror::{Reading, c_cnt};
+use crate::paper::door::{self, Call};
+use crate::paper::mirror::Reading;
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Variant};
 
@@ -130,12 +130,8 @@ fn rounding_error(solution: &Solution) -> (f64, bool) {
 /// Eq. (1) for what the listing finds in the initial shape; nothing where it fails, as the run then
 /// does.
 fn first_constraints(model: &Model, reading: &Reading) -> Vec<Constraint> {
-    if !model.has_contact() {
-        return Vec::new();
-    }
-    let sheet = door::worksheet(model, |x| x);
-    let pairs = c_cnt(&sheet, reading, &door::node_n(model, &model.nodes));
-    let linked = pairs.map_or(Vec::new(), |pairs| door::linked(&sheet, &pairs));
+    let call = model.has_contact().then(|| Call::c_cnt(model, reading, &model.nodes).ok());
+    let linked = call.flatten().map_or(Vec::new(), |call| door::linked(&call.sheet, &call.pairs));
     linked.into_iter().map(Constraint::from).collect()
 }
 

@@ -10,19 +10,14 @@ use crate::problem::scene::{Scene, symmetry};
 
 /// Seconds beyond which exact numbers are left out.
 const EXACT: f64 = 10.0;
-
 /// Degrees of freedom beyond which no finer mesh is tried.
 const EQUATIONS: usize = 150_000;
-
 /// How many meshes are tried at most.
 const MESHES: usize = 5;
-
-/// The tolerances of the contact search, in the scene's unit of length.
+/// The tolerances of the contact search that are tried, in the scene's unit of length.
 const TOLERANCES: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
-
-/// The numbers of iterations.
+/// The numbers of iterations that are tried, beside the scene's own.
 const ITERATIONS: [usize; 9] = [1, 2, 5, 10, 20, 40, 80, 160, 320];
-
 /// The variants that carry load across; the last one is not the paper's.
 const CARRYING: [Variant; 3] = [Variant::Tied, Variant::Stepped, Variant::Unilateral];
 

@@ -1,5 +1,5 @@
-//! What the measures share: the shapes that a case leads to, how an experiment on them is summed up,
-//! and the contact surfaces seen from outside the listing.
+//! What the measures share: the shapes that a case leads to, how an experiment on them is summed
+//! up, and the contact surfaces seen from outside the listing.
 
 use nalgebra::DMatrix;
 
@@ -17,7 +17,8 @@ pub(super) type Shape = [[f64; 2]];
 /// A list in a detail names this many at most.
 const SHOWN: usize = 6;
 
-/// What counts as a difference, relative to the largest entry: sums in another order differ by less.
+/// What counts as a difference, relative to the largest entry: sums in another order differ by
+/// less.
 pub(super) const ROUNDING: f64 = 1e-9;
 
 /// The number of `found`, each in words; the finding holds where there is one.
@@ -124,8 +125,8 @@ pub(super) fn inside_target(model: &Model, shape: &Shape, i: usize) -> bool {
     model.target().is_some_and(|target| target.triangles.iter().any(inside))
 }
 
-/// The sign of `yt` inside the target at an edge: +1 where the target lies below it, −1 where above.
-/// Nothing for a vertical edge, or one that bounds no triangle.
+/// The sign of `yt` inside the target at an edge: +1 where the target lies below it, −1 where
+/// above. Nothing for a vertical edge, or one that bounds no triangle.
 pub(super) fn inner_sign(model: &Model, shape: &Shape, edge: EdgeId) -> Option<f64> {
     let third = model.sides.beside(model.edge(edge).nodes).first()?.third;
     rise(ends(model, shape, edge), place(shape, third)).map(f64::signum)

@@ -2,8 +2,9 @@
 //! the volume of computation".
 //!
 //! On random scenes whose statuses are known, for each status rule: how many contact nodes it gets
-//! wrong, by how deep the stamp jumped, and how many operations it takes, by the number of nodes. The
-//! listing's count is the mirror's, whose `∧` on line 7 stops early: the least that Mathcad can do.
+//! wrong, by how deep the stamp jumped, and how many operations it takes, by the number of nodes.
+//! The listing's count is the mirror's, whose `∧` on line 7 stops early: the least that Mathcad can
+//! do.
 //!
 //! What projection gets wrong lies at the target's ends: its flank is no target edge, so under a
 //! sloping last edge a node beside the target may stand over the surface, and one inside past its
@@ -69,7 +70,7 @@ pub struct Row {
 /// What a rule made of the scenes of a row.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Score {
-    /// Which rule decided.
+    /// The rule that decided who is in contact.
     pub rule: StatusRule,
     /// Nodes in contact that it takes for apart.
     pub missed: usize,
