@@ -1,12 +1,12 @@
 //! Compares the variants that the paper describes with the reference solution, on its figure 1.
 
 use plane_contact::input::Variant;
-use plane_contact::{Error, Request, Scene, compare, reference, solve};
+use plane_contact::{Error, Request, Scene, compare, solve};
 
 /// Solves each variant and prints how far it is from the reference solution.
 pub fn main() -> Result<(), Error> {
     let scene = Scene::open("fig1")?;
-    let reference = reference(&Request::new(&scene))?;
+    let reference = solve(&Request::new(&scene).reference(), &mut |_| ())?;
     for variant in [Variant::Printed, Variant::Tied, Variant::Stepped] {
         let solution = solve(&Request::new(&scene).variant(variant), &mut |_| ())?;
         let distance = compare(&solution, &reference);

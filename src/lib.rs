@@ -10,14 +10,15 @@
 //!
 //! ```
 //! use plane_contact::input::Variant;
-//! use plane_contact::{Request, Scene, compare, reference, solve};
+//! use plane_contact::{Request, Scene, compare, solve};
 //!
 //! let scene = Scene::open("fig1")?;
 //! let request = Request::new(&scene).variant(Variant::Tied);
 //! let solution = solve(&request, &mut |step| assert!(step.k <= 20))?;
 //! assert_eq!(solution.steps.len(), 20);
 //!
-//! let distance = compare(&solution, &reference(&request)?);
+//! let reference = solve(&request.reference(), &mut |_| ())?;
+//! let distance = compare(&solution, &reference);
 //! assert!(distance.energy_relative < 1.0);
 //! # Ok::<(), plane_contact::Error>(())
 //! ```
@@ -59,7 +60,7 @@ pub mod studies;
 #[doc(inline)]
 pub use answer::error::Error;
 #[doc(inline)]
-pub use answer::{Request, Solution, distance as compare, reference, solve};
+pub use answer::{Request, Solution, distance as compare, solve};
 #[doc(inline)]
 pub use problem::scene::{Scene, SceneBuilder};
 #[doc(inline)]

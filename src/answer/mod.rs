@@ -1,5 +1,6 @@
 //! The answer: a request, its solution, and the estimated errors of its numbers.
 
+mod active_set;
 mod assessment;
 pub mod contact;
 mod distance;
@@ -25,7 +26,7 @@ pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;
 pub use request::Request;
 pub use solution::{Cycle, Detail, Published, Solution, Step, Unilateral, max_displacement};
-pub use solve::{reference, reference_request, solve};
+pub use solve::{reference, solve};
 pub use sparse::dense_matrices;
 pub use stiffness::Stiffness;
 pub use summary::{BodySummary, summaries};

@@ -7,7 +7,7 @@ use crate::numbers::solve::Arithmetic;
 use crate::paper::door;
 use crate::paper::mirror::{Reading, Schedule};
 use crate::problem::model::Model;
-use crate::problem::modelling::{ContactModel, Variant};
+use crate::problem::modelling::{ContactModel, Coupling, Variant};
 use crate::problem::scene::Scene;
 
 /// A request. [`Request::new`] asks for what the scene says; every field may be changed.
@@ -65,6 +65,15 @@ impl Request {
     #[must_use]
     pub fn contact(self, contact: ContactModel) -> Self {
         Request { contact, ..self }
+    }
+
+    /// Returns the request for the reference solution, which runs are measured against:
+    /// `unilateral` with mortar in `f64`, everything else as in this request.
+    #[must_use]
+    pub fn reference(&self) -> Self {
+        let contact = ContactModel { coupling: Coupling::Mortar, ..self.contact };
+        let (variant, arithmetic) = (Variant::Unilateral, Arithmetic::default());
+        Request { contact, variant, arithmetic, ..self.clone() }
     }
 
     /// Returns the load of an iteration: R7 where the reading sets it, else the variant's own.

@@ -10,7 +10,7 @@ use crate::error::InputError;
 use crate::numbers::scalar::{self, Bounded, Exact, F64x2};
 use crate::numbers::solve::{ScalarName, Solver};
 use crate::problem::element::State;
-use crate::problem::modelling::{Coupling, Variant};
+use crate::problem::modelling::Variant;
 
 /// Solves `request`; `watch` is called after each step.
 ///
@@ -35,19 +35,12 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     Ok(solution)
 }
 
-/// Solves the reference solution: `unilateral` with mortar, everything else as in `request`.
+/// Solves for the reference solution of `request`: [`Request::reference`].
 ///
 /// # Errors
 /// The errors of [`solve`].
 pub fn reference(request: &Request) -> Result<Solution, Error> {
-    solve(&reference_request(request), &mut |_| ())
-}
-
-/// Returns the request that [`reference`] solves.
-pub fn reference_request(request: &Request) -> Request {
-    let mut reference = Request { arithmetic: Default::default(), ..request.clone() };
-    reference.contact.coupling = Coupling::Mortar;
-    reference.variant(Variant::Unilateral)
+    solve(&request.reference(), &mut |_| ())
 }
 
 /// Checks that `unilateral` is requested in f64 by sparse Cholesky.

@@ -21,11 +21,11 @@
 //! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; J.
 //! J. Júdice, F. M. Pires, Comput. Oper. Res. 21 (1994) 587-596 (the fall-back).
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use nalgebra::DVector;
 
+use super::active_set::{Memory, enlarge, first_closed, first_set};
 use super::contact::{ContactNode, Pairing, Surfaces, Traction};
 use super::elimination::{Constraint, Elimination, Motion, RestrainedAlongNormal};
 use super::request::Request;
@@ -51,9 +51,6 @@ const FIRST_GROWTH: f64 = 0.9;
 
 /// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
 const SOFT: f64 = 1e-8;
-
-/// The closing motion of a gap, over the largest motion, below which the gap does not close.
-const STANDING: f64 = 1e-9;
 
 /// The number of iterations beyond one for each contact node after which the search ends.
 const PATIENCE: usize = 100;
@@ -138,13 +135,6 @@ enum Solved {
     Free { dof: Dof, motion: Option<DVector<f64>> },
 }
 
-/// The sets that were closed, each with its last iteration, and whether a set returned.
-#[derive(Default)]
-struct Memory {
-    visited: HashMap<Vec<bool>, usize>,
-    one_at_a_time: bool,
-}
-
 impl<'a> Problem<'a> {
     fn new(request: &'a Request, model: &'a Model) -> Result<Self, InputError> {
         Ok(Problem {
@@ -178,8 +168,7 @@ impl<'a> Problem<'a> {
         if wanted == step.closed {
             return (step.violation > self.closed).then_some(wanted);
         }
-        memory.one_at_a_time |= memory.visited.contains_key(&wanted);
-        Some(if memory.one_at_a_time { last_change(&step.closed, &wanted) } else { wanted })
+        Some(memory.next(&step.closed, wanted))
     }
 
     /// Returns the set of the nodes that press or penetrate.
@@ -228,8 +217,7 @@ impl<'a> Problem<'a> {
                 }
             }
         };
-        let before = memory.visited.insert(set.clone(), k);
-        let cycle = before.map(|first| Cycle { length: k - first, members: (first..k).collect() });
+        let cycle = memory.keep(k, &set);
         let reaction = self.stiffness.times(&u) - &self.model.load;
         let after = self.place(&u);
         let violation = self.violation(&after.pairings, &set);
@@ -366,43 +354,6 @@ fn no_equilibrium(steps: &[Step]) -> InputError {
     let fix = "see whether the loads pull a body off its target, slide it off the target's end or \
                turn it over; restrain its turning where friction would";
     InputError::new("loads, contact", what, fix)
-}
-
-/// Returns the set at the start: the nodes that touch or penetrate, else those with the least gap.
-fn first_set(pairings: &[Option<Pairing>], closed: f64) -> Vec<bool> {
-    let gaps = pairings.iter().flatten().map(|p| p.gap);
-    let least = gaps.fold(f64::INFINITY, f64::min).max(0.0);
-    pairings.iter().map(|p| p.as_ref().is_some_and(|p| p.gap <= least + closed)).collect()
-}
-
-/// Returns `before` with the last of the changes that lead to `wanted`.
-fn last_change(before: &[bool], wanted: &[bool]) -> Vec<bool> {
-    let mut set = before.to_vec();
-    if let Some(i) = (0..set.len()).rev().find(|&i| before[i] != wanted[i]) {
-        set[i] = wanted[i];
-    }
-    set
-}
-
-/// Returns the node outside `set` whose gap the motion `u` closes first.
-fn first_closed(set: &[bool], pairings: &[Option<Pairing>], u: &DVector<f64>) -> Option<usize> {
-    let time = |(i, p): (usize, &Option<Pairing>)| {
-        let p = p.as_ref().filter(|_| !set[i])?;
-        let closing = -p.opening(|n| n.of(u));
-        (closing > STANDING * u.amax()).then(|| (p.gap.max(0.0) / closing, i))
-    };
-    let times = pairings.iter().enumerate().filter_map(time);
-    times.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, i)| i)
-}
-
-/// Adds nodes to `set`, as many as it has, those with the least gaps; false where none is left.
-fn enlarge(set: &mut [bool], pairings: &[Option<Pairing>]) -> bool {
-    let open = |(i, p): (usize, &Option<Pairing>)| Some((p.as_ref().filter(|_| !set[i])?.gap, i));
-    let mut others: Vec<(f64, usize)> = pairings.iter().enumerate().filter_map(open).collect();
-    others.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let more = set.iter().filter(|closed| **closed).count().max(1);
-    others.iter().take(more).for_each(|(_, i)| set[*i] = true);
-    !others.is_empty()
 }
 
 /// Returns the larger extent of the model, or what its coordinates can resolve of it, length.
