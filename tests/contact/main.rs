@@ -1,4 +1,4 @@
-//! Contact: the converged answer, the status rules, and CalculiX beside them.
+//! Contact: the reference solution, the status rules, and CalculiX beside them.
 
 #[path = "../common"]
 mod common {

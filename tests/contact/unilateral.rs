@@ -1,4 +1,4 @@
-//! The converged answer: what it promises, on every scene, coupling, friction and geometry.
+//! The reference solution: what it promises, on every scene, coupling, friction and geometry.
 
 use crate::common::json::build;
 use crate::common::tolerances::{

@@ -98,13 +98,13 @@ fn each_finding_holds_on_its_scene() {
         ("C15", 1.0, &["node 5: yt -3.000e-1 dy 1"]),
         ("K1", 0.0, &["the target moves by 0e0"]),
         ("K2", 1.0, &["triangle 2, pair 1: weights [0.75, 0.25]"]),
-        ("K3", 20000.0, &["held: 1, others 1.0000e4 to 2.0000e4"]),
+        ("K3", 20000.0, &["restrained: 1, others 1.0000e4 to 2.0000e4"]),
         ("K4", 2.0, &["rows of zeros: 0 without the node, 2 with it, 2 where S holds it"]),
         ("K5", 2.0, &["nodes in contact: [1, 0]"]),
         ("K6", 1.0, &["one linked node: singular; two: solvable"]),
         ("K7", 1.0, &["triangle 2, pair 1: weights [0.75, 0.0]"]),
         ("K8", -7.0, &["node 1, direction y"]),
-        ("K9", 1.0, &["node 4: held with 6.000e-1"]),
+        ("K9", 1.0, &["node 4: bound with a pull of 6.000e-1"]),
     ];
     assert_eq!(
         expected.map(|(id, ..)| id).to_vec(),

@@ -42,8 +42,8 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         "Bodies",
         "In contact at the end: nodes 5, 6, 7, 9",
         "Contact surface",
-        "Error bars",
-        "Distance to the converged answer (unilateral, mortar, friction stick",
+        "Error estimates",
+        "Distance from the reference solution (unilateral, mortar, friction stick",
     ] {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }
@@ -379,7 +379,7 @@ fn audit_shows_readings_findings_and_variants() {
         "K1",
         "3. Variants",
         "stepped",
-        "off: beside the converged answer (unilateral, mortar, friction stick)",
+        "error: against the reference solution (unilateral, mortar, friction stick)",
         "4. What friction it takes",
     ] {
         assert!(tables.contains(words), "{words:?}: {tables}");

@@ -147,7 +147,7 @@ fn as_printed_no_load_reaches_the_block() {
     assert_eq!(idle, [Some(Idle::NotCoupled), None]);
 }
 
-/// The line of fig1: 5 dense factorisations and 3 sparse ones of the converged answer, 5 · 5333 + 3
+/// The line of fig1: 5 dense factorisations and 3 sparse ones of the reference solution, 5 · 5333 + 3
 /// · 274 operations.
 #[test]
 fn the_line_says_what_is_planned() {

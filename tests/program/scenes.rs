@@ -205,7 +205,11 @@ fn bodies_that_nothing_holds() {
             }
         })
     };
-    says(&free(Value::Null), "restraints", &["body \"2\" is held by no contact", "move in x"]);
+    says(
+        &free(Value::Null),
+        "restraints",
+        &["body \"2\" is restrained by no contact", "move in x"],
+    );
     says(&free(json!({ "node": 12, "fix": ["x"] })), "restraints", &["move in y"]);
     says(&free(json!({ "node": 12, "fix": ["x", "y"] })), "restraints", &["rotate"]);
     let e = refused(|s| s["restraints"] = json!([{ "on": 11, "fix": ["y"] }]));
