@@ -99,7 +99,7 @@ fn each_finding_holds_on_its_scene() {
         ("K1", 0.0, &["the target moves by 0e0"]),
         ("K2", 1.0, &["triangle 2, pair 1: weights [0.75, 0.25]"]),
         ("K3", 20000.0, &["restrained: 1, others 1.0000e4 to 2.0000e4"]),
-        ("K4", 2.0, &["rows of zeros: 0 without the node, 2 with it, 2 where S holds it"]),
+        ("K4", 2.0, &["rows of zeros: 0 without the node, 2 with it, 2 where S restrains it"]),
         ("K5", 2.0, &["nodes in contact: [1, 0]"]),
         ("K6", 1.0, &["one linked node: singular; two: solvable"]),
         ("K7", 1.0, &["triangle 2, pair 1: weights [0.75, 0.0]"]),
