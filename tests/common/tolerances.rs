@@ -132,7 +132,7 @@ tolerances! {
          divisions, 2.6e-3 at 128";
 
     /// Least effectivity, estimated / true error in the energy norm, of the discretisation error
-    /// bar on smooth fields.
+    /// estimate on smooth fields.
     EFFECTIVITY_LOW = 0.8,
         "the issue's own number; 0.88 is measured on the coarsest mesh, 0.97 and more on the \
          finest";
@@ -140,25 +140,25 @@ tolerances! {
     /// Largest effectivity.
     EFFECTIVITY_HIGH = 1.3, "the issue's own number; below 1 is measured everywhere";
 
-    /// Widest bar of a largest von Mises stress, against the true stress error in the triangle that
+    /// Widest error estimate of a largest von Mises stress, against the true stress error in the triangle that
     /// has it.
-    BAR_WIDTH = 4.0,
+    ESTIMATE_WIDTH = 4.0,
         "a safety factor of 2, and as much again for the worst of a dozen neighbours standing in \
          for one triangle";
 
-    /// Part of the bars of largest von Mises stresses that may miss the truth on random fields and
+    /// Part of the estimates of largest von Mises stresses that may miss the truth on random fields and
     /// meshes.
-    BARS_MISSED = 0.03, "1.1 % of 4,000 such cases missed, 512 cases scatter";
+    ESTIMATES_MISSED = 0.03, "1.1 % of 4,000 such cases missed, 512 cases scatter";
 
     /// The same where the estimated relative error in the energy norm is at most 0.2.
-    BARS_MISSED_ON_FAIR_MESHES = 0.01,
+    ESTIMATES_MISSED_ON_FAIR_MESHES = 0.01,
         "0.13 % of 3,168 such cases missed, by at most 9 %; some 400 cases scatter";
 
     /// Errors of a field that the triangle represents, relative to the field.
     CONSTANT_FIELD = 1e-12,
         "LU of 100 equations of condition 1e3: 1e-16 times it, and a decade of room";
 
-    /// A foot, its distance and its normal against the closed form, relative to coordinates of
+    /// A closest point, its distance and its normal against the closed form, relative to coordinates of
     /// order 1.
     CLOSEST_POINT = 1e-14, "a dozen roundings of 1e-16, of turned coordinates too";
 
@@ -228,8 +228,8 @@ tolerances! {
     NORM_ESTIMATE = 1e-10,
         "estimate and norm are both rounded: 1e-16 times a condition number of 1e4";
 
-    /// Widest bar of rounding on a well-scaled scene, against the true error.
-    BAR_WIDTH_OF_ROUNDING = 1e3,
+    /// Widest bound on rounding on a well-scaled scene, against the true error.
+    ROUNDING_BOUND_WIDTH = 1e3,
         "the issue's own number; below half a unit in the last place of the largest displacement \
          the error itself is luck";
 

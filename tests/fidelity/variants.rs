@@ -110,7 +110,7 @@ fn tied_and_stepped_carry_the_load_to_the_target() {
 #[test]
 fn k5_tied_cycles_and_stepped_settles_on_the_strand() {
     let (_, tied) = solve("strand", Variant::Tied);
-    let cycle = tied.last().cycle.clone().expect("a state met before");
+    let cycle = tied.last().cycle.clone().expect("a state seen before");
     assert_eq!((cycle.length, cycle.members), (2, vec![18, 19]));
     let (_, stepped) = solve("strand", Variant::Stepped);
     let counts: Vec<usize> = stepped.steps.iter().map(|it| it.in_contact).collect();
@@ -242,7 +242,7 @@ fn loads_of_any_size() {
     assert!(error.to_string().contains("too large to represent"), "{error}");
 }
 
-/// What a tie passes straight to a held target node reaches the target too.
+/// What a constraint passes straight to a restrained target node reaches the target too.
 #[test]
 fn forces_on_held_target_nodes_count() {
     let mut scene = scene_json("two-blocks");

@@ -1,4 +1,4 @@
-//! Scalars, solvers, the triangle, and the error bars of what they compute.
+//! Scalars, solvers, the triangle, and the error estimates of what they compute.
 
 #[path = "../common"]
 mod common {
@@ -13,8 +13,8 @@ mod common {
 mod arithmetic;
 mod discretisation;
 mod element;
-mod error_bars;
+mod error_estimates;
 mod extremes;
-mod ladder;
+mod precisions;
 mod scalars;
 mod tolerances;

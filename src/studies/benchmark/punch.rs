@@ -12,7 +12,7 @@ parameters! {
     /// A flat stiff punch, frictionless, on a half plane: p(x) = P / (pi sqrt(a^2 - x^2)).
     ///
     /// Half model: punch a x a with a = 1 and E = 1e7, foundation E = 1000, nu = 0.3, plane strain,
-    /// P = 2 on both halves (1 on the model). The foundation ends, held, along an ellipse that is
+    /// P = 2 on both halves (1 on the model). The foundation ends, restrained, along an ellipse that is
     /// nearly a circle of radius --outer. Nodes on the contact line stand at a cos(angle), equal
     /// angles apart, so each carries the same share of P in the closed form, the two end nodes half
     /// of it.

@@ -199,7 +199,7 @@ pub const FINDINGS: &[Finding] = &[
         id: "K3",
         listing: "Km",
         lines: &[13],
-        title: "held equations get 1 on the diagonal, whatever the unit",
+        title: "restrained equations get 1 on the diagonal, whatever the unit",
         why: "beside stiffnesses of 1e4 to 1e6 the choice of units decides the condition number",
         repair: "the size of the other diagonal entries, or leave the equations out",
         number: "largest over smallest diagonal entry of MJS",

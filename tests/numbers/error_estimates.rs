@@ -1,8 +1,8 @@
-//! The bars of rounding: true bounds, and not absurdly wide ones, on every rung; the numbers of
+//! The bounds on rounding: true bounds, and not absurdly wide ones, on every setting; the numbers of
 //! `unilateral` beside exact ones.
 
 use crate::common::shipped::shipped_scenes;
-use crate::common::tolerances::{BAR_WIDTH_OF_ROUNDING, Tolerance};
+use crate::common::tolerances::{ROUNDING_BOUND_WIDTH, Tolerance};
 use nalgebra::DVector;
 use plane_contact::answer::estimates::arithmetic::{displacement_bound, stress_bounds};
 use plane_contact::answer::{Constraint, Elimination, Request, Solution, Stiffness, solve};
@@ -30,14 +30,14 @@ fn off(u: &DVector<f64>, v: &DVector<f64>) -> f64 {
 /// last place of `scale`.
 fn assert_bound(what: &str, bound: f64, error: f64, scale: f64) {
     assert!(error <= bound, "{what}: error {error:e} is beyond its bound {bound:e}");
-    let Tolerance { limit, reason } = BAR_WIDTH_OF_ROUNDING;
+    let Tolerance { limit, reason } = ROUNDING_BOUND_WIDTH;
     let least = error.max(scale * f64::EPSILON / 2.0);
     assert!(bound <= limit * least, "{what}: bound {bound:e} for an error of {error:e} ({reason})");
 }
 
 #[test]
-fn the_bar_of_rounding_holds_on_every_rung() {
-    let rungs = [
+fn the_bound_on_rounding_holds_on_every_setting() {
+    let settings = [
         in_scalar(ScalarName::F64, None),
         in_scalar(ScalarName::F64, Some(Solver::Cg)),
         in_scalar(ScalarName::F64, Some(Solver::SparseCholesky)),
@@ -50,8 +50,8 @@ fn the_bar_of_rounding_holds_on_every_rung() {
             let request = Request::new(scene).variant(variant);
             let run = |arithmetic| solve(&request.clone().arithmetic(arithmetic), &mut |_| ());
             let Ok(exact) = run(in_scalar(ScalarName::Exact, None)) else { continue };
-            for rung in rungs {
-                let Ok(solution) = run(rung) else { continue };
+            for setting in settings {
+                let Ok(solution) = run(setting) else { continue };
                 let mut steps = solution.steps.iter().zip(&exact.steps);
                 if steps.any(|(a, b)| a.statuses() != b.statuses()) {
                     continue;
@@ -60,8 +60,12 @@ fn the_bar_of_rounding_holds_on_every_rung() {
                 let rounding = f64::EPSILON / 2.0 * exact.u.amax();
                 let error = off(&solution.u, &exact.u) - rounding;
                 let bound = displacement_bound(&solution);
-                let what =
-                    format!("{}, {variant}, {} by {}", scene.name, rung.scalar, rung.solver());
+                let what = format!(
+                    "{}, {variant}, {} by {}",
+                    scene.name,
+                    setting.scalar,
+                    setting.solver()
+                );
                 assert!(error <= bound, "{what}: error {error:e} is beyond its bound {bound:e}");
                 held += 1;
             }

@@ -1,4 +1,4 @@
-//! One solve on several rungs: each against exact numbers, and the bound on the error against the
+//! One solve on several settings: each against exact numbers, and the bound on the error against the
 //! error.
 
 use crate::common::embedded::scene_json;
@@ -53,10 +53,10 @@ fn small_scenes() -> Vec<Scene> {
 }
 
 #[test]
-fn every_rung_leads_to_the_exact_answer() {
+fn every_setting_leads_to_the_exact_answer() {
     use ScalarName::{F32, F64, F64x2 as Double};
     use Solver::{Cg, DenseCholesky, DenseLu, Refined, SparseCholesky};
-    let rungs: [(ScalarName, &[Solver], &Tolerance); 3] = [
+    let settings: [(ScalarName, &[Solver], &Tolerance); 3] = [
         (F32, &[DenseLu, DenseCholesky, SparseCholesky, Cg], &LADDER_SINGLE),
         (F64, &[DenseLu, DenseCholesky, SparseCholesky, Cg, Refined], &LADDER_DOUBLE),
         (Double, &[DenseLu, SparseCholesky, Cg, Refined], &LADDER_DOUBLE_DOUBLE),
@@ -66,7 +66,7 @@ fn every_rung_leads_to_the_exact_answer() {
         for variant in PUBLISHED {
             let exact = solve(&scene, variant, arithmetic(ScalarName::Exact, None)).unwrap();
             let size = exact.u.amax();
-            for (scalar, solvers, Tolerance { limit, reason }) in rungs {
+            for (scalar, solvers, Tolerance { limit, reason }) in settings {
                 for &solver in solvers {
                     let solution =
                         solve(&scene, variant, arithmetic(scalar, Some(solver))).unwrap();
@@ -322,7 +322,7 @@ fn what_fails_as_printed_fails_in_exact_numbers() {
 }
 
 #[test]
-fn what_the_ladder_does_not_have_is_refused() {
+fn what_no_precision_has_is_refused() {
     let refused = |scene: &str, variant, arithmetic, words: &str| {
         let error = solve(&Scene::open(scene).unwrap(), variant, arithmetic).unwrap_err();
         assert_eq!(error.exit_status(), 2);
@@ -375,7 +375,7 @@ fn a_looser_tolerance_stops_earlier() {
 }
 
 #[test]
-fn a_singular_matrix_is_told_on_every_rung() {
+fn a_singular_matrix_is_reported_on_every_setting() {
     // Two springs in a row that nothing holds.
     let a = [[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]];
     fn check<T: Precision>(a: &[[f64; 3]; 3], solvers: &[Solver]) {
