@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use plane_contact::answer::error::Error;
-use plane_contact::answer::{self, Request, Solution};
+use plane_contact::answer::{self, Solution};
 use plane_contact::files;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
@@ -78,10 +78,7 @@ impl DeckArgs {
     /// The run that is compared.
     pub fn solve(&self) -> Result<Solution, Error> {
         let scene = Scene::open(&self.scene)?;
-        let request = Request::new(&scene)
-            .contact(self.model.over(scene.contact))
-            .variant(self.variant.unwrap_or(scene.variant))
-            .reading(self.reading.reading.0);
+        let request = self.model.request(&scene, self.variant, &self.reading);
         let spinner = waiting("solving");
         let solution = answer::solve(&request, &mut |_| ());
         spinner.finish_and_clear();

@@ -16,10 +16,14 @@ pub mod trade;
 use std::io::Write;
 use std::time::Duration;
 
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressStyle};
+use plane_contact::answer::Request;
 use plane_contact::answer::error::Error;
 use plane_contact::paper::mirror::Reading;
-use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule};
+use plane_contact::problem::modelling::{
+    ContactModel, Coupling, Friction, Geometry, StatusRule, Variant,
+};
+use plane_contact::problem::scene::Scene;
 
 /// The option that all commands share.
 #[derive(clap::Args)]
@@ -56,14 +60,23 @@ pub struct ModelArgs {
 }
 
 impl ModelArgs {
-    /// What is given, and for the rest what `scene` has.
-    pub fn over(&self, scene: ContactModel) -> ContactModel {
-        ContactModel {
-            coupling: self.coupling.unwrap_or(scene.coupling),
-            friction: self.friction.unwrap_or(scene.friction),
-            geometry: self.geometry.unwrap_or(scene.geometry),
-            status: self.status.unwrap_or(scene.status),
-        }
+    /// Asks for what is given, and for the rest what `scene` has.
+    pub fn request(
+        &self,
+        scene: &Scene,
+        variant: Option<Variant>,
+        reading: &ReadingArg,
+    ) -> Request {
+        let contact = ContactModel {
+            coupling: self.coupling.unwrap_or(scene.contact.coupling),
+            friction: self.friction.unwrap_or(scene.contact.friction),
+            geometry: self.geometry.unwrap_or(scene.contact.geometry),
+            status: self.status.unwrap_or(scene.contact.status),
+        };
+        Request::new(scene)
+            .contact(contact)
+            .variant(variant.unwrap_or(scene.variant))
+            .reading(reading.reading.0)
     }
 }
 
@@ -99,4 +112,12 @@ pub fn waiting(what: &'static str) -> ProgressBar {
     let spinner = ProgressBar::new_spinner().with_message(what);
     spinner.enable_steady_tick(Duration::from_millis(500));
     spinner
+}
+
+/// A progress bar on standard error; it shows only in a terminal.
+pub fn progress(steps: usize, template: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template(template).expect("the template is sound");
+    let bar = ProgressBar::new(steps as u64).with_style(style);
+    bar.enable_steady_tick(Duration::from_millis(500));
+    bar
 }

@@ -1,6 +1,5 @@
 //! `plane-contact plan`.
 
-use plane_contact::answer::Request;
 use plane_contact::answer::error::Error;
 use plane_contact::numbers::solve::memory;
 use plane_contact::problem::modelling::Variant;
@@ -43,10 +42,9 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let scene = Scene::open(&args.scene)?;
-    let request = Request::new(&scene)
-        .contact(args.model.over(scene.contact))
-        .variant(args.variant.unwrap_or(scene.variant))
-        .reading(args.reading.reading.0)
+    let request = args
+        .model
+        .request(&scene, args.variant, &args.reading)
         .arithmetic(args.arithmetic.arithmetic());
     let plan = Plan::new(&request)?;
     if args.json {

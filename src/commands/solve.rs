@@ -1,9 +1,7 @@
 //! `plane-contact solve`.
 
 use std::path::PathBuf;
-use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use plane_contact::answer::error::Error;
 use plane_contact::answer::{self, Assessment, Request, Solution, Step};
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
@@ -13,7 +11,7 @@ use plane_contact::report::{self, folder, tables};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::solve_to;
 
-use super::{ModelArgs, ReadingArg, print};
+use super::{ModelArgs, ReadingArg, print, progress};
 
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
@@ -90,10 +88,9 @@ impl ArithmeticArgs {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let scene = Scene::open(&args.scene)?;
-    let request = Request::new(&scene)
-        .contact(args.model.over(scene.contact))
-        .variant(args.variant.unwrap_or(scene.variant))
-        .reading(args.reading.reading.0)
+    let request = args
+        .model
+        .request(&scene, args.variant, &args.reading)
         .arithmetic(args.arithmetic.arithmetic());
     let (solution, accuracy) = solve(args, &request)?;
     let plan = Plan::new(&solution.request)?;
@@ -120,16 +117,8 @@ fn solve(args: &Args, request: &Request) -> Result<(Solution, String), Error> {
         let words = report::trade::reached(&reached, asked);
         return Ok((reached.solution, words));
     }
-    let progress = progress(request.iterations);
+    let progress = progress(request.iterations, "iteration {pos} of {len} {wide_bar} {eta}");
     let solution = answer::solve(request, &mut |_: &Step| progress.inc(1))?;
     progress.finish_and_clear();
     Ok((solution, String::new()))
-}
-
-/// A progress bar on standard error; it shows only in a terminal.
-fn progress(iterations: usize) -> ProgressBar {
-    let style = ProgressStyle::with_template("iteration {pos} of {len} {wide_bar} {eta}");
-    let bar = ProgressBar::new(iterations as u64).with_style(style.expect("the template is sound"));
-    bar.enable_steady_tick(Duration::from_millis(500));
-    bar
 }

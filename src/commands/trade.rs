@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::Command;
-use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use plane_contact::answer::error::Error;
 use plane_contact::answer::{Request, solve};
 use plane_contact::error::InputError;
@@ -12,7 +10,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
 use plane_contact::studies::trade::{self, Knob, Options, Trial, peak};
 
-use super::{ReadingArg, print};
+use super::{ReadingArg, print, progress};
 
 /// Measure speed against accuracy: precisions, solvers and the paper's own knobs.
 #[derive(clap::Args)]
@@ -59,7 +57,8 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let only = if args.only.is_empty() { Knob::ALL.to_vec() } else { args.only.clone() };
     let options = Options { runs: usize::from(args.runs), only };
     let trials = |knob: &Knob| trade::trials(&request, *knob).len();
-    let bar = progress(options.only.iter().map(trials).sum::<usize>() * (options.runs + 1));
+    let steps = options.only.iter().map(trials).sum::<usize>() * (options.runs + 1);
+    let bar = progress(steps, "{pos} of {len} {wide_bar} {eta} {msg}");
     let watch = |trial: &str| {
         bar.set_message(trial.to_string());
         bar.inc(1);
@@ -91,12 +90,4 @@ fn peak_of(request: &Request, name: &str) -> Result<(), Error> {
     solve(&trial.request(request)?, &mut |_| ())?;
     let bytes = peak::of_this_process();
     print(&bytes.map_or(String::new(), |bytes| format!("{bytes}\n")))
-}
-
-/// A progress bar on standard error; it shows only in a terminal.
-fn progress(steps: usize) -> ProgressBar {
-    let style = ProgressStyle::with_template("{pos} of {len} {wide_bar} {eta} {msg}");
-    let bar = ProgressBar::new(steps as u64).with_style(style.expect("the template is sound"));
-    bar.enable_steady_tick(Duration::from_millis(500));
-    bar
 }
