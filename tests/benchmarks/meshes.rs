@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::process::{Command, Output};
 
+use crate::common::program::run;
 use crate::common::tolerances::{CHORDS, STRAIGHT, Tolerance, assert_near};
 use plane_contact::problem::element;
 use plane_contact::problem::scene::{Mesh, SceneBuilder};
@@ -233,32 +233,23 @@ fn hertz_has_the_half_width_and_peak_of_its_closed_form() {
     assert_eq!(format!("{:.4} {:.2}", hertz.half_width(), hertz.peak_pressure()), "6.2146 3585.36");
 }
 
-fn program(folder: &TempDir, args: &[&str]) -> Output {
-    let program = env!("CARGO_BIN_EXE_plane-contact");
-    Command::new(program)
-        .args(args)
-        .current_dir(folder.path())
-        .output()
-        .expect("the program starts")
-}
-
 #[test]
 fn the_program_writes_a_folder_that_it_solves() {
     let folder = TempDir::new().unwrap();
-    let made = program(&folder, &["mesh", "cook", "--n", "4", "--out", "here/cook"]);
+    let made = run(folder.path(), &["mesh", "cook", "--n", "4", "--out", "here/cook"]);
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
     assert!(String::from_utf8_lossy(&made.stdout).contains("25 nodes, 32 triangles"));
     for file in ["scene.json", "cook.msh"] {
         assert!(folder.path().join("here/cook").join(file).is_file(), "{file}");
     }
-    let solved = program(&folder, &["solve", "here/cook"]);
+    let solved = run(folder.path(), &["solve", "here/cook"]);
     assert!(solved.status.success(), "{}", String::from_utf8_lossy(&solved.stderr));
 }
 
 #[test]
 fn the_program_refuses_a_parameter_with_status_2() {
     let folder = TempDir::new().unwrap();
-    let refused = program(&folder, &["mesh", "punch-patch", "--punch", "5"]);
+    let refused = run(folder.path(), &["mesh", "punch-patch", "--punch", "5"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("--punch"));
     assert!(!folder.path().join("out").exists(), "nothing is written");

@@ -1,14 +1,16 @@
 //! CalculiX: its decks, its results, and what it computes where `ccx` is installed. Where
 //! `REQUIRE_CCX` is set it must be.
 
-use std::process::{Command, Output};
+use std::process::Command;
 
 use crate::common::golden_floats::assert_golden;
 use crate::common::json::build;
 use crate::common::outcome::solve;
+use crate::common::program;
 use crate::common::tolerances::{CCX_PRINTS, PENALTY, PENALTY_STRESS, assert_near};
+use crate::unilateral::models;
 use plane_contact::answer::{self, Request, Solution};
-use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
+use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::{
     Comparison, Contact, Fields, Pair, Part, Problem, deck, parse, run,
@@ -215,27 +217,6 @@ fn ccx_solves_the_same_equations() {
     }
 }
 
-/// Every way to model contact under `unilateral`.
-fn models() -> Vec<ContactModel> {
-    let mut models = Vec::new();
-    for &coupling in Coupling::ALL {
-        for &geometry in Geometry::ALL {
-            models.push(ContactModel {
-                coupling,
-                friction: Friction::None,
-                geometry,
-                ..ContactModel::default()
-            });
-        }
-        models.push(ContactModel {
-            coupling,
-            friction: Friction::Stick,
-            ..ContactModel::default()
-        });
-    }
-    models
-}
-
 #[track_caller]
 fn assert_equations(name: &str, scene: &Scene, variant: Variant) {
     let solution = solution(scene, variant);
@@ -268,18 +249,9 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
     }
 }
 
-fn command(folder: &TempDir, args: &[&str]) -> Output {
-    let program = env!("CARGO_BIN_EXE_plane-contact");
-    Command::new(program)
-        .args(args)
-        .current_dir(folder.path())
-        .output()
-        .expect("the program starts")
-}
-
 #[track_caller]
 fn fails(folder: &TempDir, args: &[&str], words: &[&str]) {
-    let output = command(folder, args);
+    let output = program::run(folder.path(), args);
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{said}");
     for word in words {
@@ -291,12 +263,13 @@ fn fails(folder: &TempDir, args: &[&str], words: &[&str]) {
 #[test]
 fn export_writes_the_deck() {
     let folder = TempDir::new().unwrap();
-    let printed = command(&folder, &["export", "fig1", "--to", "calculix", "--variant", "tied"]);
+    let printed =
+        program::run(folder.path(), &["export", "fig1", "--to", "calculix", "--variant", "tied"]);
     let (scene, solution) = solve("fig1", Variant::Tied);
     let parts = Contact::parts(&solution).unwrap();
     assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &solution, &parts));
     let args = ["export", "fig1", "--to", "calculix", "--contact", "pair", "--out", "deck.inp"];
-    assert!(command(&folder, &args).stdout.is_empty());
+    assert!(program::run(folder.path(), &args).stdout.is_empty());
     let text = std::fs::read_to_string(folder.path().join("deck.inp")).unwrap();
     assert!(text.contains("friction stick"), "{text}");
     let printed = ["export", "fig1", "--to", "calculix", "--variant", "printed"];
@@ -327,7 +300,7 @@ fn compare_prints_tables_and_writes_data_and_pictures() {
     }
     let folder = TempDir::new().unwrap();
     let compare = ["compare", "fig1", "--with", "calculix", "--variant", "tied"];
-    let tables = String::from_utf8(command(&folder, &compare).stdout).unwrap();
+    let tables = String::from_utf8(program::run(folder.path(), &compare).stdout).unwrap();
     for words in ["beside CalculiX 2", "8 equations", "Largest differences", "The worst nodes"] {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }
@@ -338,7 +311,7 @@ fn compare_prints_tables_and_writes_data_and_pictures() {
     }
     assert_eq!(read("nodes.csv").lines().count(), 1 + 13);
     assert_eq!(read("elements.csv").lines().count(), 1 + 9);
-    let printed = command(&folder, &[&compare[..], &["--json"]].concat()).stdout;
+    let printed = program::run(folder.path(), &[&compare[..], &["--json"]].concat()).stdout;
     assert_eq!(String::from_utf8(printed).unwrap(), read("compare.json"), "the same bytes again");
     let document: Value = serde_json::from_str(&read("compare.json")).unwrap();
     assert_eq!(document["nodes"].as_array().unwrap().len(), 13);

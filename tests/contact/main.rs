@@ -6,6 +6,7 @@ mod common {
     pub mod golden_floats;
     pub mod json;
     pub mod outcome;
+    pub mod program;
     pub mod tolerances;
 }
 

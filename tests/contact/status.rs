@@ -1,5 +1,8 @@
 //! The status rules on scenes worked out by hand, and on the paper's example with a wider duct.
 
+use std::path::Path;
+
+use crate::common::program;
 use crate::common::tolerances::{CLOSEST_POINT, assert_near};
 use plane_contact::answer::contact::Surfaces;
 use plane_contact::answer::contact::search::Closest;
@@ -475,8 +478,7 @@ fn the_measurement_is_pinned() {
 #[test]
 fn the_command_prints_tables_or_json() {
     let run = |args: &[&str]| {
-        let program = env!("CARGO_BIN_EXE_plane-contact");
-        let output = std::process::Command::new(program).args(args).output().unwrap();
+        let output = program::run(Path::new("."), args);
         (output.status.code(), String::from_utf8(output.stdout).unwrap())
     };
     let (status, tables) = run(&["statuses", "--scenes", "3"]);

@@ -15,7 +15,8 @@ use serde_json::json;
 /// The most iterations that an equilibrium may take.
 const ITERATIONS: usize = 12;
 
-fn models() -> Vec<ContactModel> {
+/// Every way to model contact under `unilateral`.
+pub fn models() -> Vec<ContactModel> {
     let mut models = Vec::new();
     for &coupling in Coupling::ALL {
         models.push(ContactModel {

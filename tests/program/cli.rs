@@ -1,15 +1,12 @@
 //! The program from the outside: exit statuses, files, what stands on standard output and error.
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
 use serde_json::Value;
 use tempfile::TempDir;
 
-fn run(folder: &Path, args: &[&str]) -> Output {
-    let program = env!("CARGO_BIN_EXE_plane-contact");
-    Command::new(program).args(args).current_dir(folder).output().expect("the program starts")
-}
+use crate::common::program::run;
 
 fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).expect("UTF-8")

@@ -5,6 +5,7 @@ mod common {
     pub mod embedded;
     pub mod golden;
     pub mod json;
+    pub mod program;
     pub mod tolerances;
 }
 

@@ -3,9 +3,10 @@
 //! Words and the order of everything are exact; a coordinate may differ by a tenth of a pixel.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use tempfile::TempDir;
+
+use crate::common::program::run;
 
 /// A tenth of a pixel: pictures are for the eye.
 const PIXEL: f64 = 0.1;
@@ -14,14 +15,8 @@ fn golden() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("golden")
 }
 
-fn run(folder: &Path, args: &[&str]) {
-    let status = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
-        .args(args)
-        .current_dir(folder)
-        .output()
-        .expect("the program starts")
-        .status;
-    assert!(status.success(), "{args:?}");
+fn succeeds(folder: &Path, args: &[&str]) {
+    assert!(run(folder, args).status.success(), "{args:?}");
 }
 
 /// Compares a shipped picture with one just drawn; INSTA_UPDATE=always takes the new one.
@@ -68,7 +63,7 @@ fn pictures_differ_by_words_and_by_more_than_a_tenth_of_a_pixel() {
 #[test]
 fn shipped_pictures_are_drawn_anew() {
     let folder = TempDir::new().expect("a temporary folder");
-    run(folder.path(), &["audit", "strand", "--out", "audit"]);
+    succeeds(folder.path(), &["audit", "strand", "--out", "audit"]);
     let drawn = folder.path().join("audit");
     let mut expected = vec![
         (golden().join("strand/von_mises_stress.svg"), drawn.join("stepped/von_mises_stress.svg")),

@@ -4,11 +4,11 @@
 //! it is rounding itself (below 1e-9): residuals and what rounding does to a displacement.
 
 use std::path::Path;
-use std::process::Command;
 
 use tempfile::TempDir;
 
 use crate::common::golden::assert_golden_by;
+use crate::common::program::run;
 
 /// Numbers below this are rounding.
 const NOISE: f64 = 1e-9;
@@ -16,12 +16,7 @@ const NOISE: f64 = 1e-9;
 /// Prints what the program prints, without the folder that it was run in.
 fn printed(args: &[&str]) -> String {
     let folder = TempDir::new().expect("a temporary folder");
-    let output = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
-        .args(args)
-        .env_remove("COLUMNS")
-        .current_dir(folder.path())
-        .output()
-        .expect("the program starts");
+    let output = run(folder.path(), args);
     assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).expect("UTF-8")
 }
