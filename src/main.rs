@@ -18,7 +18,7 @@ use clap::{Parser, Subcommand};
     version,
     after_help = "\
 Exit status: 0 done; 2 the input is at fault; 3 the published algorithm fails as printed (an audit
-result).
+result); 4 no equilibrium was found, or more than one.
 
 Examples:
   plane-contact solve                        the paper's example

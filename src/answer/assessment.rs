@@ -7,10 +7,10 @@ use super::distance::{Distance, distance};
 use super::error::Error;
 use super::estimates::ErrorEstimates;
 use super::hertz::Hertz;
+use super::request::Request;
 use super::solution::Solution;
-use super::solve::reference;
+use super::solve::solve;
 use super::summary::{BodySummary, summaries};
-use crate::problem::modelling::{Coupling, Variant};
 
 /// The values and estimates that reports print beside a solution.
 pub struct Assessment<'a> {
@@ -22,45 +22,70 @@ pub struct Assessment<'a> {
     pub hertz: Option<Hertz>,
     /// The comparison with the reference solution, or why there is none; None without contact.
     pub reference: Option<Result<Measured<'a>, Error>>,
+    /// The comparison with the equilibrium under the scene's own friction and geometry, or why there
+    /// is none; None without contact, and where that is the reference solution.
+    pub equilibrium: Option<Result<Measured<'a>, Error>>,
 }
 
-/// The reference solution and the distance of a solution from it.
+/// Another solution and the distance of a solution from it.
 pub struct Measured<'a> {
-    /// The reference solution: borrowed where the assessed solution is the reference itself.
+    /// The other solution: borrowed where the assessed solution is that one itself.
     pub reference: Cow<'a, Solution>,
-    /// The distance of the assessed solution from the reference solution.
+    /// The distance of the assessed solution from the other one.
     pub distance: Distance,
-    /// Hertz's contact for the reference solution; None where his theory does not apply.
+    /// Hertz's contact for the other solution; None where his theory does not apply.
     pub hertz: Option<Hertz>,
 }
 
 impl<'a> Assessment<'a> {
-    /// Assesses a solution, and solves for the reference solution unless it is the same request.
+    /// Assesses a solution, and solves for the reference solution and for the equilibrium under the
+    /// scene's own friction and geometry, unless it is one of them.
     pub fn new(solution: &'a Solution) -> Self {
         let request = &solution.request;
-        let is_reference =
-            (request.variant, request.contact.coupling) == (Variant::Unilateral, Coupling::Mortar);
-        let other = || match is_reference {
+        let (reference, equilibrium) = (request.reference(), request.equilibrium());
+        let own = (!equilibrium.is_same_equilibrium(&reference)).then_some(equilibrium);
+        let solved = |wanted: Request| match request.is_same_equilibrium(&wanted) {
             true => Ok(Cow::Borrowed(solution)),
-            false => reference(request).map(Cow::Owned),
+            false => solve(&wanted, &mut |_| ()).map(Cow::Owned),
         };
-        Assessment::measured(solution, solution.model.target().map(|_| other()))
+        let target = solution.model.target();
+        let reference = target.map(|_| solved(reference));
+        Assessment::measured(solution, reference, target.and(own).map(solved))
     }
 
-    /// Assesses a solution against a reference solution that is already known.
-    pub fn against(solution: &'a Solution, reference: Option<&'a Solution>) -> Self {
-        Assessment::measured(solution, reference.map(|reference| Ok(Cow::Borrowed(reference))))
+    /// Assesses a solution against solutions that are already known: the reference solution, and the
+    /// equilibrium under the scene's own friction and geometry.
+    pub fn against(
+        solution: &'a Solution,
+        [reference, equilibrium]: [Option<&'a Solution>; 2],
+    ) -> Self {
+        let known = |other: Option<&'a Solution>| other.map(|other| Ok(Cow::Borrowed(other)));
+        Assessment::measured(solution, known(reference), known(equilibrium))
     }
 
     fn measured(
         solution: &'a Solution,
         reference: Option<Result<Cow<'a, Solution>, Error>>,
+        equilibrium: Option<Result<Cow<'a, Solution>, Error>>,
     ) -> Self {
+        let measured = |other: Option<Result<Cow<'a, Solution>, Error>>| {
+            other.map(|other| other.map(|other| Measured::new(solution, other)))
+        };
         Assessment {
             bodies: summaries(solution),
             estimates: ErrorEstimates::new(solution),
             hertz: Hertz::of(solution),
-            reference: reference.map(|reference| reference.map(|r| Measured::new(solution, r))),
+            reference: measured(reference),
+            equilibrium: measured(equilibrium),
+        }
+    }
+
+    /// Returns the comparison with the equilibrium under the scene's own friction and geometry, where
+    /// that one was solved.
+    pub fn own(&self) -> Option<&Measured<'a>> {
+        match &self.equilibrium {
+            Some(measured) => measured.as_ref().ok(),
+            None => self.measure(),
         }
     }
 

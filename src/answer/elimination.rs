@@ -8,7 +8,10 @@
 //! ```
 //!
 //! A constraint that closes a gap g along a normal n, n·(u_c − Σ w u_t) = −g, leaves the contact
-//! node one free motion along the tangent, and displaces it by s = −g·n.
+//! node one free motion along the tangent, and displaces it by s = −g·n. Where restraints do not let
+//! the contact node follow, the equation of a target node is eliminated in its place.
+
+use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -50,6 +53,18 @@ impl<T: Scalar> Constraint<T> {
     }
 }
 
+impl<T: Scalar> Constraint<T> {
+    /// Returns the constraint's equations: a direction d, the shift along it, and the constraint,
+    /// for d·u_c − Σ w d·u_t = shift.
+    fn equations(&self) -> Vec<([T; 2], T, &Self)> {
+        let (one, zero) = (T::one(), T::zero());
+        match self.motion {
+            Motion::Along(normal, shift) => vec![(normal, shift, self)],
+            Motion::Both([x, y]) => vec![([one, zero], x, self), ([zero, one], y, self)],
+        }
+    }
+}
+
 impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {
     /// Binds the node by eq. (1): u_c = Σ w u_t.
     fn from(bound: NodeToSegment<T>) -> Self {
@@ -66,35 +81,40 @@ pub struct Elimination<T = f64> {
     free: Vec<Dof>,
 }
 
-/// A contact node whose restraints prevent it from following its constraint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RestrainedAlongNormal {
-    /// The contact node that is restrained along the normal.
-    pub node: NodeId,
-}
-
-/// The component of a normal below which a motion across it cannot follow the normal.
-const ACROSS: f64 = 1e-6;
+/// The factor of an equation, over 1 of the contact node's own, below which a constraint does not
+/// depend on it: rounding.
+const NEGLIGIBLE: f64 = 1e-10;
 
 impl<T: Scalar> Elimination<T> {
-    /// Builds T under eq. (1) for `constraints`. A component that is `restrained`, by degree of
-    /// freedom, stays so and is not constrained.
+    /// Builds T and s under `constraints`, among them eq. (1). A component of a contact node that is
+    /// `restrained`, by degree of freedom, stays so and is not constrained.
     pub fn new(restrained: &[bool], constraints: &[Constraint<T>]) -> Self {
-        Elimination::with_normals(restrained, constraints)
-            .expect("constraints of both components have no normal")
+        let mut t = Elimination::unbound(restrained, constraints.iter());
+        constraints.iter().for_each(|constraint| t.bind(constraint, restrained));
+        t
     }
 
-    /// Builds T and s for constraints of either motion.
-    ///
-    /// # Errors
-    /// A contact node is restrained along the normal that it is to follow.
-    pub fn with_normals(
-        restrained: &[bool],
-        constraints: &[Constraint<T>],
-    ) -> Result<Self, RestrainedAlongNormal> {
+    /// Builds T and s such that every constraint holds, also on restrained contact nodes, if need be
+    /// by the motion of target nodes. Where nothing can move, the constraint is left out.
+    pub fn closing(restrained: &[bool], constraints: &[Constraint<T>]) -> Self {
+        let is_restrained =
+            |c: &&Constraint<T>| c.node.dofs().iter().any(|d| restrained[d.index()]);
+        let (fixed, free): (Vec<_>, Vec<_>) = constraints.iter().partition(is_restrained);
+        let mut t = Elimination::unbound(restrained, free.iter().copied());
+        let mut eliminated = Vec::new();
+        for (direction, shift, constraint) in fixed.iter().flat_map(|c| c.equations()) {
+            eliminated.extend(t.eliminate(constraint, direction, shift));
+        }
+        t.remove(&eliminated);
+        free.iter().for_each(|constraint| t.bind(constraint, restrained));
+        t
+    }
+
+    /// Builds T without constraints; the equations of the nodes of `bound` are left out.
+    fn unbound<'a>(restrained: &[bool], bound: impl Iterator<Item = &'a Constraint<T>>) -> Self {
         let size = restrained.len();
         let mut constrained = vec![false; size / 2];
-        constraints.iter().for_each(|constraint| constrained[constraint.node.index()] = true);
+        bound.for_each(|constraint| constrained[constraint.node.index()] = true);
         let mut t = Elimination {
             rows: vec![Vec::new(); size],
             shift: DVector::from_element(size, T::zero()),
@@ -104,16 +124,63 @@ impl<T: Scalar> Elimination<T> {
         for dof in Dof::all(size).filter(free) {
             t.rows[dof.index()] = vec![(t.add(dof), T::one())];
         }
-        for constraint in constraints {
-            let restrained = constraint.node.dofs().map(|dof| restrained[dof.index()]);
-            match constraint.motion {
-                Motion::Both(shift) => t.bind_both(constraint, restrained, shift),
-                Motion::Along(normal, shift) => {
-                    t.bind_along(constraint, restrained, normal, shift)?;
+        t
+    }
+
+    /// Eliminates the equation that moves most under direction·u_c − Σ w direction·u_t = shift, and
+    /// returns its column; None where nothing can move.
+    fn eliminate(&mut self, c: &Constraint<T>, direction: [T; 2], shift: T) -> Option<usize> {
+        let (mut row, mut rest) = (BTreeMap::new(), shift);
+        let own = std::iter::once((c.node, T::one()));
+        for (node, weight) in own.chain(c.masters.iter().map(|&(master, w)| (master, -w))) {
+            for dof in node.dofs() {
+                let factor = weight * direction[dof.direction()];
+                rest -= factor * self.shift[dof.index()];
+                for &(p, w) in &self.rows[dof.index()] {
+                    *row.entry(p).or_insert(T::zero()) += factor * w;
                 }
             }
         }
-        Ok(t)
+        let size = |factor: &T| Scalar::abs(*factor).to_f64();
+        let (&pivot, &factor) = row.iter().max_by(|a, b| size(a.1).total_cmp(&size(b.1)))?;
+        if size(&factor) <= NEGLIGIBLE {
+            return None;
+        }
+        row.remove(&pivot);
+        for (dof, terms) in self.rows.iter_mut().enumerate() {
+            let Some(at) = terms.iter().position(|(p, _)| *p == pivot) else { continue };
+            let share = terms.swap_remove(at).1 / factor;
+            self.shift[dof] += share * rest;
+            for (&p, &w) in &row {
+                match terms.iter_mut().find(|(q, _)| *q == p) {
+                    Some(term) => term.1 -= share * w,
+                    None => terms.push((p, -(share * w))),
+                }
+            }
+        }
+        Some(pivot)
+    }
+
+    /// Removes eliminated columns.
+    fn remove(&mut self, eliminated: &[usize]) {
+        if eliminated.is_empty() {
+            return;
+        }
+        let kept: Vec<usize> =
+            (0..self.free.len()).filter(|column| !eliminated.contains(column)).collect();
+        let mut number = vec![0; self.free.len()];
+        kept.iter().enumerate().for_each(|(new, old)| number[*old] = new);
+        self.free = kept.iter().map(|old| self.free[*old]).collect();
+        self.rows.iter_mut().flatten().for_each(|(column, _)| *column = number[*column]);
+    }
+
+    /// Binds a node whose own equations are left out.
+    fn bind(&mut self, constraint: &Constraint<T>, restrained: &[bool]) {
+        let restrained = constraint.node.dofs().map(|dof| restrained[dof.index()]);
+        match constraint.motion {
+            Motion::Both(shift) => self.bind_both(constraint, restrained, shift),
+            Motion::Along(normal, shift) => self.bind_along(constraint, normal, shift),
+        }
     }
 
     /// Adds an equation that remains, and returns its index.
@@ -131,35 +198,20 @@ impl<T: Scalar> Elimination<T> {
             let mut normal = [T::zero(), T::zero()];
             normal[direction] = T::one();
             self.rows[dof.index()] = self.target_motion(constraint, normal, T::one());
-            self.shift[dof.index()] = shift[direction];
+            self.shift[dof.index()] = shift[direction] + self.target_shift(constraint, normal);
         }
     }
 
-    fn bind_along(
-        &mut self,
-        constraint: &Constraint<T>,
-        restrained: [bool; 2],
-        [nx, ny]: [T; 2],
-        shift: T,
-    ) -> Result<(), RestrainedAlongNormal> {
-        let ([x, y], across) = (constraint.node.dofs(), T::from_f64(ACROSS));
-        let mut follow = |dof: Dof, factor: T| {
+    fn bind_along(&mut self, constraint: &Constraint<T>, [nx, ny]: [T; 2], shift: T) {
+        let [x, y] = constraint.node.dofs();
+        let target = self.target_shift(constraint, [nx, ny]);
+        for (dof, factor) in [(x, nx), (y, ny)] {
             self.rows[dof.index()] = self.target_motion(constraint, [nx, ny], factor);
-            self.shift[dof.index()] = shift * factor;
-        };
-        match restrained {
-            [false, false] => {
-                follow(x, nx);
-                follow(y, ny);
-                let slide = self.add(if Scalar::abs(nx) > Scalar::abs(ny) { y } else { x });
-                self.rows[x.index()].push((slide, -ny));
-                self.rows[y.index()].push((slide, nx));
-            }
-            [true, false] if Scalar::abs(ny) > across => follow(y, T::one() / ny),
-            [false, true] if Scalar::abs(nx) > across => follow(x, T::one() / nx),
-            _ => return Err(RestrainedAlongNormal { node: constraint.node }),
+            self.shift[dof.index()] = (shift + target) * factor;
         }
-        Ok(())
+        let slide = self.add(if Scalar::abs(nx) > Scalar::abs(ny) { y } else { x });
+        self.rows[x.index()].push((slide, -ny));
+        self.rows[y.index()].push((slide, nx));
     }
 
     /// Returns `factor` · Σ w n·u_t as weights on the equations that remain.
@@ -180,6 +232,15 @@ impl<T: Scalar> Elimination<T> {
             }
         }
         row
+    }
+
+    /// Returns Σ w n·s_t, the target's part of the shift, length.
+    fn target_shift(&self, constraint: &Constraint<T>, normal: [T; 2]) -> T {
+        let part = |&(master, weight): &(NodeId, T)| {
+            let along = master.dofs().map(|dof| normal[dof.direction()] * self.shift[dof.index()]);
+            weight * (along[0] + along[1])
+        };
+        constraint.masters.iter().fold(T::zero(), |total, term| total + part(term))
     }
 
     /// Returns the number of equations that remain.

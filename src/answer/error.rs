@@ -19,6 +19,9 @@ pub enum Error {
     /// The matrix of an iteration cannot be solved: exit status 3, an audit result.
     #[error("{0}")]
     Singular(#[from] SingularMatrix),
+    /// No equilibrium was found, or several: exit status 4.
+    #[error("{0}")]
+    Equilibrium(#[from] NoEquilibrium),
 }
 
 impl Error {
@@ -26,9 +29,18 @@ impl Error {
     pub fn exit_status(&self) -> u8 {
         match self {
             Error::Input(_) => 2,
+            Error::Equilibrium(_) => 4,
             Error::Listing(_) | Error::Execution(_) | Error::Singular(_) => 3,
         }
     }
+}
+
+/// No equilibrium was found, or more than one.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}")]
+pub struct NoEquilibrium {
+    /// What was found, with the members.
+    pub what: String,
 }
 
 /// A matrix that has no unique solution.

@@ -115,7 +115,7 @@ fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
 
 /// Returns the sum of the normal forces of the contact nodes, force; None where they do not press.
 fn normal_load(solution: &Solution) -> Option<f64> {
-    Some(solution.in_contact().map(|c| c.force).sum::<f64>()).filter(|load| *load > 0.0)
+    Some(solution.in_contact().filter_map(|c| c.force).sum::<f64>()).filter(|load| *load > 0.0)
 }
 
 /// Returns E* of the two materials at a contact node, stress.

@@ -1,6 +1,5 @@
 //! The answer: a request, its solution, and the estimated errors of its numbers.
 
-mod active_set;
 mod assessment;
 pub mod contact;
 mod distance;
@@ -25,8 +24,11 @@ pub use distance::{BodyDistance, Distance, distance};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;
 pub use request::Request;
-pub use solution::{Cycle, Detail, Published, Solution, Step, Unilateral, max_displacement};
-pub use solve::{reference, solve};
+pub use solution::{
+    Cycle, Detail, Equilibrium, Other, Path, Published, Sense, Solution, Status, Step, Unilateral,
+    Uniqueness, max_displacement,
+};
+pub use solve::{equilibrium, solve};
 pub use sparse::dense_matrices;
 pub use stiffness::Stiffness;
 pub use summary::{BodySummary, summaries};

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::contact::{ContactNode, Surfaces, Traction, status};
+use super::contact::{ContactNode, Surfaces, Traction, reactions, status};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Solved};
 use super::error::Error;
@@ -59,6 +59,7 @@ pub(super) fn published<T: Precision>(
         elements: run.equations.stiffness.states(&run.u),
         factored: run.visited.len(),
         digits: T::zero().digits().and_then(|_| run.u.iter().map(|u| u.to_rational()).collect()),
+        equilibrium: None,
         error_bound: run.u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e))),
         u: run.u.map(T::to_f64),
         request: request.clone(),
@@ -263,13 +264,17 @@ impl<'a, T: Precision> Run<'a, T> {
         }
         let surfaces = Surfaces::new(self.model)?;
         let shape = door::shape(&door::moved(self.sheet, &self.u));
+        let pairings = surfaces.pairings(Coupling::Nts, &shape);
+        let reaction = self.equations.reaction(&self.u).map(T::to_f64);
         let traction = Traction {
             model: self.model,
             surfaces: &surfaces,
-            pairings: &surfaces.pairings(Coupling::Nts, &shape),
+            pairings: &pairings,
+            gaps: &pairings.iter().map(|p| p.as_ref().map(|p| p.gap)).collect::<Vec<_>>(),
             measured_in: &shape,
             in_contact,
-            reaction: &self.equations.reaction(&self.u).map(T::to_f64),
+            statuses: None,
+            forces: &reactions(self.model, &pairings, &reaction),
         };
         Ok(traction.nodes())
     }

@@ -7,7 +7,7 @@ use crate::numbers::solve::Arithmetic;
 use crate::paper::door;
 use crate::paper::mirror::{Reading, Schedule};
 use crate::problem::model::Model;
-use crate::problem::modelling::{ContactModel, Coupling, Variant};
+use crate::problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};
 use crate::problem::scene::Scene;
 
 /// A request. [`Request::new`] asks for what the scene says; every field may be changed.
@@ -68,12 +68,37 @@ impl Request {
     }
 
     /// Returns the request for the reference solution, which runs are measured against:
-    /// `unilateral` with mortar in `f64`, everything else as in this request.
+    /// `unilateral` with mortar, without friction, in the initial geometry, in `f64`. Where contact
+    /// holds the bodies it has one solution: its problem is convex.
     #[must_use]
     pub fn reference(&self) -> Self {
+        let (friction, geometry) = (Friction::NONE, Geometry::Initial);
+        let contact = ContactModel { friction, geometry, ..self.contact };
+        self.clone().contact(contact).equilibrium()
+    }
+
+    /// Returns the request for the equilibrium under the scene's own friction and geometry, at the
+    /// end of the path of its load: `unilateral` with mortar in `f64`.
+    #[must_use]
+    pub fn equilibrium(&self) -> Self {
         let contact = ContactModel { coupling: Coupling::Mortar, ..self.contact };
         let (variant, arithmetic) = (Variant::Unilateral, Arithmetic::default());
         Request { contact, variant, arithmetic, ..self.clone() }
+    }
+
+    /// Returns whether `other` asks for the same solution of the same scene under `unilateral`.
+    pub fn is_same_equilibrium(&self, other: &Request) -> bool {
+        let only = |request: &Request| ContactModel {
+            status: StatusRule::default(),
+            load_steps: if request.contact.friction == Friction::NONE {
+                1
+            } else {
+                request.contact.load_steps
+            },
+            ..request.contact
+        };
+        [self, other].iter().all(|request| request.variant == Variant::Unilateral)
+            && only(self) == only(other)
     }
 
     /// Returns the load of an iteration: R7 where the reading sets it, else the variant's own.

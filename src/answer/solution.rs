@@ -1,5 +1,6 @@
 //! The solution of a request: displacements, stresses, the contact surface, and the steps.
 
+use std::fmt;
 use std::sync::Arc;
 
 use dashu_ratio::RBig;
@@ -62,12 +63,126 @@ pub struct Published {
 /// An iteration of the active set.
 #[derive(Clone, Debug)]
 pub struct Unilateral {
-    /// Whether each entry of the contact surface was closed.
-    pub closed: Vec<bool>,
-    /// The pairing of each entry in the shape from which the iteration started.
+    /// The part of the path of the load that was applied: 1 after the first stage, 2 after the
+    /// second.
+    pub load: f64,
+    /// The status that was imposed on each entry of the contact surface.
+    pub statuses: Vec<Status>,
+    /// The pairing of each entry in the shape in which contact was measured.
     pub pairings: Vec<Option<Pairing>>,
+    /// The friction of sliding nodes by degree of freedom, force.
+    pub friction: DVector<f64>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub violation: f64,
+}
+
+/// The status of a contact node under `unilateral`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// It is not in contact.
+    Open,
+    /// It is in contact and does not slide in this step of the load.
+    Stick,
+    /// It is in contact and slides, against the friction.
+    #[serde(untagged)]
+    Slip(Sense),
+}
+
+/// The sense in which a node slides along the tangent, which is the normal turned left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Sense {
+    /// Along the tangent.
+    #[serde(rename = "slip+")]
+    Forward,
+    /// Against the tangent.
+    #[serde(rename = "slip-")]
+    Backward,
+    /// Either way: there is no friction.
+    #[serde(rename = "slip")]
+    Free,
+}
+
+impl Sense {
+    /// Returns the sign of the motion along the tangent; 0 without friction.
+    pub fn sign(self) -> f64 {
+        match self {
+            Sense::Forward => 1.0,
+            Sense::Backward => -1.0,
+            Sense::Free => 0.0,
+        }
+    }
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Status::Open => "open",
+            Status::Stick => "stick",
+            Status::Slip(Sense::Forward) => "slip +",
+            Status::Slip(Sense::Backward) => "slip -",
+            Status::Slip(Sense::Free) => "slip",
+        })
+    }
+}
+
+/// The path of the load at the end of which a solution under friction stands.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Path {
+    /// The number of equal steps of a stage's load.
+    pub steps: usize,
+    /// The number of stages.
+    pub stages: usize,
+    /// The number of steps that were halved because no equilibrium was found.
+    pub halved: usize,
+    /// The change of the largest displacement component against the path of half as many steps,
+    /// length: what is left of the size of the steps. None where there is none such to compare
+    /// with.
+    pub change: Option<f64>,
+}
+
+/// An equilibrium beside the one that was found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Other {
+    /// The nodes that stick in it.
+    pub stick: Vec<NodeId>,
+    /// The nodes that slide in it.
+    pub slip: Vec<NodeId>,
+    /// Its largest displacement component that differs, length.
+    pub change: f64,
+}
+
+/// What is known of other equilibria under the same load.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Uniqueness {
+    /// There is no other one: the problem is convex and contact holds the bodies.
+    Unique,
+    /// The bodies can move without work: a rigid motion leaves forces and load in balance.
+    Indifferent {
+        /// A node that can move.
+        node: NodeId,
+    },
+    /// Other contact states of the last step were tried.
+    Tried {
+        /// The number of contact states that were tried.
+        states: usize,
+        /// Whether these are all that there are.
+        all: bool,
+        /// Those among them that are in equilibrium too.
+        others: Vec<Other>,
+    },
+}
+
+impl Uniqueness {
+    /// Returns whether another equilibrium is known.
+    pub fn is_refuted(&self) -> bool {
+        match self {
+            Uniqueness::Unique => false,
+            Uniqueness::Indifferent { .. } => true,
+            Uniqueness::Tried { others, .. } => !others.is_empty(),
+        }
+    }
 }
 
 impl Step {
@@ -75,7 +190,7 @@ impl Step {
     pub fn statuses(&self) -> Vec<bool> {
         match &self.detail {
             Detail::Published(step) => step.pairs.dy.iter().map(|dy| *dy == 1).collect(),
-            Detail::Unilateral(step) => step.closed.clone(),
+            Detail::Unilateral(step) => step.statuses.iter().map(|s| *s != Status::Open).collect(),
         }
     }
 
@@ -134,6 +249,20 @@ pub struct Solution {
     /// length, where the scalar computes one. It is valid while rounding does not change which
     /// nodes are in contact.
     pub error_bound: Option<f64>,
+    /// What `unilateral` knows beside its solution; None under the other variants.
+    pub equilibrium: Option<Equilibrium>,
+}
+
+/// What `unilateral` knows of the equilibrium that it found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Equilibrium {
+    /// The path of the load; None without friction, where it has no effect.
+    pub path: Option<Path>,
+    /// What is known of other equilibria.
+    pub uniqueness: Uniqueness,
+    /// The change of the largest displacement component when contact was last measured in the shape
+    /// reached, length; 0 in the initial geometry.
+    pub shape_change: f64,
 }
 
 impl Solution {

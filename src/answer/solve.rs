@@ -35,12 +35,12 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     Ok(solution)
 }
 
-/// Solves for the reference solution of `request`: [`Request::reference`].
+/// Solves for the equilibrium under the scene's own friction: [`Request::equilibrium`].
 ///
 /// # Errors
 /// The errors of [`solve`].
-pub fn reference(request: &Request) -> Result<Solution, Error> {
-    solve(&request.reference(), &mut |_| ())
+pub fn equilibrium(request: &Request) -> Result<Solution, Error> {
+    solve(&request.equilibrium(), &mut |_| ())
 }
 
 /// Checks that `unilateral` is requested in f64 by sparse Cholesky.

@@ -2,10 +2,9 @@
 
 use nalgebra::DVector;
 
-use super::contact::Pairing;
 use super::elimination::{Constraint, Motion, sum};
 use crate::numbers::scalar::Scalar;
-use crate::problem::model::{Model, NodeId};
+use crate::problem::model::Model;
 
 /// Returns the sum of the target body's reactions, force. `force` is K·u − F by degree of freedom;
 /// `restrained` marks the degrees of freedom that the run restrains.
@@ -43,30 +42,22 @@ fn passed<T: Scalar>(
     let force = constraint.node.of(force);
     match constraint.motion {
         Motion::Both(_) => [0, 1].map(|d| if free[d] { force[d] } else { T::zero() }),
-        Motion::Along(normal, _) => normal.map(|n| n * along(normal, free, force)),
+        Motion::Along(normal, _) => {
+            let along = normal[0] * force[0] + normal[1] * force[1];
+            normal.map(|n| n * along)
+        }
     }
 }
 
-/// Returns the component along `normal` of a force that acts along it, from the components in which
-/// no restraint has a share, force.
-fn along<T: Scalar>(normal: [T; 2], free: [bool; 2], force: [T; 2]) -> T {
-    match free {
-        [true, true] => normal[0] * force[0] + normal[1] * force[1],
-        [false, true] => force[1] / normal[1],
-        [true, false] => force[0] / normal[0],
-        [false, false] => T::zero(),
+/// Returns the sum of the target body's reactions, force. `force` is K·u − F without the forces of
+/// contact, by degree of freedom.
+pub(super) fn restraints_of_target(model: &Model, force: &DVector<f64>) -> [f64; 2] {
+    let mut total = [0.0; 2];
+    let nodes = model.target().into_iter().flat_map(|target| &target.nodes);
+    for dof in nodes.flat_map(|n| n.dofs()).filter(|dof| model.is_restrained(*dof)) {
+        total[dof.direction()] += force[dof.index()];
     }
-}
-
-/// Returns a contact force's component along the normal, force; where one direction of the node is
-/// restrained, it follows from the other one.
-pub(super) fn normal_force(model: &Model, pairing: &Pairing, reaction: &DVector<f64>) -> f64 {
-    let free = free(model, pairing.node);
-    along(pairing.normal, free, pairing.node.of(reaction))
-}
-
-fn free(model: &Model, node: NodeId) -> [bool; 2] {
-    model.restraints_of(node).map(|restrained| !restrained)
+    total
 }
 
 /// Returns the reactions against the direction of the load, force.

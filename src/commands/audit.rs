@@ -98,15 +98,15 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
         let picture = folder::mesh_picture(&own.scene);
         files::write(&out.join("findings").join(format!("{}.svg", finding.id)), &picture)?;
     }
-    let reference = case.reference();
+    let others = [case.reference(), case.equilibrium()];
     for variant in Variant::ALL {
         if let Ok(solution) = case.run(*variant) {
-            let assessment = Assessment::against(solution, reference);
+            let assessment = Assessment::against(solution, others);
             folder::write(&out.join(variant.name()), solution, &assessment, None)?;
         }
     }
     let own = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
-    let runs: Vec<&Solution> = own.chain(reference).collect();
+    let runs: Vec<&Solution> = own.chain(others.into_iter().flatten()).collect();
     if let Some(last) = runs.last().filter(|_| case.model().target().is_some()) {
         let picture = pressure::picture(&case.scene, &runs, Hertz::of(last).as_ref());
         files::write(&out.join("pressure.svg"), &picture)?;

@@ -44,14 +44,18 @@ pub struct ModelArgs {
     /// node's edges cover [default: the scene's].
     #[arg(long)]
     coupling: Option<Coupling>,
-    /// Under unilateral: 0 (contact nodes slide) or stick (they follow the target, as eq. (1) asks)
-    /// [default: the scene's].
-    #[arg(long)]
+    /// Under unilateral: Coulomb's coefficient, 0 (contact nodes slide freely), or stick (they never
+    /// slide) [default: the scene's].
+    #[arg(long, value_name = "MU")]
     friction: Option<Friction>,
-    /// Under unilateral, the shape in which the contact of sliding nodes is measured: current, or
-    /// initial (small displacements) [default: the scene's].
+    /// Under unilateral, the shape in which contact is measured: current (the one reached), or initial
+    /// (small displacements) [default: the scene's].
     #[arg(long)]
     geometry: Option<Geometry>,
+    /// Under unilateral with friction, the number of equal steps in which the load of a stage grows
+    /// [default: the scene's, or 16].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    load_steps: Option<u32>,
     /// Under tied and stepped, who is in contact: signs (as c_cnt prints), intersection (the text's
     /// other remedy), projection (signed distance to the nearest target edge) [default: the
     /// scene's].
@@ -71,6 +75,7 @@ impl ModelArgs {
             coupling: self.coupling.unwrap_or(scene.contact.coupling),
             friction: self.friction.unwrap_or(scene.contact.friction),
             geometry: self.geometry.unwrap_or(scene.contact.geometry),
+            load_steps: self.load_steps.map_or(scene.contact.load_steps, |n| n as usize),
             status: self.status.unwrap_or(scene.contact.status),
         };
         Request::new(scene)

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::{Error, NoEquilibrium};
 use plane_contact::answer::{self, Assessment, Request, Solution, Step};
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
 use plane_contact::problem::modelling::Variant;
@@ -100,14 +100,26 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let result = folder::write(&out, &solution, &assessment, Some(&plan))?;
     if args.json {
         eprint!("{accuracy}");
-        return print(&result);
+        print(&result)?;
+        return several(&solution);
     }
     let tables = tables::solution(&solution, &assessment)
         + &tables::error_estimates(&solution, &assessment)
         + &tables::distance(&solution, &assessment)
         + &accuracy;
     let plan = report::plan::line(&plan);
-    print(&format!("{tables}\n{plan}\nWritten to {}\n", out.display()))
+    print(&format!("{tables}\n{plan}\nWritten to {}\n", out.display()))?;
+    several(&solution)
+}
+
+/// Ends with a status of its own where other equilibria are known.
+fn several(solution: &Solution) -> Result<(), Error> {
+    let found = solution.equilibrium.as_ref();
+    if !found.is_some_and(|found| found.uniqueness.is_refuted()) {
+        return Ok(());
+    }
+    let what = "the equilibrium is not the only one: see the line Equilibrium".into();
+    Err(NoEquilibrium { what }.into())
 }
 
 /// The solution, and under `--accuracy` how its precision was found.

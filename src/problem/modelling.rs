@@ -1,6 +1,10 @@
 //! The variants that can be run, and how contact is modelled beyond what the paper prints.
 
-use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
+use serde::de::{self, Deserializer};
+use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
 
 use crate::choices;
@@ -21,37 +25,82 @@ choices! {
     }
 }
 
-choices! {
-    /// The motion of a contact node along the target's tangent under `unilateral`.
-    #[derive(Default)]
-    #[serde(try_from = "Value")]
-    Friction {
-        /// It follows the target, as eq. (1) asks.
-        #[default]
-        Stick = "stick",
-        /// It slides without friction.
-        None = "0",
+/// Coulomb's coefficient of friction μ between the surfaces under `unilateral`: the tangential
+/// force of a contact node is at most μ times its normal force. 0 lets it slide; infinity, which is
+/// written `stick`, lets no node in contact slide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction(f64);
+
+impl Friction {
+    /// No friction: a node in contact slides.
+    pub const NONE: Friction = Friction(0.0);
+    /// A node in contact never slides.
+    pub const STICK: Friction = Friction(f64::INFINITY);
+
+    /// Returns the friction with the coefficient `mu`; None where it is negative or no number.
+    pub fn new(mu: f64) -> Option<Self> {
+        (mu >= 0.0).then_some(Friction(mu + 0.0))
+    }
+
+    /// Returns the coefficient μ, infinite where nodes stick.
+    pub fn coefficient(self) -> f64 {
+        self.0
     }
 }
 
-impl TryFrom<Value> for Friction {
-    type Error = String;
+impl Default for Friction {
+    /// Sticks, as eq. (1) asks.
+    fn default() -> Self {
+        Friction::STICK
+    }
+}
 
-    /// Reads `0`, as a number or as text, or `"stick"`.
-    fn try_from(value: Value) -> Result<Self, String> {
-        let text = match value {
+impl fmt::Display for Friction {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if self.0 == f64::INFINITY { f.write_str("stick") } else { write!(f, "{}", self.0) }
+    }
+}
+
+impl FromStr for Friction {
+    type Err = String;
+
+    /// Reads `stick`, or a finite coefficient.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = || text.parse().ok().filter(|mu: &f64| mu.is_finite()).and_then(Friction::new);
+        let read = if text == "stick" { Some(Friction::STICK) } else { number() };
+        read.ok_or_else(|| {
+            format!("friction {text} is neither a coefficient of 0 or more nor \"stick\"")
+        })
+    }
+}
+
+impl Serialize for Friction {
+    /// Writes the coefficient as a number, or `"stick"`.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            0.0 => serializer.serialize_u8(0),
+            f64::INFINITY => serializer.serialize_str("stick"),
+            mu => serializer.serialize_f64(mu),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Friction {
+    /// Reads a coefficient, as a number or as text, or `"stick"`.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = match Value::deserialize(deserializer)? {
             Value::String(text) => text,
             other => other.to_string(),
         };
-        text.parse().map_err(|_| format!("friction {text} is neither 0 nor \"stick\""))
+        text.parse().map_err(de::Error::custom)
     }
 }
 
 choices! {
-    /// The shape in which `unilateral` measures normals, weights and gaps of nodes that slide.
+    /// The shape in which `unilateral` measures normals, weights and gaps.
     #[derive(Default)]
     Geometry {
-        /// The current shape of each iteration.
+        /// The current shape: the one that is reached.
         #[default]
         Current = "current",
         /// The initial shape: the theory of small displacements, as Hertz's.
@@ -86,25 +135,41 @@ choices! {
     }
 }
 
+/// The number of equal steps in which the load of a stage is applied where a scene sets none.
+pub const LOAD_STEPS: usize = 16;
+
 /// The model of contact, beyond what the paper prints.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactModel {
     /// The method that binds a contact node to the target surface.
     pub coupling: Coupling,
-    /// The motion of the node along the tangent.
+    /// The friction between the surfaces.
     pub friction: Friction,
     /// The shape in which contact is measured.
     pub geometry: Geometry,
+    /// The number of equal steps in which `unilateral` applies the load of a stage; without
+    /// friction the path of the load has no effect, and there is one.
+    #[serde(default = "load_steps")]
+    pub load_steps: usize,
     /// The rule by which `tied` and `stepped` decide which nodes are in contact.
     pub status: StatusRule,
 }
 
-impl ContactModel {
-    /// Returns whether `unilateral` measures contact in the current shape. Otherwise it measures in
-    /// the initial shape, and a node that sticks stays at the place that it faced there.
-    pub fn measures_current_shape(&self) -> bool {
-        (self.friction, self.geometry) == (Friction::None, Geometry::Current)
+impl Default for ContactModel {
+    fn default() -> Self {
+        ContactModel {
+            coupling: Coupling::default(),
+            friction: Friction::default(),
+            geometry: Geometry::default(),
+            load_steps: LOAD_STEPS,
+            status: StatusRule::default(),
+        }
     }
+}
+
+/// Returns the number of steps of a stage's load where a scene sets none.
+pub fn load_steps() -> usize {
+    LOAD_STEPS
 }
 
 impl Variant {

@@ -1,22 +1,21 @@
 //! The audit for people and for machines.
 
+use std::collections::BTreeSet;
+
 use serde_json::json;
 
 use super::json::line;
 use super::layout::{Table, aligned, listed};
 use super::numbers::{or_dash, percent, short};
-use crate::answer::contact::ContactNode;
 use crate::answer::{BodySummary, Cycle, Distance};
 use crate::paper::listings::Which;
+use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 use crate::studies::audit::findings::{Finding, Measured};
 use crate::studies::audit::readings::Effect;
 use crate::studies::audit::variants::{End, VariantRow};
-use crate::studies::audit::{Audit, ReferenceSummary};
-
-/// Friction coefficients at which slipping nodes are listed.
-const FRICTION: [f64; 4] = [0.1, 0.2, 0.4, 0.8];
+use crate::studies::audit::{Audit, Compared, Rubbing};
 
 /// Lays out the audit of a scene in tables.
 pub fn text(audit: &Audit, scene: &Scene) -> String {
@@ -30,8 +29,8 @@ pub fn text(audit: &Audit, scene: &Scene) -> String {
         readings(&audit.readings),
         findings(&audit.findings),
         variants(&audit.variants),
-        audit.reference.as_ref().map_or(String::new(), reference),
-        sticking(&audit.sticking)
+        against(audit),
+        rubbing(&audit.friction)
     )
 }
 
@@ -153,41 +152,63 @@ fn stresses(bodies: &[BodySummary]) -> String {
     listed(bodies.iter().map(|body| format!("{} {}", body.name, short(body.max_von_mises_stress))))
 }
 
-/// Describes the reference solution, which the errors of the variants are against.
-fn reference(reference: &ReferenceSummary) -> String {
+/// Describes the two solutions without the print's mistakes, of which the first is what the errors
+/// of the variants are against.
+fn against(audit: &Audit) -> String {
+    let line = |what: &str, other: &Option<Compared>| {
+        other.as_ref().map_or(format!("  {what}: there is none\n"), |other| {
+            format!(
+                "  {what} (unilateral, {}, friction {}, {} geometry): {} in contact, \
+                 von Mises stress {}\n",
+                other.model.coupling,
+                other.model.friction,
+                other.model.geometry,
+                other.in_contact,
+                stresses(&other.bodies)
+            )
+        })
+    };
+    if audit.friction.is_empty() {
+        return String::new();
+    }
+    line("error: against the equilibrium under the scene's own friction", &audit.equilibrium)
+        + &line("the reference solution", &audit.reference)
+}
+
+/// Lays out which nodes stick and slide under each coefficient of friction, with their pressure and
+/// shear.
+fn rubbing(cases: &[Rubbing]) -> String {
+    if cases.is_empty() {
+        return String::new();
+    }
+    let nodes: BTreeSet<NodeId> = cases
+        .iter()
+        .flat_map(|case| case.nodes.iter().flatten().map(|contact| contact.node))
+        .collect();
+    let mut table = Table::of(nodes).column("node", |node| *node);
+    for case in cases {
+        let cell = |node: &NodeId| {
+            let contact = case.nodes.as_ref().ok()?.iter().find(|c| c.node == *node)?;
+            let [pressure, shear] = [contact.pressure, contact.shear].map(|x| or_dash(x, tenth));
+            Some(format!("{pressure} {shear} {}", contact.status?))
+        };
+        table = table
+            .column(format!("friction {}", case.friction), |node| or_dash(cell(node), |cell| cell));
+    }
+    let none = cases.iter().filter_map(|case| {
+        let why = case.nodes.as_ref().err()?;
+        Some(format!("  friction {}: {why}\n", case.friction))
+    });
     format!(
-        "  error: against the reference solution (unilateral, {}, friction {}): {} in contact, \
-         von Mises stress {}\n",
-        reference.model.coupling,
-        reference.model.friction,
-        reference.in_contact,
-        stresses(&reference.bodies)
+        "\n4. Pressure, shear and status of the nodes in contact by coefficient of friction \
+         (unilateral, mortar)\n{}{}",
+        table.text(),
+        none.collect::<String>()
     )
 }
 
-/// Lays out what friction the nodes of the reference solution take to stick, and which would slip.
-fn sticking(nodes: &[ContactNode]) -> String {
-    if nodes.is_empty() {
-        return String::new();
-    }
-    let needed = Table::of(nodes)
-        .column("node", |c| c.node)
-        .column("pressure", |c| short(c.pressure))
-        .column("shear", |c| short(c.shear))
-        .column("friction needed", |c| or_dash(c.friction_needed, short))
-        .text();
-    let slipping = FRICTION.map(|coefficient| {
-        let slips = nodes.iter().filter(|c| c.friction_needed.is_some_and(|f| f > coefficient));
-        let slipping = match listed(slips.map(|c| c.node)) {
-            nodes if nodes.is_empty() => "none".into(),
-            nodes => format!("nodes {nodes}"),
-        };
-        format!("  at a friction coefficient of {coefficient} {slipping} would slip\n")
-    });
-    format!(
-        "\n4. What friction it takes that the nodes of the reference solution stick\n{needed}{}",
-        slipping.concat()
-    )
+fn tenth(x: f64) -> String {
+    format!("{x:.1}")
 }
 
 /// Writes the audit as JSON.
@@ -199,8 +220,9 @@ pub fn json(audit: &Audit, scene: &Scene) -> String {
         "readings": audit.readings,
         "findings": findings,
         "variants": audit.variants,
+        "equilibrium": audit.equilibrium,
         "reference": audit.reference,
-        "sticking": audit.sticking,
+        "friction": audit.friction,
     }))
 }
 

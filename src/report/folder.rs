@@ -46,9 +46,14 @@ pub fn write(
         ],
     )?;
     if !solution.contact.is_empty() {
-        let measured = assessment.measure();
-        let reference = measured.map(|measured| &*measured.reference);
-        let runs: Vec<&Solution> = std::iter::once(solution).chain(reference).collect();
+        let measured = assessment.own();
+        let others = [assessment.measure(), measured].into_iter().flatten();
+        let mut runs = vec![solution];
+        for other in others.map(|measured| &*measured.reference) {
+            if !runs.iter().any(|run| run.request.is_same_equilibrium(&other.request)) {
+                runs.push(other);
+            }
+        }
         let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
         files::write(&folder.join("pressure.svg"), &pressure::picture(scene, &runs, hertz))?;
     }

@@ -57,7 +57,7 @@ fn curve(run: &Solution, [from, to]: [f64; 2]) -> Series {
     let shown = run.contact.iter().filter(|c| from <= c.arc && c.arc <= to);
     Series {
         name: name(run),
-        points: shown.map(|c| [c.arc, c.pressure]).collect(),
+        points: shown.filter_map(|c| Some([c.arc, c.pressure?])).collect(),
         style: Style::Dotted,
     }
 }

@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{json, plan};
 use crate::answer::contact::ContactNode;
-use crate::answer::{Assessment, BodySummary, Cycle, Distance, Hertz, Solution, Step};
+use crate::answer::{
+    Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Solution, Status, Step,
+};
 use crate::error::InputError;
 use crate::numbers::scalar::rational;
 use crate::numbers::solve::{Arithmetic, ScalarName};
@@ -56,8 +58,16 @@ pub struct ResultFile {
     pub hertz: Option<Hertz>,
     /// How far the numbers may be from the truth.
     pub error_estimates: KnownEstimates,
-    /// How far the run is from the reference solution, where there is one.
+    /// What `unilateral` knows of its equilibrium: the path of the load, and whether there are others;
+    /// absent under the other variants.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub equilibrium: Option<Equilibrium>,
+    /// How far the run is from the reference solution (no friction, initial geometry, mortar), where
+    /// there is one.
     pub distance: Option<Distance>,
+    /// How far the run is from the equilibrium under the scene's own friction and geometry; nothing
+    /// where that is the reference solution, or there is none.
+    pub distance_from_equilibrium: Option<Distance>,
     /// The displacement of each node along x and y, length.
     pub u: Vec<[f64; 2]>,
     /// The same in decimal with all digits, where the scalar has more than an `f64`.
@@ -98,6 +108,13 @@ pub struct IterationRow {
     pub in_contact: usize,
     /// Which entries of the contact surface were in contact: 1 or 0 for each.
     pub dy: Vec<u8>,
+    /// Under `unilateral`, the part of the path of the load that was applied; whole numbers end
+    /// stages.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<f64>,
+    /// Under `unilateral`, the status of each entry of the contact surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub statuses: Option<Vec<Status>>,
     /// The largest displacement of a node, total, length.
     pub max_displacement: f64,
     /// Where this contact state came before; nothing where it is new.
@@ -175,7 +192,12 @@ impl ResultFile {
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
             error_estimates: KnownEstimates::new(assessment),
+            equilibrium: solution.equilibrium.clone(),
             distance: assessment.measure().map(|measured| measured.distance.clone()),
+            distance_from_equilibrium: match &assessment.equilibrium {
+                Some(Ok(measured)) => Some(measured.distance.clone()),
+                _ => None,
+            },
             u: solution.displacements(),
             u_digits: digits(solution),
             elements: elements(solution),
@@ -213,7 +235,13 @@ impl ReadingInForce {
 
 impl IterationRow {
     fn new(step: &Step) -> Self {
+        let (load, statuses) = match &step.detail {
+            Detail::Unilateral(own) => (Some(own.load), Some(own.statuses.clone())),
+            Detail::Published(_) => (None, None),
+        };
         IterationRow {
+            load,
+            statuses,
             k: step.k,
             in_contact: step.in_contact,
             dy: step.statuses().into_iter().map(u8::from).collect(),

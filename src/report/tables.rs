@@ -1,10 +1,14 @@
 //! The tables of `solve` and `c-cnt`.
 
 use super::layout::{Table, aligned, listed};
-use super::numbers::{or_dash, percent, place, quantity, short, uncertain};
+use super::numbers::{or_dash, percent, place, quantity, short, uncertain, with_unit};
 use super::pressure;
 use crate::answer::contact::ContactNode;
-use crate::answer::{Assessment, BodySummary, Cycle, Solution};
+use crate::answer::error::Error;
+use crate::answer::{
+    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Solution, Status, Step,
+    Uniqueness, max_displacement,
+};
 use crate::paper::door::Call;
 use crate::problem::model::{EdgeId, Model, NodeId};
 use crate::problem::modelling::Variant;
@@ -18,7 +22,12 @@ const FAIR: f64 = 0.2;
 pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
     let scene = &solution.request.scene;
     let mut text = format!("{} ({})\n{}", scene.title, heading(solution), dropped(scene));
-    text += &format!("\nIterations\n{}", iterations(solution));
+    text += &match path(solution) {
+        Some(path) => format!("\nPath of the load\n{}", load_steps(solution, path)),
+        None => format!("\nIterations\n{}", iterations(solution)),
+    };
+    text +=
+        &solution.equilibrium.as_ref().map_or(String::new(), |found| equilibrium(solution, found));
     if solution.model.target().is_some() {
         let nodes = match solution.last().contact_set(&solution.model) {
             nodes if nodes.is_empty() => "no node".into(),
@@ -100,6 +109,101 @@ fn iterations(solution: &Solution) -> String {
         .text()
 }
 
+fn path(solution: &Solution) -> Option<&Path> {
+    solution.equilibrium.as_ref()?.path.as_ref()
+}
+
+/// Lays out the last iteration under each load of a path.
+fn load_steps(solution: &Solution, path: &Path) -> String {
+    let units = &solution.request.scene.units;
+    let length = |name| quantity(name, &units.length);
+    let detail = |step: &Step| match &step.detail {
+        Detail::Unilateral(own) => Some((own.load, own.statuses.clone())),
+        Detail::Published(_) => None,
+    };
+    let details: Vec<(f64, Vec<Status>)> = solution.steps.iter().filter_map(detail).collect();
+    let ends = |i: &usize| details.get(i + 1).is_none_or(|next| next.0 != details[*i].0);
+    let last: Vec<usize> = (0..details.len()).filter(ends).collect();
+    let before = |row: usize| row.checked_sub(1).map_or(0, |before| last[before] + 1);
+    let count = |row: usize, counted: fn(&Status) -> bool| {
+        details[last[row]].1.iter().filter(|status| counted(status)).count()
+    };
+    let table = Table::of(0..last.len())
+        .column("load", |row| short(details[last[*row]].0))
+        .column("iterations", |row| last[*row] + 1 - before(*row))
+        .column("stick", |row| count(*row, |status| *status == Status::Stick))
+        .column("slip", |row| count(*row, |status| matches!(status, Status::Slip(_))))
+        .column(length("largest |u|"), |row| short(solution.steps[last[*row]].max_displacement))
+        .column(length("gap or overlap left"), |row| {
+            short(solution.steps[last[*row]].contact_residual())
+        })
+        .column(quantity("force on target", &units.force), |row| {
+            short(solution.steps[last[*row]].target_force)
+        })
+        .text();
+    let largest = max_displacement(&solution.u);
+    let change = match path.change {
+        Some(change) => format!(
+            "half as many steps change displacements by {} = {}",
+            with_unit(&short(change), &units.length),
+            percent(if largest > 0.0 { change / largest } else { 0.0 }, 2)
+        ),
+        None => "what is left of the size of the steps is not known: ask for an even number".into(),
+    };
+    let halved = match path.halved {
+        0 => String::new(),
+        n => format!("; {n} halved, as no equilibrium was found"),
+    };
+    format!("{table}  {} steps a stage{halved}; {change}\n", path.steps)
+}
+
+/// Says whether the equilibrium is the only one, and what is left of the change of shape.
+fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
+    let length = |x: f64| with_unit(&short(x), &solution.request.scene.units.length);
+    let mut text = match &found.uniqueness {
+        Uniqueness::Unique => {
+            "Equilibrium: the only one in the shape reached (convex, no friction)\n".into()
+        }
+        Uniqueness::Indifferent { node } => format!(
+            "Equilibrium: NOT THE ONLY ONE: node {node} can move without work, as contacts that carry \
+             nothing may open\n"
+        ),
+        Uniqueness::Tried { states, all, others } => {
+            let tried = match all {
+                true => format!("all {states} contact states of the last step were tried"),
+                false => {
+                    format!("{states} neighbouring contact states of the last step were tried")
+                }
+            };
+            match others.len() {
+                0 => format!("Equilibrium: no other one; {tried}\n"),
+                n => format!("Equilibrium: NOT THE ONLY ONE: {n} more; {tried}\n"),
+            }
+        }
+    };
+    if let Uniqueness::Tried { others, .. } = &found.uniqueness {
+        for other in others {
+            let nodes = |nodes: &[NodeId]| match nodes {
+                [] => "none".into(),
+                nodes => format!("nodes {}", listed(nodes)),
+            };
+            text += &format!(
+                "  stick {}; slip {}: displacements change by {}\n",
+                nodes(&other.stick),
+                nodes(&other.slip),
+                length(other.change)
+            );
+        }
+    }
+    if found.shape_change > 0.0 {
+        text += &format!(
+            "Shape: contact was last measured where displacements changed by {}\n",
+            length(found.shape_change)
+        );
+    }
+    text
+}
+
 fn state(cycle: Option<&Cycle>) -> String {
     match cycle {
         None => "new".into(),
@@ -128,9 +232,10 @@ fn contact_surface(solution: &Solution) -> String {
         .column("node", |c: &&ContactNode| c.node)
         .column(quantity("arc", &units.length), |c| short(c.arc))
         .column(quantity("gap", &units.length), |c| format!("{:.1e}", c.gap))
-        .column(quantity("pressure", &units.stress), |c| short(c.pressure))
-        .column(quantity("shear", &units.stress), |c| short(c.shear))
+        .column(quantity("pressure", &units.stress), |c| or_dash(c.pressure, short))
+        .column(quantity("shear", &units.stress), |c| or_dash(c.shear, short))
         .column("friction needed", |c| or_dash(c.friction_needed, short))
+        .column("status", |c| or_dash(c.status, |status| status.to_string()))
         .text()
 }
 
@@ -159,14 +264,22 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
     text + "\n"
 }
 
-/// Lays out how far a run is from the reference solution, or tells why there is none.
+/// Lays out how far a run is from the reference solution and from the equilibrium under the scene's
+/// own friction, or why there is none.
 pub fn distance(solution: &Solution, assessment: &Assessment) -> String {
-    let measured = match &assessment.reference {
-        None => return String::new(),
-        Some(Err(why)) => {
-            return format!("\nNo reference solution to measure this against: {why}\n");
-        }
-        Some(Ok(measured)) => measured,
+    let reference = assessment.reference.as_ref();
+    let own = assessment.equilibrium.as_ref();
+    let of = |what: &str, other: Option<&Result<Measured, Error>>| {
+        other.map_or(String::new(), |other| distance_from(solution, what, other))
+    };
+    of("reference solution", reference)
+        + &of("equilibrium under the scene's own friction and geometry", own)
+}
+
+fn distance_from(solution: &Solution, what: &str, other: &Result<Measured, Error>) -> String {
+    let measured = match other {
+        Err(why) => return format!("\nNo {what} to measure this against: {why}\n"),
+        Ok(measured) => measured,
     };
     let units = &solution.request.scene.units;
     let (of, reference) = (&measured.distance, &measured.reference);
@@ -185,10 +298,11 @@ pub fn distance(solution: &Solution, assessment: &Assessment) -> String {
         ]
     });
     format!(
-        "\nDistance from the reference solution ({}; {} in contact)\n{}",
+        "\nDistance from the {what} ({}, {} geometry; {} in contact)\n{}",
         pressure::name(reference),
+        reference.request.contact.geometry,
         reference.in_contact().count(),
-        aligned(["", "this run", "reference", "difference"], wholes.into_iter().chain(bodies))
+        aligned(["", "this run", "there", "difference"], wholes.into_iter().chain(bodies))
     )
 }
 

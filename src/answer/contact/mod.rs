@@ -10,7 +10,7 @@ mod surface;
 
 pub use pairing::Pairing;
 pub(super) use pressure::arcs;
-pub use pressure::{ContactNode, Traction};
+pub use pressure::{ContactNode, Traction, reactions};
 pub use surface::Surfaces;
 
 use crate::problem::modelling::Coupling;

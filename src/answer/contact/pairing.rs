@@ -33,10 +33,17 @@ pub struct Pairing {
 impl Pairing {
     /// Returns n·(v_c − Σ w v_t) of a field: of coordinates the gap, of displacements its change.
     pub fn opening(&self, of_node: impl Fn(NodeId) -> [f64; 2]) -> f64 {
+        dot(self.motion(of_node), self.normal)
+    }
+
+    /// Returns v_c − Σ w v_t of a field.
+    pub fn motion(&self, of_node: impl Fn(NodeId) -> [f64; 2]) -> [f64; 2] {
         let at = of_node(self.node);
         // Differences from the node lose no digits far from the origin.
-        let from = |master: NodeId| dot(minus(at, of_node(master)), self.normal);
-        self.masters.iter().map(|&(master, w)| w * from(master)).sum()
+        self.masters.iter().fold([0.0; 2], |[x, y], &(master, w)| {
+            let [dx, dy] = minus(at, of_node(master));
+            [x + w * dx, y + w * dy]
+        })
     }
 }
 

@@ -6,9 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use super::pairing::Pairing;
 use super::surface::Surfaces;
-use crate::answer::not_finite::or_nan;
-use crate::answer::support::normal_force;
+use crate::answer::solution::Status;
 use crate::problem::model::{Model, NodeId};
+
+/// How far the size of a normal's component may be from 1 where a restraint is across the normal.
+const ACROSS: f64 = 1e-9;
 
 /// A contact node at the end of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,15 +24,16 @@ pub struct ContactNode {
     pub in_contact: bool,
     /// The distance from the target along its normal, length; < 0 where the node penetrates.
     pub gap: f64,
-    /// The force on the node along the normal, force; < 0 where it pulls.
-    #[serde(deserialize_with = "or_nan")]
-    pub force: f64,
+    /// The status under `unilateral`; None under the other variants.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub status: Option<Status>,
+    /// The force on the node along the normal, force; < 0 where it pulls. None where restraints of
+    /// the node leave it undetermined.
+    pub force: Option<f64>,
     /// The contact pressure: the force over the undeformed surface of the node, stress.
-    #[serde(deserialize_with = "or_nan")]
-    pub pressure: f64,
+    pub pressure: Option<f64>,
     /// The traction along the tangent, which is the normal turned left, stress.
-    #[serde(deserialize_with = "or_nan")]
-    pub shear: f64,
+    pub shear: Option<f64>,
     /// |shear| / pressure, the friction that keeps the node from sliding; None without pressure.
     pub friction_needed: Option<f64>,
 }
@@ -58,10 +61,14 @@ pub struct Traction<'a> {
     pub measured_in: &'a [[f64; 2]],
     /// The pairing of each entry of the contact surface in that shape.
     pub pairings: &'a [Option<Pairing>],
+    /// The gap of each entry, length; None where it faces nothing.
+    pub gaps: &'a [Option<f64>],
     /// Whether each entry of the contact surface is in contact.
     pub in_contact: &'a [bool],
-    /// The reaction K u − F by degree of freedom, force.
-    pub reaction: &'a DVector<f64>,
+    /// The status of each entry; None where the variant has no such statuses.
+    pub statuses: Option<&'a [Status]>,
+    /// The force of each entry along normal and tangent, force; None where it is not determined.
+    pub forces: &'a [[Option<f64>; 2]],
 }
 
 impl Traction<'_> {
@@ -73,32 +80,51 @@ impl Traction<'_> {
         let node = |i: usize| {
             let pairing = self.pairings[i].as_ref()?;
             let stretch = lengths[1][i] / lengths[0][i];
-            Some(self.node(pairing, arcs[i], self.in_contact[i], over(pairing.length, stretch)))
+            Some(self.node(i, pairing, arcs[i], over(pairing.length, stretch)))
         };
         (0..self.pairings.len()).filter_map(node).collect()
     }
 
-    /// Returns the tractions on a node that represents `length` of the undeformed surface.
-    fn node(&self, pairing: &Pairing, arc: f64, in_contact: bool, length: f64) -> ContactNode {
-        let [rx, ry] = pairing.node.of(self.reaction);
-        let [nx, ny] = pairing.normal;
-        let normal = normal_force(self.model, pairing, self.reaction);
-        // At a restrained node the tangential part may belong to the restraint.
-        let restrained = self.model.restraints_of(pairing.node).contains(&true);
-        let tangent = if restrained { 0.0 } else { nx * ry - ny * rx };
+    /// Returns the tractions on an entry that represents `length` of the undeformed surface.
+    fn node(&self, i: usize, pairing: &Pairing, arc: f64, length: f64) -> ContactNode {
+        let [normal, tangent] = self.forces[i];
         let area = length * self.model.thickness;
-        let presses = in_contact && normal > 0.0;
+        let pressing = normal.filter(|normal| self.in_contact[i] && *normal > 0.0);
         ContactNode {
             node: pairing.node,
             arc,
-            in_contact,
-            gap: pairing.gap,
+            in_contact: self.in_contact[i],
+            gap: self.gaps[i].unwrap_or(pairing.gap),
+            status: self.statuses.map(|statuses| statuses[i]),
             force: normal,
-            pressure: over(normal, area),
-            shear: over(tangent, area),
-            friction_needed: presses.then(|| tangent.abs() / normal),
+            pressure: normal.map(|normal| over(normal, area)),
+            shear: tangent.map(|tangent| over(tangent, area)),
+            friction_needed: pressing.zip(tangent).map(|(normal, tangent)| tangent.abs() / normal),
         }
     }
+}
+
+/// Returns the forces along normal and tangent of every entry from the reaction K u − F of its node,
+/// force. A component in which the node is restrained may belong to the restraint and does not
+/// count; along the tangent nothing is determined then.
+pub fn reactions(
+    model: &Model,
+    pairings: &[Option<Pairing>],
+    reaction: &DVector<f64>,
+) -> Vec<[Option<f64>; 2]> {
+    let of_pairing = |pairing: &Pairing| {
+        let ([nx, ny], restrained) = (pairing.normal, model.restraints_of(pairing.node));
+        let force = pairing.node.of(reaction);
+        let [rx, ry] = [0, 1].map(|d| if restrained[d] { 0.0 } else { force[d] });
+        let [across_x, across_y] = [ny, nx].map(|n| n.abs() > 1.0 - ACROSS);
+        match restrained {
+            [false, false] => [Some(nx * rx + ny * ry), Some(nx * ry - ny * rx)],
+            [true, false] if across_x => [Some(ny * ry), Some(0.0)],
+            [false, true] if across_y => [Some(nx * rx), Some(0.0)],
+            _ => [None, None],
+        }
+    };
+    pairings.iter().map(|p| p.as_ref().map_or([None, None], of_pairing)).collect()
 }
 
 /// Returns a / b, or 0 for a node that represents no length.

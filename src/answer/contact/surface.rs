@@ -98,6 +98,11 @@ impl Surfaces {
         Ok(Surfaces { nodes, contact, target, undeformed })
     }
 
+    /// Returns the nodes of the contact surface, one for each entry.
+    pub fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
     /// Returns the target edges in a shape, for the search.
     pub(super) fn segments(&self, shape: &[Vector]) -> Vec<Segment<f64>> {
         let ends = |edge: &Edge| edge.nodes.map(|n| shape[n.index()]);

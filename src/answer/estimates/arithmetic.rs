@@ -8,7 +8,7 @@
 
 use nalgebra::{DVector, SVector};
 
-use crate::answer::{Elimination, Request, Solution, Stiffness, solve};
+use crate::answer::{Detail, Elimination, Request, Solution, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::numbers::solve::{Arithmetic, ScalarName, Solver, SparseCholesky, error_bound};
 use crate::problem::element::Plane;
@@ -24,9 +24,11 @@ pub fn displacement_bound(solution: &Solution) -> f64 {
         Variant::Unilateral => last_state(solution),
         _ => bounded_run(solution),
     };
+    // What is left of the change of shape is no rounding, but no less an error of the displacements.
+    let shape_change = solution.equilibrium.as_ref().map_or(0.0, |found| found.shape_change);
     again.map_or(f64::INFINITY, |u| {
         let error = |e: usize| (u[e].to_f64() - solution.u[e]).abs() + u[e].error();
-        (0..u.len()).map(error).fold(0.0, f64::max)
+        (0..u.len()).map(error).fold(shape_change, f64::max)
     })
 }
 
@@ -48,14 +50,16 @@ fn bounded_run(solution: &Solution) -> Option<DVector<Bounded>> {
     Some(run.u.map(|u| Bounded::new(u, bound)))
 }
 
-/// Solves the last contact state of `unilateral` again, with a bound on each displacement.
+/// Solves the last contact state of `unilateral` again, under its friction, with a bound on each
+/// displacement.
 fn last_state(solution: &Solution) -> Option<DVector<Bounded>> {
     let model = &*solution.model;
     let constraints = solution.last().constraints.iter().map(|c| c.map(Bounded::from_f64));
     let constraints: Vec<_> = constraints.collect();
-    let t = Elimination::with_normals(&model.restrained, &constraints).ok()?;
+    let t = Elimination::closing(&model.restrained, &constraints);
     let stiffness = Stiffness::new(model, Bounded::from_f64);
-    let load = model.free_load().map(Bounded::from_f64);
+    let Detail::Unilateral(detail) = &solution.last().detail else { return None };
+    let load = model.free_part(&(&model.load + &detail.friction)).map(Bounded::from_f64);
     let (matrix, b) = (stiffness.reduced(&t), t.load(&(load - stiffness.times(t.shift()))));
     let factors = SparseCholesky::new(matrix.map(|a| a.to_f64())).ok()?;
     let x = factors.solve(&b.map(Scalar::to_f64));

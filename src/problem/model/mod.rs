@@ -98,6 +98,9 @@ pub struct Model {
     pub restrained: Vec<bool>,
     /// The load by degree of freedom, restrained ones included, force.
     pub load: DVector<f64>,
+    /// The part of the load that each stage adds, in order, restrained degrees of freedom included,
+    /// force; they sum to the load.
+    pub stages: Vec<DVector<f64>>,
     /// The bodies, by their lowest node.
     pub bodies: Vec<Body>,
     /// The contact surface and the target surface.
@@ -164,7 +167,12 @@ impl Model {
 
     /// Returns the load by degree of freedom, 0 at restrained ones, force.
     pub fn free_load(&self) -> DVector<f64> {
-        let free = |e, _| if self.restrained[e] { 0.0 } else { self.load[e] };
+        self.free_part(&self.load)
+    }
+
+    /// Returns a load by degree of freedom with 0 at restrained ones, force.
+    pub fn free_part(&self, load: &DVector<f64>) -> DVector<f64> {
+        let free = |e, _| if self.restrained[e] { 0.0 } else { load[e] };
         DVector::from_fn(self.dofs(), free)
     }
 

@@ -198,7 +198,7 @@ mod tests {
             .force(8, [0.5, -0.0])
             .contact(Contact {
                 coupling: Coupling::Mortar,
-                friction: Friction::None,
+                friction: Friction::NONE,
                 geometry: Geometry::Initial,
                 status: StatusRule::Projection,
                 ..Contact::new(vec![6, 7], "target", 0.001)

@@ -10,7 +10,9 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::groups::GroupRef;
 use super::surface::Surface;
 use crate::problem::element::Plane;
-use crate::problem::modelling::{Coupling, Friction, Geometry, StatusRule, Variant};
+use crate::problem::modelling::{
+    Coupling, Friction, Geometry, LOAD_STEPS, StatusRule, Variant, load_steps,
+};
 
 /// The description of a mesh, without the mesh itself. Lengths, forces and stresses may be in any
 /// consistent unit. Fields with their default are not written.
@@ -84,6 +86,10 @@ fn is_default_thickness(thickness: &f64) -> bool {
 
 fn is_default_iterations(iterations: &usize) -> bool {
     *iterations == default_iterations()
+}
+
+fn is_default_load_steps(steps: &usize) -> bool {
+    *steps == LOAD_STEPS
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -170,6 +176,10 @@ pub struct Load {
     /// The force on that node along x and y, force.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force: Option<[f64; 2]>,
+    /// The stage, from 1, in which `unilateral` applies the load, after the loads of the stages
+    /// before it; the first where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stage: Option<usize>,
 }
 
 /// The two contact surfaces, the tolerance between them, and how contact is modelled.
@@ -188,23 +198,18 @@ pub struct Contact {
     /// The method that binds a contact node to the target.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub coupling: Coupling,
-    /// The motion of the node along the tangent under `unilateral`: 0 (it slides) or "stick".
-    #[serde(default, serialize_with = "friction", skip_serializing_if = "is_default")]
+    /// The friction between the surfaces under `unilateral`: a coefficient, or "stick".
+    #[serde(default, skip_serializing_if = "is_default")]
     pub friction: Friction,
     /// The shape in which `unilateral` measures contact.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub geometry: Geometry,
+    /// The number of equal steps in which `unilateral` applies the load of a stage.
+    #[serde(default = "load_steps", skip_serializing_if = "is_default_load_steps")]
+    pub load_steps: usize,
     /// The rule by which `tied` and `stepped` decide which nodes are in contact.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub status: StatusRule,
-}
-
-/// Writes no friction as the number 0, because it is a coefficient.
-fn friction<S: Serializer>(friction: &Friction, serializer: S) -> Result<S::Ok, S::Error> {
-    match friction {
-        Friction::None => serializer.serialize_u8(0),
-        other => other.serialize(serializer),
-    }
 }
 
 impl Contact {
@@ -217,6 +222,7 @@ impl Contact {
             coupling: Coupling::default(),
             friction: Friction::default(),
             geometry: Geometry::default(),
+            load_steps: LOAD_STEPS,
             status: StatusRule::default(),
         }
     }

@@ -10,6 +10,38 @@ use super::mesh::Mesh;
 use crate::error::InputError;
 use crate::problem::model::{NodeId, Sides};
 
+/// Returns the forces that each stage adds on all 2R degrees of freedom, restrained ones included,
+/// force. There is at least one stage.
+///
+/// # Errors
+/// No load belongs to a stage before the last one; and the errors of [`vector`].
+pub fn stages(
+    mesh: &Mesh,
+    sides: &Sides,
+    loads: &[Load],
+    thickness: f64,
+) -> Result<Vec<DVector<f64>>, InputError> {
+    let stage = |load: &Load| load.stage.unwrap_or(1);
+    let last = loads.iter().map(stage).max().unwrap_or(1);
+    let of_stage = |k: usize| {
+        let own: Vec<Load> = loads.iter().filter(|load| stage(load) == k).cloned().collect();
+        if own.is_empty() && !loads.is_empty() {
+            let what = format!("no load has stage {k}, but one has stage {last}");
+            return Err(InputError::new(
+                "loads",
+                what,
+                "number the stages 1, 2, ... without a gap",
+            ));
+        }
+        vector(mesh, sides, &own, thickness)
+    };
+    if let Some(k) = loads.iter().position(|load| load.stage == Some(0)) {
+        let what = "stages count from 1";
+        return Err(InputError::new(format!("loads[{k}].stage"), what, "give 1 or more"));
+    }
+    (1..=last.min(loads.len() + 1)).map(of_stage).collect()
+}
+
 /// Returns the forces on all 2R degrees of freedom, restrained ones included, force.
 ///
 /// # Errors
@@ -24,16 +56,37 @@ pub fn vector(
     for (k, load) in loads.iter().enumerate() {
         let place = format!("loads[{k}]");
         match load {
-            Load { node: Some(n), force: Some(p), on: None, pressure: None, traction: None } => {
+            Load {
+                node: Some(n),
+                force: Some(p),
+                on: None,
+                pressure: None,
+                traction: None,
+                ..
+            } => {
                 mesh.check_node(*n, &place)?;
                 add(&mut f, *n, *p);
             }
-            Load { on: Some(on), pressure: Some(p), traction: None, node: None, force: None } => {
+            Load {
+                on: Some(on),
+                pressure: Some(p),
+                traction: None,
+                node: None,
+                force: None,
+                ..
+            } => {
                 on_edges(&mut f, (mesh, sides), on, thickness, &place, |inward| {
                     [p * inward[0], p * inward[1]]
                 })?;
             }
-            Load { on: Some(on), traction: Some(t), pressure: None, node: None, force: None } => {
+            Load {
+                on: Some(on),
+                traction: Some(t),
+                pressure: None,
+                node: None,
+                force: None,
+                ..
+            } => {
                 on_edges(&mut f, (mesh, sides), on, thickness, &place, |_| *t)?;
             }
             _ => {

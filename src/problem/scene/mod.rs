@@ -124,6 +124,7 @@ impl Scene {
             edges: mesh.of_dimension(1).map(edge).collect(),
             contact: check::contact(mesh, &file)?,
             load: DVector::zeros(2 * mesh.nodes.len()),
+            stages: Vec::new(),
             bodies: model::bodies(mesh.nodes.len(), &triangles, &names),
             rows: rows(mesh),
             triangles,
@@ -132,6 +133,7 @@ impl Scene {
         };
         check::restrained_bodies(&model)?;
         model.load = load::vector(mesh, &model.sides, &file.loads, file.thickness)?;
+        model.stages = load::stages(mesh, &model.sides, &file.loads, file.thickness)?;
         Ok(Scene {
             name: name.into(),
             title: file.title.clone(),
@@ -144,6 +146,7 @@ impl Scene {
                     coupling: contact.coupling,
                     friction: contact.friction,
                     geometry: contact.geometry,
+                    load_steps: contact.load_steps,
                     status: contact.status,
                 }
             }),

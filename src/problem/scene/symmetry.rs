@@ -154,13 +154,14 @@ impl<'a> Mirror<'a> {
     /// Returns whether restraints and loads are symmetric.
     fn conditions(&self, images: &Images) -> bool {
         let model = self.model;
-        let near = LOAD * model.load.amax();
+        let same_load = |load: &DVector<f64>, n: NodeId| {
+            let ([nx, ny], [mx, my]) = (n.of(load), images.of(n).of(load));
+            let near = LOAD * load.amax();
+            (nx + mx).abs() <= near && (ny - my).abs() <= near
+        };
         model.node_ids().all(|n| {
-            let m = images.of(n);
-            let ([nx, ny], [mx, my]) = (n.of(&model.load), m.of(&model.load));
-            model.restraints_of(n) == model.restraints_of(m)
-                && (nx + mx).abs() <= near
-                && (ny - my).abs() <= near
+            model.restraints_of(n) == model.restraints_of(images.of(n))
+                && model.stages.iter().all(|stage| same_load(stage, n))
         })
     }
 }
@@ -199,7 +200,8 @@ impl<'a> Restriction<'a> {
             triangles,
             edges: edges.collect(),
             restrained: self.dofs().map(|dof| self.is_restrained(dof)).collect(),
-            load: DVector::from_iterator(2 * self.nodes.len(), self.dofs().map(|d| self.load(d))),
+            load: self.load(&whole.load),
+            stages: whole.stages.iter().map(|stage| self.load(stage)).collect(),
             bodies: bodies.filter(|body| !body.triangles.is_empty()).collect(),
             contact: self.contact(),
             rows: whole.rows.iter().filter_map(|row| self.row(row)).collect(),
@@ -219,13 +221,14 @@ impl<'a> Restriction<'a> {
         dof.direction() == 0 && self.on_line(dof) || self.mirror.model.is_restrained(dof)
     }
 
-    fn load(&self, dof: Dof) -> f64 {
-        let whole = self.mirror.model.load[dof.index()];
-        match (self.on_line(dof), dof.direction()) {
+    /// Returns the half of a load: of a force on the line half along it and none across it, force.
+    fn load(&self, whole: &DVector<f64>) -> DVector<f64> {
+        let half = |dof: Dof| match (self.on_line(dof), dof.direction()) {
             (true, 0) => 0.0,
-            (true, _) => 0.5 * whole,
-            (false, _) => whole,
-        }
+            (true, _) => 0.5 * whole[dof.index()],
+            (false, _) => whole[dof.index()],
+        };
+        DVector::from_iterator(2 * self.nodes.len(), self.dofs().map(half))
     }
 
     /// Returns nodes under their new numbers; None where one is not in the half.

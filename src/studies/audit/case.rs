@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::answer::error::Error;
-use crate::answer::{Request, Solution, reference, solve};
+use crate::answer::{Request, Solution, equilibrium, solve};
 use crate::paper::door::Call;
 use crate::paper::mirror::{Failure, Reading};
 use crate::problem::model::Model;
@@ -16,12 +16,18 @@ pub struct Case {
     pub scene: Scene,
     runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
     reference: OnceLock<Option<Solution>>,
+    equilibrium: OnceLock<Option<Solution>>,
 }
 
 impl Case {
     /// The case of a scene, of which nothing has run yet.
     pub fn new(scene: Scene) -> Self {
-        Case { scene, runs: Default::default(), reference: OnceLock::new() }
+        Case {
+            scene,
+            runs: Default::default(),
+            reference: OnceLock::new(),
+            equilibrium: OnceLock::new(),
+        }
     }
 
     /// The model, as it is under the default reading.
@@ -43,11 +49,18 @@ impl Case {
         self.runs[at].get_or_init(|| solve(&self.request(variant), &mut |_| ())).as_ref()
     }
 
-    /// The reference solution that runs are measured against; nothing without contact, and where
-    /// it does not run.
+    /// The reference solution; nothing without contact, and where it does not run.
     pub fn reference(&self) -> Option<&Solution> {
         self.model().target()?;
-        self.reference.get_or_init(|| reference(&Request::new(&self.scene)).ok()).as_ref()
+        let request = Request::new(&self.scene).reference();
+        self.reference.get_or_init(|| solve(&request, &mut |_| ()).ok()).as_ref()
+    }
+
+    /// The equilibrium under the scene's own friction, which variants are measured against; nothing
+    /// without contact, and where it does not run.
+    pub fn equilibrium(&self) -> Option<&Solution> {
+        self.model().target()?;
+        self.equilibrium.get_or_init(|| equilibrium(&Request::new(&self.scene)).ok()).as_ref()
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.

@@ -13,7 +13,7 @@ use serde::Serialize;
 pub use case::Case;
 
 use crate::answer::contact::ContactNode;
-use crate::answer::{BodySummary, summaries};
+use crate::answer::{BodySummary, Request, Solution, solve, summaries};
 use crate::problem::modelling::{ContactModel, Friction};
 use findings::{FINDINGS, Finding, Measured};
 use readings::Effect;
@@ -27,17 +27,31 @@ pub struct Audit {
     pub findings: Vec<(&'static Finding, Measured)>,
     /// The end of each variant, in the order of `Variant::ALL`.
     pub variants: Vec<VariantRow>,
-    /// What the variants are measured against; nothing without contact, and where the reference
-    /// solution does not run.
-    pub reference: Option<ReferenceSummary>,
-    /// The contact nodes of the reference solution that are in contact, where they stick: what
-    /// friction that takes. Empty where they slide, and where there is no reference solution.
-    pub sticking: Vec<ContactNode>,
+    /// The equilibrium under the scene's own friction, which the variants are measured against;
+    /// nothing without contact, and where it does not run.
+    pub equilibrium: Option<Compared>,
+    /// The reference solution; nothing without contact, and where it does not run.
+    pub reference: Option<Compared>,
+    /// The contact under other coefficients of friction.
+    pub friction: Vec<Rubbing>,
 }
 
-/// The reference solution in short.
+/// The coefficients of friction under which contact is shown: none, dry concrete on steel by and
+/// large, and more than nodes need to stick.
+pub const FRICTION: [f64; 5] = [0.0, 0.1, 0.2, 0.4, f64::INFINITY];
+
+/// The contact under a coefficient of friction.
 #[derive(Clone, Debug, Serialize)]
-pub struct ReferenceSummary {
+pub struct Rubbing {
+    /// The coefficient.
+    pub friction: Friction,
+    /// The contact nodes in contact; or why there is no equilibrium.
+    pub nodes: Result<Vec<ContactNode>, String>,
+}
+
+/// A solution that others are compared with, in short.
+#[derive(Clone, Debug, Serialize)]
+pub struct Compared {
     /// How contact was modelled.
     pub model: ContactModel,
     /// Number of contact nodes in contact at the end.
@@ -51,18 +65,33 @@ pub fn audit(case: &Case) -> Audit {
     let variants = variants::side_by_side(case);
     let readings = readings::effects(case);
     let findings = FINDINGS.par_iter().map(|finding| (finding, finding.measure(case))).collect();
-    let reference = case.reference();
-    let sticks = case.scene.contact.friction != Friction::None;
-    let sticking = reference.iter().filter(|_| sticks).flat_map(|solution| solution.in_contact());
     Audit {
         readings,
         findings,
         variants,
-        reference: reference.map(|solution| ReferenceSummary {
-            model: solution.request.contact,
-            in_contact: solution.in_contact().count(),
-            bodies: summaries(solution),
-        }),
-        sticking: sticking.cloned().collect(),
+        equilibrium: case.equilibrium().map(compared),
+        reference: case.reference().map(compared),
+        friction: case.model().target().map_or(Vec::new(), |_| friction(case)),
     }
+}
+
+fn compared(solution: &Solution) -> Compared {
+    Compared {
+        model: solution.request.contact,
+        in_contact: solution.in_contact().count(),
+        bodies: summaries(solution),
+    }
+}
+
+/// Returns the contact under each coefficient.
+fn friction(case: &Case) -> Vec<Rubbing> {
+    let rubbing = |mu: &f64| {
+        let friction = Friction::new(*mu).expect("the coefficients are not negative");
+        let request = Request::new(&case.scene).equilibrium();
+        let contact = ContactModel { friction, ..request.contact };
+        let solution = solve(&request.contact(contact), &mut |_| ());
+        let nodes = solution.map(|solution| solution.in_contact().cloned().collect());
+        Rubbing { friction, nodes: nodes.map_err(|why| why.to_string()) }
+    };
+    FRICTION.par_iter().map(rubbing).collect()
 }

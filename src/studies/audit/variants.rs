@@ -36,7 +36,8 @@ pub enum End {
         cycle: Option<Cycle>,
         /// The largest displacement and stress of each body.
         bodies: Vec<BodySummary>,
-        /// How far this is from the reference solution; nothing where there is none.
+        /// How far this is from the equilibrium under the scene's own friction; nothing where there is
+        /// none.
         distance: Option<Distance>,
         /// The largest friction coefficient that a node in contact would need not to slide.
         friction_needed: Option<f64>,
@@ -74,8 +75,12 @@ fn end(case: &Case, solution: &Solution) -> End {
         eq1_residual: last.contact_residual(),
         cycle: last.cycle.clone(),
         bodies: summaries(solution),
-        distance: case.reference().map(|reference| distance(solution, reference)),
+        distance: case.equilibrium().map(|other| distance(solution, other)),
         friction_needed: needed.reduce(f64::max),
-        pulling: solution.in_contact().filter(|c| c.force < 0.0).map(|c| c.node).collect(),
+        pulling: solution
+            .in_contact()
+            .filter(|c| c.force.is_some_and(|force| force < 0.0))
+            .map(|c| c.node)
+            .collect(),
     }
 }

@@ -73,7 +73,7 @@ fn scene(name: &str, mesh: MeshBuilder, plane: Plane) -> SceneBuilder {
 fn frictionless() -> Contact {
     Contact {
         coupling: Coupling::Mortar,
-        friction: Friction::None,
+        friction: Friction::NONE,
         ..Contact::new("contact", "target", 0.001)
     }
 }

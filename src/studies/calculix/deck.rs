@@ -125,9 +125,10 @@ fn pair_cards(model: &Model, pair: &Pair) -> Result<String, InputError> {
     let mut text = slave + &master + "*SURFACE INTERACTION, NAME=CONTACT\n";
     text += "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n";
     text += &(field(pair.penalty) + "\n");
-    if pair.friction == Friction::Stick {
+    if pair.friction != Friction::NONE {
         let slope = field(STICK_SLOPE * pair.penalty);
-        text += &format!("*FRICTION\n{},{slope}\n", field(STICKING));
+        let coefficient = pair.friction.coefficient().min(STICKING);
+        text += &format!("*FRICTION\n{},{slope}\n", field(coefficient));
     }
     Ok(text + "*CONTACT PAIR, INTERACTION=CONTACT, TYPE=NODE TO SURFACE\nSLAVE,MASTER\n")
 }

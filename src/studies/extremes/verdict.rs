@@ -74,6 +74,7 @@ impl From<Error> for Verdict {
             Error::Listing(failure) => format!("{} line {}", failure.listing, failure.line),
             Error::Execution(_) => "the listing".into(),
             Error::Singular(_) => "singular".into(),
+            Error::Equilibrium(_) => "no equilibrium".into(),
         })
     }
 }

@@ -115,7 +115,7 @@ impl Work<'_> {
 
     fn unilateral_states(&self) -> usize {
         match (self.candidates, self.request.contact.friction) {
-            (Some(found), Friction::None) => 1 + (found.near - found.touching) / NODES_OF_A_STATE,
+            (Some(found), Friction::NONE) => 1 + (found.near - found.touching) / NODES_OF_A_STATE,
             _ if self.settled() => 1,
             _ => STICKING_STATES,
         }

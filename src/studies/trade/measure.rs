@@ -8,7 +8,9 @@ use super::rows::{Row, Section, Trade};
 use super::trials::{Against, Trial, trials};
 use super::{Knob, words};
 use crate::answer::error::Error;
-use crate::answer::{Request, Solution, Stiffness, max_displacement, reference, solve, summaries};
+use crate::answer::{
+    Request, Solution, Stiffness, equilibrium, max_displacement, solve, summaries,
+};
 
 /// Seconds beyond which a trial is not run again: the median of one is itself.
 const PATIENCE: f64 = 4.0;
@@ -34,7 +36,7 @@ pub fn measure(
     mut watch: impl FnMut(&str),
 ) -> Result<Trade, Error> {
     let model = &request.scene.model;
-    let reference = model.target().and_then(|_| reference(request).ok());
+    let reference = model.target().and_then(|_| equilibrium(request).ok());
     let mut sections = Vec::new();
     for knob in Knob::ALL.iter().filter(|knob| options.only.contains(knob)) {
         let trials = trials(request, *knob);
@@ -67,7 +69,7 @@ fn against(knob: Knob) -> &'static str {
         Knob::Solver => "f64x2",
         Knob::Mesh => "the finest mesh that ran",
         Knob::Symmetry => "the whole scene under the same variant",
-        _ => "the reference solution on the same mesh (unilateral, mortar)",
+        _ => "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)",
     }
 }
 

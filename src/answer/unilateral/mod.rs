@@ -1,0 +1,50 @@
+//! Unilateral contact with Coulomb's friction: no gap in contact, no node that pulls, none that
+//! penetrates, and no tangential force beyond friction.
+//!
+//! ```text
+//!   gap g_i = n·(x_i − Σ w_ij x_j)       apart      g ≥ 0, p = 0, q = 0
+//!   slip Δs_i = t·(Δu_i − Σ w_ij Δu_j)   sticks     g = 0, p ≥ 0, Δs = 0, |q| ≤ μ p
+//!   p along n, q along t on node i       slides     g = 0, p ≥ 0, q = −μ p sign Δs
+//! ```
+//!
+//! The load grows in equal steps, stage by stage, and Δ is the change over a step (implicit Euler):
+//! with friction the path of the load is part of the problem, and its end is the solution. Without
+//! friction there is one step.
+//!
+//! In each step the statuses are found by a primal-dual active set: each iteration imposes them,
+//! and takes as the next ones those that the forces, gaps and slips ask for. Statuses that return,
+//! other than the last, would return without end: from then on one node changes at a time, the last
+//! along the surface of those that should; without friction that ends for every problem with one
+//! solution (K. G. Murty's least-index rule, Opsearch 11 (1974)). Where they do not restrain the
+//! bodies, the node that the load's motion brings to the target first closes; where no node comes
+//! nearer, those with the least gaps close. In the current geometry normals, weights and gaps are
+//! measured again in the shape reached, until that no longer changes the displacements. A step
+//! without an equilibrium is halved.
+//!
+//! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; S.
+//! Hüeber, G. Stadler, B. I. Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572-596 (friction); J. J.
+//! Júdice, F. M. Pires, Comput. Oper. Res. 21 (1994) 587-596 (the fall-back).
+
+mod equilibria;
+mod forces;
+mod path;
+mod problem;
+mod status;
+
+use super::error::Error;
+use super::request::Request;
+use super::solution::{Solution, Step};
+
+/// Finds the equilibrium at the end of the load's path, which is the last step; `watch` is called
+/// after each iteration.
+///
+/// # Errors
+/// Contact and restraints do not restrain the bodies, or no equilibrium was found.
+pub(super) fn unilateral(
+    request: &Request,
+    watch: &mut dyn FnMut(&Step),
+) -> Result<Solution, Error> {
+    let model = request.model()?;
+    let problem = problem::Problem::new(request, &model)?;
+    path::solve(&problem, watch)
+}

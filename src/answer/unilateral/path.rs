@@ -1,0 +1,211 @@
+//! The path of the load: stage by stage, in equal steps, each of which starts from the one before.
+
+use nalgebra::DVector;
+
+use super::equilibria::uniqueness;
+use super::forces::load_of;
+use super::problem::{Equilibrium, Iteration, Place, Problem, Setting};
+use crate::answer::contact::{ContactNode, Traction};
+use crate::answer::error::{Error, NoEquilibrium};
+use crate::answer::solution::{self, Detail, Path, Solution, Status, Step, max_displacement};
+use crate::answer::support::{against_load, restraints_of_target};
+
+/// How often a step without an equilibrium is halved.
+const HALVINGS: usize = 6;
+
+/// A point of the path: what the next step starts from.
+struct Point {
+    /// The part of the path that was applied; whole numbers end stages.
+    load: f64,
+    /// The displacements, length.
+    u: DVector<f64>,
+    /// The statuses; none at the beginning.
+    statuses: Option<Vec<Status>>,
+}
+
+/// The end of a path.
+struct End {
+    /// The displacements before the last step, length.
+    before: DVector<f64>,
+    equilibrium: Equilibrium,
+    halved: usize,
+}
+
+/// Follows the path of the load to its end.
+///
+/// # Errors
+/// No equilibrium was found, or nothing restrains the bodies.
+pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
+    let contact = problem.request.contact;
+    let with_friction = contact.friction.coefficient() > 0.0;
+    let per_stage = if with_friction { contact.load_steps } else { 1 };
+    let mut steps = Vec::new();
+    let end = follow(problem, per_stage, &mut |step| {
+        watch(&step);
+        steps.push(step);
+    })?;
+    let path = with_friction.then(|| Path {
+        steps: per_stage,
+        stages: problem.model.stages.len(),
+        halved: end.halved,
+        change: change(problem, per_stage, &end),
+    });
+    let uniqueness = uniqueness(problem, &end.equilibrium, &end.before);
+    Ok(solution(problem, steps, end, path, uniqueness))
+}
+
+/// Returns the change of the displacements against the path of half as many steps, length.
+fn change(problem: &Problem, per_stage: usize, end: &End) -> Option<f64> {
+    if per_stage % 2 == 1 {
+        return None;
+    }
+    let other = follow(problem, per_stage / 2, &mut |_| ()).ok()?;
+    Some((&other.equilibrium.last.moved.u - &end.equilibrium.last.moved.u).amax())
+}
+
+/// Follows the path in `per_stage` steps a stage.
+fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(Step)) -> Result<End, Error> {
+    let with_friction = problem.request.contact.friction.coefficient() > 0.0;
+    // Without friction only the whole load counts.
+    let stages = if with_friction { problem.model.stages.len() } else { 1 };
+    let zero = DVector::zeros(problem.model.dofs());
+    let mut point = Point { load: 0.0, u: zero, statuses: None };
+    let (mut k, mut halved) = (0, 0);
+    let mut last = None;
+    let total = stages * per_stage;
+    for step in 1..=total {
+        let to = step as f64 / per_stage as f64;
+        let (before, equilibrium) =
+            advance(problem, &point, to, HALVINGS, &mut halved, &mut |load, place, iteration| {
+                k += 1;
+                watch(self::step(problem, k, load, place, iteration));
+            })
+            .map_err(|why| placed(why, to, stages, step == total))?;
+        point = Point {
+            load: to,
+            u: equilibrium.last.moved.u.clone(),
+            statuses: Some(equilibrium.last.statuses.clone()),
+        };
+        last = Some((before, equilibrium));
+    }
+    let (before, equilibrium) = last.expect("a path has a step");
+    Ok(End { before, equilibrium, halved })
+}
+
+/// Says on the way to which load no equilibrium was found.
+fn placed(why: Error, to: f64, stages: usize, at_the_end: bool) -> Error {
+    match why {
+        Error::Equilibrium(NoEquilibrium { what }) if !at_the_end || stages > 1 => {
+            let of = if stages > 1 { format!(" of {stages} stages") } else { String::new() };
+            NoEquilibrium { what: format!("{what} (on the way to {to} times the load{of})") }.into()
+        }
+        other => other,
+    }
+}
+
+/// Sees each iteration, with the load under which it was done and the place of its contact.
+type Watch<'w> = dyn FnMut(f64, &Place, &Iteration) + 'w;
+
+/// Goes from a point to the load `to`, in two halves where one step finds no equilibrium; returns
+/// the displacements before the last step too.
+fn advance(
+    problem: &Problem,
+    from: &Point,
+    to: f64,
+    halvings: usize,
+    halved: &mut usize,
+    watch: &mut Watch,
+) -> Result<(DVector<f64>, Equilibrium), Error> {
+    let setting =
+        Setting { load: load(problem, to), before: &from.u, statuses: from.statuses.as_deref() };
+    let seen = &mut |place: &Place, iteration: &Iteration| watch(to, place, iteration);
+    let why = match problem.equilibrium(&setting, seen) {
+        Ok(equilibrium) => return Ok((from.u.clone(), equilibrium)),
+        Err(Error::Equilibrium(why)) if halvings > 0 => why,
+        Err(why) => return Err(why),
+    };
+    *halved += 1;
+    let middle = (from.load + to) / 2.0;
+    let half = advance(problem, from, middle, halvings - 1, halved, watch);
+    let Ok((_, Equilibrium { last, .. })) = half else { return Err(why.into()) };
+    let point = Point { load: middle, u: last.moved.u, statuses: Some(last.statuses) };
+    advance(problem, &point, to, halvings - 1, halved, watch)
+}
+
+/// Returns the load at a part of the path, restrained degrees of freedom included, force.
+fn load(problem: &Problem, part: f64) -> DVector<f64> {
+    let model = problem.model;
+    if problem.request.contact.friction.coefficient() == 0.0 {
+        return &model.load * part;
+    }
+    let zero = DVector::zeros(model.dofs());
+    model.stages.iter().enumerate().fold(zero, |mut sum, (stage, load)| {
+        sum.axpy((part - stage as f64).clamp(0.0, 1.0), load, 1.0);
+        sum
+    })
+}
+
+/// Returns an iteration as a step of the solution.
+fn step(problem: &Problem, k: usize, load: f64, place: &Place, iteration: &Iteration) -> Step {
+    let Iteration { statuses, constraints, cycle, moved, violation, .. } = iteration;
+    let contact = load_of(&place.pairings, &moved.forces, moved.u.len());
+    let support = restraints_of_target(problem.model, &(&moved.reaction - contact));
+    Step {
+        k,
+        shape: place.shape.clone(),
+        constraints: constraints.clone(),
+        in_contact: statuses.iter().filter(|status| **status != Status::Open).count(),
+        max_displacement: max_displacement(&moved.u),
+        cycle: cycle.clone(),
+        target_force: against_load(problem.model, support),
+        solve_residual: moved.residual,
+        detail: Detail::Unilateral(solution::Unilateral {
+            load,
+            statuses: statuses.clone(),
+            pairings: place.pairings.clone(),
+            friction: moved.friction.clone(),
+            violation: *violation,
+        }),
+    }
+}
+
+/// Returns the solution, which is the end of the path.
+fn solution(
+    problem: &Problem,
+    steps: Vec<Step>,
+    end: End,
+    path: Option<Path>,
+    uniqueness: solution::Uniqueness,
+) -> Solution {
+    let Equilibrium { place, last, shape_change } = end.equilibrium;
+    Solution {
+        request: problem.request.clone(),
+        model: problem.model.clone(),
+        contact: contact(problem, &place, &last),
+        elements: problem.stiffness.states(&last.moved.u),
+        factored: steps.len(),
+        steps,
+        u: last.moved.u,
+        digits: None,
+        error_bound: None,
+        equilibrium: Some(solution::Equilibrium { path, uniqueness, shape_change }),
+    }
+}
+
+/// Returns the contact surface at the end.
+fn contact(problem: &Problem, place: &Place, last: &Iteration) -> Vec<ContactNode> {
+    let measured = if problem.is_current() { &place.shape } else { &problem.model.nodes };
+    let determined = |x: f64| (!x.is_nan()).then_some(x);
+    let forces = last.moved.forces.iter().map(|f| [f.normal, f.tangent].map(determined));
+    let traction = Traction {
+        model: problem.model,
+        surfaces: &problem.surfaces,
+        measured_in: measured,
+        pairings: &place.pairings,
+        gaps: &last.gaps,
+        in_contact: &last.statuses.iter().map(|s| *s != Status::Open).collect::<Vec<_>>(),
+        statuses: Some(&last.statuses),
+        forces: &forces.collect::<Vec<_>>(),
+    };
+    traction.nodes()
+}

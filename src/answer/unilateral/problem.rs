@@ -1,0 +1,567 @@
+//! The equilibrium under one load: statuses are imposed, and the next ones follow from the forces.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::forces::{self, Contact, Force, forces, tangent};
+use super::status::{Memory, first_closed, nearest_open, next_closed};
+use crate::answer::contact::{Pairing, Surfaces};
+use crate::answer::elimination::{Constraint, Elimination, Motion};
+use crate::answer::error::{Error, NoEquilibrium};
+use crate::answer::request::Request;
+use crate::answer::solution::{Cycle, Sense, Status};
+use crate::answer::stiffness::Stiffness;
+use crate::error::InputError;
+use crate::numbers::solve::{SparseCholesky, SparseSymmetric};
+use crate::problem::model::{Dof, Model, NodeId};
+use crate::problem::modelling::Geometry;
+
+/// The gap over the size of the scene below which it is closed.
+const CLOSED: f64 = 5e-13;
+
+/// The size of the scene over its distance from the origin below which gaps have fewer digits than
+/// [`CLOSED`] asks for: four units in the last place of a coordinate over [`CLOSED`].
+const RESOLVED: f64 = 4.0 * f64::EPSILON / CLOSED;
+
+/// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
+/// second set takes those that penetrate by more than this part of the deepest penetration.
+const FIRST_GROWTH: f64 = 0.9;
+
+/// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
+const SOFT: f64 = 1e-8;
+
+/// The number of iterations beyond one for each contact node after which the search ends.
+const PATIENCE: usize = 100;
+
+/// The change of the displacements, over the largest, below which a shape agrees with the one in
+/// which its contact was measured.
+const SETTLED: f64 = 1e-12;
+
+/// The same where rounding lets the change shrink no further.
+const STALLED: f64 = 1e-8;
+
+/// The number of shapes in which contact is measured before the search ends.
+const SHAPES: usize = 60;
+
+/// How much of |q| over μ p is rounding.
+const CONE: f64 = 1e-12;
+
+/// The scene, its stiffness, and its surfaces.
+pub(super) struct Problem<'a> {
+    pub(super) request: &'a Request,
+    pub(super) model: &'a Arc<Model>,
+    pub(super) stiffness: Stiffness,
+    pub(super) surfaces: Surfaces,
+    /// The gap below which a node is closed, length.
+    pub(super) closed: f64,
+    /// Coulomb's coefficient.
+    friction: f64,
+}
+
+/// What a step of the load starts from, and the load at its end.
+pub(super) struct Setting<'a> {
+    /// The load by degree of freedom, restrained ones included, force.
+    pub(super) load: DVector<f64>,
+    /// The displacements from which slips count, length.
+    pub(super) before: &'a DVector<f64>,
+    /// The statuses from which the search starts; none at the beginning of the path.
+    pub(super) statuses: Option<&'a [Status]>,
+}
+
+/// A shape and the target that each contact node faces in it.
+pub(super) struct Place {
+    /// The coordinates of each node, length.
+    pub(super) shape: Vec<[f64; 2]>,
+    /// The pairing of each entry of the contact surface.
+    pub(super) pairings: Vec<Option<Pairing>>,
+}
+
+/// An iteration: the statuses that were imposed, and what came of them.
+pub(super) struct Iteration {
+    pub(super) statuses: Vec<Status>,
+    /// The constraints that imposed them.
+    pub(super) constraints: Vec<Constraint>,
+    /// The earlier iterations with these statuses; None where they are new.
+    pub(super) cycle: Option<Cycle>,
+    /// What the statuses lead to.
+    pub(super) moved: Moved,
+    /// The gap of each entry afterwards, length; None where it faces nothing.
+    pub(super) gaps: Vec<Option<f64>>,
+    /// The largest gap of a closed node or penetration of another one afterwards, length.
+    pub(super) violation: f64,
+}
+
+/// The displacements and forces under imposed statuses.
+pub(super) struct Moved {
+    /// The displacements by degree of freedom, length.
+    pub(super) u: DVector<f64>,
+    /// The forces on each entry of the contact surface, force.
+    pub(super) forces: Vec<Force>,
+    /// The friction of sliding nodes by degree of freedom, force.
+    pub(super) friction: DVector<f64>,
+    /// K u − F, force: the forces of contact and restraints.
+    pub(super) reaction: DVector<f64>,
+    /// The relative residual of the solution.
+    pub(super) residual: f64,
+}
+
+/// The equilibrium under a load.
+pub(super) struct Equilibrium {
+    pub(super) place: Place,
+    pub(super) last: Iteration,
+    /// What is left of the change of shape: that of the displacements at the last measurement of
+    /// contact, length; 0 in the initial geometry.
+    pub(super) shape_change: f64,
+}
+
+/// The result of an attempt to solve.
+enum Solved {
+    Moved(Moved),
+    /// A degree of freedom without restraint, and the motion under the load on soft springs.
+    Free {
+        dof: Dof,
+        motion: Option<DVector<f64>>,
+    },
+}
+
+/// Sees each iteration, and the place in which its contact was measured.
+pub(super) type Watch<'w> = dyn FnMut(&Place, &Iteration) + 'w;
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(request: &'a Request, model: &'a Arc<Model>) -> Result<Self, InputError> {
+        Ok(Problem {
+            request,
+            model,
+            stiffness: Stiffness::new(model, |x| x),
+            surfaces: Surfaces::new(model)?,
+            closed: CLOSED * size(model),
+            friction: request.contact.friction.coefficient(),
+        })
+    }
+
+    /// Returns whether contact is measured in the current shape.
+    pub(super) fn is_current(&self) -> bool {
+        self.request.contact.geometry == Geometry::Current
+    }
+
+    /// Finds the equilibrium of a setting.
+    pub(super) fn equilibrium(
+        &self,
+        setting: &Setting,
+        watch: &mut Watch,
+    ) -> Result<Equilibrium, Error> {
+        let mut place = self.place(setting.before);
+        let mut start = setting.statuses.map(<[Status]>::to_vec);
+        let mut before: Option<(DVector<f64>, f64)> = None;
+        let mut memory = Memory::default();
+        let mut k = 0;
+        for _ in 0..SHAPES {
+            memory.move_on();
+            let last = self.settle(&place, start, setting, (&mut k, &mut memory), watch)?;
+            let Some(change) = self.is_current().then(|| match &before {
+                Some((u, _)) => (&last.moved.u - u).amax(),
+                None => f64::INFINITY,
+            }) else {
+                return Ok(Equilibrium { place, last, shape_change: 0.0 });
+            };
+            let scale = last.moved.u.amax();
+            let stalled = before.as_ref().is_some_and(|(_, old)| change > old / 2.0);
+            if change <= SETTLED * scale || (stalled && change <= STALLED * scale) {
+                return Ok(Equilibrium { place, last, shape_change: change });
+            }
+            place = self.place(&last.moved.u);
+            before = Some((last.moved.u, change));
+            start = Some(last.statuses);
+        }
+        let what =
+            format!("the shape did not settle when contact was measured in it {SHAPES} times");
+        Err(NoEquilibrium { what }.into())
+    }
+
+    /// Finds the statuses that agree with their own forces, gaps and slips in one place.
+    fn settle(
+        &self,
+        place: &Place,
+        start: Option<Vec<Status>>,
+        setting: &Setting,
+        (k, memory): (&mut usize, &mut Memory),
+        watch: &mut Watch,
+    ) -> Result<Iteration, Error> {
+        let mut statuses = start.unwrap_or_else(|| self.first(place, setting.before));
+        let first = *k + 1;
+        let limit = *k + PATIENCE + self.model.contact.nodes.len();
+        while *k < limit {
+            *k += 1;
+            let iteration = self.iteration(*k, place, statuses, setting, memory)?;
+            watch(place, &iteration);
+            let wanted = self.wanted(place, &iteration, setting, *k == 1);
+            if wanted == iteration.statuses {
+                return Ok(iteration);
+            }
+            statuses = memory.next(&iteration.statuses, wanted);
+        }
+        let what = format!(
+            "no contact state in equilibrium was found in {} iterations{}",
+            *k + 1 - first,
+            memory.returned()
+        );
+        Err(NoEquilibrium { what }.into())
+    }
+
+    /// Returns the target that each contact node faces: in the shape that displacements `u` lead to,
+    /// or in the initial shape.
+    fn place(&self, u: &DVector<f64>) -> Place {
+        let shape = self.model.shape(u);
+        let measured = if self.is_current() { &shape } else { &self.model.nodes };
+        let pairings = self.surfaces.pairings(self.request.contact.coupling, measured);
+        Place { shape, pairings }
+    }
+
+    /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
+    pub(super) fn gaps(&self, place: &Place, u: &DVector<f64>) -> Vec<Option<f64>> {
+        let gap = |p: &Pairing| p.opening(|n| self.model.at(n)) + p.opening(|n| n.of(u));
+        place.pairings.iter().map(|p| p.as_ref().map(gap)).collect()
+    }
+
+    fn first(&self, place: &Place, u: &DVector<f64>) -> Vec<Status> {
+        let closed = first_closed(&self.gaps(place, u), self.closed);
+        let status = |i: usize| if closed[i] { self.closing(place, i) } else { Status::Open };
+        (0..closed.len()).map(status).collect()
+    }
+
+    /// Returns the status with which an entry closes.
+    pub(super) fn closing(&self, place: &Place, i: usize) -> Status {
+        let transmits = place.pairings[i].as_ref().is_some_and(|p| self.transmits_shear(p));
+        if transmits { Status::Stick } else { Status::Slip(Sense::Free) }
+    }
+
+    /// Returns whether friction acts on a pairing. On a line of symmetry, which restrains the node
+    /// and a node of its target across the normal, it does not.
+    fn transmits_shear(&self, pairing: &Pairing) -> bool {
+        let across = [0, 1].map(|d| pairing.normal[1 - d].abs() > 1.0 - CONE);
+        let on_line = |d: usize| {
+            let restrained = |node| self.model.restraints_of(node)[d];
+            across[d]
+                && restrained(pairing.node)
+                && pairing.masters.iter().any(|(master, _)| restrained(*master))
+        };
+        self.friction > 0.0 && !(0..2).any(on_line)
+    }
+
+    /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
+    fn wanted(
+        &self,
+        place: &Place,
+        iteration: &Iteration,
+        setting: &Setting,
+        first: bool,
+    ) -> Vec<Status> {
+        let growth = first && setting.statuses.is_none();
+        let deep = if growth { FIRST_GROWTH * iteration.violation } else { 0.0 }.max(self.closed);
+        let rounding = CONE * iteration.moved.u.amax();
+        let status = |i: usize| {
+            let (Some(pairing), Some(gap)) = (&place.pairings[i], iteration.gaps[i]) else {
+                return Status::Open;
+            };
+            let Force { normal, tangent } = iteration.moved.forces[i];
+            match iteration.statuses[i] {
+                Status::Open if gap < -deep => self.closing(place, i),
+                Status::Open => Status::Open,
+                _ if normal < 0.0 || normal.is_nan() && gap > self.closed => Status::Open,
+                Status::Stick if tangent.abs() > self.friction * normal * (1.0 + CONE) => {
+                    Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
+                }
+                Status::Slip(sense)
+                    if sense.sign() * self.slip(pairing, iteration, setting) < -rounding =>
+                {
+                    Status::Stick
+                }
+                kept => kept,
+            }
+        };
+        (0..iteration.statuses.len()).map(status).collect()
+    }
+
+    /// Returns how far a node slipped along the tangent in a step of the load, length.
+    fn slip(&self, pairing: &Pairing, iteration: &Iteration, setting: &Setting) -> f64 {
+        let [ux, uy] = pairing.motion(|n| n.of(&iteration.moved.u));
+        let [bx, by] = pairing.motion(|n| n.of(setting.before));
+        let [tx, ty] = tangent(pairing);
+        tx * (ux - bx) + ty * (uy - by)
+    }
+
+    /// Imposes `statuses`, or more closed nodes where they do not restrain the bodies.
+    fn iteration(
+        &self,
+        k: usize,
+        place: &Place,
+        mut statuses: Vec<Status>,
+        setting: &Setting,
+        memory: &mut Memory,
+    ) -> Result<Iteration, Error> {
+        for (status, pairing) in statuses.iter_mut().zip(&place.pairings) {
+            if pairing.is_none() {
+                *status = Status::Open;
+            }
+        }
+        let (constraints, moved) = loop {
+            let constraints = self.constraints(place, &statuses, setting);
+            match self.solve(place, &statuses, &constraints, setting)? {
+                Solved::Moved(moved) => break (constraints, moved),
+                Solved::Free { dof, motion } => {
+                    if !self.restrain_more(place, &mut statuses, setting, motion) {
+                        return Err(self.unrestrained(&place.pairings, dof).into());
+                    }
+                }
+            }
+        };
+        let gaps = self.gaps(place, &moved.u);
+        let cycle = memory.keep(k, &statuses);
+        let violation = violation(&gaps, &statuses);
+        Ok(Iteration { statuses, constraints, cycle, moved, gaps, violation })
+    }
+
+    /// Closes more nodes, or lets one stick; false where there is none.
+    fn restrain_more(
+        &self,
+        place: &Place,
+        statuses: &mut [Status],
+        setting: &Setting,
+        motion: Option<DVector<f64>>,
+    ) -> bool {
+        let gaps = self.gaps(place, setting.before);
+        let first = motion.and_then(|u| next_closed(statuses, &gaps, &place.pairings, &u));
+        let more = first.map_or_else(|| nearest_open(statuses, &gaps), |i| vec![i]);
+        more.iter().for_each(|&i| statuses[i] = self.closing(place, i));
+        if !more.is_empty() {
+            return true;
+        }
+        let slides = |status: &&mut Status| matches!(status, Status::Slip(s) if s.sign() != 0.0);
+        statuses.iter_mut().find(slides).map(|status| *status = Status::Stick).is_some()
+    }
+
+    /// Solves for the displacements and forces under imposed statuses.
+    fn solve(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        constraints: &[Constraint],
+        setting: &Setting,
+    ) -> Result<Solved, Error> {
+        let t = Elimination::closing(&self.model.restrained, constraints);
+        let reduced = self.stiffness.reduced(&t);
+        let load = self.model.free_part(&setting.load);
+        let cholesky = match SparseCholesky::new(reduced.clone()) {
+            Ok(cholesky) => cholesky,
+            Err(singular) => {
+                let motion = free_motion(&t, &reduced, &load);
+                return Ok(Solved::Free { dof: t.dof(singular.column), motion });
+            }
+        };
+        let f = t.load(&(&load - self.stiffness.times(t.shift())));
+        let q = cholesky.solve(&f);
+        let residual = cholesky.residual(&q, &f);
+        let u = t.expand(&q);
+        let reaction = self.stiffness.times(&u) - &setting.load;
+        let forces = self.forces(place, statuses, &reaction);
+        let friction = DVector::zeros(u.len());
+        let mut moved = Moved { u, forces, friction, reaction, residual };
+        self.slide(place, statuses, &mut moved, |load| {
+            let q = cholesky.solve(&t.load(&self.model.free_part(load)));
+            t.expand(&q) - t.shift()
+        })?;
+        Ok(Solved::Moved(moved))
+    }
+
+    /// Adds the friction of sliding nodes, whose size is μ times the normal forces that it leads to;
+    /// `under` returns the displacements under a load alone.
+    ///
+    /// # Errors
+    /// No size of the friction agrees with its normal forces.
+    fn slide(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        moved: &mut Moved,
+        under: impl Fn(&DVector<f64>) -> DVector<f64>,
+    ) -> Result<(), NoEquilibrium> {
+        let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
+            .filter_map(|i| match statuses[i] {
+                Status::Slip(sense) if sense.sign() != 0.0 => {
+                    Some((i, sense.sign(), place.pairings[i].as_ref()?))
+                }
+                _ => None,
+            })
+            .collect();
+        if sliding.is_empty() {
+            return Ok(());
+        }
+        let unit = Force { normal: 0.0, tangent: 1.0 };
+        let responses: Vec<[DVector<f64>; 3]> = sliding
+            .iter()
+            .map(|(_, _, pairing)| {
+                let mut load = DVector::zeros(moved.u.len());
+                forces::add(pairing, unit, 1.0, &mut load);
+                let u = under(&load);
+                let reaction = self.stiffness.times(&u) - &load;
+                [load, u, reaction]
+            })
+            .collect();
+        let n = sliding.len();
+        let mut matrix = DMatrix::identity(n, n);
+        for (column, [_, _, reaction]) in responses.iter().enumerate() {
+            let forces = self.forces(place, statuses, reaction);
+            for (row, (i, sign, _)) in sliding.iter().enumerate() {
+                matrix[(row, column)] += sign * self.friction * forces[*i].normal;
+            }
+        }
+        let right = DVector::from_fn(n, |row, _| {
+            let (i, sign, _) = sliding[row];
+            -sign * self.friction * moved.forces[i].normal
+        });
+        let sizes = matrix.lu().solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
+        let Some(sizes) = sizes else {
+            let what =
+                "the sliding nodes jam: no friction agrees with its own normal forces".into();
+            return Err(NoEquilibrium { what });
+        };
+        for ([load, u, reaction], size) in responses.iter().zip(&sizes) {
+            moved.friction.axpy(*size, load, 1.0);
+            moved.u.axpy(*size, u, 1.0);
+            moved.reaction.axpy(*size, &(reaction + load), 1.0);
+        }
+        moved.forces = self.forces(place, statuses, &(&moved.reaction - &moved.friction));
+        for ((i, _, _), size) in sliding.iter().zip(&sizes) {
+            moved.forces[*i].tangent = *size;
+        }
+        Ok(())
+    }
+
+    /// Returns the forces of all entries; 0 where an entry is open.
+    fn forces(&self, place: &Place, statuses: &[Status], reaction: &DVector<f64>) -> Vec<Force> {
+        let closed: Vec<usize> = (0..statuses.len())
+            .filter(|&i| statuses[i] != Status::Open && place.pairings[i].is_some())
+            .collect();
+        let contact = |i: &usize| Contact {
+            pairing: place.pairings[*i].as_ref().expect("closed entries face the target"),
+            sticks: statuses[*i] == Status::Stick,
+        };
+        let contacts: Vec<Contact> = closed.iter().map(contact).collect();
+        let mut all = vec![Force::default(); statuses.len()];
+        for (i, force) in closed.into_iter().zip(forces(self.model, &contacts, reaction)) {
+            all[i] = force;
+        }
+        all
+    }
+
+    /// Returns the constraints that impose statuses.
+    fn constraints(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        setting: &Setting,
+    ) -> Vec<Constraint> {
+        let constraint = |(pairing, status): (&Option<Pairing>, &Status)| {
+            let pairing = pairing.as_ref().filter(|_| *status != Status::Open)?;
+            let closing = -pairing.opening(|n| self.model.at(n));
+            let motion = match status {
+                Status::Stick => {
+                    let ([tx, ty], [bx, by]) =
+                        (tangent(pairing), pairing.motion(|n| n.of(setting.before)));
+                    let kept = tx * bx + ty * by;
+                    let [nx, ny] = pairing.normal;
+                    Motion::Both([closing * nx + kept * tx, closing * ny + kept * ty])
+                }
+                _ => Motion::Along(pairing.normal, closing),
+            };
+            Some(Constraint { node: pairing.node, masters: pairing.masters.clone(), motion })
+        };
+        place.pairings.iter().zip(statuses).filter_map(constraint).collect()
+    }
+
+    /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
+    pub(super) fn try_statuses(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        setting: &Setting,
+    ) -> Option<Moved> {
+        let constraints = self.constraints(place, statuses, setting);
+        let Ok(Solved::Moved(moved)) = self.solve(place, statuses, &constraints, setting) else {
+            return None;
+        };
+        let gaps = self.gaps(place, &moved.u);
+        let violation = violation(&gaps, statuses);
+        let statuses = statuses.to_vec();
+        let iteration = Iteration { statuses, constraints, cycle: None, moved, gaps, violation };
+        let wanted = self.wanted(place, &iteration, setting, false);
+        (wanted == iteration.statuses).then_some(iteration.moved)
+    }
+
+    /// Returns a node that statuses leave free to move; None where they restrain the bodies.
+    pub(super) fn unrestrained_node(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        setting: &Setting,
+    ) -> Option<NodeId> {
+        let constraints = self.constraints(place, statuses, setting);
+        let t = Elimination::closing(&self.model.restrained, &constraints);
+        let singular = SparseCholesky::new(self.stiffness.reduced(&t)).err()?;
+        Some(t.dof(singular.column).node())
+    }
+
+    /// Returns Coulomb's coefficient, infinite where nodes stick.
+    pub(super) fn friction(&self) -> f64 {
+        self.friction
+    }
+
+    fn unrestrained(&self, pairings: &[Option<Pairing>], dof: Dof) -> InputError {
+        if pairings.iter().all(Option::is_none) {
+            let what = "no contact node faces the target, and nothing else restrains the bodies";
+            let fix = "name surfaces that face each other; list cnt in order along its surface";
+            return InputError::new("contact.cnt, contact.trg", what, fix);
+        }
+        let (node, direction) = (dof.node(), dof.axis());
+        let body = self.model.body_of(node);
+        let body = body.map_or(String::new(), |b| format!(" of body {:?}", b.name));
+        let what =
+            format!("node {node}{body} can move in {direction} with every contact node in contact");
+        let fix =
+            "restrain that motion, or let the surfaces rub or stick (\"friction\": \"stick\")";
+        InputError::new("restraints, contact.friction", what, fix)
+    }
+}
+
+/// Returns the largest gap of a closed node or penetration of another one, length.
+fn violation(gaps: &[Option<f64>], statuses: &[Status]) -> f64 {
+    let of_entry = |(gap, status): (&Option<f64>, &Status)| match gap {
+        Some(gap) if *status != Status::Open => gap.abs(),
+        Some(gap) => (-gap).max(0.0),
+        None => 0.0,
+    };
+    gaps.iter().zip(statuses).map(of_entry).fold(0.0, f64::max)
+}
+
+/// Returns the motion that constraints leave free where only soft springs oppose the load.
+fn free_motion(t: &Elimination, k: &SparseSymmetric, load: &DVector<f64>) -> Option<DVector<f64>> {
+    let diagonal = k.diagonal();
+    let springs = (0..k.size()).map(|i| (i, i, SOFT * diagonal[i]));
+    let sprung = SparseSymmetric::new(k.size(), k.entries().chain(springs));
+    let q = SparseCholesky::new(sprung).ok()?.solve(&t.load(load));
+    Some(t.expand(&q) - t.shift())
+}
+
+/// Returns the larger extent of the model, or what its coordinates can resolve of it, length.
+fn size(model: &Model) -> f64 {
+    let [width, height] = [0, 1].map(|axis| {
+        let values = model.nodes.iter().map(|xy| xy[axis]);
+        let (least, most) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
+        most - least
+    });
+    // A gap in the current shape is a difference of coordinates and has no digits below theirs.
+    let farthest = model.nodes.as_flattened().iter().map(|x| x.abs());
+    width.max(height).max(RESOLVED * farthest.fold(0.0, f64::max))
+}
