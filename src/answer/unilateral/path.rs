@@ -13,6 +13,19 @@ use crate::answer::support::{against_load, restraints_of_target};
 /// How often a step without an equilibrium is halved.
 const HALVINGS: usize = 6;
 
+/// How often a step is divided where a node closes in it.
+const CLOSINGS: usize = 16;
+
+/// The part of a step, at either end, within which a node closes that does not divide it.
+const AT_THE_END: f64 = 1e-3;
+
+/// How often a step may still be divided.
+#[derive(Clone, Copy)]
+struct Divisions {
+    halvings: usize,
+    closings: usize,
+}
+
 /// A point of the path: what the next step starts from.
 struct Point {
     /// The part of the path that was applied; whole numbers end stages.
@@ -73,10 +86,12 @@ fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(Step)) -> R
     let (mut k, mut halved) = (0, 0);
     let mut last = None;
     let total = stages * per_stage;
+    let closings = if with_friction { CLOSINGS } else { 0 };
+    let divisions = Divisions { halvings: HALVINGS, closings };
     for step in 1..=total {
         let to = step as f64 / per_stage as f64;
         let (before, equilibrium) =
-            advance(problem, &point, to, HALVINGS, &mut halved, &mut |load, place, iteration| {
+            advance(problem, &point, to, divisions, &mut halved, &mut |load, place, iteration| {
                 k += 1;
                 watch(self::step(problem, k, load, place, iteration));
             })
@@ -106,30 +121,41 @@ fn placed(why: Error, to: f64, stages: usize, at_the_end: bool) -> Error {
 /// Sees each iteration, with the load under which it was done and the place of its contact.
 type Watch<'w> = dyn FnMut(f64, &Place, &Iteration) + 'w;
 
-/// Goes from a point to the load `to`, in two halves where one step finds no equilibrium; returns
-/// the displacements before the last step too.
+/// Goes from a point to the load `to`: in two parts where a node closes in between, as friction
+/// counts its slip from there, and in two halves where one step finds no equilibrium. Returns the
+/// displacements before the last step too.
 fn advance(
     problem: &Problem,
     from: &Point,
     to: f64,
-    halvings: usize,
+    left: Divisions,
     halved: &mut usize,
     watch: &mut Watch,
 ) -> Result<(DVector<f64>, Equilibrium), Error> {
     let setting =
         Setting { load: load(problem, to), before: &from.u, statuses: from.statuses.as_deref() };
     let seen = &mut |place: &Place, iteration: &Iteration| watch(to, place, iteration);
-    let why = match problem.equilibrium(&setting, seen) {
-        Ok(equilibrium) => return Ok((from.u.clone(), equilibrium)),
-        Err(Error::Equilibrium(why)) if halvings > 0 => why,
-        Err(why) => return Err(why),
+    let found = problem.equilibrium(&setting, seen);
+    let (middle, left) = match &found {
+        Ok(Equilibrium { closing: Some(part), .. })
+            if left.closings > 0 && (AT_THE_END..1.0 - AT_THE_END).contains(part) =>
+        {
+            let closings = left.closings - 1;
+            (from.load + part * (to - from.load), Divisions { closings, ..left })
+        }
+        Err(Error::Equilibrium(_)) if left.halvings > 0 => {
+            *halved += 1;
+            ((from.load + to) / 2.0, Divisions { halvings: left.halvings - 1, ..left })
+        }
+        _ => return found.map(|equilibrium| (from.u.clone(), equilibrium)),
     };
-    *halved += 1;
-    let middle = (from.load + to) / 2.0;
-    let half = advance(problem, from, middle, halvings - 1, halved, watch);
-    let Ok((_, Equilibrium { last, .. })) = half else { return Err(why.into()) };
-    let point = Point { load: middle, u: last.moved.u, statuses: Some(last.statuses) };
-    advance(problem, &point, to, halvings - 1, halved, watch)
+    match advance(problem, from, middle, left, halved, watch) {
+        Ok((_, Equilibrium { last, .. })) => {
+            let point = Point { load: middle, u: last.moved.u, statuses: Some(last.statuses) };
+            advance(problem, &point, to, left, halved, watch)
+        }
+        Err(why) => found.or(Err(why)).map(|equilibrium| (from.u.clone(), equilibrium)),
+    }
 }
 
 /// Returns the load at a part of the path, restrained degrees of freedom included, force.
@@ -177,7 +203,7 @@ fn solution(
     path: Option<Path>,
     uniqueness: solution::Uniqueness,
 ) -> Solution {
-    let Equilibrium { place, last, shape_change } = end.equilibrium;
+    let Equilibrium { place, last, shape_change, .. } = end.equilibrium;
     Solution {
         request: problem.request.clone(),
         model: problem.model.clone(),

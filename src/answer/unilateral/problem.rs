@@ -110,6 +110,8 @@ pub(super) struct Moved {
 pub(super) struct Equilibrium {
     pub(super) place: Place,
     pub(super) last: Iteration,
+    /// The part of the step after which the first node closes that closed in it; None where none did.
+    pub(super) closing: Option<f64>,
     /// What is left of the change of shape: that of the displacements at the last measurement of
     /// contact, length; 0 in the initial geometry.
     pub(super) shape_change: f64,
@@ -151,32 +153,54 @@ impl<'a> Problem<'a> {
         setting: &Setting,
         watch: &mut Watch,
     ) -> Result<Equilibrium, Error> {
-        let mut place = self.place(setting.before);
+        let gaps = self.gaps(&self.place(setting.before), setting.before);
+        let mut first: Option<(Vec<Status>, Vec<Option<f64>>)> = None;
+        let mut keep_first = |place: &Place, iteration: &Iteration| {
+            first.get_or_insert_with(|| (iteration.statuses.clone(), iteration.gaps.clone()));
+            watch(place, iteration);
+        };
         let mut start = setting.statuses.map(<[Status]>::to_vec);
         let mut before: Option<(DVector<f64>, f64)> = None;
         let mut memory = Memory::default();
         let mut k = 0;
         for _ in 0..SHAPES {
             memory.move_on();
-            let last = self.settle(&place, start, setting, (&mut k, &mut memory), watch)?;
-            let Some(change) = self.is_current().then(|| match &before {
+            let place = self.place(before.as_ref().map_or(setting.before, |(u, _)| u));
+            let last =
+                self.settle(&place, start, setting, (&mut k, &mut memory), &mut keep_first)?;
+            let change = match &before {
+                _ if !self.is_current() => 0.0,
                 Some((u, _)) => (&last.moved.u - u).amax(),
                 None => f64::INFINITY,
-            }) else {
-                return Ok(Equilibrium { place, last, shape_change: 0.0 });
             };
             let scale = last.moved.u.amax();
             let stalled = before.as_ref().is_some_and(|(_, old)| change > old / 2.0);
             if change <= SETTLED * scale || (stalled && change <= STALLED * scale) {
-                return Ok(Equilibrium { place, last, shape_change: change });
+                let closing = first.and_then(|first| self.first_closing(&gaps, first, &last));
+                return Ok(Equilibrium { place, last, closing, shape_change: change });
             }
-            place = self.place(&last.moved.u);
             before = Some((last.moved.u, change));
             start = Some(last.statuses);
         }
         let what =
             format!("the shape did not settle when contact was measured in it {SHAPES} times");
         Err(NoEquilibrium { what }.into())
+    }
+
+    /// Returns the part of a step after which the first node closes that closed in it, from its gaps
+    /// before the step and those that the statuses before the step led to.
+    fn first_closing(
+        &self,
+        before: &[Option<f64>],
+        (statuses, after): (Vec<Status>, Vec<Option<f64>>),
+        last: &Iteration,
+    ) -> Option<f64> {
+        let part = |i: usize| {
+            let closed = statuses[i] == Status::Open && last.statuses[i] != Status::Open;
+            let (from, to) = (before[i]?, after[i]?);
+            (closed && from > self.closed && to < -self.closed).then(|| from / (from - to))
+        };
+        (0..statuses.len()).filter_map(part).reduce(f64::min)
     }
 
     /// Finds the statuses that agree with their own forces, gaps and slips in one place.
