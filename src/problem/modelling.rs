@@ -91,9 +91,7 @@ choices! {
 pub struct ContactModel {
     /// The method that binds a contact node to the target surface.
     pub coupling: Coupling,
-    /// The motion of the node along the tangent.
     pub friction: Friction,
-    /// The shape in which contact is measured.
     pub geometry: Geometry,
     /// The rule by which `tied` and `stepped` decide which nodes are in contact.
     pub status: StatusRule,

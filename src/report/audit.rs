@@ -15,10 +15,8 @@ use crate::studies::audit::readings::Effect;
 use crate::studies::audit::variants::{End, VariantRow};
 use crate::studies::audit::{Audit, ReferenceSummary};
 
-/// Friction coefficients at which slipping nodes are listed.
 const FRICTION: [f64; 4] = [0.1, 0.2, 0.4, 0.8];
 
-/// Lays out the audit of a scene in tables.
 pub fn text(audit: &Audit, scene: &Scene) -> String {
     format!(
         "Audit of scene {} ({})\n\n\
@@ -190,7 +188,6 @@ fn sticking(nodes: &[ContactNode]) -> String {
     )
 }
 
-/// Writes the audit as JSON.
 pub fn json(audit: &Audit, scene: &Scene) -> String {
     let findings = audit.findings.iter();
     let findings: Vec<serde_json::Value> = findings.map(|(f, m)| f.row(m)).collect();
@@ -222,7 +219,6 @@ pub fn explain(finding: &Finding, measured: &Measured, scene: &Scene) -> String 
     )
 }
 
-/// Quotes the finding's lines as printed.
 fn quoted(finding: &Finding) -> String {
     let Some(which) = [Which::CCnt, Which::Km].into_iter().find(|w| w.name() == finding.listing)
     else {

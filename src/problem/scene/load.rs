@@ -11,9 +11,7 @@ use crate::error::InputError;
 use crate::problem::model::{NodeId, Sides};
 
 /// Returns the forces on all 2R degrees of freedom, restrained ones included, force.
-///
-/// # Errors
-/// A load has another form, its edge bounds no triangle or two, or a number is not finite.
+/// Errors: a load has another form, its edge bounds no triangle or two, or a number is not finite.
 pub fn vector(
     mesh: &Mesh,
     sides: &Sides,

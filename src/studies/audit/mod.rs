@@ -19,7 +19,6 @@ use findings::{FINDINGS, Finding, Measured};
 use readings::Effect;
 use variants::VariantRow;
 
-/// All that an audit finds.
 pub struct Audit {
     /// What each other reading changes, in the order of `listings/READING.md`, section 4.
     pub readings: Vec<Effect>,
@@ -35,12 +34,9 @@ pub struct Audit {
     pub sticking: Vec<ContactNode>,
 }
 
-/// The reference solution in short.
 #[derive(Clone, Debug, Serialize)]
 pub struct ReferenceSummary {
-    /// How contact was modelled.
     pub model: ContactModel,
-    /// Number of contact nodes in contact at the end.
     pub in_contact: usize,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,
