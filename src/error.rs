@@ -5,11 +5,9 @@ use std::fmt;
 /// An error of the input: what is wrong, where, and how to fix it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputError {
-    /// What is wrong, with the values.
     pub what: String,
     /// The file and field where it is wrong.
     pub place: String,
-    /// How to fix the input.
     pub fix: String,
 }
 

@@ -7,9 +7,7 @@ use crate::error::InputError;
 
 /// Writes `content` to `path`, and creates its folder where it is missing. A link is followed; a
 /// target that is no ordinary file (a pipe, a device) is written directly.
-///
-/// # Errors
-/// The folder or the file cannot be written; an existing file keeps its content.
+/// Errors: the folder or the file cannot be written; an existing file keeps its content.
 pub fn write(path: &Path, content: &str) -> Result<(), InputError> {
     let written = match std::fs::canonicalize(path) {
         Ok(there) if !there.is_file() && !there.is_dir() => std::fs::write(there, content),

@@ -23,9 +23,7 @@ use crate::problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
 const IND_1: usize = 6;
 
 /// Returns `model` under a reading: R6 sets the plane problem, R8 the unit of the tolerance.
-///
-/// # Errors
-/// The plane problem of R6 does not allow a Poisson's ratio.
+/// Errors: the plane problem of R6 does not allow a Poisson's ratio.
 pub fn under(mut model: Model, reading: &Reading) -> Result<Model, InputError> {
     if let Some(plane) = reading.r6 {
         model.plane = plane;
@@ -124,9 +122,7 @@ pub fn shape<T: Scalar>(node_n: &Table<T>) -> Vec<[f64; 2]> {
 }
 
 /// Returns `Km` without contact and without restraints, 2R x 2R, force/length.
-///
-/// # Errors
-/// An entry of the matrix overflows.
+/// Errors: an entry of the matrix overflows.
 pub fn free_stiffness<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
@@ -138,14 +134,12 @@ pub fn free_stiffness<T: Scalar>(
 /// The status of a contact node, as `c_cnt` finds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactStatus<T = f64> {
-    /// The node of the contact surface.
     pub node: NodeId,
     /// The target edge of the node; None where the search found none.
     pub edge: Option<EdgeId>,
     /// The vertical distance from the contact node to the target line, > 0 where the line is above
     /// the node, length; 0 without a target edge.
     pub distance: T,
-    /// Whether the node is in contact.
     pub in_contact: bool,
 }
 
@@ -166,9 +160,7 @@ pub fn statuses<T: Scalar>(model: &Model, pairs: &Pairs<T>) -> Vec<ContactStatus
 
 /// Returns statuses that another rule than the listing's decided as pairs in the listing's arrays,
 /// with the weights of its lines 11 to 31.
-///
-/// # Errors
-/// Those lines fail as printed: the weights of a vertical edge.
+/// Errors: those lines fail as printed: the weights of a vertical edge.
 pub fn pairs<T: Scalar>(
     model: &Model,
     sheet: &Worksheet<T>,
@@ -189,7 +181,6 @@ pub fn pairs<T: Scalar>(
 /// A contact node and the point of the target to which it is bound, on an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeToSegment<T = f64> {
-    /// The node of the contact surface.
     pub node: NodeId,
     /// The master nodes, which are the target edge's nodes, and their weights.
     pub masters: [(NodeId, T); 2],
@@ -247,19 +238,13 @@ pub fn weights_from<'a, T: Scalar>(
 
 /// A call of `c_cnt` on a model in a shape: its arguments and its results.
 pub struct Call {
-    /// The worksheet's tables of the model.
     pub sheet: Worksheet<f64>,
-    /// The pairs that it finds, in its own arrays.
     pub pairs: Pairs<f64>,
-    /// The statuses that it finds, by contact node.
     pub statuses: Vec<ContactStatus>,
 }
 
 impl Call {
     /// Calls `c_cnt` under `reading` in a shape, given as the coordinates of each node, length.
-    ///
-    /// # Errors
-    /// The listing fails as printed.
     pub fn c_cnt(model: &Model, reading: &Reading, shape: &[[f64; 2]]) -> Result<Self, Failure> {
         let sheet = worksheet(model, |x| x);
         let pairs = c_cnt(&sheet, reading, &node_n(model, shape))?;
@@ -275,9 +260,7 @@ impl Call {
 
     /// Calls `Km` with the pairs of `c_cnt`. Returns `MJS`, with a row and a column for each degree
     /// of freedom, force/length.
-    ///
-    /// # Errors
-    /// An entry of the matrix overflows.
+    /// Errors: an entry of the matrix overflows.
     pub fn km(&self, reading: &Reading) -> Result<DMatrix<f64>, Failure> {
         Ok(Km(&self.sheet, reading, &self.pairs.k_cnt)?.into_matrix())
     }

@@ -33,7 +33,6 @@ fn limits(sheet: &Worksheet<f64>) -> Limits {
 pub type Traced<T> = Result<(T, Vec<String>), Box<Failure>>;
 
 impl Which {
-    /// Returns the name in the print.
     pub fn name(self) -> &'static str {
         match self {
             Which::CCnt => "c_cnt",
@@ -41,7 +40,6 @@ impl Which {
         }
     }
 
-    /// Returns the text of record.
     pub fn text(self) -> &'static str {
         match self {
             Which::CCnt => include_str!("../../listings/c_cnt.txt"),
@@ -66,9 +64,6 @@ impl Which {
     }
 
     /// Parses another text in place of the listing.
-    ///
-    /// # Errors
-    /// The text is not in the notation of the listings.
     pub fn edited(self, text: &str) -> Result<Listing, ParseError> {
         Listing::parse(self.name(), text)
     }
@@ -120,9 +115,6 @@ pub fn settings(reading: &Reading) -> Settings {
 }
 
 /// Executes `c_cnt` on the shape `node_n`.
-///
-/// # Errors
-/// The failure that stopped the listing.
 pub fn c_cnt<O: Observer>(
     listing: &Listing,
     settings: &Settings,
@@ -155,9 +147,6 @@ pub fn c_cnt<O: Observer>(
 }
 
 /// Executes `Km` on the contact pairs `k_cnt`.
-///
-/// # Errors
-/// The failure that stopped the listing.
 pub fn km<O: Observer>(
     listing: &Listing,
     settings: &Settings,

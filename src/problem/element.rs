@@ -28,9 +28,7 @@ choices! {
 
 impl Plane {
     /// Checks that `nu` is a Poisson's ratio of the plane problem.
-    ///
-    /// # Errors
-    /// The ratio is outside (-1, 0.5) in plane strain, or (-1, 1) in plane stress.
+    /// Errors: the ratio is outside (-1, 0.5) in plane strain, or (-1, 1) in plane stress.
     pub fn check_poisson(self, nu: f64, place: &str) -> Result<(), InputError> {
         let (below, name) = match self {
             Plane::Strain => (0.5, "plane strain"),
@@ -88,7 +86,6 @@ pub struct State {
     pub sigma: SVector<f64, 3>,
     /// The strains e_xx, e_yy, g_xy.
     pub epsilon: SVector<f64, 3>,
-    /// The von Mises stress, stress.
     pub von_mises_stress: f64,
     /// The von Mises strain, which has no unit.
     pub von_mises_strain: f64,

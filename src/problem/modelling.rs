@@ -143,9 +143,7 @@ pub const LOAD_STEPS: usize = 16;
 pub struct ContactModel {
     /// The method that binds a contact node to the target surface.
     pub coupling: Coupling,
-    /// The friction between the surfaces.
     pub friction: Friction,
-    /// The shape in which contact is measured.
     pub geometry: Geometry,
     /// The number of equal steps in which `unilateral` applies the load of a stage; without
     /// friction the path of the load has no effect, and there is one.

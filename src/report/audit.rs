@@ -17,7 +17,6 @@ use crate::studies::audit::readings::Effect;
 use crate::studies::audit::variants::{End, VariantRow};
 use crate::studies::audit::{Audit, Compared, Rubbing};
 
-/// Lays out the audit of a scene in tables.
 pub fn text(audit: &Audit, scene: &Scene) -> String {
     format!(
         "Audit of scene {} ({})\n\n\
@@ -211,7 +210,6 @@ fn tenth(x: f64) -> String {
     format!("{x:.1}")
 }
 
-/// Writes the audit as JSON.
 pub fn json(audit: &Audit, scene: &Scene) -> String {
     let findings = audit.findings.iter();
     let findings: Vec<serde_json::Value> = findings.map(|(f, m)| f.row(m)).collect();
@@ -244,7 +242,6 @@ pub fn explain(finding: &Finding, measured: &Measured, scene: &Scene) -> String 
     )
 }
 
-/// Quotes the finding's lines as printed.
 fn quoted(finding: &Finding) -> String {
     let Some(which) = [Which::CCnt, Which::Km].into_iter().find(|w| w.name() == finding.listing)
     else {

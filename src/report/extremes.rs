@@ -6,7 +6,6 @@ use crate::studies::extremes::{Break, Column, Generator, Measured, Verdict};
 
 pub use super::json::line as json;
 
-/// Lists the generators and what each sweeps.
 pub fn list(generators: &[Generator]) -> String {
     Table::of(generators)
         .column("generator", |generator| generator.name)

@@ -16,9 +16,6 @@ use crate::studies::plan::Plan;
 /// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu`, `result.json`
 /// and, with contact, `pressure.svg` to `folder`; returns the content of `result.json`. `plan` is
 /// the plan that the run followed.
-///
-/// # Errors
-/// Names the file that cannot be written.
 pub fn write(
     folder: &Path,
     solution: &Solution,
@@ -60,7 +57,6 @@ pub fn write(
     Ok(result)
 }
 
-/// Draws the mesh of a scene.
 pub fn mesh_picture(scene: &Scene) -> String {
     picture::mesh(&Drawing::new(scene, &scene.title))
 }

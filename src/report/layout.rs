@@ -10,7 +10,6 @@ pub struct Table<R> {
 }
 
 impl<R> Table<R> {
-    /// Begins the table of these rows.
     pub fn of(rows: impl IntoIterator<Item = R>) -> Self {
         let rows: Vec<R> = rows.into_iter().collect();
         Table { lines: vec![Vec::new(); rows.len()], rows, head: Vec::new() }
@@ -25,7 +24,6 @@ impl<R> Table<R> {
         self
     }
 
-    /// Lays the columns out.
     pub fn text(self) -> String {
         aligned(self.head, self.lines)
     }

@@ -20,7 +20,7 @@ pub mod folder;
 pub mod json;
 mod layout;
 pub mod matrix_market;
-mod numbers;
+pub mod numbers;
 mod output;
 pub mod picture;
 pub mod plan;
@@ -31,8 +31,8 @@ pub mod tables;
 pub mod trace;
 pub mod trade;
 pub mod vtu;
-mod xml;
+pub mod xml;
 
 pub use result_file::{
-    BodyEstimates, ElementRow, IterationRow, KnownEstimates, ReadingInForce, ResultFile,
+    BodyEstimates, ElementRow, IterationRow, KnownEstimates, ReadingInForce, ResultFile, known,
 };

@@ -6,9 +6,6 @@ use crate::error::InputError;
 use crate::files;
 
 /// Writes each content to the file of its name in `folder`.
-///
-/// # Errors
-/// Names the file that cannot be written.
 pub fn write_all(folder: &Path, contents: &[(&str, &str)]) -> Result<(), InputError> {
     contents.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))
 }

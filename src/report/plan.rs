@@ -59,7 +59,6 @@ pub fn json(plan: &Plan) -> String {
     json::line(&Document { plan, bytes: plan.cost.bytes.total() })
 }
 
-/// Returns the cells of a value with its name and what is said of it.
 fn row(name: &str, value: impl ToString, why: impl ToString) -> Vec<String> {
     vec![name.into(), value.to_string(), why.to_string()]
 }

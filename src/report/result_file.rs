@@ -273,7 +273,7 @@ impl KnownEstimates {
     }
 }
 
-fn known(estimate: f64) -> Option<f64> {
+pub fn known(estimate: f64) -> Option<f64> {
     Some(estimate).filter(|estimate| estimate.is_finite())
 }
 
@@ -297,57 +297,4 @@ fn elements(solution: &Solution) -> Vec<ElementRow> {
         von_mises_strain: state.von_mises_strain,
     })
     .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::answer::{Request, solve};
-    use crate::problem::modelling::Friction;
-    use crate::problem::scene::Scene;
-
-    fn result(scene: &str, changed: impl Fn(Request) -> Request) -> ResultFile {
-        let scene = Scene::open(scene).expect("an embedded scene");
-        let solution = solve(&changed(Request::new(&scene)), &mut |_| ()).expect("it is solved");
-        let plan = Plan::new(&solution.request).expect("it was solved");
-        ResultFile::new(&solution, &Assessment::new(&solution), Some(&plan))
-    }
-
-    #[test]
-    fn results_read_back() {
-        let exact = Arithmetic { scalar: ScalarName::Exact, ..Arithmetic::default() };
-        let sliding = ContactModel { friction: Friction::None, ..ContactModel::default() };
-        for written in [
-            result("fig1", |request| request),
-            result("two-blocks", |request| request.arithmetic(exact)),
-            result("fig1", |request| request.variant(Variant::Unilateral).contact(sliding)),
-        ] {
-            let text = written.to_json();
-            let read = ResultFile::from_json(&text).expect("it was written by the same type");
-            assert_eq!(read, written);
-            assert_eq!(read.to_json(), text);
-        }
-    }
-
-    #[test]
-    fn what_is_not_finite_is_null() {
-        let mut result = result("fig1", |request| request);
-        result.error_estimates.mesh_energy_relative = known(f64::INFINITY);
-        let distance = result.distance.as_mut().expect("fig1 has a reference solution");
-        distance.displacement_relative = f64::INFINITY;
-        result.contact[0].force = f64::INFINITY;
-        let text = result.to_json();
-        for field in ["mesh_energy_relative", "displacement_relative", "force"] {
-            assert!(text.contains(&format!("\"{field}\":null")), "{field}: {text}");
-        }
-        assert_eq!(ResultFile::from_json(&text).map(|read| read.to_json()), Ok(text));
-    }
-
-    #[test]
-    fn a_wrong_field_is_named() {
-        let text = result("fig1", |request| request).to_json();
-        let wrong = text.replace("\"k\":2,", "\"k\":\"second\",");
-        let error = ResultFile::from_json(&wrong).expect_err("a number is asked for");
-        assert_eq!(error.place, "field iterations[1].k of the result");
-    }
 }

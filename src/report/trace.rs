@@ -150,7 +150,6 @@ fn row(value: &Json) -> String {
     }
 }
 
-/// Writes the trace as JSON.
 pub fn json(trace: &Trace, listing: &Listing, scene: &str) -> String {
     let step = |step: &Step| {
         json!({

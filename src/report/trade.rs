@@ -34,9 +34,6 @@ pub const COLUMNS: [&str; 18] = [
 ];
 
 /// Writes `trade.json`, `trade.csv` and `trade.svg` to `folder`; gives back the first.
-///
-/// # Errors
-/// Names the file that cannot be written.
 pub fn write(folder: &Path, trade: &Trade) -> Result<String, InputError> {
     let json = json(trade);
     let (csv, picture) = (csv(trade), picture(trade));

@@ -44,3 +44,11 @@ fn the_radius_at_which_the_sheet_is_cut_does_not_matter() {
     assert_near("sigma_x at the top", near[0], far[0], 3.0, &KIRSCH);
     assert_near("sigma_y at the side", near[1], far[1], 1.0, &KIRSCH);
 }
+
+#[test]
+fn the_closed_form_has_its_known_values_at_the_hole_and_far_away() {
+    let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8);
+    assert!(near(Hole::stress([0.0, 1.0]), [3.0, 0.0, 0.0]));
+    assert!(near(Hole::stress([1.0, 0.0]), [0.0, -1.0, 0.0]));
+    assert!(near(Hole::stress([3e5, 4e5]), [1.0, 0.0, 0.0]));
+}

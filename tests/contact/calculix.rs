@@ -44,9 +44,9 @@ fn decks_of_fig1() {
     let pair = |friction| Contact::Pair(Pair::new(&solution.model, Some(1e7), friction));
     let of =
         |friction| last_deck(&scene, &solution, &[Part { contact: pair(friction), share: 1.0 }]);
-    assert_golden("fig1", "calculix-pair", &of(Friction::Stick));
-    assert!(of(Friction::Stick).contains("*FRICTION"));
-    assert!(!of(Friction::None).contains("*FRICTION"));
+    assert_golden("fig1", "calculix-pair", &of(Friction::STICK));
+    assert!(of(Friction::STICK).contains("*FRICTION"));
+    assert!(!of(Friction::NONE).contains("*FRICTION"));
 }
 
 /// A solution with stepped load is the sum of its contact states, each with its share; one with
@@ -233,9 +233,9 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
         return;
     }
     for (name, mut scene) in scenes() {
-        scene.contact = ContactModel { friction: Friction::None, ..ContactModel::default() };
+        scene.contact = ContactModel { friction: Friction::NONE, ..ContactModel::default() };
         let solution = solution(&scene, Variant::Unilateral);
-        let pair = Pair::new(&solution.model, None, Friction::None);
+        let pair = Pair::new(&solution.model, None, Friction::NONE);
         let part = Part { contact: Contact::Pair(pair), share: 1.0 };
         let ran = run("ccx", &scene, &solution.model, &[part]).unwrap();
         let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);

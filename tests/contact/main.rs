@@ -11,5 +11,6 @@ mod common {
 }
 
 mod calculix;
+mod calculix_files;
 mod status;
 mod unilateral;

@@ -21,13 +21,13 @@ pub fn models() -> Vec<ContactModel> {
     for &coupling in Coupling::ALL {
         models.push(ContactModel {
             coupling,
-            friction: Friction::Stick,
+            friction: Friction::STICK,
             ..ContactModel::default()
         });
         for &geometry in Geometry::ALL {
             models.push(ContactModel {
                 coupling,
-                friction: Friction::None,
+                friction: Friction::NONE,
                 geometry,
                 ..ContactModel::default()
             });
@@ -97,7 +97,7 @@ fn every_model_ends_in_equilibrium_on_the_benchmarks() {
     ];
     for benchmark in benchmarks {
         let scene = benchmark.build().unwrap();
-        for model in models().into_iter().filter(|model| model.friction == Friction::None) {
+        for model in models().into_iter().filter(|model| model.friction == Friction::NONE) {
             // Force that a punch's own pressure puts beside the contact does not pass through it.
             if benchmark.name != "punch-patch" && benchmark.name != "punch" {
                 assert_equilibrium(&benchmark.name, &scene, model);

@@ -5,6 +5,7 @@
 //! without it, 2,000.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
+use crate::common::random::fixed;
 use nalgebra::SMatrix;
 use plane_contact::answer::Request;
 use plane_contact::paper::door;
@@ -333,9 +334,7 @@ struct Seen {
 
 #[test]
 fn listing_and_mirror_agree_on_random_scenes() {
-    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(2000);
-    let config = ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() };
-    let mut runner = proptest::test_runner::TestRunner::new(config);
+    let mut runner = proptest::test_runner::TestRunner::new(fixed(2000));
     let seen = std::cell::RefCell::new(std::collections::BTreeMap::<String, usize>::new());
     let count = |what: String| *seen.borrow_mut().entry(what).or_default() += 1;
     let result = runner.run(&(draw(), reading()), |(draw, reading)| {

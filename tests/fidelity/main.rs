@@ -7,6 +7,7 @@ mod common {
     pub mod golden_floats;
     pub mod json;
     pub mod outcome;
+    pub mod random;
     pub mod shipped;
     pub mod tolerances;
 }
@@ -19,4 +20,5 @@ mod fields;
 mod findings;
 mod golden;
 mod listing_quotes;
+mod mathcad;
 mod variants;

@@ -1,6 +1,7 @@
 //! The scalars beside exact rational numbers: double-double within its proven errors, exact numbers
 //! to the last bit.
 
+use crate::common::random::fixed;
 use crate::common::tolerances::{DOUBLE_DOUBLE, Tolerance};
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
@@ -46,7 +47,7 @@ fn within(value: F64x2, expected: &RBig, Tolerance { limit, reason }: &Tolerance
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(fixed(4000))]
 
     #[test]
     fn double_double_keeps_its_proven_errors(x in double_double(200), y in double_double(200)) {

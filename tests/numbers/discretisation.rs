@@ -15,11 +15,12 @@ use crate::common::tolerances::{
 };
 use fields::{CANTILEVER, CONSTANT, Field, KIRSCH, LAME, LINEAR, polynomial};
 use meshes::{BODY, Cut, Grid, annulus, beam, holed_plate, mesh, rectangle};
-use nalgebra::Vector2;
-use plane_contact::answer::estimates::discretisation::{Discretisation, LargestVonMises};
+use nalgebra::{Matrix3, Vector2, Vector3};
+use plane_contact::answer::estimates::discretisation::{
+    Discretisation, LargestVonMises, compliance, root_of_squares, von_mises,
+};
 use plane_contact::answer::{self, Request, Solution};
-use plane_contact::problem::element::Plane;
-use plane_contact::problem::element::State;
+use plane_contact::problem::element::{D, Plane, State};
 use plane_contact::problem::model::{Body, TriangleId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
@@ -350,4 +351,22 @@ fn error_map_of_the_strand() {
         println!("{}: {peak:?}, eta {:.3}", body.name, found.relative());
         assert!(peak.error > 0.0 && body.triangles.contains(&peak.at));
     }
+}
+
+/// Hooke's law and its inverse cancel each other.
+#[test]
+fn compliance_is_the_inverse_of_elasticity() {
+    for plane in [Plane::Strain, Plane::Stress] {
+        let product = D(plane, 7.0, 0.3) * compliance(plane, 0.3) / 7.0;
+        assert!((product - Matrix3::identity()).amax() < 1e-15, "{product}");
+    }
+}
+
+/// Squares of very large and of very small numbers stay within the range of floats.
+#[test]
+fn extremes_of_units() {
+    let uniaxial = |s: f64| von_mises(Plane::Stress, 0.3, &Vector3::new(s, 0.0, 0.0));
+    assert_eq!([1e300, 1e-300, 0.0].map(uniaxial), [1e300, 1e-300, 0.0]);
+    let norm = |x: f64| root_of_squares([3.0 * x, 4.0 * x].into_iter()) / x;
+    assert!([1e300, 1e-300].iter().all(|&x| (norm(x) - 5.0).abs() < 1e-14));
 }

@@ -1,6 +1,7 @@
 //! The CST against what is known of it in closed form.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
+use crate::common::random::fixed;
 use crate::common::tolerances::{ELEMENT, PATCH, RIGID, assert_near};
 use nalgebra::{Matrix3, SVector};
 use plane_contact::problem::element::Plane;
@@ -25,6 +26,8 @@ fn linear(p: &Corners<f64>, a: [f64; 2], g: [[f64; 2]; 2]) -> SVector<f64, 6> {
 }
 
 proptest! {
+    #![proptest_config(fixed(256))]
+
     /// Closed form: K of a triangle by its edge vectors, t/(4A) · (...), written out for one entry
     /// of each kind.
     #[test]

@@ -105,7 +105,7 @@ fn the_bar_of_unilateral_holds() {
     for scene in scenes.chain([generated]).filter(|s| s.model.target().is_some()) {
         let mut request = Request::new(&scene).variant(Variant::Unilateral);
         for (coupling, friction) in
-            [(Coupling::Nts, Friction::Stick), (Coupling::Mortar, Friction::None)]
+            [(Coupling::Nts, Friction::STICK), (Coupling::Mortar, Friction::NONE)]
         {
             (request.contact.coupling, request.contact.friction) = (coupling, friction);
             let Ok(solution) = solve(&request, &mut |_| ()) else { continue };

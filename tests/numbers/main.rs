@@ -6,6 +6,7 @@ mod common {
     pub mod golden;
     pub mod json;
     pub mod outcome;
+    pub mod random;
     pub mod shipped;
     pub mod tolerances;
 }
@@ -17,4 +18,5 @@ mod error_estimates;
 mod extremes;
 mod precisions;
 mod scalars;
+mod solvers;
 mod tolerances;

@@ -3,6 +3,7 @@
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
+use crate::common::random::fixed;
 use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{
     BOUND_WIDTH, LADDER_DOUBLE, LADDER_DOUBLE_DOUBLE, LADDER_SINGLE, NORM_ESTIMATE, Tolerance,
@@ -196,7 +197,7 @@ fn small_moves() -> impl Strategy<Value = Vec<[f64; 2]>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(fixed(30))]
 
     /// How wide it is depends on the moduli: with 1e2 beside 1e6 a bound may be more than 1e3 errors.
     #[test]
@@ -234,7 +235,7 @@ fn springs() -> impl Strategy<Value = (DMatrix<f64>, DVector<f64>)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(fixed(256))]
 
     #[test]
     fn exact_solvers_solve_exactly((a, b) in springs()) {

@@ -3,6 +3,7 @@
 
 use std::fs;
 
+use crate::common::random::fixed;
 use plane_contact::problem::scene::gmsh::{GmshError, read};
 use plane_contact::problem::scene::{Element, Mesh, Node, PhysicalName};
 use proptest::prelude::*;
@@ -406,7 +407,7 @@ fn the_strand_is_read() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(fixed(256))]
 
     /// A damaged file is read or refused, without a panic and without an end.
     #[test]

@@ -132,7 +132,6 @@ impl Scalar for Bounded {
         let whole = x.fract() == 0.0 && x.abs() < 1e15;
         Bounded { value: x, error: if whole { 0.0 } else { x.abs() * f64::EPSILON / 2.0 + 5e-324 } }
     }
-    /// Compares both value and bound.
     fn same(self, other: Self) -> bool {
         self.value == other.value && self.error == other.error
     }

@@ -34,7 +34,6 @@ impl F64x2 {
         }
     }
 
-    /// Returns hi and lo.
     pub fn halves(self) -> [f64; 2] {
         [self.hi, self.lo]
     }

@@ -55,7 +55,6 @@ pub struct Arithmetic {
     /// The largest relative residual |A x − b| / (|A| |x| + |b|) that `cg` and `refined` stop at;
     /// with none, 16 eps of the scalar.
     pub tol: Option<f64>,
-    /// What the scene's numbers stand for.
     pub inputs: Inputs,
 }
 
@@ -80,9 +79,7 @@ impl Arithmetic {
     }
 
     /// Checks that the solver is offered in the scalar, and that the tolerance is between 0 and 1.
-    ///
-    /// # Errors
-    /// Names the solvers that are offered, or the fault of the tolerance.
+    /// Errors: names the solvers that are offered, or the fault of the tolerance.
     pub fn check(&self) -> Result<(), InputError> {
         use {ScalarName as Name, Solver::*};
         let offered: &[Solver] = match self.scalar {

@@ -22,9 +22,7 @@ pub fn seconds(equations: usize, growing: bool, iterations: usize) -> f64 {
 }
 
 /// Checks that exact solutions end within the limit.
-///
-/// # Errors
-/// Says how long they may take where they do not.
+/// Errors: says how long they may take where they do not.
 pub fn check(equations: usize, growing: bool, iterations: usize) -> Result<(), InputError> {
     let seconds = seconds(equations, growing, iterations);
     if seconds <= LIMIT {

@@ -8,7 +8,6 @@ use nalgebra::{DMatrix, DVector};
 use super::factors::{Factors, Native, Singular, backward_error, largest, solve};
 use crate::numbers::scalar::Scalar;
 
-/// A square matrix and its LU factors.
 pub struct DenseLu<T: Native = f64> {
     matrix: DMatrix<T>,
     factors: PartialPivLu<T>,
@@ -16,11 +15,9 @@ pub struct DenseLu<T: Native = f64> {
 
 impl<T: Native> DenseLu<T> {
     /// Factors an n x n `matrix`.
-    ///
-    /// # Errors
-    /// Names a pivot below 16 n · eps of its own column's largest entry, which counts as zero
-    /// (rounding leaves some n · eps where the exact pivot is 0): column by column, so that a body
-    /// of soft material beside one of hard material is not taken for singular.
+    /// Errors: names a pivot below 16 n · eps of its own column's largest entry, which counts as
+    /// zero (rounding leaves some n · eps where the exact pivot is 0): column by column, so that a
+    /// body of soft material beside one of hard material is not taken for singular.
     pub fn new(matrix: DMatrix<T>) -> Result<Self, Singular> {
         let n = matrix.nrows();
         // One thread: faer's bits depend on the number of threads.
@@ -69,9 +66,7 @@ pub struct DenseCholesky<T: Native> {
 
 impl<T: Native> DenseCholesky<T> {
     /// Factors an n x n `matrix`, of which the lower triangle is read.
-    ///
-    /// # Errors
-    /// Names a pivot that is not positive, or below 16 n · eps of its own diagonal entry.
+    /// Errors: names a pivot that is not positive, or below 16 n · eps of its own diagonal entry.
     pub fn new(matrix: &DMatrix<T>) -> Result<Self, Singular> {
         let n = matrix.nrows();
         faer::set_global_parallelism(Par::Seq);

@@ -35,7 +35,6 @@ pub struct Singular {
     pub pivot: f64,
 }
 
-/// Solves with factors that faer computed.
 pub fn solve<T: Native>(factors: &impl Solve<T>, b: &DVector<T>) -> DVector<T> {
     let x = factors.solve(MatRef::from_column_major_slice(b.as_slice(), b.len(), 1));
     DVector::from_fn(b.len(), |i, _| x[(i, 0)])

@@ -10,7 +10,6 @@ use crate::numbers::scalar::Scalar;
 /// An iteration that stopped short of its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NotConverged {
-    /// The number of iterations done.
     pub iterations: usize,
     /// The relative residual |A x − b| / (|A| |x| + |b|) after the last of them.
     pub residual: f64,
@@ -20,10 +19,8 @@ pub struct NotConverged {
 /// preconditioner, until |A x − b| / (|A| |x| + |b|), computed anew, is at most `tol`.
 ///
 /// Source: Y. Saad, *Iterative methods for sparse linear systems*, 2nd ed., algorithm 9.1.
-///
-/// # Errors
-/// Stops at a diagonal entry or a direction along which A is not positive, and after 20 n + 200
-/// iterations.
+/// Errors: stops at a diagonal entry or a direction along which A is not positive, and after 20 n +
+/// 200 iterations.
 pub fn conjugate_gradients<T: Scalar>(
     a: &SparseSymmetric<T>,
     b: &DVector<T>,
@@ -68,10 +65,8 @@ pub fn conjugate_gradients<T: Scalar>(
 
 /// Solves A x = `b` with `factors` of A rounded to another scalar: x ← x + (factors)⁻¹ (b − A x),
 /// until the relative residual |A x − b| / (|A| |x| + |b|) is at most `tol`.
-///
-/// # Errors
-/// Stops at a residual that no longer halves: A is too near to a singular matrix for those factors,
-/// or `tol` is below what T can reach.
+/// Errors: stops at a residual that no longer halves: A is too near to a singular matrix for those
+/// factors, or `tol` is below what T can reach.
 pub fn refine<L: Scalar, T: Scalar>(
     factors: &impl Factors<L>,
     a: &SparseSymmetric<T>,

@@ -18,16 +18,13 @@ pub struct Ldlt<F> {
     order: Vec<usize>,
     /// The columns of L below its unit diagonal: row and value, rows ascending.
     columns: Vec<Vec<(usize, F)>>,
-    /// The diagonal matrix D.
     pivots: Vec<F>,
 }
 
 impl<F: Field> Ldlt<F> {
     /// Factors an n x n `matrix`.
-    ///
-    /// # Errors
-    /// Names a pivot that is 0, or below 16 n · eps of its own diagonal entry. A matrix that is not
-    /// semidefinite may have one and yet a unique solution.
+    /// Errors: names a pivot that is 0, or below 16 n · eps of its own diagonal entry. A matrix
+    /// that is not semidefinite may have one and yet a unique solution.
     pub fn new(matrix: &SparseSymmetric<F>) -> Result<Self, Singular> {
         let n = matrix.size();
         let order = order(matrix);

@@ -20,9 +20,7 @@ pub fn free() -> Option<u128> {
 }
 
 /// Checks that `matrices` dense 2r x 2r matrices fit in `free` bytes.
-///
-/// # Errors
-/// Says how much they need where they do not.
+/// Errors: says how much they need where they do not.
 pub fn check(r: usize, matrices: usize, free: Option<u128>) -> Result<(), InputError> {
     let free = free.unwrap_or(u128::MAX);
     if needed(r, matrices) <= free {
@@ -40,16 +38,4 @@ pub fn check(r: usize, matrices: usize, free: Option<u128>) -> Result<(), InputE
         ),
         "use a coarser mesh or a machine with more memory",
     ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_matrix_that_does_not_fit_is_refused_with_its_size() {
-        assert!(check(1000, 3, Some(96_000_000)).is_ok());
-        let error = check(1000, 3, Some(95_999_999)).unwrap_err();
-        assert!(error.what.contains("0.1 GB for 3 dense matrices of 2000 x 2000"), "{error}");
-    }
 }

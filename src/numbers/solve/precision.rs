@@ -24,7 +24,6 @@ use super::lu::solve_dense;
 use super::sparse::{SparseCholesky, SparseSymmetric};
 use crate::numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
 
-/// A solution of A x = b.
 #[derive(Clone, Debug)]
 pub struct Solved<T> {
     pub x: DVector<T>,
@@ -53,13 +52,10 @@ impl From<NotConverged> for Unsolved {
     }
 }
 
-/// A scalar that systems of equations are solved in.
 pub trait Precision: Scalar {
     /// Solves A x = `b` by `solver`, which [`check`](super::arithmetic::Arithmetic::check) must
     /// have passed; every solver but `dense-lu` takes A for symmetric and reads its lower triangle.
-    ///
-    /// # Errors
-    /// Tells that A is singular, or that an iteration did not converge.
+    /// Errors: tells that A is singular, or that an iteration did not converge.
     fn solve(
         matrix: DMatrix<Self>,
         b: &DVector<Self>,

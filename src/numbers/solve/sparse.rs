@@ -63,7 +63,6 @@ impl<T: Clone> SparseSymmetric<T> {
         columns.flat_map(|(j, column)| column.iter().map(move |(i, value)| (*i, j, value.clone())))
     }
 
-    /// Returns the same matrix with every entry mapped.
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> SparseSymmetric<U> {
         let mapped = |column: &Vec<(usize, T)>| column.iter().map(|(i, a)| (*i, f(a))).collect();
         SparseSymmetric { columns: self.columns.iter().map(mapped).collect() }
@@ -88,7 +87,6 @@ impl<T: Scalar> SparseSymmetric<T> {
         })
     }
 
-    /// Returns the product A x.
     pub fn times(&self, x: &DVector<T>) -> DVector<T> {
         let mut product = DVector::from_element(x.len(), T::zero());
         for (i, j, value) in self.entries() {
@@ -100,7 +98,6 @@ impl<T: Scalar> SparseSymmetric<T> {
         product
     }
 
-    /// Returns the n entries of the diagonal.
     pub fn diagonal(&self) -> DVector<T> {
         let of_column = |j: usize| self.columns[j].first().filter(|(i, _)| *i == j);
         DVector::from_fn(self.size(), |j, _| of_column(j).map_or(T::zero(), |(_, value)| *value))
@@ -134,10 +131,8 @@ pub struct SparseCholesky<T: Native = f64> {
 
 impl<T: Native> SparseCholesky<T> {
     /// Factors a `matrix` that must be positive definite.
-    ///
-    /// # Errors
-    /// Names an equation that a trial load, scaled by the diagonal, moves without bound: the matrix
-    /// is singular or nearly so.
+    /// Errors: names an equation that a trial load, scaled by the diagonal, moves without bound:
+    /// the matrix is singular or nearly so.
     pub fn new(matrix: SparseSymmetric<T>) -> Result<Self, Singular> {
         // One thread: faster for plane problems, and faer's bits depend on the number of threads.
         faer::set_global_parallelism(Par::Seq);
@@ -228,38 +223,4 @@ fn mechanism<T: Native>(matrix: &SparseSymmetric<T>) -> Singular {
     let shifted = factor(matrix, SHIFT * T::EPSILON).and_then(|factors| probe(&factors, &diagonal));
     let (column, size) = shifted.unwrap_or((0, f64::INFINITY));
     Singular { column, pivot: 1.0 / size }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
-    /// spring of stiffness `ground`.
-    fn chain(n: usize, ground: f64) -> SparseSymmetric {
-        let springs = (1..n).flat_map(|i| [(i, i, 1.0), (i - 1, i - 1, 1.0), (i, i - 1, -1.0)]);
-        SparseSymmetric::new(n, springs.chain([(0, 0, ground)]))
-    }
-
-    #[test]
-    fn a_chain_stretches_as_springs_in_series() {
-        let cholesky = SparseCholesky::new(chain(5, 1.0)).unwrap();
-        let pull = DVector::from_fn(5, |i, _| f64::from(i == 4));
-        let u = cholesky.solve(&pull);
-        assert!((u - DVector::from_fn(5, |i, _| i as f64 + 1.0)).amax() < 1e-14);
-    }
-
-    #[test]
-    fn an_unrestrained_chain_is_singular() {
-        assert!(SparseCholesky::new(chain(5, 0.0)).is_err());
-        assert!(SparseCholesky::new(chain(5, 1e-16)).is_err());
-        assert!(SparseCholesky::new(chain(5, 1e-10)).is_ok());
-    }
-
-    #[test]
-    fn a_matrix_without_equations_is_solved() {
-        let nothing = SparseSymmetric::<f64>::new(0, std::iter::empty());
-        let cholesky = SparseCholesky::new(nothing).unwrap();
-        assert_eq!(cholesky.solve(&DVector::zeros(0)).len(), 0);
-    }
 }

@@ -7,10 +7,8 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{Pair, SymbolicSparseColMat};
 
-/// The size of a factorisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct FactorSize {
-    /// The number n of equations.
     pub equations: usize,
     /// The number of entries of the lower triangle of A that are not 0.
     pub entries: usize,
@@ -75,26 +73,5 @@ fn columns(raw: &SymbolicCholeskyRaw<usize>) -> Box<dyn Iterator<Item = usize> +
             let below = l.supernode(s).pattern().len();
             (0..width).map(move |k| width - k + below)
         })),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_chain_fills_nothing_in() {
-        let chain = (0..5).map(|i| (i, i)).chain((1..5).map(|i| (i, i - 1)));
-        let size = FactorSize::sparse_cholesky(5, chain);
-        assert_eq!((size.entries, size.nonzeros), (9, 9));
-        assert_eq!(size.operations, 4.0 * 4.0 + 1.0);
-    }
-
-    #[test]
-    fn a_full_matrix_has_full_factors() {
-        let full = (0..6).flat_map(|i| (0..=i).map(move |j| (i, j)));
-        let size = FactorSize::sparse_cholesky(6, full);
-        assert!(size.nonzeros >= size.entries);
-        assert_eq!(size.operations, (1..=6).map(|k| f64::from(k * k)).sum::<f64>());
     }
 }

@@ -27,7 +27,6 @@ fn quotient(x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
     }
 }
 
-/// Returns what one of the four operations makes of two numbers.
 pub fn calculate(operation: Operation, x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
     match operation {
         Operation::Add => finite(x + y),
@@ -173,7 +172,6 @@ pub fn transpose(value: Value) -> Result<Value, Cause> {
     }
 }
 
-/// Returns the n x n identity matrix.
 pub fn identity(n: usize) -> Value {
     Array::from_fn(n, n, |i, j| if i == j { 1.0 } else { 0.0 }).into()
 }

@@ -45,7 +45,6 @@ impl<T: nalgebra::Scalar> Table<T> {
         self.0.get((i.checked_sub(1)?, j.checked_sub(1)?))
     }
 
-    /// Returns the same table with every entry mapped.
     pub fn map<U: nalgebra::Scalar>(&self, f: impl FnMut(T) -> U) -> Table<U> {
         Table(self.0.map(f))
     }
@@ -82,7 +81,6 @@ impl<T: nalgebra::Scalar> Column<T> {
         self.0.iter()
     }
 
-    /// Returns the same column with every entry mapped.
     pub fn map<U: nalgebra::Scalar>(&self, f: impl FnMut(T) -> U) -> Column<U> {
         Column(self.0.map(f))
     }

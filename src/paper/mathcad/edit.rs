@@ -31,37 +31,22 @@ struct Change {
 /// An edit that cannot be read, or does not fit its listing.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum EditError {
-    /// A line of the edit is none of its format's.
     #[error("line {line} of the edit: found {found:?}, expected {expected}")]
     Format {
         /// The line of the edit, from 1.
         line: usize,
         found: String,
-        /// What should stand in its place.
         expected: &'static str,
     },
     /// The listing does not have the lines to be replaced.
     #[error("{listing} has no lines {first}-{last} of {wanted} in order")]
-    NoSuchLines {
-        listing: String,
-        /// The name of the listing that the edit is for.
-        wanted: String,
-        /// The printed number of the first line to be replaced.
-        first: usize,
-        /// The printed number of the last line to be replaced.
-        last: usize,
-    },
-    /// The edited listing cannot be read.
+    NoSuchLines { listing: String, wanted: String, first: usize, last: usize },
     #[error(transparent)]
     Parse(#[from] ParseError),
 }
 
 impl Edit {
     /// Reads an edit from its text.
-    ///
-    /// # Errors
-    ///
-    /// Names the first line that is not of the format.
     pub fn parse(text: &str) -> Result<Self, EditError> {
         let mut edit = Edit { reason: String::new(), changes: vec![] };
         for (k, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
@@ -91,10 +76,8 @@ impl Edit {
     }
 
     /// Returns the listing under this reading.
-    ///
-    /// # Errors
-    ///
-    /// Names a range that the listing does not have, or why the edited listing cannot be read.
+    /// Errors: names a range that the listing does not have, or why the edited listing cannot be
+    /// read.
     pub fn apply(&self, listing: &Listing) -> Result<Listing, EditError> {
         let mut lines = listing.lines().to_vec();
         for change in &self.changes {

@@ -137,7 +137,6 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         self.spend((copied + moved + more) as u64)
     }
 
-    /// Returns what an observer is told of a name or entry.
     fn access<'a>(&self, slot: Slot, subscripts: &'a [i64], value: &'a Value) -> Access<'a>
     where
         'r: 'a,
@@ -147,7 +146,6 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     }
 }
 
-/// Returns the subscripts as whole numbers, and how many there are.
 fn whole_subscripts(subscripts: Option<Subscripts>) -> ([i64; 2], usize) {
     match subscripts {
         None => ([0, 0], 0),

@@ -9,7 +9,6 @@ use super::syntax::{Expr, Kind, Operation, Reference, Span};
 use super::value::{Array, Value};
 
 impl<O: Observer> Run<'_, '_, O> {
-    /// Returns the value of an expression.
     pub fn eval(&mut self, expr: &Expr) -> Fallible<Value> {
         match &expr.kind {
             Kind::Number(x) => Ok(Value::Number(*x)),
@@ -35,7 +34,6 @@ impl<O: Observer> Run<'_, '_, O> {
         }
     }
 
-    /// Returns the value of an expression that must be a number.
     pub fn number(&mut self, expr: &Expr) -> Fallible<f64> {
         match self.eval(expr)? {
             Value::Number(x) => Ok(x),

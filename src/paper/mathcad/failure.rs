@@ -16,7 +16,6 @@ pub struct ParseError {
     pub column: usize,
     /// The first 300 characters of the line, indentation included.
     pub text: String,
-    /// What was found and what was expected.
     pub message: String,
 }
 
@@ -45,11 +44,9 @@ pub struct Failure {
     pub text: String,
     /// The text of the whole line, without indentation.
     pub statement: String,
-    /// What happened, with the values that made it happen.
     pub cause: Cause,
 }
 
-/// A result, or the listing's failure.
 pub type Fallible<T> = Result<T, Box<Failure>>;
 
 impl Failure {
@@ -73,7 +70,6 @@ pub enum Cause {
          ORIGIN = {origin}."
     )]
     IndexBelowOrigin { name: String, subscripts: Subscripts, origin: i32 },
-    /// A subscript that is no whole number.
     #[error("An array index must be an integer: {name}{subscripts}.")]
     IndexNotWhole { name: String, subscripts: Subscripts },
     /// A division by zero.
@@ -82,37 +78,21 @@ pub enum Cause {
          {numerator}/{denominator}."
     )]
     Singularity { numerator: f64, denominator: f64 },
-    /// A result that is not a finite number.
     #[error("The result is {result}, no number that Mathcad can hold.")]
     Overflow {
         /// The result under IEEE 754.
         result: f64,
     },
-    /// A name read before it has a value.
     #[error("This variable or function is not defined above: {name}.")]
     Undefined { name: String },
-    /// A value of the wrong kind.
     #[error("Expected {expected}, found {found}.")]
-    Kind {
-        /// What kind of value is needed.
-        expected: &'static str,
-        /// What kind of value there is.
-        found: String,
-    },
+    Kind { expected: &'static str, found: String },
     /// Arrays whose sizes do not go together.
     #[error("These array sizes do not match: {left} {operation} {right}.")]
-    Sizes {
-        /// The sign of the operation.
-        operation: &'static str,
-        /// The size of the array on its left.
-        left: String,
-        /// The size of the array on its right.
-        right: String,
-    },
+    Sizes { operation: &'static str, left: String, right: String },
     /// A function called with another number of arguments than it takes.
     #[error("This function has {expected} arguments; {found} were given.")]
     Arguments { expected: usize, found: usize },
-    /// A function from outside refused its arguments.
     #[error("{name}: {message}.")]
     Function {
         name: String,
@@ -124,18 +104,13 @@ pub enum Cause {
     NoValue,
     /// The listing asks for more than [`Limits`](super::settings::Limits) allows.
     #[error("The limit of {limit} {of} is reached.")]
-    Limit {
-        limit: u64,
-        /// What the number limits.
-        of: &'static str,
-    },
+    Limit { limit: u64, of: &'static str },
 }
 
 /// One subscript or two, as evaluated; shown as `[i]` or `[i,j]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Subscripts {
     pub row: f64,
-    /// The second subscript, if there is one.
     pub col: Option<f64>,
 }
 

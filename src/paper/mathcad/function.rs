@@ -3,7 +3,6 @@
 
 use super::value::Value;
 
-/// A function that a name stands for.
 pub enum Function<'l> {
     /// `identity(n)`, the n x n matrix.
     Identity,
@@ -15,7 +14,6 @@ pub enum Function<'l> {
     Max,
     /// `trace(x, y, ...)`: a line of output, which is also its value.
     Trace,
-    /// A function that the caller defined.
     Outside(Outside<'l>),
 }
 
@@ -23,7 +21,6 @@ pub enum Function<'l> {
 pub type Outside<'l> = Box<dyn FnMut(&[Value]) -> Result<Value, String> + 'l>;
 
 impl Function<'_> {
-    /// Returns Mathcad's own function of that name.
     pub fn builtin(name: &str) -> Option<Self> {
         match name {
             "identity" => Some(Function::Identity),

@@ -73,7 +73,6 @@ impl Names {
         self.slots.get(name).copied()
     }
 
-    /// Returns the name of a slot.
     pub fn name(&self, slot: Slot) -> &str {
         &self.names[slot]
     }
@@ -83,7 +82,6 @@ impl Names {
         self.names.iter().map(String::as_str)
     }
 
-    /// Returns the number of names.
     pub fn len(&self) -> usize {
         self.names.len()
     }
@@ -96,10 +94,8 @@ pub type Spanned = (Token, SimpleSpan);
 pub type Complaint = (usize, String);
 
 /// Splits the `text` of a line into tokens.
-///
-/// # Errors
-///
-/// Names a character or number that the notation does not know, or brackets more than `depth` deep.
+/// Errors: names a character or number that the notation does not know, or brackets more than
+/// `depth` deep.
 pub fn tokens(text: &str, names: &mut Names, depth: usize) -> Result<Vec<Spanned>, Complaint> {
     let mut lexer = Lexer { text, names, found: vec![], open: vec![], depth };
     let mut at = 0;

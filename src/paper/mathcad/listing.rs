@@ -8,7 +8,6 @@ use super::parser;
 use super::settings::Limits;
 use super::syntax::{Expr, Slot, Statement, Step};
 
-/// A line of a listing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
     /// The line's number in the print, from 1. Under a reading that moves or repeats lines the
@@ -27,28 +26,23 @@ pub struct Line {
 pub struct Listing {
     pub(super) name: String,
     pub(super) lines: Vec<Line>,
-    pub(super) names: Names,
-    pub(super) parameters: Vec<Slot>,
-    pub(super) program: Vec<Statement>,
+    pub names: Names,
+    pub parameters: Vec<Slot>,
+    pub program: Vec<Statement>,
 }
 
 impl Listing {
     /// Reads a listing in the notation of `listings/README.md`, under the default [`Limits`].
     ///
     /// `name` is what messages call the listing.
-    ///
-    /// # Errors
-    ///
-    /// Names the first place at which the text leaves the notation.
+    /// Errors: names the first place at which the text leaves the notation.
     pub fn parse(name: &str, text: &str) -> Result<Self, ParseError> {
         Self::parse_within(name, text, &Limits::default())
     }
 
     /// Reads a listing under limits of the caller's.
-    ///
-    /// # Errors
-    ///
-    /// Names the first place at which the text leaves the notation, or the limit that it exceeds.
+    /// Errors: names the first place at which the text leaves the notation, or the limit that it
+    /// exceeds.
     pub fn parse_within(name: &str, text: &str, limits: &Limits) -> Result<Self, ParseError> {
         let numbered = text.lines().enumerate().map(|(k, text)| (k + 1, text));
         let lines = numbered.filter(|(_, text)| !text.starts_with('#') && !text.trim().is_empty());
@@ -73,7 +67,6 @@ impl Listing {
         Ok(Listing { name: name.into(), names, parameters, program, lines })
     }
 
-    /// Returns what messages call the listing.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -107,7 +100,6 @@ impl fmt::Display for Line {
     }
 }
 
-/// Reads lines into blocks.
 struct Reader<'a> {
     name: &'a str,
     lines: &'a [Line],
@@ -194,7 +186,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Refuses a line as a whole.
     fn refuse<T>(&self, line: &Line, message: impl Into<String>) -> Result<T, ParseError> {
         Err(self.error(line, (0, message.into())))
     }

@@ -43,10 +43,7 @@ mod function;
 mod lexer;
 mod parser;
 mod state;
-mod syntax;
-
-#[cfg(test)]
-mod tests;
+pub mod syntax;
 
 pub use edit::Edit;
 pub use failure::{Cause, Failure, ParseError};

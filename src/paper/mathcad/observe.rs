@@ -41,7 +41,6 @@ pub struct Access<'a> {
     pub value: &'a Value,
 }
 
-/// The place of an expression in the listing.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
     pub line: &'a Line,
@@ -69,7 +68,6 @@ pub struct Executed {
     pub writes: Vec<Named>,
 }
 
-/// A name or entry, and its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
     pub name: String,
@@ -158,9 +156,7 @@ pub struct Coverage {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ConditionCoverage {
     pub text: String,
-    /// How often it was true.
     pub held: u64,
-    /// How often it was false.
     pub failed: u64,
 }
 
@@ -170,12 +166,10 @@ pub struct OperandCoverage {
     pub text: String,
     /// How often it was true among operands that all were.
     pub admitted: u64,
-    /// How often it alone was false.
     pub refused: u64,
 }
 
 impl OperandCoverage {
-    /// Returns whether the operand ever decided.
     pub fn decisive(&self) -> bool {
         self.admitted > 0 || self.refused > 0
     }

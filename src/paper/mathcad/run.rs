@@ -67,20 +67,13 @@ impl<'l> Runner<'l> {
     }
 
     /// Calls the listing's function.
-    ///
-    /// # Errors
-    ///
-    /// Returns the failure that stopped the program.
     pub fn call(&mut self, arguments: &[Value]) -> Fallible<Outcome> {
         self.call_observed(arguments, &mut ())
     }
 
     /// Calls the listing's function under the eyes of an observer.
-    ///
-    /// # Errors
-    ///
-    /// Returns the failure that stopped the program; the observer has then seen all that came
-    /// before.
+    /// Errors: returns the failure that stopped the program; the observer has then seen all that
+    /// came before.
     pub fn call_observed<O: Observer>(
         &mut self,
         arguments: &[Value],
@@ -95,7 +88,6 @@ impl<'l> Runner<'l> {
 }
 
 impl<O: Observer> Run<'_, '_, O> {
-    /// Gives the parameters their values.
     fn bind(&mut self, arguments: &[Value]) -> Fallible<()> {
         let (expected, found) = (self.listing.parameters.len(), arguments.len());
         if expected != found {

@@ -15,14 +15,11 @@ pub struct Cell {
     pub local: bool,
 }
 
-/// The state of one call of a listing.
 pub struct Run<'r, 'l, O> {
     pub listing: &'r Listing,
     pub settings: &'r Settings,
     limits: &'r Limits,
-    /// The cell of each name, by its slot.
     pub cells: Vec<Cell>,
-    /// The function of each name, by its slot.
     pub functions: &'r mut [Option<Function<'l>>],
     pub observer: &'r mut O,
     /// The current line, counted from 0 through the listing's lines.
@@ -31,7 +28,6 @@ pub struct Run<'r, 'l, O> {
     steps: u64,
     /// Numbers stored by all names and trace lines, which `limits.entries` bounds.
     pub stored: usize,
-    /// The value of the last statement evaluated.
     pub last: Option<Value>,
     /// What `trace` wrote, a line for each call.
     pub trace: Vec<String>,
@@ -93,7 +89,6 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
         Place { line, start: span.start, text: &line.text[span.clone()] }
     }
 
-    /// Returns the failure of an expression of the current line.
     pub fn fail(&self, span: &Span, cause: Cause) -> Box<Failure> {
         let Place { line, start, text } = self.place(span);
         Box::new(Failure {
@@ -106,12 +101,10 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
         })
     }
 
-    /// Returns the failure of the current line as a whole.
     pub fn fail_line(&self, cause: Cause) -> Box<Failure> {
         self.fail(&(0..self.listing.lines[self.line].text.len()), cause)
     }
 
-    /// Returns the failure of a name that has no value, or no function.
     pub fn undefined(&self, slot: Slot, span: &Span) -> Box<Failure> {
         self.fail(span, Cause::Undefined { name: self.listing.names.name(slot).into() })
     }

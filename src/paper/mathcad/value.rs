@@ -13,7 +13,6 @@ use crate::numbers::scalar::Scalar;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     Number(f64),
-    /// A matrix or column of numbers.
     Array(Rc<Array>),
     /// A column of values, such as the element matrices `B`. It comes from outside; a listing can
     /// read it only.
@@ -38,22 +37,18 @@ impl Array {
         Array { rows, cols, entries }
     }
 
-    /// Makes the column of the given numbers.
     pub fn column(entries: Vec<f64>) -> Self {
         Array { rows: entries.len(), cols: 1, entries }
     }
 
-    /// Makes the row of the given numbers.
     pub fn row(entries: Vec<f64>) -> Self {
         Array { rows: 1, cols: entries.len(), entries }
     }
 
-    /// Returns the number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Returns the number of columns.
     pub fn cols(&self) -> usize {
         self.cols
     }
@@ -123,7 +118,6 @@ impl Value {
         }
     }
 
-    /// Returns the numbers of rows and columns.
     pub fn size(&self) -> (usize, usize) {
         match self {
             Value::Array(a) => (a.rows, a.cols),
@@ -132,7 +126,6 @@ impl Value {
         }
     }
 
-    /// Returns the number, if the value is one.
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(x) => Some(*x),
@@ -140,7 +133,6 @@ impl Value {
         }
     }
 
-    /// Returns what messages call the value.
     pub fn kind(&self) -> String {
         match self {
             Value::Number(x) => format!("the number {x}"),
@@ -211,19 +203,16 @@ impl From<&Column<usize>> for Value {
     }
 }
 
-/// Collects values into a column of values.
 impl FromIterator<Value> for Value {
     fn from_iter<I: IntoIterator<Item = Value>>(values: I) -> Self {
         Value::Nested(values.into_iter().collect())
     }
 }
 
-/// A value is not of the shape asked for.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("expected {expected}, found {found}")]
 pub struct ShapeError {
     pub expected: &'static str,
-    /// What messages call the value.
     pub found: String,
 }
 

@@ -39,10 +39,8 @@ impl<T: Scalar> Pairs<T> {
 }
 
 /// Finds the contact pairs in the current shape `node_n` (R x 4).
-///
-/// # Errors
-/// The listing fails as printed: a zero x difference (lines 10, 22, 23), `yt` outside its range
-/// unless R4 is *guarded* (lines 17, 18), or an overflow.
+/// Errors: the listing fails as printed: a zero x difference (lines 10, 22, 23), `yt` outside its
+/// range unless R4 is *guarded* (lines 17, 18), or an overflow.
 pub fn c_cnt<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
@@ -52,9 +50,7 @@ pub fn c_cnt<T: Scalar>(
 }
 
 /// Computes the weights, lines 11 to 31, of nodes whose statuses another rule has `decided`.
-///
-/// # Errors
-/// Those lines fail as printed: a zero x difference (lines 22, 23), or an overflow.
+/// Errors: those lines fail as printed: a zero x difference (lines 22, 23), or an overflow.
 pub fn weights<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,

@@ -16,9 +16,7 @@ use crate::paper::mathcad::array::{Column, Table};
 use crate::problem::element;
 
 /// Assembles `MJS` (2R x 2R, force/length) from the contact pairs `c_cnt` (R x 4, as `k_cnt`).
-///
-/// # Errors
-/// An entry overflows; the error names element and line.
+/// Errors: an entry overflows; the error names element and line.
 pub fn Km<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,

@@ -46,7 +46,6 @@ pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[String]) -> Vec<
     bodies
 }
 
-/// Returns the lowest node of each node's body.
 fn lowest_nodes(nodes: usize, triangles: &[Triangle]) -> Vec<NodeId> {
     let mut root: Vec<usize> = (0..nodes).collect();
     fn lowest(root: &mut [usize], mut n: usize) -> usize {

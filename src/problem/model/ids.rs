@@ -113,7 +113,6 @@ impl NodeId {
 }
 
 impl Dof {
-    /// Returns the node to which the displacement belongs.
     pub const fn node(self) -> NodeId {
         NodeId(self.0 / 2)
     }
@@ -123,7 +122,6 @@ impl Dof {
         self.0 % 2
     }
 
-    /// Returns the letter of its direction.
     pub const fn axis(self) -> char {
         ['x', 'y'][self.direction()]
     }

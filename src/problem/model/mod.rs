@@ -24,12 +24,10 @@ pub struct Material {
     pub nu: f64,
 }
 
-/// A three-node triangle and its material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
     /// The nodes of the corners, counter-clockwise.
     pub nodes: [NodeId; 3],
-    /// The material of the triangle.
     pub material: Material,
 }
 
@@ -60,7 +58,6 @@ pub struct Row {
     pub number: usize,
     /// The tag of the first physical group to which it belongs; 0 where it belongs to none.
     pub physical: usize,
-    /// The tag of its geometric entity.
     pub geometric: usize,
     /// The point, edge or triangle that the row describes.
     pub element: Element,
@@ -69,11 +66,8 @@ pub struct Row {
 /// The kind of an element of the mesh file, and its place in the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// A point at a node.
     Point(NodeId),
-    /// An edge of the model.
     Edge(EdgeId),
-    /// A triangle of the model.
     Triangle(TriangleId),
 }
 
@@ -90,7 +84,6 @@ pub struct Model {
     pub z: f64,
     /// The triangles, in the order of the mesh file.
     pub triangles: Vec<Triangle>,
-    /// The triangles beside each side.
     pub sides: Sides,
     /// The edges that the mesh names, by ascending number.
     pub edges: Vec<Edge>,
@@ -103,7 +96,6 @@ pub struct Model {
     pub stages: Vec<DVector<f64>>,
     /// The bodies, by their lowest node.
     pub bodies: Vec<Body>,
-    /// The contact surface and the target surface.
     pub contact: ContactSurfaces,
     /// The elements of the mesh file, by ascending number.
     pub rows: Vec<Row>,
@@ -135,12 +127,10 @@ impl Model {
         self.nodes[node.index()]
     }
 
-    /// Returns the triangle with this identifier.
     pub fn triangle(&self, id: TriangleId) -> &Triangle {
         &self.triangles[id.index()]
     }
 
-    /// Returns the edge with this identifier.
     pub fn edge(&self, id: EdgeId) -> &Edge {
         &self.edges[id.index()]
     }
@@ -150,7 +140,6 @@ impl Model {
         self.triangle(id).nodes.map(|node| self.at(node))
     }
 
-    /// Returns whether a degree of freedom is restrained.
     pub fn is_restrained(&self, dof: Dof) -> bool {
         self.restrained[dof.index()]
     }
@@ -181,7 +170,6 @@ impl Model {
         [0, 1].map(|direction| self.load.iter().skip(direction).step_by(2).sum())
     }
 
-    /// Returns whether there is a contact surface.
     pub fn has_contact(&self) -> bool {
         !self.contact.nodes.is_empty()
     }

@@ -4,18 +4,14 @@ use std::collections::HashMap;
 
 use super::ids::{NodeId, TriangleId};
 
-/// The triangles beside the sides of all triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sides(HashMap<[NodeId; 2], Vec<Beside>>);
 
-/// A triangle beside a side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Beside {
-    /// The triangle that has the side.
     pub triangle: TriangleId,
     /// The side's two nodes, in the order that leaves the triangle on their left.
     pub nodes: [NodeId; 2],
-    /// The third node of the triangle.
     pub third: NodeId,
 }
 

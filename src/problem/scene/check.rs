@@ -8,13 +8,10 @@ use super::{groups, surface};
 use crate::error::InputError;
 use crate::problem::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
 
-/// The largest number of iterations that is accepted.
 const MOST_ITERATIONS: usize = 1_000_000;
 
 /// Checks the thickness and the number of iterations.
-///
-/// # Errors
-/// The thickness is not positive, or the number of iterations is 0 or too large.
+/// Errors: the thickness is not positive, or the number of iterations is 0 or too large.
 pub fn numbers(file: &Description) -> Result<(), InputError> {
     if !(file.thickness > 0.0 && file.thickness.is_finite()) {
         let what = format!("the thickness {} is not positive", file.thickness);
@@ -28,9 +25,8 @@ pub fn numbers(file: &Description) -> Result<(), InputError> {
 }
 
 /// Returns each triangle's material and the name of its group, in the order of `EL`.
-///
-/// # Errors
-/// A material is out of its range, a triangle has no material or two, or a group has no triangle.
+/// Errors: a material is out of its range, a triangle has no material or two, or a group has no
+/// triangle.
 pub fn materials(
     mesh: &Mesh,
     file: &Description,
@@ -67,9 +63,7 @@ pub fn materials(
 }
 
 /// Returns whether each degree of freedom is restrained.
-///
-/// # Errors
-/// A restraint names no place or two, or a node or group that does not exist.
+/// Errors: a restraint names no place or two, or a node or group that does not exist.
 pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>, InputError> {
     let mut restrained = vec![false; 2 * mesh.nodes.len()];
     for (k, restraint) in file.restraints.iter().enumerate() {
@@ -100,9 +94,7 @@ pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>, InputErr
 }
 
 /// Returns the two contact surfaces and their tolerance; empty where the scene has no contact.
-///
-/// # Errors
-/// The tolerance is negative, or the surfaces do not exist or share a node.
+/// Errors: the tolerance is negative, or the surfaces do not exist or share a node.
 pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, InputError> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
     if !(contact.tolerance >= 0.0 && contact.tolerance.is_finite()) {
@@ -133,9 +125,7 @@ pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, Input
 
 /// Checks that restraints fix each body that no contact surface touches, and, taken as one, the
 /// bodies that contact joins.
-///
-/// # Errors
-/// A body can still move; the error says how.
+/// Errors: a body can still move; the error says how.
 pub fn restrained_bodies(model: &Model) -> Result<(), InputError> {
     let target_nodes = model.target_edges().map(|edge| edge.nodes[0]);
     let in_contact: Vec<NodeId> = model.contact.nodes.iter().copied().chain(target_nodes).collect();

@@ -18,7 +18,6 @@ use crate::problem::modelling::{
 /// consistent unit. Fields with their default are not written.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Description {
-    /// The title of the scene for people.
     #[serde(skip_serializing_if = "is_default")]
     pub title: String,
     /// The plane problem: plane strain or plane stress.
@@ -29,7 +28,6 @@ pub struct Description {
     /// The unit names for tables and pictures; no number is converted.
     #[serde(skip_serializing_if = "is_default")]
     pub units: Units,
-    /// The material of each physical group of triangles.
     pub materials: Materials,
     /// The displacements that are restrained to 0.
     #[serde(skip_serializing_if = "is_default")]
@@ -140,20 +138,15 @@ pub struct Restraint {
     /// A physical group, all of whose nodes are restrained; None where `node` is named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<GroupRef>,
-    /// The number of a single node that is restrained.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<usize>,
-    /// The directions that are restrained.
     pub fix: Vec<Axis>,
 }
 
-/// A coordinate direction of the plane.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
-    /// The horizontal direction, x.
     X,
-    /// The vertical direction, y.
     Y,
 }
 
@@ -161,7 +154,6 @@ pub enum Axis {
 #[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// A physical group of edges that carries the load.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<GroupRef>,
     /// The pressure that pushes into the body, stress.
@@ -170,7 +162,6 @@ pub struct Load {
     /// The force per area along x and y, stress.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub traction: Option<[f64; 2]>,
-    /// The number of a single node that carries the load.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<usize>,
     /// The force on that node along x and y, force.

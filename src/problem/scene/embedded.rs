@@ -2,11 +2,8 @@
 
 /// A scene from `golden/<name>/`.
 pub struct Embedded {
-    /// The name on the command line.
     pub name: &'static str,
-    /// The text of the scene file.
     pub scene: &'static [u8],
-    /// The names and contents of the files that the scene file refers to.
     pub files: &'static [(&'static str, &'static [u8])],
 }
 
@@ -21,7 +18,6 @@ macro_rules! findings {
     };
 }
 
-/// The scenes that the command line proposes.
 pub const SCENES: &[Embedded] = &[
     Embedded {
         name: "strand",
@@ -36,7 +32,6 @@ pub const SCENES: &[Embedded] = &[
     },
 ];
 
-/// The smallest scene that shows each finding.
 #[rustfmt::skip]
 pub const FINDING_SCENES: &[Embedded] = findings![
     "C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13", "C14", "C15",

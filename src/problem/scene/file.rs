@@ -51,9 +51,7 @@ struct SceneFile {
 }
 
 /// Parses a scene file: the source of its mesh, and its description.
-///
-/// # Errors
-/// The text is no scene file; the error names the field's path, the line and the column.
+/// Errors: the text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<(MeshSource, Description), InputError> {
     let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
     let mut deserializer = serde_json::Deserializer::from_slice(text);

@@ -7,18 +7,14 @@ use serde::Serialize;
 use super::mesh::{Element, Mesh};
 use crate::error::InputError;
 
-/// A physical group, by its name or its tag.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(untagged)]
 pub enum GroupRef {
-    /// The group that has this name.
     Name(String),
-    /// The group that has this tag.
     Tag(usize),
 }
 
 impl GroupRef {
-    /// Returns the name or tag as plain text.
     pub fn text(&self) -> String {
         match self {
             GroupRef::Name(name) => name.clone(),
@@ -54,13 +50,10 @@ impl From<usize> for GroupRef {
     }
 }
 
-/// The names of a group's elements, by dimension.
 const ELEMENT_NAMES: [&str; 3] = ["points", "edges", "triangles"];
 
 /// Returns the group's elements of dimension `dim` (1: edges, 2: triangles), in mesh order.
-///
-/// # Errors
-/// No such group exists in that dimension, or it has no element.
+/// Errors: no such group exists in that dimension, or it has no element.
 pub fn members<'m>(
     mesh: &'m Mesh,
     dim: usize,
@@ -81,9 +74,6 @@ pub fn members<'m>(
 }
 
 /// Returns the nodes of a group, ascending: a group of edges, else of points, else of triangles.
-///
-/// # Errors
-/// No such group exists, or it has no element.
 pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>, InputError> {
     let dim = [1, 0, 2].into_iter().find(|&dim| {
         tag(mesh, dim, group)

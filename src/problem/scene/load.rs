@@ -43,9 +43,7 @@ pub fn stages(
 }
 
 /// Returns the forces on all 2R degrees of freedom, restrained ones included, force.
-///
-/// # Errors
-/// A load has another form, its edge bounds no triangle or two, or a number is not finite.
+/// Errors: a load has another form, its edge bounds no triangle or two, or a number is not finite.
 pub fn vector(
     mesh: &Mesh,
     sides: &Sides,

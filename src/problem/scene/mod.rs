@@ -10,7 +10,7 @@ mod builder;
 mod check;
 mod description;
 mod embedded;
-mod file;
+pub mod file;
 pub mod gmsh;
 mod groups;
 mod load;
@@ -18,7 +18,7 @@ mod mesh;
 mod orphans;
 mod refine;
 mod source;
-mod surface;
+pub mod surface;
 pub mod symmetry;
 
 use std::path::Path;

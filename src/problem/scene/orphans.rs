@@ -7,9 +7,7 @@ use crate::error::InputError;
 
 /// Drops the nodes `dropped`, which belong to no triangle, where the description allows it, and
 /// renumbers the nodes that the description names.
-///
-/// # Errors
-/// Nodes may not be dropped, or the description names a dropped one.
+/// Errors: nodes may not be dropped, or the description names a dropped one.
 pub fn drop(
     mesh: &Mesh,
     dropped: &[usize],

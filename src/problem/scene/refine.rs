@@ -20,7 +20,6 @@ use crate::problem::model::NodeId;
 /// A finer scene. Nodes keep their numbers; triangle n (row of `EL`) becomes 4n − 3 .. 4n.
 #[derive(Clone, Debug)]
 pub struct Refined {
-    /// The scene on the finer mesh.
     pub scene: Scene,
     /// The ends of the edge that each new node halves, from node R + 1 on.
     pub parents: Vec<[NodeId; 2]>,
@@ -30,9 +29,6 @@ impl Scene {
     /// Returns the scene on a mesh of half the element size, with everything else unchanged; None
     /// for half a scene, which has no mesh. A restraint or a force on a single node stays on that
     /// node.
-    ///
-    /// # Errors
-    /// The errors of [`Scene::build`].
     pub fn refined(&self) -> Result<Option<Refined>, InputError> {
         let Some(source) = &self.source else { return Ok(None) };
         let (file, mesh) = (&source.0, &source.1);

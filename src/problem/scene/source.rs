@@ -4,7 +4,6 @@ use super::gmsh;
 use super::mesh::Mesh;
 use crate::error::InputError;
 
-/// The place of a mesh.
 pub enum MeshSource {
     /// A Gmsh file beside the scene file, by its name.
     File(String),
@@ -14,9 +13,7 @@ pub enum MeshSource {
 
 impl MeshSource {
     /// Returns the source that the fields `mesh`, `node` and `elem` of a scene file name.
-    ///
-    /// # Errors
-    /// The fields name no source, or two.
+    /// Errors: the fields name no source, or two.
     pub fn new(
         mesh: Option<String>,
         node: Option<Vec<[f64; 4]>>,
@@ -34,9 +31,7 @@ impl MeshSource {
     }
 
     /// Reads the mesh; `beside` reads a file in the scene file's folder.
-    ///
-    /// # Errors
-    /// The file cannot be read, or a row of a table has another form.
+    /// Errors: the file cannot be read, or a row of a table has another form.
     pub fn read(
         &self,
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,

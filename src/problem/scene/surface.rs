@@ -8,11 +8,9 @@ use super::groups::{self, GroupRef};
 use super::mesh::{Element, Mesh};
 use crate::error::InputError;
 
-/// A contact surface, as a group or as a list of numbers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Surface {
-    /// A physical group of edges.
     Group(GroupRef),
     /// Node or `elem` numbers, in their order in the list.
     Numbers(Vec<usize>),
@@ -38,9 +36,7 @@ impl From<Vec<usize>> for Surface {
 
 /// Returns the node numbers of the contact surface `cnt`, in order along it. A list is taken as it
 /// is; a group's edges are followed as a chain from its first end.
-///
-/// # Errors
-/// A group is no single chain, or a number is no node.
+/// Errors: a group is no single chain, or a number is no node.
 pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputError> {
     let place = "contact.cnt";
     match surface {
@@ -61,9 +57,7 @@ pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, Input
 }
 
 /// Returns the `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
-///
-/// # Errors
-/// A number is no edge.
+/// Errors: a number is no edge.
 pub fn target_edges(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputError> {
     let place = "contact.trg";
     match surface {
@@ -97,7 +91,7 @@ fn not_empty(numbers: &[usize], place: &str) -> Result<(), InputError> {
 }
 
 /// Follows `edges` as one chain from its first end, or a closed one from its first node.
-fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
+pub fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
     let mut at: HashMap<usize, Vec<usize>> = HashMap::new();
     for (k, edge) in edges.iter().enumerate() {
         edge.iter().for_each(|n| at.entry(*n).or_default().push(k));
@@ -123,27 +117,5 @@ fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
              and edge {} - {} is left",
             edges[k][0], edges[k][1]
         )),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::chain;
-
-    #[test]
-    fn a_chain_starts_at_its_first_end_in_mesh_order() {
-        assert_eq!(chain(&[[5, 4], [5, 6], [4, 9]]).unwrap(), [6, 5, 4, 9]);
-        assert_eq!(chain(&[[2, 1], [3, 2]]).unwrap(), [1, 2, 3]);
-    }
-
-    #[test]
-    fn a_closed_chain_starts_at_its_first_edge_and_names_each_node_once() {
-        assert_eq!(chain(&[[1, 2], [2, 3], [3, 1]]).unwrap(), [1, 2, 3]);
-    }
-
-    #[test]
-    fn branches_and_pieces_are_refused() {
-        assert!(chain(&[[1, 2], [2, 3], [2, 4]]).unwrap_err().contains("node 2"));
-        assert!(chain(&[[1, 2], [3, 4]]).unwrap_err().contains("edge 3 - 4"));
     }
 }

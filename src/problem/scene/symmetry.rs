@@ -21,10 +21,8 @@ const PLACE: f64 = 1e-9;
 /// The largest difference of a load from its image, over the largest load.
 const LOAD: f64 = 1e-9;
 
-/// The right half of a symmetric scene.
 #[derive(Clone, Debug)]
 pub struct Half {
-    /// The half right of the line, as a scene.
     pub scene: Scene,
     /// The whole scene's node for each node of the half.
     pub nodes: Vec<NodeId>,
@@ -68,7 +66,6 @@ struct Mirror<'a> {
     place: f64,
 }
 
-/// The mirror image of each node.
 struct Images(Vec<NodeId>);
 
 impl Images {
@@ -131,7 +128,6 @@ impl<'a> Mirror<'a> {
         self.model.node_ids().all(returns).then_some(images)
     }
 
-    /// Returns whether triangles and their materials are symmetric.
     fn triangles(&self, images: &Images) -> bool {
         let key = |mut nodes: [NodeId; 3], triangle: &Triangle| {
             nodes.sort_unstable();
@@ -142,7 +138,6 @@ impl<'a> Mirror<'a> {
         triangles().all(|t| all.contains(&key(t.nodes.map(|n| images.of(n)), t)))
     }
 
-    /// Returns whether the contact surfaces are symmetric as sets.
     fn surfaces(&self, images: &Images) -> bool {
         let contact: HashSet<NodeId> = self.model.contact.nodes.iter().copied().collect();
         let target: HashSet<[NodeId; 2]> =
@@ -151,7 +146,6 @@ impl<'a> Mirror<'a> {
             && target.iter().all(|edge| target.contains(&unordered(edge.map(|n| images.of(n)))))
     }
 
-    /// Returns whether restraints and loads are symmetric.
     fn conditions(&self, images: &Images) -> bool {
         let model = self.model;
         let same_load = |load: &DVector<f64>, n: NodeId| {
@@ -171,7 +165,6 @@ struct Restriction<'a> {
     mirror: &'a Mirror<'a>,
     nodes: &'a [NodeId],
     triangles: &'a [TriangleId],
-    /// The edges of the whole model that are in the half.
     edges: Vec<EdgeId>,
     /// The number in the half of each node of the whole model.
     number: HashMap<NodeId, NodeId>,
@@ -255,7 +248,6 @@ impl<'a> Restriction<'a> {
         Some(Row { element, ..*row })
     }
 
-    /// Returns the place of an edge in the half.
     fn edge(&self, id: EdgeId) -> Option<EdgeId> {
         self.edges.binary_search(&id).ok().map(EdgeId::new)
     }

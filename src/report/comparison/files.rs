@@ -26,9 +26,6 @@ const ELEMENTS: [&str; 2] = [
 
 /// Writes `compare.json`, `nodes.csv`, `elements.csv` and three pictures to `folder`; gives back
 /// the first one's content.
-///
-/// # Errors
-/// Names the file that cannot be written.
 pub fn write(folder: &Path, compared: &Compared) -> Result<String, InputError> {
     let Compared { scene, model, comparison, .. } = compared;
     let Comparison { ours, theirs, von_mises, displacement, .. } = comparison;

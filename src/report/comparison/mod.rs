@@ -17,19 +17,14 @@ pub use files::write;
 /// How many nodes are listed, those with the largest differences.
 const WORST: usize = 10;
 
-/// What was compared, and what came of it.
 pub struct Compared<'a> {
     /// The scene, which names units and title.
     pub scene: &'a Scene,
-    /// The model that was solved.
     pub model: &'a Model,
-    /// The variant that this program ran.
     pub variant: Variant,
     /// How the deck has the bodies touch; the last of several decks.
     pub contact: &'a Contact,
-    /// How many decks were run and summed.
     pub decks: usize,
-    /// The version of CalculiX.
     pub version: &'a str,
     /// The results of both, and their differences.
     pub comparison: &'a Comparison,

@@ -77,17 +77,3 @@ pub fn split(scientific: &str) -> (&str, i32) {
     let (mantissa, exponent) = scientific.split_once('e').expect("scientific notation");
     (mantissa, exponent.parse().expect("an exponent"))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn round_numbers() {
-        let numbers = [1.0, 1.5, 120.0, 0.034, 8.0, 3e299, 3e-300];
-        let nearest = numbers.map(|x| Decimal::nearest_round(x).value());
-        assert_eq!(nearest, [1.0, 2.0, 100.0, 0.05, 10.0, 2e299, 2e-300]);
-        let at_most = [1.99, 2.0, 12.5, 0.7, 9.99e-301].map(|x| Decimal::round_at_most(x).value());
-        assert_eq!(at_most, [1.0, 2.0, 10.0, 0.5, 5e-301]);
-    }
-}

@@ -24,7 +24,6 @@ pub fn percent(part: f64, decimals: usize) -> String {
     format!("{:.decimals$} %", 100.0 * part)
 }
 
-/// Writes a place of the mesh, x and y.
 pub fn place([x, y]: [f64; 2], decimals: usize) -> String {
     format!("{x:.decimals$}, {y:.decimals$}")
 }

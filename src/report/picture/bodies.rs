@@ -12,13 +12,10 @@ const BLOCK_AND_STAMP: [&str; 2] = ["#9ccb9a", "#f4d35e"];
 /// The muted colours of further bodies, in turn.
 const FURTHER_BODIES: [&str; 4] = ["#a9c1dc", "#dcb1ab", "#c3b3d9", "#cdc5b0"];
 
-/// The colour of the edges of triangles.
 const TRIANGLE_EDGE: &str = "#4a4a4a";
 
-/// The colour of contact nodes.
 const CONTACT_NODE: &str = "#1a1a1a";
 
-/// The colour of target edges.
 const TARGET_EDGE: &str = "#c1272d";
 
 /// Draws the triangles in the colours of their bodies, and the contact pair over them.
@@ -32,7 +29,6 @@ pub fn draw_bodies(drawing: &Drawing, view: &View) -> Element {
     group().with(triangles.with_all(bodies)).with_all(contact)
 }
 
-/// Returns the signs of the picture and their words.
 pub fn legend(drawing: &Drawing) -> Vec<(Sign, String)> {
     let body = |(region, name): (usize, &String)| {
         let count = drawing.region.iter().filter(|of| **of == region).count();

@@ -27,20 +27,15 @@ pub struct Axis<'a> {
     pub logarithmic: bool,
 }
 
-/// A curve or a set of points.
 pub struct Series {
-    /// The name in the legend.
     pub name: String,
     /// The places on the two axes, finite, in the order in which a line joins them.
     pub points: Vec<[f64; 2]>,
-    /// How the points are drawn.
     pub style: Style,
 }
 
-/// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// A line with a dot at each point.
     Dotted,
     /// A line without dots.
     Line,
@@ -171,37 +166,5 @@ impl Plot {
             drawn.push(group().fill(colour).with_all(points.iter().map(|p| circle(*p, 3.0))));
         }
         drawn
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn drawn(logarithmic: bool, points: Vec<[f64; 2]>) -> String {
-        let axis = |label| Axis { label, logarithmic };
-        let series = [Series { name: "s".into(), points, style: Style::Dots }];
-        chart("t", [axis("x"), axis("y")], &series, &[])
-    }
-
-    #[test]
-    fn a_chart_marks_each_point() {
-        let text = drawn(false, vec![[0.0, 0.0], [1.0, 2.0], [2.0, -1.0]]);
-        let read = roxmltree::Document::parse(&text).unwrap();
-        let circles = read.descendants().filter(|n| n.has_tag_name("circle")).count();
-        assert_eq!(circles, 3 + 1, "three points and the legend's sign");
-    }
-
-    #[test]
-    fn a_logarithmic_axis_leaves_out_what_it_cannot_show() {
-        let text = drawn(true, vec![[1e-3, 1e-16], [10.0, 0.0]]);
-        assert!(text.contains("10⁻³") && text.contains("10⁻¹⁶"), "{text}");
-        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
-    }
-
-    #[test]
-    fn a_chart_of_nothing_is_a_chart() {
-        assert!(drawn(false, vec![]).contains("</svg>"));
-        assert!(drawn(true, vec![]).contains("</svg>"));
     }
 }

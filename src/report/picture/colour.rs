@@ -18,7 +18,6 @@ const BAR_HEIGHT: f64 = 16.0;
 /// How many strips of one colour make the bar.
 const BAR_STEPS: u32 = 128;
 
-/// The colours of a range of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColourScale {
     low: f64,
@@ -86,7 +85,7 @@ impl ColourScale {
     }
 
     /// Returns where the ticks stand along the bar (0 to 1), and what they say.
-    fn ticks(&self) -> Vec<(f64, String)> {
+    pub fn ticks(&self) -> Vec<(f64, String)> {
         let [low, high] = [self.low, self.high].map(|value| shifted(value, -self.exponent()));
         if self.is_uniform() {
             return vec![(0.5, significant(high, 4))];
@@ -122,48 +121,4 @@ fn tick(corner: Pixel, along: f64, label: &str) -> Element {
 
 fn shade(fraction: f64) -> String {
     format!("#{:x}", colorous::VIRIDIS.eval_continuous(fraction.clamp(0.0, 1.0)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn equal_values_have_one_tick_and_one_colour() {
-        for value in [0.0, 6.3, -1e300, 1e-300] {
-            let scale = ColourScale::of(&[value, value * (1.0 + 1e-12)]);
-            assert!(scale.is_uniform());
-            assert_eq!(scale.ticks().len(), 1);
-            assert_eq!(scale.colour(value), shade(0.5));
-        }
-        assert_eq!(ColourScale::of(&[6.3, 6.3]).ticks(), [(0.5, String::from("6.3"))]);
-    }
-
-    #[test]
-    fn ticks_lie_on_the_bar() {
-        for values in [[0.0, 1e300], [1e-300, 7e-300], [-2e5, 3e5], [100.0, 100.001]] {
-            let ticks = ColourScale::of(&values).ticks();
-            assert!(ticks.len() >= 3, "{ticks:?}");
-            let bar = -1e-9..=1.0 + 1e-9;
-            assert!(ticks.iter().all(|(place, _)| bar.contains(place)), "{ticks:?}");
-        }
-    }
-
-    #[test]
-    fn values_share_the_power_of_the_bar() {
-        let scale = ColourScale::of(&[0.0, 2.068e-4]);
-        let words = [0.0, 1e-12, 1.5e-6, 2.068e-4].map(|value| scale.value_in_words(value, "1"));
-        assert_eq!(words, ["0", "10⁻¹²", "1.5·10⁻⁶", "206.8·10⁻⁶"]);
-        assert_eq!(ColourScale::of(&[6.3]).value_in_words(6.3, "MPa"), "6.3 MPa");
-    }
-
-    #[test]
-    fn heading_names_power_and_unit() {
-        let heading = |largest: f64, unit| ColourScale::of(&[0.0, largest]).heading("q", unit);
-        assert_eq!(heading(6.3, "MPa"), "q, MPa");
-        assert_eq!(heading(6.3e6, "Pa"), "q, 10⁶ Pa");
-        assert_eq!(heading(6.3, ""), "q, unit of the scene");
-        assert_eq!(heading(6.3, "1"), "q");
-        assert_eq!(heading(6.3e-4, "1"), "q, 10⁻⁶");
-    }
 }

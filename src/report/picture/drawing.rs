@@ -14,7 +14,6 @@ pub struct Drawing {
     pub triangles: Vec<[usize; 3]>,
     /// The region of each triangle: 0 is the block (the target), then the stamp and other bodies.
     pub region: Vec<usize>,
-    /// The name of each region.
     pub region_names: Vec<String>,
     /// The unit of lengths, empty where the scene names none.
     pub length_unit: String,
@@ -43,7 +42,6 @@ pub struct Field<'a> {
 }
 
 impl Drawing {
-    /// Returns the mesh of a scene under a title.
     pub fn new(scene: &Scene, title: &str) -> Self {
         let model = &*scene.model;
         let (region, region_names) = regions(model);

@@ -8,15 +8,11 @@ use super::view::{Bounds, View};
 use crate::report::numbers::{Decimal, significant};
 use crate::report::xml::Element;
 
-/// The colour of the deformed outline.
 const OUTLINE: &str = "#111111";
 
-/// The colour of the undeformed outline.
 const UNDEFORMED_OUTLINE: &str = "#b5b5b5";
 
-/// All that the panels and the captions of a field need.
 pub struct FieldPicture<'a> {
-    /// The colours of its values.
     pub scale: ColourScale,
     /// The points of the mesh, displaced `magnification` times.
     pub deformed: Vec<[f64; 2]>,
@@ -52,7 +48,6 @@ impl<'a> FieldPicture<'a> {
             .with_all((!self.scale.is_uniform()).then(|| marker(middle(largest))))
     }
 
-    /// Writes the sentences under the picture.
     pub fn captions(&self) -> Vec<String> {
         let overlap = "Displacements are magnified, gaps are not: \
                        bodies that overlap here need not do so in the calculation.";
@@ -138,7 +133,6 @@ fn extremes(values: &[f64]) -> [usize; 2] {
     [smallest, largest].map(|triangle| triangle.expect("at least one triangle"))
 }
 
-/// Returns the centre of a triangle.
 fn middle(corners: [[f64; 2]; 3]) -> [f64; 2] {
     [0, 1].map(|axis| corners.iter().map(|corner| corner[axis] / 3.0).sum())
 }

@@ -14,13 +14,13 @@
 
 mod bodies;
 mod chart;
-mod colour;
-mod deformation;
+pub mod colour;
+pub mod deformation;
 mod drawing;
 mod fields;
-mod page;
-mod svg;
-mod view;
+pub mod page;
+pub mod svg;
+pub mod view;
 
 pub use self::chart::{Axis, Series, Style, chart};
 pub use self::drawing::{Contact, Drawing, Field};
@@ -83,120 +83,4 @@ fn check(drawing: &Drawing, field: &Field) {
         finite(field.values) && finite(field.displacement.as_flattened()),
         "a picture needs finite numbers"
     );
-}
-
-#[cfg(test)]
-mod tests {
-    use roxmltree::Document;
-
-    use super::*;
-
-    const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]];
-
-    fn square() -> Drawing {
-        Drawing {
-            title: "a < b & \"c\"".into(),
-            points: SQUARE.to_vec(),
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
-            region: vec![0, 1],
-            region_names: ["block", "stamp"].map(String::from).to_vec(),
-            length_unit: "mm".into(),
-            contact: None,
-        }
-    }
-
-    fn touching(nodes: &[usize], edge: [usize; 2]) -> Drawing {
-        let contact = Contact { nodes: nodes.to_vec(), edges: vec![edge] };
-        Drawing { contact: Some(contact), ..square() }
-    }
-
-    fn stress<'a>(values: &'a [f64], displacement: &'a [[f64; 2]]) -> Field<'a> {
-        Field { quantity: "stress", unit: "MPa", values, displacement }
-    }
-
-    /// Returns an attribute of every element of this name.
-    fn attributes(picture: &str, element: &str, attribute: &str) -> Vec<String> {
-        let document = Document::parse(picture).unwrap();
-        let found = document.descendants().filter(|node| node.has_tag_name(element));
-        found.filter_map(|node| node.attribute(attribute)).map(String::from).collect()
-    }
-
-    fn texts(picture: &str) -> String {
-        let document = Document::parse(picture).unwrap();
-        let found = document.descendants().filter(|node| node.has_tag_name("text"));
-        found.filter_map(|node| node.text()).collect::<Vec<_>>().join("|")
-    }
-
-    #[test]
-    fn mesh_has_a_polygon_per_triangle() {
-        let picture = mesh(&square());
-        assert_eq!(attributes(&picture, "polygon", "points").len(), 2);
-        let words = texts(&picture);
-        for expected in ["a < b & \"c\"", "block (1 triangle)", "stamp (1 triangle)", "2 mm"] {
-            assert!(words.contains(expected), "{expected} in {words}");
-        }
-    }
-
-    #[test]
-    fn field_has_the_end_colours() {
-        let picture = field(&square(), &stress(&[1.0, 3.0], &[[0.0; 2]; 4]));
-        assert_eq!(attributes(&picture, "polygon", "fill"), ["#440154", "#fde725"]);
-        let words = texts(&picture);
-        for expected in [
-            "Largest value 3 MPa at x\u{a0}=\u{a0}3.333, y\u{a0}=\u{a0}6.667 mm",
-            "smallest value 1 MPa at x\u{a0}=\u{a0}6.667, y\u{a0}=\u{a0}3.333 mm",
-            "Deformation × 1 ",
-        ] {
-            assert!(words.contains(expected), "{expected} in {words}");
-        }
-    }
-
-    #[test]
-    fn equal_values_have_no_marker() {
-        let picture = field(&square(), &stress(&[2.0, 2.0], &[[0.0; 2]; 4]));
-        assert!(attributes(&picture, "circle", "r").is_empty());
-        assert!(texts(&picture).contains("The value is the same in every triangle: 2 MPa."));
-    }
-
-    #[test]
-    fn stamp_is_drawn_over_the_block() {
-        let drawing = Drawing { region: vec![1, 0], ..square() };
-        let picture = field(&drawing, &stress(&[1.0, 3.0], &[[0.0; 2]; 4]));
-        assert_eq!(attributes(&picture, "polygon", "fill"), ["#fde725", "#440154"]);
-    }
-
-    #[test]
-    fn contact_brings_an_enlargement() {
-        let drawing = touching(&[1], [1, 2]);
-        for picture in [mesh(&drawing), field(&drawing, &stress(&[1.0, 3.0], &[[0.0; 2]; 4]))] {
-            assert_eq!(attributes(&picture, "clipPath", "id").len(), 1);
-            assert!(texts(&picture).contains("b: contact zone, enlarged"));
-        }
-    }
-
-    #[test]
-    fn wide_contact_is_not_enlarged() {
-        let picture = mesh(&touching(&[0, 1], [0, 1]));
-        assert!(attributes(&picture, "clipPath", "id").is_empty());
-        assert!(texts(&picture).contains("contact nodes (2)"));
-    }
-
-    #[test]
-    fn extreme_numbers() {
-        for (unit, size) in [(1e300, 1e300), (1e300, 1e-300), (1e-300, 1e300), (1e-300, 1e-300)] {
-            let points = SQUARE.map(|point| point.map(|x| x / 10.0 * unit)).to_vec();
-            let drawing = Drawing { points, ..square() };
-            let picture = field(&drawing, &stress(&[-size, size], &[[size, size]; 4]));
-            assert_eq!(attributes(&picture, "polygon", "fill"), ["#440154", "#fde725"]);
-            let corners = attributes(&picture, "polygon", "points").join(" ");
-            let places = corners.split([' ', ',']).map(|x| x.parse::<f64>().unwrap());
-            assert!(places.into_iter().all(|x| (0.0..=1100.0).contains(&x)), "{corners}");
-        }
-    }
-
-    #[test]
-    #[should_panic(expected = "finite numbers")]
-    fn infinite_value_is_refused() {
-        field(&square(), &stress(&[1.0, f64::INFINITY], &[[0.0; 2]; 4]));
-    }
 }

@@ -30,19 +30,14 @@ const BAR_WIDTH: f64 = 640.0;
 /// A scale bar is up to a quarter as long as its panel is wide, or as one of this width, pixels.
 const SCALE_BAR: f64 = 240.0;
 
-/// A sign of the legend and its colour.
 pub enum Sign {
-    /// A rectangle, for a body.
     Body(&'static str),
     /// A dot, for a node or a point of a chart.
     Node(&'static str),
-    /// A line, for an edge or a curve.
     Edge(&'static str),
-    /// A ring around other points.
     Ring(&'static str),
 }
 
-/// A picture in the making.
 pub struct Page {
     title: String,
     content: Element,
@@ -62,7 +57,6 @@ impl Page {
         page
     }
 
-    /// Puts a paragraph of text.
     pub fn paragraph(&mut self, words: &str) {
         for words in wrap(words, TEXT_SIZE, INNER) {
             self.y += TEXT_SIZE * 1.45;
@@ -94,7 +88,6 @@ impl Page {
         self.y = views[0].frame.corner[1] + views[0].frame.size[1] + 44.0;
     }
 
-    /// Puts the colour bar under its heading.
     pub fn colour_bar(&mut self, scale: &ColourScale, quantity: &str, unit: &str) {
         self.paragraph(&scale.heading(quantity, unit));
         // Indented: half of a tick's label stands out at either end.
@@ -119,7 +112,6 @@ impl Page {
         self.y += 30.0;
     }
 
-    /// Writes the picture as a file.
     pub fn finish(self) -> String {
         document([WIDTH, (self.y + MARGIN / 2.0).ceil()], &self.title, self.content)
     }
@@ -131,7 +123,7 @@ impl Page {
 
     /// Returns the views of the whole and, where there is a contact zone, of that zone grown to the
     /// shape of its panel.
-    fn views(&self, whole: &Bounds, zone: Option<&Bounds>) -> Vec<View> {
+    pub fn views(&self, whole: &Bounds, zone: Option<&Bounds>) -> Vec<View> {
         let [width, height] = whole.size();
         let frame =
             |x: f64, y: f64, size: [f64; 2]| Frame { corner: [MARGIN + x, self.y + y], size };
@@ -210,7 +202,7 @@ fn draw_sign(sign: &Sign, at: Pixel) -> Element {
 }
 
 /// Breaks text at spaces into lines that fit.
-fn wrap(words: &str, size: f64, width: f64) -> Vec<String> {
+pub fn wrap(words: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words.split(' ') {
         match lines.last_mut() {
@@ -225,30 +217,6 @@ fn wrap(words: &str, size: f64, width: f64) -> Vec<String> {
 }
 
 /// Returns a width that running text does not exceed in the usual fonts, pixels.
-fn text_width(words: &str, size: f64) -> f64 {
+pub fn text_width(words: &str, size: f64) -> f64 {
     0.58 * size * words.chars().count() as f64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn wrap_keeps_every_word() {
-        let words = "largest 12.3 MPa at the rim of the hole";
-        let lines = wrap(words, 10.0, 100.0);
-        let fits = |line: &String| text_width(line, 10.0) <= 100.0;
-        assert!(lines.len() > 2 && lines.iter().all(fits), "{lines:?}");
-        assert_eq!(lines.join(" "), words);
-    }
-
-    #[test]
-    fn enlargement_fills_its_panel() {
-        let whole = Bounds::of(&[[0.0, 0.0], [50.0, 50.0]]);
-        let zone = Bounds::of(&[[20.0, 20.0], [30.0, 25.0]]);
-        let views = Page::new("t").views(&whole, Some(&zone));
-        let right = views[1];
-        assert_eq!(views[0].frame.size, right.frame.size);
-        assert!((right.scale * 10.0 - right.frame.size[0]).abs() < 1e-9);
-    }
 }

@@ -14,17 +14,12 @@ pub const TITLE_SIZE: f64 = 20.0;
 /// The colour of text, axes and frames.
 pub const DARK: &str = "#222222";
 
-/// A point of the picture.
 pub type Pixel = [f64; 2];
 
-/// The part of a text that stands at its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// Its left end stands there.
     Start,
-    /// Its middle stands there.
     Middle,
-    /// Its right end stands there.
     End,
 }
 
@@ -43,7 +38,6 @@ pub fn document([width, height]: [f64; 2], title: &str, content: Element) -> Str
         .document()
 }
 
-/// Makes a group of shapes.
 pub fn group() -> Element {
     Element::new("g")
 }
@@ -58,7 +52,6 @@ pub fn line([x1, y1]: Pixel, [x2, y2]: Pixel) -> Element {
     shape("line", [("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)])
 }
 
-/// Makes a circle about its centre.
 pub fn circle([x, y]: Pixel, radius: f64) -> Element {
     shape("circle", [("cx", x), ("cy", y), ("r", radius)])
 }
@@ -68,7 +61,6 @@ fn shape<const N: usize>(name: &'static str, lengths: [(&str, f64); N]) -> Eleme
     lengths.into_iter().fold(Element::new(name), set)
 }
 
-/// Makes a closed polygon through its corners.
 pub fn polygon(corners: &[Pixel]) -> Element {
     Element::new("polygon").set("points", places(corners))
 }
@@ -138,22 +130,4 @@ fn places(points: &[Pixel]) -> String {
     let places: Vec<_> =
         points.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y))).collect();
     places.join(" ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        let written = [0.0, -0.001, 1.0, 100.0, -2.5, 0.126].map(number);
-        assert_eq!(written, ["0", "0", "1", "100", "-2.5", "0.13"]);
-    }
-
-    #[test]
-    fn path_keeps_its_lines_apart() {
-        let lines = [[[0.0, 0.0], [1.0, 2.0]], [[3.0, 4.0], [5.0, 6.0]]];
-        let written = path(lines.iter().map(<[Pixel; 2]>::as_slice)).document();
-        assert!(written.contains("d=\"M0,0 1,2M3,4 5,6\""), "{written}");
-    }
 }

@@ -5,8 +5,8 @@ use super::svg::Pixel;
 /// A box in the mesh's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    low: [f64; 2],
-    high: [f64; 2],
+    pub low: [f64; 2],
+    pub high: [f64; 2],
 }
 
 impl Bounds {
@@ -19,18 +19,15 @@ impl Bounds {
         })
     }
 
-    /// Returns width and height.
     pub fn size(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.high[axis] - self.low[axis])
     }
 
-    /// Returns the larger of width and height.
     pub fn larger_side(&self) -> f64 {
         let [width, height] = self.size();
         width.max(height)
     }
 
-    /// Returns the middle of the box.
     pub fn centre(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.low[axis] + self.size()[axis] / 2.0)
     }
@@ -52,7 +49,6 @@ impl Bounds {
     }
 }
 
-/// A rectangle of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// The upper left corner, pixels.
@@ -64,25 +60,20 @@ pub struct Frame {
 /// A box of the mesh in the middle of a frame, as large as it fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// The frame, a part of the picture.
     pub frame: Frame,
     /// Pixels per unit of length.
     pub scale: f64,
-    /// Whether this is the enlargement beside the whole picture.
     pub enlarged: bool,
-    /// The point of the mesh in the middle of the frame.
     pub centre: [f64; 2],
 }
 
 impl View {
-    /// Shows the whole in a frame.
     pub fn whole(bounds: &Bounds, frame: Frame) -> Self {
         let size = bounds.size();
         let scale = (frame.size[0] / size[0]).min(frame.size[1] / size[1]);
         Self { frame, scale, enlarged: false, centre: bounds.centre() }
     }
 
-    /// Shows a part in a frame.
     pub fn enlarged(bounds: &Bounds, frame: Frame) -> Self {
         Self { enlarged: true, ..Self::whole(bounds, frame) }
     }
@@ -106,33 +97,5 @@ impl View {
             let along = || corners.iter().map(|corner| corner[axis]);
             along().any(|x| x >= start) && along().any(|x| x <= start + self.frame.size[axis])
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const FRAME: Frame = Frame { corner: [100.0, 50.0], size: [200.0, 100.0] };
-
-    #[test]
-    fn view_keeps_the_shape_and_turns_y() {
-        let view = View::whole(&Bounds::of(&[[0.0, 0.0], [10.0, 10.0]]), FRAME);
-        assert_eq!(view.scale, 10.0);
-        assert_eq!(view.at([0.0, 0.0]), [150.0, 150.0]);
-        assert_eq!(view.at([10.0, 10.0]), [250.0, 50.0]);
-    }
-
-    #[test]
-    fn flat_box_grows_to_the_ratio() {
-        let grown = Bounds::of(&[[0.0, 3.0], [4.0, 3.0]]).with_ratio(2.0);
-        assert_eq!([grown.low, grown.high], [[0.0, 2.0], [4.0, 4.0]]);
-    }
-
-    #[test]
-    fn shows_what_overlaps() {
-        let view = View::enlarged(&Bounds::of(&[[0.0, 0.0], [2.0, 1.0]]), FRAME);
-        assert!(view.shows(&[[0.0, 60.0], [400.0, 70.0]]), "across");
-        assert!(!view.shows(&[[0.0, 60.0], [99.0, 70.0]]), "left of it");
     }
 }

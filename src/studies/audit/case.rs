@@ -12,7 +12,6 @@ use crate::problem::scene::Scene;
 
 /// A scene under audit. Runs are made when they are first asked for, once.
 pub struct Case {
-    /// The scene that is audited.
     pub scene: Scene,
     runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
     reference: OnceLock<Option<Solution>>,
@@ -41,9 +40,6 @@ impl Case {
     }
 
     /// The run of a variant under the default reading, or why there is none.
-    ///
-    /// # Errors
-    /// Those of [`solve`].
     pub fn run(&self, variant: Variant) -> Result<&Solution, &Error> {
         let at = Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant");
         self.runs[at].get_or_init(|| solve(&self.request(variant), &mut |_| ())).as_ref()
@@ -70,9 +66,6 @@ impl Case {
     }
 
     /// What `c_cnt` finds at the initial shape under the default reading.
-    ///
-    /// # Errors
-    /// Where the listing fails as printed.
     pub fn initial(&self) -> Result<Call, Failure> {
         Call::c_cnt(self.model(), &Reading::default(), &self.model().nodes)
     }

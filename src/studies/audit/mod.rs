@@ -19,7 +19,6 @@ use findings::{FINDINGS, Finding, Measured};
 use readings::Effect;
 use variants::VariantRow;
 
-/// All that an audit finds.
 pub struct Audit {
     /// What each other reading changes, in the order of `listings/READING.md`, section 4.
     pub readings: Vec<Effect>,
@@ -54,7 +53,6 @@ pub struct Rubbing {
 pub struct Compared {
     /// How contact was modelled.
     pub model: ContactModel,
-    /// Number of contact nodes in contact at the end.
     pub in_contact: usize,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,

@@ -15,14 +15,12 @@ use crate::paper::mirror::{Km, Pairs, Reading};
 use crate::problem::element::{self, Plane};
 use crate::problem::modelling::{StatusRule, Variant};
 
-/// What another reading changes.
 #[derive(Clone, Debug, Serialize)]
 pub struct Effect {
     /// The ambiguity's name, `R1` to `R10`.
     pub id: &'static str,
     /// What differs from the default: `R1 = inside`, or a setting of the worksheet.
     pub reading: String,
-    /// Listing and lines that it concerns.
     pub lines: &'static str,
     /// Contact nodes whose dy changes at the initial shape; nothing where that was not computed.
     pub statuses: Option<usize>,
@@ -37,7 +35,6 @@ pub struct Effect {
     pub failure: Option<String>,
 }
 
-/// How a reading is tried.
 enum Trial {
     /// The mirror under the reading, solved under a variant.
     Mirror(Variant),
@@ -45,9 +42,7 @@ enum Trial {
     Conjunction,
     /// The other load schedule: for `tied` and `stepped` that is the other of the two.
     Schedule(Variant),
-    /// The listings under other settings of the worksheet.
     Worksheet(fn(&mut Settings)),
-    /// The von Mises strain by the other formula.
     StrainFormula,
 }
 
@@ -147,7 +142,6 @@ fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
 }
 
 impl Effect {
-    /// The reading that the effect names.
     fn parsed(&self) -> Reading {
         self.reading.parse().expect("the readings of this table are sound")
     }
@@ -180,7 +174,6 @@ impl Effect {
         Ok(())
     }
 
-    /// A variant beside the one with the other load schedule.
     fn schedule<'a>(&mut self, case: &'a Case, own: Variant, other: Variant) -> Outcome<'a> {
         self.displacement = Some(largest_difference(case.run(own)?, case.run(other)?));
         Ok(())

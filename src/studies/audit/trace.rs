@@ -11,7 +11,6 @@ use crate::paper::mathcad::observe::{Executed, Named};
 use crate::paper::mathcad::{Failure, Listing, Observer, Recorder, Settings, Value};
 use crate::paper::mirror::Pairs;
 
-/// An execution of a listing.
 pub struct Trace {
     /// Which of the paper's listings was executed, as printed or edited.
     pub which: Which,
@@ -20,11 +19,9 @@ pub struct Trace {
     pub steps: Vec<Step>,
     /// The lines that the listing's own `trace` wrote.
     pub output: Vec<String>,
-    /// What it computed, or the failure that stopped it.
     pub result: Result<Product, Box<Failure>>,
 }
 
-/// What a listing computes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Product {
     /// What `c_cnt` computes: ct, yt, dy, k_cnt.
@@ -33,7 +30,6 @@ pub enum Product {
     Matrix(Table<f64>),
 }
 
-/// A statement that was executed.
 pub struct Step {
     /// The contact node's place in `cnt`, or the element's row in `EL`; nothing outside those
     /// loops.
@@ -46,12 +42,10 @@ pub struct Step {
     pub writes: Vec<Access>,
 }
 
-/// A name or entry, and its value.
 #[derive(Clone, Debug, Serialize)]
 pub struct Access {
     /// The name, with the subscripts of an entry: `ct[3]`.
     pub name: String,
-    /// The value that was read or written.
     pub value: Json,
 }
 
@@ -88,9 +82,6 @@ pub fn trace(
 }
 
 /// Executes a listing and returns what it computes, with the lines that its own `trace` wrote.
-///
-/// # Errors
-/// The failure that stopped it.
 pub fn run<O: Observer>(
     which: Which,
     listing: &Listing,

@@ -8,21 +8,16 @@ use crate::answer::{BodySummary, Cycle, Distance, Solution, distance, summaries}
 use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
 
-/// A variant on a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct VariantRow {
-    /// Which variant was run.
     pub variant: Variant,
-    /// How its run ended.
     #[serde(flatten)]
     pub end: End,
 }
 
-/// How a run ended.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum End {
-    /// The run has a result.
     Result {
         /// Number of contact nodes with dy = 1, by iteration.
         in_contact: Vec<usize>,
@@ -41,10 +36,8 @@ pub enum End {
         distance: Option<Distance>,
         /// The largest friction coefficient that a node in contact would need not to slide.
         friction_needed: Option<f64>,
-        /// Contact nodes in contact that pull.
         pulling: Vec<NodeId>,
     },
-    /// The published algorithm fails.
     Failure {
         /// Why the run ended without a result.
         failure: String,

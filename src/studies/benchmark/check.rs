@@ -6,9 +6,6 @@ use crate::error::InputError;
 const MOST: usize = 2000;
 
 /// Checks that a number of divisions lies in `least ..= MOST`.
-///
-/// # Errors
-/// It does not.
 pub fn count(option: &str, n: usize, least: usize) -> Result<(), InputError> {
     if (least..=MOST).contains(&n) {
         return Ok(());
@@ -18,9 +15,7 @@ pub fn count(option: &str, n: usize, least: usize) -> Result<(), InputError> {
 }
 
 /// Checks that a number of divisions is even too: a node must stand in the middle.
-///
-/// # Errors
-/// It is odd, or outside the range of [`count`].
+/// Errors: it is odd, or outside the range of [`count`].
 pub fn even(option: &str, n: usize) -> Result<(), InputError> {
     count(option, n, 2)?;
     if n.is_multiple_of(2) {
@@ -31,9 +26,6 @@ pub fn even(option: &str, n: usize) -> Result<(), InputError> {
 }
 
 /// Checks that a length, load or modulus is positive and finite.
-///
-/// # Errors
-/// It is not.
 pub fn positive(option: &str, x: f64) -> Result<(), InputError> {
     if x > 0.0 && x.is_finite() {
         return Ok(());
@@ -42,9 +34,6 @@ pub fn positive(option: &str, x: f64) -> Result<(), InputError> {
 }
 
 /// Checks that a ratio lies in a range.
-///
-/// # Errors
-/// It does not.
 pub fn between(option: &str, x: f64, [least, most]: [f64; 2]) -> Result<(), InputError> {
     if (least..=most).contains(&x) {
         return Ok(());

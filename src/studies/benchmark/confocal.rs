@@ -16,12 +16,10 @@ use super::line::quarter;
 use super::rows::Rows;
 use crate::problem::scene::MeshBuilder;
 
-/// An ellipse of the family and its number of segments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
     /// The ellipse's number; 0 is the face.
     pub xi: f64,
-    /// Its segments from the surface to the axis.
     pub segments: usize,
 }
 

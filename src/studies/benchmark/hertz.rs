@@ -63,10 +63,8 @@ impl Hertz {
     }
 
     /// Generates the scene.
-    ///
-    /// # Errors
-    /// There are fewer than four elements, or too many; the radius or the load is not positive; the
-    /// half width is beyond a quarter of the radius.
+    /// Errors: there are fewer than four elements, or too many; the radius or the load is not
+    /// positive; the half width is beyond a quarter of the radius.
     pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::count("--size", self.size, 4)?;
         check::positive("--radius", self.radius)?;

@@ -31,9 +31,7 @@ const SIZE: [f64; 2] = [50.0, 25.0];
 
 impl Blocks {
     /// Generates the scene.
-    ///
-    /// # Errors
-    /// There is no division, or there are too many.
+    /// Errors: there is no division, or there are too many.
     pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::count("--upper", self.upper, 1)?;
         check::count("--lower", self.lower, 1)?;
@@ -92,7 +90,6 @@ Examples:
     }
 }
 
-/// Half widths of the punch and of the foundation.
 const PUNCH: f64 = 1.0;
 const FOUNDATION: f64 = 4.0;
 /// Heights of the foundation, and of the punch on it.
@@ -101,9 +98,7 @@ const ALL: f64 = 7.0;
 
 impl PunchPatch {
     /// Generates the scene.
-    ///
-    /// # Errors
-    /// A number of divisions is odd, zero or too large; the pressure is not positive.
+    /// Errors: a number of divisions is odd, zero or too large; the pressure is not positive.
     pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::even("--punch", self.punch)?;
         check::even("--foundation", self.foundation)?;

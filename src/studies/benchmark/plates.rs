@@ -35,9 +35,7 @@ const RADII: [f64; 2] = [10.0, 20.0];
 
 impl Annulus {
     /// Generates the scene.
-    ///
-    /// # Errors
-    /// There is no division, or there are too many.
+    /// Errors: there is no division, or there are too many.
     pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::count("--radial", self.radial, 1)?;
         check::count("--around", self.around, 2)?;
@@ -82,10 +80,8 @@ Examples:
 
 impl Hole {
     /// Generates the scene.
-    ///
-    /// # Errors
-    /// There are fewer than two divisions, or too many; the outer radius is below 1.5 or beyond
-    /// 1e6.
+    /// Errors: there are fewer than two divisions, or too many; the outer radius is below 1.5 or
+    /// beyond 1e6.
     pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::count("--around", self.around, 2)?;
         check::between("--outer", self.outer, [1.5, 1e6])?;
@@ -111,6 +107,18 @@ impl Hole {
             .restrain("y_axis", &[Axis::X]);
         Ok(tractions.into_iter().fold(scene, |scene, (group, t)| scene.traction(group, t)))
     }
+
+    /// sigma_x, sigma_y, tau_xy of the closed form: unit tension in x, hole of radius 1 at the origin.
+    pub fn stress([x, y]: [f64; 2]) -> [f64; 3] {
+        let (a2, angle) = (1.0 / (x * x + y * y), y.atan2(x));
+        let a4 = 1.5 * a2 * a2;
+        let ((s2, c2), (s4, c4)) = ((2.0 * angle).sin_cos(), (4.0 * angle).sin_cos());
+        [
+            1.0 - a2 * (1.5 * c2 + c4) + a4 * c4,
+            -a2 * (0.5 * c2 - c4) - a4 * c4,
+            -a2 * (0.5 * s2 + s4) + a4 * s4,
+        ]
+    }
 }
 
 /// Traction of the closed form at the middle of the edge from `a` to `b`, which runs
@@ -118,20 +126,8 @@ impl Hole {
 fn traction(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     let length = (b[0] - a[0]).hypot(b[1] - a[1]);
     let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
-    let [xx, yy, xy] = stress([(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0]);
+    let [xx, yy, xy] = Hole::stress([(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0]);
     [xx * normal[0] + xy * normal[1], xy * normal[0] + yy * normal[1]]
-}
-
-/// sigma_x, sigma_y, tau_xy of the closed form: unit tension in x, hole of radius 1 at the origin.
-fn stress([x, y]: [f64; 2]) -> [f64; 3] {
-    let (a2, angle) = (1.0 / (x * x + y * y), y.atan2(x));
-    let a4 = 1.5 * a2 * a2;
-    let ((s2, c2), (s4, c4)) = ((2.0 * angle).sin_cos(), (4.0 * angle).sin_cos());
-    [
-        1.0 - a2 * (1.5 * c2 + c4) + a4 * c4,
-        -a2 * (0.5 * c2 - c4) - a4 * c4,
-        -a2 * (0.5 * s2 + s4) + a4 * s4,
-    ]
 }
 
 parameters! {
@@ -154,9 +150,7 @@ Examples:
 
 impl Cook {
     /// Generates the scene.
-    ///
-    /// # Errors
-    /// There is no division, or there are too many.
+    /// Errors: there is no division, or there are too many.
     pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         let n = self.n;
         check::count("--n", n, 1)?;
@@ -199,9 +193,7 @@ const OUTER: [f64; 2] = [3.25, 2.75];
 
 impl Ellipse {
     /// Generates the scene.
-    ///
-    /// # Errors
-    /// There are fewer than two divisions, or too many.
+    /// Errors: there are fewer than two divisions, or too many.
     pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         let n = self.n;
         check::count("--n", n, 2)?;
@@ -223,18 +215,5 @@ impl Ellipse {
             .restrain("x_axis", &[Axis::Y])
             .restrain("y_axis", &[Axis::X])
             .pressure("outer", -10.0))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::stress;
-
-    #[test]
-    fn the_closed_form_has_its_known_values_at_the_hole_and_far_away() {
-        let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8);
-        assert!(near(stress([0.0, 1.0]), [3.0, 0.0, 0.0]));
-        assert!(near(stress([1.0, 0.0]), [0.0, -1.0, 0.0]));
-        assert!(near(stress([3e5, 4e5]), [1.0, 0.0, 0.0]));
     }
 }

@@ -34,9 +34,8 @@ Examples:
 
 impl Punch {
     /// Generates the scene.
-    ///
-    /// # Errors
-    /// There are fewer than four divisions, or too many; the outer radius is below 2 or beyond 1e4.
+    /// Errors: there are fewer than four divisions, or too many; the outer radius is below 2 or
+    /// beyond 1e4.
     pub fn generate(&self) -> Result<SceneBuilder, InputError> {
         check::count("--punch", self.punch, 4)?;
         check::count("--foundation", self.foundation, 4)?;

@@ -2,7 +2,6 @@
 
 use crate::problem::scene::MeshBuilder;
 
-/// Rows of node numbers, all in the same direction.
 pub struct Rows(pub Vec<Vec<usize>>);
 
 impl Rows {
@@ -20,22 +19,18 @@ impl Rows {
         Rows(rows)
     }
 
-    /// The nodes of the first row.
     pub fn first(&self) -> &[usize] {
         &self.0[0]
     }
 
-    /// The nodes of the last row.
     pub fn last(&self) -> &[usize] {
         &self.0[self.0.len() - 1]
     }
 
-    /// The first node of each row.
     pub fn starts(&self) -> Vec<usize> {
         self.column(0)
     }
 
-    /// The last node of each row.
     pub fn ends(&self) -> Vec<usize> {
         self.0.iter().map(|row| row[row.len() - 1]).collect()
     }

@@ -7,13 +7,10 @@ use crate::problem::model::{Body, Model, NodeId, TriangleId};
 
 /// Two results of one model, node by node and triangle by triangle.
 pub struct Comparison {
-    /// The result of this program.
     pub ours: Fields,
-    /// The result of CalculiX.
     pub theirs: Fields,
     /// Von Mises stress of each triangle, by this program and by CalculiX.
     pub von_mises: [Vec<f64>; 2],
-    /// Length of the difference of displacements, by node.
     pub displacement: Difference<NodeId>,
     /// Stresses, by triangle: the largest component of sigma_x, sigma_y, tau_xy; relative to the
     /// largest von Mises stress.
@@ -35,7 +32,6 @@ pub struct Difference<Place> {
 /// The largest difference, where it is, and against what.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Largest<Place> {
-    /// The node or triangle that has it.
     pub at: Place,
     /// The difference there, length or stress.
     pub difference: f64,
@@ -45,10 +41,8 @@ pub struct Largest<Place> {
     pub relative: f64,
 }
 
-/// The largest von Mises stress of a body by each.
 #[derive(Clone, Debug, Serialize)]
 pub struct BodyStress {
-    /// The name of the body.
     pub name: String,
     /// Its largest stress by this program.
     pub ours: f64,

@@ -29,15 +29,15 @@
 //! Source: G. Dhondt, *CalculiX CrunchiX user's manual*, version 2.20.
 
 mod comparison;
-mod deck;
+pub mod deck;
 mod fields;
 mod problem;
-mod results;
+pub mod results;
 mod run;
 
 pub use comparison::{Comparison, Difference};
 pub use deck::deck;
 pub use fields::Fields;
-pub use problem::{Contact, ContactKind, Pair, Part, Problem};
+pub use problem::{Contact, ContactKind, Equation, Pair, Part, Problem};
 pub use results::parse;
 pub use run::{Ran, run};

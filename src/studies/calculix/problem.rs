@@ -18,17 +18,13 @@ choices! {
     }
 }
 
-/// The problem that a deck describes.
 pub struct Problem<'a> {
-    /// The scene, whose title the deck has.
     pub scene: &'a Scene,
     /// The scene's model under the reading that was asked for.
     pub model: &'a Model,
-    /// How the bodies touch in the deck.
     pub contact: &'a Contact,
 }
 
-/// How the bodies touch.
 #[derive(Clone, Debug)]
 pub enum Contact {
     /// By these equations, which `ccx` satisfies.
@@ -42,13 +38,11 @@ pub enum Contact {
 pub struct Pair {
     /// Pressure over penetration, stress/length.
     pub penalty: f64,
-    /// Whether nodes in contact slide or stick.
     pub friction: Friction,
 }
 
 /// One of the problems whose sum is a run: the whole load on one contact state.
 pub struct Part {
-    /// How the bodies touch in it.
     pub contact: Contact,
     /// Its share of the run, from 0 to 1.
     pub share: f64,
@@ -58,9 +52,7 @@ impl Contact {
     /// The problems whose sum a solution is. With total load that is its last step. With stepped
     /// load it is the sum of the increments: each contact state that came, with the whole load,
     /// times its share of the steps. The last step's state comes last.
-    ///
-    /// # Errors
-    /// The variant is `printed`, which constrains nothing.
+    /// Errors: the variant is `printed`, which constrains nothing.
     pub fn parts(solution: &Solution) -> Result<Vec<Part>, InputError> {
         if solution.request.variant == Variant::Printed {
             let what = "the variant printed adds stiffness and constrains nothing: there are no \
@@ -126,7 +118,6 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// The equations that bound contact nodes in a step.
     pub fn of_step(model: &Model, step: &Step) -> Vec<Equation> {
         let of = |constraint: &Constraint| Equation::of_constraint(model, constraint);
         step.constraints.iter().flat_map(of).collect()
@@ -159,46 +150,5 @@ impl Equation {
         let masters = constraint.masters.iter().filter(|(_, weight)| *weight != 0.0);
         let masters = masters.flat_map(|&(master, weight)| of_node(master, -weight));
         Equation { terms: own.chain(masters).collect(), constant }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::problem::scene::Scene;
-
-    /// Terms (number of the node, direction, coefficient) and the constant.
-    type Plain = (Vec<(usize, usize, f64)>, f64);
-
-    /// The equations of a constraint of node 11 of `two-blocks`, which is free in x and y, or of
-    /// node 10, which is restrained in x.
-    fn equations(node: usize, motion: Motion) -> Vec<Plain> {
-        let masters = [(7, 0.25), (8, 0.75), (9, 0.0)];
-        let masters = masters.map(|(number, weight)| (NodeId::from_number(number), weight));
-        let node = NodeId::from_number(node);
-        let constraint = Constraint { node, masters: masters.to_vec(), motion };
-        let term = |(dof, x): &(Dof, f64)| (dof.node().number(), dof.direction(), *x);
-        let plain = |e: &Equation| (e.terms.iter().map(term).collect(), e.constant);
-        let scene = Scene::open("two-blocks").unwrap();
-        Equation::of_constraint(&scene.model, &constraint).iter().map(plain).collect()
-    }
-
-    #[test]
-    fn a_constraint_of_both_components_is_an_equation_in_each_free_direction() {
-        let x = (vec![(11, 0, 1.0), (7, 0, -0.25), (8, 0, -0.75)], 0.5);
-        let y = (vec![(11, 1, 1.0), (7, 1, -0.25), (8, 1, -0.75)], 2.0);
-        assert_eq!(equations(11, Motion::Both([0.5, 2.0])), [x, y]);
-        assert_eq!(equations(10, Motion::Both([0.5, 2.0])).len(), 1);
-    }
-
-    #[test]
-    fn a_constraint_along_a_normal_depends_on_its_larger_free_component() {
-        let along = |node| equations(node, Motion::Along([0.6, -0.8], 0.1));
-        let masters =
-            [(7, 1, 0.2), (7, 0, -0.15), (8, 1, 0.6000000000000001), (8, 0, -0.44999999999999996)];
-        let free = [&[(11, 1, -0.8), (11, 0, 0.6)], &masters[..]].concat();
-        assert_eq!(along(11), [(free, 0.1)]);
-        let restrained = [&[(10, 1, -0.8)], &masters[..]].concat();
-        assert_eq!(along(10), [(restrained, 0.1)]);
     }
 }

@@ -19,15 +19,12 @@ const TAIL: usize = 12;
 pub struct Ran {
     /// The version that `ccx` reports.
     pub version: String,
-    /// The sum of the results of its decks.
     pub fields: Fields,
 }
 
 /// Runs `program` on a deck for each part and sums the results with the parts' shares.
-///
-/// # Errors
-/// There is no such program, or it fails, with the last lines of its output; its results cannot be
-/// read; a pair's surfaces bound no triangle.
+/// Errors: there is no such program, or it fails, with the last lines of its output; its results
+/// cannot be read; a pair's surfaces bound no triangle.
 pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Result<Ran, InputError> {
     let version = version(program)?;
     let (nodes, triangles) = (model.nodes.len(), model.triangles.len());

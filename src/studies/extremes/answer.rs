@@ -19,16 +19,12 @@ pub struct Answer {
     u: Vec<RBig>,
     /// Von Mises stress of each triangle.
     mises: Vec<f64>,
-    /// Whether each contact node is in contact at the end.
     in_contact: Vec<bool>,
     /// Places in `u` of the degrees of freedom of each body.
     bodies: Vec<Vec<usize>>,
 }
 
 /// Runs `variant` on `scene` in `scalar`, by its own solver unless another is given.
-///
-/// # Errors
-/// Those of the scene and of the run.
 pub fn solve(
     scene: &SceneBuilder,
     variant: Variant,

@@ -17,7 +17,6 @@ use crate::problem::scene::{Axis, Contact, Mesh, MeshBuilder, SceneBuilder};
 /// What a generator may change of the scene.
 #[derive(Clone, Debug)]
 pub struct Blocks {
-    /// Factor of all coordinates.
     pub length: f64,
     /// What is added to each coordinate, length.
     pub origin: f64,
@@ -29,11 +28,8 @@ pub struct Blocks {
     pub pressure: f64,
     /// Tolerance of the contact search, length.
     pub c_tll: f64,
-    /// Number of iterations of the published variants.
     pub iterations: usize,
-    /// Numbers of the contact nodes.
     pub contact: Vec<usize>,
-    /// Numbers of the target edges.
     pub target: Vec<usize>,
     /// Distance of an eleventh node from the edge 1-5, in lengths: a sliver stands on that edge.
     pub sliver: Option<f64>,
@@ -56,7 +52,6 @@ impl Default for Blocks {
     }
 }
 
-/// The blocks of a magnitude.
 pub type BlocksOf = fn(f64) -> Blocks;
 
 /// Coordinates x and y of the ten nodes, in lengths.

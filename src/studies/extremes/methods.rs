@@ -12,7 +12,6 @@ use crate::problem::scene::SceneBuilder;
 pub const SINGLE: ScalarName = ScalarName::F32;
 /// Double precision, 16 digits.
 pub const DOUBLE: ScalarName = ScalarName::F64;
-/// The scalars that are compared with exact numbers.
 pub const SCALARS: [ScalarName; 3] = [SINGLE, DOUBLE, ScalarName::F64x2];
 
 /// Displacements of the variants that join the bodies: `tied` in each scalar, `unilateral` in

@@ -13,7 +13,6 @@ use crate::answer::error::Error;
 use crate::numbers::solve::ScalarName;
 use crate::problem::modelling::Variant;
 
-/// Coordinates far from the origin.
 pub fn offset() -> Generator {
     fn twice(origin: f64) -> Blocks {
         Blocks { origin, iterations: 2, ..Blocks::default() }
@@ -49,7 +48,6 @@ fn beside_exact(
     Ok(answer.against(&exact, Answer::displacement))
 }
 
-/// Lengths, the tolerance among them.
 pub fn lengths() -> Generator {
     let blocks = |length| Blocks { length, c_tll: 1e-3 * length, ..Blocks::default() };
     of_any_size("lengths", "Lengths of any size", "length unit", blocks, length_scaled)

@@ -29,7 +29,6 @@ pub struct Search {
     pub c_tll: f64,
 }
 
-/// What a search finds of its node.
 struct Difference<T> {
     /// Its gap to the edge: as printed a length, projected in edge lengths.
     gap: T,
@@ -98,10 +97,8 @@ fn minus<T: Scalar>([ax, ay]: [T; 2], [bx, by]: [T; 2]) -> [T; 2] {
     [ax - bx, ay - by]
 }
 
-/// What is compared of a search.
 #[derive(Clone, Copy)]
 pub enum Of {
-    /// The gap, whatever the status is.
     Gap,
     /// The weight, where the status is right.
     Weight,
@@ -109,7 +106,6 @@ pub enum Of {
     Status,
 }
 
-/// The searches of a magnitude.
 pub type SearchOf = fn(f64) -> Search;
 
 /// A search by the printed formulas in f32, f64 and f64x2.

@@ -20,7 +20,6 @@ fn at_angle(angle: f64, gap: f64) -> Search {
     Search { a, b: [a[0] + angle, a[1] + 1.0], n, moved, c_tll: 10.0 }
 }
 
-/// A node exactly on the edge.
 fn steep(angle: f64) -> Search {
     at_angle(angle, 0.0)
 }
@@ -152,7 +151,6 @@ pub fn surfaces() -> Generator {
             _ => clean,
         }
     }
-    /// The same with each node and edge once.
     fn once(case: f64) -> Blocks {
         if case > 2.0 { Blocks::default() } else { blocks(case) }
     }

@@ -10,9 +10,7 @@ use crate::numbers::solve::ScalarName;
 /// Fewer right digits than these, and an engineer is misled.
 const LEAST: f64 = 3.0;
 
-/// A family of problems with one magnitude.
 pub struct Generator {
-    /// The generator's name on the command line.
     pub name: &'static str,
     /// What the generator tries, in a line for people.
     pub title: &'static str,
@@ -22,7 +20,6 @@ pub struct Generator {
     methods: Vec<Method>,
 }
 
-/// What a generator sweeps.
 pub enum Sweep {
     /// Powers of ten `from` .. `to` by `step`, walked from 1 outwards.
     Decades { from: i32, to: i32, step: usize },
@@ -33,7 +30,6 @@ pub enum Sweep {
 /// How a problem is solved: a variant or a remedy, and a scalar.
 pub struct Method {
     name: String,
-    /// Digits that its scalar carries.
     carried: f64,
     /// Fewer digits than these count as broken.
     least: f64,
@@ -70,33 +66,24 @@ impl Method {
     }
 }
 
-/// What was measured of a generator.
 #[derive(Clone, Debug, Serialize)]
 pub struct Measured {
-    /// The generator's name on the command line.
     pub name: &'static str,
-    /// The generator's line for people.
     pub title: &'static str,
     /// What was swept, with its unit.
     pub magnitude: &'static str,
-    /// The magnitudes as words.
     pub labels: Vec<String>,
     /// The magnitudes; the number of a case, from 1, where they are no numbers.
     pub magnitudes: Vec<f64>,
-    /// Whether the magnitudes are powers of ten.
     pub logarithmic: bool,
-    /// What was measured of each method.
     pub columns: Vec<Column>,
 }
 
-/// What was measured of one method.
 #[derive(Clone, Debug, Serialize)]
 pub struct Column {
     /// The method's name: variant or remedy, and scalar.
     pub name: String,
-    /// Digits that its scalar carries.
     pub carried: f64,
-    /// A verdict for each magnitude.
     pub verdicts: Vec<Verdict>,
     /// Where it breaks down towards smaller magnitudes.
     pub below: Option<Break>,
@@ -104,12 +91,10 @@ pub struct Column {
     pub above: Option<Break>,
 }
 
-/// Where a method breaks down.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Break {
     /// Power of ten, bisected to half a decade.
     pub exponent: f64,
-    /// The verdict at that power.
     pub verdict: Verdict,
 }
 
@@ -126,7 +111,6 @@ impl Generator {
         Generator { name, title, magnitude, sweep, methods }
     }
 
-    /// Tries every method on every magnitude.
     pub fn measure(&self) -> Measured {
         let Generator { name, title, magnitude, ref sweep, ref methods } = *self;
         let points = sweep.points();
@@ -145,7 +129,6 @@ impl Generator {
 }
 
 impl Sweep {
-    /// Exponents or numbers of the cases.
     fn points(&self) -> Vec<i32> {
         match *self {
             Sweep::Decades { from, to, step } => (from..=to).step_by(step).collect(),
@@ -160,7 +143,6 @@ impl Sweep {
         }
     }
 
-    /// The magnitude of a point, or of one between.
     fn magnitude(&self, point: f64) -> f64 {
         match self {
             // A power of ten is read, not computed: correctly rounded on every machine.

@@ -10,9 +10,7 @@ use crate::answer::error::Error;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "verdict", content = "detail", rename_all = "lowercase")]
 pub enum Verdict {
-    /// The answer has no error at all.
     Exact,
-    /// How many digits are right.
     Digits(f64),
     /// An answer without a right digit, and in what: a silent wrong answer.
     Wrong(&'static str),
@@ -33,7 +31,6 @@ impl Verdict {
         }
     }
 
-    /// From who is in contact.
     pub fn of_status(same: bool) -> Self {
         if same { Verdict::Exact } else { Verdict::Wrong("contact") }
     }

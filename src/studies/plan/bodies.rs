@@ -19,18 +19,12 @@ choices! {
     }
 }
 
-/// A body of the model, and what moves it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodyPlan {
-    /// The name of the body.
     pub name: String,
-    /// Number of its nodes.
     pub nodes: usize,
-    /// Number of its triangles.
     pub triangles: usize,
-    /// Number of its free equations.
     pub free: usize,
-    /// Whether a contact surface lies on it.
     pub in_contact: bool,
     /// Why it does not move; nothing where it may.
     pub idle: Option<Idle>,

@@ -22,9 +22,7 @@ pub const MARGIN: f64 = 0.5;
 /// shape.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Candidates {
-    /// Number of entries of the contact surface.
     pub nodes: usize,
-    /// Number of target edges.
     pub edges: usize,
     /// Pairs of a node and an edge that can come together.
     pub pairs: usize,

@@ -11,15 +11,12 @@ use crate::numbers::solve::{FactorSize, ScalarName};
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Variant};
 
-/// What is to be done.
 pub(super) struct Work<'a> {
-    /// What is asked for.
     pub request: &'a Request,
     /// The model under the reading that is asked for.
     pub model: &'a Model,
     /// Dense matrices in memory at once.
     pub dense: usize,
-    /// One factorisation of the run.
     pub factors: FactorSize,
     /// One factorisation of a sparse matrix of the same equations: of the run itself where `dense`
     /// is 0, and of the reference solution.
@@ -28,7 +25,6 @@ pub(super) struct Work<'a> {
     pub candidates: Option<&'a Candidates>,
 }
 
-/// What a run takes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cost {
     /// Dense 2R x 2R matrices of `f64` in memory at once: what is compared with the memory that is
@@ -39,22 +35,17 @@ pub struct Cost {
     /// The same for the reference solution that `solve` measures the run against; 0 where it runs
     /// nothing more.
     pub reference_states: usize,
-    /// Additions and multiplications of all factorisations.
     pub operations: f64,
-    /// Peak memory of the process.
     pub bytes: Bytes,
 }
 
 /// Peak memory of the process, bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bytes {
-    /// What the program itself takes.
     pub program: f64,
     /// Mesh, worksheet, results and files.
     pub mesh: f64,
-    /// Matrices and their factors.
     pub matrices: f64,
-    /// What is kept of each iteration.
     pub iterations: f64,
 }
 

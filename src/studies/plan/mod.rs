@@ -37,32 +37,20 @@ choices! {
     }
 }
 
-/// What a run will build.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plan {
-    /// Name of the scene.
     pub scene: String,
-    /// The variant that will be run.
     pub variant: Variant,
-    /// Number of nodes, R.
     pub nodes: usize,
-    /// Number of triangles, M.
     pub triangles: usize,
-    /// The bodies of the model, each with what moves it.
     pub bodies: Vec<BodyPlan>,
-    /// How many equations there are, and of which kind.
     pub equations: Equations,
     /// The contact; nothing where the scene has none.
     pub contact: Option<ContactPlan>,
-    /// The number type of the run.
     pub scalar: ScalarName,
-    /// The solver of the run.
     pub solver: Solver,
-    /// How its matrices are kept.
     pub storage: Storage,
-    /// What one factorisation takes.
     pub factors: FactorSize,
-    /// What the run takes.
     pub cost: Cost,
     /// Nodes of the mesh file that belong to no triangle and were dropped.
     pub orphans: usize,
@@ -70,12 +58,10 @@ pub struct Plan {
     pub half: Option<HalfPlan>,
 }
 
-/// Numbers of equations, two a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Equations {
     /// Number of all equations, 2R.
     pub all: usize,
-    /// Equations whose displacement is restrained.
     pub restrained: usize,
     /// Free equations, before constraints take out those of nodes in contact.
     pub free: usize,
@@ -86,12 +72,10 @@ pub struct Equations {
     pub idle: usize,
 }
 
-/// Half of a symmetric scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct HalfPlan {
     /// Where the line of symmetry stands: x, length.
     pub at: f64,
-    /// Nodes of the half, those on the line among them.
     pub nodes: usize,
 }
 
@@ -110,9 +94,7 @@ pub struct ContactPlan {
 
 impl Plan {
     /// The plan of `request`. Neither a matrix is built nor an equation solved.
-    ///
-    /// # Errors
-    /// A Poisson's ratio that R6 does not allow; a solver that the scalar does not have.
+    /// Errors: A Poisson's ratio that R6 does not allow; a solver that the scalar does not have.
     pub fn new(request: &Request) -> Result<Self, InputError> {
         let Request { ref scene, variant, arithmetic, .. } = *request;
         arithmetic.check()?;
@@ -162,9 +144,6 @@ impl Plan {
 
     /// Checks that the dense matrices of the run fit in `free` bytes: what `solve` asks before it
     /// starts.
-    ///
-    /// # Errors
-    /// They do not.
     pub fn check_memory(&self, free: Option<u128>) -> Result<(), InputError> {
         memory::check(self.nodes, self.cost.dense_matrices, free)
     }

@@ -31,9 +31,7 @@ const ROUNDINGS: f64 = 16.0;
 /// A precision that was tried, and its errors relative to the largest displacement.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attempt {
-    /// In which numbers, by which solver.
     pub arithmetic: Arithmetic,
-    /// The error that was predicted.
     pub predicted: f64,
     /// The error estimate or bound of the run; nothing where the prediction was already too large,
     /// so that nothing was run.
@@ -42,10 +40,8 @@ pub struct Attempt {
     pub bound: bool,
 }
 
-/// A solution that is accurate enough.
 #[derive(Clone, Debug)]
 pub struct Reached {
-    /// The solution in the last precision that was tried.
     pub solution: Solution,
     /// What was tried, the last one with success.
     pub attempts: Vec<Attempt>,
@@ -56,9 +52,7 @@ pub struct Reached {
 
 /// Solves `request` in the cheapest precision in which the relative error of the displacements, by
 /// rounding alone, is at most `accuracy`; the request's own arithmetic does not count.
-///
-/// # Errors
-/// Those of [`solve`]; an accuracy that is not between 0 and 1, or that no precision meets.
+/// Errors: those of [`solve`]; an accuracy that is not between 0 and 1, or that no precision meets.
 pub fn solve_to(request: &Request, accuracy: f64) -> Result<Reached, Error> {
     if !(accuracy > 0.0 && accuracy < 1.0) {
         let what = format!("the accuracy {accuracy:e} is not between 0 and 1");

@@ -51,7 +51,6 @@ impl Errors {
     }
 }
 
-/// The scene refined once, twice, ...
 pub(super) fn meshes(scene: &Scene, times: usize) -> Result<Vec<Refined>, InputError> {
     let mut meshes: Vec<Refined> = Vec::new();
     for _ in 0..times {

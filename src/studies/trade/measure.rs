@@ -15,20 +15,16 @@ use crate::answer::{
 /// Seconds beyond which a trial is not run again: the median of one is itself.
 const PATIENCE: f64 = 4.0;
 
-/// What is measured, and how often.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// How many times each trial is run, in turn: A B C A B C ...
     pub runs: usize,
-    /// The knobs that are turned.
     pub only: Vec<Knob>,
 }
 
 /// Turns the knobs of `request` and measures what comes of each place. `peak` gives a trial's peak
 /// memory, `watch` is called after each run with what was run.
-///
-/// # Errors
-/// The scene cannot be refined. A trial that fails is a row that says why.
+/// Errors: the scene cannot be refined. A trial that fails is a row that says why.
 pub fn measure(
     request: &Request,
     options: &Options,
@@ -118,7 +114,6 @@ fn light(mut solution: Solution) -> Solution {
     solution
 }
 
-/// The trials of a knob and their runs.
 struct Bench<'a> {
     request: &'a Request,
     trials: &'a [Trial],

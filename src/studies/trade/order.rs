@@ -10,7 +10,6 @@ use serde::Serialize;
 /// An order of convergence and its fit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Order {
-    /// The name of what converges.
     pub quantity: &'static str,
     /// Differences between neighbouring meshes, relative to the finest one's value, the coarsest
     /// first.

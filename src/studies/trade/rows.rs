@@ -11,22 +11,15 @@ use crate::problem::modelling::Variant;
 /// Speed against accuracy on a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Trade {
-    /// The name of the scene.
     pub scene: String,
-    /// Number of its nodes.
     pub nodes: usize,
-    /// Number of its triangles.
     pub triangles: usize,
-    /// How many times each trial was run.
     pub runs: usize,
-    /// What was measured of each knob.
     pub sections: Vec<Section>,
 }
 
-/// What was measured of a knob.
 #[derive(Clone, Debug, Serialize)]
 pub struct Section {
-    /// The knob that was turned.
     pub knob: Knob,
     /// What errors are measured against, in words.
     pub against: &'static str,
@@ -44,20 +37,17 @@ pub struct Row {
     /// Where the knob stood, in words.
     #[serde(rename = "setting")]
     pub label: String,
-    /// The variant that was run.
     pub variant: Variant,
     /// In which numbers and by which solver; not in the files, where the label names it.
     #[serde(skip)]
     pub arithmetic: Arithmetic,
     /// Number of degrees of freedom, restrained ones included.
     pub equations: usize,
-    /// Number of nodes in contact at the end.
     pub in_contact: Option<usize>,
     /// Iterations after which the contact state at the end returns; 1 = settled.
     pub cycle: Option<usize>,
     /// Median of the times of its runs, s.
     pub seconds: Option<f64>,
-    /// How many times it was run.
     pub runs: usize,
     /// The most memory of a process that did nothing else, bytes.
     pub peak_bytes: Option<u64>,
@@ -66,10 +56,8 @@ pub struct Row {
     /// How far it is from the same variant where the scene has the knob; nothing where the scene
     /// has none of the places.
     pub change: Option<Errors>,
-    /// Whether the scene has the knob here.
     pub own: bool,
     /// Whether no other row of the section is quicker and nearer.
     pub pareto: bool,
-    /// Why it has no result.
     pub failure: Option<String>,
 }

@@ -29,41 +29,28 @@ pub enum Setting {
     Own,
     /// Another tolerance of the contact search, length.
     Tolerance(f64),
-    /// Another number of iterations.
     Iterations(usize),
-    /// Another rule that decides who is in contact.
     Status(StatusRule),
-    /// Another coupling of contact nodes and target.
     Coupling(Coupling),
     /// The scene with its mesh refined so many times.
     Refined(usize),
-    /// Half of a symmetric scene.
     Half,
 }
 
 /// What a trial's error is measured against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Against {
-    /// The reference solution on the same mesh.
     Reference,
-    /// Another trial of the same knob, by place.
     Trial(usize),
 }
 
-/// A run to measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// The knob that is turned.
     pub knob: Knob,
-    /// Where it stands, in words.
     pub label: String,
-    /// The variant that is run.
     pub variant: Variant,
-    /// In which numbers, by which solver.
     pub arithmetic: Arithmetic,
-    /// What else its request has.
     pub setting: Setting,
-    /// What its error is measured against.
     pub against: Against,
     /// Whether this is where the scene has the knob.
     pub own: bool,
@@ -85,9 +72,7 @@ impl Trial {
     }
 
     /// What it asks for, where everything but the knob is as `request` has it.
-    ///
-    /// # Errors
-    /// The scene cannot be refined or halved.
+    /// Errors: the scene cannot be refined or halved.
     pub fn request(&self, request: &Request) -> Result<Request, InputError> {
         let mut request = request.clone().variant(self.variant).arithmetic(self.arithmetic);
         match self.setting {
@@ -198,7 +183,6 @@ fn measured_variant(request: &Request) -> Variant {
     if request.variant == Variant::Unilateral { Variant::Stepped } else { request.variant }
 }
 
-/// Seconds that exact numbers may take.
 pub(super) fn exact_seconds(request: &Request) -> f64 {
     let growing = request.reading.r5 == NodeTable::NodeN;
     cost::seconds(request.scene.model.free_dofs(), growing, request.iterations)
@@ -237,7 +221,6 @@ fn solvers(request: &Request) -> Vec<Trial> {
     against_the_last(Knob::Solver, request, arithmetics)
 }
 
-/// Arithmetics of one variant, measured against the last.
 fn against_the_last(
     knob: Knob,
     request: &Request,

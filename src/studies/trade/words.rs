@@ -31,7 +31,6 @@ pub fn answers(request: &Request, knob: Knob, rows: &[Row], orders: &[Order]) ->
     }
 }
 
-/// A sentence for each variant that has something to say of its rows.
 fn by_variant(
     scene: &Scene,
     rows: &[Row],
@@ -138,7 +137,6 @@ fn order(order: &Order) -> String {
     )
 }
 
-/// How far two rows are from the reference solution.
 fn from_the_reference([a, b]: [&Row; 2]) -> String {
     let far = |row: &Row| row.error.map_or("-".into(), |e| percent(e.displacement));
     format!("From the reference solution: {} at {}, {} at {}.", far(a), a.label, far(b), b.label)

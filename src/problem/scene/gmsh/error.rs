@@ -10,11 +10,9 @@ use thiserror::Error;
 pub struct GmshError {
     /// The place where the fault was found.
     pub place: Place,
-    /// The fault that was found.
     pub fault: Fault,
 }
 
-/// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// The number of a line of a text file, from 1.
@@ -32,7 +30,6 @@ impl fmt::Display for Place {
     }
 }
 
-/// A fault of a Gmsh file.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Fault {
     /// The format requires `expected` where the file has something else.
@@ -50,7 +47,6 @@ pub enum Fault {
     /// The file ends without a section that it must have.
     #[error("the file has no section ${section}")]
     MissingSection { section: &'static str },
-    /// A section occurs a second time.
     #[error("a second section ${section}, expected one")]
     RepeatedSection { section: String },
     /// A number or tag that must be unique occurs a second time.
@@ -75,7 +71,6 @@ pub enum Fault {
          {expected}"
     )]
     Dimension { element: usize, found: usize, expected: usize },
-    /// An element names a node that the file does not have.
     #[error("element {element} has the node {node}, which is not in $Nodes")]
     NoNode { element: usize, node: usize },
     /// An element is part of a geometric entity that the file does not have.

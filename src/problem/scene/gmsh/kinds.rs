@@ -4,7 +4,6 @@ use super::error::{Fault, Result};
 use super::tokens::Tokens;
 use crate::problem::scene::mesh::{KINDS, Kind};
 
-/// The name of a geometric entity of each dimension.
 pub const ENTITIES: [&str; 4] = ["point", "curve", "surface", "volume"];
 
 /// The names of the kinds of element that are not read, by Gmsh's element type; empty where there
@@ -23,9 +22,7 @@ const OTHER_KINDS: [&str; 32] = [
 ];
 
 /// Returns the kind of `element`, whose type has the number `number` in Gmsh.
-///
-/// # Errors
-/// The kind is not among those that are read.
+/// Errors: the kind is not among those that are read.
 pub fn kind(tokens: &Tokens, element: usize, number: i32) -> Result<&'static Kind> {
     KINDS.iter().find(|kind| i32::try_from(kind.number) == Ok(number)).ok_or_else(|| {
         let other = usize::try_from(number).ok().and_then(|n| OTHER_KINDS.get(n).copied());

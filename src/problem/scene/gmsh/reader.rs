@@ -11,9 +11,7 @@ use crate::problem::scene::mesh::{Element, Mesh, Node, PhysicalName};
 ///
 /// Nodes, elements and physical names are returned in ascending order; tags that are negative in
 /// the file (a reversed orientation) are returned positive.
-///
-/// # Errors
-/// The first fault, with its line (text) or byte (binary).
+/// Errors: the first fault, with its line (text) or byte (binary).
 pub fn read(bytes: &[u8]) -> Result<Mesh, GmshError> {
     let mut tokens = Tokens::new(bytes);
     tokens.keyword("$MeshFormat", "$MeshFormat, the first line of a Gmsh mesh (MSH 2.2 or 4.1)")?;
@@ -51,7 +49,6 @@ fn format(tokens: &mut Tokens) -> Result<Version> {
     Ok(version)
 }
 
-/// The versions of the format that can be read.
 #[derive(Clone, Copy, Default, PartialEq)]
 enum Version {
     #[default]
@@ -62,23 +59,17 @@ enum Version {
 /// The parts of a file that have been read so far.
 #[derive(Default)]
 pub struct Reader<'a> {
-    /// The tokens of the rest of the file.
     pub tokens: Tokens<'a>,
     version: Version,
     /// The names of the sections read so far, without those that are skipped.
     pub sections: BTreeSet<String>,
-    /// The physical names by dimension and tag.
     names: BTreeMap<(usize, usize), String>,
-    /// The physical tags by dimension and tag of the geometric entity.
     pub entities: BTreeMap<(usize, i32), Vec<usize>>,
-    /// The nodes by their number.
     pub nodes: BTreeMap<usize, Node>,
-    /// The elements by their number.
     pub elements: BTreeMap<usize, Element>,
 }
 
 impl Reader<'_> {
-    /// Reads the body of a section.
     fn section(&mut self, name: &str) -> Result<()> {
         match (name, self.version) {
             ("PhysicalNames", _) => self.once(name, Self::physical_names),
@@ -107,7 +98,6 @@ impl Reader<'_> {
         body(self)
     }
 
-    /// Returns the mesh after the end of the file.
     fn finish(self) -> Result<Mesh> {
         for section in ["Nodes", "Elements"] {
             if !self.sections.contains(section) {

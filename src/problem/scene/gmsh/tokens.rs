@@ -4,7 +4,6 @@ use std::str::FromStr;
 
 use super::error::{Fault, GmshError, Place, Result};
 
-/// The encoding of the numbers in a file.
 #[derive(Clone, Copy, Default, PartialEq)]
 pub enum Encoding {
     #[default]
@@ -13,15 +12,12 @@ pub enum Encoding {
     BigEndian,
 }
 
-/// The numbers and words of a file of any encoding.
 #[derive(Default)]
 pub struct Tokens<'a> {
     bytes: &'a [u8],
-    /// The place after which the next token is read.
     at: usize,
     /// The place where the last token began, which errors report.
     last: usize,
-    /// The encoding of the numbers from here on.
     pub encoding: Encoding,
 }
 
@@ -132,7 +128,6 @@ impl<'a> Tokens<'a> {
         Ok(())
     }
 
-    /// Reads the rest of the line.
     fn line(&mut self) -> &'a [u8] {
         self.last = self.at;
         let rest = &self.bytes[self.at..];
@@ -189,7 +184,6 @@ impl<'a> Tokens<'a> {
         self.error(Fault::Unexpected { found: found.to_string(), expected: expected.to_string() })
     }
 
-    /// Returns an error at the last token.
     pub fn error(&self, fault: Fault) -> GmshError {
         let place = match self.encoding {
             Encoding::Text => {

@@ -77,7 +77,6 @@ impl MeshBuilder {
         self.triangles(group, triangles);
     }
 
-    /// Joins successive rows with triangles of a group.
     pub fn join_all(&mut self, group: &str, rows: &[Vec<usize>]) {
         rows.windows(2).for_each(|pair| self.join(group, &pair[0], &pair[1]));
     }
@@ -121,7 +120,6 @@ fn tags(names: Vec<GroupRef>) -> Vec<usize> {
     names.iter().map(tag).collect()
 }
 
-/// Adds the groups of one dimension to a mesh.
 fn add_groups<const N: usize>(
     mesh: &mut Mesh,
     dim: usize,
@@ -141,53 +139,5 @@ fn add_groups<const N: usize>(
                 nodes: nodes.to_vec(),
             });
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::MeshBuilder;
-
-    /// Returns the triangles between two rows of `inner` and `outer` segments.
-    fn triangles(inner: usize, outer: usize) -> Vec<Vec<usize>> {
-        let mut mesh = MeshBuilder::default();
-        let place = |k: usize, n: usize| if n == 0 { 0.5 } else { k as f64 / n as f64 };
-        let a = mesh.row((0..=inner).map(|k| [place(k, inner), 0.0]));
-        let b = mesh.row((0..=outer).map(|k| [place(k, outer), 1.0]));
-        mesh.join("body", &a, &b);
-        mesh.finish().elements.into_iter().map(|e| e.nodes).collect()
-    }
-
-    #[test]
-    fn equal_rows_are_cut_along_one_diagonal() {
-        assert_eq!(triangles(1, 1), [[1, 4, 3], [1, 2, 4]]);
-    }
-
-    #[test]
-    fn a_row_of_half_the_segments_takes_three_triangles_a_segment() {
-        assert_eq!(triangles(2, 1), [[1, 2, 4], [2, 5, 4], [2, 3, 5]]);
-    }
-
-    #[test]
-    fn a_row_of_one_node_is_the_tip_of_a_fan() {
-        assert_eq!(triangles(2, 0), [[1, 2, 4], [2, 3, 4]]);
-    }
-
-    #[test]
-    fn edges_come_first_and_names_take_the_tags_that_are_free() {
-        let mut mesh = MeshBuilder::default();
-        mesh.row([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
-        mesh.triangles(2, [[1, 2, 3]]);
-        mesh.edges("bottom", &[1, 2]);
-        mesh.edges("left", &[3, 1]);
-        mesh.edges("bottom", &[2, 3]);
-        let mesh = mesh.finish();
-        let of = |e: &crate::problem::scene::Element| (e.number, e.physical[0], e.nodes.clone());
-        let elements: Vec<_> = mesh.elements.iter().map(of).collect();
-        let expected =
-            [(1, 1, vec![1, 2]), (2, 1, vec![2, 3]), (3, 3, vec![3, 1]), (4, 2, vec![1, 2, 3])];
-        assert_eq!(elements, expected);
-        let names: Vec<_> = mesh.names.iter().map(|n| (n.dim, n.tag, n.name.as_str())).collect();
-        assert_eq!(names, [(1, 1, "bottom"), (1, 3, "left")]);
     }
 }

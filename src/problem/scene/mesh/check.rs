@@ -8,9 +8,6 @@ use crate::problem::element;
 
 impl Mesh {
     /// Checks that `n` is a node of the mesh.
-    ///
-    /// # Errors
-    /// The mesh has no such node.
     pub fn check_node(&self, n: usize, place: &str) -> Result<(), InputError> {
         let r = self.nodes.len();
         if (1..=r).contains(&n) {
@@ -25,9 +22,7 @@ impl Mesh {
     /// Checks the conditions that the listings assume: nodes are numbered 1 to R and lie in one
     /// plane, elements name existing nodes, triangles have a positive area, and no triangle occurs
     /// twice.
-    ///
-    /// # Errors
-    /// The first condition that is violated, by node or element number.
+    /// Errors: the first condition that is violated, by node or element number.
     pub fn check(&self) -> Result<(), InputError> {
         self.check_names()?;
         self.check_nodes()?;

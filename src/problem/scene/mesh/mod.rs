@@ -17,19 +17,15 @@ use crate::problem::element::Corners;
 /// Nodes and elements in ascending order of number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// The nodes of the mesh.
     pub nodes: Vec<Node>,
     /// The points, edges and triangles. An element of two physical groups occurs twice in a Gmsh
     /// file of version 2.2, under two numbers, and once, with two tags, in one of version 4.1.
     pub elements: Vec<Element>,
-    /// The names of the physical groups.
     pub names: Vec<PhysicalName>,
 }
 
-/// A node of the mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// The number of the node.
     pub number: usize,
     /// The coordinates x, y, z, length.
     pub xyz: [f64; 3],
@@ -44,31 +40,22 @@ pub struct Element {
     pub kind: usize,
     /// The tags of the physical groups to which it belongs, ascending.
     pub physical: Vec<usize>,
-    /// The tag of its geometric entity.
     pub geometric: usize,
-    /// The numbers of its nodes.
     pub nodes: Vec<usize>,
 }
 
-/// The name of a physical group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhysicalName {
     /// The dimension of the group's elements: 0 points, 1 edges, 2 triangles. Tags of different
     /// dimensions are independent.
     pub dim: usize,
-    /// The tag of the group.
     pub tag: usize,
-    /// The name of the group.
     pub name: String,
 }
 
-/// A kind of element.
 pub struct Kind {
-    /// The element type of Gmsh.
     pub number: usize,
-    /// The dimension of the element.
     pub dim: usize,
-    /// The number of its nodes.
     pub nodes: usize,
 }
 

@@ -6,9 +6,7 @@ use crate::error::InputError;
 impl Mesh {
     /// Reads the paper's own tables: rows of `node` are number, x, y, z; rows of `elem` are number,
     /// type, 2, physical tag, geometric tag, nodes.
-    ///
-    /// # Errors
-    /// A row has another form.
+    /// Errors: a row has another form.
     pub fn from_tables(node: &[[f64; 4]], elem: &[Vec<usize>]) -> Result<Self, InputError> {
         let mut mesh = Mesh::default();
         for (k, &[number, x, y, z]) in node.iter().enumerate() {

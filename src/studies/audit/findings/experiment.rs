@@ -74,9 +74,6 @@ fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
 }
 
 /// What `c_cnt` finds in the first shape, of those that a case comes to, with a node in contact.
-///
-/// # Errors
-/// There is no such shape.
 pub(super) fn first_in_contact(case: &Case) -> Result<Call, &'static str> {
     let shapes = shapes(case).into_iter();
     let mut calls = shapes.filter_map(|(_, shape)| c_cnt(case.model(), &shape).ok());

@@ -49,12 +49,10 @@ impl Finding {
         (self.measure)(case).unwrap_or_else(|why| Measured::holds_if(false, 0.0, why.to_string()))
     }
 
-    /// The smallest scene that shows it.
     pub fn scene(&self) -> Scene {
         Scene::open(&format!("findings/{}", self.id)).expect("a finding's scene is sound")
     }
 
-    /// The finding and what was measured of it, for machines.
     pub fn row(&self, measured: &Measured) -> Value {
         json!({
             "id": self.id,
@@ -83,14 +81,11 @@ choices! {
     }
 }
 
-/// What a scene shows of a finding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Whether the scene shows it.
     pub verdict: Verdict,
     /// The number that the finding names; 0 where it does not arise and nothing could be counted.
     pub number: f64,
-    /// The values behind the number, in words.
     pub detail: String,
 }
 

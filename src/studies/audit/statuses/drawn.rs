@@ -21,15 +21,12 @@ use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 const C_TLL: f64 = 0.001;
 /// Width of the target, length.
 const WIDTH: f64 = 4.0;
-/// Steepest slope of a broken surface.
 const STEEPEST: f64 = 0.6;
 /// Height of the target's lower side.
 const BOTTOM: f64 = -6.0;
 
-/// What the scenes of a row have in common.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {
-    /// Number of target edges.
     pub edges: usize,
     /// How deep the deepest node is, in c_tll.
     pub depth: f64,
@@ -46,13 +43,10 @@ impl Kind {
 
 /// A scene that was drawn, and the statuses of its contact nodes.
 pub struct Drawn {
-    /// The model in the shape after the jump.
     pub model: Arc<Model>,
-    /// Whether each contact node is in contact.
     pub touching: Vec<bool>,
 }
 
-/// Draws a scene of a kind.
 pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
     let surface = surface(rng, kind);
     let (stamp, touching) = stamp(rng, &surface, kind);

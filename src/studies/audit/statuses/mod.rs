@@ -40,37 +40,27 @@ const WEIGHTS: u64 = 12;
 /// What was measured, in numbers that the seed determines.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measurement {
-    /// Number of scenes of each row.
     pub scenes: usize,
-    /// The seed that they come from.
     pub seed: u64,
-    /// Wrong statuses by depth and orientation.
     pub by_depth: Vec<Row>,
     /// Operations by size, both orientations together.
     pub by_size: Vec<Row>,
 }
 
-/// The scenes of one kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// Number of target edges of a scene.
     pub edges: usize,
     /// Depth of the jump, in c_tll.
     pub depth: f64,
     /// `below` or `above` the stamp, or `both`: where the target lies.
     pub target: &'static str,
-    /// Contact nodes of all its scenes.
     pub nodes: usize,
-    /// Those of them that are truly in contact.
     pub touching: usize,
-    /// What each rule made of them.
     pub rules: Vec<Score>,
 }
 
-/// What a rule made of the scenes of a row.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Score {
-    /// The rule that decided who is in contact.
     pub rule: StatusRule,
     /// Nodes in contact that it takes for apart.
     pub missed: usize,

@@ -1,9 +1,9 @@
 //! Each rule of `README.md` beside the interpreter, on the smallest listing that shows it.
 
 use super::{failure, failure_under, outcome, program, value, value_under};
-use crate::paper::mathcad::failure::Subscripts;
-use crate::paper::mathcad::{
-    Cause, Conjunction, Descending, LastIf, Limits, Settings, Value, ZeroOverZero,
+use plane_contact::paper::mathcad::failure::Subscripts;
+use plane_contact::paper::mathcad::{
+    Array, Cause, Conjunction, Descending, LastIf, Limits, Settings, Value, ZeroOverZero,
 };
 
 fn with(change: impl FnOnce(&mut Settings)) -> Settings {
@@ -75,7 +75,7 @@ fn arrays_are_values() {
 fn writes_to_the_worksheet_s_names_are_local() {
     let listing = program("v[1] ← v[1] + x\nv");
     let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
-    worksheet.define("v", crate::paper::mathcad::Array::column(vec![1.0, 2.0]));
+    worksheet.define("v", Array::column(vec![1.0, 2.0]));
     for _ in 0..2 {
         let outcome = worksheet.call(&[Value::Number(5.0)]).unwrap();
         assert_eq!(outcome.value.to_string(), "6; 2");

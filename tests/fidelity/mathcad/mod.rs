@@ -7,8 +7,8 @@ mod paper;
 mod semantics;
 mod spelled;
 
-use super::failure::Fallible;
-use super::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
+use plane_contact::paper::mathcad::failure::Fallible;
+use plane_contact::paper::mathcad::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
 
 /// Makes a listing `f(x)` of the given lines.
 fn program(lines: &str) -> Listing {

@@ -1,12 +1,13 @@
 //! From text to syntax tree and back.
 
+use super::spelled::spelled;
 use super::value;
-use crate::paper::mathcad::edit::EditError;
-use crate::paper::mathcad::{Edit, Listing, ParseError};
+use plane_contact::paper::mathcad::edit::EditError;
+use plane_contact::paper::mathcad::{Edit, Listing, ParseError};
 
 const LISTINGS: [(&str, &str); 2] = [
-    ("c_cnt", include_str!("../../../../listings/c_cnt.txt")),
-    ("Km", include_str!("../../../../listings/Km.txt")),
+    ("c_cnt", include_str!("../../../listings/c_cnt.txt")),
+    ("Km", include_str!("../../../listings/Km.txt")),
 ];
 
 fn without_spaces(text: &str) -> String {
@@ -24,13 +25,13 @@ fn the_paper_s_listings_read_and_print_back() {
             .collect();
         assert_eq!(listing.to_string(), printed, "the lines, byte for byte");
         assert_eq!(
-            without_spaces(&listing.spelled()),
+            without_spaces(&spelled(&listing)),
             without_spaces(&printed),
             "the tree, but for spaces"
         );
         let again =
-            Listing::parse(name, &listing.spelled()).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(again.spelled(), listing.spelled(), "what is spelled reads the same again");
+            Listing::parse(name, &spelled(&listing)).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(spelled(&again), spelled(&listing), "what is spelled reads the same again");
     }
 }
 

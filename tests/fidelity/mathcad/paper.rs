@@ -1,17 +1,17 @@
 //! The paper's two listings on scenes small enough to be worked out by hand.
 
-use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mathcad::failure::Fallible;
-use crate::paper::mathcad::{
+use plane_contact::paper::mathcad::array::{Column, Table};
+use plane_contact::paper::mathcad::failure::Fallible;
+use plane_contact::paper::mathcad::{
     Array, Cause, Conjunction, Edit, Limits, Listing, Outcome, Settings, Value,
 };
 
 fn c_cnt() -> Listing {
-    Listing::parse("c_cnt", include_str!("../../../../listings/c_cnt.txt")).unwrap()
+    Listing::parse("c_cnt", include_str!("../../../listings/c_cnt.txt")).unwrap()
 }
 
 fn km() -> Listing {
-    Listing::parse("Km", include_str!("../../../../listings/Km.txt")).unwrap()
+    Listing::parse("Km", include_str!("../../../listings/Km.txt")).unwrap()
 }
 
 fn under(edit: &str, listing: &Listing) -> Listing {
@@ -91,7 +91,7 @@ fn contact_pairs_unless_conjunction_guards() {
 
 #[test]
 fn contact_pairs_under_r1_inside() {
-    let listing = under(include_str!("../../../../listings/readings/R1-inside.edit"), &c_cnt());
+    let listing = under(include_str!("../../../listings/readings/R1-inside.edit"), &c_cnt());
     let pairs =
         Table::<f64>::try_from(&find_pairs(&listing, &Settings::default()).unwrap().value).unwrap();
     // Row r is zeroed on turn r of 6, before that turn's weights: they are added 7 - r times.
@@ -102,7 +102,7 @@ fn contact_pairs_under_r1_inside() {
 
 #[test]
 fn contact_pairs_under_r5_node_n() {
-    let listing = under(include_str!("../../../../listings/readings/R5-node_n.edit"), &c_cnt());
+    let listing = under(include_str!("../../../listings/readings/R5-node_n.edit"), &c_cnt());
     let pairs =
         Table::<f64>::try_from(&find_pairs(&listing, &Settings::default()).unwrap().value).unwrap();
     // From the current x = 1: half and half.
@@ -196,7 +196,7 @@ fn stiffness() {
 #[test]
 fn stiffness_under_r2_printed() {
     let stiffness =
-        assemble(&under(include_str!("../../../../listings/readings/R2-printed.edit"), &km()));
+        assemble(&under(include_str!("../../../listings/readings/R2-printed.edit"), &km()));
     // Equation 1 stays free: K[1,1] of element 1. With 10, 9 is restrained.
     assert_eq!((stiffness[(1, 1)], stiffness[(1, 4)]), (2.0, 2.0));
     assert_eq!((stiffness[(9, 9)], stiffness[(9, 12)]), (1.0, 0.0));
@@ -205,9 +205,8 @@ fn stiffness_under_r2_printed() {
 #[test]
 fn stiffness_under_r3() {
     let per_node =
-        assemble(&under(include_str!("../../../../listings/readings/R3-per-node.edit"), &km()));
-    let nested =
-        assemble(&under(include_str!("../../../../listings/readings/R3-nested.edit"), &km()));
+        assemble(&under(include_str!("../../../listings/readings/R3-per-node.edit"), &km()));
+    let nested = assemble(&under(include_str!("../../../listings/readings/R3-nested.edit"), &km()));
     for stiffness in [&per_node, &nested] {
         // Node 1 of element 1 adds alone, with its own 1/2: nothing between 7 and 12, 2/2 on 7.
         assert_eq!((stiffness[(7, 12)], stiffness[(7, 7)]), (0.0, 1.0 + 8.0));
@@ -218,7 +217,7 @@ fn stiffness_under_r3() {
 
 #[test]
 fn an_edited_line_keeps_its_printed_number() {
-    let nested = under(include_str!("../../../../listings/readings/R3-nested.edit"), &km());
+    let nested = under(include_str!("../../../listings/readings/R3-nested.edit"), &km());
     let numbers: Vec<_> = nested.lines().iter().map(|line| line.printed).collect();
     let expected: Vec<_> = (1..=33).chain([24, 25, 34]).collect();
     assert_eq!(numbers, expected);

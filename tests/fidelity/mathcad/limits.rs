@@ -1,9 +1,10 @@
 //! Hostile listings end in errors: no hang, no overflowing stack, no exhausted memory.
 
-use proptest::prelude::*;
-
+use super::spelled::spelled;
 use super::{failure, program};
-use crate::paper::mathcad::{Array, Cause, Limits, Listing, Settings, Value};
+use crate::common::random::fixed;
+use plane_contact::paper::mathcad::{Array, Cause, Limits, Listing, Settings, Value};
+use proptest::prelude::*;
 
 fn refusal(body: &str) -> String {
     Listing::parse("f", &format!("f(x) :=\n{body}"))
@@ -155,11 +156,7 @@ const WORDS: [&str; 40] = [
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 2_000,
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(fixed(2_000))]
 
     #[test]
     fn any_text_ends(words in proptest::collection::vec(0..WORDS.len(), 0..40)) {
@@ -169,8 +166,8 @@ proptest! {
             let mut worksheet = listing.runner(&Settings::default(), &limits);
             worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
             let _ = worksheet.call(&[Value::Number(5.0)]);
-            let again = Listing::parse("f", &listing.spelled());
-            prop_assert_eq!(again.map(|again| again.spelled()), Ok(listing.spelled()));
+            let again = Listing::parse("f", &spelled(&listing));
+            prop_assert_eq!(again.map(|again| spelled(&again)), Ok(spelled(&listing)));
         }
     }
 }

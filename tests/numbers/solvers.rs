@@ -1,0 +1,57 @@
+//! Solvers of sparse matrices, the size of their factors, and the memory of dense ones.
+
+use nalgebra::DVector;
+use plane_contact::numbers::solve::memory::check;
+use plane_contact::numbers::solve::{FactorSize, SparseCholesky, SparseSymmetric};
+
+/// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
+/// spring of stiffness `ground`.
+fn chain(n: usize, ground: f64) -> SparseSymmetric {
+    let springs = (1..n).flat_map(|i| [(i, i, 1.0), (i - 1, i - 1, 1.0), (i, i - 1, -1.0)]);
+    SparseSymmetric::new(n, springs.chain([(0, 0, ground)]))
+}
+
+#[test]
+fn a_chain_stretches_as_springs_in_series() {
+    let cholesky = SparseCholesky::new(chain(5, 1.0)).unwrap();
+    let pull = DVector::from_fn(5, |i, _| f64::from(i == 4));
+    let u = cholesky.solve(&pull);
+    assert!((u - DVector::from_fn(5, |i, _| i as f64 + 1.0)).amax() < 1e-14);
+}
+
+#[test]
+fn an_unrestrained_chain_is_singular() {
+    assert!(SparseCholesky::new(chain(5, 0.0)).is_err());
+    assert!(SparseCholesky::new(chain(5, 1e-16)).is_err());
+    assert!(SparseCholesky::new(chain(5, 1e-10)).is_ok());
+}
+
+#[test]
+fn a_matrix_without_equations_is_solved() {
+    let nothing = SparseSymmetric::<f64>::new(0, std::iter::empty());
+    let cholesky = SparseCholesky::new(nothing).unwrap();
+    assert_eq!(cholesky.solve(&DVector::zeros(0)).len(), 0);
+}
+
+#[test]
+fn a_chain_fills_nothing_in() {
+    let chain = (0..5).map(|i| (i, i)).chain((1..5).map(|i| (i, i - 1)));
+    let size = FactorSize::sparse_cholesky(5, chain);
+    assert_eq!((size.entries, size.nonzeros), (9, 9));
+    assert_eq!(size.operations, 4.0 * 4.0 + 1.0);
+}
+
+#[test]
+fn a_full_matrix_has_full_factors() {
+    let full = (0..6).flat_map(|i| (0..=i).map(move |j| (i, j)));
+    let size = FactorSize::sparse_cholesky(6, full);
+    assert!(size.nonzeros >= size.entries);
+    assert_eq!(size.operations, (1..=6).map(|k| f64::from(k * k)).sum::<f64>());
+}
+
+#[test]
+fn a_matrix_that_does_not_fit_is_refused_with_its_size() {
+    assert!(check(1000, 3, Some(96_000_000)).is_ok());
+    let error = check(1000, 3, Some(95_999_999)).unwrap_err();
+    assert!(error.what.contains("0.1 GB for 3 dense matrices of 2000 x 2000"), "{error}");
+}

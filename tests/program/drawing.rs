@@ -1,0 +1,279 @@
+//! Pictures of meshes, fields and series, and what they are drawn with.
+
+use plane_contact::report::picture::colour::ColourScale;
+use plane_contact::report::picture::deformation::{boundary_edges, magnification};
+use plane_contact::report::picture::page::{Page, text_width, wrap};
+use plane_contact::report::picture::svg::path;
+use plane_contact::report::picture::view::{Bounds, Frame, View};
+use plane_contact::report::picture::{
+    Axis, Contact, Drawing, Field, Series, Style, chart, field, mesh,
+};
+use roxmltree::Document;
+
+const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]];
+
+fn square() -> Drawing {
+    Drawing {
+        title: "a < b & \"c\"".into(),
+        points: SQUARE.to_vec(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        region: vec![0, 1],
+        region_names: ["block", "stamp"].map(String::from).to_vec(),
+        length_unit: "mm".into(),
+        contact: None,
+    }
+}
+
+fn touching(nodes: &[usize], edge: [usize; 2]) -> Drawing {
+    let contact = Contact { nodes: nodes.to_vec(), edges: vec![edge] };
+    Drawing { contact: Some(contact), ..square() }
+}
+
+fn stress<'a>(values: &'a [f64], displacement: &'a [[f64; 2]]) -> Field<'a> {
+    Field { quantity: "stress", unit: "MPa", values, displacement }
+}
+
+/// Returns an attribute of every element of this name.
+fn attributes(picture: &str, element: &str, attribute: &str) -> Vec<String> {
+    let document = Document::parse(picture).unwrap();
+    let found = document.descendants().filter(|node| node.has_tag_name(element));
+    found.filter_map(|node| node.attribute(attribute)).map(String::from).collect()
+}
+
+fn texts(picture: &str) -> String {
+    let document = Document::parse(picture).unwrap();
+    let found = document.descendants().filter(|node| node.has_tag_name("text"));
+    found.filter_map(|node| node.text()).collect::<Vec<_>>().join("|")
+}
+
+#[test]
+fn mesh_has_a_polygon_per_triangle() {
+    let picture = mesh(&square());
+    assert_eq!(attributes(&picture, "polygon", "points").len(), 2);
+    let words = texts(&picture);
+    for expected in ["a < b & \"c\"", "block (1 triangle)", "stamp (1 triangle)", "2 mm"] {
+        assert!(words.contains(expected), "{expected} in {words}");
+    }
+}
+
+#[test]
+fn field_has_the_end_colours() {
+    let picture = field(&square(), &stress(&[1.0, 3.0], &[[0.0; 2]; 4]));
+    assert_eq!(attributes(&picture, "polygon", "fill"), ["#440154", "#fde725"]);
+    let words = texts(&picture);
+    for expected in [
+        "Largest value 3 MPa at x\u{a0}=\u{a0}3.333, y\u{a0}=\u{a0}6.667 mm",
+        "smallest value 1 MPa at x\u{a0}=\u{a0}6.667, y\u{a0}=\u{a0}3.333 mm",
+        "Deformation × 1 ",
+    ] {
+        assert!(words.contains(expected), "{expected} in {words}");
+    }
+}
+
+#[test]
+fn equal_values_have_no_marker() {
+    let picture = field(&square(), &stress(&[2.0, 2.0], &[[0.0; 2]; 4]));
+    assert!(attributes(&picture, "circle", "r").is_empty());
+    assert!(texts(&picture).contains("The value is the same in every triangle: 2 MPa."));
+}
+
+#[test]
+fn stamp_is_drawn_over_the_block() {
+    let drawing = Drawing { region: vec![1, 0], ..square() };
+    let picture = field(&drawing, &stress(&[1.0, 3.0], &[[0.0; 2]; 4]));
+    assert_eq!(attributes(&picture, "polygon", "fill"), ["#fde725", "#440154"]);
+}
+
+#[test]
+fn contact_brings_an_enlargement() {
+    let drawing = touching(&[1], [1, 2]);
+    for picture in [mesh(&drawing), field(&drawing, &stress(&[1.0, 3.0], &[[0.0; 2]; 4]))] {
+        assert_eq!(attributes(&picture, "clipPath", "id").len(), 1);
+        assert!(texts(&picture).contains("b: contact zone, enlarged"));
+    }
+}
+
+#[test]
+fn wide_contact_is_not_enlarged() {
+    let picture = mesh(&touching(&[0, 1], [0, 1]));
+    assert!(attributes(&picture, "clipPath", "id").is_empty());
+    assert!(texts(&picture).contains("contact nodes (2)"));
+}
+
+#[test]
+fn extreme_numbers() {
+    for (unit, size) in [(1e300, 1e300), (1e300, 1e-300), (1e-300, 1e300), (1e-300, 1e-300)] {
+        let points = SQUARE.map(|point| point.map(|x| x / 10.0 * unit)).to_vec();
+        let drawing = Drawing { points, ..square() };
+        let picture = field(&drawing, &stress(&[-size, size], &[[size, size]; 4]));
+        assert_eq!(attributes(&picture, "polygon", "fill"), ["#440154", "#fde725"]);
+        let corners = attributes(&picture, "polygon", "points").join(" ");
+        let places = corners.split([' ', ',']).map(|x| x.parse::<f64>().unwrap());
+        assert!(places.into_iter().all(|x| (0.0..=1100.0).contains(&x)), "{corners}");
+    }
+}
+
+#[test]
+#[should_panic(expected = "finite numbers")]
+fn infinite_value_is_refused() {
+    field(&square(), &stress(&[1.0, f64::INFINITY], &[[0.0; 2]; 4]));
+}
+
+#[test]
+fn wrap_keeps_every_word() {
+    let words = "largest 12.3 MPa at the rim of the hole";
+    let lines = wrap(words, 10.0, 100.0);
+    let fits = |line: &String| text_width(line, 10.0) <= 100.0;
+    assert!(lines.len() > 2 && lines.iter().all(fits), "{lines:?}");
+    assert_eq!(lines.join(" "), words);
+}
+
+#[test]
+fn enlargement_fills_its_panel() {
+    let whole = Bounds::of(&[[0.0, 0.0], [50.0, 50.0]]);
+    let zone = Bounds::of(&[[20.0, 20.0], [30.0, 25.0]]);
+    let views = Page::new("t").views(&whole, Some(&zone));
+    let right = views[1];
+    assert_eq!(views[0].frame.size, right.frame.size);
+    assert!((right.scale * 10.0 - right.frame.size[0]).abs() < 1e-9);
+}
+
+const FRAME: Frame = Frame { corner: [100.0, 50.0], size: [200.0, 100.0] };
+
+#[test]
+fn view_keeps_the_shape_and_turns_y() {
+    let view = View::whole(&Bounds::of(&[[0.0, 0.0], [10.0, 10.0]]), FRAME);
+    assert_eq!(view.scale, 10.0);
+    assert_eq!(view.at([0.0, 0.0]), [150.0, 150.0]);
+    assert_eq!(view.at([10.0, 10.0]), [250.0, 50.0]);
+}
+
+#[test]
+fn flat_box_grows_to_the_ratio() {
+    let grown = Bounds::of(&[[0.0, 3.0], [4.0, 3.0]]).with_ratio(2.0);
+    assert_eq!([grown.low, grown.high], [[0.0, 2.0], [4.0, 4.0]]);
+}
+
+#[test]
+fn shows_what_overlaps() {
+    let view = View::enlarged(&Bounds::of(&[[0.0, 0.0], [2.0, 1.0]]), FRAME);
+    assert!(view.shows(&[[0.0, 60.0], [400.0, 70.0]]), "across");
+    assert!(!view.shows(&[[0.0, 60.0], [99.0, 70.0]]), "left of it");
+}
+
+/// Nine squares without the one in the middle, two triangles each.
+///
+/// ```text
+/// 12--13--14--15
+///  |   |   |   |
+///  8---9--10--11
+///  |   | O |   |
+///  4---5---6---7
+///  |   |   |   |
+///  0---1---2---3
+/// ```
+#[test]
+fn rim_of_a_hole_is_boundary() {
+    let corners = (0..11).filter(|corner| corner % 4 != 3 && *corner != 5);
+    let triangles: Vec<_> = corners.flat_map(|a| [[a, a + 1, a + 5], [a, a + 5, a + 4]]).collect();
+    let edges = boundary_edges(&triangles);
+    assert_eq!(edges.len(), 12 + 4);
+    let rim = [[5, 6], [5, 9], [6, 10], [9, 10]];
+    assert!(rim.iter().all(|edge| edges.contains(edge)), "{edges:?}");
+}
+
+#[test]
+fn magnification_is_round() {
+    let scaled = [0.0, 0.0035, 0.003, 0.35, 7.0, 1e-299]
+        .map(|largest| magnification(&SQUARE, &[[0.0, 0.0], [0.0, -largest]]).value());
+    assert_eq!(scaled, [1.0, 100.0, 100.0, 1.0, 0.05, 5e298]);
+}
+
+#[test]
+fn drawn_displacement_is_a_few_per_cent() {
+    for thousandths in 1..1000 {
+        let displacement = [[f64::from(thousandths) / 1000.0, 0.0]];
+        let drawn = displacement[0][0] * magnification(&SQUARE, &displacement).value() / 10.0;
+        assert!((0.02..0.06).contains(&drawn), "{drawn}");
+    }
+}
+
+#[test]
+fn equal_values_have_one_tick_and_one_colour() {
+    for value in [0.0, 6.3, -1e300, 1e-300] {
+        let scale = ColourScale::of(&[value, value * (1.0 + 1e-12)]);
+        assert!(scale.is_uniform());
+        assert_eq!(scale.ticks().len(), 1);
+        assert_eq!(scale.colour(value), ColourScale::of(&[0.0, 2.0]).colour(1.0));
+    }
+    assert_eq!(ColourScale::of(&[6.3, 6.3]).ticks(), [(0.5, String::from("6.3"))]);
+}
+
+#[test]
+fn ticks_lie_on_the_bar() {
+    for values in [[0.0, 1e300], [1e-300, 7e-300], [-2e5, 3e5], [100.0, 100.001]] {
+        let ticks = ColourScale::of(&values).ticks();
+        assert!(ticks.len() >= 3, "{ticks:?}");
+        let bar = -1e-9..=1.0 + 1e-9;
+        assert!(ticks.iter().all(|(place, _)| bar.contains(place)), "{ticks:?}");
+    }
+}
+
+#[test]
+fn values_share_the_power_of_the_bar() {
+    let scale = ColourScale::of(&[0.0, 2.068e-4]);
+    let words = [0.0, 1e-12, 1.5e-6, 2.068e-4].map(|value| scale.value_in_words(value, "1"));
+    assert_eq!(words, ["0", "10⁻¹²", "1.5·10⁻⁶", "206.8·10⁻⁶"]);
+    assert_eq!(ColourScale::of(&[6.3]).value_in_words(6.3, "MPa"), "6.3 MPa");
+}
+
+#[test]
+fn heading_names_power_and_unit() {
+    let heading = |largest: f64, unit| ColourScale::of(&[0.0, largest]).heading("q", unit);
+    assert_eq!(heading(6.3, "MPa"), "q, MPa");
+    assert_eq!(heading(6.3e6, "Pa"), "q, 10⁶ Pa");
+    assert_eq!(heading(6.3, ""), "q, unit of the scene");
+    assert_eq!(heading(6.3, "1"), "q");
+    assert_eq!(heading(6.3e-4, "1"), "q, 10⁻⁶");
+}
+
+#[test]
+fn numbers_are_short() {
+    let line = [[0.0, -0.001], [1.0, 100.0], [-2.5, 0.126]];
+    let written = path([&line[..]]).document();
+    assert!(written.contains("d=\"M0,0 1,100 -2.5,0.13\""), "{written}");
+}
+
+#[test]
+fn path_keeps_its_lines_apart() {
+    let lines = [[[0.0, 0.0], [1.0, 2.0]], [[3.0, 4.0], [5.0, 6.0]]];
+    let written = path(lines.iter().map(<[[f64; 2]; 2]>::as_slice)).document();
+    assert!(written.contains("d=\"M0,0 1,2M3,4 5,6\""), "{written}");
+}
+
+fn drawn(logarithmic: bool, points: Vec<[f64; 2]>) -> String {
+    let axis = |label| Axis { label, logarithmic };
+    let series = [Series { name: "s".into(), points, style: Style::Dots }];
+    chart("t", [axis("x"), axis("y")], &series, &[])
+}
+
+#[test]
+fn a_chart_marks_each_point() {
+    let text = drawn(false, vec![[0.0, 0.0], [1.0, 2.0], [2.0, -1.0]]);
+    let read = Document::parse(&text).unwrap();
+    let circles = read.descendants().filter(|n| n.has_tag_name("circle")).count();
+    assert_eq!(circles, 3 + 1, "three points and the legend's sign");
+}
+
+#[test]
+fn a_logarithmic_axis_leaves_out_what_it_cannot_show() {
+    let text = drawn(true, vec![[1e-3, 1e-16], [10.0, 0.0]]);
+    assert!(text.contains("10⁻³") && text.contains("10⁻¹⁶"), "{text}");
+    assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+}
+
+#[test]
+fn a_chart_of_nothing_is_a_chart() {
+    assert!(drawn(false, vec![]).contains("</svg>"));
+    assert!(drawn(true, vec![]).contains("</svg>"));
+}
