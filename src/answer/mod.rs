@@ -25,8 +25,8 @@ pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;
 pub use request::Request;
 pub use solution::{
-    Cycle, Detail, Equilibrium, Other, Path, Published, Sense, Solution, Status, Step, Unilateral,
-    Uniqueness, max_displacement,
+    Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, Unilateral, Uniqueness,
+    max_displacement,
 };
 pub use solve::{equilibrium, solve};
 pub use sparse::dense_matrices;

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{json, plan};
-use crate::answer::contact::ContactNode;
+use crate::answer::contact::{ContactNode, Status};
 use crate::answer::{
-    Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Solution, Status, Step,
+    Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Solution, Step,
 };
 use crate::error::InputError;
 use crate::numbers::scalar::rational;

@@ -3,10 +3,10 @@
 use super::layout::{Table, aligned, listed};
 use super::numbers::{or_dash, percent, place, quantity, short, uncertain, with_unit};
 use super::pressure;
-use crate::answer::contact::ContactNode;
+use crate::answer::contact::{ContactNode, Status};
 use crate::answer::error::Error;
 use crate::answer::{
-    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Solution, Status, Step,
+    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Solution, Step,
     Uniqueness, max_displacement,
 };
 use crate::paper::door::Call;

@@ -31,7 +31,8 @@ const INNER: f64 = 0.9;
 fn fitted(solution: &Solution) -> [f64; 2] {
     let edge = solution.in_contact().map(|c| c.arc).fold(0.0, f64::max);
     let pressing = solution.contact.iter().filter(|c| 0.0 < c.arc && c.arc < INNER * edge);
-    let points: Vec<[f64; 2]> = pressing.map(|c| [c.arc.powi(2), c.pressure.powi(2)]).collect();
+    let points: Vec<[f64; 2]> =
+        pressing.map(|c| [c.arc.powi(2), c.pressure.unwrap().powi(2)]).collect();
     let count = points.len() as f64;
     let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / count;
     let (x, y) = (mean(0), mean(1));

@@ -26,19 +26,25 @@ fn punch(size: usize) -> Solution {
 #[test]
 fn the_pressure_away_from_the_corner_is_the_closed_form() {
     let solution = punch(24);
-    let half_load: f64 = solution.contact.iter().map(|c| c.force).sum();
+    let half_load: f64 = solution.contact.iter().filter_map(|c| c.force).sum();
     let near = solution.contact.iter().filter(|c| c.arc < AWAY);
     assert!(near.clone().count() > 10);
     for node in near {
         let exact = 2.0 * half_load / (PI * (1.0 - node.arc.powi(2)).sqrt());
-        assert_near(&format!("pressure at {}", node.arc), node.pressure, exact, exact, &PUNCH);
+        assert_near(
+            &format!("pressure at {}", node.arc),
+            node.pressure.unwrap(),
+            exact,
+            exact,
+            &PUNCH,
+        );
     }
 }
 
 /// At the corner the closed form has no bound, and a finer mesh shows more of it.
 #[test]
 fn the_pressure_at_the_corner_grows_with_the_mesh() {
-    let peak = |size| punch(size).contact.iter().map(|c| c.pressure).fold(0.0, f64::max);
+    let peak = |size| punch(size).contact.iter().filter_map(|c| c.pressure).fold(0.0, f64::max);
     let (coarse, fine) = (peak(24), peak(48));
     assert!(fine > 1.5 * coarse, "{coarse}, {fine}");
 }

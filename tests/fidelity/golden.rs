@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::common::golden_floats::{assert_golden, same_text};
 use crate::common::outcome::solve;
-use plane_contact::answer::contact::Pairing;
+use plane_contact::answer::contact::{Pairing, Status};
 use plane_contact::answer::{Detail, Request, Solution, Step};
 use plane_contact::paper::door;
 use plane_contact::paper::mathcad::array::{Column, Table};
@@ -68,7 +68,9 @@ fn found(model: &Model, step: &Step) -> Pairs<f64> {
     Pairs {
         ct: Column::from_vec(step.pairings.iter().map(edge).collect()),
         yt: Column::from_vec(step.pairings.iter().map(gap).collect()),
-        dy: Column::from_vec(step.closed.iter().map(|closed| usize::from(*closed)).collect()),
+        dy: Column::from_vec(
+            step.statuses.iter().map(|s| usize::from(*s != Status::Open)).collect(),
+        ),
         ..Pairs::none(model.nodes.len())
     }
 }

@@ -5,12 +5,12 @@ use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{ROUNDING_BOUND_WIDTH, Tolerance};
 use nalgebra::DVector;
 use plane_contact::answer::estimates::arithmetic::{displacement_bound, stress_bounds};
-use plane_contact::answer::{Constraint, Elimination, Request, Solution, Stiffness, solve};
+use plane_contact::answer::{Constraint, Detail, Elimination, Request, Solution, Stiffness, solve};
 use plane_contact::numbers::scalar::{Exact, Scalar, scope};
 use plane_contact::numbers::solve::{Arithmetic, Ldlt, ScalarName, Solver};
 use plane_contact::problem::element::{B, State};
 use plane_contact::problem::model::Triangle;
-use plane_contact::problem::modelling::{Coupling, Friction, Variant};
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::benchmark::Blocks;
 
@@ -81,11 +81,10 @@ fn exact_state(solution: &Solution) -> DVector<f64> {
     scope(|| {
         let constraints: Vec<Constraint<Exact>> =
             solution.last().constraints.iter().map(|c| c.map(Exact::from_f64)).collect();
-        let t = Elimination::with_normals(&model.restrained, &constraints);
-        let t = t.expect("it was solved before");
+        let t = Elimination::closing(&model.restrained, &constraints);
         let stiffness = Stiffness::new(model, Exact::from_f64);
-        let load = |e: usize| if model.restrained[e] { 0.0 } else { model.load[e] };
-        let load = DVector::from_fn(model.dofs(), |e, _| Exact::from_f64(load(e)));
+        let Detail::Unilateral(last) = &solution.last().detail else { unreachable!() };
+        let load = model.free_part(&(&model.load + &last.friction)).map(Exact::from_f64);
         let b = t.load(&(load - stiffness.times(t.shift())));
         let value = |x: Exact| x.to_rational().expect("finite");
         let matrix = stiffness.reduced(&t).map(|x| value(*x));
@@ -107,7 +106,8 @@ fn the_bar_of_unilateral_holds() {
         for (coupling, friction) in
             [(Coupling::Nts, Friction::STICK), (Coupling::Mortar, Friction::NONE)]
         {
-            (request.contact.coupling, request.contact.friction) = (coupling, friction);
+            let geometry = Geometry::Initial;
+            request.contact = ContactModel { coupling, friction, geometry, ..request.contact };
             let Ok(solution) = solve(&request, &mut |_| ()) else { continue };
             let rounding = f64::EPSILON / 2.0 * solution.u.amax();
             let error = off(&solution.u, &exact_state(&solution)) - rounding;

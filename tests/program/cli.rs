@@ -40,7 +40,8 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         "In contact at the end: nodes 5, 6, 7, 9",
         "Contact surface",
         "Error estimates",
-        "Distance from the reference solution (unilateral, mortar, friction stick",
+        "Distance from the reference solution (unilateral, mortar, friction 0, initial",
+        "Distance from the equilibrium under the scene's own friction",
     ] {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }
@@ -376,8 +377,9 @@ fn audit_shows_readings_findings_and_variants() {
         "K1",
         "3. Variants",
         "stepped",
-        "error: against the reference solution (unilateral, mortar, friction stick)",
-        "4. What friction it takes",
+        "error: against the equilibrium under the scene's own friction (unilateral, mortar, friction stick",
+        "the reference solution (unilateral, mortar, friction 0, initial geometry)",
+        "4. Pressure, shear and status",
     ] {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }

@@ -5,12 +5,14 @@ mod nts;
 mod pairing;
 mod pressure;
 pub mod search;
+mod sliding;
 pub mod status;
 mod surface;
 
 pub use pairing::Pairing;
 pub(super) use pressure::arcs;
 pub use pressure::{ContactNode, Traction, reactions};
+pub use sliding::{Sense, Status};
 pub use surface::Surfaces;
 
 use crate::problem::modelling::Coupling;

@@ -5,8 +5,8 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::pairing::Pairing;
+use super::sliding::Status;
 use super::surface::Surfaces;
-use crate::answer::solution::Status;
 use crate::problem::model::{Model, NodeId};
 
 /// How far the size of a normal's component may be from 1 where a restraint is across the normal.

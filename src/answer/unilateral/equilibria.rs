@@ -3,7 +3,8 @@
 use nalgebra::DVector;
 
 use super::problem::{Equilibrium, Moved, Place, Problem, Setting};
-use crate::answer::solution::{Other, Sense, Status, Uniqueness};
+use crate::answer::contact::{Sense, Status};
+use crate::answer::solution::{Other, Uniqueness};
 use crate::problem::model::NodeId;
 
 /// The force of a node in contact, over the largest, below which it may as well be open.

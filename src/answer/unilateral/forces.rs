@@ -17,7 +17,8 @@ use crate::problem::model::{Dof, Model, NodeId};
 /// The component of a normal beyond which the node's one free equation determines its force.
 const STEEP: f64 = 0.5;
 
-/// A singular value, over the largest, below which a combination of forces is not determined.
+/// A singular value, over that of a force on an equation of its own, below which a combination of
+/// forces is not determined.
 const UNDETERMINED: f64 = 1e-9;
 
 /// The forces on a contact node, NaN where they are not determined.
@@ -124,7 +125,7 @@ fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<Fo
         equations.get(row).map_or(0.0, |dof| rest[dof.index()])
     });
     let svd = matrix.svd(true, true);
-    let limit = UNDETERMINED * svd.singular_values.amax();
+    let limit = UNDETERMINED;
     let v = svd.v_t.as_ref().expect("V was asked for").transpose();
     let free: Vec<usize> =
         (0..columns.len()).filter(|&k| svd.singular_values[k] <= limit).collect();

@@ -5,9 +5,9 @@ use nalgebra::DVector;
 use super::equilibria::uniqueness;
 use super::forces::load_of;
 use super::problem::{Equilibrium, Iteration, Place, Problem, Setting};
-use crate::answer::contact::{ContactNode, Traction};
+use crate::answer::contact::{ContactNode, Status, Traction};
 use crate::answer::error::{Error, NoEquilibrium};
-use crate::answer::solution::{self, Detail, Path, Solution, Status, Step, max_displacement};
+use crate::answer::solution::{self, Detail, Path, Solution, Step, max_displacement};
 use crate::answer::support::{against_load, restraints_of_target};
 
 /// How often a step without an equilibrium is halved.

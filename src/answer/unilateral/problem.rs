@@ -6,11 +6,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, Force, forces, tangent};
 use super::status::{Memory, first_closed, nearest_open, next_closed};
-use crate::answer::contact::{Pairing, Surfaces};
+use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
 use crate::answer::elimination::{Constraint, Elimination, Motion};
 use crate::answer::error::{Error, NoEquilibrium};
 use crate::answer::request::Request;
-use crate::answer::solution::{Cycle, Sense, Status};
+use crate::answer::solution::Cycle;
 use crate::answer::stiffness::Stiffness;
 use crate::error::InputError;
 use crate::numbers::solve::{SparseCholesky, SparseSymmetric};

@@ -6,7 +6,8 @@ use std::collections::{HashMap, HashSet};
 use nalgebra::DVector;
 
 use crate::answer::contact::Pairing;
-use crate::answer::solution::{Cycle, Status};
+use crate::answer::contact::Status;
+use crate::answer::solution::Cycle;
 
 /// The closing motion of a gap, over the largest motion, below which the gap does not close.
 const STANDING: f64 = 1e-9;

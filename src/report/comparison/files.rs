@@ -30,7 +30,7 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String, InputError> {
     let Compared { scene, model, comparison, .. } = compared;
     let Comparison { ours, theirs, von_mises, displacement, .. } = comparison;
     let kind = match compared.contact {
-        Contact::Equations(_) => "equations",
+        Contact::Equations(..) => "equations",
         Contact::Pair(_) => "contact pair",
     };
     let title = format!("{} ({}, {kind})", scene.title, compared.variant);
@@ -91,7 +91,7 @@ fn difference_value<Place: Serialize>(of: &Difference<Place>) -> Value {
 
 fn contact_value(contact: &Contact) -> Value {
     match contact {
-        Contact::Equations(all) => json!({ "kind": "equation", "equations": all.len() }),
+        Contact::Equations(all, _) => json!({ "kind": "equation", "equations": all.len() }),
         Contact::Pair(Pair { penalty, friction }) => {
             json!({ "kind": "pair", "penalty": penalty, "friction": friction })
         }

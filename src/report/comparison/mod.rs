@@ -68,10 +68,10 @@ fn heading(compared: &Compared) -> String {
 fn contact(compared: &Compared) -> String {
     let units = &compared.scene.units;
     match (compared.contact, compared.decks) {
-        (Contact::Equations(equations), 1) => {
+        (Contact::Equations(equations, _), 1) => {
             format!("{} equations: those of the last iteration", equations.len())
         }
-        (Contact::Equations(_), decks) => format!(
+        (Contact::Equations(_, _), decks) => format!(
             "{decks} decks, one for each contact state of the increments, \
              summed with their shares of the load"
         ),

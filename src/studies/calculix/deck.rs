@@ -21,7 +21,7 @@ const STICK_SLOPE: f64 = 0.1;
 pub fn deck(problem: &Problem) -> Result<String, InputError> {
     let model = problem.model;
     let contact = match problem.contact {
-        Contact::Equations(equations) => equation_cards(model, equations),
+        Contact::Equations(equations, _) => equation_cards(model, equations),
         Contact::Pair(_) if !model.has_contact() => String::new(),
         Contact::Pair(pair) => pair_cards(model, pair)?,
     };
@@ -34,7 +34,7 @@ fn heading(problem: &Problem) -> String {
     let words: Vec<&str> = problem.scene.title.split_whitespace().collect();
     let title: String = words.join(" ").chars().take(100).collect();
     let contact = match problem.contact {
-        Contact::Equations(equations) => format!("{} equations", equations.len()),
+        Contact::Equations(equations, _) => format!("{} equations", equations.len()),
         Contact::Pair(Pair { penalty, friction }) => {
             format!("contact pair, penalty {penalty:e} stress/length, friction {friction}")
         }
@@ -170,7 +170,11 @@ fn step(problem: &Problem) -> String {
         text += "0.1,1\n";
     }
     let model = problem.model;
-    for (dof, force) in model.all_dofs().zip(model.load.iter()) {
+    let load = match problem.contact {
+        Contact::Equations(_, Some(friction)) => &model.load + friction,
+        _ => model.load.clone(),
+    };
+    for (dof, force) in model.all_dofs().zip(load.iter()) {
         if *force != 0.0 && !model.is_restrained(dof) {
             text += &format!("*CLOAD\n{},{}\n", place(dof), field(*force));
         }

@@ -1,5 +1,8 @@
 //! What a deck describes: the scene, and how its bodies touch.
 
+use nalgebra::DVector;
+
+use crate::answer::Detail;
 use crate::answer::{Constraint, Motion, Solution, Step};
 use crate::choices;
 use crate::error::InputError;
@@ -27,8 +30,9 @@ pub struct Problem<'a> {
 
 #[derive(Clone, Debug)]
 pub enum Contact {
-    /// By these equations, which `ccx` satisfies.
-    Equations(Vec<Equation>),
+    /// By these equations, which `ccx` satisfies, and the friction of sliding nodes by degree of
+    /// freedom, force, which is a load on them.
+    Equations(Vec<Equation>, Option<DVector<f64>>),
     /// `ccx` looks for contact itself.
     Pair(Pair),
 }
@@ -73,7 +77,12 @@ impl Contact {
             let before = same.map_or(0.0, |k| states.remove(k).1);
             states.push((equations, before + share));
         }
-        let part = |(equations, share)| Part { contact: Contact::Equations(equations), share };
+        let friction = match &solution.last().detail {
+            Detail::Unilateral(own) => Some(own.friction.clone()),
+            Detail::Published(_) => None,
+        };
+        let contact = |equations| Contact::Equations(equations, friction.clone());
+        let part = |(equations, share)| Part { contact: contact(equations), share };
         Ok(states.into_iter().map(part).collect())
     }
 }
