@@ -13,18 +13,11 @@ use crate::answer::support::{against_load, restraints_of_target};
 /// How often a step without an equilibrium is halved.
 const HALVINGS: usize = 6;
 
-/// How often a step is divided where a node closes in it.
+/// How often a step of the path is divided where nodes close in it.
 const CLOSINGS: usize = 16;
 
 /// The part of a step, at either end, within which a node closes that does not divide it.
 const AT_THE_END: f64 = 1e-3;
-
-/// How often a step may still be divided.
-#[derive(Clone, Copy)]
-struct Divisions {
-    halvings: usize,
-    closings: usize,
-}
 
 /// A point of the path: what the next step starts from.
 struct Point {
@@ -41,6 +34,10 @@ struct End {
     /// The displacements before the last step, length.
     before: DVector<f64>,
     equilibrium: Equilibrium,
+    /// The iterations on the path, without those of steps that were divided.
+    steps: Vec<Step>,
+    /// The number of all iterations.
+    factored: usize,
     halved: usize,
 }
 
@@ -52,11 +49,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
     let contact = problem.request.contact;
     let with_friction = contact.friction.coefficient() > 0.0;
     let per_stage = if with_friction { contact.load_steps } else { 1 };
-    let mut steps = Vec::new();
-    let end = follow(problem, per_stage, &mut |step| {
-        watch(&step);
-        steps.push(step);
-    })?;
+    let end = follow(problem, per_stage, watch)?;
     let path = with_friction.then(|| Path {
         steps: per_stage,
         stages: problem.model.stages.len(),
@@ -64,7 +57,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
         change: change(problem, per_stage, &end),
     });
     let uniqueness = uniqueness(problem, &end.equilibrium, &end.before);
-    Ok(solution(problem, steps, end, path, uniqueness))
+    Ok(solution(problem, end, path, uniqueness))
 }
 
 /// Returns the change of the displacements against the path of half as many steps, length.
@@ -77,34 +70,27 @@ fn change(problem: &Problem, per_stage: usize, end: &End) -> Option<f64> {
 }
 
 /// Follows the path in `per_stage` steps a stage.
-fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(Step)) -> Result<End, Error> {
+fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> Result<End, Error> {
     let with_friction = problem.request.contact.friction.coefficient() > 0.0;
     // Without friction only the whole load counts.
     let stages = if with_friction { problem.model.stages.len() } else { 1 };
     let zero = DVector::zeros(problem.model.dofs());
     let mut point = Point { load: 0.0, u: zero, statuses: None };
-    let (mut k, mut halved) = (0, 0);
-    let mut last = None;
+    let mut walk = Walk { problem, watch, steps: Vec::new(), factored: 0, halved: 0, closings: 0 };
     let total = stages * per_stage;
-    let closings = if with_friction { CLOSINGS } else { 0 };
-    let divisions = Divisions { halvings: HALVINGS, closings };
-    for step in 1..=total {
+    for step in 1.. {
         let to = step as f64 / per_stage as f64;
-        let (before, equilibrium) =
-            advance(problem, &point, to, divisions, &mut halved, &mut |load, place, iteration| {
-                k += 1;
-                watch(self::step(problem, k, load, place, iteration));
-            })
-            .map_err(|why| placed(why, to, stages, step == total))?;
-        point = Point {
-            load: to,
-            u: equilibrium.last.moved.u.clone(),
-            statuses: Some(equilibrium.last.statuses.clone()),
-        };
-        last = Some((before, equilibrium));
+        let placed = |why| placed(why, to, stages, step == total);
+        walk.closings = if with_friction { CLOSINGS } else { 0 };
+        let (before, equilibrium) = walk.advance(&point, to, HALVINGS).map_err(placed)?;
+        if step == total {
+            let Walk { steps, factored, halved, .. } = walk;
+            return Ok(End { before, equilibrium, steps, factored, halved });
+        }
+        let Equilibrium { last, .. } = equilibrium;
+        point = Point { load: to, u: last.moved.u, statuses: Some(last.statuses) };
     }
-    let (before, equilibrium) = last.expect("a path has a step");
-    Ok(End { before, equilibrium, halved })
+    unreachable!("a path has a last step")
 }
 
 /// Says on the way to which load no equilibrium was found.
@@ -118,43 +104,70 @@ fn placed(why: Error, to: f64, stages: usize, at_the_end: bool) -> Error {
     }
 }
 
-/// Sees each iteration, with the load under which it was done and the place of its contact.
-type Watch<'w> = dyn FnMut(f64, &Place, &Iteration) + 'w;
+/// The way along a path so far.
+struct Walk<'a> {
+    problem: &'a Problem<'a>,
+    watch: &'a mut dyn FnMut(&Step),
+    steps: Vec<Step>,
+    factored: usize,
+    halved: usize,
+    /// How often this step of the path may still be divided where nodes close.
+    closings: usize,
+}
 
-/// Goes from a point to the load `to`: in two parts where a node closes in between, as friction
-/// counts its slip from there, and in two halves where one step finds no equilibrium. Returns the
-/// displacements before the last step too.
-fn advance(
-    problem: &Problem,
-    from: &Point,
-    to: f64,
-    left: Divisions,
-    halved: &mut usize,
-    watch: &mut Watch,
-) -> Result<(DVector<f64>, Equilibrium), Error> {
-    let setting =
-        Setting { load: load(problem, to), before: &from.u, statuses: from.statuses.as_deref() };
-    let seen = &mut |place: &Place, iteration: &Iteration| watch(to, place, iteration);
-    let found = problem.equilibrium(&setting, seen);
-    let (middle, left) = match &found {
-        Ok(Equilibrium { closing: Some(part), .. })
-            if left.closings > 0 && (AT_THE_END..1.0 - AT_THE_END).contains(part) =>
-        {
-            let closings = left.closings - 1;
-            (from.load + part * (to - from.load), Divisions { closings, ..left })
+impl Walk<'_> {
+    /// Goes from a point to the load `to`: in two parts where a node closes in between, as friction
+    /// counts its slip from there, and in two halves where one step finds no equilibrium. Returns the
+    /// displacements before the last step too.
+    fn advance(
+        &mut self,
+        from: &Point,
+        to: f64,
+        halvings: usize,
+    ) -> Result<(DVector<f64>, Equilibrium), Error> {
+        let done = self.steps.len();
+        let found = self.step(from, to);
+        let (middle, halvings) = match &found {
+            Ok(Equilibrium { closing: Some(part), .. })
+                if self.closings > 0 && (AT_THE_END..1.0 - AT_THE_END).contains(part) =>
+            {
+                self.closings -= 1;
+                (from.load + part * (to - from.load), halvings)
+            }
+            Err(Error::Equilibrium(_)) if halvings > 0 => {
+                self.halved += 1;
+                ((from.load + to) / 2.0, halvings - 1)
+            }
+            _ => return found.map(|equilibrium| (from.u.clone(), equilibrium)),
+        };
+        let whole = self.steps.split_off(done);
+        match self.advance(from, middle, halvings) {
+            Ok((_, Equilibrium { last, .. })) => {
+                let statuses = Some(last.statuses);
+                let point = Point { load: middle, u: last.moved.u, statuses };
+                self.advance(&point, to, halvings)
+            }
+            Err(why) => {
+                self.steps.truncate(done);
+                self.steps.extend(whole);
+                found.or(Err(why)).map(|equilibrium| (from.u.clone(), equilibrium))
+            }
         }
-        Err(Error::Equilibrium(_)) if left.halvings > 0 => {
-            *halved += 1;
-            ((from.load + to) / 2.0, Divisions { halvings: left.halvings - 1, ..left })
-        }
-        _ => return found.map(|equilibrium| (from.u.clone(), equilibrium)),
-    };
-    match advance(problem, from, middle, left, halved, watch) {
-        Ok((_, Equilibrium { last, .. })) => {
-            let point = Point { load: middle, u: last.moved.u, statuses: Some(last.statuses) };
-            advance(problem, &point, to, left, halved, watch)
-        }
-        Err(why) => found.or(Err(why)).map(|equilibrium| (from.u.clone(), equilibrium)),
+    }
+
+    /// Goes to the load `to` in one step.
+    fn step(&mut self, from: &Point, to: f64) -> Result<Equilibrium, Error> {
+        let setting = Setting {
+            load: load(self.problem, to),
+            before: &from.u,
+            statuses: from.statuses.as_deref(),
+        };
+        self.problem.equilibrium(&setting, &mut |place, iteration| {
+            self.factored += 1;
+            let step = step(self.problem, self.steps.len() + 1, to, place, iteration);
+            (self.watch)(&step);
+            self.steps.push(step);
+        })
     }
 }
 
@@ -198,7 +211,6 @@ fn step(problem: &Problem, k: usize, load: f64, place: &Place, iteration: &Itera
 /// Returns the solution, which is the end of the path.
 fn solution(
     problem: &Problem,
-    steps: Vec<Step>,
     end: End,
     path: Option<Path>,
     uniqueness: solution::Uniqueness,
@@ -209,8 +221,8 @@ fn solution(
         model: problem.model.clone(),
         contact: contact(problem, &place, &last),
         elements: problem.stiffness.states(&last.moved.u),
-        factored: steps.len(),
-        steps,
+        factored: end.factored,
+        steps: end.steps,
         u: last.moved.u,
         digits: None,
         error_bound: None,
