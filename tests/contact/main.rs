@@ -12,5 +12,6 @@ mod common {
 
 mod calculix;
 mod calculix_files;
+mod friction;
 mod status;
 mod unilateral;

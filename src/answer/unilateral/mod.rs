@@ -18,15 +18,18 @@
 //! solution (K. G. Murty's least-index rule, Opsearch 11 (1974)). Where they do not restrain the
 //! bodies, the node that the load's motion brings to the target first closes; where no node comes
 //! nearer, those with the least gaps close. In the current geometry normals, weights and gaps are
-//! measured again in the shape reached, until that no longer changes the displacements. A step
-//! without an equilibrium is halved.
+//! measured again in the shape reached, until that no longer changes the displacements. Where the
+//! active set finds no equilibrium, Lemke's method looks for one under a finite coefficient
+//! (`condensed`); a step without one is halved.
 //!
 //! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; S.
 //! Hüeber, G. Stadler, B. I. Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572-596 (friction); J. J.
 //! Júdice, F. M. Pires, Comput. Oper. Res. 21 (1994) 587-596 (the fall-back).
 
+mod condensed;
 mod equilibria;
 mod forces;
+mod lemke;
 mod path;
 mod problem;
 mod status;

@@ -118,7 +118,7 @@ pub(super) struct Equilibrium {
 }
 
 /// The result of an attempt to solve.
-enum Solved {
+pub(super) enum Solved {
     Moved(Moved),
     /// A degree of freedom without restraint, and the motion under the load on soft springs.
     Free {
@@ -203,8 +203,27 @@ impl<'a> Problem<'a> {
         (0..statuses.len()).filter_map(part).reduce(f64::min)
     }
 
-    /// Finds the statuses that agree with their own forces, gaps and slips in one place.
+    /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active
+    /// set, and where that finds none, by Lemke's method.
     fn settle(
+        &self,
+        place: &Place,
+        start: Option<Vec<Status>>,
+        setting: &Setting,
+        (k, memory): (&mut usize, &mut Memory),
+        watch: &mut Watch,
+    ) -> Result<Iteration, Error> {
+        let found = self.active_set(place, start, setting, (&mut *k, &mut *memory), watch);
+        let Err(Error::Equilibrium(NoEquilibrium { what })) = found else { return found };
+        let Some(statuses) = self.complementary(place, setting) else {
+            return Err(NoEquilibrium { what }.into());
+        };
+        memory.move_on();
+        self.active_set(place, Some(statuses), setting, (k, memory), watch)
+    }
+
+    /// Goes from statuses to those that they ask for, until they ask for themselves.
+    fn active_set(
         &self,
         place: &Place,
         start: Option<Vec<Status>>,
@@ -366,7 +385,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Solves for the displacements and forces under imposed statuses.
-    fn solve(
+    pub(super) fn solve(
         &self,
         place: &Place,
         statuses: &[Status],
@@ -480,7 +499,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the constraints that impose statuses.
-    fn constraints(
+    pub(super) fn constraints(
         &self,
         place: &Place,
         statuses: &[Status],

@@ -114,6 +114,14 @@ impl SceneBuilder {
         self.load(Load { node: Some(node), force: Some(force), ..Load::default() })
     }
 
+    /// Puts the load that was added last into a stage of the path of the load, from 1.
+    pub fn in_stage(mut self, stage: usize) -> Self {
+        if let Some(load) = self.description.loads.last_mut() {
+            load.stage = Some(stage);
+        }
+        self
+    }
+
     fn load(mut self, load: Load) -> Self {
         self.description.loads.push(load);
         self
