@@ -137,11 +137,13 @@ enum Solved {
 
 impl<'a> Problem<'a> {
     fn new(request: &'a Request, model: &'a Model) -> Result<Self, InputError> {
+        let surfaces = Surfaces::new(model)?;
+        surfaces.check_initial_penetration(model)?;
         Ok(Problem {
             request,
             model,
             stiffness: Stiffness::new(model, |x| x),
-            surfaces: Surfaces::new(model)?,
+            surfaces,
             closed: CLOSED * size(model),
             load: model.free_load(),
         })

@@ -54,7 +54,8 @@ fn shown(runs: &[&Solution]) -> [f64; 2] {
 }
 
 fn curve(run: &Solution, [from, to]: [f64; 2]) -> Series {
-    let shown = run.contact.iter().filter(|c| from <= c.arc && c.arc <= to);
+    let known = run.contact.iter().filter(|c| c.pressure.is_finite());
+    let shown = known.filter(|c| from <= c.arc && c.arc <= to);
     Series {
         name: name(run),
         points: shown.map(|c| [c.arc, c.pressure]).collect(),

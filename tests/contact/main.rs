@@ -11,5 +11,7 @@ mod common {
 }
 
 mod calculix;
+mod corners;
+mod orders;
 mod status;
 mod unilateral;

@@ -25,7 +25,8 @@ pub struct ContactNode {
     /// The force on the node along the normal, force; < 0 where it pulls.
     #[serde(deserialize_with = "or_nan")]
     pub force: f64,
-    /// The contact pressure: the force over the undeformed surface of the node, stress.
+    /// The contact pressure: the force over the undeformed surface of the node, stress; NaN for a
+    /// node that bounds no contact edge.
     #[serde(deserialize_with = "or_nan")]
     pub pressure: f64,
     /// The traction along the tangent, which is the normal turned left, stress.
@@ -101,9 +102,9 @@ impl Traction<'_> {
     }
 }
 
-/// Returns a / b, or 0 for a node that represents no length.
+/// Returns a / b, or NaN for a node that represents no length, which has no pressure.
 fn over(a: f64, b: f64) -> f64 {
-    if b > 0.0 { a / b } else { 0.0 }
+    if b > 0.0 { a / b } else { f64::NAN }
 }
 
 /// Returns the distance of each entry from the first along the undeformed contact surface, length.

@@ -13,6 +13,7 @@ pub use uncertain::uncertain;
 /// very small in scientific notation.
 pub fn short(x: f64) -> String {
     match x.abs() {
+        size if size.is_nan() => "-".into(),
         size if size < 1e9 && x.fract() == 0.0 => format!("{x:.0}"),
         size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),
         _ => format!("{x:.3e}"),
