@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::contact;
 use crate::error::InputError;
 use crate::numbers::solve::Arithmetic;
 use crate::paper::door;
@@ -110,14 +111,20 @@ impl Request {
         }
     }
 
-    /// Returns the model under the reading and with the requested tolerance.
+    /// Returns the model under the reading and with the requested tolerance. Under `unilateral` the
+    /// nodes of the contact surface stand in order along it, each once, however they are listed;
+    /// the variants that the paper describes visit them as listed.
     ///
     /// # Errors
-    /// The plane problem of R6 does not allow a Poisson's ratio.
+    /// The plane problem of R6 does not allow a Poisson's ratio, or under `unilateral` the nodes of
+    /// the contact surface make no chain.
     pub fn model(&self) -> Result<Arc<Model>, InputError> {
         let mut model = (*self.scene.model).clone();
         if let Some(tolerance) = self.tolerance {
             model.contact.tolerance = tolerance;
+        }
+        if self.variant == Variant::Unilateral {
+            model.contact.nodes = contact::along(&model)?;
         }
         Ok(Arc::new(door::under(model, &self.reading)?))
     }

@@ -212,6 +212,15 @@ tolerances! {
     /// relative to the load.
     FORCE_OF_A_SLOPE = 1e-4, "the slope of a surface strained by 1e-3, squared, is 1e-6";
 
+    /// A displacement of one scene written in two ways, over the largest.
+    INVARIANCE = 1e-9,
+        "a scene a thousand sizes from the origin resolves 1e-13 of its size, and displacements \
+         are 1e-4 of it";
+
+    /// The distance of a block from the apex that holds it, over the block's size.
+    APEX = 1e-9,
+        "a gap is closed to 5e-13 of the scene, and the apex may be twenty times the block's size";
+
     /// A displacement in a scene a million of its sizes from the origin, relative to itself.
     FAR_FROM_THE_ORIGIN = 1e-6,
         "a coordinate of 3e6 resolves 5e-10; strains, and gaps over displacements of 1e-3, a \

@@ -12,6 +12,8 @@ mod common {
 
 mod calculix;
 mod calculix_files;
+mod corners;
 mod friction;
+mod orders;
 mod status;
 mod unilateral;

@@ -2,13 +2,17 @@
 
 mod mortar;
 mod nts;
+mod order;
+mod outline;
 mod pairing;
 mod pressure;
 pub mod search;
 mod sliding;
 pub mod status;
 mod surface;
+mod tree;
 
+pub use order::along;
 pub use pairing::Pairing;
 pub(super) use pressure::arcs;
 pub use pressure::{ContactNode, Traction, reactions};

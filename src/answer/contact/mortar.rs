@@ -21,7 +21,8 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::pairing::{Pairing, Vector, unit};
 use super::search::dot;
-use super::surface::{FACING, Placed, Surfaces};
+use super::surface::{Edge, FACING, Placed, Surfaces};
+use super::tree::{Bounds, Tree};
 use crate::problem::model::{EdgeId, NodeId};
 
 /// The overlap below which two edges do not overlap, over the contact edge's length: rounding.
@@ -34,8 +35,10 @@ const COVERED: f64 = 0.05;
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
     let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
     let mut gathered: HashMap<NodeId, Gathered> = HashMap::new();
+    let ends = |(k, edge): (usize, &Edge)| (k, edge.nodes.map(|n| shape[n.index()]));
+    let tree = Tree::new(surfaces.target.iter().enumerate().map(ends));
     for edge in &surfaces.contact {
-        let covered = cover(&edge.place(shape), &target);
+        let covered = cover(&edge.place(shape), &target, &tree);
         let Some(integrals) = Integrals::over(&covered) else { continue };
         for (k, node) in edge.nodes.into_iter().enumerate() {
             gathered.entry(node).or_default().add(k, &integrals, &covered, surfaces, &target);
@@ -63,9 +66,20 @@ struct Stretch {
 
 /// Returns the stretches of a contact edge that face a target edge. Where several target edges face
 /// the same stretch, the nearest one counts.
-fn cover(contact: &Placed, target: &[Placed]) -> Vec<Stretch> {
+///
+/// Which edges face each other is decided in the shape itself, other than under node to segment: by
+/// the normals of the undeformed shape, a contact edge that an iteration has turned over would still
+/// cover the target, and a folded shape would pass for an equilibrium.
+fn cover(contact: &Placed, target: &[Placed], tree: &Tree) -> Vec<Stretch> {
     let mut facing: Vec<(f64, Stretch)> = Vec::new();
-    for (edge, placed) in target.iter().enumerate() {
+    let across = |b: Bounds| {
+        let [least, most] = b.along(contact.start, contact.tangent);
+        (most >= 0.0 && least <= contact.length).then_some(0.0)
+    };
+    let mut beside = Vec::new();
+    tree.visit(&across, &mut |edge| beside.push(edge));
+    for edge in beside {
+        let placed = &target[edge];
         if dot(placed.normal, contact.normal) > -FACING {
             continue;
         }

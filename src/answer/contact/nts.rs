@@ -1,76 +1,114 @@
-//! Node to segment: the point closest to each contact node on the nearest target edge.
-//!
-//! The normal turns along an edge from the mean normal at its first node to that at its second.
-//! Otherwise a node that comes to rest at a bend of a curved target would alternate between the two
-//! edges without end.
-//!
-//! Past the surface's end a node rests on the last edge's line as far as [`HANGING`], even with a
-//! closed gap. Otherwise a node there would be released because it is closed, and closed again
-//! because it then penetrates, without end.
+//! Node to segment: the point of the target closest to each contact node, by the rules of
+//! `outline.rs`; and how deep nodes of either surface lie in the other body.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
+use super::outline::{Faced, Outline};
 use super::pairing::{Pairing, Vector, unit};
-use super::search::{Closest, closest, dot};
-use super::surface::{Placed, Surfaces};
-use crate::problem::model::NodeId;
+use super::surface::{Edge, Surfaces};
+use crate::error::InputError;
+use crate::problem::model::{Model, NodeId};
 
-/// How far past an edge's end a closest point still counts as on it, over its length: rounding.
-const ROUNDING: f64 = 1e-9;
+/// The initial penetration, over the longest contact edge beside the node, beyond which a scene is
+/// refused. An interference that is modelled, as of a press fit, is a small part of an edge; a node
+/// deeper than half an edge may well be nearer to another side of the target.
+const DEEP_EDGE: f64 = 0.5;
 
-/// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
-/// smooth surface: 30 degrees.
-const BEND: f64 = 0.866;
+/// The initial penetration over the size of the scene up to which a scene is never refused: ten
+/// times the interference of a press fit of 0.1 %.
+const DEEP_SCENE: f64 = 0.01;
 
-/// How far past the end of the surface a node still rests on it, over the last edge's length: the
-/// same tolerance as mortar's. Edges that lie flush slide by their strain.
-const HANGING: f64 = 0.05;
-
-/// Returns, for each entry of the contact surface, its closest point on the nearest target edge.
+/// Returns, for each entry of the contact surface, its closest point on the target.
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
-    let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
-    let segments = surfaces.segments(shape);
-    let normals = normals(surfaces, &target);
-    let free = surfaces.free_ends();
+    let outline = target(surfaces, shape);
     let mut listed = HashSet::new();
     let pairing = |(&node, length): (&NodeId, f64)| {
-        let p = shape[node.index()];
-        let facing = segments.iter().enumerate().filter(|(k, _)| surfaces.face(node, *k));
-        let rests = |k: usize, closest: &Closest<f64>| rests(closest, free[k]);
-        let (k, _) = closest(facing, p, rests).filter(|_| listed.insert(node))?;
-        let (edge, placed) = (&surfaces.target[k], &target[k]);
-        let xi = placed.along(p).clamp(0.0, 1.0);
-        let [a, b] = normals[k];
-        let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
-        let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
-        let gap = placed.outside(p) * dot(normal, placed.normal);
-        let edge = edge.id.expect("a target edge is one of the model's");
+        let faced = contact_node(surfaces, &outline, shape, node)?;
+        let Faced { edge, masters, normal, gap, .. } =
+            Some(faced).filter(|_| listed.insert(node))?;
+        let edge = surfaces.target[edge].id.expect("a target edge is one of the model's");
         Some(Pairing { node, edge, masters, normal, gap, length })
     };
     surfaces.nodes.iter().zip(surfaces.tributary(shape)).map(pairing).collect()
 }
 
-/// Returns whether a node rests on the edge of this closest point; `free` marks the ends of the
-/// edge that end the surface. It does not rest where it has passed the edge's end: where it lies
-/// further past the end than away from the edge's line, and further than that end allows.
-fn rests(closest: &Closest<f64>, free: [bool; 2]) -> bool {
-    let past = closest.past();
-    past <= closest.side.abs() / closest.square
-        || past <= if free[closest.end()] { HANGING } else { ROUNDING }
+fn target<'a>(surfaces: &'a Surfaces, shape: &[Vector]) -> Outline<'a> {
+    Outline::new(&surfaces.target, &surfaces.undeformed.target, shape)
 }
 
-/// Returns the normals at the nodes of each target edge: the mean over edges that meet in a bend.
-fn normals(surfaces: &Surfaces, target: &[Placed]) -> Vec<[Vector; 2]> {
-    let mut at_node: HashMap<NodeId, Vec<usize>> = HashMap::new();
-    for (k, edge) in surfaces.target.iter().enumerate() {
-        edge.nodes.iter().for_each(|n| at_node.entry(*n).or_default().push(k));
+/// Returns what a contact node faces.
+fn contact_node(
+    surfaces: &Surfaces,
+    outline: &Outline,
+    shape: &[Vector],
+    node: NodeId,
+) -> Option<Faced> {
+    outline.faced(shape[node.index()], surfaces.undeformed.contact_nodes.get(&node).copied())
+}
+
+impl Surfaces {
+    /// Returns the target node that lies deepest in the contact body, and its depth, length, in a
+    /// shape given as the coordinates of each node; None where none lies in it.
+    ///
+    /// The depth is measured from the contact edges that face the target. Node to segment does not
+    /// see it: a vertex of the target between two contact nodes may enter the contact body. On
+    /// curved surfaces that lie flush it is of the size of the sagitta of an edge.
+    pub fn deepest_target_node(&self, shape: &[Vector]) -> Option<(NodeId, f64)> {
+        let outline = Outline::new(&self.contact, &self.undeformed.contact, shape);
+        let mut nodes: Vec<NodeId> = self.target.iter().flat_map(|edge| edge.nodes).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let depth = |node: NodeId| {
+            let own = self.undeformed.target_nodes.get(&node).map(|normal| unit(*normal));
+            let faced = outline.faced(shape[node.index()], own)?;
+            (faced.over && faced.gap < 0.0).then_some((node, -faced.gap))
+        };
+        nodes.into_iter().filter_map(depth).max_by(|a, b| a.1.total_cmp(&b.1))
     }
-    let mean = |k: usize, node: NodeId| {
-        let own = target[k].normal;
-        let normals = at_node[&node].iter().map(|&other| target[other].normal);
-        let bend = normals.filter(|normal| dot(*normal, own) > BEND);
-        unit(bend.fold([0.0; 2], |sum, normal| [sum[0] + normal[0], sum[1] + normal[1]]))
+
+    /// Checks that no contact node lies deep in the target before the loads act. What counts as
+    /// deep is more than half the longest contact edge beside the node and more than 1 % of the
+    /// scene's larger extent.
+    ///
+    /// # Errors
+    /// A contact node lies deep in the target; the error names the deepest.
+    pub fn check_initial_penetration(&self, model: &Model) -> Result<(), InputError> {
+        let outline = target(self, &model.nodes);
+        let size = size(&model.nodes);
+        let longest = |node: NodeId| {
+            let beside = self.contact.iter().filter(|edge: &&Edge| edge.nodes.contains(&node));
+            beside.map(|edge| edge.place(&model.nodes).length).fold(0.0, f64::max)
+        };
+        let depth = |&node: &NodeId| {
+            let faced = contact_node(self, &outline, &model.nodes, node)?;
+            let depth = -faced.gap;
+            let deep = faced.over && depth > DEEP_SCENE * size;
+            (deep && depth > DEEP_EDGE * longest(node)).then_some((node, depth))
+        };
+        let deep = self.nodes.iter().filter_map(depth);
+        let deepest = deep.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        match deepest {
+            Some((node, depth)) => {
+                let (edge, part) = (longest(node), 100.0 * depth / size);
+                let what = format!(
+                    "contact node {node} lies {depth:.4} inside the target before the loads act: \
+                     {part:.1} % of the scene's size, beside a contact edge of length {edge:.4}"
+                );
+                let fix = "move the bodies apart, or name the target's side that faces the \
+                           contact surface; an interference may be half a contact edge deep";
+                Err(InputError::new("contact", what, fix))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// Returns the larger extent of nodes, length.
+fn size(nodes: &[Vector]) -> f64 {
+    let extent = |axis: usize| {
+        let values = nodes.iter().map(|place| place[axis]);
+        let (low, high) = values.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
+        high - low
     };
-    let edges = surfaces.target.iter().enumerate();
-    edges.map(|(k, edge)| edge.nodes.map(|node| mean(k, node))).collect()
+    extent(0).max(extent(1))
 }

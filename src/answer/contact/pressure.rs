@@ -30,7 +30,8 @@ pub struct ContactNode {
     /// The force on the node along the normal, force; < 0 where it pulls. None where restraints of
     /// the node leave it undetermined.
     pub force: Option<f64>,
-    /// The contact pressure: the force over the undeformed surface of the node, stress.
+    /// The contact pressure: the force over the undeformed surface of the node, stress. None
+    /// for a node that bounds no contact edge.
     pub pressure: Option<f64>,
     /// The traction along the tangent, which is the normal turned left, stress.
     pub shear: Option<f64>,
@@ -80,7 +81,7 @@ impl Traction<'_> {
         let node = |i: usize| {
             let pairing = self.pairings[i].as_ref()?;
             let stretch = lengths[1][i] / lengths[0][i];
-            Some(self.node(i, pairing, arcs[i], over(pairing.length, stretch)))
+            Some(self.node(i, pairing, arcs[i], over(pairing.length, stretch).unwrap_or(0.0)))
         };
         (0..self.pairings.len()).filter_map(node).collect()
     }
@@ -97,8 +98,8 @@ impl Traction<'_> {
             gap: self.gaps[i].unwrap_or(pairing.gap),
             status: self.statuses.map(|statuses| statuses[i]),
             force: normal,
-            pressure: normal.map(|normal| over(normal, area)),
-            shear: tangent.map(|tangent| over(tangent, area)),
+            pressure: normal.and_then(|normal| over(normal, area)),
+            shear: tangent.and_then(|tangent| over(tangent, area)),
             friction_needed: pressing.zip(tangent).map(|(normal, tangent)| tangent.abs() / normal),
         }
     }
@@ -127,9 +128,9 @@ pub fn reactions(
     pairings.iter().map(|p| p.as_ref().map_or([None, None], of_pairing)).collect()
 }
 
-/// Returns a / b, or 0 for a node that represents no length.
-fn over(a: f64, b: f64) -> f64 {
-    if b > 0.0 { a / b } else { 0.0 }
+/// Returns a / b; None for a node that represents no length, which has no pressure.
+fn over(a: f64, b: f64) -> Option<f64> {
+    (b > 0.0).then_some(a / b)
 }
 
 /// Returns the distance of each entry from the first along the undeformed contact surface, length.

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::pairing::Vector;
-use super::search::{Segment, dot, minus};
+use super::search::{dot, minus};
 use crate::error::InputError;
 use crate::problem::model::{EdgeId, Model, NodeId, unordered};
 
@@ -19,10 +19,21 @@ pub struct Surfaces {
     pub(super) contact: Vec<Edge>,
     /// The edges of the target surface, in the order of the model.
     pub(super) target: Vec<Edge>,
-    /// The normal of each contact node that bounds an edge, and of each target edge, in the
-    /// undeformed shape. An intermediate shape of the iterations may be folded, so that its normals
-    /// do not decide which surfaces face each other.
-    undeformed: (HashMap<NodeId, Vector>, Vec<Vector>),
+    /// The normals of the undeformed shape. An intermediate shape of the iterations may be folded,
+    /// so that its normals do not decide which surfaces face each other.
+    pub(super) undeformed: Normals,
+}
+
+/// The unit normals of edges, and the mean normals of their nodes, out of the body.
+pub(super) struct Normals {
+    /// By contact edge.
+    pub(super) contact: Vec<Vector>,
+    /// By target edge.
+    pub(super) target: Vec<Vector>,
+    /// By contact node that bounds an edge.
+    pub(super) contact_nodes: HashMap<NodeId, Vector>,
+    /// By target node.
+    pub(super) target_nodes: HashMap<NodeId, Vector>,
 }
 
 /// An edge of a body's surface.
@@ -93,38 +104,20 @@ impl Surfaces {
         };
         let target: Vec<Edge> =
             model.contact.target.iter().map(target).collect::<Result<_, InputError>>()?;
-        let normals = target.iter().map(|edge| edge.place(&model.nodes).normal).collect();
-        let undeformed = (normals_at_nodes(&contact, &model.nodes), normals);
+        let normals =
+            |edges: &[Edge]| edges.iter().map(|edge| edge.place(&model.nodes).normal).collect();
+        let undeformed = Normals {
+            contact: normals(&contact),
+            target: normals(&target),
+            contact_nodes: normals_at_nodes(&contact, &model.nodes),
+            target_nodes: normals_at_nodes(&target, &model.nodes),
+        };
         Ok(Surfaces { nodes, contact, target, undeformed })
     }
 
-    /// Returns the nodes of the contact surface, one for each entry.
+    /// Returns the entries of the contact surface, in order.
     pub fn nodes(&self) -> &[NodeId] {
         &self.nodes
-    }
-
-    /// Returns the target edges in a shape, for the search.
-    pub(super) fn segments(&self, shape: &[Vector]) -> Vec<Segment<f64>> {
-        let ends = |edge: &Edge| edge.nodes.map(|n| shape[n.index()]);
-        self.target.iter().map(|edge| Segment::new(ends(edge))).collect()
-    }
-
-    /// Returns whether a contact node and the target edge number `edge` face each other in the
-    /// undeformed shape. A node without an edge faces every edge.
-    pub(super) fn face(&self, node: NodeId, edge: usize) -> bool {
-        let (own, target) = &self.undeformed;
-        own.get(&node).is_none_or(|normal| dot(*normal, target[edge]) <= -FACING)
-    }
-
-    /// Returns which nodes of each target edge no other target edge has: the surface's ends.
-    pub(super) fn free_ends(&self) -> Vec<[bool; 2]> {
-        let mut edges_at: HashMap<NodeId, HashSet<[NodeId; 2]>> = HashMap::new();
-        for edge in &self.target {
-            for n in edge.nodes {
-                edges_at.entry(n).or_default().insert(edge.nodes);
-            }
-        }
-        self.target.iter().map(|edge| edge.nodes.map(|n| edges_at[&n].len() == 1)).collect()
     }
 
     /// Returns, for each entry of the contact surface, half the length of the contact edges that it
@@ -158,9 +151,9 @@ fn normals_at_nodes(edges: &[Edge], shape: &[Vector]) -> HashMap<NodeId, Vector>
 /// Returns each pair of successive `nodes` once, the lower node first, and the pair that closes a
 /// loop where all pairs are boundary edges.
 fn chain(nodes: &[NodeId], is_boundary: impl Fn([NodeId; 2]) -> bool) -> Vec<[NodeId; 2]> {
-    let mut pairs: Vec<[NodeId; 2]> = Vec::new();
+    let (mut pairs, mut listed) = (Vec::new(), HashSet::new());
     let mut add = |pair| {
-        if !pairs.contains(&pair) {
+        if listed.insert(pair) {
             pairs.push(pair);
         }
     };

@@ -132,11 +132,13 @@ pub(super) type Watch<'w> = dyn FnMut(&Place, &Iteration) + 'w;
 
 impl<'a> Problem<'a> {
     pub(super) fn new(request: &'a Request, model: &'a Arc<Model>) -> Result<Self, InputError> {
+        let surfaces = Surfaces::new(model)?;
+        surfaces.check_initial_penetration(model)?;
         Ok(Problem {
             request,
             model,
             stiffness: Stiffness::new(model, |x| x),
-            surfaces: Surfaces::new(model)?,
+            surfaces,
             closed: CLOSED * size(model),
             friction: request.contact.friction.coefficient(),
         })
