@@ -7,7 +7,7 @@ use plane_contact::studies::benchmark::Kind;
 
 use super::print;
 
-/// Generate a benchmark: a structured mesh and its scene.
+/// Generate a mesh and its scene: a benchmark, or the paper's example.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Writes scene.json and KIND.msh (Gmsh MSH 2.2, text, with named physical groups) to --out; solve

@@ -16,3 +16,4 @@ mod meshes;
 mod patch;
 mod punch;
 mod punch_patch;
+mod strand;

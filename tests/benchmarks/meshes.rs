@@ -9,7 +9,7 @@ use crate::common::tolerances::{CHORDS, STRAIGHT, Tolerance, assert_near};
 use plane_contact::problem::element;
 use plane_contact::problem::scene::{Mesh, SceneBuilder};
 use plane_contact::studies::benchmark::{
-    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch,
+    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch, Strand,
 };
 use tempfile::TempDir;
 
@@ -97,6 +97,21 @@ fn cases() -> Vec<Case> {
             tolerance: CHORDS,
             areas: &[("membrane", PI * (3.25 * 2.75 - 2.0) / 4.0)],
             lengths: vec![("x_axis", 1.25), ("y_axis", 1.75)],
+        },
+        Case {
+            kind: Kind::Strand(Strand::default()),
+            tolerance: CHORDS,
+            areas: &[("block", 2500.0 - PI * 7.7 * 7.7), ("stamp", PI * 7.6 * 7.6 / 2.0)],
+            lengths: vec![
+                ("bottom", 50.0),
+                ("right", 50.0),
+                ("top", 50.0),
+                ("left", 50.0),
+                ("duct_wall", PI * 15.4),
+                ("stamp_arc", PI * 7.6),
+                ("stamp_top", 15.2),
+                ("stamp_axis", 7.6),
+            ],
         },
     ]
 }
@@ -199,6 +214,12 @@ fn parameters_out_of_range_are_refused_by_name() {
         (Kind::Hole(Hole { around: 8, outer: f64::INFINITY }), "--outer"),
         (Kind::Cook(Cook { n: 0 }), "--n"),
         (Kind::Ellipse(Ellipse { n: 1 }), "--n"),
+        (Kind::Strand(Strand { duct: 22.5, ..Strand::default() }), "--duct"),
+        (Kind::Strand(Strand { duct: f64::NAN, ..Strand::default() }), "--duct"),
+        (Kind::Strand(Strand { strand: 7.71, ..Strand::default() }), "--strand"),
+        (Kind::Strand(Strand { strand: 2.0, ..Strand::default() }), "--strand"),
+        (Kind::Strand(Strand { size: 0.04, ..Strand::default() }), "--size"),
+        (Kind::Strand(Strand { size: 1.3, ..Strand::default() }), "--size"),
     ];
     for (kind, option) in refused {
         let error = kind.generate().expect_err("out of range");
@@ -207,7 +228,7 @@ fn parameters_out_of_range_are_refused_by_name() {
 }
 
 /// Smallest angle of a triangle, degrees.
-fn least_angle(mesh: &Mesh) -> f64 {
+pub fn least_angle(mesh: &Mesh) -> f64 {
     let angles = mesh.of_dimension(2).flat_map(|triangle| {
         let p = mesh.corners(triangle);
         [0, 1, 2].map(|k| {

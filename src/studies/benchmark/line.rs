@@ -9,14 +9,16 @@ pub fn part(a: f64, b: f64, k: usize, n: usize) -> f64 {
 
 /// Cosine and sine at k of n equal parts of a right angle; both ends exact.
 pub fn quarter(k: usize, n: usize) -> [f64; 2] {
-    if k == 0 {
-        return [1.0, 0.0];
+    cos_sin(k as f64 / n as f64)
+}
+
+/// Cosine and sine at `s` from 0 to 1 of a right angle; both ends exact.
+pub fn cos_sin(s: f64) -> [f64; 2] {
+    match s {
+        0.0 => [1.0, 0.0],
+        1.0 => [0.0, 1.0],
+        _ => [(FRAC_PI_2 * s).cos(), (FRAC_PI_2 * s).sin()],
     }
-    if k == n {
-        return [0.0, 1.0];
-    }
-    let angle = FRAC_PI_2 * (k as f64 / n as f64);
-    [angle.cos(), angle.sin()]
 }
 
 /// The point between `a` and `b` at `s` from 0 to 1; both ends exact.
@@ -31,4 +33,25 @@ pub fn geometric(a: f64, b: f64, k: usize, n: usize) -> f64 {
         _ if k == n => b,
         _ => a * (b / a).powf(k as f64 / n as f64),
     }
+}
+
+/// Steps by which a curve's length is measured.
+const STEPS: usize = 1000;
+
+/// Points along a curve `at(s)`, s from 0 to 1, whose distances follow `size`, the target edge
+/// length at a place; both ends exact. Each edge has the same integral of ds / size.
+pub fn graded(at: impl Fn(f64) -> [f64; 2], size: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> {
+    let mut edges = vec![0.0];
+    for k in 0..STEPS {
+        let [a, middle, b] = [0.0, 0.5, 1.0].map(|half| at((k as f64 + half) / STEPS as f64));
+        edges.push(edges[k] + (b[0] - a[0]).hypot(b[1] - a[1]) / size(middle));
+    }
+    let n = edges[STEPS].round().max(1.0) as usize;
+    let inner = (1..n).map(|i| {
+        let wanted = edges[STEPS] * (i as f64 / n as f64);
+        let k = edges.partition_point(|&e| e <= wanted);
+        let rest = (wanted - edges[k - 1]) / (edges[k] - edges[k - 1]);
+        at((k as f64 - 1.0 + rest) / STEPS as f64)
+    });
+    [at(0.0)].into_iter().chain(inner).chain([at(1.0)]).collect()
 }

@@ -1,5 +1,5 @@
 //! Scenes of published benchmarks on structured meshes: contact patch tests, Hertz, a flat punch,
-//! Lamé, Kirsch, Cook, NAFEMS LE1.
+//! Lamé, Kirsch, Cook, NAFEMS LE1; and the paper's example on a mesh of any size.
 //!
 //! | kind | what is known |
 //! |---|---|
@@ -8,24 +8,29 @@
 //! | [`Punch`] | the pressure under a flat rigid punch |
 //! | [`Annulus`], [`Hole`] | Lamé's and Kirsch's closed forms |
 //! | [`Cook`], [`Ellipse`] | a displacement; a stress (NAFEMS LE1) |
+//! | [`Strand`] | nothing in closed form; the paper's scene, for any radii |
 //!
-//! Every mesh is made of rows of nodes, joined two by two by triangles: the same parameters lead
-//! to the same bytes.
+//! Meshes are made of rows of nodes, joined two by two by triangles; that of the strand by Delaunay
+//! refinement. The same parameters lead to the same bytes.
 
 mod check;
 mod confocal;
+mod delaunay;
 mod hertz;
 mod line;
+mod mirrored;
 mod parameters;
 mod patches;
 mod plates;
 mod punch;
 mod rows;
+mod strand;
 
 pub use hertz::Hertz;
 pub use patches::{Blocks, PunchPatch};
 pub use plates::{Annulus, Cook, Ellipse, Hole};
 pub use punch::Punch;
+pub use strand::Strand;
 
 use crate::error::InputError;
 use crate::problem::element::Plane;
@@ -43,6 +48,7 @@ pub enum Kind {
     Hole(Hole),
     Cook(Cook),
     Ellipse(Ellipse),
+    Strand(Strand),
 }
 
 impl Kind {
@@ -60,6 +66,7 @@ impl Kind {
             Kind::Hole(kind) => kind.generate(),
             Kind::Cook(kind) => kind.generate(),
             Kind::Ellipse(kind) => kind.generate(),
+            Kind::Strand(kind) => kind.generate(),
         }
     }
 }
