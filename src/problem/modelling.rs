@@ -7,10 +7,8 @@ use crate::choices;
 
 choices! {
     /// A variant: how the contact pairs enter the equations, and what load an iteration carries.
-    #[derive(Default)]
     Variant {
         /// Eq. (1) on increments: equal steps of the load, the shape updated after each.
-        #[default]
         Stepped = "stepped",
         /// Eq. (1) imposed on total displacements.
         Tied = "tied",
@@ -23,11 +21,9 @@ choices! {
 
 choices! {
     /// The motion of a contact node along the target's tangent under `unilateral`.
-    #[derive(Default)]
     #[serde(try_from = "Value")]
     Friction {
         /// It follows the target, as eq. (1) asks.
-        #[default]
         Stick = "stick",
         /// It slides without friction.
         None = "0",
@@ -49,10 +45,8 @@ impl TryFrom<Value> for Friction {
 
 choices! {
     /// The shape in which `unilateral` measures normals, weights and gaps of nodes that slide.
-    #[derive(Default)]
     Geometry {
         /// The current shape of each iteration.
-        #[default]
         Current = "current",
         /// The initial shape: the theory of small displacements, as Hertz's.
         Initial = "initial",
@@ -61,10 +55,8 @@ choices! {
 
 choices! {
     /// The method that binds a contact node to the target surface.
-    #[derive(Default)]
     Coupling {
         /// Node to segment: to the two nodes of one edge, as `c_cnt` does.
-        #[default]
         Nts = "nts",
         /// Mortar with dual multipliers: to the nodes of all edges that its own edges cover.
         Mortar = "mortar",
@@ -73,10 +65,8 @@ choices! {
 
 choices! {
     /// The rule that decides the status of a contact node.
-    #[derive(Default)]
     StatusRule {
         /// The rule of lines 16 to 18 of `c_cnt` as printed.
-        #[default]
         Signs = "signs",
         /// The rule of line 16, or a side of the node's triangles crosses the target surface.
         Intersection = "intersection",
