@@ -15,8 +15,7 @@ use super::number::{Scalar, Subscript};
 use super::operators::operators;
 use super::rational;
 
-/// hi + lo, with hi = the `f64` nearest to the sum. An overflow or NaN stands in hi, and lo is then
-/// 0.
+/// hi + lo, hi being the `f64` nearest to the sum. An overflow or NaN stands in hi; lo is then 0.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct F64x2 {
     hi: f64,
