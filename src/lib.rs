@@ -1,6 +1,6 @@
-//! plane-contact: a Mathcad-faithful, executable, audited reimplementation of a published plane contact
-//! algorithm (A. M. Filipov, M. V. Khomenko, «Решение плоской контактной задачи методом конечных
-//! элементов»).
+//! plane-contact: a Mathcad-faithful, executable, audited reimplementation of a published plane
+//! contact algorithm (A. M. Filipov, M. V. Khomenko, «Решение плоской контактной задачи методом
+//! конечных элементов»).
 //!
 //! ```text
 //!  Scene (open a file, or build one in code) --> Request (what is asked) --> solve --> Solution
@@ -23,8 +23,8 @@
 //! # Ok::<(), plane_contact::Error>(())
 //! ```
 //!
-//! The rest of the library is what the program is made of; it is open to tests and to the curious, and
-//! promises nothing from version to version. Its folders, each importing those above it only:
+//! The rest of the library is what the program is made of; it is open to tests and to the curious,
+//! and promises nothing from version to version. Its folders, each importing those above it only:
 //!
 //! | folder | what stands there |
 //! |---|---|

@@ -26,7 +26,8 @@ Examples:
   plane-contact audit fig1 --json
   plane-contact audit --finding C4
   plane-contact audit strand --finding K1
-  plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, a picture a finding and a variant")]
+  plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
+                                                  a picture a finding and a variant")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one [default: strand; with --finding, the
     /// finding's own].

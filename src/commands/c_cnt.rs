@@ -31,7 +31,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Error> {
-    let reading = args.reading.reading.0;
+    let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
     let call = Call::c_cnt(&model, &reading, &model.nodes)?;

@@ -24,7 +24,8 @@ contact.
 Examples:
   plane-contact compare strand --with calculix --variant tied
   plane-contact compare strand --with calculix --variant unilateral --coupling mortar --friction 0
-  plane-contact compare strand --with calculix --variant unilateral --friction 0 --contact pair --penalty 1e7 --json")]
+  plane-contact compare strand --with calculix --variant unilateral --friction 0 \
+                        --contact pair --penalty 1e7 --json")]
 pub struct Args {
     /// The code.
     #[arg(long, value_name = "CODE")]

@@ -30,7 +30,8 @@ Examples:
   plane-contact export fig1 --to calculix
   plane-contact export strand --to calculix --variant tied --out strand.inp
   plane-contact export strand --to calculix --variant unilateral --coupling mortar --friction 0
-  plane-contact export strand --to calculix --contact pair --penalty 1e7 --friction 0 --out strand.inp")]
+  plane-contact export strand --to calculix --contact pair --penalty 1e7 --friction 0 \
+                       --out strand.inp")]
 pub struct Args {
     /// The code.
     #[arg(long, value_name = "CODE")]

@@ -42,7 +42,7 @@ enum CoupledBy {
 }
 
 pub fn run(args: &Args) -> Result<(), Error> {
-    let reading = args.reading.reading.0;
+    let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
     memory::check(model.nodes.len(), 1, memory::free())?;

@@ -34,7 +34,7 @@ pub struct ReadingArg {
     /// guarded|left-to-right|eager, R5 node|node_n, R6 strain|stress (default: the scene's), R7
     /// total|stepped (default: the variant's), R8 mm|m (unit of c_tol in a scene in mm).
     #[arg(long, value_name = "LIST", default_value = "")]
-    pub reading: ReadingText,
+    pub reading: Reading,
 }
 
 /// How contact is modelled beyond what the paper prints, in place of what the scene says.
@@ -81,18 +81,7 @@ impl ModelArgs {
         Request::new(scene)
             .contact(contact)
             .variant(variant.unwrap_or(scene.variant))
-            .reading(reading.reading.0)
-    }
-}
-
-/// A reading as clap parses it: an error of its own words, exit status 2.
-#[derive(Clone)]
-pub struct ReadingText(pub Reading);
-
-impl std::str::FromStr for ReadingText {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Self, String> {
-        text.parse().map(ReadingText)
+            .reading(reading.reading)
     }
 }
 

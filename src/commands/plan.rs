@@ -1,13 +1,12 @@
 //! `plane-contact plan`.
 
 use plane_contact::answer::error::Error;
-use plane_contact::numbers::solve::memory;
+use plane_contact::numbers::solve::{Arithmetic, memory};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
 use plane_contact::studies::plan::Plan;
 
-use super::solve::ArithmeticArgs;
 use super::{ModelArgs, ReadingArg, print};
 
 /// What solve will build and what not, why, and what it will cost; nothing is solved.
@@ -32,7 +31,7 @@ pub struct Args {
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
-    arithmetic: ArithmeticArgs,
+    arithmetic: Arithmetic,
     #[command(flatten)]
     reading: ReadingArg,
     /// Print JSON.
@@ -42,11 +41,8 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let scene = Scene::open(&args.scene)?;
-    let request = args
-        .model
-        .request(&scene, args.variant, &args.reading)
-        .arithmetic(args.arithmetic.arithmetic());
-    let plan = Plan::new(&request)?;
+    let request = args.model.request(&scene, args.variant, &args.reading);
+    let plan = Plan::new(&request.arithmetic(args.arithmetic))?;
     if args.json {
         return print(&report::json(&plan));
     }

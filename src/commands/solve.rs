@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use plane_contact::answer::error::{Error, NoEquilibrium};
 use plane_contact::answer::{self, Assessment, Request, Solution, Step};
-use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
+use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{self, folder, tables};
@@ -42,7 +42,7 @@ pub struct Args {
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
-    arithmetic: ArithmeticArgs,
+    arithmetic: Arithmetic,
     /// Take the cheapest precision whose rounding changes displacements by at most this part of the
     /// largest, and say what was done; the mesh's own error is reported beside it.
     #[arg(long, value_name = "A", conflicts_with_all = ["scalar", "solver", "tol", "inputs"])]
@@ -57,41 +57,10 @@ pub struct Args {
     json: bool,
 }
 
-/// In which numbers a run computes, and how it solves.
-#[derive(clap::Args)]
-pub struct ArithmeticArgs {
-    /// f64, f32, f64x2 (31 digits), f64-bounded (f64 with a bound on the error of the
-    /// displacements), exact (rational numbers, for some hundred equations).
-    #[arg(long, value_name = "NAME", default_value = "f64")]
-    scalar: ScalarName,
-    /// dense-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients to --tol), refined
-    /// (factors in the scalar below, refined to --tol) [default: dense-lu; sparse-cholesky in
-    /// f64x2, exact and under unilateral].
-    #[arg(long, value_name = "NAME")]
-    solver: Option<Solver>,
-    /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop [default:
-    /// 16 eps of the scalar].
-    #[arg(long, value_name = "T")]
-    tol: Option<f64>,
-    /// What the numbers of the scene stand for: binary, the exact value of their f64; decimal, the
-    /// shortest decimal that reads back to it.
-    #[arg(long, value_name = "NAME", default_value = "binary")]
-    inputs: Inputs,
-}
-
-impl ArithmeticArgs {
-    pub fn arithmetic(&self) -> Arithmetic {
-        let ArithmeticArgs { scalar, solver, tol, inputs } = *self;
-        Arithmetic { scalar, solver, tol, inputs }
-    }
-}
-
 pub fn run(args: &Args) -> Result<(), Error> {
     let scene = Scene::open(&args.scene)?;
-    let request = args
-        .model
-        .request(&scene, args.variant, &args.reading)
-        .arithmetic(args.arithmetic.arithmetic());
+    let request = args.model.request(&scene, args.variant, &args.reading);
+    let request = request.arithmetic(args.arithmetic);
     let (solution, accuracy) = solve(args, &request)?;
     let plan = Plan::new(&solution.request)?;
     let default = || PathBuf::from("out").join(format!("{}-{}", scene.name, request.variant));

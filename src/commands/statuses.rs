@@ -22,7 +22,8 @@ Examples:
   plane-contact statuses --picture out/statuses.svg")]
 pub struct Args {
     /// Scenes for each row of the tables.
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     scenes: u32,
     /// Seed of the random scenes.
     #[arg(long, value_name = "S", default_value_t = 1)]

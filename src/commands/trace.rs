@@ -56,7 +56,7 @@ struct Chosen {
 }
 
 pub fn run(args: &Args) -> Result<(), Error> {
-    let reading = args.reading.reading.0;
+    let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
     let chosen = choose(&args.listing, &reading)?;
@@ -81,7 +81,7 @@ fn finish(
     model: &Model,
     call: &Call,
 ) -> Result<(), Error> {
-    let reading = args.reading.reading.0;
+    let reading = args.reading.reading;
     match trace.result {
         Err(failure) if chosen.edited => {
             Err(InputError::new(&args.listing, failure.to_string(), "correct the edited listing")

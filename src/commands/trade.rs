@@ -29,7 +29,8 @@ pub struct Args {
     #[arg(value_name = "SCENE", default_value = "strand")]
     scene: String,
     /// Runs of each trial.
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
     /// What to vary: arithmetic, solver, mesh, c_tll, iterations, status, coupling, symmetry
     /// [default: all].
@@ -50,7 +51,7 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<(), Error> {
     let scene = Scene::open(&args.scene)?;
-    let request = Request::new(&scene).reading(args.reading.reading.0);
+    let request = Request::new(&scene).reading(args.reading.reading);
     if let Some(name) = &args.peak_of {
         return peak_of(&request, name);
     }

@@ -11,10 +11,8 @@ use crate::choices;
 
 choices! {
     /// A variant: how the contact pairs enter the equations, and what load an iteration carries.
-    #[derive(Default)]
     Variant {
         /// Eq. (1) on increments: equal steps of the load, the shape updated after each.
-        #[default]
         Stepped = "stepped",
         /// Eq. (1) imposed on total displacements.
         Tied = "tied",
@@ -98,10 +96,8 @@ impl<'de> Deserialize<'de> for Friction {
 
 choices! {
     /// The shape in which `unilateral` measures normals, weights and gaps.
-    #[derive(Default)]
     Geometry {
         /// The current shape: the one that is reached.
-        #[default]
         Current = "current",
         /// The initial shape: the theory of small displacements, as Hertz's.
         Initial = "initial",
@@ -110,10 +106,8 @@ choices! {
 
 choices! {
     /// The method that binds a contact node to the target surface.
-    #[derive(Default)]
     Coupling {
         /// Node to segment: to the two nodes of one edge, as `c_cnt` does.
-        #[default]
         Nts = "nts",
         /// Mortar with dual multipliers: to the nodes of all edges that its own edges cover.
         Mortar = "mortar",
@@ -122,10 +116,8 @@ choices! {
 
 choices! {
     /// The rule that decides the status of a contact node.
-    #[derive(Default)]
     StatusRule {
         /// The rule of lines 16 to 18 of `c_cnt` as printed.
-        #[default]
         Signs = "signs",
         /// The rule of line 16, or a side of the node's triangles crosses the target surface.
         Intersection = "intersection",

@@ -7,8 +7,7 @@ use crate::answer::{Hertz, Solution};
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 
-/// How far the picture reaches beyond the outermost node in contact, as a part of the width of the
-/// contact.
+/// How far the picture reaches beyond the outermost node in contact, over the contact's width.
 const MARGIN: f64 = 0.25;
 
 /// How many points Hertz's curve is drawn through.

@@ -56,8 +56,7 @@ impl Element {
     }
 }
 
-/// Returns `text` for a place between tags or quotes. A character that XML 1.0 forbids becomes
-/// U+FFFD.
+/// Returns `text` for a place between tags or quotes. What XML 1.0 forbids becomes U+FFFD.
 fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

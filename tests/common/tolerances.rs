@@ -156,14 +156,14 @@ tolerances! {
     /// Largest effectivity.
     EFFECTIVITY_HIGH = 1.3, "the issue's own number; below 1 is measured everywhere";
 
-    /// Widest error estimate of a largest von Mises stress, against the true stress error in the triangle that
-    /// has it.
+    /// Widest error estimate of a largest von Mises stress, against the true stress error in the
+    /// triangle that has it.
     ESTIMATE_WIDTH = 4.0,
         "a safety factor of 2, and as much again for the worst of a dozen neighbours standing in \
          for one triangle";
 
-    /// Part of the estimates of largest von Mises stresses that may miss the truth on random fields and
-    /// meshes.
+    /// Part of the estimates of largest von Mises stresses that may miss the truth on random fields
+    /// and meshes.
     ESTIMATES_MISSED = 0.03, "1.1 % of 4,000 such cases missed, 512 cases scatter";
 
     /// The same where the estimated relative error in the energy norm is at most 0.2.
@@ -174,8 +174,8 @@ tolerances! {
     CONSTANT_FIELD = 1e-12,
         "LU of 100 equations of condition 1e3: 1e-16 times it, and a decade of room";
 
-    /// A closest point, its distance and its normal against the closed form, relative to coordinates of
-    /// order 1.
+    /// A closest point, its distance and its normal against the closed form, relative to
+    /// coordinates of order 1.
     CLOSEST_POINT = 1e-14, "a dozen roundings of 1e-16, of turned coordinates too";
 
     /// The contact patch test under mortar, relative to the exact value.

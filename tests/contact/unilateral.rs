@@ -1,17 +1,21 @@
 //! The reference solution: what it promises, on every scene, coupling, friction and geometry.
 
-use crate::common::json::build;
 use crate::common::tolerances::{
     BALANCE, COMPLEMENTARITY, CURRENT_LENGTHS, FAR_FROM_THE_ORIGIN, FORCE_OF_A_SLOPE, assert_near,
 };
 use plane_contact::answer::contact::{ContactNode, Status};
 use plane_contact::answer::error::Error;
 use plane_contact::answer::{self, Detail, Request, Solution, Step, distance, equilibrium};
+use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
-use plane_contact::problem::scene::{SCENES, Scene};
+use plane_contact::problem::scene::{
+    Axis, Contact, MeshBuilder, SCENES, Scene, SceneBuilder, file, gmsh,
+};
 use plane_contact::studies::benchmark::{Blocks, Hertz, Punch, PunchPatch};
-use serde_json::json;
+
+/// Both directions.
+const BOTH: &[Axis] = &[Axis::X, Axis::Y];
 
 /// The most iterations that an equilibrium under one load may take.
 const ITERATIONS: usize = 20;
@@ -159,31 +163,36 @@ fn the_reference_is_at_no_distance_from_itself() {
 
 /// Two unit squares, the upper one on the lower one; `load` on the top edge, `held` of the upper
 /// square's left side.
-fn stacked(load: [f64; 2], held: &[&str], friction: serde_json::Value) -> serde_json::Value {
-    let mut restraints =
-        vec![json!({ "node": 1, "fix": ["x", "y"] }), json!({ "node": 2, "fix": ["x", "y"] })];
-    if !held.is_empty() {
-        restraints.push(json!({ "node": 5, "fix": held }));
-        restraints.push(json!({ "node": 8, "fix": held }));
-    }
-    json!({
-        "node": [[1, 0, 0, 0], [2, 1, 0, 0], [3, 1, 1, 0], [4, 0, 1, 0], [5, 0, 1, 0], [6, 1, 1, 0], [7, 1, 2, 0], [8, 0, 2, 0]],
-        "elem": [
-            [1, 1, 2, 11, 1, 4, 3], [2, 1, 2, 12, 2, 5, 6], [3, 1, 2, 13, 3, 8, 7],
-            [4, 2, 2, 1, 1, 1, 2, 3], [5, 2, 2, 1, 1, 1, 3, 4],
-            [6, 2, 2, 2, 2, 5, 6, 7], [7, 2, 2, 2, 2, 5, 7, 8]
-        ],
-        "plane": "stress",
-        "materials": { "1": { "E": 1000.0, "nu": 0.0 }, "2": { "E": 1000.0, "nu": 0.0 } },
-        "restraints": restraints,
-        "loads": [{ "on": 13, "traction": load }],
-        "contact": { "cnt": 12, "trg": 11, "c_tll": 0.001, "friction": friction },
-        "variant": "unilateral"
-    })
+///
+/// ```text
+///  8---7
+///  |   |
+///  5---6    contact surface
+///  4---3    target
+///  |   |
+///  1---2
+/// ```
+fn stacked(load: [f64; 2], held: &[Axis], friction: Friction) -> SceneBuilder {
+    let mut mesh = MeshBuilder::default();
+    mesh.row([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+    mesh.row([[0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]);
+    mesh.edges("target", &[4, 3]);
+    mesh.edges("contact", &[5, 6]);
+    mesh.edges("top", &[8, 7]);
+    mesh.triangles("lower", [[1, 2, 3], [1, 3, 4]]);
+    mesh.triangles("upper", [[5, 6, 7], [5, 7, 8]]);
+    let scene = SceneBuilder::new("stacked", mesh.finish(), Plane::Stress)
+        .material("lower", 1000.0, 0.0)
+        .material("upper", 1000.0, 0.0)
+        .restrain_node(1, BOTH)
+        .restrain_node(2, BOTH)
+        .traction("top", load)
+        .contact(Contact { friction, ..Contact::new("contact", "target", 0.001) });
+    if held.is_empty() { scene } else { scene.restrain_node(5, held).restrain_node(8, held) }
 }
 
-fn solved(scene: &serde_json::Value) -> Result<Solution, Error> {
-    let scene = build(scene).expect("the scene is sound");
+fn solved(scene: &SceneBuilder) -> Result<Solution, Error> {
+    let scene = scene.build().expect("the scene is sound");
     answer::solve(&Request::new(&scene).variant(Variant::Unilateral), &mut |_| ())
 }
 
@@ -194,24 +203,24 @@ fn top(solution: &Solution) -> f64 {
 
 #[test]
 fn a_stack_is_shortened_by_its_load() {
-    let solution = solved(&stacked([0.0, -1.0], &["x"], json!(0))).unwrap();
+    let solution = solved(&stacked([0.0, -1.0], &[Axis::X], Friction::NONE)).unwrap();
     assert_near("top", top(&solution), -2e-3, 2e-3, &BALANCE);
 }
 
 #[test]
 fn a_body_that_may_slide_is_the_inputs_fault() {
-    let error = solved(&stacked([0.0, -1.0], &[], json!(0))).unwrap_err();
+    let error = solved(&stacked([0.0, -1.0], &[], Friction::NONE)).unwrap_err();
     assert_eq!(error.exit_status(), 2);
     assert!(error.to_string().contains("can move in x"), "{error}");
     assert!(
-        solved(&stacked([0.0, -1.0], &[], json!("stick"))).is_ok(),
+        solved(&stacked([0.0, -1.0], &[], Friction::STICK)).is_ok(),
         "where it sticks it is held"
     );
 }
 
 #[test]
 fn a_body_that_is_pulled_away_has_no_equilibrium() {
-    let error = solved(&stacked([0.0, 1.0], &["x"], json!(0))).unwrap_err();
+    let error = solved(&stacked([0.0, 1.0], &[Axis::X], Friction::NONE)).unwrap_err();
     assert_eq!(error.exit_status(), 4);
     assert!(error.to_string().contains("no contact state in equilibrium was found"), "{error}");
 }
@@ -219,8 +228,8 @@ fn a_body_that_is_pulled_away_has_no_equilibrium() {
 /// Node 5 carries half of the load; its restraint takes it, as far as the target leaves it.
 #[test]
 fn the_force_on_a_contact_node_restrained_along_the_normal_comes_from_its_target() {
-    let flat = json!({ "geometry": "initial" });
-    let solution = solved(&with(&stacked([0.0, -1.0], &["x", "y"], json!(0)), &flat)).unwrap();
+    let scene = with(stacked([0.0, -1.0], BOTH, Friction::NONE), flat);
+    let solution = solved(&scene).unwrap();
     let passed = solution.last().target_force;
     let forces: f64 = solution.contact.iter().map(force).sum();
     assert_near("force on the target", forces, passed, 1.0, &BALANCE);
@@ -230,9 +239,7 @@ fn the_force_on_a_contact_node_restrained_along_the_normal_comes_from_its_target
 /// Where both surfaces are restrained along the normal nothing says what passes between them.
 #[test]
 fn a_force_between_two_restraints_is_not_determined() {
-    let mut scene = stacked([0.0, -1.0], &["x", "y"], json!(0));
-    let restraints = scene["restraints"].as_array_mut().unwrap();
-    restraints.push(json!({ "node": 4, "fix": ["x", "y"] }));
+    let scene = stacked([0.0, -1.0], BOTH, Friction::NONE).restrain_node(4, BOTH);
     let solution = solved(&scene).unwrap();
     let of = |number: usize| {
         let mut nodes = solution.contact.iter();
@@ -244,44 +251,53 @@ fn a_force_between_two_restraints_is_not_determined() {
 
 #[test]
 fn friction_is_a_coefficient_or_stick() {
-    for wrong in [json!(-0.1), json!("slippery"), json!("NaN"), json!(null)] {
-        let error = build(&stacked([0.0, -1.0], &["x"], wrong.clone())).unwrap_err();
-        assert!(
-            error.to_string().contains("neither a coefficient of 0 or more"),
-            "{wrong}: {error}"
-        );
+    let scene = stacked([0.0, -1.0], &[Axis::X], Friction::NONE);
+    let read = |friction: &str| {
+        let text = file::write(&scene.description, "m.msh");
+        let text = text.replace("\"friction\":0", &format!("\"friction\":{friction}"));
+        let beside = |_: &str| Ok(gmsh::write(&scene.mesh).into_bytes());
+        SceneBuilder::read("stacked", text.as_bytes(), beside)
+    };
+    for wrong in ["-0.1", "\"slippery\"", "\"NaN\"", "null"] {
+        let error = read(wrong).unwrap_err().to_string();
+        assert!(error.contains("neither a coefficient of 0 or more"), "{wrong}: {error}");
     }
-    assert!(build(&stacked([0.0, -1.0], &["x"], json!(0.3))).is_ok());
+    assert!(read("0.3").is_ok() && read("\"stick\"").is_ok());
 }
 
-/// `scene` with members of its `contact` set.
-fn with(scene: &serde_json::Value, contact: &serde_json::Value) -> serde_json::Value {
-    let mut scene = scene.clone();
-    for (key, value) in contact.as_object().unwrap() {
-        scene["contact"][key] = value.clone();
-    }
+/// Small displacements.
+fn flat(contact: &mut Contact) {
+    contact.geometry = Geometry::Initial;
+}
+
+/// `scene` with its contact changed.
+fn with(mut scene: SceneBuilder, change: impl FnOnce(&mut Contact)) -> SceneBuilder {
+    change(scene.description.contact.as_mut().expect("the scene has contact"));
     scene
 }
 
-fn every_coupling_and_geometry() -> Vec<serde_json::Value> {
-    let of = |geometry| ["nts", "mortar"].map(|c| json!({ "coupling": c, "geometry": geometry }));
-    ["current", "initial"].into_iter().flat_map(of).collect()
+/// `scene` with its contact modelled so.
+fn modelled(scene: SceneBuilder, (coupling, geometry): (Coupling, Geometry)) -> SceneBuilder {
+    with(scene, |contact| (contact.coupling, contact.geometry) = (coupling, geometry))
+}
+
+fn every_coupling_and_geometry() -> impl Iterator<Item = (Coupling, Geometry)> {
+    let of = |geometry: &'static Geometry| Coupling::ALL.iter().map(|c| (*c, *geometry));
+    Geometry::ALL.iter().flat_map(of)
 }
 
 /// The stack with a Poisson's ratio: its surfaces slide on each other, past the target's end.
-fn bulging() -> serde_json::Value {
-    let mut scene = stacked([0.0, -1.0], &["x"], json!(0));
-    for body in ["1", "2"] {
-        scene["materials"][body]["nu"] = json!(0.3);
-    }
+fn bulging() -> SceneBuilder {
+    let mut scene = stacked([0.0, -1.0], &[Axis::X], Friction::NONE);
+    scene.description.materials.0.iter_mut().for_each(|(_, material)| material.nu = 0.3);
     scene
 }
 
 #[test]
 fn a_node_that_slides_a_little_past_the_end_of_the_target_rests_on_it() {
-    for contact in every_coupling_and_geometry() {
-        let solution = solved(&with(&bulging(), &contact)).unwrap();
-        assert_eq!(solution.in_contact().count(), 2, "{contact}");
+    for model in every_coupling_and_geometry() {
+        let solution = solved(&modelled(bulging(), model)).unwrap();
+        assert_eq!(solution.in_contact().count(), 2, "{model:?}");
         let force: f64 = solution.contact.iter().map(force).sum();
         assert_near("force", force, 1.0, 1.0, &FORCE_OF_A_SLOPE);
     }
@@ -289,13 +305,12 @@ fn a_node_that_slides_a_little_past_the_end_of_the_target_rests_on_it() {
 
 #[test]
 fn a_scene_far_from_the_origin_has_the_same_answer() {
-    for contact in every_coupling_and_geometry() {
-        let scene = with(&bulging(), &contact);
+    for model in every_coupling_and_geometry() {
+        let scene = modelled(bulging(), model);
         let mut far = scene.clone();
-        for row in far["node"].as_array_mut().unwrap() {
-            for (axis, by) in [(1, 1e6), (2, -3e6)] {
-                row[axis] = json!(row[axis].as_f64().unwrap() + by);
-            }
+        for node in &mut far.mesh.nodes {
+            node.xyz[0] += 1e6;
+            node.xyz[1] -= 3e6;
         }
         let (near, far) = (solved(&scene).unwrap(), solved(&far).unwrap());
         let (near, far) = (top(&near), top(&far));
@@ -305,8 +320,9 @@ fn a_scene_far_from_the_origin_has_the_same_answer() {
 
 #[test]
 fn bodies_that_touch_without_a_load_rest() {
-    for contact in every_coupling_and_geometry() {
-        let solution = solved(&with(&stacked([0.0, 0.0], &["x"], json!(0)), &contact)).unwrap();
+    for model in every_coupling_and_geometry() {
+        let scene = modelled(stacked([0.0, 0.0], &[Axis::X], Friction::NONE), model);
+        let solution = solved(&scene).unwrap();
         assert_eq!(solution.u.amax(), 0.0);
     }
 }
@@ -315,16 +331,16 @@ fn bodies_that_touch_without_a_load_rest() {
 /// stand for half of each side.
 #[test]
 fn a_closed_contact_surface_has_an_edge_from_its_last_node_to_its_first() {
-    for contact in every_coupling_and_geometry() {
-        let closed = with(&with(&bulging(), &contact), &json!({ "cnt": [5, 6, 7, 8] }));
-        let open = solved(&with(&bulging(), &contact)).unwrap();
+    for model in every_coupling_and_geometry() {
+        let closed = with(modelled(bulging(), model), |c| c.contact = vec![5, 6, 7, 8].into());
+        let open = solved(&modelled(bulging(), model)).unwrap();
         let closed = solved(&closed).unwrap();
         let numbers: Vec<usize> = closed.contact.iter().map(|c| c.node.number()).collect();
         assert_eq!(numbers, [5, 6]);
         for (one, other) in closed.contact.iter().zip(&open.contact) {
             assert_near("force", force(one), force(other), 1.0, &BALANCE);
         }
-        if contact["coupling"] == "nts" {
+        if model.0 == Coupling::Nts {
             let of =
                 |o: &Solution| o.contact.iter().map(|c| c.pressure.unwrap()).collect::<Vec<_>>();
             for (one, other) in of(&closed).into_iter().zip(of(&open)) {
@@ -336,17 +352,17 @@ fn a_closed_contact_surface_has_an_edge_from_its_last_node_to_its_first() {
 
 #[test]
 fn a_node_named_twice_counts_once() {
-    for contact in every_coupling_and_geometry() {
-        let twice = with(&with(&bulging(), &contact), &json!({ "cnt": [5, 6, 5, 6] }));
+    for model in every_coupling_and_geometry() {
+        let twice = with(modelled(bulging(), model), |c| c.contact = vec![5, 6, 5, 6].into());
         let of = |scene| solved(&scene).unwrap().contact;
-        assert_eq!(of(twice), of(with(&bulging(), &contact)));
+        assert_eq!(of(twice), of(modelled(bulging(), model)));
     }
 }
 
 #[test]
 fn a_surface_that_does_not_face_the_target_is_the_inputs_fault() {
-    for contact in every_coupling_and_geometry() {
-        let scene = with(&with(&bulging(), &contact), &json!({ "cnt": [8, 7] }));
+    for model in every_coupling_and_geometry() {
+        let scene = with(modelled(bulging(), model), |c| c.contact = vec![8, 7].into());
         let error = solved(&scene).unwrap_err();
         assert_eq!(error.exit_status(), 2);
         assert!(error.to_string().contains("no contact node faces the target"), "{error}");
@@ -357,24 +373,25 @@ fn a_surface_that_does_not_face_the_target_is_the_inputs_fault() {
 /// the gap is measured along it.
 #[test]
 fn a_gap_over_a_ridge_closes() {
-    let scene = json!({
-        "node": [[1, 0, 0, 0], [2, 2, 0, 0], [3, 2, 1, 0], [4, 1, 1.1, 0], [5, 0, 1, 0], [6, 1, 1.5, 0], [7, 1.5, 2, 0], [8, 0.5, 2, 0]],
-        "elem": [
-            [1, 1, 2, 11, 1, 3, 4], [2, 1, 2, 11, 1, 4, 5],
-            [3, 2, 2, 1, 1, 1, 2, 4], [4, 2, 2, 1, 1, 2, 3, 4], [5, 2, 2, 1, 1, 1, 4, 5], [6, 2, 2, 2, 2, 6, 7, 8]
-        ],
-        "plane": "stress",
-        "materials": { "1": { "E": 1000.0, "nu": 0.0 }, "2": { "E": 1000.0, "nu": 0.0 } },
-        "restraints": [
-            { "node": 1, "fix": ["x", "y"] }, { "node": 2, "fix": ["x", "y"] },
-            { "node": 6, "fix": ["x"] }, { "node": 7, "fix": ["x"] }
-        ],
-        "loads": [{ "node": 7, "force": [0.0, -0.5] }, { "node": 8, "force": [0.0, -0.5] }],
-        "contact": { "cnt": [6], "trg": [1, 2], "c_tll": 0.001, "friction": 0 },
-        "variant": "unilateral"
-    });
-    for geometry in ["current", "initial"] {
-        let solution = solved(&with(&scene, &json!({ "geometry": geometry }))).unwrap();
+    let mut mesh = MeshBuilder::default();
+    mesh.row([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.1], [0.0, 1.0]]);
+    mesh.row([[1.0, 1.5], [1.5, 2.0], [0.5, 2.0]]);
+    mesh.edges("roof", &[3, 4, 5]);
+    mesh.triangles("lower", [[1, 2, 4], [2, 3, 4], [1, 4, 5]]);
+    mesh.triangles("upper", [[6, 7, 8]]);
+    let contact = Contact::new(vec![6], "roof", 0.001);
+    let scene = SceneBuilder::new("ridge", mesh.finish(), Plane::Stress)
+        .material("lower", 1000.0, 0.0)
+        .material("upper", 1000.0, 0.0)
+        .restrain_node(1, BOTH)
+        .restrain_node(2, BOTH)
+        .restrain_node(6, &[Axis::X])
+        .restrain_node(7, &[Axis::X])
+        .force(7, [0.0, -0.5])
+        .force(8, [0.0, -0.5])
+        .contact(Contact { friction: Friction::NONE, ..contact });
+    for geometry in Geometry::ALL {
+        let solution = solved(&modelled(scene.clone(), (Coupling::Nts, *geometry))).unwrap();
         let node = &solution.contact[0];
         assert_near("gap", node.gap, 0.0, 1.0, &COMPLEMENTARITY);
         assert_near("force", force(node), 1.0, 1.0, &FORCE_OF_A_SLOPE);
@@ -387,44 +404,35 @@ fn a_gap_over_a_ridge_closes() {
 #[test]
 fn a_body_that_tips_comes_to_rest_on_the_side_that_it_tips_to() {
     let surface = |x: f64| 1.0 - 0.05 * (x - 0.4) * (x - 0.4);
-    let (mut node, mut elem) = (Vec::new(), Vec::new());
+    let mut mesh = MeshBuilder::default();
     for k in 0..=10 {
         let x = 0.2 * f64::from(k) - 0.6;
-        node.push(json!([2 * k + 1, x, 0.0, 0.0]));
-        node.push(json!([2 * k + 2, x, surface(x), 0.0]));
+        mesh.row([[x, 0.0], [x, surface(x)]]);
     }
     for k in 0..10 {
         let [a, b, c, d] = [2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2];
-        elem.push(json!([elem.len() + 1, 1, 2, 11, 1, c, d]));
-        elem.push(json!([elem.len() + 1, 2, 2, 1, 1, a, b, c]));
-        elem.push(json!([elem.len() + 1, 2, 2, 1, 1, a, c, d]));
+        mesh.edges("target", &[c, d]);
+        mesh.triangles("lower", [[a, b, c], [a, c, d]]);
     }
     for k in 0..=4 {
         let x = 0.25 * f64::from(k);
-        node.push(json!([23 + 2 * k, x, 1.01, 0.0]));
-        node.push(json!([24 + 2 * k, x, 2.01, 0.0]));
+        mesh.row([[x, 1.01], [x, 2.01]]);
     }
     for k in 0..4 {
         let [a, b, c, d] = [23 + 2 * k, 25 + 2 * k, 26 + 2 * k, 24 + 2 * k];
-        elem.push(json!([elem.len() + 1, 2, 2, 2, 2, a, b, c]));
-        elem.push(json!([elem.len() + 1, 2, 2, 2, 2, a, c, d]));
+        mesh.triangles("upper", [[a, b, c], [a, c, d]]);
     }
-    let mut restraints: Vec<_> =
-        (0..=10).map(|k| json!({ "node": 2 * k + 1, "fix": ["x", "y"] })).collect();
-    restraints.push(json!({ "node": 24, "fix": ["x"] }));
-    let scene = json!({
-        "node": node, "elem": elem, "plane": "strain",
-        "materials": { "1": { "E": 1e5, "nu": 0.3 }, "2": { "E": 1e5, "nu": 0.3 } },
-        "restraints": restraints,
-        "loads": [{ "node": 28, "force": [0.0, -0.5] }, { "node": 32, "force": [0.0, -0.5] }],
-        "contact": {
-            "cnt": [23, 25, 27, 29, 31], "trg": (0..10).map(|k| 3 * k + 1).collect::<Vec<_>>(), "c_tll": 0.001,
-            "friction": 0, "geometry": "initial"
-        },
-        "variant": "unilateral"
-    });
-    for coupling in ["nts", "mortar"] {
-        let solution = solved(&with(&scene, &json!({ "coupling": coupling }))).unwrap();
+    let contact = Contact::new(vec![23, 25, 27, 29, 31], "target", 0.001);
+    let scene = SceneBuilder::new("tipping", mesh.finish(), Plane::Strain)
+        .material("lower", 1e5, 0.3)
+        .material("upper", 1e5, 0.3)
+        .restrain_node(24, &[Axis::X])
+        .force(28, [0.0, -0.5])
+        .force(32, [0.0, -0.5])
+        .contact(Contact { friction: Friction::NONE, ..contact });
+    let scene = (0..=10).fold(scene, |scene, k| scene.restrain_node(2 * k + 1, BOTH));
+    for coupling in Coupling::ALL {
+        let solution = solved(&modelled(scene.clone(), (*coupling, Geometry::Initial))).unwrap();
         assert!(solution.in_contact().all(|c| c.gap >= -1e-11 && force(c) >= 0.0));
         let right = solution.in_contact().filter(|c| c.arc > 0.5).count();
         assert!(right > 0, "it rests on its right side too");
@@ -435,8 +443,7 @@ fn a_body_that_tips_comes_to_rest_on_the_side_that_it_tips_to() {
 /// is the tangent's direction.
 #[test]
 fn shear_and_the_friction_needed_balance_a_push_along_the_surface() {
-    let flat = json!({ "geometry": "initial" });
-    let solution = solved(&with(&stacked([0.2, -1.0], &[], json!("stick")), &flat)).unwrap();
+    let solution = solved(&with(stacked([0.2, -1.0], &[], Friction::STICK), flat)).unwrap();
     let shear: f64 = solution.contact.iter().map(|c| 0.5 * c.shear.unwrap()).sum();
     assert_near("shear force", shear, 0.2, 1.0, &BALANCE);
     for node in &solution.contact {

@@ -55,9 +55,9 @@ fn walk(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The text without comments, without what stands in quotes, and without its unit tests.
+/// The text without comments and without what stands in quotes.
 fn code(text: &str) -> String {
-    let mut rest = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let mut rest = text;
     let mut kept = String::new();
     while let Some(next) = rest.chars().next() {
         let (skipped, in_place) = match rest {
@@ -330,6 +330,14 @@ fn way_back(start: usize, arrows: &[BTreeSet<usize>]) -> Option<Vec<usize>> {
         next = beyond;
     }
     None
+}
+
+/// Cargo.toml builds no unit tests of the library and the program: they would not be run.
+#[test]
+fn every_test_stands_in_the_tests_folder() {
+    let sources = sources();
+    let own = sources.iter().filter(|s| s.text.contains("#[test]") || s.text.contains("cfg(test)"));
+    assert_eq!(own.map(name).collect::<Vec<_>>(), [""; 0]);
 }
 
 /// The paper's arrays and its arithmetic of equation numbers stand in the paper's room alone.

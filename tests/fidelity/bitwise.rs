@@ -123,7 +123,8 @@ prop_compose! {
         plane in select(Plane::ALL),
     ) -> Draw {
         Draw {
-            steps, turned, duplicated, reversed_order, spots, duplicated_node, c_tll, scale, shift, modulus, moved, fixed, triangles, degenerate, plane,
+            steps, turned, duplicated, reversed_order, spots, duplicated_node, c_tll, scale, shift,
+            modulus, moved, fixed, triangles, degenerate, plane,
         }
     }
 }

@@ -59,7 +59,11 @@ proptest! {
     }
 
     #[test]
-    fn double_double_survives_cancellation(x in double_double(3), y in double_double(3), k in 1..100_i16) {
+    fn double_double_survives_cancellation(
+        x in double_double(3),
+        y in double_double(3),
+        k in 1..100_i16,
+    ) {
         let y = -x + y * F64x2::from_f64(2f64.powi(-i32::from(k)));
         within(x + y, &(exact(x) + exact(y)), &DOUBLE_DOUBLE);
     }
@@ -77,7 +81,11 @@ proptest! {
     }
 
     #[test]
-    fn nearest_double_double_is_within_half_a_unit(x in double_double(200), p in 1..1000_i64, q in 1..1000_i64) {
+    fn nearest_double_double_is_within_half_a_unit(
+        x in double_double(200),
+        p in 1..1000_i64,
+        q in 1..1000_i64,
+    ) {
         prop_assert_eq!(F64x2::nearest(&exact(x)), x);
         let third = RBig::from(p) / RBig::from(q);
         within(F64x2::nearest(&third), &third, &DOUBLE_DOUBLE);
@@ -86,13 +94,15 @@ proptest! {
     #[test]
     fn an_overflow_or_nan_is_what_f64_says(x in any::<f64>(), y in any::<f64>()) {
         let (a, b) = (F64x2::from_f64(x), F64x2::from_f64(y));
-        for (value, plain) in [(a + b, x + y), (a - b, x - y), (a * b, x * y), (a / b, x / y), (a.sqrt(), x.sqrt())] {
+        let four = [(a + b, x + y), (a - b, x - y), (a * b, x * y), (a / b, x / y)];
+        for (value, plain) in four.into_iter().chain([(a.sqrt(), x.sqrt())]) {
             let [hi, lo] = value.halves();
             prop_assert_eq!(hi.is_finite(), plain.is_finite());
             prop_assert!(lo.is_finite());
             prop_assert_eq!(Scalar::is_finite(value), plain.is_finite());
             if !plain.is_finite() {
-                prop_assert_eq!(hi.total_cmp(&plain).is_eq() || hi.is_nan() && plain.is_nan(), true);
+                let both_nan = hi.is_nan() && plain.is_nan();
+                prop_assert_eq!(hi.total_cmp(&plain).is_eq() || both_nan, true);
             }
         }
     }
@@ -102,7 +112,8 @@ proptest! {
         // The reader of the standard library rounds correctly.
         let text = format!("{digits}e{exponent}");
         let x = RBig::from_str_decimal(&text).expect("a decimal");
-        prop_assert_eq!(rational::nearest(&x).to_bits(), text.parse::<f64>().expect("a decimal").to_bits());
+        let parsed = text.parse::<f64>().expect("a decimal");
+        prop_assert_eq!(rational::nearest(&x).to_bits(), parsed.to_bits());
     }
 
     #[test]
@@ -110,7 +121,8 @@ proptest! {
         let x = RBig::from(p) / RBig::from(q) * RBig::try_from(2f64.powi(e)).expect("finite");
         let root = rational::nearest_root(&x);
         // The middles between the root and its neighbours enclose it.
-        let middle = |other: f64| (RBig::try_from(root).expect("finite") + RBig::try_from(other).expect("finite")) / RBig::from(2);
+        let value = |x: f64| RBig::try_from(x).expect("finite");
+        let middle = |other: f64| (value(root) + value(other)) / RBig::from(2);
         let (low, high) = (middle(root.next_down()), middle(root.next_up()));
         prop_assert!(&low * &low <= x && x <= &high * &high);
     }

@@ -1,9 +1,9 @@
 //! The discretisation error estimate against fields that are known exactly.
 //!
 //! GOAL: effectivity (estimated / true error in the energy norm) between 0.8 and 1.3; the largest
-//! von Mises stress within its estimate. MESH: structured, three sizes, both cuts of a cell, uniform and
-//! distorted. BOUNDARY: the exact tractions of the field all around, three restraints against rigid
-//! motion, so that the field is the exact solution on the polygon that is meshed.
+//! von Mises stress within its estimate. MESH: structured, three sizes, both cuts of a cell,
+//! uniform and distorted. BOUNDARY: the exact tractions of the field all around, three restraints
+//! against rigid motion, so that the field is the exact solution on the polygon that is meshed.
 
 mod fields;
 mod meshes;
@@ -149,14 +149,15 @@ fn effectivity_on_smooth_fields() {
     }
 }
 
-/// The estimate holds the truth and is not wider than ESTIMATE_WIDTH times the true stress error in the
-/// triangle with the largest stress.
+/// The estimate holds the truth and is not wider than ESTIMATE_WIDTH times the true stress error in
+/// the triangle with the largest stress.
 #[test]
 fn the_largest_von_mises_stress_lies_within_its_bar() {
     for m in BENCHMARKS.iter().flat_map(all_measured) {
         let missed = (m.exact_peak - m.peak.value).abs();
         println!(
-            "{}: exact {:.3}, found {:.3} +- {:.3}, recovered {:.3}; estimate / |error| {:.2}, estimate / stress error {:.2}",
+            "{}: exact {:.3}, found {:.3} +- {:.3}, recovered {:.3}; estimate / |error| {:.2}, \
+             estimate / stress error {:.2}",
             m.label,
             m.exact_peak,
             m.peak.value,
@@ -181,8 +182,8 @@ fn random(seed: &mut u64) -> f64 {
     (*seed >> 33) as f64 / 2f64.powi(30) - 1.0
 }
 
-/// Linear and quadratic stresses drawn at random, on meshes from 24 triangles up: the estimate is an
-/// estimate and may miss, but seldom, and hardly ever where the mesh is fair.
+/// Linear and quadratic stresses drawn at random, on meshes from 24 triangles up: the estimate is
+/// an estimate and may miss, but seldom, and hardly ever where the mesh is fair.
 #[test]
 fn bars_of_random_fields() {
     let mut seed = 3;

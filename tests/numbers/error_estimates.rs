@@ -1,5 +1,5 @@
-//! The bounds on rounding: true bounds, and not absurdly wide ones, on every setting; the numbers of
-//! `unilateral` beside exact ones.
+//! The bounds on rounding: true bounds, and not absurdly wide ones, on every setting; the numbers
+//! of `unilateral` beside exact ones.
 
 use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{ROUNDING_BOUND_WIDTH, Tolerance};

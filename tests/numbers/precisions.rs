@@ -1,5 +1,5 @@
-//! One solve on several settings: each against exact numbers, and the bound on the error against the
-//! error.
+//! One solve on several settings: each against exact numbers, and the bound on the error against
+//! the error.
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
@@ -199,7 +199,8 @@ fn small_moves() -> impl Strategy<Value = Vec<[f64; 2]>> {
 proptest! {
     #![proptest_config(fixed(30))]
 
-    /// How wide it is depends on the moduli: with 1e2 beside 1e6 a bound may be more than 1e3 errors.
+    /// How wide it is depends on the moduli: with 1e2 beside 1e6 a bound may be more than 1e3
+    /// errors.
     #[test]
     fn the_bound_holds_on_random_scenes(
         moves in small_moves(),
@@ -243,11 +244,13 @@ proptest! {
         let load: Vec<RBig> = b.iter().map(|x| value(*x)).collect();
         let x = Ldlt::new(&SparseSymmetric::of_lower(&a).map(|x| value(*x))).unwrap().solve(&load);
         for i in 0..b.len() {
-            let product: RBig = (0..b.len()).map(|j| value(a[(i, j)]) * &x[j]).fold(RBig::ZERO, |s, p| s + p);
+            let products = (0..b.len()).map(|j| value(a[(i, j)]) * &x[j]);
+            let product = products.fold(RBig::ZERO, |s, p| s + p);
             prop_assert_eq!(&product, &load[i]);
         }
         let sparse = SparseSymmetric::of_lower(&a).map(|x| value(*x) / RBig::from(3));
-        let lifted: Vec<RBig> = lift(&sparse, &load).unwrap().into_iter().map(|x| x / RBig::from(3)).collect();
+        let lifted = lift(&sparse, &load).unwrap().into_iter().map(|x| x / RBig::from(3));
+        let lifted: Vec<RBig> = lifted.collect();
         prop_assert_eq!(&lifted, &x);
         prop_assert_eq!(solve_dense(|i, j| value(a[(i, j)]), load).unwrap(), x);
     }
@@ -271,7 +274,11 @@ proptest! {
     }
 
     #[test]
-    fn a_bound_encloses_the_exact_result(x in -1e3..1e3_f64, y in -1e3..1e3_f64, z in -1e-3..1e-3_f64) {
+    fn a_bound_encloses_the_exact_result(
+        x in -1e3..1e3_f64,
+        y in -1e3..1e3_f64,
+        z in -1e-3..1e-3_f64,
+    ) {
         let value = |x: f64| RBig::try_from(x).unwrap();
         let [a, b, c] = [x, y, z].map(Bounded::from_f64);
         let [p, q, r] = [x, y, z].map(value);

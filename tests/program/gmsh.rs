@@ -299,28 +299,39 @@ fn error_of(text: &str, from: &str, to: &str) -> String {
 fn faults_of_2_2_are_named_with_their_line() {
     #[rustfmt::skip]
     let faults = [
-        ("$MeshFormat", "$NOD", r#"line 1: found "$NOD", expected $MeshFormat, the first line of a Gmsh mesh (MSH 2.2 or 4.1)"#),
-        ("2.2 0 8", "3 0 8", "line 2: the file has MSH version 3; versions 2.2 and 4.1 can be read: in Gmsh set \
-                              Mesh.MshFileVersion = 4.1 and save the mesh again"),
+        ("$MeshFormat", "$NOD",
+         "line 1: found \"$NOD\", expected $MeshFormat, the first line of a Gmsh mesh (MSH 2.2 or \
+          4.1)"),
+        ("2.2 0 8", "3 0 8",
+         "line 2: the file has MSH version 3; versions 2.2 and 4.1 can be read: in Gmsh set \
+          Mesh.MshFileVersion = 4.1 and save the mesh again"),
         ("2.2 0 8", "2.2 2 8", "line 2: found 2, expected 0 (text) or 1 (binary)"),
-        ("2.2 0 8", "2.2 0 4", "line 2: the file has numbers of 4 bytes, expected 8: save the mesh with a 64-bit Gmsh"),
+        ("2.2 0 8", "2.2 0 4",
+         "line 2: the file has numbers of 4 bytes, expected 8: save the mesh with a 64-bit Gmsh"),
         ("2 1 \"the", "4 1 \"the", "line 6: found 4, expected a dimension from 0 to 3"),
-        ("2 1 \"the body\"", "2 1 body", r#"line 6: found "body", expected a name in quotation marks"#),
-        ("1 7 \"base\"", "2 -1 \"base\"", "line 7: the name of the physical surface -1 comes a second time"),
+        ("2 1 \"the body\"", "2 1 body",
+         "line 6: found \"body\", expected a name in quotation marks"),
+        ("1 7 \"base\"", "2 -1 \"base\"",
+         "line 7: the name of the physical surface -1 comes a second time"),
         ("30 0 1 0", "0 0 1 0", "line 11: found 0, expected a node's number, 1 or more"),
         ("30 0 1 0", "30 0 one 0", r#"line 11: found "one", expected a node's coordinate"#),
-        ("30 0 1 0", "30 0 NaN 0", "line 11: node 30 has the coordinate NaN, expected a finite number"),
-        ("30 0 1 0", "30 0 -1e999 0", "line 11: node 30 has the coordinate -inf, expected a finite number"),
+        ("30 0 1 0", "30 0 NaN 0",
+         "line 11: node 30 has the coordinate NaN, expected a finite number"),
+        ("30 0 1 0", "30 0 -1e999 0",
+         "line 11: node 30 has the coordinate -inf, expected a finite number"),
         ("20 1 0 0", "10 1 0 0", "line 13: node 10 comes a second time"),
         ("$Nodes\n3", "$Nodes\n2", r#"line 13: found "20", expected $EndNodes"#),
-        ("$Nodes\n3", "$Nodes\n4", r#"line 14: found "$EndNodes", expected a node's number, 1 or more"#),
+        ("$Nodes\n3", "$Nodes\n4",
+         "line 14: found \"$EndNodes\", expected a node's number, 1 or more"),
         ("$Nodes\n3", "$Nodes\n3 3", r#"line 10: found "3", expected the end of the line"#),
         ("$EndNodes", "$EndNodes!", r#"line 14: found "$EndNodes!", expected $EndNodes"#),
-        ("$EndNodes\n", "$EndNodes\nmore\n", r#"line 15: found "more", expected the beginning of a section, such as $Nodes"#),
+        ("$EndNodes\n", "$EndNodes\nmore\n",
+         "line 15: found \"more\", expected the beginning of a section, such as $Nodes"),
         ("$Nodes", "$nodes", "line 21: found the end of the file, expected $Endnodes"),
-        ("9 2 2 1 4 10", "9 3 2 1 4 10", "line 17: element 9 is a four-node quadrangle; only points, two-node edges and \
-                                          three-node triangles can be read: in Gmsh set Mesh.RecombineAll = 0 and \
-                                          Mesh.ElementOrder = 1, and mesh in two dimensions"),
+        ("9 2 2 1 4 10", "9 3 2 1 4 10",
+         "line 17: element 9 is a four-node quadrangle; only points, two-node edges and three-node \
+          triangles can be read: in Gmsh set Mesh.RecombineAll = 0 and Mesh.ElementOrder = 1, and \
+          mesh in two dimensions"),
         ("8 1 2 -7", "9 1 2 -7", "line 18: element 9 comes a second time"),
         ("4 10 20 30", "4 10 20 40", "line 17: element 9 has the node 40, which is not in $Nodes"),
         ("9 2 2 1", "9 2 -2 1", "line 17: found -2, expected an element's number of tags"),
@@ -338,12 +349,16 @@ fn faults_of_4_1_are_named_with_their_line() {
         ("2 4 0 1\n", "4 4 0 1\n", "line 21: found 4, expected an entity's dimension, 0 to 3"),
         ("2 3 10 30", "2 4 10 30", "line 23: 4 nodes are declared but 3 are given"),
         ("2 2 8 9", "2 3 8 9", "line 30: 3 elements are declared but 2 are given"),
-        ("1 -3 1 1\n", "1 5 1 1\n", "line 29: the elements are part of the curve 5, which is not in $Entities; if the \
-                                     mesh is partitioned, save it unpartitioned"),
-        ("1 -3 1 1\n", "1 -3 15 1\n", "line 30: element 8 has dimension 0, but it is listed in an entity of dimension 1"),
-        ("1 -7 0", "33 -7 0", "line 11: found 33, expected at most 32 physical groups of an entity"),
+        ("1 -3 1 1\n", "1 5 1 1\n",
+         "line 29: the elements are part of the curve 5, which is not in $Entities; if the mesh is \
+          partitioned, save it unpartitioned"),
+        ("1 -3 1 1\n", "1 -3 15 1\n",
+         "line 30: element 8 has dimension 0, but it is listed in an entity of dimension 1"),
+        ("1 -7 0", "33 -7 0",
+         "line 11: found 33, expected at most 32 physical groups of an entity"),
         ("0 1 1 0\n", "0 1 2 0\n", "line 13: found \"$EndEntities\", expected an entity's tag"),
-        ("$EndElements\n", "$EndElements\n$Entities\n", "line 32: found $Entities after $Elements, expected $Entities first"),
+        ("$EndElements\n", "$EndElements\n$Entities\n",
+         "line 32: found $Entities after $Elements, expected $Entities first"),
     ];
     for (from, to, expected) in faults {
         assert_eq!(error_of(SMALL_4, from, to), expected, "{to:?}");

@@ -286,8 +286,9 @@ fn names_tags_and_lists_are_one() {
 /// Two groups of one name: which one a scene means cannot be told.
 #[test]
 fn a_name_belongs_to_one_group() {
-    let mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"top\"\n1 2 \"top\"\n2 3 \"body\"\n\
-        $EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n\
+    let mesh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n\
+        1 1 \"top\"\n1 2 \"top\"\n2 3 \"body\"\n$EndPhysicalNames\n\
+        $Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n\
         $Elements\n3\n1 1 2 1 1 1 2\n2 1 2 2 2 2 3\n3 2 2 3 1 1 2 3\n$EndElements\n";
     let scene = r#"{"mesh": "m.msh", "plane": "strain", "materials": {"body": {"E": 1, "nu": 0}},
         "restraints": [{"on": "top", "fix": ["x", "y"]}]}"#;

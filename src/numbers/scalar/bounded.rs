@@ -8,7 +8,7 @@
 
 use std::fmt;
 
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 use super::number::{Scalar, Subscript};
 use super::operators::operators;
@@ -30,6 +30,9 @@ const SMALL: f64 = 1e-280;
 const SMALL_ERROR: f64 = 1e-300;
 
 impl Bounded {
+    const ZERO: Self = Bounded { value: 0.0, error: 0.0 };
+    const ONE: Self = Bounded { value: 1.0, error: 0.0 };
+
     /// Makes a number within `error` of `value`.
     pub fn new(value: f64, error: f64) -> Self {
         // A NaN, as of 0 times an infinite error, bounds nothing.
@@ -77,6 +80,11 @@ impl Bounded {
     fn negative(x: Self) -> Self {
         Bounded { value: -x.value, ..x }
     }
+
+    /// Returns whether the number is known to be 0.
+    fn vanishes(x: Self) -> bool {
+        x.value == 0.0 && x.error == 0.0
+    }
 }
 
 operators!(Bounded);
@@ -95,22 +103,6 @@ impl PartialEq for Bounded {
 impl PartialOrd for Bounded {
     fn partial_cmp(&self, y: &Self) -> Option<std::cmp::Ordering> {
         self.value.partial_cmp(&y.value)
-    }
-}
-
-impl Zero for Bounded {
-    fn zero() -> Self {
-        Bounded { value: 0.0, error: 0.0 }
-    }
-    /// Returns whether the number is known to be 0.
-    fn is_zero(&self) -> bool {
-        self.value == 0.0 && self.error == 0.0
-    }
-}
-
-impl One for Bounded {
-    fn one() -> Self {
-        Bounded { value: 1.0, error: 0.0 }
     }
 }
 

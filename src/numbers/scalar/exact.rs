@@ -8,7 +8,6 @@ use std::marker::PhantomData;
 
 use dashu_int::UBig;
 use dashu_ratio::RBig;
-use num_traits::{One, Zero};
 
 use super::number::{Scalar, Subscript};
 use super::operators::operators;
@@ -32,11 +31,6 @@ struct Arena {
     numbers: Vec<(u32, RBig)>,
     epoch: u32,
 }
-
-/// Places of the two numbers that always stand there, made in epoch 0, and of the undefined one.
-const ZERO: u32 = 0;
-const ONE: u32 = 1;
-const UNDEFINED: u32 = u32::MAX;
 
 thread_local! {
     static ARENA: RefCell<Arena> =
@@ -63,11 +57,16 @@ impl Drop for Guard {
 }
 
 impl Exact {
+    /// The two numbers that always stand in the arena, made in epoch 0, and the undefined one.
+    const ZERO: Self = Exact::fixed(0);
+    const ONE: Self = Exact::fixed(1);
+    const UNDEFINED: Self = Exact::fixed(u32::MAX);
+
     /// Makes the number `x`; 0 and 1 take no place in the arena.
     pub fn new(x: RBig) -> Self {
         match () {
-            _ if x.is_zero() => Exact::fixed(ZERO),
-            _ if x.is_one() => Exact::fixed(ONE),
+            _ if x.is_zero() => Exact::ZERO,
+            _ if x.is_one() => Exact::ONE,
             _ => ARENA.with_borrow_mut(|arena| {
                 let at = u32::try_from(arena.numbers.len()).expect("fewer than 2^32 numbers");
                 arena.numbers.push((arena.epoch, x));
@@ -76,17 +75,13 @@ impl Exact {
         }
     }
 
-    fn fixed(at: u32) -> Self {
+    const fn fixed(at: u32) -> Self {
         Exact { at, epoch: 0, of_thread: PhantomData }
-    }
-
-    fn undefined() -> Self {
-        Exact::fixed(UNDEFINED)
     }
 
     /// Returns what `read` makes of the number, or nothing where it is undefined.
     fn with<R>(self, read: impl FnOnce(&RBig) -> R) -> Option<R> {
-        if self.at == UNDEFINED {
+        if self.is(Exact::UNDEFINED) {
             return None;
         }
         ARENA.with_borrow(|arena| {
@@ -98,29 +93,29 @@ impl Exact {
 
     fn combine(x: Self, y: Self, operation: impl FnOnce(&RBig, &RBig) -> RBig) -> Self {
         let result = x.with(|x| y.with(|y| operation(x, y))).flatten();
-        result.map_or(Exact::undefined(), Exact::new)
+        result.map_or(Exact::UNDEFINED, Exact::new)
     }
 
-    fn is(self, at: u32) -> bool {
-        self.at == at
+    fn is(self, fixed: Self) -> bool {
+        self.at == fixed.at
     }
 
     fn sum(x: Self, y: Self) -> Self {
         match () {
-            _ if x.is(ZERO) => y,
-            _ if y.is(ZERO) => x,
+            _ if x.is(Exact::ZERO) => y,
+            _ if y.is(Exact::ZERO) => x,
             _ => Exact::combine(x, y, |x, y| x + y),
         }
     }
 
     fn difference(x: Self, y: Self) -> Self {
-        if y.is(ZERO) { x } else { Exact::combine(x, y, |x, y| x - y) }
+        if y.is(Exact::ZERO) { x } else { Exact::combine(x, y, |x, y| x - y) }
     }
 
     fn product(x: Self, y: Self) -> Self {
         match () {
-            _ if x.is(ONE) => y,
-            _ if y.is(ONE) => x,
+            _ if x.is(Exact::ONE) => y,
+            _ if y.is(Exact::ONE) => x,
             _ => Exact::combine(x, y, |x, y| x * y),
         }
     }
@@ -128,14 +123,18 @@ impl Exact {
     /// Returns x/y, undefined where y is 0.
     fn quotient(x: Self, y: Self) -> Self {
         match () {
-            _ if y.is(ZERO) => Exact::undefined(),
-            _ if y.is(ONE) => x,
+            _ if y.is(Exact::ZERO) => Exact::UNDEFINED,
+            _ if y.is(Exact::ONE) => x,
             _ => Exact::combine(x, y, |x, y| x / y),
         }
     }
 
     fn negative(x: Self) -> Self {
-        Exact::zero() - x
+        Exact::ZERO - x
+    }
+
+    fn vanishes(x: Self) -> bool {
+        x.is(Exact::ZERO)
     }
 }
 
@@ -153,21 +152,6 @@ impl PartialOrd for Exact {
     }
 }
 
-impl Zero for Exact {
-    fn zero() -> Self {
-        Exact::fixed(ZERO)
-    }
-    fn is_zero(&self) -> bool {
-        self.is(ZERO)
-    }
-}
-
-impl One for Exact {
-    fn one() -> Self {
-        Exact::fixed(ONE)
-    }
-}
-
 impl Subscript for Exact {
     fn at(self) -> usize {
         let whole =
@@ -179,14 +163,14 @@ impl Subscript for Exact {
 impl Scalar for Exact {
     /// Returns exactly `x`, undefined for an infinity or NaN.
     fn from_f64(x: f64) -> Self {
-        RBig::try_from(x).map_or(Exact::undefined(), Exact::new)
+        RBig::try_from(x).map_or(Exact::UNDEFINED, Exact::new)
     }
     /// Rounds ties to even; an undefined number is NaN.
     fn to_f64(self) -> f64 {
         self.with(rational::nearest).unwrap_or(f64::NAN)
     }
     fn from_decimal(x: f64) -> Self {
-        rational::of_decimal(x).map_or(Exact::undefined(), Exact::new)
+        rational::of_decimal(x).map_or(Exact::UNDEFINED, Exact::new)
     }
     fn to_rational(self) -> Option<RBig> {
         self.with(RBig::clone)
@@ -198,7 +182,7 @@ impl Scalar for Exact {
     fn over_common(values: Vec<Self>) -> (Vec<Self>, Self) {
         let Some(fractions) = values.iter().map(|x| x.to_rational()).collect::<Option<Vec<_>>>()
         else {
-            return (values, Exact::one());
+            return (values, Exact::ONE);
         };
         let common =
             fractions.iter().fold(UBig::ONE, |common, x| rational::lcm(common, x.denominator()));
@@ -210,14 +194,14 @@ impl Scalar for Exact {
         self.with(|x| rational::decimal(x, 40))
     }
     fn scale(_: Self) -> Self {
-        Exact::one()
+        Exact::ONE
     }
     /// Rounds once, at the root.
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
         (factor * scale * scale * square).with(rational::nearest_root).unwrap_or(f64::NAN)
     }
     fn is_finite(self) -> bool {
-        !self.is(UNDEFINED)
+        !self.is(Exact::UNDEFINED)
     }
 }
 

@@ -10,14 +10,12 @@
 use std::fmt;
 
 use dashu_ratio::RBig;
-use num_traits::{One, Zero};
 
 use super::number::{Scalar, Subscript};
 use super::operators::operators;
 use super::rational;
 
-/// hi + lo, with hi = the `f64` nearest to the sum. An overflow or NaN stands in hi, and lo is then
-/// 0.
+/// hi + lo, hi being the `f64` nearest to the sum. An overflow or NaN stands in hi; lo is then 0.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct F64x2 {
     hi: f64,
@@ -25,6 +23,9 @@ pub struct F64x2 {
 }
 
 impl F64x2 {
+    const ZERO: Self = F64x2 { hi: 0.0, lo: 0.0 };
+    const ONE: Self = F64x2 { hi: 1.0, lo: 0.0 };
+
     /// Returns the number nearest to `x`.
     pub fn nearest(x: &RBig) -> Self {
         let hi = rational::nearest(x);
@@ -77,6 +78,10 @@ impl F64x2 {
         F64x2 { hi: -x.hi, lo: -x.lo }
     }
 
+    fn vanishes(x: Self) -> bool {
+        x.hi == 0.0
+    }
+
     /// Returns `sum`, or where it is not finite what `plain`, the same operation in `f64`, says.
     fn settled([hi, lo]: [f64; 2], plain: f64) -> Self {
         match (hi.is_finite() && lo.is_finite(), plain.is_finite()) {
@@ -107,21 +112,6 @@ fn fast_two_sum(a: f64, b: f64) -> [f64; 2] {
 fn two_product(a: f64, b: f64) -> [f64; 2] {
     let product = a * b;
     [product, a.mul_add(b, -product)]
-}
-
-impl Zero for F64x2 {
-    fn zero() -> Self {
-        F64x2 { hi: 0.0, lo: 0.0 }
-    }
-    fn is_zero(&self) -> bool {
-        self.hi == 0.0
-    }
-}
-
-impl One for F64x2 {
-    fn one() -> Self {
-        F64x2 { hi: 1.0, lo: 0.0 }
-    }
 }
 
 impl Subscript for F64x2 {

@@ -94,8 +94,7 @@ pub trait Scalar:
         Self::scaled_root(Self::one(), scale, a * a + b * b)
     }
 
-    /// Returns a whole number of the paper's tables (a node or element number, a restraint) as a
-    /// scalar.
+    /// Returns a whole number of the paper's tables (of a node, or a restraint) as a scalar.
     fn from_number(n: usize) -> Self {
         Self::from_f64(n as f64)
     }

@@ -1,7 +1,8 @@
 //! The operators of a scalar that is not the machine's own.
 
-/// Implements `+ − · /`, the sign, and `+= −= ·=` for a type by its own functions `sum`,
-/// `difference`, `product`, `quotient` and `negative`.
+/// Implements `+ − · /`, the sign, `+= −= ·=`, 0 and 1 for a type by its own functions `sum`,
+/// `difference`, `product`, `quotient`, `negative` and `vanishes`, and its constants `ZERO` and
+/// `ONE`.
 macro_rules! operators {
     ($scalar:ident) => {
         operators!(@plain $scalar: Add add sum, Sub sub difference, Mul mul product,
@@ -12,6 +13,19 @@ macro_rules! operators {
             type Output = Self;
             fn neg(self) -> Self {
                 $scalar::negative(self)
+            }
+        }
+        impl num_traits::Zero for $scalar {
+            fn zero() -> Self {
+                $scalar::ZERO
+            }
+            fn is_zero(&self) -> bool {
+                $scalar::vanishes(*self)
+            }
+        }
+        impl num_traits::One for $scalar {
+            fn one() -> Self {
+                $scalar::ONE
             }
         }
     };

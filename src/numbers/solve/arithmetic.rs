@@ -45,23 +45,29 @@ choices! {
     }
 }
 
-/// In which numbers, by which solver, and to which tolerance a run computes.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+/// In which numbers, by which solver, and to which tolerance a run computes; its docs are the
+/// command line's help.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, clap::Args, serde::Serialize, serde::Deserialize,
+)]
 pub struct Arithmetic {
+    /// f64, f32, f64x2 (31 digits), f64-bounded (f64 with a bound on the error of the
+    /// displacements), exact (rational numbers, for some hundred equations).
+    #[arg(long, value_name = "NAME", default_value = "f64")]
     pub scalar: ScalarName,
-    /// The solver; with none, the scalar's own: dense LU in numbers of the machine, sparse LDLᵀ in
-    /// others.
+    /// dense-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients to --tol), refined
+    /// (factors in the scalar below, refined to --tol) [default: dense-lu; sparse-cholesky in
+    /// f64x2, exact and under unilateral].
+    #[arg(long, value_name = "NAME")]
     pub solver: Option<Solver>,
-    /// The largest relative residual |A x − b| / (|A| |x| + |b|) that `cg` and `refined` stop at;
-    /// with none, 16 eps of the scalar.
+    /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop [default:
+    /// 16 eps of the scalar].
+    #[arg(long, value_name = "T")]
     pub tol: Option<f64>,
+    /// What the numbers of the scene stand for: binary, the exact value of their f64; decimal, the
+    /// shortest decimal that reads back to it.
+    #[arg(long, value_name = "NAME", default_value = "binary")]
     pub inputs: Inputs,
-}
-
-impl Default for Arithmetic {
-    fn default() -> Self {
-        Arithmetic { scalar: ScalarName::F64, solver: None, tol: None, inputs: Inputs::Binary }
-    }
 }
 
 impl Arithmetic {

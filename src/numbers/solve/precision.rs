@@ -52,16 +52,14 @@ impl From<NotConverged> for Unsolved {
     }
 }
 
+/// What came of A x = b.
+pub type Outcome<T> = Result<Solved<T>, Unsolved>;
+
 pub trait Precision: Scalar {
-    /// Solves A x = `b` by `solver`, which [`check`](super::arithmetic::Arithmetic::check) must
+    /// Solves `a` x = `b` by a solver that [`check`](super::arithmetic::Arithmetic::check) must
     /// have passed; every solver but `dense-lu` takes A for symmetric and reads its lower triangle.
     /// Errors: tells that A is singular, or that an iteration did not converge.
-    fn solve(
-        matrix: DMatrix<Self>,
-        b: &DVector<Self>,
-        solver: Solver,
-        tol: Option<f64>,
-    ) -> Result<Solved<Self>, Unsolved>;
+    fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self>;
 
     /// Does `work`, and frees every number that it made but its result.
     fn sweep<E>(work: impl FnOnce() -> Result<Solved<Self>, E>) -> Result<Solved<Self>, E> {
@@ -73,53 +71,38 @@ pub trait Precision: Scalar {
 const TOL: f64 = 16.0;
 
 impl Precision for f64 {
-    fn solve(
-        matrix: DMatrix<f64>,
-        b: &DVector<f64>,
-        solver: Solver,
-        tol: Option<f64>,
-    ) -> Result<Solved<f64>, Unsolved> {
-        match solver {
+    fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
+        match by {
             Solver::Refined => {
                 let tol = tol.unwrap_or(TOL * f64::EPSILON);
-                refined::<f32, f64>(&SparseSymmetric::of_lower(&matrix), b, tol)
+                refined::<f32, f64>(&SparseSymmetric::of_lower(&a), b, tol)
             }
-            _ => native(matrix, b, solver, tol),
+            _ => native(a, b, by, tol),
         }
     }
 }
 
 impl Precision for f32 {
-    fn solve(
-        matrix: DMatrix<f32>,
-        b: &DVector<f32>,
-        solver: Solver,
-        tol: Option<f64>,
-    ) -> Result<Solved<f32>, Unsolved> {
-        native(matrix, b, solver, tol)
+    fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
+        native(a, b, by, tol)
     }
 }
 
 impl Precision for Bounded {
     /// Solves as in `f64`, digit for digit; every entry of x carries the bound on the largest error
     /// of an entry.
-    fn solve(
-        matrix: DMatrix<Bounded>,
-        b: &DVector<Bounded>,
-        solver: Solver,
-        tol: Option<f64>,
-    ) -> Result<Solved<Bounded>, Unsolved> {
-        let (values, f) = (matrix.map(Scalar::to_f64), b.map(Scalar::to_f64));
-        let (factors, solved): (Box<dyn Factors<f64>>, _) = if solver == Solver::DenseLu {
+    fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
+        let (values, f) = (a.map(Scalar::to_f64), b.map(Scalar::to_f64));
+        let (factors, solved): (Box<dyn Factors<f64>>, _) = if by == Solver::DenseLu {
             let lu = DenseLu::new(values)?;
             let x = lu.solve(&f);
             let residual = lu.residual(&x, &f);
             (Box::new(lu), Solved { x, residual })
         } else {
             let factors = SparseCholesky::new(SparseSymmetric::of_lower(&values))?;
-            (Box::new(factors), f64::solve(values, &f, solver, tol)?)
+            (Box::new(factors), f64::solve(values, &f, by, tol)?)
         };
-        let column = |j: usize| matrix.column(j).into_iter().enumerate();
+        let column = |j: usize| a.column(j).into_iter().enumerate();
         let entries = (0..b.len()).flat_map(|j| column(j).map(move |(i, a)| (i, j, *a)));
         let entries = entries.filter(|(_, _, a)| !a.is_zero());
         let error = error_bound(&*factors, entries, b, &solved.x);
@@ -128,19 +111,14 @@ impl Precision for Bounded {
 }
 
 impl Precision for F64x2 {
-    fn solve(
-        matrix: DMatrix<F64x2>,
-        b: &DVector<F64x2>,
-        solver: Solver,
-        tol: Option<f64>,
-    ) -> Result<Solved<F64x2>, Unsolved> {
+    fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         let tol = tol.unwrap_or(TOL * <F64x2 as Field>::EPSILON);
-        let sparse = SparseSymmetric::of_lower(&matrix);
-        let x = match solver {
+        let sparse = SparseSymmetric::of_lower(&a);
+        let x = match by {
             Solver::Refined => return refined::<f64, F64x2>(&sparse, b, tol),
             Solver::Cg => conjugate_gradients(&sparse, b, tol)?,
             Solver::DenseLu => {
-                DVector::from_vec(solve_dense(|i, j| matrix[(i, j)], b.as_slice().to_vec())?)
+                DVector::from_vec(solve_dense(|i, j| a[(i, j)], b.as_slice().to_vec())?)
             }
             _ => DVector::from_vec(Ldlt::new(&sparse)?.solve(b.as_slice())),
         };
@@ -149,19 +127,14 @@ impl Precision for F64x2 {
 }
 
 impl Precision for Exact {
-    fn solve(
-        matrix: DMatrix<Exact>,
-        b: &DVector<Exact>,
-        solver: Solver,
-        _: Option<f64>,
-    ) -> Result<Solved<Exact>, Unsolved> {
+    fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, _: Option<f64>) -> Outcome<Self> {
         // On the rationals themselves: every intermediate one is freed at once.
         let value = |x: Exact| x.to_rational().expect("the matrix is finite");
         let b: Vec<RBig> = b.iter().map(|x| value(*x)).collect();
-        let x = match solver {
-            Solver::DenseLu => solve_dense(|i, j| value(matrix[(i, j)]), b)?,
+        let x = match by {
+            Solver::DenseLu => solve_dense(|i, j| value(a[(i, j)]), b)?,
             _ => {
-                let matrix = SparseSymmetric::of_lower(&matrix).map(|x| value(*x));
+                let matrix = SparseSymmetric::of_lower(&a).map(|x| value(*x));
                 match lift(&matrix, &b) {
                     Some(x) => x,
                     // The prime was an unlucky one, or the matrix is singular: LDLᵀ names the
@@ -185,20 +158,15 @@ impl Precision for Exact {
 }
 
 /// Solves in a scalar of the machine by faer, or by conjugate gradients.
-fn native<T: Native>(
-    matrix: DMatrix<T>,
-    b: &DVector<T>,
-    solver: Solver,
-    tol: Option<f64>,
-) -> Result<Solved<T>, Unsolved> {
-    if solver == Solver::DenseLu {
-        let lu = DenseLu::new(matrix)?;
+fn native<T: Native>(a: DMatrix<T>, b: &DVector<T>, by: Solver, tol: Option<f64>) -> Outcome<T> {
+    if by == Solver::DenseLu {
+        let lu = DenseLu::new(a)?;
         let x = lu.solve(b);
         return Ok(Solved { residual: lu.residual(&x, b), x });
     }
-    let sparse = SparseSymmetric::of_lower(&matrix);
-    let x = match solver {
-        Solver::DenseCholesky => DenseCholesky::new(&matrix)?.solve(b),
+    let sparse = SparseSymmetric::of_lower(&a);
+    let x = match by {
+        Solver::DenseCholesky => DenseCholesky::new(&a)?.solve(b),
         Solver::Cg => conjugate_gradients(&sparse, b, tol.unwrap_or(TOL * T::EPSILON))?,
         _ => SparseCholesky::new(sparse.clone())?.solve(b),
     };
@@ -210,7 +178,7 @@ fn refined<L: Native, T: Scalar>(
     matrix: &SparseSymmetric<T>,
     b: &DVector<T>,
     tol: f64,
-) -> Result<Solved<T>, Unsolved> {
+) -> Outcome<T> {
     let factors = SparseCholesky::new(matrix.map(|x| L::from_f64(x.to_f64())))?;
     let x = refine(&factors, matrix, b, tol)?;
     Ok(Solved { residual: matrix.residual(&x, b), x })

@@ -28,8 +28,7 @@ pub struct SparseSymmetric<T = f64> {
 }
 
 impl<T: Clone> SparseSymmetric<T> {
-    /// Sums entries (row, column, value) into an n x n matrix; those above the diagonal are left
-    /// out.
+    /// Sums entries (row, column, value) into an n x n matrix, without those above the diagonal.
     pub fn new(n: usize, entries: impl Iterator<Item = (usize, usize, T)>) -> Self
     where
         T: AddAssign,

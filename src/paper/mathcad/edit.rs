@@ -38,7 +38,6 @@ pub enum EditError {
         found: String,
         expected: &'static str,
     },
-    /// The listing does not have the lines to be replaced.
     #[error("{listing} has no lines {first}-{last} of {wanted} in order")]
     NoSuchLines { listing: String, wanted: String, first: usize, last: usize },
     #[error(transparent)]

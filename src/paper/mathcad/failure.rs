@@ -59,12 +59,10 @@ impl Failure {
 /// Why a listing failed. Where Mathcad's own words are known, the message begins with them.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Cause {
-    /// An entry that the array does not have.
     #[error(
         "This array index is invalid for this array. {name}{subscripts} of {rows} x {cols} entries."
     )]
     IndexOutside { name: String, subscripts: Subscripts, rows: usize, cols: usize },
-    /// A subscript below `ORIGIN`.
     #[error(
         "This array index is invalid for this array. {name}{subscripts} lies below \
          ORIGIN = {origin}."
@@ -72,7 +70,6 @@ pub enum Cause {
     IndexBelowOrigin { name: String, subscripts: Subscripts, origin: i32 },
     #[error("An array index must be an integer: {name}{subscripts}.")]
     IndexNotWhole { name: String, subscripts: Subscripts },
-    /// A division by zero.
     #[error(
         "Found a singularity while evaluating this expression. You may be dividing by zero. \
          {numerator}/{denominator}."
@@ -87,10 +84,8 @@ pub enum Cause {
     Undefined { name: String },
     #[error("Expected {expected}, found {found}.")]
     Kind { expected: &'static str, found: String },
-    /// Arrays whose sizes do not go together.
     #[error("These array sizes do not match: {left} {operation} {right}.")]
     Sizes { operation: &'static str, left: String, right: String },
-    /// A function called with another number of arguments than it takes.
     #[error("This function has {expected} arguments; {found} were given.")]
     Arguments { expected: usize, found: usize },
     #[error("{name}: {message}.")]
@@ -99,7 +94,6 @@ pub enum Cause {
         /// The reason, in the function's own words.
         message: String,
     },
-    /// A program that ended without evaluating a statement.
     #[error("The program has no value.")]
     NoValue,
     /// The listing asks for more than [`Limits`](super::settings::Limits) allows.

@@ -10,7 +10,6 @@
 //! A bar closes what the last open bracket is a bar for, if an operand stands before it; otherwise
 //! it opens.
 
-use std::collections::BTreeMap;
 use std::fmt;
 
 use chumsky::span::SimpleSpan;
@@ -52,38 +51,33 @@ const SIGNS: [&str; 24] = [
 
 /// The names of a listing in the order of their first appearance.
 #[derive(Clone, Debug, Default)]
-pub struct Names {
-    names: Vec<String>,
-    slots: BTreeMap<String, Slot>,
-}
+pub struct Names(Vec<String>);
 
 impl Names {
     /// Returns the slot of `name`, a new one where the name is new.
     fn intern(&mut self, name: &str) -> Slot {
-        if let Some(slot) = self.find(name) {
-            return slot;
-        }
-        self.names.push(name.into());
-        self.slots.insert(name.into(), self.names.len() - 1);
-        self.names.len() - 1
+        self.find(name).unwrap_or_else(|| {
+            self.0.push(name.into());
+            self.0.len() - 1
+        })
     }
 
     /// Returns the slot of `name`, if the listing has it.
     pub fn find(&self, name: &str) -> Option<Slot> {
-        self.slots.get(name).copied()
+        self.0.iter().position(|known| known == name)
     }
 
     pub fn name(&self, slot: Slot) -> &str {
-        &self.names[slot]
+        &self.0[slot]
     }
 
     /// Returns all names, in the order of their slots.
     pub fn all(&self) -> impl Iterator<Item = &str> {
-        self.names.iter().map(String::as_str)
+        self.0.iter().map(String::as_str)
     }
 
     pub fn len(&self) -> usize {
-        self.names.len()
+        self.0.len()
     }
 }
 

@@ -23,8 +23,7 @@ pub enum Conjunction {
     Eager,
 }
 
-/// What a range with its end below its start, such as `1 .. 0`, runs through. Not known for Mathcad
-/// 14.
+/// What a range that ends below its start, as `1 .. 0`, runs through. Not known for Mathcad 14.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Descending {
     /// The range counts down: 1, then 0.

@@ -8,8 +8,7 @@ use thiserror::Error;
 use super::array::{Column, Table};
 use crate::numbers::scalar::Scalar;
 
-/// A value of a listing. Copying one is cheap: arrays are shared until one of the copies is written
-/// to.
+/// A value of a listing. Copying one is cheap: arrays are shared until a copy is written to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     Number(f64),

@@ -76,7 +76,7 @@ choices! {
 
 /// A choice for each ambiguity of the print (`listings/READING.md`, section 4). The scene and the
 /// variant set R6 and R7 unless the reading does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
     /// R1: the weights loop beside the zeroing loop, or inside it.
     pub r1: LoopPlace,
@@ -94,21 +94,6 @@ pub struct Reading {
     pub r7: Option<Schedule>,
     /// R8: the unit of c_tol.
     pub r8: ToleranceUnit,
-}
-
-impl Default for Reading {
-    fn default() -> Self {
-        Reading {
-            r1: LoopPlace::Beside,
-            r2: RestraintIndex::Odd,
-            r3: Wedge::Collect,
-            r4: Order::Guarded,
-            r5: NodeTable::Node,
-            r6: None,
-            r7: None,
-            r8: ToleranceUnit::Millimetre,
-        }
-    }
 }
 
 impl FromStr for Reading {

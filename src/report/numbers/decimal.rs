@@ -11,8 +11,7 @@ impl Decimal {
     /// The number 1.
     pub const ONE: Self = Self { digits: 1, place: 0 };
 
-    /// Returns the round number (1, 2 or 5 times a power of ten) that is nearest to `x` > 0 as a
-    /// ratio.
+    /// Returns the round number (1, 2 or 5 times a power of ten) nearest to `x` > 0 as a ratio.
     pub fn nearest_round(x: f64) -> Self {
         Self::round(x, [2.0, 10.0, 50.0].map(f64::sqrt))
     }
@@ -66,8 +65,7 @@ pub fn decimals(place: i32) -> usize {
     usize::try_from(-place).unwrap_or(0)
 }
 
-/// Returns the decimal exponent of `x`, as its shortest text has it; 0 of 0 and of what is not
-/// finite.
+/// Returns the decimal exponent of `x`, as its shortest text has it; 0 of 0, infinity and NaN.
 pub fn exponent(x: f64) -> i32 {
     if x.is_finite() { split(&format!("{x:e}")).1 } else { 0 }
 }

@@ -42,8 +42,7 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10{}", exponent.to_string().chars().map(raised).collect::<String>())
 }
 
-/// Returns the exponent to take out of numbers of this size: 0 of handy ones, else a multiple of
-/// three.
+/// Returns the exponent to take out of numbers of this size: 0 if handy, else a multiple of 3.
 pub fn common_exponent(largest: f64) -> i32 {
     let exponent = exponent(largest);
     if (-2..5).contains(&exponent) { 0 } else { exponent.div_euclid(3) * 3 }

@@ -22,8 +22,7 @@ const COLOURS: [&str; 8] =
 pub struct Axis<'a> {
     /// The quantity along the axis, with its unit.
     pub label: &'a str,
-    /// Whether powers of ten stand at equal distances; values that are not positive are then left
-    /// out.
+    /// Whether powers of ten stand at equal distances; other than positive values are left out.
     pub logarithmic: bool,
 }
 

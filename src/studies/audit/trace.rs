@@ -31,8 +31,7 @@ pub enum Product {
 }
 
 pub struct Step {
-    /// The contact node's place in `cnt`, or the element's row in `EL`; nothing outside those
-    /// loops.
+    /// The contact node's place in `cnt`, or the element's row in `EL`; nothing outside the loops.
     pub turn: Option<usize>,
     /// The number of the printed line, from 1.
     pub line: usize,
@@ -133,8 +132,7 @@ impl Access {
     }
 }
 
-/// A number as a number, a small array as its entries (a matrix as its rows), anything else by its
-/// kind.
+/// A number as a number, a small array as its entries (a matrix as rows), all else by its kind.
 fn json(value: &Value) -> Json {
     match value {
         Value::Number(x) => Json::from(*x),

@@ -104,8 +104,7 @@ impl Hertz {
         (self.size as f64 * FACE * FRAC_PI_2).round() as usize
     }
 
-    /// Adds the block, 2 x 4 radii: ellipses as far as 0.8 radii, then rows that turn into its
-    /// sides.
+    /// Adds the block, 2 x 4 radii: ellipses as far as 0.8 radii, then rows turning into its sides.
     fn add_block(&self, mesh: &mut MeshBuilder) {
         let (r, c) = (self.radius, self.face());
         let rings = confocal::rings(self.segments(), (0.8 * r / c).acosh());

@@ -108,7 +108,7 @@ impl Hole {
         Ok(tractions.into_iter().fold(scene, |scene, (group, t)| scene.traction(group, t)))
     }
 
-    /// sigma_x, sigma_y, tau_xy of the closed form: unit tension in x, hole of radius 1 at the origin.
+    /// sigma_x, sigma_y, tau_xy of the closed form: unit tension in x, hole of radius 1 at (0, 0).
     pub fn stress([x, y]: [f64; 2]) -> [f64; 3] {
         let (a2, angle) = (1.0 / (x * x + y * y), y.atan2(x));
         let a4 = 1.5 * a2 * a2;

@@ -12,10 +12,10 @@ parameters! {
     /// A flat stiff punch, frictionless, on a half plane: p(x) = P / (pi sqrt(a^2 - x^2)).
     ///
     /// Half model: punch a x a with a = 1 and E = 1e7, foundation E = 1000, nu = 0.3, plane strain,
-    /// P = 2 on both halves (1 on the model). The foundation ends, restrained, along an ellipse that is
-    /// nearly a circle of radius --outer. Nodes on the contact line stand at a cos(angle), equal
-    /// angles apart, so each carries the same share of P in the closed form, the two end nodes half
-    /// of it.
+    /// P = 2 on both halves (1 on the model). The foundation ends, restrained, along an ellipse
+    /// that is nearly a circle of radius --outer. Nodes on the contact line stand at a cos(angle),
+    /// equal angles apart, so each carries the same share of P in the closed form, the two end
+    /// nodes half of it.
     ///
     /// Source: K. L. Johnson, Contact Mechanics, 1985, section 2.8.
     #[command(after_help = "\

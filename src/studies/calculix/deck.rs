@@ -186,8 +186,7 @@ fn step(problem: &Problem) -> String {
     text + "*END STEP\n"
 }
 
-/// `x` in at most 20 characters, with as many of its digits as fit: all that it has, or at least
-/// 13.
+/// `x` in at most 20 characters, with as many of its digits as fit: all, or at least 13.
 pub fn field(x: f64) -> String {
     let exact = [format!("{x}"), format!("{x:e}")];
     let rounded = (0..WIDTH).rev().map(|digits| format!("{x:.digits$e}"));

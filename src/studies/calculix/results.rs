@@ -80,8 +80,7 @@ fn row<const I: usize, const V: usize>(line: &str) -> Result<([usize; I], [f64; 
     parsed().ok_or_else(|| not_understood(line))
 }
 
-/// A finite number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent has three
-/// digits.
+/// A finite number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent is long.
 pub fn float(word: &str) -> Option<f64> {
     let plain = word.parse::<f64>().ok();
     let short = || {

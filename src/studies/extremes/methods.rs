@@ -14,8 +14,7 @@ pub const SINGLE: ScalarName = ScalarName::F32;
 pub const DOUBLE: ScalarName = ScalarName::F64;
 pub const SCALARS: [ScalarName; 3] = [SINGLE, DOUBLE, ScalarName::F64x2];
 
-/// Displacements of the variants that join the bodies: `tied` in each scalar, `unilateral` in
-/// `f64`.
+/// Displacements of the variants that join the bodies: `tied` in each scalar, `unilateral` in f64.
 pub fn joined(blocks: BlocksOf) -> Vec<Method> {
     let mut methods = in_each_scalar(Variant::Tied, blocks);
     methods.push(in_scalar(Variant::Unilateral, DOUBLE, blocks));
@@ -57,8 +56,7 @@ pub fn power_of_two(x: f64) -> f64 {
     }
 }
 
-/// `tied` with the first node moved to the origin, in f64, before anything is rounded to the
-/// scalar.
+/// `tied` with the first node moved to the origin, in f64, before rounding to the scalar.
 pub fn shifted(scalar: ScalarName, blocks: BlocksOf) -> Method {
     remedied("origin shifted", scalar, blocks, |scene| {
         let first = scene.mesh.xy(1);

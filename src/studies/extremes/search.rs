@@ -71,8 +71,7 @@ impl Search {
         Difference { gap, weight, dy: usize::from(Scalar::abs(gap) < T::from_f64(self.c_tll)) }
     }
 
-    /// A triangle below the edge, and one above the contact node. Its nodes 1, 2 and 4 are a, b and
-    /// n.
+    /// A triangle below the edge, and one above the contact node. Nodes 1, 2, 4 are a, b, n.
     fn scene(&self) -> SceneBuilder {
         let ([ax, ay], [bx, by], [nx, ny]) = (self.a, self.b, self.n);
         let (ex, ey) = (bx - ax, by - ay);
@@ -128,8 +127,7 @@ pub fn projected(name: &str, of: Of, search: SearchOf, origin: Origin) -> Vec<Me
 /// The origin of the coordinates of a search, length.
 type Origin = fn(&Search) -> [f64; 2];
 
-/// The printed formulas in `T`, or the projected ones about an origin, against the same in exact
-/// numbers.
+/// The printed formulas in `T`, or the projected ones about an origin, against exact ones.
 fn method<T: Scalar>(
     name: &str,
     scalar: ScalarName,

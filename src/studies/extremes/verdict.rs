@@ -43,8 +43,7 @@ impl Verdict {
         }
     }
 
-    /// Digits kept, at most `carried`; nothing of a run that was refused, or that nothing stands
-    /// beside.
+    /// Digits kept, at most `carried`; nothing of a run that was refused or is compared with none.
     pub fn digits(&self, carried: f64) -> Option<f64> {
         match self {
             Verdict::Exact => Some(carried),

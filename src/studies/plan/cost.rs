@@ -27,8 +27,7 @@ pub(super) struct Work<'a> {
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cost {
-    /// Dense 2R x 2R matrices of `f64` in memory at once: what is compared with the memory that is
-    /// free.
+    /// Dense 2R x 2R matrices of `f64` in memory at once: what is compared with the free memory.
     pub dense_matrices: usize,
     /// Contact states that are likely to come: each is factored once.
     pub states: usize,

@@ -142,8 +142,7 @@ impl Plan {
         self.half.is_some() && (self.contact.is_none() || self.variant == Variant::Unilateral)
     }
 
-    /// Checks that the dense matrices of the run fit in `free` bytes: what `solve` asks before it
-    /// starts.
+    /// Checks that the dense matrices of the run fit in `free` bytes: what `solve` asks first.
     pub fn check_memory(&self, free: Option<u128>) -> Result<(), InputError> {
         memory::check(self.nodes, self.cost.dense_matrices, free)
     }

@@ -45,8 +45,7 @@ pub struct Reached {
     pub solution: Solution,
     /// What was tried, the last one with success.
     pub attempts: Vec<Attempt>,
-    /// The mesh's own error, estimated: relative, in the energy norm; infinite where nothing is
-    /// known.
+    /// The mesh's own error, estimated: relative, in the energy norm; infinite where unknown.
     pub mesh: f64,
 }
 
@@ -121,8 +120,7 @@ fn rounding_error(solution: &Solution) -> (f64, bool) {
     ((residual + rounding) * amplification.unwrap_or(f64::INFINITY), false)
 }
 
-/// Eq. (1) for what the listing finds in the initial shape; nothing where it fails, as the run then
-/// does.
+/// Eq. (1) for what the listing finds in the initial shape; nothing where it and the run fail.
 fn first_constraints(model: &Model, reading: &Reading) -> Vec<Constraint> {
     let call = model.has_contact().then(|| Call::c_cnt(model, reading, &model.nodes).ok());
     let linked = call.flatten().map_or(Vec::new(), |call| door::linked(&call.sheet, &call.pairs));

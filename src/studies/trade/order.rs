@@ -11,8 +11,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Order {
     pub quantity: &'static str,
-    /// Differences between neighbouring meshes, relative to the finest one's value, the coarsest
-    /// first.
+    /// Differences between neighbouring meshes, over the finest one's value, the coarsest first.
     pub differences: Vec<f64>,
     /// p; nothing where differences do not fall, or are fewer than two.
     pub order: Option<f64>,

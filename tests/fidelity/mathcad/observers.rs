@@ -1,8 +1,9 @@
 //! Observers that watch a run.
 
 use super::program;
-use plane_contact::paper::mathcad::observe::{Executed, OperandCoverage};
-use plane_contact::paper::mathcad::{Array, Coverage, Limits, Observer, Recorder, Settings, Value};
+use crate::common::coverage::{Coverage, OperandCoverage};
+use plane_contact::paper::mathcad::observe::Executed;
+use plane_contact::paper::mathcad::{Array, Limits, Observer, Recorder, Settings, Value};
 
 /// Runs the program with v = (1 2 3)ᵀ and x = 5.
 fn observe(lines: &str, observer: &mut impl Observer) {

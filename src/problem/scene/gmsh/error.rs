@@ -32,40 +32,31 @@ impl fmt::Display for Place {
 
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Fault {
-    /// The format requires `expected` where the file has something else.
     #[error("found {found}, expected {expected}")]
     Unexpected { found: String, expected: String },
-    /// The file has a version of the format that cannot be read.
     #[error(
         "the file has MSH version {found}; versions 2.2 and 4.1 can be read: in Gmsh set \
          Mesh.MshFileVersion = 4.1 and save the mesh again"
     )]
     Version { found: String },
-    /// The numbers of the file have another width than eight bytes.
     #[error("the file has numbers of {found} bytes, expected 8: save the mesh with a 64-bit Gmsh")]
     DataSize { found: i32 },
-    /// The file ends without a section that it must have.
     #[error("the file has no section ${section}")]
     MissingSection { section: &'static str },
     #[error("a second section ${section}, expected one")]
     RepeatedSection { section: String },
-    /// A number or tag that must be unique occurs a second time.
     #[error("{what} comes a second time")]
     Repeated { what: String },
-    /// A total that the file declares differs from the sum over its blocks.
     #[error("{declared} {what} are declared but {found} are given")]
     Count { what: &'static str, declared: usize, found: usize },
-    /// A coordinate is infinite or not a number.
     #[error("node {node} has the coordinate {value}, expected a finite number")]
     Coordinate { node: usize, value: f64 },
-    /// An element is of a kind that cannot be read.
     #[error(
         "element {element} is {kind}; only points, two-node edges and three-node triangles can be \
          read: in Gmsh set Mesh.RecombineAll = 0 and Mesh.ElementOrder = 1, and mesh in two \
          dimensions"
     )]
     Kind { element: usize, kind: String },
-    /// An element is listed in a geometric entity of another dimension.
     #[error(
         "element {element} has dimension {found}, but it is listed in an entity of dimension \
          {expected}"
@@ -73,7 +64,6 @@ pub enum Fault {
     Dimension { element: usize, found: usize, expected: usize },
     #[error("element {element} has the node {node}, which is not in $Nodes")]
     NoNode { element: usize, node: usize },
-    /// An element is part of a geometric entity that the file does not have.
     #[error(
         "the elements are part of the {kind} {tag}, which is not in $Entities; if the mesh is \
          partitioned, save it unpartitioned"

@@ -17,8 +17,7 @@ pub(super) type Shape = [[f64; 2]];
 /// A list in a detail names this many at most.
 const SHOWN: usize = 6;
 
-/// What counts as a difference, relative to the largest entry: sums in another order differ by
-/// less.
+/// What counts as a difference, over the largest entry: sums in another order differ by less.
 pub(super) const ROUNDING: f64 = 1e-9;
 
 /// The number of `found`, each in words; the finding holds where there is one.
@@ -111,8 +110,7 @@ pub(super) fn rise([a, b]: [[f64; 2]; 2], point: [f64; 2]) -> Option<f64> {
     (b[0] != a[0]).then(|| a[1] + slope * (point[0] - a[0]) - point[1])
 }
 
-/// Whether entry `i` of the contact surface lies inside a triangle of the target, its sides
-/// excluded.
+/// Whether entry `i` of the contact surface lies inside a triangle of the target, not on a side.
 pub(super) fn inside_target(model: &Model, shape: &Shape, i: usize) -> bool {
     let point = place(shape, model.contact.nodes[i]);
     let inside = |id: &TriangleId| {

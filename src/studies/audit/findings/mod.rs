@@ -68,8 +68,7 @@ impl Finding {
 }
 
 choices! {
-    /// Whether a scene shows a finding. Ordered by weight: of several shapes the heaviest verdict
-    /// counts.
+    /// Whether a scene shows a finding. Ordered by weight: of several shapes the heaviest counts.
     #[derive(PartialOrd, Ord)]
     Verdict {
         /// The scene lacks what the finding needs.

@@ -209,7 +209,8 @@ pub const FINDINGS: &[Finding] = &[
         id: "K4",
         listing: "Km",
         lines: &[2, 3, 13],
-        title: "a node that belongs to no triangle leaves two rows of zeros, even where S restrains it",
+        title: "a node that belongs to no triangle leaves two rows of zeros, \
+                even where S restrains it",
         why: "the matrix is singular: one stray point of the mesh is enough",
         repair: "set the 1 in a loop over nodes",
         number: "rows of zeros that one such node adds",

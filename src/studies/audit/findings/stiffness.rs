@@ -48,8 +48,7 @@ fn linked(model: &Model, call: &Call, id: TriangleId, pair: usize) -> Vec<f64> {
     of_pair.filter(|(mate, _)| *mate > 0.0).map(|(_, weight)| weight).collect()
 }
 
-/// The additions (triangle, pair) of which `is` is true of the weights of the linked nodes, each in
-/// words.
+/// The additions (triangle, pair) of which `is` is true of the linked nodes' weights, in words.
 fn additions(model: &Model, call: &Call, is: impl Fn(&[f64]) -> bool) -> Vec<(TriangleId, String)> {
     let all = model.triangle_ids().flat_map(|id| [1, 2].map(|pair| (id, pair)));
     all.map(|(id, pair)| (id, pair, linked(model, call, id, pair)))

@@ -8,8 +8,7 @@ use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Variant;
 use crate::studies::audit::Case;
 
-/// C6: how far the weights of nodes in contact leave [0, 1], over all iterations of all variants
-/// that run.
+/// C6: how far the weights of nodes in contact leave [0, 1], over all iterations of all variants.
 pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
     let mut furthest = Measured::holds_if(false, 0.0, "every weight lies in [0, 1]");
     for variant in Variant::OF_THE_PAPER {

@@ -5,8 +5,6 @@ use std::cell::Cell;
 use std::cmp::Ordering;
 use std::fmt;
 
-use num_traits::{One, Zero};
-
 use crate::numbers::scalar::{Scalar, Subscript, operators};
 
 thread_local! {
@@ -32,6 +30,9 @@ fn one_more<R>(result: R) -> R {
 }
 
 impl Counted {
+    const ZERO: Self = Counted(0.0);
+    const ONE: Self = Counted(1.0);
+
     fn sum(x: Self, y: Self) -> Self {
         Counted(one_more(x.0 + y.0))
     }
@@ -51,6 +52,10 @@ impl Counted {
     fn negative(x: Self) -> Self {
         Counted(-x.0)
     }
+
+    fn vanishes(x: Self) -> bool {
+        x.0 == 0.0
+    }
 }
 
 operators!(Counted);
@@ -58,21 +63,6 @@ operators!(Counted);
 impl PartialOrd for Counted {
     fn partial_cmp(&self, other: &Counted) -> Option<Ordering> {
         one_more(self.0.partial_cmp(&other.0))
-    }
-}
-
-impl Zero for Counted {
-    fn zero() -> Self {
-        Counted(0.0)
-    }
-    fn is_zero(&self) -> bool {
-        self.0 == 0.0
-    }
-}
-
-impl One for Counted {
-    fn one() -> Self {
-        Counted(1.0)
     }
 }
 

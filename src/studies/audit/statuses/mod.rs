@@ -24,17 +24,14 @@ use crate::problem::modelling::StatusRule;
 use counted::{Counted, counting};
 use drawn::{Drawn, Kind, draw};
 
-/// Depths of the jump, in c_tll. Target edges are about 250 c_tll long: the last sinks whole
-/// elements.
+/// Depths of the jump, in c_tll. Target edges are some 250 c_tll long: the last sinks whole cells.
 const DEPTHS: [f64; 6] = [0.5, 2.0, 8.0, 32.0, 128.0, 512.0];
 /// Number of target edges where the depth is varied.
 const EDGES: usize = 16;
-/// Numbers of target edges where the operations are counted, and the depth there: no element sinks
-/// whole.
+/// Numbers of target edges where operations are counted, and the depth: no element sinks whole.
 const SIZES: [usize; 6] = [8, 16, 32, 64, 128, 256];
 const DEPTH: f64 = 4.0;
-/// Operations of lines 22 to 30 for a node in contact: all rules share them, none is charged for
-/// them.
+/// Operations of lines 22 to 30 for a node in contact: all rules share them, none is charged.
 const WEIGHTS: u64 = 12;
 
 /// What was measured, in numbers that the seed determines.
