@@ -1,5 +1,7 @@
 //! The equilibrium under one load: statuses are imposed, and the next ones follow from the forces.
 
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
@@ -13,7 +15,7 @@ use crate::answer::request::Request;
 use crate::answer::solution::Cycle;
 use crate::answer::stiffness::Stiffness;
 use crate::error::InputError;
-use crate::numbers::solve::{SparseCholesky, SparseSymmetric};
+use crate::numbers::solve::{Singular, SparseCholesky, SparseSymmetric};
 use crate::problem::model::{Dof, Model, NodeId};
 use crate::problem::modelling::Geometry;
 
@@ -57,6 +59,17 @@ pub(super) struct Problem<'a> {
     pub(super) closed: f64,
     /// Coulomb's coefficient.
     friction: f64,
+    /// The last statuses of the initial geometry and the factors under them, which do not depend on
+    /// the load.
+    factored: RefCell<Option<(Vec<Held>, Rc<SparseCholesky>)>>,
+}
+
+/// What a status holds of a node's motion: nothing, the one along the normal, or both.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Held {
+    Nothing,
+    Normal,
+    Both,
 }
 
 /// What a step of the load starts from, and the load at its end.
@@ -141,6 +154,7 @@ impl<'a> Problem<'a> {
             surfaces,
             closed: CLOSED * size(model),
             friction: request.contact.friction.coefficient(),
+            factored: RefCell::new(None),
         })
     }
 
@@ -395,12 +409,11 @@ impl<'a> Problem<'a> {
         setting: &Setting,
     ) -> Result<Solved, Error> {
         let t = Elimination::closing(&self.model.restrained, constraints);
-        let reduced = self.stiffness.reduced(&t);
         let load = self.model.free_part(&setting.load);
-        let cholesky = match SparseCholesky::new(reduced.clone()) {
+        let cholesky = match self.factors(&t, statuses) {
             Ok(cholesky) => cholesky,
             Err(singular) => {
-                let motion = free_motion(&t, &reduced, &load);
+                let motion = free_motion(&t, &self.stiffness.reduced(&t), &load);
                 return Ok(Solved::Free { dof: t.dof(singular.column), motion });
             }
         };
@@ -417,6 +430,30 @@ impl<'a> Problem<'a> {
             t.expand(&q) - t.shift()
         })?;
         Ok(Solved::Moved(moved))
+    }
+
+    /// Returns the factors of Tᵀ K T under statuses: in the initial geometry those of the last time,
+    /// where the statuses hold the same motions.
+    fn factors(
+        &self,
+        t: &Elimination,
+        statuses: &[Status],
+    ) -> Result<Rc<SparseCholesky>, Singular> {
+        let held = |status: &Status| match status {
+            Status::Open => Held::Nothing,
+            Status::Slip(_) => Held::Normal,
+            Status::Stick => Held::Both,
+        };
+        let held: Vec<Held> = statuses.iter().map(held).collect();
+        let mut last = self.factored.borrow_mut();
+        if let Some((_, factors)) = last.as_ref().filter(|(same, _)| *same == held) {
+            return Ok(Rc::clone(factors));
+        }
+        let factors = Rc::new(SparseCholesky::new(self.stiffness.reduced(t))?);
+        if !self.is_current() {
+            *last = Some((held, Rc::clone(&factors)));
+        }
+        Ok(factors)
     }
 
     /// Adds the friction of sliding nodes, whose size is μ times the normal forces that it leads to;
