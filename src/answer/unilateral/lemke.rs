@@ -11,8 +11,20 @@ const PIVOT: f64 = 1e-11;
 /// The number of pivots for each variable after which the search ends.
 const PATIENCE: usize = 50;
 
-/// Returns a solution z; None where the method ends on a ray, on which it finds none.
+/// The number of covering vectors that are tried.
+const COVERINGS: usize = 8;
+
+/// Returns a solution z; None where the method ends on a ray, on which it finds none, from each of
+/// eight covering vectors: that of ones, and others in no order.
 pub(super) fn lemke(m: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
+    let covering = |attempt: usize| {
+        DVector::from_fn(b.len(), |i, _| 1.0 + (attempt * (7 * i + 3) * (i + 1) % 31) as f64)
+    };
+    (0..COVERINGS).find_map(|attempt| from(m, b, &covering(attempt)))
+}
+
+/// Follows the path from one covering vector.
+fn from(m: &DMatrix<f64>, b: &DVector<f64>, covering: &DVector<f64>) -> Option<DVector<f64>> {
     let n = b.len();
     if b.iter().all(|b| *b >= 0.0) {
         return Some(DVector::zeros(n));
@@ -23,11 +35,11 @@ pub(super) fn lemke(m: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> 
     for i in 0..n {
         table[(i, i)] = 1.0;
         (0..n).for_each(|j| table[(i, n + j)] = -m[(i, j)]);
-        table[(i, artificial)] = -1.0;
+        table[(i, artificial)] = -covering[i];
         table[(i, right)] = b[i];
     }
     let mut basis: Vec<usize> = (0..n).collect();
-    let mut row = (0..n).min_by(|a, c| b[*a].total_cmp(&b[*c]))?;
+    let mut row = (0..n).min_by(|&i, &k| (b[i] / covering[i]).total_cmp(&(b[k] / covering[k])))?;
     let mut entering = artificial;
     for _ in 0..PATIENCE * n {
         let leaving = basis[row];
