@@ -32,6 +32,7 @@ mod forces;
 mod lemke;
 mod path;
 mod problem;
+mod rigid;
 mod status;
 
 use super::error::Error;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, Force, forces, tangent};
+use super::rigid;
 use super::status::{Memory, first_closed, nearest_open, next_closed};
 use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
 use crate::answer::elimination::{Constraint, Elimination, Motion};
@@ -48,6 +49,9 @@ const SHAPES: usize = 60;
 
 /// How much of |q| over μ p is rounding.
 const CONE: f64 = 1e-12;
+
+/// The part of the largest force below which a pull is rounding.
+const PULL: f64 = 1e-11;
 
 /// The scene, its stiffness, and its surfaces.
 pub(super) struct Problem<'a> {
@@ -260,8 +264,12 @@ impl<'a> Problem<'a> {
             }
             statuses = memory.next(&iteration.statuses, wanted);
         }
+        let never_slides = match self.friction.is_infinite() {
+            true => "; where no node may slide there may be none: give a finite coefficient",
+            false => "",
+        };
         let what = format!(
-            "no contact state in equilibrium was found in {} iterations{}",
+            "no contact state in equilibrium was found in {} iterations{}{never_slides}",
             *k + 1 - first,
             memory.returned()
         );
@@ -319,6 +327,7 @@ impl<'a> Problem<'a> {
         let growth = first && setting.statuses.is_none();
         let deep = if growth { FIRST_GROWTH * iteration.violation } else { 0.0 }.max(self.closed);
         let rounding = CONE * iteration.moved.u.amax();
+        let largest = iteration.moved.forces.iter().map(|f| f.normal).fold(0.0, f64::max);
         let status = |i: usize| {
             let (Some(pairing), Some(gap)) = (&place.pairings[i], iteration.gaps[i]) else {
                 return Status::Open;
@@ -327,7 +336,8 @@ impl<'a> Problem<'a> {
             match iteration.statuses[i] {
                 Status::Open if gap < -deep => self.closing(place, i),
                 Status::Open => Status::Open,
-                _ if normal < 0.0 || normal.is_nan() && gap > self.closed => Status::Open,
+                _ if normal < -PULL * largest => Status::Open,
+                _ if normal.is_nan() && gap > self.closed => Status::Open,
                 Status::Stick if tangent.abs() > self.friction * normal * (1.0 + CONE) => {
                     Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
                 }
@@ -370,7 +380,7 @@ impl<'a> Problem<'a> {
                 Solved::Moved(moved) => break (constraints, moved),
                 Solved::Free { dof, motion } => {
                     if !self.restrain_more(place, &mut statuses, setting, motion) {
-                        return Err(self.unrestrained(&place.pairings, dof).into());
+                        return Err(self.unrestrained(&place.pairings, &constraints, dof).into());
                     }
                 }
             }
@@ -599,13 +609,30 @@ impl<'a> Problem<'a> {
         self.friction
     }
 
-    fn unrestrained(&self, pairings: &[Option<Pairing>], dof: Dof) -> InputError {
+    fn unrestrained(
+        &self,
+        pairings: &[Option<Pairing>],
+        constraints: &[Constraint],
+        dof: Dof,
+    ) -> InputError {
         if pairings.iter().all(Option::is_none) {
             let what = "no contact node faces the target, and nothing else restrains the bodies";
             let fix = "name surfaces that face each other; list cnt in order along its surface";
             return InputError::new("contact.cnt, contact.trg", what, fix);
         }
         let (node, direction) = (dof.node(), dof.axis());
+        if rigid::holds(self.model, constraints) {
+            let moduli = self.model.triangles.iter().map(|triangle| triangle.material.e);
+            let (least, most) =
+                moduli.fold((f64::MAX, 0.0), |(l, m): (f64, f64), e| (l.min(e), m.max(e)));
+            let what = format!(
+                "restraints and contact hold the bodies, but in f64 the matrix is singular at node \
+                 {node}, direction {direction}: the moduli are {:.0e} apart",
+                most / least
+            );
+            let fix = "choose moduli that are closer, or restrain the stiff body itself";
+            return InputError::new("materials", what, fix);
+        }
         let body = self.model.body_of(node);
         let body = body.map_or(String::new(), |b| format!(" of body {:?}", b.name));
         let what =
