@@ -21,6 +21,10 @@ pub type Stress = Vector3<f64>;
 /// and fix no slope across it.
 const COLLINEAR: f64 = 1e-10;
 
+/// The number of edges beyond which the polynomial of another site says nothing of a site; without a
+/// limit a body that is one layer of triangles is searched as a whole from each of its nodes.
+const FARTHEST: usize = 8;
+
 /// Returns the recovered stress at each site from the stress of each triangle; None where the
 /// site's material has no patch that fixes a slope.
 ///
@@ -46,7 +50,7 @@ fn nearest(patches: &Patches, own: &[Option<Linear>], site: usize) -> Option<Str
             ring.iter().filter_map(|&s| Some(own[s].as_ref()?.at(patches.points[site]))).collect();
         (!values.is_empty()).then(|| values.iter().sum::<Stress>() / values.len() as f64)
     };
-    Rings::new(patches, site).find_map(|ring| read(&ring))
+    Rings::new(patches, site).take(FARTHEST).find_map(|ring| read(&ring))
 }
 
 /// Returns the value at `site` of the polynomial of the smallest patch of rings that fixes one.
