@@ -39,6 +39,7 @@ mod arithmetic;
 mod call;
 mod entry;
 mod eval;
+mod function;
 mod lexer;
 mod parser;
 mod state;

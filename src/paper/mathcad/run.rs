@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::arithmetic::kind;
-use super::call::Function;
 use super::failure::{Cause, Fallible};
+use super::function::Function;
 use super::listing::Listing;
 use super::observe::Observer;
 use super::settings::{Descending, LastIf, Limits, Settings};

@@ -1,8 +1,8 @@
 //! The state of a run: the values of its names, its current line, and how much of the limits it has
 //! used.
 
-use super::call::Function;
 use super::failure::{Cause, Failure, Fallible};
+use super::function::Function;
 use super::listing::Listing;
 use super::observe::Place;
 use super::settings::{Limits, Settings};
