@@ -8,6 +8,7 @@ mod common {
 }
 
 mod cook;
+mod delaunay;
 mod hertz;
 mod kirsch;
 mod lame;

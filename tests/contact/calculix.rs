@@ -7,7 +7,7 @@ use crate::common::golden_floats::assert_golden;
 use crate::common::json::build;
 use crate::common::outcome::solve;
 use crate::common::program;
-use crate::common::tolerances::{CCX_PRINTS, PENALTY, PENALTY_STRESS, assert_near};
+use crate::common::tolerances::{CCX_FRICTION, CCX_PRINTS, PENALTY, PENALTY_STRESS, assert_near};
 use crate::unilateral::models;
 use plane_contact::answer::{self, Request, Solution};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
@@ -224,6 +224,28 @@ fn assert_equations(name: &str, scene: &Scene, variant: Variant) {
     let ran = run("ccx", scene, &solution.model, &parts).unwrap();
     let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
     assert_same(&comparison, &format!("{name} {variant}"));
+}
+
+/// ccx's own friction beside ours on the strand: its contact yields by its penalty, its friction by
+/// the slope at which a node sticks (a tenth of the penalty, `STICK_SLOPE`), and its steps are its
+/// own.
+#[test]
+fn ccx_rubs_alike_but_for_its_penalty() {
+    if !ccx_is_there() {
+        return;
+    }
+    let mut scene = Scene::open("strand").unwrap();
+    for mu in [0.1, 0.2, 0.4] {
+        let friction = Friction::new(mu).unwrap();
+        scene.contact = ContactModel { friction, ..ContactModel::default() };
+        let solution = solution(&scene, Variant::Unilateral);
+        let contact = Contact::Pair(Pair::new(&solution.model, None, friction));
+        let part = Part { contact, share: 1.0 };
+        let ran = run("ccx", &scene, &solution.model, &[part]).unwrap();
+        let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
+        let u = comparison.displacement.largest;
+        assert_near(&format!("{mu}, node {}", u.at), u.difference, 0.0, u.scale, &CCX_FRICTION);
+    }
 }
 
 /// ccx's own contact beside `unilateral` without friction.

@@ -16,4 +16,5 @@ mod corners;
 mod friction;
 mod orders;
 mod status;
+mod tree;
 mod unilateral;

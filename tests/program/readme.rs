@@ -1,14 +1,15 @@
 //! The numbers of README.md's first table are those that the program computes.
 
-use plane_contact::answer::Assessment;
+use plane_contact::answer::{Assessment, Measured};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Variant};
 use plane_contact::{Request, Scene, Solution, solve};
 
 /// The row's cells behind its words: contact nodes at the end, load that reaches the block, largest
-/// von Mises stress of block and stamp, error against the reference solution in the energy norm.
-fn cells(request: &Request) -> String {
+/// von Mises stress of block and stamp, errors in the energy norm against the equilibrium under the
+/// scene's own friction and against the reference solution.
+fn cells(request: &Request, [own, reference]: [&Solution; 2]) -> String {
     let solution = solve(request, &mut |_| ()).expect("the variant runs");
-    let assessment = Assessment::new(&solution);
+    let assessment = Assessment::against(&solution, [Some(reference), Some(own)]);
     let [fx, fy] = solution.model.total_load();
     let share = 100.0 * solution.last().target_force / fx.hypot(fy);
     let stresses: Vec<String> = assessment
@@ -19,16 +20,22 @@ fn cells(request: &Request) -> String {
             stress => format!("{stress:.1}"),
         })
         .collect();
-    let error =
-        assessment.measure().expect("strand has a reference solution").distance.energy_relative;
-    let error = if error == 0.0 { "0".into() } else { format!("{:.0} %", 100.0 * error) };
-    format!("| {} | {share:.0} % | {} | {error} |", contact(&solution), stresses.join(" / "))
+    let error = |measured: Option<&Measured>| {
+        let error = measured.expect("strand has both").distance.energy_relative;
+        if error == 0.0 { "0".into() } else { format!("{:.0} %", 100.0 * error) }
+    };
+    let errors = [assessment.own(), assessment.measure()].map(error).join(" | ");
+    format!("| {} | {share:.0} % | {} | {errors} |", contact(&solution), stresses.join(" / "))
 }
 
 fn contact(solution: &Solution) -> String {
     let (last, count) = (solution.last(), solution.last().in_contact);
     if solution.request.variant == Variant::Unilateral {
-        return format!("{count} in {} iterations", solution.steps.len());
+        let path = solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
+        return match path {
+            Some(path) => format!("{count} after {} steps of the load", path.steps),
+            None => format!("{count} in {} iterations", solution.steps.len()),
+        };
     }
     match &last.cycle {
         Some(cycle) if cycle.length == 1 => format!("{count}, settled"),
@@ -54,11 +61,17 @@ fn the_papers_example() {
         ("| `tied` |", request.clone().variant(Variant::Tied)),
         ("| `stepped` |", request.clone().variant(Variant::Stepped)),
         ("| `unilateral` |", request.clone().variant(Variant::Unilateral)),
-        ("| `unilateral` with `mortar` |", request.variant(Variant::Unilateral).contact(mortar)),
+        (
+            "| `unilateral` with `mortar` |",
+            request.clone().variant(Variant::Unilateral).contact(mortar),
+        ),
+        ("| the reference solution |", request.reference()),
     ];
+    let solved = |request: Request| solve(&request, &mut |_| ()).expect("strand has both");
+    let others = [request.equilibrium(), request.reference()].map(solved);
     for (head, request) in rows {
         let row = readme.lines().find(|line| line.starts_with(head)).expect("README has the row");
-        let cells = cells(&request);
+        let cells = cells(&request, others.each_ref());
         assert!(row.ends_with(&cells), "README: {row}\nthe program: {cells}");
     }
 }

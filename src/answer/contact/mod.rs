@@ -10,7 +10,7 @@ pub mod search;
 mod sliding;
 pub mod status;
 mod surface;
-mod tree;
+pub mod tree;
 
 pub use order::along;
 pub use pairing::Pairing;

@@ -7,13 +7,13 @@ const LEAF: usize = 4;
 
 /// A box with sides along the axes: its lowest and its highest coordinates, length.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
+pub struct Bounds {
     low: Vector,
     high: Vector,
 }
 
 /// Boxes around edges, each divided in two halves of as many edges.
-pub(super) struct Tree {
+pub struct Tree {
     /// Each edge's place in the list that the tree was built from, in the order of the leaves.
     edges: Vec<usize>,
     /// The root first; the two halves of a divided box stand at `halves` and behind it.
@@ -48,18 +48,18 @@ impl Bounds {
     }
 
     /// Returns the larger extent, length.
-    pub(super) fn size(self) -> f64 {
+    pub fn size(self) -> f64 {
         f64::max(self.high[0] - self.low[0], self.high[1] - self.low[1])
     }
 
     /// Returns the distance from `p`, length; 0 inside.
-    pub(super) fn distance(self, p: Vector) -> f64 {
+    pub fn distance(self, p: Vector) -> f64 {
         let [x, y] = [0, 1].map(|d| (self.low[d] - p[d]).max(p[d] - self.high[d]).max(0.0));
         x.hypot(y)
     }
 
     /// Returns the least and the largest of (x − `from`)·`direction` over its points x.
-    pub(super) fn along(self, from: Vector, direction: Vector) -> [f64; 2] {
+    pub fn along(self, from: Vector, direction: Vector) -> [f64; 2] {
         let ends = |d: usize| [self.low[d], self.high[d]].map(|x| (x - from[d]) * direction[d]);
         let ([a, b], [c, d]) = (ends(0), ends(1));
         [a.min(b) + c.min(d), a.max(b) + c.max(d)]
@@ -68,7 +68,7 @@ impl Bounds {
 
 impl Tree {
     /// Builds the tree over edges, each given by its number and its two ends.
-    pub(super) fn new(edges: impl IntoIterator<Item = (usize, [Vector; 2])>) -> Self {
+    pub fn new(edges: impl IntoIterator<Item = (usize, [Vector; 2])>) -> Self {
         let mut bounds: Vec<(usize, Bounds)> =
             edges.into_iter().map(|(k, ends)| (k, Bounds::around(ends))).collect();
         let mut tree = Tree { edges: Vec::new(), boxes: Vec::new() };
@@ -103,17 +103,13 @@ impl Tree {
     }
 
     /// Returns the box around all edges; None without an edge.
-    pub(super) fn bounds(&self) -> Option<Bounds> {
+    pub fn bounds(&self) -> Option<Bounds> {
         self.boxes.first().map(|root| root.bounds)
     }
 
     /// Calls `found` with each edge in the boxes for which `key` returns a number, those of the
     /// smaller number first; `key` is asked again when a box's turn comes.
-    pub(super) fn visit(
-        &self,
-        key: &impl Fn(Bounds) -> Option<f64>,
-        found: &mut impl FnMut(usize),
-    ) {
+    pub fn visit(&self, key: &impl Fn(Bounds) -> Option<f64>, found: &mut impl FnMut(usize)) {
         if !self.boxes.is_empty() {
             self.visit_box(0, key, found);
         }
@@ -144,22 +140,5 @@ impl Divided {
         let around = bounds.iter().map(|(_, b)| *b).reduce(Bounds::with);
         let bounds_of_all = around.expect("a box is around an edge");
         Divided { bounds: bounds_of_all, from, to: from + bounds.len(), halves: None }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_edges_near_a_point_are_found_and_few_others() {
-        let edge = |k: usize| (k, [[k as f64, 0.0], [k as f64 + 1.0, 0.0]]);
-        let tree = Tree::new((0..1000).map(edge));
-        let mut found = Vec::new();
-        let near = |b: Bounds| Some(b.distance([500.5, 2.0])).filter(|d| *d <= 2.5);
-        tree.visit(&near, &mut |k| found.push(k));
-        assert!([499, 500, 501].iter().all(|k| found.contains(k)));
-        assert!(found.len() < 20, "{found:?}");
-        assert!(Tree::new([]).bounds().is_none());
     }
 }

@@ -58,10 +58,11 @@ pub(super) fn uniqueness(
 fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Option<NodeId> {
     let Moved { forces, .. } = &found.last.moved;
     let largest = forces.iter().map(|f| f.normal).fold(0.0, f64::max);
-    let carries = |i: usize| !(forces[i].normal <= WEAK * largest);
     let mut statuses = found.last.statuses.clone();
-    let weak: Vec<usize> =
-        (0..statuses.len()).filter(|&i| statuses[i] != Status::Open && !carries(i)).collect();
+    let carries_nothing = |i: usize| forces[i].normal <= WEAK * largest;
+    let weak: Vec<usize> = (0..statuses.len())
+        .filter(|&i| statuses[i] != Status::Open && carries_nothing(i))
+        .collect();
     if weak.is_empty() {
         return None;
     }

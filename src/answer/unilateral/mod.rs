@@ -35,9 +35,9 @@ mod problem;
 mod rigid;
 mod status;
 
-use super::error::Error;
+use super::error::{Error, NoEquilibrium};
 use super::request::Request;
-use super::solution::{Solution, Step};
+use super::solution::{Solution, Step, Uniqueness};
 
 /// Finds the equilibrium at the end of the load's path, which is the last step; `watch` is called
 /// after each iteration.
@@ -50,5 +50,23 @@ pub(super) fn unilateral(
 ) -> Result<Solution, Error> {
     let model = request.model()?;
     let problem = problem::Problem::new(request, &model)?;
-    path::solve(&problem, watch)
+    path::solve(&problem, watch).map_err(|why| with_its_indifference(request, why))
+}
+
+/// Says of a search without an equilibrium whether the bodies can move without work in the initial
+/// geometry without friction: then rounding decides where they come to rest.
+fn with_its_indifference(request: &Request, why: Error) -> Error {
+    let Error::Equilibrium(NoEquilibrium { what }) = why else { return why };
+    let reference = request.reference();
+    let is_reference = request.is_same_equilibrium(&reference);
+    let found = (!is_reference).then(|| unilateral(&reference, &mut |_| ()).ok()).flatten();
+    let known = found.and_then(|solution| solution.equilibrium);
+    let Some(Uniqueness::Indifferent { node }) = known.map(|known| known.uniqueness) else {
+        return NoEquilibrium { what }.into();
+    };
+    let what = format!(
+        "{what}; without friction in the initial geometry the equilibrium is not the only one: node \
+         {node} can move without work"
+    );
+    NoEquilibrium { what }.into()
 }

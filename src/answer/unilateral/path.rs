@@ -49,8 +49,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
     let contact = problem.request.contact;
     let with_friction = contact.friction.coefficient() > 0.0;
     let per_stage = if with_friction { contact.load_steps } else { 1 };
-    let end =
-        follow(problem, per_stage, watch).map_err(|why| with_its_indifference(problem, why))?;
+    let end = follow(problem, per_stage, watch)?;
     let path = with_friction.then(|| Path {
         steps: per_stage,
         stages: problem.model.stages.len(),
@@ -59,27 +58,6 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
     });
     let uniqueness = uniqueness(problem, &end.equilibrium, &end.before);
     Ok(solution(problem, end, path, uniqueness))
-}
-
-/// Says of a search without an equilibrium whether the bodies can move without work in the initial
-/// geometry without friction: then rounding decides where they come to rest.
-fn with_its_indifference(problem: &Problem, why: Error) -> Error {
-    let Error::Equilibrium(NoEquilibrium { what }) = why else { return why };
-    let reference = problem.request.reference();
-    let is_reference = problem.request.is_same_equilibrium(&reference);
-    let found = (!is_reference).then(|| super::unilateral(&reference, &mut |_| ()).ok()).flatten();
-    let node = match found.and_then(|solution| solution.equilibrium) {
-        Some(solution::Equilibrium {
-            uniqueness: solution::Uniqueness::Indifferent { node },
-            ..
-        }) => node,
-        _ => return NoEquilibrium { what }.into(),
-    };
-    let what = format!(
-        "{what}; without friction in the initial geometry the equilibrium is not the only one: node \
-         {node} can move without work"
-    );
-    NoEquilibrium { what }.into()
 }
 
 /// Returns the change of the displacements against the path of half as many steps, length.

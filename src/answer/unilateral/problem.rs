@@ -47,6 +47,9 @@ const STALLED: f64 = 1e-8;
 /// The number of shapes in which contact is measured before the search ends.
 const SHAPES: usize = 60;
 
+/// The ratio of moduli beyond which they, and not the units, make a held matrix singular.
+const FAR_APART: f64 = 1e6;
+
 /// How much of |q| over μ p is rounding.
 const CONE: f64 = 1e-12;
 
@@ -625,13 +628,16 @@ impl<'a> Problem<'a> {
             let moduli = self.model.triangles.iter().map(|triangle| triangle.material.e);
             let (least, most) =
                 moduli.fold((f64::MAX, 0.0), |(l, m): (f64, f64), e| (l.min(e), m.max(e)));
+            let apart = most / least;
             let what = format!(
                 "restraints and contact hold the bodies, but in f64 the matrix is singular at node \
-                 {node}, direction {direction}: the moduli are {:.0e} apart",
-                most / least
+                 {node}, direction {direction}; the moduli are {apart:.0e} apart"
             );
             let fix = "choose moduli that are closer, or restrain the stiff body itself";
-            return InputError::new("materials", what, fix);
+            return match apart > FAR_APART {
+                true => InputError::new("materials", what, fix),
+                false => InputError::new("mesh, materials", what, "choose other units"),
+            };
         }
         let body = self.model.body_of(node);
         let body = body.map_or(String::new(), |b| format!(" of body {:?}", b.name));

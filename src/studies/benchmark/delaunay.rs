@@ -86,7 +86,7 @@ fn may_stand(polygon: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
 }
 
 /// Whether a point lies inside a polygon: a ray from it towards +x crosses an odd number of sides.
-fn contains(polygon: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+pub fn contains(polygon: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let crosses = |[a, b]: &[[f64; 2]; 2]| {
         (a[1] > y) != (b[1] > y) && x < a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]))
     };
@@ -111,39 +111,4 @@ fn patch(cdt: &Cdt, corners: usize, outside: HashSet<usize>) -> Patch {
     triangles.iter_mut().flatten().for_each(|vertex| *vertex = place(vertex));
     let all: Vec<[f64; 2]> = cdt.vertices().map(|vertex| xy(vertex.position())).collect();
     Patch { nodes: kept.iter().map(|&vertex| all[vertex]).collect(), triangles }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{contains, triangulate};
-
-    /// An L: the unit square's double, without its upper right quarter.
-    const L: [[f64; 2]; 6] =
-        [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
-
-    #[test]
-    fn a_point_is_inside_a_polygon_or_not() {
-        let points = [[0.5, 0.5], [0.5, 1.5], [1.5, 1.5], [-1.0, 0.5], [0.5, 3.0]];
-        assert_eq!(points.map(|p| contains(&L, p)), [true, true, false, false, false]);
-    }
-
-    #[test]
-    fn the_sides_are_kept_and_the_area_is_filled() {
-        let patch = triangulate(&L, |_| 0.3);
-        assert_eq!(patch.nodes[..6], L);
-        assert!(patch.nodes[6..].iter().all(|&p| contains(&L, p)));
-        let areas = patch.triangles.iter().map(|t| {
-            let [a, b, c] = t.map(|node| patch.nodes[node]);
-            ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2.0
-        });
-        let areas: Vec<f64> = areas.collect();
-        assert!(areas.iter().all(|&area| area > 0.0), "counter-clockwise");
-        assert!((areas.iter().sum::<f64>() - 3.0).abs() < 1e-14);
-    }
-
-    #[test]
-    fn smaller_triangles_where_a_smaller_size_is_asked_for() {
-        let count = |size: f64| triangulate(&L, |_| size).triangles.len();
-        assert!(count(0.3) < count(0.15), "{} {}", count(0.3), count(0.15));
-    }
 }

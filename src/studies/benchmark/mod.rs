@@ -15,7 +15,7 @@
 
 mod check;
 mod confocal;
-mod delaunay;
+pub mod delaunay;
 mod hertz;
 mod line;
 mod mirrored;
