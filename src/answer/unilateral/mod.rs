@@ -32,6 +32,7 @@ mod forces;
 mod lemke;
 mod path;
 mod problem;
+mod reduced;
 mod rigid;
 mod status;
 

@@ -1,12 +1,11 @@
 //! The equilibrium under one load: statuses are imposed, and the next ones follow from the forces.
 
-use std::cell::RefCell;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, Force, forces, tangent};
+use super::reduced::{Last, Reduced};
 use super::rigid;
 use super::status::{Memory, first_closed, nearest_open, next_closed};
 use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
@@ -66,17 +65,7 @@ pub(super) struct Problem<'a> {
     pub(super) closed: f64,
     /// Coulomb's coefficient.
     friction: f64,
-    /// The last statuses of the initial geometry and the factors under them, which do not depend on
-    /// the load.
-    factored: RefCell<Option<(Vec<Held>, Rc<SparseCholesky>)>>,
-}
-
-/// What a status holds of a node's motion: nothing, the one along the normal, or both.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Held {
-    Nothing,
-    Normal,
-    Both,
+    last: Last,
 }
 
 /// What a step of the load starts from, and the load at its end.
@@ -161,7 +150,7 @@ impl<'a> Problem<'a> {
             surfaces,
             closed: CLOSED * size(model),
             friction: request.contact.friction.coefficient(),
-            factored: RefCell::new(None),
+            last: Last::default(),
         })
     }
 
@@ -423,50 +412,30 @@ impl<'a> Problem<'a> {
     ) -> Result<Solved, Error> {
         let t = Elimination::closing(&self.model.restrained, constraints);
         let load = self.model.free_part(&setting.load);
-        let cholesky = match self.factors(&t, statuses) {
-            Ok(cholesky) => cholesky,
-            Err(singular) => {
-                let motion = free_motion(&t, &self.stiffness.reduced(&t), &load);
-                return Ok(Solved::Free { dof: t.dof(singular.column), motion });
-            }
+        let reduced = match Reduced::new(&self.stiffness, &t, statuses, &self.last) {
+            Ok(reduced) => reduced,
+            Err(singular) => return Ok(self.free(&t, singular, &load)),
         };
         let f = t.load(&(&load - self.stiffness.times(t.shift())));
-        let q = cholesky.solve(&f);
-        let residual = cholesky.residual(&q, &f);
+        let (q, residual) = match reduced.solve(&f) {
+            Ok(solved) => solved,
+            Err(singular) => return Ok(self.free(&t, singular, &load)),
+        };
         let u = t.expand(&q);
         let reaction = self.stiffness.times(&u) - &setting.load;
         let forces = self.forces(place, statuses, &reaction);
         let friction = DVector::zeros(u.len());
         let mut moved = Moved { u, forces, friction, reaction, residual };
         self.slide(place, statuses, &mut moved, |load| {
-            let q = cholesky.solve(&t.load(&self.model.free_part(load)));
-            t.expand(&q) - t.shift()
+            let (q, _) = reduced.solve(&t.load(&self.model.free_part(load))).ok()?;
+            Some(t.expand(&q) - t.shift())
         })?;
         Ok(Solved::Moved(moved))
     }
 
-    /// Returns the factors of Tᵀ K T under statuses: in the initial geometry those of the last time,
-    /// where the statuses hold the same motions.
-    fn factors(
-        &self,
-        t: &Elimination,
-        statuses: &[Status],
-    ) -> Result<Rc<SparseCholesky>, Singular> {
-        let held = |status: &Status| match status {
-            Status::Open => Held::Nothing,
-            Status::Slip(_) => Held::Normal,
-            Status::Stick => Held::Both,
-        };
-        let held: Vec<Held> = statuses.iter().map(held).collect();
-        let mut last = self.factored.borrow_mut();
-        if let Some((_, factors)) = last.as_ref().filter(|(same, _)| *same == held) {
-            return Ok(Rc::clone(factors));
-        }
-        let factors = Rc::new(SparseCholesky::new(self.stiffness.reduced(t))?);
-        if !self.is_current() {
-            *last = Some((held, Rc::clone(&factors)));
-        }
-        Ok(factors)
+    fn free(&self, t: &Elimination, singular: Singular, load: &DVector<f64>) -> Solved {
+        let motion = free_motion(t, &self.stiffness.reduced(t), load);
+        Solved::Free { dof: t.dof(singular.column), motion }
     }
 
     /// Adds the friction of sliding nodes, whose size is μ times the normal forces that it leads to;
@@ -479,7 +448,7 @@ impl<'a> Problem<'a> {
         place: &Place,
         statuses: &[Status],
         moved: &mut Moved,
-        under: impl Fn(&DVector<f64>) -> DVector<f64>,
+        under: impl Fn(&DVector<f64>) -> Option<DVector<f64>>,
     ) -> Result<(), NoEquilibrium> {
         let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
             .filter_map(|i| match statuses[i] {
@@ -493,16 +462,15 @@ impl<'a> Problem<'a> {
             return Ok(());
         }
         let unit = Force { normal: 0.0, tangent: 1.0 };
-        let responses: Vec<[DVector<f64>; 3]> = sliding
-            .iter()
-            .map(|(_, _, pairing)| {
-                let mut load = DVector::zeros(moved.u.len());
-                forces::add(pairing, unit, 1.0, &mut load);
-                let u = under(&load);
-                let reaction = self.stiffness.times(&u) - &load;
-                [load, u, reaction]
-            })
-            .collect();
+        let response = |(_, _, pairing): &(usize, f64, &Pairing)| {
+            let mut load = DVector::zeros(moved.u.len());
+            forces::add(pairing, unit, 1.0, &mut load);
+            let u = under(&load)?;
+            let reaction = self.stiffness.times(&u) - &load;
+            Some([load, u, reaction])
+        };
+        let responses: Option<Vec<[DVector<f64>; 3]>> = sliding.iter().map(response).collect();
+        let responses = responses.ok_or_else(jammed)?;
         let n = sliding.len();
         let mut matrix = DMatrix::identity(n, n);
         for (column, [_, _, reaction]) in responses.iter().enumerate() {
@@ -647,6 +615,11 @@ impl<'a> Problem<'a> {
             "restrain that motion, or let the surfaces rub or stick (\"friction\": \"stick\")";
         InputError::new("restraints, contact.friction", what, fix)
     }
+}
+
+fn jammed() -> NoEquilibrium {
+    let what = "the sliding nodes jam: no friction agrees with its own normal forces".into();
+    NoEquilibrium { what }
 }
 
 /// Returns the largest gap of a closed node or penetration of another one, length.

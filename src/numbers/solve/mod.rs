@@ -28,7 +28,7 @@ mod symbolic;
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
 pub use dense::{DenseCholesky, DenseLu};
 pub use error_bound::{error_bound, inverse_norm};
-pub use factors::{Factors, Native, Singular};
+pub use factors::{Factors, Native, Singular, backward_error};
 pub use field::Field;
 pub use iterative::{NotConverged, conjugate_gradients, refine};
 pub use ldlt::Ldlt;
