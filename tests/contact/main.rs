@@ -13,7 +13,10 @@ mod common {
 mod calculix;
 mod calculix_files;
 mod corners;
+mod drawn;
 mod friction;
+mod invariance;
 mod orders;
+mod quadratic_programme;
 mod status;
 mod unilateral;
