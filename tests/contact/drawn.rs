@@ -1,5 +1,5 @@
-//! Random scenes of two bodies: flat, bent and wavy surfaces, roofs and corners, plates, grooves, and
-//! contact nodes that restraints hold.
+//! Random scenes of two bodies: flat, bent and wavy surfaces, roofs and corners, plates, grooves,
+//! and contact nodes that restraints hold.
 
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! Displacements of random scenes do not depend on how the scene is written: its place, direction
-//! and scale, its mirror image, the numbers of nodes and triangles, the order of `cnt` and `trg`, the
-//! direction of edges, and the unit of stress.
+//! and scale, its mirror image, the numbers of nodes and triangles, the order of `cnt` and `trg`,
+//! the direction of edges, and the unit of stress.
 
 use std::collections::BTreeMap;
 
@@ -161,7 +161,7 @@ fn random_scenes_have_one_answer_however_they_are_written() {
     let all = writings();
     let mut next = (0..all.len()).cycle();
     for (number, drawn) in scenes(11, SCENES).enumerate() {
-        let with_friction = number / KINDS.len() % RUBBING == 0;
+        let with_friction = (number / KINDS.len()).is_multiple_of(RUBBING);
         let frictions: &[f64] = if with_friction { &[0.0, 0.3, f64::INFINITY] } else { &[0.0] };
         for coupling in [Coupling::Nts, Coupling::Mortar] {
             for &mu in frictions {

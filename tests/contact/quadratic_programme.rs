@@ -48,7 +48,7 @@ const COUNTS: &str = "\
     Held nts: 97 6 22 0 0 0\n\
 ";
 
-/// The quadratic programme of a scene in its free degrees of freedom, with K over its largest entry.
+/// The quadratic programme of a scene in its free degrees of freedom, K over its largest entry.
 struct Programme {
     free: Vec<Dof>,
     k: DMatrix<f64>,
@@ -117,8 +117,8 @@ impl Programme {
         Programme { free, k: k / stiffness, f, g, gap, stiffness }
     }
 
-    /// Asserts that a solution fulfils the conditions: K u − f = gᵀ λ, g u + gap ≥ 0, λ ≥ 0, and one
-    /// of the two is 0.
+    /// Asserts that a solution fulfils the conditions: K u − f = gᵀ λ, g u + gap ≥ 0, λ ≥ 0, and
+    /// one of the two is 0.
     fn assert_conditions(&self, solution: &Solution, what: &str) {
         let of = |dof: &Dof| solution.u[dof.index()];
         let u = DVector::from_iterator(self.f.len(), self.free.iter().map(of));
