@@ -7,7 +7,7 @@ use plane_contact::answer::error::Error;
 use plane_contact::answer::{Request, Solution, solve};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::NodeId;
-use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 
 /// Two bodies by their nodes, numbered from 0.
@@ -27,10 +27,16 @@ pub struct Bodies {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Writing {
     pub shift: [f64; 2],
-    /// By quarter turns.
+    /// By quarter turns, which are exact.
     pub turns: usize,
+    /// By an angle beyond them, degrees; restraints in one direction cannot turn with it.
+    pub degrees: f64,
     pub mirror: bool,
     pub scale: f64,
+    /// The factor of moduli and loads; 0 for 1.
+    pub moduli: f64,
+    /// The seed of the numbers of nodes and of the order of triangles; 0 for those given.
+    pub numbers: u64,
     pub contact_reversed: bool,
     pub contact_shuffled: bool,
     pub target_reversed: bool,
@@ -41,7 +47,18 @@ impl Writing {
     /// Returns a vector as it is written, without the shift and the scale.
     pub fn vector(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let start = if self.mirror { [-x, y] } else { [x, y] };
-        (0..self.turns).fold(start, |[x, y], _| [-y, x])
+        let [x, y] = (0..self.turns).fold(start, |[x, y], _| [-y, x]);
+        let (s, c) = self.degrees.to_radians().sin_cos();
+        [c * x - s * y, s * x + c * y]
+    }
+
+    /// Returns the place of each of `count` things in the order in which they are written.
+    pub fn places(&self, count: usize) -> Vec<usize> {
+        let mut places: Vec<usize> = (0..count).collect();
+        if self.numbers != 0 {
+            fastrand::Rng::with_seed(self.numbers).shuffle(&mut places);
+        }
+        places
     }
 
     fn point(&self, p: [f64; 2]) -> [f64; 2] {
@@ -49,8 +66,12 @@ impl Writing {
         [0, 1].map(|d| self.scale() * v[d] + self.shift[d])
     }
 
-    fn scale(&self) -> f64 {
+    pub fn scale(&self) -> f64 {
         if self.scale == 0.0 { 1.0 } else { self.scale }
+    }
+
+    fn moduli(&self) -> f64 {
+        if self.moduli == 0.0 { 1.0 } else { self.moduli }
     }
 
     fn axis(&self, axis: Axis) -> Axis {
@@ -63,50 +84,65 @@ impl Writing {
 }
 
 impl Bodies {
-    /// Writes the scene down.
+    /// Writes the scene down, without friction.
     pub fn scene(&self, writing: &Writing, coupling: Coupling, geometry: Geometry) -> SceneBuilder {
+        let friction = Friction::NONE;
+        self.modelled(writing, ContactModel { coupling, geometry, friction, ..Default::default() })
+    }
+
+    /// Writes the scene down with a model of contact.
+    pub fn modelled(&self, writing: &Writing, model: ContactModel) -> SceneBuilder {
         let mut mesh = MeshBuilder::default();
-        mesh.row(self.nodes.iter().map(|p| writing.point(*p)));
+        let places = writing.places(self.nodes.len());
+        let number = |n: usize| places[n] + 1;
+        let mut nodes = vec![[0.0; 2]; self.nodes.len()];
+        self.nodes.iter().zip(&places).for_each(|(p, place)| nodes[*place] = writing.point(*p));
+        mesh.row(nodes);
         let mut target = self.target.clone();
         if writing.target_reversed {
             target.reverse();
         }
         for [a, b] in &target {
-            let edge = if writing.edges_turned { [b + 1, a + 1] } else { [a + 1, b + 1] };
-            mesh.edges("target", &edge);
+            let edge = if writing.edges_turned { [*b, *a] } else { [*a, *b] };
+            mesh.edges("target", &edge.map(number));
         }
         for (name, triangles) in ["lower", "upper"].into_iter().zip(&self.triangles) {
-            let of = |t: &[usize; 3]| {
-                let [a, b, c] = t.map(|n| n + 1);
+            let of = |t: &usize| {
+                let [a, b, c] = triangles[*t].map(number);
                 if writing.mirror { [a, c, b] } else { [a, b, c] }
             };
-            mesh.triangles(name, triangles.iter().map(of));
+            mesh.triangles(name, writing.places(triangles.len()).iter().map(of));
         }
-        let mut contact: Vec<usize> = self.contact.iter().map(|n| n + 1).collect();
+        let mut contact: Vec<usize> = self.contact.iter().map(|n| number(*n)).collect();
         if writing.contact_reversed {
             contact.reverse();
         }
         if writing.contact_shuffled {
             contact.sort_by_key(|n| (n % 3, *n));
         }
-        let [lower, upper] = self.moduli;
+        let [lower, upper] = self.moduli.map(|(e, nu)| (writing.moduli() * e, nu));
+        let ContactModel { coupling, friction, geometry, load_steps, status } = model;
+        let edges = (1..=target.len()).collect::<Vec<_>>();
         let mut scene = SceneBuilder::new("corner", mesh.finish(), Plane::Strain)
             .material("lower", lower.0, lower.1)
             .material("upper", upper.0, upper.1)
             .variant(Variant::Unilateral)
             .contact(Contact {
                 coupling,
-                friction: Friction::NONE,
+                friction,
                 geometry,
-                ..Contact::new(contact, (1..=target.len()).collect::<Vec<_>>(), 0.001)
+                load_steps,
+                status,
+                ..Contact::new(contact, edges, 0.001)
             });
         for (node, axes) in &self.restrained {
             let axes: Vec<Axis> = axes.iter().map(|axis| writing.axis(*axis)).collect();
-            scene = scene.restrain_node(node + 1, &axes);
+            scene = scene.restrain_node(number(*node), &axes);
         }
+        let factor = writing.scale() * writing.moduli();
         for (node, force) in &self.loads {
-            let force = writing.vector(*force).map(|f| writing.scale() * f);
-            scene = scene.force(node + 1, force);
+            let force = writing.vector(*force).map(|f| factor * f);
+            scene = scene.force(number(*node), force);
         }
         scene
     }
@@ -123,7 +159,7 @@ impl Bodies {
 }
 
 /// The triangles of a grid of rows, from node `first`.
-fn grid(first: usize, columns: usize, rows: usize) -> Vec<[usize; 3]> {
+pub fn grid(first: usize, columns: usize, rows: usize) -> Vec<[usize; 3]> {
     let mut triangles = Vec::new();
     for row in 0..rows - 1 {
         for k in 0..columns - 1 {

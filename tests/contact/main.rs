@@ -13,8 +13,11 @@ mod common {
 mod calculix;
 mod calculix_files;
 mod corners;
+mod drawn;
 mod friction;
+mod invariance;
 mod orders;
+mod quadratic_programme;
 mod status;
 mod tree;
 mod unilateral;
