@@ -11,6 +11,7 @@ use super::request::Request;
 use super::solution::Solution;
 use super::solve::solve;
 use super::summary::{BodySummary, summaries};
+use crate::problem::modelling::ContactModel;
 
 /// The values and estimates that reports print beside a solution.
 pub struct Assessment<'a> {
@@ -18,6 +19,10 @@ pub struct Assessment<'a> {
     pub bodies: Vec<BodySummary>,
     /// The estimated errors from rounding and from the mesh.
     pub estimates: ErrorEstimates,
+    /// The change of the largest displacement component against a path of half as many steps of the
+    /// load, length: what is left of the size of the steps. None without a path, and where there is
+    /// none such to compare with.
+    pub path_change: Option<f64>,
     /// Hertz's contact for the load of the solution; None where his theory does not apply.
     pub hertz: Option<Hertz>,
     /// The comparison with the reference solution, or why there is none; None without contact.
@@ -74,6 +79,7 @@ impl<'a> Assessment<'a> {
         Assessment {
             bodies: summaries(solution),
             estimates: ErrorEstimates::new(solution),
+            path_change: path_change(solution),
             hertz: Hertz::of(solution),
             reference: measured(reference),
             equilibrium: measured(equilibrium),
@@ -93,6 +99,17 @@ impl<'a> Assessment<'a> {
     pub fn measure(&self) -> Option<&Measured<'a>> {
         self.reference.as_ref()?.as_ref().ok()
     }
+}
+
+/// Follows the path of the load in half as many steps.
+fn path_change(solution: &Solution) -> Option<f64> {
+    let path = solution.equilibrium.as_ref()?.path.as_ref()?;
+    if path.steps % 2 == 1 {
+        return None;
+    }
+    let contact = ContactModel { load_steps: path.steps / 2, ..solution.request.contact };
+    let other = solve(&solution.request.clone().contact(contact), &mut |_| ()).ok()?;
+    Some((&other.u - &solution.u).amax())
 }
 
 impl<'a> Measured<'a> {

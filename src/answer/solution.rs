@@ -84,10 +84,6 @@ pub struct Path {
     pub stages: usize,
     /// The number of steps that were halved because no equilibrium was found.
     pub halved: usize,
-    /// The change of the largest displacement component against the path of half as many steps,
-    /// length: what is left of the size of the steps. None where there is none such to compare
-    /// with.
-    pub change: Option<f64>,
 }
 
 /// An equilibrium beside the one that was found.

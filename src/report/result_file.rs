@@ -62,6 +62,10 @@ pub struct ResultFile {
     /// absent under the other variants.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium: Option<Equilibrium>,
+    /// What half as many steps of the load change of the largest displacement component, length;
+    /// absent without a path.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path_change: Option<f64>,
     /// How far the run is from the reference solution (no friction, initial geometry, mortar), where
     /// there is one.
     pub distance: Option<Distance>,
@@ -193,6 +197,7 @@ impl ResultFile {
             hertz: assessment.hertz,
             error_estimates: KnownEstimates::new(assessment),
             equilibrium: solution.equilibrium.clone(),
+            path_change: assessment.path_change,
             distance: assessment.measure().map(|measured| measured.distance.clone()),
             distance_from_equilibrium: match &assessment.equilibrium {
                 Some(Ok(measured)) => Some(measured.distance.clone()),

@@ -23,7 +23,9 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
     let scene = &solution.request.scene;
     let mut text = format!("{} ({})\n{}", scene.title, heading(solution), dropped(scene));
     text += &match path(solution) {
-        Some(path) => format!("\nPath of the load\n{}", load_steps(solution, path)),
+        Some(path) => {
+            format!("\nPath of the load\n{}", load_steps(solution, path, assessment.path_change))
+        }
         None => format!("\nIterations\n{}", iterations(solution)),
     };
     text +=
@@ -114,7 +116,7 @@ fn path(solution: &Solution) -> Option<&Path> {
 }
 
 /// Lays out the last iteration under each load of a path.
-fn load_steps(solution: &Solution, path: &Path) -> String {
+fn load_steps(solution: &Solution, path: &Path, change: Option<f64>) -> String {
     let units = &solution.request.scene.units;
     let length = |name| quantity(name, &units.length);
     let detail = |step: &Step| match &step.detail {
@@ -142,7 +144,7 @@ fn load_steps(solution: &Solution, path: &Path) -> String {
         })
         .text();
     let largest = max_displacement(&solution.u);
-    let change = match path.change {
+    let change = match change {
         Some(change) => format!(
             "half as many steps change displacements by {} = {}",
             with_unit(&short(change), &units.length),

@@ -232,10 +232,6 @@ tolerances! {
     OTHER_PATH = 1e-2,
         "an exception, not a promise: 5.6e-3 was measured with load in two to four steps";
 
-    /// The same where restraints leave forces of contact nodes undetermined, over the largest.
-    UNDETERMINED = 1e-6,
-        "an exception, not a promise: 1.4e-7 was measured where one node more or less is closed";
-
     /// The distance of a block from the apex that holds it, over the block's size.
     APEX = 1e-9,
         "a gap is closed to 5e-13 of the scene, and the apex may be twenty times the block's size";

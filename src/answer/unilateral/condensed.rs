@@ -29,8 +29,8 @@ const STILL: f64 = 1e-10;
 
 impl Problem<'_> {
     /// Looks for statuses in equilibrium by Lemke's method; None where it finds none, and where the
-    /// problem is not of its kind: without friction or with nodes that never slide, of more than 150
-    /// nodes, or with a contact node that is restrained.
+    /// problem is not of its kind: with nodes that never slide, of more than 150 nodes, or with a contact
+    /// node that is restrained.
     pub(super) fn complementary(&self, place: &Place, setting: &Setting) -> Option<Vec<Status>> {
         let entries: Vec<usize> =
             (0..place.pairings.len()).filter(|i| place.pairings[*i].is_some()).collect();
@@ -38,8 +38,11 @@ impl Problem<'_> {
             |i: usize| place.pairings[i].as_ref().expect("only entries that face a target");
         let restrained = |i: &usize| self.model.restraints_of(pairing(*i).node).contains(&true);
         let mu = self.friction();
-        if mu == 0.0 || mu.is_infinite() || entries.len() > MOST || entries.iter().any(restrained) {
+        if mu.is_infinite() || entries.len() > MOST || entries.iter().any(restrained) {
             return None;
+        }
+        if mu == 0.0 {
+            return self.without_friction(place, &entries, setting);
         }
         let n = entries.len();
         let forces =
@@ -90,6 +93,37 @@ impl Problem<'_> {
         Some(statuses)
     }
 
+    /// Looks for statuses without friction: p = p0 + S g, from displacements with every node held to
+    /// the target along its normal alone.
+    fn without_friction(
+        &self,
+        place: &Place,
+        entries: &[usize],
+        setting: &Setting,
+    ) -> Option<Vec<Status>> {
+        let n = entries.len();
+        let forces = |apart: &DVector<f64>, loaded: bool| {
+            Some(self.held(place, entries, setting, apart, loaded)?.rows(0, n).into_owned())
+        };
+        let at_rest = forces(&DVector::zeros(2 * n), true)?;
+        let mut stiffness = DMatrix::zeros(n, n);
+        for column in 0..n {
+            let mut apart = DVector::zeros(2 * n);
+            apart[column] = 1.0;
+            stiffness.set_column(column, &forces(&apart, false)?);
+        }
+        let (scale, unit) = (stiffness.diagonal().amax(), at_rest.amax());
+        let z = lemke(&(stiffness / scale), &(at_rest / unit))?;
+        let still = STILL * z.amax();
+        let mut statuses = vec![Status::Open; place.pairings.len()];
+        for (k, i) in entries.iter().enumerate() {
+            if z[k] <= still {
+                statuses[*i] = Status::Slip(Sense::Free);
+            }
+        }
+        Some(statuses)
+    }
+
     /// Returns the forces along all normals, then along all tangents, with every node held `apart`
     /// from its place on the target: gaps, then slips; `loaded` or by that alone.
     fn held(
@@ -102,7 +136,8 @@ impl Problem<'_> {
     ) -> Option<DVector<f64>> {
         let n = entries.len();
         let mut statuses = vec![Status::Open; place.pairings.len()];
-        entries.iter().for_each(|i| statuses[*i] = Status::Stick);
+        let held = if self.friction() == 0.0 { Status::Slip(Sense::Free) } else { Status::Stick };
+        entries.iter().for_each(|i| statuses[*i] = held);
         let mut constraints = self.constraints(place, &statuses, setting);
         let mut own = Setting { load: setting.load.clone(), ..*setting };
         if !loaded {
@@ -127,7 +162,10 @@ impl Problem<'_> {
 fn shift(constraint: &mut Constraint, pairing: &Pairing, [gap, slip]: [f64; 2], added: bool) {
     let (n, t) = (pairing.normal, tangent(pairing));
     let apart = [0, 1].map(|d| gap * n[d] + slip * t[d]);
-    if let Motion::Both(shift) = &mut constraint.motion {
-        *shift = [0, 1].map(|d| apart[d] + if added { shift[d] } else { 0.0 });
+    match &mut constraint.motion {
+        Motion::Both(shift) => {
+            *shift = [0, 1].map(|d| apart[d] + if added { shift[d] } else { 0.0 });
+        }
+        Motion::Along(_, shift) => *shift = gap + if added { *shift } else { 0.0 },
     }
 }

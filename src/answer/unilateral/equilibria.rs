@@ -13,6 +13,9 @@ const WEAK: f64 = 1e-9;
 /// The difference of displacements, over the largest, beyond which two equilibria differ.
 const DISTINCT: f64 = 1e-6;
 
+/// The number of equations that may be factored in all to try contact states.
+const WORK: usize = 2_000_000;
+
 /// The number of contact states up to which all of them are tried.
 const ALL: usize = 256;
 
@@ -36,7 +39,9 @@ pub(super) fn uniqueness(
         (0..found.last.statuses.len()).map(|i| problem.choices(place, i)).collect();
     let number = choices.iter().try_fold(1_usize, |n, c| n.checked_mul(c.len()));
     let all = number.is_some_and(|n| n <= ALL);
-    let states = if all { every(&choices) } else { neighbours(&found.last.statuses, &choices) };
+    let mut states = if all { every(&choices) } else { neighbours(&found.last.statuses, &choices) };
+    let all = all && states.len() <= most(problem);
+    states.truncate(most(problem));
     let scale = found.last.moved.u.amax();
     let mut others: Vec<(DVector<f64>, Other)> = Vec::new();
     for statuses in &states {
@@ -51,6 +56,11 @@ pub(super) fn uniqueness(
     }
     let others = others.into_iter().map(|(_, other)| other).collect();
     Uniqueness::Tried { states: states.len(), all, others }
+}
+
+/// Returns the number of contact states that are tried at most: fewer of a large model.
+fn most(problem: &Problem) -> usize {
+    1 + WORK / problem.model.dofs()
 }
 
 /// Returns a node that can move without work: with the contacts that carry nothing opened, nothing

@@ -21,9 +21,12 @@ const STEEP: f64 = 0.5;
 /// forces is not determined.
 const UNDETERMINED: f64 = 1e-9;
 
-/// The forces on a contact node, NaN where they are not determined.
+/// The forces on a contact node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Force {
+    /// Whether restraints leave them undetermined: then they are the least of those that hold the
+    /// bodies in equilibrium.
+    pub(super) undetermined: bool,
     /// The force along the normal, force; > 0 where it presses.
     pub(super) normal: f64,
     /// The force along the tangent, which is the normal turned left, force.
@@ -84,12 +87,12 @@ fn direct(model: &Model, contact: Contact, reaction: &DVector<f64>) -> Option<Fo
     let Contact { pairing, sticks } = contact;
     let ([nx, ny], [rx, ry]) = (pairing.normal, pairing.node.of(reaction));
     let along = |n: f64, r: f64| {
-        (!sticks && n.abs() >= STEEP).then(|| Force { normal: r / n, tangent: 0.0 })
+        (!sticks && n.abs() >= STEEP).then(|| Force { normal: r / n, ..Force::default() })
     };
     match model.restraints_of(pairing.node) {
         [false, false] => {
             let tangent = if sticks { nx * ry - ny * rx } else { 0.0 };
-            Some(Force { normal: nx * rx + ny * ry, tangent })
+            Some(Force { normal: nx * rx + ny * ry, tangent, undetermined: false })
         }
         [true, false] => along(ny, ry),
         [false, true] => along(nx, rx),
@@ -101,9 +104,9 @@ fn direct(model: &Model, contact: Contact, reaction: &DVector<f64>) -> Option<Fo
 fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<Force> {
     let columns: Vec<(usize, Force)> = (0..contacts.len())
         .flat_map(|i| {
-            let tangent = Force { normal: 0.0, tangent: 1.0 };
+            let tangent = Force { tangent: 1.0, ..Force::default() };
             let tangent = contacts[i].sticks.then_some((i, tangent));
-            [Some((i, Force { normal: 1.0, tangent: 0.0 })), tangent].into_iter().flatten()
+            [Some((i, Force { normal: 1.0, ..Force::default() })), tangent].into_iter().flatten()
         })
         .collect();
     let nodes = contacts.iter().flat_map(|c| {
@@ -133,23 +136,20 @@ fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<Fo
     let mut forces = vec![Force::default(); contacts.len()];
     for (column, (i, unit)) in columns.iter().enumerate() {
         let open = free.iter().any(|&k| v[(column, k)].abs() > UNDETERMINED.sqrt());
-        let value = if open { f64::NAN } else { value[column] };
+        forces[*i].undetermined |= open;
         match unit.normal {
-            0.0 => forces[*i].tangent = value,
-            _ => forces[*i].normal = value,
+            0.0 => forces[*i].tangent = value[column],
+            _ => forces[*i].normal = value[column],
         }
     }
     forces
 }
 
-/// Returns the contact forces by degree of freedom, force; what is not determined counts as 0.
+/// Returns the contact forces by degree of freedom, force.
 pub(super) fn load_of(pairings: &[Option<Pairing>], forces: &[Force], dofs: usize) -> DVector<f64> {
     let mut load = DVector::zeros(dofs);
-    let determined = |x: f64| if x.is_nan() { 0.0 } else { x };
     for (pairing, force) in pairings.iter().zip(forces) {
-        let Force { normal, tangent } = *force;
-        let force = Force { normal: determined(normal), tangent: determined(tangent) };
-        pairing.iter().for_each(|pairing| add(pairing, force, 1.0, &mut load));
+        pairing.iter().for_each(|pairing| add(pairing, *force, 1.0, &mut load));
     }
     load
 }

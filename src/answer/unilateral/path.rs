@@ -54,19 +54,9 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
         steps: per_stage,
         stages: problem.model.stages.len(),
         halved: end.halved,
-        change: change(problem, per_stage, &end),
     });
     let uniqueness = uniqueness(problem, &end.equilibrium, &end.before);
     Ok(solution(problem, end, path, uniqueness))
-}
-
-/// Returns the change of the displacements against the path of half as many steps, length.
-fn change(problem: &Problem, per_stage: usize, end: &End) -> Option<f64> {
-    if per_stage % 2 == 1 {
-        return None;
-    }
-    let other = follow(problem, per_stage / 2, &mut |_| ()).ok()?;
-    Some((&other.equilibrium.last.moved.u - &end.equilibrium.last.moved.u).amax())
 }
 
 /// Follows the path in `per_stage` steps a stage.
@@ -233,8 +223,13 @@ fn solution(
 /// Returns the contact surface at the end.
 fn contact(problem: &Problem, place: &Place, last: &Iteration) -> Vec<ContactNode> {
     let measured = if problem.is_current() { &place.shape } else { &problem.model.nodes };
-    let determined = |x: f64| (!x.is_nan()).then_some(x);
-    let forces = last.moved.forces.iter().map(|f| [f.normal, f.tangent].map(determined));
+    let open = problem.undetermined(place, last);
+    let forces = last
+        .moved
+        .forces
+        .iter()
+        .zip(&open)
+        .map(|(force, open)| [force.normal, force.tangent].map(|x| (!open).then_some(x)));
     let traction = Traction {
         model: problem.model,
         surfaces: &problem.surfaces,

@@ -324,12 +324,12 @@ impl<'a> Problem<'a> {
             let (Some(pairing), Some(gap)) = (&place.pairings[i], iteration.gaps[i]) else {
                 return Status::Open;
             };
-            let Force { normal, tangent } = iteration.moved.forces[i];
+            let Force { normal, tangent, undetermined } = iteration.moved.forces[i];
             match iteration.statuses[i] {
                 Status::Open if gap < -deep => self.closing(place, i),
                 Status::Open => Status::Open,
                 _ if normal < -PULL * largest => Status::Open,
-                _ if normal.is_nan() && gap > self.closed => Status::Open,
+                _ if undetermined && gap > self.closed => Status::Open,
                 Status::Stick if tangent.abs() > self.friction * normal * (1.0 + CONE) => {
                     Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
                 }
@@ -461,7 +461,7 @@ impl<'a> Problem<'a> {
         if sliding.is_empty() {
             return Ok(());
         }
-        let unit = Force { normal: 0.0, tangent: 1.0 };
+        let unit = Force { tangent: 1.0, ..Force::default() };
         let response = |(_, _, pairing): &(usize, f64, &Pairing)| {
             let mut load = DVector::zeros(moved.u.len());
             forces::add(pairing, unit, 1.0, &mut load);
@@ -516,6 +516,19 @@ impl<'a> Problem<'a> {
             all[i] = force;
         }
         all
+    }
+
+    /// Returns whether restraints leave the forces of each entry undetermined, with the open nodes
+    /// that touch counted as closed: they could carry a part as well.
+    pub(super) fn undetermined(&self, place: &Place, last: &Iteration) -> Vec<bool> {
+        let touching = |i: usize| match (last.statuses[i], last.gaps[i]) {
+            (Status::Open, Some(gap)) if gap <= self.closed => Status::Slip(Sense::Free),
+            (status, _) => status,
+        };
+        let statuses: Vec<Status> = (0..last.statuses.len()).map(touching).collect();
+        let reaction = &last.moved.reaction - &last.moved.friction;
+        let forces = self.forces(place, &statuses, &reaction);
+        forces.iter().map(|force| force.undetermined).collect()
     }
 
     /// Returns the constraints that impose statuses.
