@@ -13,6 +13,13 @@
 //! resolves either to an edge length only. The node on the axis is left out: the triangles that
 //! meet there stand for half of a symmetric patch whose diagonals do not mirror. So is the last
 //! tenth: the contact ends between two nodes, and the last one or two share what lies between.
+//!
+//! A SECOND CODE (run once, on the meshes of 10 and 20 edges on the half width): Kratos 10.4.4's dual
+//! mortar (ALMContactFrictionless, segments cut exactly, normals of the contact surface, the moved
+//! mesh: `--geometry current` here) gives displacements within 3.9e-5 and 5.9e-6 of the largest,
+//! peak von Mises stresses within 1.6e-6 and 1.2e-7; the difference shrinks with its penalty. In the
+//! mesh not moved its normals are the cylinder's and ours the block's: 9e-3. Standard in place of
+//! dual multipliers (an own code) change displacements by 4e-4 and 9e-5.
 
 use crate::common::recovery::solved_by;
 use crate::common::tolerances::{

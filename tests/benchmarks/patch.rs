@@ -8,6 +8,10 @@
 //!
 //! BOUNDARY CONDITIONS: p = 6.3 MPa on the top, bottom held in y, left sides in x, frictionless. E
 //! = 30000 MPa, nu = 0.2, plane strain.
+//!
+//! A SECOND CODE (run once, on this mesh): Kratos 10.4.4's dual mortar (ALMContactFrictionless, Python
+//! packages KratosMultiphysics, StructuralMechanics and ContactStructuralMechanics) carries the load
+//! unchanged too; displacements differ from ours by 3e-13 of the largest.
 
 use crate::common::recovery::solved_by;
 use crate::common::tolerances::{KNOWN_NTS, PATCH_TEST, assert_near};
