@@ -139,7 +139,13 @@ fn order(order: &Order) -> String {
 
 fn from_the_reference([a, b]: [&Row; 2]) -> String {
     let far = |row: &Row| row.error.map_or("-".into(), |e| percent(e.displacement));
-    format!("From the reference solution: {} at {}, {} at {}.", far(a), a.label, far(b), b.label)
+    format!(
+        "From the equilibrium under the scene's own friction: {} at {}, {} at {}.",
+        far(a),
+        a.label,
+        far(b),
+        b.label
+    )
 }
 
 fn tolerance(scene: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
@@ -190,7 +196,9 @@ fn nearest(_: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
     let verdict =
         if all_same { "all the same".into() } else { format!("{} is nearest", best.label) };
     let listed = listed.collect::<Vec<_>>().join(", ");
-    Some(format!("{variant}: {verdict} ({listed} from the reference solution)."))
+    Some(format!(
+        "{variant}: {verdict} ({listed} from the equilibrium under the scene's own friction)."
+    ))
 }
 
 fn halves(scene: &Scene, rows: &[Row]) -> Vec<String> {
