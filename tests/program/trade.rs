@@ -89,7 +89,7 @@ fn every_knob_has_its_rows_and_every_row_its_columns() {
         assert_eq!(section.rows.iter().any(|row| row.pareto), ran, "{}", section.knob);
     }
     let text = report::text(&trade);
-    for words in ["c_tll", "von Mises", "exact", "reference solution"] {
+    for words in ["c_tll", "von Mises", "exact", "equilibrium"] {
         assert!(text.contains(words), "{words:?}: {text}");
     }
 }
