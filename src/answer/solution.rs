@@ -205,6 +205,11 @@ pub struct Equilibrium {
     pub path: Option<Path>,
     /// What is known of other equilibria.
     pub uniqueness: Uniqueness,
+    /// Under node to segment, which watches contact nodes alone, the target node that lies deepest
+    /// inside the contact surface, and its depth, length; None where none lies deeper than a
+    /// thousandth of the model's size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unseen: Option<(NodeId, f64)>,
     /// The change of the largest displacement component when contact was last measured in the shape
     /// reached, length; 0 in the initial geometry.
     pub shape_change: f64,

@@ -197,6 +197,13 @@ fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
             );
         }
     }
+    if let Some((node, depth)) = found.unseen {
+        text += &format!(
+            "Node to segment watches contact nodes only: target node {node} lies {} inside the contact \
+             surface; mortar sees it\n",
+            length(depth)
+        );
+    }
     if found.shape_change > 0.0 {
         text += &format!(
             "Shape: contact was last measured where displacements changed by {}\n",

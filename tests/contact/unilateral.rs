@@ -276,6 +276,36 @@ fn moduli_that_are_too_far_apart_are_no_missing_restraint() {
     assert!(error.to_string().contains("the moduli are 1e17 apart"), "{error}");
 }
 
+/// A target node between two contact nodes stands 0.03 above the others: node to segment lets it
+/// into the contact body and says so, mortar sees it.
+#[test]
+fn a_target_node_that_node_to_segment_does_not_see_is_reported() {
+    let mut mesh = MeshBuilder::default();
+    let bottom = mesh.row([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]);
+    let target = mesh.row([[0.0, 1.0], [1.0, 1.03], [2.0, 1.0]]);
+    let contact = mesh.row([[0.0, 1.0], [2.0, 1.0]]);
+    let top = mesh.row([[0.0, 2.0], [2.0, 2.0]]);
+    mesh.join("lower", &bottom, &target);
+    mesh.join("upper", &contact, &top);
+    let names = [("bottom", &bottom), ("target", &target), ("contact", &contact), ("top", &top)];
+    names.iter().for_each(|(name, row)| mesh.edges(*name, row));
+    let scene = SceneBuilder::new("apex", mesh.finish(), Plane::Stress)
+        .material("lower", 1e3, 0.0)
+        .material("upper", 1e3, 0.0)
+        .restrain("bottom", BOTH)
+        .restrain("top", &[Axis::X])
+        .pressure("top", 1.0)
+        .contact(Contact { friction: Friction::NONE, ..Contact::new("contact", "target", 0.001) });
+    let unseen = |coupling| {
+        let scene = with(scene.clone(), |contact| contact.coupling = coupling);
+        solved(&scene).unwrap().equilibrium.unwrap().unseen
+    };
+    let (node, depth) = unseen(Coupling::Nts).expect("the apex is inside");
+    assert_eq!(node.number(), target[1]);
+    assert!(depth > 0.02, "{depth}");
+    assert_eq!(unseen(Coupling::Mortar), None);
+}
+
 /// Small displacements.
 fn flat(contact: &mut Contact) {
     contact.geometry = Geometry::Initial;

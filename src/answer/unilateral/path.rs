@@ -206,6 +206,7 @@ fn solution(
     uniqueness: solution::Uniqueness,
 ) -> Solution {
     let Equilibrium { place, last, shape_change, .. } = end.equilibrium;
+    let unseen = problem.unseen(&last);
     Solution {
         request: problem.request.clone(),
         model: problem.model.clone(),
@@ -216,7 +217,7 @@ fn solution(
         u: last.moved.u,
         digits: None,
         error_bound: None,
-        equilibrium: Some(solution::Equilibrium { path, uniqueness, shape_change }),
+        equilibrium: Some(solution::Equilibrium { path, uniqueness, unseen, shape_change }),
     }
 }
 

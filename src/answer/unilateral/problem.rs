@@ -17,7 +17,7 @@ use crate::answer::stiffness::Stiffness;
 use crate::error::InputError;
 use crate::numbers::solve::{Singular, SparseCholesky, SparseSymmetric};
 use crate::problem::model::{Dof, Model, NodeId};
-use crate::problem::modelling::Geometry;
+use crate::problem::modelling::{Coupling, Geometry};
 
 /// The gap over the size of the scene below which it is closed.
 const CLOSED: f64 = 5e-13;
@@ -51,6 +51,10 @@ const FAR_APART: f64 = 1e6;
 
 /// How much of |q| over μ p is rounding.
 const CONE: f64 = 1e-12;
+
+/// The depth of a target node inside the contact surface, over the model's size, that is reported;
+/// where curved surfaces lie on each other, their nodes stand inside by the sagitta of an edge.
+const UNSEEN: f64 = 1e-3;
 
 /// The part of the largest force below which a pull is rounding.
 const PULL: f64 = 1e-11;
@@ -529,6 +533,16 @@ impl<'a> Problem<'a> {
         let reaction = &last.moved.reaction - &last.moved.friction;
         let forces = self.forces(place, &statuses, &reaction);
         forces.iter().map(|force| force.undetermined).collect()
+    }
+
+    /// Returns the target node that lies deepest inside the contact surface under node to segment;
+    /// None where none lies deeper than [`UNSEEN`].
+    pub(super) fn unseen(&self, last: &Iteration) -> Option<(NodeId, f64)> {
+        if self.request.contact.coupling != Coupling::Nts {
+            return None;
+        }
+        let deepest = self.surfaces.deepest_target_node(&self.model.shape(&last.moved.u))?;
+        (deepest.1 > UNSEEN * size(self.model)).then_some(deepest)
     }
 
     /// Returns the constraints that impose statuses.
