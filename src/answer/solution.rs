@@ -135,7 +135,9 @@ impl Step {
     pub fn statuses(&self) -> Vec<bool> {
         match &self.detail {
             Detail::Published(step) => step.pairs.dy.iter().map(|dy| *dy == 1).collect(),
-            Detail::Unilateral(step) => step.statuses.iter().map(|s| *s != Status::Open).collect(),
+            Detail::Unilateral(step) => {
+                step.statuses.iter().map(|status| status.is_closed()).collect()
+            }
         }
     }
 

@@ -14,10 +14,9 @@ pub fn support<T: Scalar>(
     constraints: &[Constraint<T>],
     force: &DVector<T>,
 ) -> [T; 2] {
-    let mut total = [T::zero(), T::zero()];
-    let Some(target) = model.target() else { return total };
-    for dof in target.nodes.iter().flat_map(|n| n.dofs()).filter(|d| restrained[d.index()]) {
-        total[dof.direction()] += force[dof.index()];
+    let mut total = restraints_of_target(model, restrained, force);
+    if model.target().is_none() {
+        return total;
     }
     for constraint in constraints {
         let passed = passed(constraint, restrained, force);
@@ -49,12 +48,15 @@ fn passed<T: Scalar>(
     }
 }
 
-/// Returns the sum of the target body's reactions, force. `force` is K·u − F without the forces of
-/// contact, by degree of freedom.
-pub(super) fn restraints_of_target(model: &Model, force: &DVector<f64>) -> [f64; 2] {
-    let mut total = [0.0; 2];
+/// Returns the sum of `force` over the restraints of the target body, force.
+pub(super) fn restraints_of_target<T: Scalar>(
+    model: &Model,
+    restrained: &[bool],
+    force: &DVector<T>,
+) -> [T; 2] {
+    let mut total = [T::zero(), T::zero()];
     let nodes = model.target().into_iter().flat_map(|target| &target.nodes);
-    for dof in nodes.flat_map(|n| n.dofs()).filter(|dof| model.is_restrained(*dof)) {
+    for dof in nodes.flat_map(|n| n.dofs()).filter(|dof| restrained[dof.index()]) {
         total[dof.direction()] += force[dof.index()];
     }
     total

@@ -119,11 +119,7 @@ fn path(solution: &Solution) -> Option<&Path> {
 fn load_steps(solution: &Solution, path: &Path, change: Option<f64>) -> String {
     let units = &solution.request.scene.units;
     let length = |name| quantity(name, &units.length);
-    let detail = |step: &Step| match &step.detail {
-        Detail::Unilateral(own) => Some((own.load, own.statuses.clone())),
-        Detail::Published(_) => None,
-    };
-    let details: Vec<(f64, Vec<Status>)> = solution.steps.iter().filter_map(detail).collect();
+    let details: Vec<(f64, &Vec<Status>)> = solution.steps.iter().filter_map(under_load).collect();
     let ends = |i: &usize| details.get(i + 1).is_none_or(|next| next.0 != details[*i].0);
     let last: Vec<usize> = (0..details.len()).filter(ends).collect();
     let before = |row: usize| row.checked_sub(1).map_or(0, |before| last[before] + 1);
@@ -157,6 +153,14 @@ fn load_steps(solution: &Solution, path: &Path, change: Option<f64>) -> String {
         n => format!("; {n} halved, as no equilibrium was found"),
     };
     format!("{table}  {} steps a stage{halved}; {change}\n", path.steps)
+}
+
+/// Returns the load of an iteration of `unilateral`, and its statuses.
+fn under_load(step: &Step) -> Option<(f64, &Vec<Status>)> {
+    match &step.detail {
+        Detail::Unilateral(own) => Some((own.load, &own.statuses)),
+        Detail::Published(_) => None,
+    }
 }
 
 /// Says whether the equilibrium is the only one, and what is left of the change of shape.

@@ -31,6 +31,13 @@ pub enum Sense {
     Free,
 }
 
+impl Status {
+    /// Returns whether the node is in contact.
+    pub fn is_closed(self) -> bool {
+        self != Status::Open
+    }
+}
+
 impl Sense {
     /// Returns the sign of the motion along the tangent; 0 without friction.
     pub fn sign(self) -> f64 {

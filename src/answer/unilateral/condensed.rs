@@ -45,22 +45,7 @@ impl Problem<'_> {
             return self.without_friction(place, &entries, setting);
         }
         let n = entries.len();
-        let forces =
-            |apart: &DVector<f64>, loaded: bool| self.held(place, &entries, setting, apart, loaded);
-        let at_rest = forces(&DVector::zeros(2 * n), true)?;
-        let mut stiffness = DMatrix::zeros(2 * n, 2 * n);
-        for column in 0..2 * n {
-            let mut apart = DVector::zeros(2 * n);
-            apart[column] = 1.0;
-            stiffness.set_column(column, &forces(&apart, false)?);
-        }
-        // Gaps and slips in the unit in which stiffness is 1, forces in that of the largest.
-        let scale = stiffness.diagonal().amax();
-        let unit = at_rest.amax();
-        if unit == 0.0 {
-            return None;
-        }
-        let (stiffness, at_rest) = (stiffness / scale, at_rest / unit);
+        let (stiffness, at_rest) = self.scaled(place, &entries, setting, 2 * n)?;
         let forces_of = DMatrix::from_fn(2 * n, 3 * n, |row, column| match column / n {
             0 | 1 => stiffness[(row, column)],
             _ => -stiffness[(row, column - n)],
@@ -102,18 +87,8 @@ impl Problem<'_> {
         setting: &Setting,
     ) -> Option<Vec<Status>> {
         let n = entries.len();
-        let forces = |apart: &DVector<f64>, loaded: bool| {
-            Some(self.held(place, entries, setting, apart, loaded)?.rows(0, n).into_owned())
-        };
-        let at_rest = forces(&DVector::zeros(2 * n), true)?;
-        let mut stiffness = DMatrix::zeros(n, n);
-        for column in 0..n {
-            let mut apart = DVector::zeros(2 * n);
-            apart[column] = 1.0;
-            stiffness.set_column(column, &forces(&apart, false)?);
-        }
-        let (scale, unit) = (stiffness.diagonal().amax(), at_rest.amax());
-        let z = lemke(&(stiffness / scale), &(at_rest / unit))?;
+        let (stiffness, at_rest) = self.scaled(place, entries, setting, n)?;
+        let z = lemke(&stiffness, &at_rest)?;
         let still = STILL * z.amax();
         let mut statuses = vec![Status::Open; place.pairings.len()];
         for (k, i) in entries.iter().enumerate() {
@@ -122,6 +97,31 @@ impl Problem<'_> {
             }
         }
         Some(statuses)
+    }
+
+    /// Returns the stiffness of the first `size` gaps and slips, and the forces with every node held to
+    /// the target: gaps and slips in the unit in which stiffness is 1, forces in that of the largest.
+    /// None where there are no forces.
+    fn scaled(
+        &self,
+        place: &Place,
+        entries: &[usize],
+        setting: &Setting,
+        size: usize,
+    ) -> Option<(DMatrix<f64>, DVector<f64>)> {
+        let forces = |apart: &DVector<f64>, loaded: bool| {
+            let all = self.held(place, entries, setting, apart, loaded)?;
+            Some(all.rows(0, size).into_owned())
+        };
+        let at_rest = forces(&DVector::zeros(2 * entries.len()), true)?;
+        let mut stiffness = DMatrix::zeros(size, size);
+        for column in 0..size {
+            let mut apart = DVector::zeros(2 * entries.len());
+            apart[column] = 1.0;
+            stiffness.set_column(column, &forces(&apart, false)?);
+        }
+        let (scale, unit) = (stiffness.diagonal().amax(), at_rest.amax());
+        (unit > 0.0).then(|| (stiffness / scale, at_rest / unit))
     }
 
     /// Returns the forces along all normals, then along all tangents, with every node held `apart`

@@ -31,7 +31,7 @@ pub(super) fn uniqueness(
     if let Some(node) = indifferent(problem, found, &setting) {
         return Uniqueness::Indifferent { node };
     }
-    if problem.request.contact.friction.coefficient() == 0.0 {
+    if problem.friction() == 0.0 {
         return Uniqueness::Unique;
     }
     let place = &found.place;
@@ -70,9 +70,8 @@ fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Opt
     let largest = forces.iter().map(|f| f.normal).fold(0.0, f64::max);
     let mut statuses = found.last.statuses.clone();
     let carries_nothing = |i: usize| forces[i].normal <= WEAK * largest;
-    let weak: Vec<usize> = (0..statuses.len())
-        .filter(|&i| statuses[i] != Status::Open && carries_nothing(i))
-        .collect();
+    let weak: Vec<usize> =
+        (0..statuses.len()).filter(|&i| statuses[i].is_closed() && carries_nothing(i)).collect();
     if weak.is_empty() {
         return None;
     }
@@ -92,7 +91,7 @@ fn every(choices: &[Vec<Status>]) -> Vec<Vec<Status>> {
 
 /// Returns the states that differ from `found` in one entry, of those in contact or beside one.
 fn neighbours(found: &[Status], choices: &[Vec<Status>]) -> Vec<Vec<Status>> {
-    let closed = |i: usize| found.get(i).is_some_and(|status| *status != Status::Open);
+    let closed = |i: usize| found.get(i).is_some_and(|status| status.is_closed());
     let near = |i: &usize| closed(*i) || closed(i + 1) || *i > 0 && closed(i - 1);
     let entries = (0..found.len()).filter(near);
     entries

@@ -46,9 +46,8 @@ struct End {
 /// # Errors
 /// No equilibrium was found, or nothing restrains the bodies.
 pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
-    let contact = problem.request.contact;
-    let with_friction = contact.friction.coefficient() > 0.0;
-    let per_stage = if with_friction { contact.load_steps } else { 1 };
+    let with_friction = problem.friction() > 0.0;
+    let per_stage = if with_friction { problem.request.contact.load_steps } else { 1 };
     let end = follow(problem, per_stage, watch)?;
     let path = with_friction.then(|| Path {
         steps: per_stage,
@@ -61,7 +60,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
 
 /// Follows the path in `per_stage` steps a stage.
 fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> Result<End, Error> {
-    let with_friction = problem.request.contact.friction.coefficient() > 0.0;
+    let with_friction = problem.friction() > 0.0;
     // Without friction only the whole load counts.
     let stages = if with_friction { problem.model.stages.len() } else { 1 };
     let zero = DVector::zeros(problem.model.dofs());
@@ -164,7 +163,7 @@ impl Walk<'_> {
 /// Returns the load at a part of the path, restrained degrees of freedom included, force.
 fn load(problem: &Problem, part: f64) -> DVector<f64> {
     let model = problem.model;
-    if problem.request.contact.friction.coefficient() == 0.0 {
+    if problem.friction() == 0.0 {
         return &model.load * part;
     }
     let zero = DVector::zeros(model.dofs());
@@ -178,12 +177,13 @@ fn load(problem: &Problem, part: f64) -> DVector<f64> {
 fn step(problem: &Problem, k: usize, load: f64, place: &Place, iteration: &Iteration) -> Step {
     let Iteration { statuses, constraints, cycle, moved, violation, .. } = iteration;
     let contact = load_of(&place.pairings, &moved.forces, moved.u.len());
-    let support = restraints_of_target(problem.model, &(&moved.reaction - contact));
+    let restrained = &problem.model.restrained;
+    let support = restraints_of_target(problem.model, restrained, &(&moved.reaction - contact));
     Step {
         k,
         shape: place.shape.clone(),
         constraints: constraints.clone(),
-        in_contact: statuses.iter().filter(|status| **status != Status::Open).count(),
+        in_contact: statuses.iter().filter(|status| status.is_closed()).count(),
         max_displacement: max_displacement(&moved.u),
         cycle: cycle.clone(),
         target_force: against_load(problem.model, support),
@@ -237,7 +237,7 @@ fn contact(problem: &Problem, place: &Place, last: &Iteration) -> Vec<ContactNod
         measured_in: measured,
         pairings: &place.pairings,
         gaps: &last.gaps,
-        in_contact: &last.statuses.iter().map(|s| *s != Status::Open).collect::<Vec<_>>(),
+        in_contact: &last.statuses.iter().map(|status| status.is_closed()).collect::<Vec<_>>(),
         statuses: Some(&last.statuses),
         forces: &forces.collect::<Vec<_>>(),
     };

@@ -169,7 +169,7 @@ impl<'a> Problem<'a> {
         setting: &Setting,
         watch: &mut Watch,
     ) -> Result<Equilibrium, Error> {
-        let gaps = self.gaps(&self.place(setting.before), setting.before);
+        let mut gaps = Vec::new();
         let mut first: Option<(Vec<Status>, Vec<Option<f64>>)> = None;
         let mut keep_first = |place: &Place, iteration: &Iteration| {
             first.get_or_insert_with(|| (iteration.statuses.clone(), iteration.gaps.clone()));
@@ -178,12 +178,13 @@ impl<'a> Problem<'a> {
         let mut start = setting.statuses.map(<[Status]>::to_vec);
         let mut before: Option<(DVector<f64>, f64)> = None;
         let mut memory = Memory::default();
-        let mut k = 0;
         for _ in 0..SHAPES {
             memory.move_on();
             let place = self.place(before.as_ref().map_or(setting.before, |(u, _)| u));
-            let last =
-                self.settle(&place, start, setting, (&mut k, &mut memory), &mut keep_first)?;
+            if before.is_none() {
+                gaps = self.gaps(&place, setting.before);
+            }
+            let last = self.settle(&place, start, setting, &mut memory, &mut keep_first)?;
             let change = match &before {
                 _ if !self.is_current() => 0.0,
                 Some((u, _)) => (&last.moved.u - u).amax(),
@@ -212,7 +213,7 @@ impl<'a> Problem<'a> {
         last: &Iteration,
     ) -> Option<f64> {
         let part = |i: usize| {
-            let closed = statuses[i] == Status::Open && last.statuses[i] != Status::Open;
+            let closed = statuses[i] == Status::Open && last.statuses[i].is_closed();
             let (from, to) = (before[i]?, after[i]?);
             (closed && from > self.closed && to < -self.closed).then(|| from / (from - to))
         };
@@ -226,16 +227,16 @@ impl<'a> Problem<'a> {
         place: &Place,
         start: Option<Vec<Status>>,
         setting: &Setting,
-        (k, memory): (&mut usize, &mut Memory),
+        memory: &mut Memory,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
-        let found = self.active_set(place, start, setting, (&mut *k, &mut *memory), watch);
+        let found = self.active_set(place, start, setting, memory, watch);
         let Err(Error::Equilibrium(NoEquilibrium { what })) = found else { return found };
         let Some(statuses) = self.complementary(place, setting) else {
             return Err(NoEquilibrium { what }.into());
         };
         memory.move_on();
-        self.active_set(place, Some(statuses), setting, (k, memory), watch)
+        self.active_set(place, Some(statuses), setting, memory, watch)
     }
 
     /// Goes from statuses to those that they ask for, until they ask for themselves.
@@ -244,17 +245,15 @@ impl<'a> Problem<'a> {
         place: &Place,
         start: Option<Vec<Status>>,
         setting: &Setting,
-        (k, memory): (&mut usize, &mut Memory),
+        memory: &mut Memory,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
         let mut statuses = start.unwrap_or_else(|| self.first(place, setting.before));
-        let first = *k + 1;
-        let limit = *k + PATIENCE + self.model.contact.nodes.len();
-        while *k < limit {
-            *k += 1;
-            let iteration = self.iteration(*k, place, statuses, setting, memory)?;
+        let limit = PATIENCE + self.model.contact.nodes.len();
+        for _ in 0..limit {
+            let iteration = self.iteration(place, statuses, setting, memory)?;
             watch(place, &iteration);
-            let wanted = self.wanted(place, &iteration, setting, *k == 1);
+            let wanted = self.wanted(place, &iteration, setting, memory.iterations == 1);
             if wanted == iteration.statuses {
                 return Ok(iteration);
             }
@@ -265,8 +264,7 @@ impl<'a> Problem<'a> {
             false => "",
         };
         let what = format!(
-            "no contact state in equilibrium was found in {} iterations{}{never_slides}",
-            *k + 1 - first,
+            "no contact state in equilibrium was found in {limit} iterations{}{never_slides}",
             memory.returned()
         );
         Err(NoEquilibrium { what }.into())
@@ -359,7 +357,6 @@ impl<'a> Problem<'a> {
     /// Imposes `statuses`, or more closed nodes where they do not restrain the bodies.
     fn iteration(
         &self,
-        k: usize,
         place: &Place,
         mut statuses: Vec<Status>,
         setting: &Setting,
@@ -382,7 +379,7 @@ impl<'a> Problem<'a> {
             }
         };
         let gaps = self.gaps(place, &moved.u);
-        let cycle = memory.keep(k, &statuses);
+        let cycle = memory.keep(&statuses);
         let violation = violation(&gaps, &statuses);
         Ok(Iteration { statuses, constraints, cycle, moved, gaps, violation })
     }
@@ -488,11 +485,7 @@ impl<'a> Problem<'a> {
             -sign * self.friction * moved.forces[i].normal
         });
         let sizes = matrix.lu().solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
-        let Some(sizes) = sizes else {
-            let what =
-                "the sliding nodes jam: no friction agrees with its own normal forces".into();
-            return Err(NoEquilibrium { what });
-        };
+        let sizes = sizes.ok_or_else(jammed)?;
         for ([load, u, reaction], size) in responses.iter().zip(&sizes) {
             moved.friction.axpy(*size, load, 1.0);
             moved.u.axpy(*size, u, 1.0);
@@ -508,7 +501,7 @@ impl<'a> Problem<'a> {
     /// Returns the forces of all entries; 0 where an entry is open.
     fn forces(&self, place: &Place, statuses: &[Status], reaction: &DVector<f64>) -> Vec<Force> {
         let closed: Vec<usize> = (0..statuses.len())
-            .filter(|&i| statuses[i] != Status::Open && place.pairings[i].is_some())
+            .filter(|&i| statuses[i].is_closed() && place.pairings[i].is_some())
             .collect();
         let contact = |i: &usize| Contact {
             pairing: place.pairings[*i].as_ref().expect("closed entries face the target"),
@@ -553,7 +546,7 @@ impl<'a> Problem<'a> {
         setting: &Setting,
     ) -> Vec<Constraint> {
         let constraint = |(pairing, status): (&Option<Pairing>, &Status)| {
-            let pairing = pairing.as_ref().filter(|_| *status != Status::Open)?;
+            let pairing = pairing.as_ref().filter(|_| status.is_closed())?;
             let closing = -pairing.opening(|n| self.model.at(n));
             let motion = match status {
                 Status::Stick => {
@@ -652,7 +645,7 @@ fn jammed() -> NoEquilibrium {
 /// Returns the largest gap of a closed node or penetration of another one, length.
 fn violation(gaps: &[Option<f64>], statuses: &[Status]) -> f64 {
     let of_entry = |(gap, status): (&Option<f64>, &Status)| match gap {
-        Some(gap) if *status != Status::Open => gap.abs(),
+        Some(gap) if status.is_closed() => gap.abs(),
         Some(gap) => (-gap).max(0.0),
         None => 0.0,
     };

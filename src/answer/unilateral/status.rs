@@ -16,6 +16,8 @@ const STANDING: f64 = 1e-9;
 /// returned in the place in which contact is measured now.
 #[derive(Default)]
 pub(super) struct Memory {
+    /// The number of iterations.
+    pub(super) iterations: usize,
     visited: HashMap<Vec<Status>, usize>,
     tried_here: HashSet<Vec<Status>>,
     one_at_a_time: bool,
@@ -24,8 +26,10 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// Keeps that iteration `k` imposed `statuses`; says where the same were imposed before.
-    pub(super) fn keep(&mut self, k: usize, statuses: &[Status]) -> Option<Cycle> {
+    /// Keeps that one more iteration imposed `statuses`; says where the same were imposed before.
+    pub(super) fn keep(&mut self, statuses: &[Status]) -> Option<Cycle> {
+        self.iterations += 1;
+        let k = self.iterations;
         self.tried_here.insert(statuses.to_vec());
         let before = self.visited.insert(statuses.to_vec(), k)?;
         let cycle = Cycle { length: k - before, members: (before..k).collect() };
@@ -99,6 +103,6 @@ pub(super) fn nearest_open(statuses: &[Status], gaps: &[Option<f64>]) -> Vec<usi
     };
     let mut others: Vec<(f64, usize)> = gaps.iter().enumerate().filter_map(open).collect();
     others.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let more = statuses.iter().filter(|status| **status != Status::Open).count().max(1);
+    let more = statuses.iter().filter(|status| status.is_closed()).count().max(1);
     others.iter().take(more).map(|(_, i)| *i).collect()
 }
