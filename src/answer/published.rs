@@ -266,6 +266,7 @@ impl<'a, T: Precision> Run<'a, T> {
         let shape = door::shape(&door::moved(self.sheet, &self.u));
         let pairings = surfaces.pairings(Coupling::Nts, &shape);
         let reaction = self.equations.reaction(&self.u).map(T::to_f64);
+        let eliminated = self.request.variant != Variant::Printed;
         let traction = Traction {
             model: self.model,
             surfaces: &surfaces,
@@ -274,7 +275,7 @@ impl<'a, T: Precision> Run<'a, T> {
             measured_in: &shape,
             in_contact,
             statuses: None,
-            forces: &reactions(self.model, &pairings, &reaction),
+            forces: &reactions(self.model, &pairings, &reaction, eliminated),
         };
         Ok(traction.nodes())
     }

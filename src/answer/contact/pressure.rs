@@ -106,24 +106,27 @@ impl Traction<'_> {
 }
 
 /// Returns the forces along normal and tangent of every entry from the reaction K u − F of its node,
-/// force. A component in which the node is restrained may belong to the restraint and does not
-/// count; along the tangent nothing is determined then.
+/// force. Contact does not bind a component in which a node is restrained where `eliminated`, so
+/// that its reaction is the restraint's alone; otherwise it may be contact's too, and what depends
+/// on it is None.
 pub fn reactions(
     model: &Model,
     pairings: &[Option<Pairing>],
     reaction: &DVector<f64>,
+    eliminated: bool,
 ) -> Vec<[Option<f64>; 2]> {
     let of_pairing = |pairing: &Pairing| {
         let ([nx, ny], restrained) = (pairing.normal, model.restraints_of(pairing.node));
         let force = pairing.node.of(reaction);
         let [rx, ry] = [0, 1].map(|d| if restrained[d] { 0.0 } else { force[d] });
-        let [across_x, across_y] = [ny, nx].map(|n| n.abs() > 1.0 - ACROSS);
-        match restrained {
-            [false, false] => [Some(nx * rx + ny * ry), Some(nx * ry - ny * rx)],
-            [true, false] if across_x => [Some(ny * ry), Some(0.0)],
-            [false, true] if across_y => [Some(nx * rx), Some(0.0)],
-            _ => [None, None],
-        }
+        let is_determined = match restrained {
+            [false, false] => true,
+            [true, true] => false,
+            [true, false] => eliminated || ny.abs() > 1.0 - ACROSS,
+            [false, true] => eliminated || nx.abs() > 1.0 - ACROSS,
+        };
+        let force = [nx * rx + ny * ry, nx * ry - ny * rx];
+        force.map(|component| is_determined.then_some(component))
     };
     pairings.iter().map(|p| p.as_ref().map_or([None, None], of_pairing)).collect()
 }
