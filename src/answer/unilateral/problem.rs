@@ -8,6 +8,7 @@ use super::forces::{self, Contact, Force, forces, tangent};
 use super::reduced::{Last, Reduced};
 use super::rigid;
 use super::status::{Memory, first_closed, nearest_open, next_closed};
+use crate::answer::condensation::Bodies;
 use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
 use crate::answer::elimination::{Constraint, Elimination, Motion};
 use crate::answer::error::{Error, NoEquilibrium};
@@ -69,7 +70,8 @@ pub(super) struct Problem<'a> {
     pub(super) closed: f64,
     /// Coulomb's coefficient.
     friction: f64,
-    last: Last,
+    pub(super) bodies: Bodies,
+    pub(super) last: Last,
 }
 
 /// What a step of the load starts from, and the load at its end.
@@ -154,6 +156,7 @@ impl<'a> Problem<'a> {
             surfaces,
             closed: CLOSED * size(model),
             friction: request.contact.friction.coefficient(),
+            bodies: Bodies::new(model),
             last: Last::default(),
         })
     }
@@ -413,7 +416,7 @@ impl<'a> Problem<'a> {
     ) -> Result<Solved, Error> {
         let t = Elimination::closing(&self.model.restrained, constraints);
         let load = self.model.free_part(&setting.load);
-        let reduced = match Reduced::new(&self.stiffness, &t, statuses, &self.last) {
+        let reduced = match Reduced::new(self, &t, constraints, statuses) {
             Ok(reduced) => reduced,
             Err(singular) => return Ok(self.free(&t, singular, &load)),
         };
@@ -654,10 +657,7 @@ fn violation(gaps: &[Option<f64>], statuses: &[Status]) -> f64 {
 
 /// Returns the motion that constraints leave free where only soft springs oppose the load.
 fn free_motion(t: &Elimination, k: &SparseSymmetric, load: &DVector<f64>) -> Option<DVector<f64>> {
-    let diagonal = k.diagonal();
-    let springs = (0..k.size()).map(|i| (i, i, SOFT * diagonal[i]));
-    let sprung = SparseSymmetric::new(k.size(), k.entries().chain(springs));
-    let q = SparseCholesky::new(sprung).ok()?.solve(&t.load(load));
+    let q = SparseCholesky::new(k.with_diagonal(SOFT)).ok()?.solve(&t.load(load));
     Some(t.expand(&q) - t.shift())
 }
 

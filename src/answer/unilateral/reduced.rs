@@ -1,25 +1,17 @@
-//! The reduced equations Tᵀ K T q = f, solved by factors of their own or by those of nearly the same
-//! equations, with refinement.
+//! The reduced equations Tᵀ K T q = f, solved by the factors of the condensed bodies, by factors of
+//! their own, or by those of nearly the same equations, with refinement.
 
 use std::cell::RefCell;
 use std::rc::Rc;
 
 use nalgebra::DVector;
 
+use super::problem::Problem;
+use crate::answer::condensation::refined;
 use crate::answer::contact::Status;
-use crate::answer::elimination::Elimination;
+use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::{Singular, SparseCholesky, backward_error};
-
-/// The relative residual at which refinement ends.
-const REFINED: f64 = 4.0 * f64::EPSILON;
-
-/// The relative residual that is enough where refinement brings no more.
-const ENOUGH: f64 = 32.0 * f64::EPSILON;
-
-/// The part of its residual to which a step of refinement must bring the next one; equations that
-/// differ more are factored anew.
-const CONTRACTION: f64 = 0.2;
+use crate::numbers::solve::{Factors, Singular, SparseCholesky};
 
 /// What a status holds of a node's motion: nothing, the one along the normal, or both.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -32,20 +24,19 @@ enum Held {
 /// The factors that were made last, and the statuses under which they were made. Other shapes and
 /// loads under statuses that hold the same motions have equations that are the same or nearly so.
 #[derive(Default)]
-pub(super) struct Last(RefCell<Option<(Vec<Held>, Rc<Factors>)>>);
+pub(super) struct Last(RefCell<Option<(Vec<Held>, Rc<Made>)>>);
 
 /// Factors, and the norm of their matrix, force/length.
-struct Factors {
-    cholesky: SparseCholesky,
+struct Made {
+    factors: Box<dyn Factors<f64>>,
     norm: f64,
 }
 
 /// The reduced equations under imposed statuses.
 pub(super) struct Reduced<'a> {
-    stiffness: &'a Stiffness,
+    problem: &'a Problem<'a>,
     t: &'a Elimination,
-    factors: RefCell<Rc<Factors>>,
-    last: &'a Last,
+    factors: RefCell<Rc<Made>>,
     held: Vec<Held>,
 }
 
@@ -55,10 +46,10 @@ impl<'a> Reduced<'a> {
     /// # Errors
     /// The matrix is singular.
     pub(super) fn new(
-        stiffness: &'a Stiffness,
+        problem: &'a Problem,
         t: &'a Elimination,
+        constraints: &[Constraint],
         statuses: &[Status],
-        last: &'a Last,
     ) -> Result<Self, Singular> {
         let held = |status: &Status| match status {
             Status::Open => Held::Nothing,
@@ -66,14 +57,27 @@ impl<'a> Reduced<'a> {
             Status::Stick => Held::Both,
         };
         let held: Vec<Held> = statuses.iter().map(held).collect();
-        let same =
-            last.0.borrow().as_ref().filter(|(same, _)| *same == held).map(|(_, f)| f.clone());
+        let last = problem.last.0.borrow();
+        let same = last.as_ref().filter(|(same, _)| *same == held).map(|(_, made)| made.clone());
+        drop(last);
+        let bound = || {
+            let (stiffness, model) = (&problem.stiffness, problem.model);
+            let bound = problem.bodies.factors(stiffness, model, t, constraints)?;
+            Some(Made { norm: bound.norm(), factors: Box::new(bound) })
+        };
         let factors = match same {
             Some(factors) => factors,
-            None => Rc::new(factored(stiffness, t)?),
+            None => Rc::new(bound().map_or_else(|| factored(&problem.stiffness, t), Ok)?),
         };
-        *last.0.borrow_mut() = Some((held.clone(), Rc::clone(&factors)));
-        Ok(Reduced { stiffness, t, factors: RefCell::new(factors), last, held })
+        let reduced = Reduced { problem, t, factors: RefCell::new(factors), held };
+        reduced.keep();
+        Ok(reduced)
+    }
+
+    /// Keeps the factors for other shapes and loads.
+    fn keep(&self) {
+        let made = Rc::clone(&self.factors.borrow());
+        self.problem.last.0.replace(Some((self.held.clone(), made)));
     }
 
     /// Returns q, and its relative residual.
@@ -81,44 +85,22 @@ impl<'a> Reduced<'a> {
     /// # Errors
     /// The matrix is singular.
     pub(super) fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
+        let stiffness = &self.problem.stiffness;
+        let solve = |made: &Made| refined(stiffness, self.t, &*made.factors, made.norm, f);
         let first = Rc::clone(&self.factors.borrow());
-        if let Some(solved) = self.refined(&first, f) {
+        if let Ok(solved) = solve(&first) {
             return Ok(solved);
         }
-        let factors = Rc::new(factored(self.stiffness, self.t)?);
-        *self.last.0.borrow_mut() = Some((self.held.clone(), Rc::clone(&factors)));
-        *self.factors.borrow_mut() = Rc::clone(&factors);
-        let q = factors.cholesky.solve(f);
-        let residual = factors.cholesky.residual(&q, f);
-        Ok((q, residual))
-    }
-
-    /// Refines by factors; None where they are too far from those of these equations.
-    fn refined(&self, factors: &Factors, f: &DVector<f64>) -> Option<(DVector<f64>, f64)> {
-        let mut q = factors.cholesky.solve(f);
-        let mut before = f64::INFINITY;
-        loop {
-            let rest = f - self.times(&q);
-            let error = backward_error(&rest, factors.norm, &q, f);
-            if error <= REFINED || (error <= ENOUGH && error > CONTRACTION * before) {
-                return Some((q, error));
-            }
-            if error.is_nan() || error > CONTRACTION * before {
-                return None;
-            }
-            before = error;
-            q += factors.cholesky.solve(&rest);
-        }
-    }
-
-    /// Returns Tᵀ K T q.
-    fn times(&self, q: &DVector<f64>) -> DVector<f64> {
-        self.t.load(&self.stiffness.times(&(self.t.expand(q) - self.t.shift())))
+        self.factors.replace(Rc::new(factored(stiffness, self.t)?));
+        self.keep();
+        let solved = solve(&self.factors.borrow());
+        Ok(solved.unwrap_or_else(|best| best))
     }
 }
 
-fn factored(stiffness: &Stiffness, t: &Elimination) -> Result<Factors, Singular> {
+/// Factors the whole matrix.
+fn factored(stiffness: &Stiffness, t: &Elimination) -> Result<Made, Singular> {
     let matrix = stiffness.reduced(t);
     let norm = matrix.norm();
-    Ok(Factors { cholesky: SparseCholesky::new(matrix)?, norm })
+    Ok(Made { factors: Box::new(SparseCholesky::new(matrix)?), norm })
 }

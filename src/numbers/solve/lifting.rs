@@ -87,9 +87,7 @@ struct Row {
 /// matrix is.
 pub fn lift(matrix: &SparseSymmetric<RBig>, b: &[RBig]) -> Option<Vec<RBig>> {
     let (mut rows, length) = whole_rows(matrix, b)?;
-    let residues: Option<Vec<_>> =
-        matrix.entries().map(|(i, j, a)| Residue::of_fraction(&a).map(|a| (i, j, a))).collect();
-    let factors = Ldlt::new(&SparseSymmetric::of_entries(b.len(), residues?.into_iter())).ok()?;
+    let factors = Ldlt::new(&matrix.try_map(Residue::of_fraction)?).ok()?;
     // p^digits > 2 · (2^length)²: numerators and denominators are below 2^length.
     let digits = (2 * length + 2) / 60 + 1;
     let mut x: Vec<Vec<u64>> = vec![Vec::with_capacity(digits); b.len()];

@@ -6,11 +6,13 @@
 //! | [`memory`], [`cost`], `symbolic` | what a solution needs: memory, time, entries of factors |
 //! | `factors`, `dense` | what factorisations share; faer's of dense matrices |
 //! | `error_bound` | how far a solution may be from the true one |
-//! | `sparse`, `iterative` | faer's factors of sparse matrices; solutions to a tolerance |
+//! | `sparse`, `condensed`, `iterative` | faer's factors of sparse matrices; those that leave a few
+//!   equations over; solutions to a tolerance |
 //! | `field`, `lu`, `ldlt`, `lifting` | elimination in numbers that no library factors |
 //! | `precision` | the solution in each scalar by each solver |
 
 mod arithmetic;
+mod condensed;
 pub mod cost;
 mod dense;
 mod error_bound;
@@ -26,6 +28,7 @@ mod sparse;
 mod symbolic;
 
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
+pub use condensed::{Condensed, Eliminated};
 pub use dense::{DenseCholesky, DenseLu};
 pub use error_bound::{error_bound, inverse_norm};
 pub use factors::{Factors, Native, Singular, backward_error};
@@ -35,5 +38,5 @@ pub use ldlt::Ldlt;
 pub use lifting::lift;
 pub use lu::solve_dense;
 pub use precision::{Precision, Solved, Unsolved};
-pub use sparse::{SparseCholesky, SparseSymmetric};
+pub use sparse::{SparseCholesky, SparseSymmetric, largest_motion};
 pub use symbolic::FactorSize;

@@ -1,11 +1,11 @@
 //! Sparse symmetric matrices, and Cholesky factors of those that are positive definite, by the
 //! library faer.
 
-use std::collections::BTreeMap;
+use std::marker::PhantomData;
 use std::ops::AddAssign;
 
 use faer::sparse::linalg::solvers::Llt;
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Par, Side};
 use nalgebra::{DMatrix, DVector};
 
@@ -24,58 +24,105 @@ const SHIFT: f64 = 1e-10 / f64::EPSILON;
 /// A symmetric matrix: the entries of its lower triangle, column by column, rows ascending.
 #[derive(Clone, Debug)]
 pub struct SparseSymmetric<T = f64> {
-    columns: Vec<Vec<(usize, T)>>,
+    /// Where each column starts, and where the last one ends.
+    starts: Vec<usize>,
+    rows: Vec<usize>,
+    values: Vec<T>,
 }
 
-impl<T: Clone> SparseSymmetric<T> {
-    /// Sums entries (row, column, value) into an n x n matrix, without those above the diagonal.
-    pub fn new(n: usize, entries: impl Iterator<Item = (usize, usize, T)>) -> Self
+impl<T: Copy> SparseSymmetric<T> {
+    /// Sums `entries` (row, column, value) into an n x n matrix, in their order and without those
+    /// above the diagonal. They are gone through twice.
+    pub fn new(n: usize, entries: impl Iterator<Item = (usize, usize, T)> + Clone) -> Self
     where
         T: AddAssign,
     {
-        let mut columns: Vec<BTreeMap<usize, T>> = vec![BTreeMap::new(); n];
-        for (i, j, value) in entries.filter(|(i, j, _)| i >= j) {
-            match columns[j].get_mut(&i) {
-                Some(sum) => *sum += value,
-                None => drop(columns[j].insert(i, value)),
+        let lower = entries.filter(|(i, j, _)| i >= j);
+        let mut ends = vec![0; n + 1];
+        lower.clone().for_each(|(_, j, _)| ends[j + 1] += 1);
+        (0..n).for_each(|j| ends[j + 1] += ends[j]);
+        let any = lower.clone().next();
+        let mut by_column = any.map_or(Vec::new(), |(i, _, value)| vec![(i, value); ends[n]]);
+        for (i, j, value) in lower {
+            by_column[ends[j]] = (i, value);
+            ends[j] += 1;
+        }
+        let mut matrix = SparseSymmetric { starts: vec![0], rows: Vec::new(), values: Vec::new() };
+        let mut from = 0;
+        for end in &ends[..n] {
+            let column = &mut by_column[from..*end];
+            column.sort_by_key(|(i, _)| *i);
+            matrix.push(column);
+            from = *end;
+        }
+        matrix
+    }
+
+    /// Adds a column of entries (row, value), rows ascending; those of one row are summed.
+    fn push(&mut self, column: &[(usize, T)])
+    where
+        T: AddAssign,
+    {
+        let start = self.rows.len();
+        for &(i, value) in column {
+            match self.values.last_mut() {
+                Some(sum) if self.rows.len() > start && self.rows.last() == Some(&i) => {
+                    *sum += value
+                }
+                _ => {
+                    self.rows.push(i);
+                    self.values.push(value);
+                }
             }
         }
-        SparseSymmetric { columns: columns.into_iter().map(|c| c.into_iter().collect()).collect() }
+        self.starts.push(self.rows.len());
     }
+}
 
-    /// Makes an n x n matrix of entries (row, column, value) on and below the diagonal, none twice,
-    /// rows ascending.
-    pub(super) fn of_entries(n: usize, entries: impl Iterator<Item = (usize, usize, T)>) -> Self {
-        let mut columns = vec![Vec::new(); n];
-        entries.for_each(|(i, j, value)| columns[j].push((i, value)));
-        SparseSymmetric { columns }
-    }
-
+impl<T: Clone> SparseSymmetric<T> {
     /// Returns the number of rows, which is that of the columns.
     pub fn size(&self) -> usize {
-        self.columns.len()
+        self.starts.len() - 1
     }
 
     /// Returns the entries of the lower triangle: row, column, value.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> {
-        let columns = self.columns.iter().enumerate();
-        columns.flat_map(|(j, column)| column.iter().map(move |(i, value)| (*i, j, value.clone())))
+        (0..self.size()).flat_map(move |j| self.column(j).map(move |(i, value)| (i, j, value)))
+    }
+
+    /// Returns the entries of a column of the lower triangle: row, value.
+    pub(super) fn column(&self, j: usize) -> impl Iterator<Item = (usize, T)> {
+        (self.starts[j]..self.starts[j + 1]).map(|at| (self.rows[at], self.values[at].clone()))
     }
 
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> SparseSymmetric<U> {
-        let mapped = |column: &Vec<(usize, T)>| column.iter().map(|(i, a)| (*i, f(a))).collect();
-        SparseSymmetric { columns: self.columns.iter().map(mapped).collect() }
+        self.try_map(|a| Some(f(a))).expect("every entry has a value")
+    }
+
+    /// Returns the matrix with `f` of each entry; None where it is None of any.
+    pub(super) fn try_map<U>(&self, f: impl Fn(&T) -> Option<U>) -> Option<SparseSymmetric<U>> {
+        let values = self.values.iter().map(f).collect::<Option<Vec<U>>>()?;
+        Some(SparseSymmetric { starts: self.starts.clone(), rows: self.rows.clone(), values })
+    }
+
+    /// Returns the values of the entries, column by column.
+    pub(super) fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// Returns the pattern as faer takes it.
+    pub(super) fn pattern(&self) -> SymbolicSparseColMatRef<'_, usize> {
+        let n = self.size();
+        SymbolicSparseColMatRef::new_checked(n, n, &self.starts, None, &self.rows)
     }
 }
 
 impl<T: Scalar> SparseSymmetric<T> {
     /// Takes the lower triangle of a dense matrix, zeros left out.
     pub fn of_lower(matrix: &DMatrix<T>) -> Self {
-        let column = |j: usize| {
-            let below = (j..matrix.nrows()).map(|i| (i, matrix[(i, j)]));
-            below.filter(|(_, value)| !value.is_zero()).collect()
-        };
-        SparseSymmetric { columns: (0..matrix.ncols()).map(column).collect() }
+        let n = matrix.nrows();
+        let lower = (0..n).flat_map(|j| (j..n).map(move |i| (i, j, matrix[(i, j)])));
+        SparseSymmetric::new(n, lower.filter(|(_, _, value)| !value.is_zero()))
     }
 
     /// Returns the entries of the whole matrix: row, column, value.
@@ -98,8 +145,27 @@ impl<T: Scalar> SparseSymmetric<T> {
     }
 
     pub fn diagonal(&self) -> DVector<T> {
-        let of_column = |j: usize| self.columns[j].first().filter(|(i, _)| *i == j);
-        DVector::from_fn(self.size(), |j, _| of_column(j).map_or(T::zero(), |(_, value)| *value))
+        let of_column = |j: usize| {
+            let first = self.starts[j];
+            (first < self.starts[j + 1] && self.rows[first] == j).then(|| self.values[first])
+        };
+        DVector::from_fn(self.size(), |j, _| of_column(j).unwrap_or(T::zero()))
+    }
+
+    /// Returns the matrix with each diagonal entry made 1 + `part` times as large.
+    pub fn with_diagonal(&self, part: f64) -> Self {
+        self.map_diagonal(|_, a| a * T::from_f64(1.0 + part))
+    }
+
+    /// Returns the matrix with `f` of each row's diagonal entry.
+    pub(super) fn map_diagonal(&self, f: impl Fn(usize, T) -> T) -> Self {
+        let mut matrix = self.clone();
+        for (at, (i, j, value)) in self.entries().enumerate() {
+            if i == j {
+                matrix.values[at] = f(i, value);
+            }
+        }
+        matrix
     }
 
     /// Returns the largest row sum of |A|.
@@ -135,25 +201,19 @@ impl<T: Native> SparseCholesky<T> {
     pub fn new(matrix: SparseSymmetric<T>) -> Result<Self, Singular> {
         // One thread: faster for plane problems, and faer's bits depend on the number of threads.
         faer::set_global_parallelism(Par::Seq);
-        let Some(factors) = factor(&matrix, 0.0) else {
+        let Some(factors) = factor(&matrix) else {
             return Err(mechanism(&matrix));
         };
         let cholesky = SparseCholesky { matrix, factors };
         match probe(&cholesky.factors, &cholesky.matrix.diagonal()) {
             None => Ok(cholesky),
-            Some((column, size)) => match size.max(cholesky.largest_motion()) {
-                size if size.is_finite() && size < UNBOUNDED / T::EPSILON => Ok(cholesky),
-                size => Err(Singular { column, pivot: 1.0 / size }),
-            },
+            Some((column, size)) => {
+                match size.max(largest_motion(&cholesky, &cholesky.matrix.diagonal())) {
+                    size if size.is_finite() && size < UNBOUNDED / T::EPSILON => Ok(cholesky),
+                    size => Err(Singular { column, pivot: 1.0 / size }),
+                }
+            }
         }
-    }
-
-    /// Returns the largest motion under loads of 1, both scaled to a unit diagonal: what no single
-    /// trial load is sure to find.
-    fn largest_motion(&self) -> f64 {
-        let scale = self.matrix.diagonal().map(|d| d.to_f64().sqrt());
-        let ones = DVector::from_element(scale.len(), 1.0);
-        inverse_norm(&Scaled { factors: &self.factors, scale }, &ones)
     }
 
     /// Returns the solution x of A x = `b`.
@@ -174,31 +234,31 @@ impl<T: Native> Factors<T> for SparseCholesky<T> {
     }
 }
 
-/// The factors of A scaled to a unit diagonal.
-struct Scaled<'a, T: Native> {
-    factors: &'a Llt<usize, T>,
-    scale: DVector<f64>,
+/// Returns the largest motion under loads of 1, both scaled to a unit diagonal: what no single trial
+/// load is sure to find.
+pub fn largest_motion<T: Native>(factors: &impl Factors<T>, diagonal: &DVector<T>) -> f64 {
+    let scale = diagonal.map(|d| d.to_f64().sqrt());
+    let ones = DVector::from_element(scale.len(), 1.0);
+    inverse_norm(&Scaled { factors, scale, scalar: PhantomData }, &ones)
 }
 
-impl<T: Native> Factors<f64> for Scaled<'_, T> {
+/// The factors of A scaled to a unit diagonal.
+struct Scaled<'a, T, F> {
+    factors: &'a F,
+    scale: DVector<f64>,
+    scalar: PhantomData<T>,
+}
+
+impl<T: Native, F: Factors<T>> Factors<f64> for Scaled<'_, T, F> {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         let load = b.component_mul(&self.scale).map(T::from_f64);
-        solve(self.factors, &load).map(Scalar::to_f64).component_mul(&self.scale)
+        self.factors.solve(&load).map(Scalar::to_f64).component_mul(&self.scale)
     }
 }
 
-/// Returns the Cholesky factors of A with each diagonal entry made 1 + `shift` times as large, or
-/// nothing where a pivot is not positive.
-fn factor<T: Native>(matrix: &SparseSymmetric<T>, shift: f64) -> Option<Llt<usize, T>> {
-    let factor = T::from_f64(1.0 + shift);
-    let entries: Vec<Triplet<usize, usize, T>> = matrix
-        .entries()
-        .map(|(i, j, value)| Triplet::new(i, j, if i == j { value * factor } else { value }))
-        .collect();
-    let n = matrix.size();
-    let lower = SparseColMat::try_new_from_triplets(n, n, &entries)
-        .expect("rows and columns are within the matrix");
-    lower.sp_cholesky(Side::Lower).ok()
+/// Returns the Cholesky factors of A, or nothing where a pivot is not positive.
+fn factor<T: Native>(matrix: &SparseSymmetric<T>) -> Option<Llt<usize, T>> {
+    SparseColMatRef::new(matrix.pattern(), matrix.values()).sp_cholesky(Side::Lower).ok()
 }
 
 /// Returns the equation that moves most under a trial load, and how far, both scaled to a unit
@@ -219,7 +279,8 @@ fn mechanism<T: Native>(matrix: &SparseSymmetric<T>) -> Singular {
     if let Some(column) = diagonal.iter().position(|d| d.to_f64().is_nan() || d.to_f64() <= 0.0) {
         return Singular { column, pivot: diagonal[column].to_f64() };
     }
-    let shifted = factor(matrix, SHIFT * T::EPSILON).and_then(|factors| probe(&factors, &diagonal));
+    let shifted = factor(&matrix.with_diagonal(SHIFT * T::EPSILON));
+    let shifted = shifted.and_then(|factors| probe(&factors, &diagonal));
     let (column, size) = shifted.unwrap_or((0, f64::INFINITY));
     Singular { column, pivot: 1.0 / size }
 }

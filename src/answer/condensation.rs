@@ -1,0 +1,287 @@
+//! The stiffness condensed to the nodes that contact can bind. The bodies are factored once; each
+//! contact state Tᵀ K T is solved on these nodes alone.
+//!
+//! ```text
+//!   K --Condensed--> S on the kept nodes --T of a state--> Tᵀ S T, dense, factored for each state
+//! ```
+//!
+//! Kept are all nodes of small surfaces, else those that a state binds and their neighbours; when a
+//! state binds others, the bodies are condensed anew. Where that cannot be done or trusted, a state
+//! has no such factors: its whole matrix is to be factored.
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::elimination::{Constraint, Elimination};
+use super::stiffness::Stiffness;
+use crate::numbers::solve::{
+    Condensed, DenseCholesky, Factors, SparseSymmetric, backward_error, largest_motion,
+};
+use crate::problem::model::{Dof, Model, NodeId};
+
+/// The number of nodes of both surfaces up to which all are kept.
+const SMALL: usize = 160;
+
+/// The number of neighbours that are kept on either side of a bound node of a larger surface, and
+/// the part of the number of bound nodes that comes on top.
+const MARGIN: (usize, f64) = (16, 0.25);
+
+/// The motion under loads of 1, both scaled to a unit diagonal, beyond which a state is left to the
+/// factors of its whole matrix, which tell a singular one.
+const LOOSE: f64 = 1e10;
+
+/// The relative residual at which refinement ends.
+const REFINED: f64 = 4.0 * f64::EPSILON;
+
+/// The relative residual that is enough where refinement brings no more.
+const ENOUGH: f64 = 32.0 * f64::EPSILON;
+
+/// The part of its residual to which a step of refinement must bring the next one.
+const CONTRACTION: f64 = 0.2;
+
+/// The bodies of a model, condensed when a contact state first needs it.
+pub(super) struct Bodies {
+    /// The contact surface and the nodes of the target surface, each in its order.
+    surfaces: [Vec<NodeId>; 2],
+    current: RefCell<Option<Rc<Condensation>>>,
+    /// The number of contact states that were asked for.
+    states: Cell<usize>,
+    /// How often the bodies were condensed.
+    condensed: Cell<usize>,
+    /// Whether they cannot be.
+    impossible: Cell<bool>,
+}
+
+/// The stiffness condensed to some nodes.
+struct Condensation {
+    condensed: Condensed,
+    /// The degree of freedom of each equation of the unconstrained bodies.
+    dofs: Vec<Dof>,
+    /// The degrees of freedom that are kept.
+    kept: Vec<Dof>,
+    /// Whether each degree of freedom is kept, or restrained at a kept node.
+    is_kept: Vec<bool>,
+    /// The largest row sum of |K|, force/length.
+    norm: f64,
+}
+
+/// The factors of Tᵀ K T under one contact state.
+pub(super) struct Bound {
+    condensation: Rc<Condensation>,
+    /// The equation of the bodies and that of the state for each degree of freedom inside.
+    inside: Vec<(usize, usize)>,
+    /// The equation of the state for each column of `t`.
+    columns: Vec<usize>,
+    /// The rows of T of the kept degrees of freedom.
+    t: Rows,
+    factors: DenseCholesky<f64>,
+}
+
+impl Bodies {
+    pub(super) fn new(model: &Model) -> Self {
+        let mut target = Vec::new();
+        for node in model.target_edges().flat_map(|edge| edge.nodes) {
+            if target.last() != Some(&node) {
+                target.push(node);
+            }
+        }
+        Bodies {
+            surfaces: [model.contact.nodes.clone(), target],
+            current: RefCell::default(),
+            states: Cell::new(0),
+            condensed: Cell::new(0),
+            impossible: Cell::new(false),
+        }
+    }
+
+    /// Returns the factors of Tᵀ K T under `constraints`; None where the whole matrix is to be
+    /// factored. On large surfaces the first state only shows which nodes are bound.
+    pub(super) fn factors(
+        &self,
+        stiffness: &Stiffness,
+        model: &Model,
+        t: &Elimination,
+        constraints: &[Constraint],
+    ) -> Option<Bound> {
+        let first = self.states.replace(self.states.get() + 1) == 0;
+        if self.impossible.get() || (first && !self.is_small()) {
+            return None;
+        }
+        let current = self.current.borrow().clone().filter(|c| c.has(constraints));
+        let condensation = match current {
+            Some(condensation) => condensation,
+            None => {
+                let nodes = self.nodes(constraints);
+                let made = Condensation::new(stiffness, model, &nodes).map(Rc::new);
+                self.condensed.set(self.condensed.get() + 1);
+                self.impossible.set(made.is_none());
+                self.current.replace(made.clone());
+                made?
+            }
+        };
+        Bound::new(condensation, t)
+    }
+
+    fn is_small(&self) -> bool {
+        self.surfaces.iter().map(Vec::len).sum::<usize>() <= SMALL
+    }
+
+    /// Returns the nodes to be kept for `constraints`.
+    fn nodes(&self, constraints: &[Constraint]) -> BTreeSet<NodeId> {
+        let all = self.surfaces.iter().flatten().copied();
+        if self.is_small() {
+            return all.collect();
+        }
+        let bound: BTreeSet<NodeId> = constraints.iter().flat_map(Constraint::nodes).collect();
+        let mut nodes = bound.clone();
+        for surface in &self.surfaces {
+            let at: Vec<usize> =
+                (0..surface.len()).filter(|i| bound.contains(&surface[*i])).collect();
+            let margin = MARGIN.0 + (MARGIN.1 * at.len() as f64) as usize;
+            for i in at {
+                let last = (i + margin).min(surface.len() - 1);
+                nodes.extend(&surface[i.saturating_sub(margin)..=last]);
+            }
+        }
+        nodes
+    }
+}
+
+impl Condensation {
+    fn new(stiffness: &Stiffness, model: &Model, nodes: &BTreeSet<NodeId>) -> Option<Self> {
+        let free = Elimination::new(&model.restrained, &[]);
+        let matrix: SparseSymmetric = stiffness.reduced(&free);
+        let mut is_kept = vec![false; model.dofs()];
+        nodes.iter().flat_map(|node| node.dofs()).for_each(|dof| is_kept[dof.index()] = true);
+        let dofs: Vec<Dof> = (0..free.size()).map(|column| free.dof(column)).collect();
+        let equations: Vec<usize> = (0..dofs.len()).filter(|e| is_kept[dofs[*e].index()]).collect();
+        let kept = equations.iter().map(|e| dofs[*e]).collect();
+        let condensed = Condensed::new(&matrix, &equations)?;
+        Some(Condensation { condensed, dofs, kept, is_kept, norm: matrix.norm() })
+    }
+
+    /// Returns whether it keeps every node that `constraints` name.
+    fn has(&self, constraints: &[Constraint]) -> bool {
+        let mut nodes = constraints.iter().flat_map(Constraint::nodes);
+        nodes.all(|node| self.is_kept[node.dofs()[0].index()])
+    }
+}
+
+impl Bound {
+    /// Factors Tᵀ S T; None where that is singular or nearly so.
+    fn new(condensation: Rc<Condensation>, all: &Elimination) -> Option<Self> {
+        let mut column_of = vec![usize::MAX; all.size()];
+        let mut columns = Vec::new();
+        for (column, _) in condensation.kept.iter().flat_map(|dof| all.row(*dof)) {
+            if column_of[*column] == usize::MAX {
+                column_of[*column] = columns.len();
+                columns.push(*column);
+            }
+        }
+        let local = |(column, weight): &(usize, f64)| (column_of[*column], *weight);
+        let rows = condensation.kept.iter().map(|dof| all.row(*dof).iter().map(local).collect());
+        let t = Rows { rows: rows.collect(), columns: columns.len() };
+        let mut inside = Vec::with_capacity(condensation.dofs.len());
+        for (e, dof) in condensation.dofs.iter().enumerate() {
+            if !condensation.is_kept[dof.index()] {
+                let &[(column, _)] = all.row(*dof) else { return None };
+                inside.push((e, column));
+            }
+        }
+        let matrix = t.reduced(condensation.condensed.schur());
+        let factors = DenseCholesky::new(&matrix).ok()?;
+        let motion = largest_motion(&factors, &matrix.diagonal());
+        (motion < LOOSE).then_some(Bound { condensation, inside, columns, t, factors })
+    }
+}
+
+impl Bound {
+    /// Returns the largest row sum of |K| without constraints, force/length.
+    pub(super) fn norm(&self) -> f64 {
+        self.condensation.norm
+    }
+}
+
+impl Factors<f64> for Bound {
+    fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
+        let condensed = &self.condensation.condensed;
+        let mut load = DVector::zeros(self.condensation.dofs.len());
+        self.inside.iter().for_each(|(e, column)| load[*e] = b[*column]);
+        let eliminated = condensed.eliminate(&load);
+        let own = DVector::from_iterator(self.columns.len(), self.columns.iter().map(|c| b[*c]));
+        let q = self.factors.solve(&(own + self.t.load(&eliminated.kept)));
+        let u = condensed.expand(&eliminated, &self.t.expand(&q));
+        let mut x = DVector::zeros(b.len());
+        self.inside.iter().for_each(|(e, column)| x[*column] = u[*e]);
+        self.columns.iter().zip(&q).for_each(|(column, q)| x[*column] = *q);
+        x
+    }
+}
+
+/// Rows of few entries: column and weight.
+struct Rows {
+    rows: Vec<Vec<(usize, f64)>>,
+    columns: usize,
+}
+
+impl Rows {
+    /// Returns Tᵀ S T of a dense S.
+    fn reduced(&self, s: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut product = DMatrix::zeros(s.nrows(), self.columns);
+        for (l, row) in self.rows.iter().enumerate() {
+            for (column, weight) in row {
+                product.column_mut(*column).axpy(*weight, &s.column(l), 1.0);
+            }
+        }
+        let columns: Vec<DVector<f64>> =
+            product.column_iter().map(|column| self.load(&column.into_owned())).collect();
+        DMatrix::from_columns(&columns)
+    }
+
+    /// Returns Tᵀ f.
+    fn load(&self, f: &DVector<f64>) -> DVector<f64> {
+        let mut load = DVector::zeros(self.columns);
+        for (row, f) in self.rows.iter().zip(f) {
+            row.iter().for_each(|(column, weight)| load[*column] += weight * f);
+        }
+        load
+    }
+
+    /// Returns T q.
+    fn expand(&self, q: &DVector<f64>) -> DVector<f64> {
+        let of_row = |row: &Vec<(usize, f64)>| row.iter().map(|(column, w)| w * q[*column]).sum();
+        DVector::from_iterator(self.rows.len(), self.rows.iter().map(of_row))
+    }
+}
+
+/// Solves Tᵀ K T q = `f` by `factors` of nearly that matrix, whose norm is `norm`, and refines;
+/// returns q and its relative residual.
+///
+/// # Errors
+/// The factors are too far from the matrix; returns q so far.
+pub(super) fn refined(
+    stiffness: &Stiffness,
+    t: &Elimination,
+    factors: &dyn Factors<f64>,
+    norm: f64,
+    f: &DVector<f64>,
+) -> Result<(DVector<f64>, f64), (DVector<f64>, f64)> {
+    let times = |q: &DVector<f64>| t.load(&stiffness.times(&(t.expand(q) - t.shift())));
+    let mut q = factors.solve(f);
+    let mut before = f64::INFINITY;
+    loop {
+        let rest = f - times(&q);
+        let error = backward_error(&rest, norm, &q, f);
+        if error <= REFINED || (error <= ENOUGH && error > CONTRACTION * before) {
+            return Ok((q, error));
+        }
+        if error.is_nan() || error > CONTRACTION * before {
+            return Err((q, error));
+        }
+        before = error;
+        q += factors.solve(&rest);
+    }
+}
