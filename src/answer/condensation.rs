@@ -51,7 +51,7 @@ pub(super) struct Bodies {
     states: Cell<usize>,
     /// How often the bodies were condensed.
     condensed: Cell<usize>,
-    /// Whether they cannot be.
+    /// Whether they cannot be, or need not, as there is no contact.
     impossible: Cell<bool>,
 }
 
@@ -93,7 +93,7 @@ impl Bodies {
             current: RefCell::default(),
             states: Cell::new(0),
             condensed: Cell::new(0),
-            impossible: Cell::new(false),
+            impossible: Cell::new(!model.has_contact()),
         }
     }
 
@@ -236,9 +236,13 @@ impl Rows {
                 product.column_mut(*column).axpy(*weight, &s.column(l), 1.0);
             }
         }
-        let columns: Vec<DVector<f64>> =
-            product.column_iter().map(|column| self.load(&column.into_owned())).collect();
-        DMatrix::from_columns(&columns)
+        let mut reduced = DMatrix::zeros(self.columns, self.columns);
+        for (mut column, product) in reduced.column_iter_mut().zip(product.column_iter()) {
+            for (row, value) in self.rows.iter().zip(product.iter()) {
+                row.iter().for_each(|(r, weight)| column[*r] += weight * value);
+            }
+        }
+        reduced
     }
 
     /// Returns Tᵀ f.
@@ -276,7 +280,7 @@ pub(super) fn refined(
         let rest = f - times(&q);
         let error = backward_error(&rest, norm, &q, f);
         if error <= REFINED || (error <= ENOUGH && error > CONTRACTION * before) {
-            return Ok((q, error));
+            return Ok((q + factors.solve(&rest), error));
         }
         if error.is_nan() || error > CONTRACTION * before {
             return Err((q, error));
