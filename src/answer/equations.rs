@@ -5,12 +5,12 @@ use nalgebra::DVector;
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
 use super::request::Request;
-use super::sparse::Sparse;
+use super::sparse::{MakeSparse, Sparse, State};
 use super::stiffness::Stiffness;
 use super::support::support;
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
-use crate::numbers::solve::{self, Precision, Solver, SparseSymmetric, Unsolved};
+use crate::numbers::solve::{self, Precision, Solver, Unsolved};
 use crate::paper::door;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{Km, Pairs, RestraintIndex, Schedule, Worksheet};
@@ -24,7 +24,7 @@ enum Assembly<T> {
     /// Elimination from the matrix of `Km` without contact and without restraints.
     Dense(Table<T>),
     /// Elimination from the triangles' matrices, solved by the function.
-    Sparse(Sparse<T>),
+    Sparse(Box<dyn Sparse<T>>),
 }
 
 /// The parts of the equations that every iteration of a run shares.
@@ -67,7 +67,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         model: &'a Model,
         sheet: &'a Worksheet<T>,
         load: DVector<T>,
-        sparse: Option<Sparse<T>>,
+        sparse: Option<MakeSparse<T>>,
         number: &dyn Fn(f64) -> T,
     ) -> Result<Self, Error> {
         let share = match request.schedule() {
@@ -82,7 +82,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         let sparse = sparse.filter(|_| request.arithmetic.solver() == Solver::SparseCholesky);
         let assembly = match (request.variant, sparse) {
             (Variant::Printed, _) => Assembly::Printed,
-            (_, Some(solve)) => Assembly::Sparse(solve),
+            (_, Some(make)) => Assembly::Sparse(make(model)),
             (_, None) => Assembly::Dense(door::free_stiffness(sheet, &request.reading)?),
         };
         let stiffness = Stiffness::new(model, number);
@@ -112,9 +112,14 @@ impl<'a, T: Precision> Equations<'a, T> {
             Assembly::Dense(matrix) => self.eliminate(pairs, constraints, k, |t, f| {
                 Ok(T::solve(t.matrix(matrix.as_matrix()), f, solver, tol))
             }),
-            Assembly::Sparse(solve) => {
-                self.eliminate(pairs, constraints, k, |t, f| Ok(solve(self.reduced(t)?, f)))
-            }
+            Assembly::Sparse(sparse) => self.eliminate(pairs, constraints, k, |t, f| {
+                let Equations { model, stiffness, .. } = self;
+                let solved = sparse.solve(&State { model, stiffness, constraints, t, f });
+                if !solved.as_ref().is_ok_and(|solved| solved.residual.is_finite()) {
+                    self.check_overflow(t)?;
+                }
+                Ok(solved)
+            }),
         }
     }
 
@@ -137,16 +142,16 @@ impl<'a, T: Precision> Equations<'a, T> {
         Ok(self.solved(solved.residual, t.expand(&solved.x), constraints))
     }
 
-    /// Returns Tᵀ K T without a dense K, force/length.
+    /// Checks Tᵀ K T without a dense K.
     ///
     /// # Errors
     /// An entry overflows, reported in the words of `Km`.
-    fn reduced(&self, t: &Elimination<T>) -> Result<SparseSymmetric<T>, Error> {
+    fn check_overflow(&self, t: &Elimination<T>) -> Result<(), Error> {
         let matrix = self.stiffness.reduced(t);
         if matrix.entries().any(|(_, _, value)| !Scalar::is_finite(value)) {
             door::free_stiffness(self.sheet, &self.request.reading)?;
         }
-        Ok(matrix)
+        Ok(())
     }
 
     /// Returns K u − F of the whole load: the forces of contact and restraints, force.

@@ -16,7 +16,7 @@ use super::equations::{Equations, Solved};
 use super::error::Error;
 use super::request::Request;
 use super::solution::{Cycle, Detail, Published, Solution, Step, max_displacement};
-use super::sparse::{Sparse, dense_matrices};
+use super::sparse::{MakeSparse, dense_matrices};
 use super::support::against_load;
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
@@ -34,7 +34,7 @@ use crate::problem::modelling::{Coupling, StatusRule, Variant};
 /// The published algorithm fails as printed, a matrix is singular, or it does not fit in memory.
 pub(super) fn published<T: Precision>(
     request: &Request,
-    sparse: Option<Sparse<T>>,
+    sparse: Option<MakeSparse<T>>,
     watch: &mut dyn FnMut(&Step),
 ) -> Result<Solution, Error> {
     let model = request.model()?;
@@ -145,7 +145,7 @@ impl<'a, T: Precision> Run<'a, T> {
         model: &'a Model,
         sheet: &'a Worksheet<T>,
         load: DVector<T>,
-        sparse: Option<Sparse<T>>,
+        sparse: Option<MakeSparse<T>>,
         number: &dyn Fn(f64) -> T,
     ) -> Result<Self, Error> {
         let mortar = request.contact.coupling == Coupling::Mortar;

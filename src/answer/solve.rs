@@ -4,12 +4,13 @@ use super::error::Error;
 use super::published::published;
 use super::request::Request;
 use super::solution::{Solution, Step};
-use super::sparse;
+use super::sparse::{Condensing, Sparse, Whole};
 use super::unilateral::unilateral;
 use crate::error::InputError;
 use crate::numbers::scalar::{self, Bounded, Exact, F64x2};
 use crate::numbers::solve::{ScalarName, Solver};
 use crate::problem::element::State;
+use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
 
 /// Solves `request`; `watch` is called after each step.
@@ -25,14 +26,21 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
             check_unilateral(request)?;
             unilateral(request, watch)?
         }
-        (_, ScalarName::F64) => published::<f64>(request, Some(sparse::cholesky), watch)?,
-        (_, ScalarName::F32) => published::<f32>(request, Some(sparse::cholesky), watch)?,
-        (_, ScalarName::F64x2) => published::<F64x2>(request, Some(sparse::ldlt), watch)?,
-        (_, ScalarName::Bounded) => published::<Bounded>(request, Some(sparse::bounded), watch)?,
+        (_, ScalarName::F64) => published::<f64>(request, Some(condensing), watch)?,
+        (_, ScalarName::F32) => published::<f32>(request, Some(|_| Box::new(Whole)), watch)?,
+        (_, ScalarName::F64x2) => published::<F64x2>(request, Some(condensing), watch)?,
+        (_, ScalarName::Bounded) => published::<Bounded>(request, Some(condensing), watch)?,
         (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(request, None, watch))?,
     };
     check_finite(&solution)?;
     Ok(solution)
+}
+
+fn condensing<T>(model: &Model) -> Box<dyn Sparse<T>>
+where
+    Condensing: Sparse<T>,
+{
+    Box::new(Condensing::new(model))
 }
 
 /// Solves for the equilibrium under the scene's own friction: [`Request::equilibrium`].

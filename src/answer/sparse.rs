@@ -1,47 +1,126 @@
-//! The sparse solvers of `tied` and `stepped`, which build no dense matrix.
+//! The sparse solvers of `tied` and `stepped`, which build no dense matrix of all equations.
 
 use nalgebra::DVector;
 
+use super::condensation::{Bodies, Bound, refined};
+use super::elimination::{Constraint, Elimination};
+use super::stiffness::Stiffness;
 use crate::numbers::scalar::{Bounded, F64x2, Scalar};
 use crate::numbers::solve::{
-    Arithmetic, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky, SparseSymmetric,
-    Unsolved, error_bound,
+    Arithmetic, Field, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky, Unsolved,
+    error_bound, refine,
 };
+use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
 
-/// Solves A x = b with factors of a sparse A.
-pub(super) type Sparse<T> = fn(SparseSymmetric<T>, &DVector<T>) -> Result<Solved<T>, Unsolved>;
-
-/// Solves by Cholesky factors.
-pub(super) fn cholesky<T: Native>(
-    a: SparseSymmetric<T>,
-    b: &DVector<T>,
-) -> Result<Solved<T>, Unsolved> {
-    let factors = SparseCholesky::new(a)?;
-    let x = factors.solve(b);
-    Ok(Solved { residual: factors.residual(&x, b), x })
+/// Tᵀ K T q = f under one contact state.
+pub(super) struct State<'a, T> {
+    pub(super) model: &'a Model,
+    pub(super) stiffness: &'a Stiffness<T>,
+    pub(super) constraints: &'a [Constraint<T>],
+    pub(super) t: &'a Elimination<T>,
+    pub(super) f: &'a DVector<T>,
 }
 
-/// Solves by Cholesky factors, with a bound on the error of the solution.
-pub(super) fn bounded(
-    a: SparseSymmetric<Bounded>,
-    b: &DVector<Bounded>,
-) -> Result<Solved<Bounded>, Unsolved> {
-    let (values, f) = (a.map(|x| x.to_f64()), b.map(Scalar::to_f64));
-    let factors = SparseCholesky::new(values)?;
-    let x = factors.solve(&f);
-    let residual = factors.residual(&x, &f);
-    let error = error_bound(&factors, a.both_triangles(), b, &x);
-    Ok(Solved { residual, x: x.map(|x| Bounded::new(x, error)) })
+/// A solver of the contact states of a run.
+pub(super) trait Sparse<T> {
+    /// Solves for q.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    fn solve(&self, state: &State<T>) -> Result<Solved<T>, Unsolved>;
 }
 
-/// Solves by LDLᵀ factors.
-pub(super) fn ldlt(
-    a: SparseSymmetric<F64x2>,
-    b: &DVector<F64x2>,
-) -> Result<Solved<F64x2>, Unsolved> {
-    let x = DVector::from_vec(Ldlt::new(&a)?.solve(b.as_slice()));
-    Ok(Solved { residual: a.residual(&x, b), x })
+/// Makes the solver of a run on a model.
+pub(super) type MakeSparse<T> = fn(&Model) -> Box<dyn Sparse<T>>;
+
+/// Cholesky factors of the whole matrix of each state.
+pub(super) struct Whole;
+
+impl<T: Native> Sparse<T> for Whole {
+    fn solve(&self, state: &State<T>) -> Result<Solved<T>, Unsolved> {
+        let factors = SparseCholesky::new(state.stiffness.reduced(state.t))?;
+        let x = factors.solve(state.f);
+        Ok(Solved { residual: factors.residual(&x, state.f), x })
+    }
+}
+
+/// The factors of the condensed bodies, in `f64`; where they do not serve, those of the whole matrix.
+pub(super) struct Condensing {
+    /// The stiffness in `f64`.
+    stiffness: Stiffness,
+    bodies: Bodies,
+}
+
+impl Condensing {
+    pub(super) fn new(model: &Model) -> Self {
+        Condensing { stiffness: Stiffness::new(model, |x| x), bodies: Bodies::new(model) }
+    }
+
+    /// Returns T of a state in `f64`, and its factors.
+    fn factors<T: Scalar>(&self, state: &State<T>) -> (Elimination, Option<Bound>) {
+        let constraints: Vec<Constraint> =
+            state.constraints.iter().map(|c| c.map(Scalar::to_f64)).collect();
+        let t = Elimination::new(&state.model.restrained, &constraints);
+        let bound = self.bodies.factors(&self.stiffness, state.model, &t, &constraints);
+        (t, bound)
+    }
+}
+
+impl Sparse<f64> for Condensing {
+    fn solve(&self, state: &State<f64>) -> Result<Solved<f64>, Unsolved> {
+        let (t, bound) = self.factors(state);
+        let refined = |bound: Bound| {
+            let norm = bound.norm();
+            let (x, residual) = refined(&self.stiffness, &t, &bound, norm, state.f).ok()?;
+            Some(Solved { x, residual })
+        };
+        bound.and_then(refined).map_or_else(|| Whole.solve(state), Ok)
+    }
+}
+
+impl Sparse<Bounded> for Condensing {
+    /// Solves as in `f64`, with a bound on the error of the solution.
+    fn solve(&self, state: &State<Bounded>) -> Result<Solved<Bounded>, Unsolved> {
+        let f = state.f.map(Scalar::to_f64);
+        let (t, bound) = self.factors(state);
+        let refined = |bound: Bound| {
+            let (x, residual) = refined(&self.stiffness, &t, &bound, bound.norm(), &f).ok()?;
+            Some((bound, x, residual))
+        };
+        let entries = state.stiffness.reduced(state.t);
+        let with_error = |x: DVector<f64>, residual: f64, error: f64| Solved {
+            x: x.map(|x| Bounded::new(x, error)),
+            residual,
+        };
+        if let Some((bound, x, residual)) = bound.and_then(refined) {
+            let error = error_bound(&bound, entries.both_triangles(), state.f, &x);
+            return Ok(with_error(x, residual, error));
+        }
+        let factors = SparseCholesky::new(entries.map(|x| x.to_f64()))?;
+        let x = factors.solve(&f);
+        let residual = factors.residual(&x, &f);
+        let error = error_bound(&factors, entries.both_triangles(), state.f, &x);
+        Ok(with_error(x, residual, error))
+    }
+}
+
+impl Sparse<F64x2> for Condensing {
+    /// Refines the solution in `f64`; where that does not converge, by LDLᵀ factors.
+    fn solve(&self, state: &State<F64x2>) -> Result<Solved<F64x2>, Unsolved> {
+        /// The relative residual at which refinement ends, in units of the scalar's epsilon.
+        const TOL: f64 = 4.0;
+        let matrix = state.stiffness.reduced(state.t);
+        let (_, bound) = self.factors(state);
+        let refined = bound.and_then(|bound| {
+            refine(&bound, &matrix, state.f, TOL * <F64x2 as Field>::EPSILON).ok()
+        });
+        let x = match refined {
+            Some(x) => x,
+            None => DVector::from_vec(Ldlt::new(&matrix)?.solve(state.f.as_slice())),
+        };
+        Ok(Solved { residual: matrix.residual(&x, state.f), x })
+    }
 }
 
 /// Returns the number of dense 2R x 2R matrices of the scalar in memory at once.
