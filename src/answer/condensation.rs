@@ -199,6 +199,18 @@ impl Bound {
 }
 
 impl Bound {
+    /// Returns K u − f under a load `f` by degree of freedom on kept nodes alone, force, where u are
+    /// the displacements without the shift of the constraints.
+    pub(super) fn reaction(&self, load: &DVector<f64>) -> DVector<f64> {
+        let Condensation { kept, condensed, .. } = &*self.condensation;
+        let f = DVector::from_iterator(kept.len(), kept.iter().map(|dof| load[dof.index()]));
+        let u = self.t.expand(&self.factors.solve(&self.t.load(&f)));
+        let force = condensed.schur() * u;
+        let mut reaction = -load;
+        kept.iter().zip(&force).for_each(|(dof, force)| reaction[dof.index()] += force);
+        reaction
+    }
+
     /// Returns the largest row sum of |K| without constraints, force/length.
     pub(super) fn norm(&self) -> f64 {
         self.condensation.norm

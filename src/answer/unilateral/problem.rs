@@ -430,10 +430,7 @@ impl<'a> Problem<'a> {
         let forces = self.forces(place, statuses, &reaction);
         let friction = DVector::zeros(u.len());
         let mut moved = Moved { u, forces, friction, reaction, residual };
-        self.slide(place, statuses, &mut moved, |load| {
-            let (q, _) = reduced.solve(&t.load(&self.model.free_part(load))).ok()?;
-            Some(t.expand(&q) - t.shift())
-        })?;
+        self.slide(place, statuses, &mut moved, &reduced)?;
         Ok(Solved::Moved(moved))
     }
 
@@ -442,8 +439,7 @@ impl<'a> Problem<'a> {
         Solved::Free { dof: t.dof(singular.column), motion }
     }
 
-    /// Adds the friction of sliding nodes, whose size is μ times the normal forces that it leads to;
-    /// `under` returns the displacements under a load alone.
+    /// Adds the friction of sliding nodes, whose size is μ times the normal forces that it leads to.
     ///
     /// # Errors
     /// No size of the friction agrees with its normal forces.
@@ -452,7 +448,7 @@ impl<'a> Problem<'a> {
         place: &Place,
         statuses: &[Status],
         moved: &mut Moved,
-        under: impl Fn(&DVector<f64>) -> Option<DVector<f64>>,
+        reduced: &Reduced,
     ) -> Result<(), NoEquilibrium> {
         let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
             .filter_map(|i| match statuses[i] {
@@ -469,15 +465,14 @@ impl<'a> Problem<'a> {
         let response = |(_, _, pairing): &(usize, f64, &Pairing)| {
             let mut load = DVector::zeros(moved.u.len());
             forces::add(pairing, unit, 1.0, &mut load);
-            let u = under(&load)?;
-            let reaction = self.stiffness.times(&u) - &load;
-            Some([load, u, reaction])
+            let reaction = reduced.reaction(&load)?;
+            Ok((load, reaction))
         };
-        let responses: Option<Vec<[DVector<f64>; 3]>> = sliding.iter().map(response).collect();
-        let responses = responses.ok_or_else(jammed)?;
+        let responses: Result<Vec<_>, Singular> = sliding.iter().map(response).collect();
+        let responses = responses.map_err(|_| jammed())?;
         let n = sliding.len();
         let mut matrix = DMatrix::identity(n, n);
-        for (column, [_, _, reaction]) in responses.iter().enumerate() {
+        for (column, (_, reaction)) in responses.iter().enumerate() {
             let forces = self.forces(place, statuses, reaction);
             for (row, (i, sign, _)) in sliding.iter().enumerate() {
                 matrix[(row, column)] += sign * self.friction * forces[*i].normal;
@@ -489,11 +484,12 @@ impl<'a> Problem<'a> {
         });
         let sizes = matrix.lu().solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
         let sizes = sizes.ok_or_else(jammed)?;
-        for ([load, u, reaction], size) in responses.iter().zip(&sizes) {
+        for ((load, _), size) in responses.iter().zip(&sizes) {
             moved.friction.axpy(*size, load, 1.0);
-            moved.u.axpy(*size, u, 1.0);
-            moved.reaction.axpy(*size, &(reaction + load), 1.0);
         }
+        let u = reduced.under(&moved.friction).map_err(|_| jammed())?;
+        moved.reaction += self.stiffness.times(&u);
+        moved.u += u;
         moved.forces = self.forces(place, statuses, &(&moved.reaction - &moved.friction));
         for ((i, _, _), size) in sliding.iter().zip(&sizes) {
             moved.forces[*i].tangent = *size;

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use nalgebra::DVector;
 
 use super::problem::Problem;
-use crate::answer::condensation::refined;
+use crate::answer::condensation::{Bound, refined};
 use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::stiffness::Stiffness;
@@ -24,24 +24,34 @@ enum Held {
 /// The factors that were made last, and the statuses under which they were made. Other shapes and
 /// loads under statuses that hold the same motions have equations that are the same or nearly so.
 #[derive(Default)]
-pub(super) struct Last(RefCell<Option<(Vec<Held>, Rc<Made>)>>);
-
-/// Factors, and the norm of their matrix, force/length.
-struct Made {
-    factors: Box<dyn Factors<f64>>,
-    norm: f64,
-}
+pub(super) struct Last(RefCell<Option<(Vec<Held>, Rc<Factored>)>>);
 
 /// The reduced equations under imposed statuses.
 pub(super) struct Reduced<'a> {
     problem: &'a Problem<'a>,
     t: &'a Elimination,
-    factors: RefCell<Rc<Made>>,
-    held: Vec<Held>,
+    made: Made,
+}
+
+/// The factors of the reduced equations.
+enum Made {
+    Condensed(Bound),
+    /// Those of the whole matrix, or of nearly the same one.
+    Whole {
+        held: Vec<Held>,
+        factors: RefCell<Rc<Factored>>,
+    },
+}
+
+/// Factors of a whole matrix, and its norm, force/length.
+struct Factored {
+    factors: SparseCholesky,
+    norm: f64,
 }
 
 impl<'a> Reduced<'a> {
-    /// Takes the last factors where the statuses hold the same motions, else factors anew.
+    /// Factors on the condensed bodies; where that cannot be, takes the last factors where the
+    /// statuses hold the same motions, else factors the whole matrix.
     ///
     /// # Errors
     /// The matrix is singular.
@@ -51,6 +61,10 @@ impl<'a> Reduced<'a> {
         constraints: &[Constraint],
         statuses: &[Status],
     ) -> Result<Self, Singular> {
+        let bodies = &problem.bodies;
+        if let Some(bound) = bodies.factors(&problem.stiffness, problem.model, t, constraints) {
+            return Ok(Reduced { problem, t, made: Made::Condensed(bound) });
+        }
         let held = |status: &Status| match status {
             Status::Open => Held::Nothing,
             Status::Slip(_) => Held::Normal,
@@ -60,24 +74,12 @@ impl<'a> Reduced<'a> {
         let last = problem.last.0.borrow();
         let same = last.as_ref().filter(|(same, _)| *same == held).map(|(_, made)| made.clone());
         drop(last);
-        let bound = || {
-            let (stiffness, model) = (&problem.stiffness, problem.model);
-            let bound = problem.bodies.factors(stiffness, model, t, constraints)?;
-            Some(Made { norm: bound.norm(), factors: Box::new(bound) })
-        };
         let factors = match same {
             Some(factors) => factors,
-            None => Rc::new(bound().map_or_else(|| factored(&problem.stiffness, t), Ok)?),
+            None => Rc::new(factored(&problem.stiffness, t)?),
         };
-        let reduced = Reduced { problem, t, factors: RefCell::new(factors), held };
-        reduced.keep();
-        Ok(reduced)
-    }
-
-    /// Keeps the factors for other shapes and loads.
-    fn keep(&self) {
-        let made = Rc::clone(&self.factors.borrow());
-        self.problem.last.0.replace(Some((self.held.clone(), made)));
+        problem.last.0.replace(Some((held.clone(), Rc::clone(&factors))));
+        Ok(Reduced { problem, t, made: Made::Whole { held, factors: RefCell::new(factors) } })
     }
 
     /// Returns q, and its relative residual.
@@ -86,21 +88,51 @@ impl<'a> Reduced<'a> {
     /// The matrix is singular.
     pub(super) fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
         let stiffness = &self.problem.stiffness;
-        let solve = |made: &Made| refined(stiffness, self.t, &*made.factors, made.norm, f);
-        let first = Rc::clone(&self.factors.borrow());
-        if let Ok(solved) = solve(&first) {
-            return Ok(solved);
+        let by = |factors: &dyn Factors<f64>, norm| refined(stiffness, self.t, factors, norm, f);
+        let by_whole = |made: &Factored| by(&made.factors, made.norm);
+        match &self.made {
+            Made::Condensed(bound) => match by(bound, bound.norm()) {
+                Ok(solved) => Ok(solved),
+                Err(_) => by_whole(&factored(stiffness, self.t)?).or_else(Ok),
+            },
+            Made::Whole { held, factors } => {
+                let first = Rc::clone(&factors.borrow());
+                if let Ok(solved) = by_whole(&first) {
+                    return Ok(solved);
+                }
+                let made = Rc::new(factored(stiffness, self.t)?);
+                factors.replace(Rc::clone(&made));
+                self.problem.last.0.replace(Some((held.clone(), Rc::clone(&made))));
+                by_whole(&made).or_else(Ok)
+            }
         }
-        self.factors.replace(Rc::new(factored(stiffness, self.t)?));
-        self.keep();
-        let solved = solve(&self.factors.borrow());
-        Ok(solved.unwrap_or_else(|best| best))
+    }
+
+    /// Returns K u − f under a load `f` on the contact surface alone, where u are the displacements
+    /// without the shift of the constraints.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    pub(super) fn reaction(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
+        match &self.made {
+            Made::Condensed(bound) => Ok(bound.reaction(load)),
+            Made::Whole { .. } => Ok(self.problem.stiffness.times(&self.under(load)?) - load),
+        }
+    }
+
+    /// Returns the displacements under a load, without the shift of the constraints, length.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    pub(super) fn under(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
+        let (q, _) = self.solve(&self.t.load(&self.problem.model.free_part(load)))?;
+        Ok(self.t.expand(&q) - self.t.shift())
     }
 }
 
 /// Factors the whole matrix.
-fn factored(stiffness: &Stiffness, t: &Elimination) -> Result<Made, Singular> {
+fn factored(stiffness: &Stiffness, t: &Elimination) -> Result<Factored, Singular> {
     let matrix = stiffness.reduced(t);
     let norm = matrix.norm();
-    Ok(Made { factors: Box::new(SparseCholesky::new(matrix)?), norm })
+    Ok(Factored { factors: SparseCholesky::new(matrix)?, norm })
 }
