@@ -11,7 +11,8 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
-use std::rc::Rc;
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{DMatrix, DVector};
 
@@ -42,21 +43,51 @@ const ENOUGH: f64 = 32.0 * f64::EPSILON;
 /// The part of its residual to which a step of refinement must bring the next one.
 const CONTRACTION: f64 = 0.2;
 
-/// The bodies of a model, condensed when a contact state first needs it.
+/// The condensed bodies of a scene, shared by all that is asked of it: each is factored once.
+#[derive(Clone, Default)]
+pub struct Shared(Arc<Mutex<Vec<Arc<Condensation>>>>);
+
+impl fmt::Debug for Shared {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the condensed bodies")
+    }
+}
+
+impl Shared {
+    /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.
+    fn condensed(
+        &self,
+        stiffness: &Stiffness,
+        model: &Arc<Model>,
+        nodes: BTreeSet<NodeId>,
+    ) -> Option<Arc<Condensation>> {
+        let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = made.iter().find(|known| known.is_of(model, &nodes)) {
+            return Some(Arc::clone(known));
+        }
+        let condensation = Arc::new(Condensation::new(stiffness, model, nodes)?);
+        made.push(Arc::clone(&condensation));
+        Some(condensation)
+    }
+}
+
+/// The bodies of a run, condensed when a contact state first needs it.
 pub(super) struct Bodies {
+    model: Arc<Model>,
+    shared: Shared,
     /// The contact surface and the nodes of the target surface, each in its order.
     surfaces: [Vec<NodeId>; 2],
-    current: RefCell<Option<Rc<Condensation>>>,
-    /// The number of contact states that were asked for.
-    states: Cell<usize>,
-    /// How often the bodies were condensed.
-    condensed: Cell<usize>,
+    current: RefCell<Option<Arc<Condensation>>>,
+    /// Whether a contact state was asked for.
+    begun: Cell<bool>,
     /// Whether they cannot be, or need not, as there is no contact.
     impossible: Cell<bool>,
 }
 
 /// The stiffness condensed to some nodes.
 struct Condensation {
+    model: Arc<Model>,
+    nodes: BTreeSet<NodeId>,
     condensed: Condensed,
     /// The degree of freedom of each equation of the unconstrained bodies.
     dofs: Vec<Dof>,
@@ -70,7 +101,7 @@ struct Condensation {
 
 /// The factors of Tᵀ K T under one contact state.
 pub(super) struct Bound {
-    condensation: Rc<Condensation>,
+    condensation: Arc<Condensation>,
     /// The equation of the bodies and that of the state for each degree of freedom inside.
     inside: Vec<(usize, usize)>,
     /// The equation of the state for each column of `t`.
@@ -81,7 +112,7 @@ pub(super) struct Bound {
 }
 
 impl Bodies {
-    pub(super) fn new(model: &Model) -> Self {
+    pub(super) fn new(model: &Arc<Model>, shared: &Shared) -> Self {
         let mut target = Vec::new();
         for node in model.target_edges().flat_map(|edge| edge.nodes) {
             if target.last() != Some(&node) {
@@ -89,10 +120,11 @@ impl Bodies {
             }
         }
         Bodies {
+            model: Arc::clone(model),
+            shared: shared.clone(),
             surfaces: [model.contact.nodes.clone(), target],
             current: RefCell::default(),
-            states: Cell::new(0),
-            condensed: Cell::new(0),
+            begun: Cell::new(false),
             impossible: Cell::new(!model.has_contact()),
         }
     }
@@ -102,11 +134,10 @@ impl Bodies {
     pub(super) fn factors(
         &self,
         stiffness: &Stiffness,
-        model: &Model,
         t: &Elimination,
         constraints: &[Constraint],
     ) -> Option<Bound> {
-        let first = self.states.replace(self.states.get() + 1) == 0;
+        let first = !self.begun.replace(true);
         if self.impossible.get() || (first && !self.is_small()) {
             return None;
         }
@@ -115,8 +146,7 @@ impl Bodies {
             Some(condensation) => condensation,
             None => {
                 let nodes = self.nodes(constraints);
-                let made = Condensation::new(stiffness, model, &nodes).map(Rc::new);
-                self.condensed.set(self.condensed.get() + 1);
+                let made = self.shared.condensed(stiffness, &self.model, nodes);
                 self.impossible.set(made.is_none());
                 self.current.replace(made.clone());
                 made?
@@ -151,7 +181,7 @@ impl Bodies {
 }
 
 impl Condensation {
-    fn new(stiffness: &Stiffness, model: &Model, nodes: &BTreeSet<NodeId>) -> Option<Self> {
+    fn new(stiffness: &Stiffness, model: &Arc<Model>, nodes: BTreeSet<NodeId>) -> Option<Self> {
         let free = Elimination::new(&model.restrained, &[]);
         let matrix: SparseSymmetric = stiffness.reduced(&free);
         let mut is_kept = vec![false; model.dofs()];
@@ -160,7 +190,19 @@ impl Condensation {
         let equations: Vec<usize> = (0..dofs.len()).filter(|e| is_kept[dofs[*e].index()]).collect();
         let kept = equations.iter().map(|e| dofs[*e]).collect();
         let condensed = Condensed::new(&matrix, &equations)?;
-        Some(Condensation { condensed, dofs, kept, is_kept, norm: matrix.norm() })
+        let (model, norm) = (Arc::clone(model), matrix.norm());
+        Some(Condensation { model, nodes, condensed, dofs, kept, is_kept, norm })
+    }
+
+    /// Returns whether it is that of the bodies of `model`, and keeps just `nodes`.
+    fn is_of(&self, model: &Arc<Model>, nodes: &BTreeSet<NodeId>) -> bool {
+        let (own, other) = (&*self.model, &**model);
+        self.nodes == *nodes
+            && own.plane == other.plane
+            && own.thickness == other.thickness
+            && own.restrained == other.restrained
+            && own.nodes == other.nodes
+            && own.triangles == other.triangles
     }
 
     /// Returns whether it keeps every node that `constraints` name.
@@ -172,7 +214,7 @@ impl Condensation {
 
 impl Bound {
     /// Factors Tᵀ S T; None where that is singular or nearly so.
-    fn new(condensation: Rc<Condensation>, all: &Elimination) -> Option<Self> {
+    fn new(condensation: Arc<Condensation>, all: &Elimination) -> Option<Self> {
         let mut column_of = vec![usize::MAX; all.size()];
         let mut columns = Vec::new();
         for (column, _) in condensation.kept.iter().flat_map(|dof| all.row(*dof)) {

@@ -1,5 +1,7 @@
 //! The equations A(c)·u = f of an iteration of a published variant, assembled and solved.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 
 use super::elimination::{Constraint, Elimination};
@@ -30,7 +32,7 @@ enum Assembly<T> {
 /// The parts of the equations that every iteration of a run shares.
 pub(super) struct Equations<'a, T> {
     request: &'a Request,
-    model: &'a Model,
+    model: &'a Arc<Model>,
     sheet: &'a Worksheet<T>,
     assembly: Assembly<T>,
     /// The stiffness, triangle by triangle.
@@ -64,7 +66,7 @@ impl<'a, T: Precision> Equations<'a, T> {
     /// The stiffness overflows.
     pub fn new(
         request: &'a Request,
-        model: &'a Model,
+        model: &'a Arc<Model>,
         sheet: &'a Worksheet<T>,
         load: DVector<T>,
         sparse: Option<MakeSparse<T>>,
@@ -82,7 +84,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         let sparse = sparse.filter(|_| request.arithmetic.solver() == Solver::SparseCholesky);
         let assembly = match (request.variant, sparse) {
             (Variant::Printed, _) => Assembly::Printed,
-            (_, Some(make)) => Assembly::Sparse(make(model)),
+            (_, Some(make)) => Assembly::Sparse(make(request, model)),
             (_, None) => Assembly::Dense(door::free_stiffness(sheet, &request.reading)?),
         };
         let stiffness = Stiffness::new(model, number);

@@ -105,7 +105,7 @@ fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), Inpu
 /// The state of a run that an iteration needs of those before it.
 struct Run<'a, T> {
     request: &'a Request,
-    model: &'a Model,
+    model: &'a Arc<Model>,
     sheet: &'a Worksheet<T>,
     /// The equations of every iteration.
     equations: Equations<'a, T>,
@@ -142,7 +142,7 @@ struct Found<T> {
 impl<'a, T: Precision> Run<'a, T> {
     fn new(
         request: &'a Request,
-        model: &'a Model,
+        model: &'a Arc<Model>,
         sheet: &'a Worksheet<T>,
         load: DVector<T>,
         sparse: Option<MakeSparse<T>>,

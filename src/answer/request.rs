@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::condensation::Shared;
 use super::contact;
 use crate::error::InputError;
 use crate::numbers::solve::Arithmetic;
@@ -28,6 +29,8 @@ pub struct Request {
     pub arithmetic: Arithmetic,
     /// The tolerance of the contact search in place of the scene's own, length.
     pub tolerance: Option<f64>,
+    /// The bodies factored so far, shared with the requests that were made from this one.
+    pub(super) shared: Shared,
 }
 
 impl Request {
@@ -40,6 +43,7 @@ impl Request {
             reading: Reading::default(),
             arithmetic: Arithmetic::default(),
             tolerance: None,
+            shared: Shared::default(),
             scene: scene.clone(),
         }
     }

@@ -1,5 +1,7 @@
 //! The solution of a request by the requested variant in the requested numbers.
 
+use std::sync::Arc;
+
 use super::error::Error;
 use super::published::published;
 use super::request::Request;
@@ -27,7 +29,7 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
             unilateral(request, watch)?
         }
         (_, ScalarName::F64) => published::<f64>(request, Some(condensing), watch)?,
-        (_, ScalarName::F32) => published::<f32>(request, Some(|_| Box::new(Whole)), watch)?,
+        (_, ScalarName::F32) => published::<f32>(request, Some(|_, _| Box::new(Whole)), watch)?,
         (_, ScalarName::F64x2) => published::<F64x2>(request, Some(condensing), watch)?,
         (_, ScalarName::Bounded) => published::<Bounded>(request, Some(condensing), watch)?,
         (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(request, None, watch))?,
@@ -36,11 +38,11 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     Ok(solution)
 }
 
-fn condensing<T>(model: &Model) -> Box<dyn Sparse<T>>
+fn condensing<T>(request: &Request, model: &Arc<Model>) -> Box<dyn Sparse<T>>
 where
     Condensing: Sparse<T>,
 {
-    Box::new(Condensing::new(model))
+    Box::new(Condensing::new(request, model))
 }
 
 /// Solves for the equilibrium under the scene's own friction: [`Request::equilibrium`].

@@ -1,9 +1,12 @@
 //! The sparse solvers of `tied` and `stepped`, which build no dense matrix of all equations.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 
 use super::condensation::{Bodies, Bound, refined};
 use super::elimination::{Constraint, Elimination};
+use super::request::Request;
 use super::stiffness::Stiffness;
 use crate::numbers::scalar::{Bounded, F64x2, Scalar};
 use crate::numbers::solve::{
@@ -32,7 +35,7 @@ pub(super) trait Sparse<T> {
 }
 
 /// Makes the solver of a run on a model.
-pub(super) type MakeSparse<T> = fn(&Model) -> Box<dyn Sparse<T>>;
+pub(super) type MakeSparse<T> = fn(&Request, &Arc<Model>) -> Box<dyn Sparse<T>>;
 
 /// Cholesky factors of the whole matrix of each state.
 pub(super) struct Whole;
@@ -53,8 +56,9 @@ pub(super) struct Condensing {
 }
 
 impl Condensing {
-    pub(super) fn new(model: &Model) -> Self {
-        Condensing { stiffness: Stiffness::new(model, |x| x), bodies: Bodies::new(model) }
+    pub(super) fn new(request: &Request, model: &Arc<Model>) -> Self {
+        let bodies = Bodies::new(model, &request.shared);
+        Condensing { stiffness: Stiffness::new(model, |x| x), bodies }
     }
 
     /// Returns T of a state in `f64`, and its factors.
@@ -62,7 +66,7 @@ impl Condensing {
         let constraints: Vec<Constraint> =
             state.constraints.iter().map(|c| c.map(Scalar::to_f64)).collect();
         let t = Elimination::new(&state.model.restrained, &constraints);
-        let bound = self.bodies.factors(&self.stiffness, state.model, &t, &constraints);
+        let bound = self.bodies.factors(&self.stiffness, &t, &constraints);
         (t, bound)
     }
 }

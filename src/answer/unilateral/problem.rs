@@ -156,7 +156,7 @@ impl<'a> Problem<'a> {
             surfaces,
             closed: CLOSED * size(model),
             friction: request.contact.friction.coefficient(),
-            bodies: Bodies::new(model),
+            bodies: Bodies::new(model, &request.shared),
             last: Last::default(),
         })
     }

@@ -61,8 +61,7 @@ impl<'a> Reduced<'a> {
         constraints: &[Constraint],
         statuses: &[Status],
     ) -> Result<Self, Singular> {
-        let bodies = &problem.bodies;
-        if let Some(bound) = bodies.factors(&problem.stiffness, problem.model, t, constraints) {
+        if let Some(bound) = problem.bodies.factors(&problem.stiffness, t, constraints) {
             return Ok(Reduced { problem, t, made: Made::Condensed(bound) });
         }
         let held = |status: &Status| match status {
