@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, Force, forces, tangent};
-use super::reduced::{Last, Reduced};
+use super::reduced::{Elastic, Last, Reduced};
 use super::rigid;
 use super::status::{Memory, first_closed, nearest_open, next_closed};
 use crate::answer::condensation::Bodies;
@@ -70,8 +70,8 @@ pub(super) struct Problem<'a> {
     pub(super) closed: f64,
     /// Coulomb's coefficient.
     friction: f64,
-    pub(super) bodies: Bodies,
-    pub(super) last: Last,
+    bodies: Bodies,
+    last: Last,
 }
 
 /// What a step of the load starts from, and the load at its end.
@@ -416,7 +416,7 @@ impl<'a> Problem<'a> {
     ) -> Result<Solved, Error> {
         let t = Elimination::closing(&self.model.restrained, constraints);
         let load = self.model.free_part(&setting.load);
-        let reduced = match Reduced::new(self, &t, constraints, statuses) {
+        let reduced = match Reduced::new(self.elastic(), &t, constraints, statuses) {
             Ok(reduced) => reduced,
             Err(singular) => return Ok(self.free(&t, singular, &load)),
         };
@@ -432,6 +432,11 @@ impl<'a> Problem<'a> {
         let mut moved = Moved { u, forces, friction, reaction, residual };
         self.slide(place, statuses, &mut moved, &reduced)?;
         Ok(Solved::Moved(moved))
+    }
+
+    fn elastic(&self) -> Elastic<'_> {
+        let Problem { model, stiffness, bodies, last, .. } = self;
+        Elastic { model, stiffness, bodies, last }
     }
 
     fn free(&self, t: &Elimination, singular: Singular, load: &DVector<f64>) -> Solved {

@@ -6,12 +6,12 @@ use std::rc::Rc;
 
 use nalgebra::DVector;
 
-use super::problem::Problem;
-use crate::answer::condensation::{Bound, refined};
+use crate::answer::condensation::{Bodies, Bound, refined};
 use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::stiffness::Stiffness;
 use crate::numbers::solve::{Factors, Singular, SparseCholesky};
+use crate::problem::model::Model;
 
 /// What a status holds of a node's motion: nothing, the one along the normal, or both.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -26,9 +26,18 @@ enum Held {
 #[derive(Default)]
 pub(super) struct Last(RefCell<Option<(Vec<Held>, Rc<Factored>)>>);
 
+/// The bodies, and what was factored of them.
+#[derive(Clone, Copy)]
+pub(super) struct Elastic<'a> {
+    pub(super) model: &'a Model,
+    pub(super) stiffness: &'a Stiffness,
+    pub(super) bodies: &'a Bodies,
+    pub(super) last: &'a Last,
+}
+
 /// The reduced equations under imposed statuses.
 pub(super) struct Reduced<'a> {
-    problem: &'a Problem<'a>,
+    elastic: Elastic<'a>,
     t: &'a Elimination,
     made: Made,
 }
@@ -56,13 +65,13 @@ impl<'a> Reduced<'a> {
     /// # Errors
     /// The matrix is singular.
     pub(super) fn new(
-        problem: &'a Problem,
+        elastic: Elastic<'a>,
         t: &'a Elimination,
         constraints: &[Constraint],
         statuses: &[Status],
     ) -> Result<Self, Singular> {
-        if let Some(bound) = problem.bodies.factors(&problem.stiffness, t, constraints) {
-            return Ok(Reduced { problem, t, made: Made::Condensed(bound) });
+        if let Some(bound) = elastic.bodies.factors(elastic.stiffness, t, constraints) {
+            return Ok(Reduced { elastic, t, made: Made::Condensed(bound) });
         }
         let held = |status: &Status| match status {
             Status::Open => Held::Nothing,
@@ -70,15 +79,15 @@ impl<'a> Reduced<'a> {
             Status::Stick => Held::Both,
         };
         let held: Vec<Held> = statuses.iter().map(held).collect();
-        let last = problem.last.0.borrow();
+        let last = elastic.last.0.borrow();
         let same = last.as_ref().filter(|(same, _)| *same == held).map(|(_, made)| made.clone());
         drop(last);
         let factors = match same {
             Some(factors) => factors,
-            None => Rc::new(factored(&problem.stiffness, t)?),
+            None => Rc::new(factored(elastic.stiffness, t)?),
         };
-        problem.last.0.replace(Some((held.clone(), Rc::clone(&factors))));
-        Ok(Reduced { problem, t, made: Made::Whole { held, factors: RefCell::new(factors) } })
+        elastic.last.0.replace(Some((held.clone(), Rc::clone(&factors))));
+        Ok(Reduced { elastic, t, made: Made::Whole { held, factors: RefCell::new(factors) } })
     }
 
     /// Returns q, and its relative residual.
@@ -86,7 +95,7 @@ impl<'a> Reduced<'a> {
     /// # Errors
     /// The matrix is singular.
     pub(super) fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
-        let stiffness = &self.problem.stiffness;
+        let stiffness = self.elastic.stiffness;
         let by = |factors: &dyn Factors<f64>, norm| refined(stiffness, self.t, factors, norm, f);
         let by_whole = |made: &Factored| by(&made.factors, made.norm);
         match &self.made {
@@ -101,7 +110,7 @@ impl<'a> Reduced<'a> {
                 }
                 let made = Rc::new(factored(stiffness, self.t)?);
                 factors.replace(Rc::clone(&made));
-                self.problem.last.0.replace(Some((held.clone(), Rc::clone(&made))));
+                self.elastic.last.0.replace(Some((held.clone(), Rc::clone(&made))));
                 by_whole(&made).or_else(Ok)
             }
         }
@@ -115,7 +124,7 @@ impl<'a> Reduced<'a> {
     pub(super) fn reaction(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
         match &self.made {
             Made::Condensed(bound) => Ok(bound.reaction(load)),
-            Made::Whole { .. } => Ok(self.problem.stiffness.times(&self.under(load)?) - load),
+            Made::Whole { .. } => Ok(self.elastic.stiffness.times(&self.under(load)?) - load),
         }
     }
 
@@ -124,7 +133,7 @@ impl<'a> Reduced<'a> {
     /// # Errors
     /// The matrix is singular.
     pub(super) fn under(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
-        let (q, _) = self.solve(&self.t.load(&self.problem.model.free_part(load)))?;
+        let (q, _) = self.solve(&self.t.load(&self.elastic.model.free_part(load)))?;
         Ok(self.t.expand(&q) - self.t.shift())
     }
 }
