@@ -71,6 +71,8 @@ impl<'a> Reduced<'a> {
         statuses: &[Status],
     ) -> Result<Self, Singular> {
         if let Some(bound) = elastic.bodies.factors(elastic.stiffness, t, constraints) {
+            // Those of a whole matrix are large, and not needed any more.
+            elastic.last.0.take();
             return Ok(Reduced { elastic, t, made: Made::Condensed(bound) });
         }
         let held = |status: &Status| match status {
