@@ -19,8 +19,9 @@
 //! bodies, the node that the load's motion brings to the target first closes; where no node comes
 //! nearer, those with the least gaps close. In the current geometry normals, weights and gaps are
 //! measured again in the shape reached, until that no longer changes the displacements. Where the
-//! active set finds no equilibrium, Lemke's method looks for one under a finite coefficient
-//! (`condensed`); a step without one is halved.
+//! active set finds no equilibrium, a motion of rigid bodies may show that without friction there is
+//! none (`rigid`), else Lemke's method looks for one under a finite coefficient (`condensed`); a step
+//! without one is halved.
 //!
 //! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; S.
 //! Hüeber, G. Stadler, B. I. Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572-596 (friction); J. J.

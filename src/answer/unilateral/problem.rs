@@ -235,6 +235,11 @@ impl<'a> Problem<'a> {
     ) -> Result<Iteration, Error> {
         let found = self.active_set(place, start, setting, memory, watch);
         let Err(Error::Equilibrium(NoEquilibrium { what })) = found else { return found };
+        if self.friction == 0.0
+            && let Some(dof) = rigid::escape(self.model, &place.pairings, &setting.load)
+        {
+            return Err(self.escapes(dof).into());
+        }
         let Some(statuses) = self.complementary(place, setting) else {
             return Err(NoEquilibrium { what }.into());
         };
@@ -604,6 +609,21 @@ impl<'a> Problem<'a> {
         self.friction
     }
 
+    fn escapes(&self, dof: Dof) -> NoEquilibrium {
+        let (node, direction) = (self.named(dof.node()), dof.axis());
+        let what = format!(
+            "there is no equilibrium: the load moves {node} in {direction} with the whole body, \
+             and neither restraints nor contact oppose that motion; restrain it"
+        );
+        NoEquilibrium { what }
+    }
+
+    /// Returns the words for a node and its body.
+    fn named(&self, node: NodeId) -> String {
+        let body = self.model.body_of(node);
+        format!("node {node}{}", body.map_or(String::new(), |b| format!(" of body {:?}", b.name)))
+    }
+
     fn unrestrained(
         &self,
         pairings: &[Option<Pairing>],
@@ -631,10 +651,10 @@ impl<'a> Problem<'a> {
                 false => InputError::new("mesh, materials", what, "choose other units"),
             };
         }
-        let body = self.model.body_of(node);
-        let body = body.map_or(String::new(), |b| format!(" of body {:?}", b.name));
-        let what =
-            format!("node {node}{body} can move in {direction} with every contact node in contact");
+        let what = format!(
+            "{} can move in {direction} with every contact node in contact",
+            self.named(node)
+        );
         let fix =
             "restrain that motion, or let the surfaces rub or stick (\"friction\": \"stick\")";
         InputError::new("restraints, contact.friction", what, fix)

@@ -3,34 +3,79 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::lemke::lemke;
+use crate::answer::contact::Pairing;
 use crate::answer::elimination::{Constraint, Motion};
-use crate::problem::model::{Model, NodeId};
+use crate::problem::model::{Dof, Model, NodeId};
 
 /// The least eigenvalue of the Gram matrix, over the largest, that a motion free of force has.
 const FREE: f64 = 1e-12;
 
+/// The part of the load below which what nothing opposes is rounding.
+const OPPOSED: f64 = 1e-9;
+
+/// The number of contact nodes up to which a motion is looked for that no contact opposes.
+const MOST: usize = 150;
+
 /// Returns whether no body can move as a rigid one under its restraints and `constraints`.
 pub(super) fn holds(model: &Model, constraints: &[Constraint]) -> bool {
     let motions = Motions::new(model);
-    let mut gram = DMatrix::zeros(motions.count(), motions.count());
-    let mut add = |row: DVector<f64>| gram += &row * row.transpose();
-    for dof in model.all_dofs().filter(|dof| model.is_restrained(*dof)) {
-        let direction = [0, 1].map(|d| if d == dof.direction() { 1.0 } else { 0.0 });
-        add(motions.of(dof.node(), direction));
-    }
+    let mut gram = motions.restrained();
     for Constraint { node, masters, motion } in constraints {
         let directions = match motion {
             Motion::Along(normal, _) => vec![*normal],
             Motion::Both(_) => vec![[1.0, 0.0], [0.0, 1.0]],
         };
         for direction in directions {
-            let own = motions.of(*node, direction);
-            let target = masters.iter().map(|(master, w)| motions.of(*master, direction) * *w);
-            add(target.fold(own, |row, part| row - part));
+            let row = motions.relative(*node, masters, direction);
+            gram += &row * row.transpose();
         }
     }
     let stiffness = gram.symmetric_eigenvalues();
     stiffness.is_empty() || stiffness.min() > FREE * stiffness.max()
+}
+
+/// Returns the degree of freedom that moves most in a motion of rigid bodies on which the load does
+/// work and which closes no gap: under it there is no equilibrium without friction. None where there
+/// is no such motion, and of more than 150 contact nodes.
+///
+/// ```text
+///   d = f + Σ λ_i a_i    λ ≥ 0,  a_iᵀ d ≥ 0,  λ_i a_iᵀ d = 0    so that   fᵀ d = dᵀ d
+/// ```
+///
+/// f is the load and a_i the opening of a gap in each motion that the restraints leave: d is what
+/// is left of the load where contact forces λ oppose the most of it (J. J. Moreau, C. R. Acad. Sci.
+/// Paris 255 (1962) 238-240).
+pub(super) fn escape(
+    model: &Model,
+    pairings: &[Option<Pairing>],
+    load: &DVector<f64>,
+) -> Option<Dof> {
+    let motions = Motions::new(model);
+    let gaps: Vec<&Pairing> = pairings.iter().flatten().collect();
+    let eigen = motions.restrained().symmetric_eigen();
+    let limit = FREE * eigen.eigenvalues.amax();
+    let free: Vec<usize> =
+        (0..motions.count()).filter(|i| eigen.eigenvalues[*i] <= limit).collect();
+    if free.is_empty() || gaps.len() > MOST {
+        return None;
+    }
+    let basis = eigen.eigenvectors.select_columns(&free);
+    let work = |dof: Dof| motions.along(dof) * load[dof.index()];
+    let f = basis.tr_mul(&model.all_dofs().map(work).sum::<DVector<f64>>());
+    let mut openings = DMatrix::zeros(free.len(), gaps.len());
+    for (mut column, Pairing { node, masters, normal, .. }) in openings.column_iter_mut().zip(&gaps)
+    {
+        column.copy_from(&basis.tr_mul(&motions.relative(*node, masters, *normal)));
+    }
+    let forces = lemke(&openings.tr_mul(&openings), &openings.tr_mul(&f))?;
+    let left = &f + openings * forces;
+    if left.amax() <= OPPOSED * load.amax() {
+        return None;
+    }
+    let motion = basis * left;
+    let size = |dof: &Dof| motions.along(*dof).dot(&motion).abs();
+    model.all_dofs().max_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
 /// The rigid motions of all bodies: two translations and a rotation each.
@@ -61,6 +106,33 @@ impl<'a> Motions<'a> {
 
     fn count(&self) -> usize {
         3 * self.middle.len()
+    }
+
+    /// Returns the Gram matrix of the restraints.
+    fn restrained(&self) -> DMatrix<f64> {
+        let mut gram = DMatrix::zeros(self.count(), self.count());
+        for dof in self.model.all_dofs().filter(|dof| self.model.is_restrained(*dof)) {
+            let row = self.along(dof);
+            gram += &row * row.transpose();
+        }
+        gram
+    }
+
+    /// Returns a degree of freedom in each rigid motion.
+    fn along(&self, dof: Dof) -> DVector<f64> {
+        self.of(dof.node(), [0, 1].map(|d| if d == dof.direction() { 1.0 } else { 0.0 }))
+    }
+
+    /// Returns the component along `direction` of a node's motion less that of its masters in each
+    /// rigid motion.
+    fn relative(
+        &self,
+        node: NodeId,
+        masters: &[(NodeId, f64)],
+        direction: [f64; 2],
+    ) -> DVector<f64> {
+        let target = masters.iter().map(|(master, w)| self.of(*master, direction) * *w);
+        target.fold(self.of(node, direction), |row, part| row - part)
     }
 
     /// Returns the component of a node's motion along `direction` in each rigid motion.
