@@ -24,11 +24,11 @@ use crate::numbers::solve::{
 use crate::problem::model::{Dof, Model, NodeId};
 
 /// The number of nodes of both surfaces up to which all are kept.
-const SMALL: usize = 160;
+const SMALL: usize = 64;
 
 /// The number of neighbours that are kept on either side of a bound node of a larger surface, and
 /// the part of the number of bound nodes that comes on top.
-const MARGIN: (usize, f64) = (16, 0.25);
+const MARGIN: (usize, f64) = (8, 0.5);
 
 /// The motion under loads of 1, both scaled to a unit diagonal, beyond which a state is left to the
 /// factors of its whole matrix, which tell a singular one.
@@ -111,18 +111,31 @@ pub(super) struct Bound {
     factors: DenseCholesky<f64>,
 }
 
+/// Returns the nodes of the contact surface and those of the target surface, each in its order.
+fn surfaces(model: &Model) -> [Vec<NodeId>; 2] {
+    let mut target: Vec<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
+    target.dedup();
+    [model.contact.nodes.clone(), target]
+}
+
+/// Returns the number of equations to which the bodies are condensed where `near` contact nodes come
+/// to the target: an estimate where the surfaces are large.
+pub fn kept_equations(model: &Model, near: usize) -> usize {
+    let surfaces = surfaces(model).concat();
+    let nodes: BTreeSet<NodeId> = surfaces.iter().copied().collect();
+    let free = |node: &NodeId| model.restraints_of(*node).iter().filter(|held| !**held).count();
+    let all = nodes.iter().map(free).sum();
+    let (neighbours, part) = MARGIN;
+    let bound = (near as f64 * (1.0 + part)) as usize + 2 * neighbours;
+    if surfaces.len() <= SMALL { all } else { all.min(4 * bound) }
+}
+
 impl Bodies {
     pub(super) fn new(model: &Arc<Model>, shared: &Shared) -> Self {
-        let mut target = Vec::new();
-        for node in model.target_edges().flat_map(|edge| edge.nodes) {
-            if target.last() != Some(&node) {
-                target.push(node);
-            }
-        }
         Bodies {
             model: Arc::clone(model),
             shared: shared.clone(),
-            surfaces: [model.contact.nodes.clone(), target],
+            surfaces: surfaces(model),
             current: RefCell::default(),
             begun: Cell::new(false),
             impossible: Cell::new(!model.has_contact()),

@@ -81,7 +81,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             true => T::zero(),
             false => load[e] / share,
         });
-        let sparse = sparse.filter(|_| request.arithmetic.solver() == Solver::SparseCholesky);
+        let sparse = sparse.filter(|_| request.solver() == Solver::SparseCholesky);
         let assembly = match (request.variant, sparse) {
             (Variant::Printed, _) => Assembly::Printed,
             (_, Some(make)) => Assembly::Sparse(make(request, model)),
@@ -101,7 +101,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         constraints: &[Constraint<T>],
         k: usize,
     ) -> Result<Solved<T>, Error> {
-        let (solver, tol) = (self.request.arithmetic.solver(), self.request.arithmetic.tol);
+        let (solver, tol) = (self.request.solver(), self.request.arithmetic.tol);
         match &self.assembly {
             Assembly::Printed => {
                 let solved = T::sweep(|| {
@@ -184,7 +184,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         };
         let what = format!(
             "{} in {} stopped after {} iterations at a relative residual of {:e}",
-            self.request.arithmetic.solver(),
+            self.request.solver(),
             self.request.arithmetic.scalar,
             stopped.iterations,
             stopped.residual

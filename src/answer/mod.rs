@@ -21,6 +21,7 @@ mod support;
 mod unilateral;
 
 pub use assessment::{Assessment, Measured};
+pub use condensation::kept_equations;
 pub use distance::{BodyDistance, Distance, distance};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;

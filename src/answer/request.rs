@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::condensation::Shared;
 use super::contact;
 use crate::error::InputError;
-use crate::numbers::solve::Arithmetic;
+use crate::numbers::solve::{Arithmetic, Solver};
 use crate::paper::door;
 use crate::paper::mirror::{Reading, Schedule};
 use crate::problem::model::Model;
@@ -104,6 +104,11 @@ impl Request {
         };
         [self, other].iter().all(|request| request.variant == Variant::Unilateral)
             && only(self) == only(other)
+    }
+
+    /// Returns the solver asked for, or the variant's and the scalar's own.
+    pub fn solver(&self) -> Solver {
+        self.arithmetic.solver(self.variant == Variant::Printed)
     }
 
     /// Returns the load of an iteration: R7 where the reading sets it, else the variant's own.

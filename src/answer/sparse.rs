@@ -129,9 +129,9 @@ impl Sparse<F64x2> for Condensing {
 
 /// Returns the number of dense 2R x 2R matrices of the scalar in memory at once.
 pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
-    let sparse =
-        arithmetic.solver() == Solver::SparseCholesky && arithmetic.scalar != ScalarName::Exact;
-    match (variant, arithmetic.solver()) {
+    let solver = arithmetic.solver(variant == Variant::Printed);
+    let sparse = solver == Solver::SparseCholesky && arithmetic.scalar != ScalarName::Exact;
+    match (variant, solver) {
         (Variant::Unilateral, _) => 0,
         (Variant::Printed, Solver::DenseLu) => 3,
         // K beside the matrix of the iteration and its two factors.

@@ -197,7 +197,8 @@ fn rubbing(cases: &[Rubbing]) -> String {
 }
 
 fn tenth(x: f64) -> String {
-    format!("{x:.1}")
+    // 0 added to −0 is 0.
+    format!("{:.1}", (10.0 * x).round() / 10.0 + 0.0)
 }
 
 pub fn json(audit: &Audit, scene: &Scene) -> String {

@@ -81,6 +81,11 @@ fn built(plan: &Plan) -> String {
     rows.push(row("solver", format!("{} in {}", plan.solver, plan.scalar), "--solver, --scalar"));
     let numbers = format!("{} numbers in its factors", plan.factors.nonzeros);
     rows.push(row("matrix", plan.storage, numbers));
+    if let Some(kept) = plan.condensed {
+        let why =
+            "equations of the surfaces: the bodies are factored once, each contact state on these";
+        rows.push(row("condensed to", kept, why));
+    }
     aligned(["", "", "why"], rows)
 }
 

@@ -64,7 +64,9 @@ fn arithmetic(solution: &Solution) -> String {
     let done = solution.request.arithmetic;
     let mut text = match done.is_default() {
         true => String::new(),
-        false => format!("\nin {} by {}, inputs {}", done.scalar, done.solver(), done.inputs),
+        false => {
+            format!("\nin {} by {}, inputs {}", done.scalar, solution.request.solver(), done.inputs)
+        }
     };
     if let Some(bound) = solution.error_bound {
         let unit = &solution.request.scene.units.length;

@@ -7,6 +7,7 @@ use super::numbers::or_dash;
 use super::output::{csv as csv_of, write_all};
 use super::picture::{Axis, Series, Style, chart};
 use crate::error::InputError;
+use crate::problem::modelling::Variant;
 use crate::studies::trade::{Errors, Order, Reached, Row, Section, Trade};
 
 pub use super::json::line as json;
@@ -150,7 +151,8 @@ pub fn reached(reached: &Reached, accuracy: f64) -> String {
             Some(found) if found <= accuracy => format!("run; {kind} {found:.0e}: taken"),
             Some(found) => format!("run; {kind} {found:.0e}: missed, so up one precision"),
         };
-        let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver());
+        let printed = reached.solution.request.variant == Variant::Printed;
+        let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver(printed));
         let predicted = attempt.predicted;
         text += &format!("  {scalar} by {solver}: {predicted:.0e} predicted, {came}\n");
     }

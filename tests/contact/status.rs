@@ -8,6 +8,7 @@ use plane_contact::answer::contact::Surfaces;
 use plane_contact::answer::contact::search::Closest;
 use plane_contact::answer::contact::status::{Target, TargetEdge, statuses};
 use plane_contact::answer::{self, Constraint, Detail, Request, Solution, summaries};
+use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::door::{self, Call};
 use plane_contact::paper::mirror::{Cause, Failure, Pairs, Reading};
 use plane_contact::problem::element::Plane;
@@ -386,7 +387,10 @@ fn by_rule(rule: StatusRule, scene: &Scene) -> Request {
 }
 
 fn stepped(rule: StatusRule, scene: &Scene) -> Solution {
-    answer::solve(&by_rule(rule, scene), &mut |_| ()).expect("the variant runs")
+    // Where the scene is symmetric, rounding decides who is in contact: dense LU is what Mathcad has.
+    let arithmetic = Arithmetic { solver: Some(Solver::DenseLu), ..Arithmetic::default() };
+    let request = by_rule(rule, scene).arithmetic(arithmetic);
+    answer::solve(&request, &mut |_| ()).expect("the variant runs")
 }
 
 /// Where a node passes c_tll between two steps the sign rule loses it for a while, its contact set

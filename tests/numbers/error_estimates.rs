@@ -64,7 +64,7 @@ fn the_bound_on_rounding_holds_on_every_setting() {
                     "{}, {variant}, {} by {}",
                     scene.name,
                     setting.scalar,
-                    setting.solver()
+                    request.solver()
                 );
                 assert!(error <= bound, "{what}: error {error:e} is beyond its bound {bound:e}");
                 held += 1;

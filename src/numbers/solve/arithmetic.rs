@@ -71,12 +71,12 @@ pub struct Arithmetic {
 }
 
 impl Arithmetic {
-    /// Returns the solver asked for, or the scalar's own.
-    pub fn solver(&self) -> Solver {
-        self.solver.unwrap_or(match self.scalar {
-            ScalarName::F64x2 | ScalarName::Exact => Solver::SparseCholesky,
-            _ => Solver::DenseLu,
-        })
+    /// Returns the solver asked for; else dense LU in a scalar of the machine for a matrix that is
+    /// `printed`, as Mathcad solves it, and sparse Cholesky for every other one.
+    pub fn solver(&self, printed: bool) -> Solver {
+        let slow = matches!(self.scalar, ScalarName::F64x2 | ScalarName::Exact);
+        let own = if printed && !slow { Solver::DenseLu } else { Solver::SparseCholesky };
+        self.solver.unwrap_or(own)
     }
 
     /// Returns whether it is `f64` by a solver that nobody chose.
@@ -94,14 +94,14 @@ impl Arithmetic {
             Name::F64x2 => &[DenseLu, SparseCholesky, Cg, Refined],
             Name::Exact => &[DenseLu, SparseCholesky],
         };
-        if !offered.contains(&self.solver()) {
+        if !offered.contains(&self.solver(true)) {
             let names: Vec<&str> = offered.iter().map(|solver| solver.name()).collect();
-            let what = format!("{} does not solve in {}", self.solver(), self.scalar);
+            let what = format!("{} does not solve in {}", self.solver(true), self.scalar);
             return Err(InputError::new("--solver", what, format!("use {}", names.join(", "))));
         }
         match self.tol {
-            Some(_) if ![Cg, Refined].contains(&self.solver()) => {
-                let what = format!("{} solves directly: it has no tolerance", self.solver());
+            Some(_) if ![Cg, Refined].contains(&self.solver(true)) => {
+                let what = format!("{} solves directly: it has no tolerance", self.solver(true));
                 Err(InputError::new("--tol", what, "leave it out, or use --solver cg or refined"))
             }
             Some(tol) if !(tol > 0.0 && tol < 1.0) => {

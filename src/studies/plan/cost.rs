@@ -18,9 +18,11 @@ pub(super) struct Work<'a> {
     /// Dense matrices in memory at once.
     pub dense: usize,
     pub factors: FactorSize,
-    /// One factorisation of a sparse matrix of the same equations: of the run itself where `dense`
-    /// is 0, and of the reference solution.
+    /// The one factorisation of the bodies, which the reference solution shares with the run where
+    /// `dense` is 0.
     pub sparse: FactorSize,
+    /// The matrix of a contact state on the condensed bodies.
+    pub condensed: FactorSize,
     /// Who can come into contact; nothing where the scene has no contact.
     pub candidates: Option<&'a Candidates>,
 }
@@ -29,7 +31,7 @@ pub(super) struct Work<'a> {
 pub struct Cost {
     /// Dense 2R x 2R matrices of `f64` in memory at once: what is compared with the free memory.
     pub dense_matrices: usize,
-    /// Contact states that are likely to come: each is factored once.
+    /// Contact states that are likely to come in a step of the load.
     pub states: usize,
     /// The same for the reference solution that `solve` measures the run against; 0 where it runs
     /// nothing more.
@@ -86,10 +88,17 @@ impl Work<'_> {
             dense_matrices: self.dense * self.width(),
             states,
             reference_states,
-            operations: states as f64 * self.factors.operations
-                + reference_states as f64 * self.sparse.operations,
+            operations: self.operations(states, reference_states),
             bytes: self.bytes(states + reference_states),
         }
+    }
+
+    fn operations(&self, states: usize, reference_states: usize) -> f64 {
+        let bodies =
+            if self.dense == 0 || reference_states > 0 { self.sparse.operations } else { 0.0 };
+        let own = if self.dense == 0 { self.condensed } else { self.factors };
+        let [run, reference] = [states, reference_states].map(|states| states as f64);
+        bodies + run * own.operations + reference * self.condensed.operations
     }
 
     /// Contact states that the run is likely to come to; of the paper's variants as on `strand`.

@@ -19,7 +19,7 @@ pub use candidates::MARGIN;
 use candidates::Candidates;
 use cost::{Cost, Work};
 
-use crate::answer::{Request, dense_matrices};
+use crate::answer::{Request, dense_matrices, kept_equations};
 use crate::choices;
 use crate::error::InputError;
 use crate::numbers::solve::{FactorSize, ScalarName, Solver, memory};
@@ -51,6 +51,9 @@ pub struct Plan {
     pub solver: Solver,
     pub storage: Storage,
     pub factors: FactorSize,
+    /// The equations to which the bodies are condensed, on which every contact state is solved; None
+    /// without contact, and where the whole matrix of each state is factored.
+    pub condensed: Option<usize>,
     pub cost: Cost,
     /// Nodes of the mesh file that belong to no triangle and were dropped.
     pub orphans: usize,
@@ -100,10 +103,7 @@ impl Plan {
         arithmetic.check()?;
         let model = &*request.model()?;
         let bodies = bodies::plan(model, variant);
-        let solver = match variant {
-            Variant::Unilateral => Solver::SparseCholesky,
-            _ => arithmetic.solver(),
-        };
+        let solver = request.solver();
         let equations = equations(model, variant, &bodies);
         let ContactModel { coupling, friction, status, .. } = request.contact;
         let plan = |candidates| ContactPlan { coupling, friction, status, candidates };
@@ -116,7 +116,9 @@ impl Plan {
             _ => sparse,
         };
         let candidates = contact.as_ref().map(|contact| &contact.candidates);
-        let work = Work { request, model, dense, factors, sparse, candidates };
+        let near = candidates.map_or(0, |found| found.near);
+        let condensed = FactorSize::dense_cholesky(kept_equations(model, near));
+        let work = Work { request, model, dense, factors, sparse, condensed, candidates };
         Ok(Plan {
             scene: scene.name.clone(),
             variant,
@@ -130,6 +132,8 @@ impl Plan {
             solver,
             storage: if dense > 0 { Storage::Dense } else { Storage::Sparse },
             factors,
+            condensed: (near > 0 && dense == 0 && arithmetic.scalar != ScalarName::F32)
+                .then_some(condensed.equations),
             orphans: scene.dropped.len(),
             half: half(scene).map(|half| HalfPlan { at: half.at, nodes: half.nodes.len() }),
         })

@@ -84,7 +84,7 @@ fn arithmetic(request: &Request, rows: &[Row]) -> Vec<String> {
 fn solver(rows: &[Row]) -> Vec<String> {
     // The row in f64x2 is what the others are measured against.
     let direct = rows.iter().filter(|row| {
-        row.arithmetic.scalar == ScalarName::F64 && row.arithmetic.solver() != Solver::Cg
+        row.arithmetic.scalar == ScalarName::F64 && row.arithmetic.solver != Some(Solver::Cg)
     });
     let direct = direct.filter_map(|row| row.error.map(|e| e.displacement)).fold(0.0, f64::max);
     let loose = rows.iter().find(|row| row.arithmetic == cg(1e-4)).and_then(|row| row.error);
