@@ -432,8 +432,8 @@ fn deepest(solution: &Solution) -> f64 {
 fn signs_are_the_default() {
     let scene = Scene::open("fig1").unwrap();
     let request = Request::new(&scene).variant(Variant::Stepped);
-    let printed = answer::solve(&request, &mut |_| ()).unwrap();
-    assert_eq!(printed.u, stepped(StatusRule::Signs, &scene).u);
+    let solved = |request: &Request| answer::solve(request, &mut |_| ()).unwrap().u;
+    assert_eq!(solved(&request), solved(&by_rule(StatusRule::Signs, &scene)));
     assert_eq!(StatusRule::default(), StatusRule::Signs);
 }
 
