@@ -23,7 +23,8 @@ use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{Inputs, Precision, ScalarName, cost, memory};
 use crate::paper::door::{self, NodeToSegment};
 use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet, c_cnt};
+use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet};
+use crate::paper::near::c_cnt;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::{Coupling, StatusRule, Variant};
 

@@ -4,3 +4,4 @@ pub mod door;
 pub mod listings;
 pub mod mathcad;
 pub mod mirror;
+pub mod near;

@@ -4,3 +4,4 @@ pub mod element;
 pub mod model;
 pub mod modelling;
 pub mod scene;
+pub mod tree;

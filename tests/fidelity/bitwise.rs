@@ -16,6 +16,7 @@ use plane_contact::paper::mirror::{
     Cause, Failure, Km, LoopPlace, NodeTable, Order, Pairs, Reading, RestraintIndex, Wedge,
     Worksheet, c_cnt,
 };
+use plane_contact::paper::near;
 use plane_contact::problem::element;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{SCENES, Scene};
@@ -308,6 +309,8 @@ fn agree(
     let mirror = c_cnt(sheet, reading, node_n);
     let listing = listings::c_cnt(&Which::CCnt.under(reading), &settings, sheet, node_n, &mut ());
     let of_mirror = mirror.as_ref().map(pair_bits).map_err(|f| mirror_stop(f.clone()));
+    let near = near::c_cnt(sheet, reading, node_n);
+    prop_assert_eq!(&of_mirror, &near.as_ref().map(pair_bits).map_err(|f| mirror_stop(f.clone())));
     prop_assert_eq!(
         &of_mirror,
         &listing.map(|(pairs, _)| pair_bits(&pairs)).map_err(|f| listing_stop(&f))

@@ -10,8 +10,6 @@ pub mod search;
 mod sliding;
 pub mod status;
 mod surface;
-pub mod tree;
-
 pub use order::along;
 pub use pairing::Pairing;
 pub(super) use pressure::arcs;

@@ -22,8 +22,8 @@ use nalgebra::{Matrix2, Vector2};
 use super::pairing::{Pairing, Vector, unit};
 use super::search::dot;
 use super::surface::{Edge, FACING, Placed, Surfaces};
-use super::tree::{Bounds, Tree};
 use crate::problem::model::{EdgeId, NodeId};
+use crate::problem::tree::{Bounds, Tree};
 
 /// The overlap below which two edges do not overlap, over the contact edge's length: rounding.
 const ROUNDING: f64 = 1e-12;

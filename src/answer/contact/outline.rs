@@ -35,8 +35,8 @@ use std::collections::{HashMap, HashSet};
 use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
 use super::surface::{Edge, FACING, Placed};
-use super::tree::{Bounds, Tree};
 use crate::problem::model::{NodeId, unordered};
+use crate::problem::tree::{Bounds, Tree};
 
 /// The difference of two distances, over the size of the surface, below which they are equal: far
 /// above rounding, also at a thousand sizes from the origin, and far below any gap that matters.

@@ -27,6 +27,8 @@
 //! target edge, and leaves through the surface.
 
 use super::search::{Closest, Segment, closest};
+use std::collections::HashMap;
+
 use crate::numbers::scalar::Scalar;
 use crate::paper::door::{self, ContactStatus};
 use crate::paper::mathcad::array::Table;
@@ -92,8 +94,10 @@ impl TargetEdge {
 impl<T: Scalar> Target<T> {
     /// Finds the target edges of `model` in the shape `node_n` (R x 4).
     pub fn new(model: &Model, node_n: &Table<T>) -> Self {
-        let shared =
-            |node: NodeId| model.target_edges().filter(|e| e.nodes.contains(&node)).count();
+        let mut shared: HashMap<NodeId, usize> = HashMap::new();
+        for node in model.target_edges().flat_map(|edge| edge.nodes) {
+            *shared.entry(node).or_default() += 1;
+        }
         let edge = |id: &EdgeId| {
             let beside = model.sides.beside(model.edge(*id).nodes).first()?;
             let place = |node: NodeId| door::place(node_n, node);
@@ -102,7 +106,7 @@ impl<T: Scalar> Target<T> {
             // A shape may be folded: the triangle's side is taken from the shape.
             let nodes = if inner > T::zero() { [a, b] } else { [b, a] };
             let ends = nodes.map(place);
-            let free = nodes.map(|node| shared(node) == 1);
+            let free = nodes.map(|node| shared[&node] == 1);
             (!inner.is_zero()).then(|| (TargetEdge { id: *id, free }, Segment::new(ends)))
         };
         let (edges, segments) = model.contact.target.iter().filter_map(edge).unzip();

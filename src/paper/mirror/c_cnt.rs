@@ -46,7 +46,19 @@ pub fn c_cnt<T: Scalar>(
     reading: &Reading,
     node_n: &Table<T>,
 ) -> Result<Pairs<T>, Failure> {
-    listing(sheet, reading, node_n, None)
+    listing(sheet, reading, node_n, None, &|_| (1..=rows(&sheet.trg)).collect())
+}
+
+/// Finds the same pairs; line 4 goes through the rows of `trg` that `near` returns for a row of
+/// `cnt`, ascending. Those left out must be rows that line 7 does not take.
+/// Errors: those of [`c_cnt`].
+pub fn c_cnt_near<T: Scalar>(
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    node_n: &Table<T>,
+    near: &dyn Fn(usize) -> Vec<usize>,
+) -> Result<Pairs<T>, Failure> {
+    listing(sheet, reading, node_n, None, near)
 }
 
 /// Computes the weights, lines 11 to 31, of nodes whose statuses another rule has `decided`.
@@ -57,7 +69,7 @@ pub fn weights<T: Scalar>(
     node_n: &Table<T>,
     decided: Pairs<T>,
 ) -> Result<Pairs<T>, Failure> {
-    listing(sheet, reading, node_n, Some(decided))
+    listing(sheet, reading, node_n, Some(decided), &|_| Vec::new())
 }
 
 fn listing<T: Scalar>(
@@ -65,6 +77,7 @@ fn listing<T: Scalar>(
     reading: &Reading,
     node_n: &Table<T>,
     decided: Option<Pairs<T>>,
+    near: &dyn Fn(usize) -> Vec<usize>,
 ) -> Result<Pairs<T>, Failure> {
     let Worksheet { node, elem, trg, cnt, c_tll, .. } = sheet;
     let (c_tll, zero, one) = (*c_tll, T::zero(), T::one());
@@ -86,7 +99,8 @@ fn listing<T: Scalar>(
         //#  3 ct[i1] ← 0
         ct[i1] = 0;
         //#  4 for i2 ∈ 1 .. rows(trg)
-        for i2 in 1..=rows(trg) {
+        // DIFFERENCE: rows that line 7 would not take may be left out.
+        for i2 in near(i1) {
             let here = Line { i1, ct: trg[i2], ..Line::default() };
             //#  5 ntx ← (node_n[elem[trg[i2],6],2] − c_tll   node_n[elem[trg[i2],7],2] + c_tll)ᵀ
             let ntx = [

@@ -20,7 +20,7 @@ mod km;
 mod reading;
 mod worksheet;
 
-pub use c_cnt::{Pairs, c_cnt, weights};
+pub use c_cnt::{Pairs, c_cnt, c_cnt_near, weights};
 pub use failure::{Cause, Failure};
 pub use km::Km;
 pub use reading::{

@@ -1,6 +1,7 @@
 //! A tree of boxes around edges: the edges near a point, or across a strip, without a look at all.
 
-use super::pairing::Vector;
+/// A point or a direction: x and y.
+type Vector = [f64; 2];
 
 /// The most edges of a box that is not divided.
 const LEAF: usize = 4;
