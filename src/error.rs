@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+/// A value, or the error of the input that refuses it.
+pub type Result<T, E = InputError> = std::result::Result<T, E>;
+
 /// An error of the input: what is wrong, where, and how to fix it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputError {

@@ -3,12 +3,12 @@
 use std::io::Write;
 use std::path::Path;
 
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 /// Writes `content` to `path`, and creates its folder where it is missing. A link is followed; a
 /// target that is no ordinary file (a pipe, a device) is written directly.
 /// Errors: the folder or the file cannot be written; an existing file keeps its content.
-pub fn write(path: &Path, content: &str) -> Result<(), InputError> {
+pub fn write(path: &Path, content: &str) -> Result<()> {
     let written = match std::fs::canonicalize(path) {
         Ok(there) if !there.is_file() && !there.is_dir() => std::fs::write(there, content),
         Ok(there) => replace(&there, content),

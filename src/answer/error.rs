@@ -4,6 +4,9 @@ use crate::error::InputError;
 use crate::paper::mathcad;
 use crate::paper::mirror::Failure;
 
+/// A value, or the reason why there is none.
+pub type Result<T, E = Error> = std::result::Result<T, E>;
+
 /// The reason why a command ended without a result.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
 use plane_contact::answer::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
@@ -44,7 +44,7 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     match &args.finding {
         Some(id) => explain(args, find(id)?),
         None => whole(args),
@@ -62,7 +62,7 @@ fn find(id: &str) -> Result<&'static Finding, InputError> {
     })
 }
 
-fn explain(args: &Args, finding: &Finding) -> Result<(), Error> {
+fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let scene = match &args.scene {
         Some(scene) => Scene::open(scene)?,
         None => finding.scene(),
@@ -78,11 +78,9 @@ fn explain(args: &Args, finding: &Finding) -> Result<(), Error> {
     print(&report::explain(finding, &measured, &case.scene))
 }
 
-fn whole(args: &Args) -> Result<(), Error> {
+fn whole(args: &Args) -> Result<()> {
     let case = Case::new(Scene::open(args.scene.as_deref().unwrap_or("strand"))?);
-    let spinner = waiting("auditing");
-    let found = audit(&case);
-    spinner.finish_and_clear();
+    let found = waiting("auditing", || audit(&case));
     let (text, json) = (report::text(&found, &case.scene), report::json(&found, &case.scene));
     if let Some(out) = &args.out {
         write(out, &case, &found, &text, &json)?;
@@ -91,7 +89,7 @@ fn whole(args: &Args) -> Result<(), Error> {
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.
-fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Result<(), Error> {
+fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Result<()> {
     files::write(&out.join("audit.txt"), text)?;
     files::write(&out.join("audit.json"), json)?;
     for (finding, _) in &audit.findings {

@@ -1,7 +1,7 @@
 //! `plane-contact c-cnt`.
 
 use plane_contact::answer::Request;
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
 use plane_contact::paper::door::Call;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{json, tables};
@@ -30,7 +30,7 @@ pub struct Args {
     json: bool,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;

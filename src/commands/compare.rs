@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
 use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
 use super::export::{Code, DeckArgs};
-use super::{print, waiting};
+use super::{folder, print, waiting};
 
 /// Run a scene here and in another code, and show the differences.
 #[derive(clap::Args)]
@@ -43,15 +43,12 @@ pub struct Args {
     json: bool,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let Code::Calculix = args.with;
     let solution = args.deck.solve()?;
     let parts = args.deck.parts(&solution)?;
     let (scene, model) = (&solution.request.scene, &solution.model);
-    let spinner = waiting("running ccx");
-    let ran = calculix::run(&args.ccx, scene, model, &parts);
-    spinner.finish_and_clear();
-    let ran = ran?;
+    let ran = waiting("running ccx", || calculix::run(&args.ccx, scene, model, &parts))?;
     let compared = Compared {
         scene,
         model,
@@ -61,18 +58,11 @@ pub fn run(args: &Args) -> Result<(), Error> {
         version: &ran.version,
         comparison: &Comparison::new(model, Fields::of(&solution), ran.fields),
     };
-    finish(args, &compared)
-}
-
-fn finish(args: &Args, compared: &Compared) -> Result<(), Error> {
-    let default = || {
-        let (scene, kind) = (&compared.scene.name, args.deck.contact);
-        PathBuf::from("out").join(format!("{scene}-{}-calculix-{kind}", compared.variant))
-    };
-    let out = args.out.clone().unwrap_or_else(default);
-    let json = report::write(&out, compared)?;
+    let (scene, kind) = (&scene.name, args.deck.contact);
+    let out = folder(&args.out, format!("{scene}-{}-calculix-{kind}", compared.variant));
+    let json = report::write(&out, &compared)?;
     if args.json {
         return print(&json);
     }
-    print(&format!("{}\nWritten to {}\n", report::text(compared), out.display()))
+    print(&format!("{}\nWritten to {}\n", report::text(&compared), out.display()))
 }

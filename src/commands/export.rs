@@ -2,14 +2,13 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
 use plane_contact::answer::{self, Solution};
-use plane_contact::files;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::{Contact, ContactKind, Pair, Part, Problem, deck};
 
-use super::{ModelArgs, ReadingArg, print, waiting};
+use super::{ModelArgs, ReadingArg, waiting, write_or_print};
 
 plane_contact::choices! {
     /// A code that a scene can be exported to.
@@ -68,26 +67,20 @@ pub struct DeckArgs {
 
 fn penalty(text: &str) -> Result<f64, String> {
     let penalty: f64 = text.parse().map_err(|_| "it is no number".to_string())?;
-    if penalty > 0.0 && penalty.is_finite() {
-        Ok(penalty)
-    } else {
-        Err("it is not positive".into())
-    }
+    let positive = Some(penalty).filter(|x| *x > 0.0 && x.is_finite());
+    positive.ok_or_else(|| "it is not positive".into())
 }
 
 impl DeckArgs {
     /// The run that is compared.
-    pub fn solve(&self) -> Result<Solution, Error> {
+    pub fn solve(&self) -> Result<Solution> {
         let scene = Scene::open(&self.scene)?;
         let request = self.model.request(&scene, self.variant, &self.reading);
-        let spinner = waiting("solving");
-        let solution = answer::solve(&request, &mut |_| ());
-        spinner.finish_and_clear();
-        solution
+        waiting("solving", || answer::solve(&request, &mut |_| ()))
     }
 
     /// The problems whose sum is the run; the last iteration's comes last.
-    pub fn parts(&self, solution: &Solution) -> Result<Vec<Part>, Error> {
+    pub fn parts(&self, solution: &Solution) -> Result<Vec<Part>> {
         match self.contact {
             ContactKind::Equation => Ok(Contact::parts(solution)?),
             ContactKind::Pair => {
@@ -99,15 +92,12 @@ impl DeckArgs {
     }
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let Code::Calculix = args.to;
     let solution = args.deck.solve()?;
     let parts = args.deck.parts(&solution)?;
     let last = parts.last().expect("a run has an iteration");
     let (scene, model) = (&solution.request.scene, &solution.model);
     let text = deck(&Problem { scene, model, contact: &last.contact })?;
-    match &args.out {
-        Some(path) => Ok(files::write(path, &text)?),
-        None => print(&text),
-    }
+    write_or_print(&args.out, &text)
 }

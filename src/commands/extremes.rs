@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::report::extremes as report;
@@ -37,14 +37,12 @@ pub struct Args {
     out: PathBuf,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let chosen = chosen(generators(), &args.names)?;
     if args.list {
         return print(&report::list(&chosen));
     }
-    let spinner = waiting("sweeping");
-    let measured = measure(&chosen);
-    spinner.finish_and_clear();
+    let measured = waiting("sweeping", || measure(&chosen));
     let (text, json) = (report::text(&measured), report::json(&measured));
     files::write(&args.out.join("extremes.txt"), &text)?;
     files::write(&args.out.join("extremes.json"), &json)?;
@@ -58,11 +56,9 @@ pub fn run(args: &Args) -> Result<(), Error> {
 fn chosen(all: Vec<Generator>, names: &[String]) -> Result<Vec<Generator>, InputError> {
     if let Some(unknown) = names.iter().find(|name| all.iter().all(|g| g.name != **name)) {
         let known: Vec<&str> = all.iter().map(|g| g.name).collect();
-        return Err(InputError::new(
-            "NAME",
-            format!("there is no generator {unknown:?}"),
-            format!("the generators are {}", known.join(", ")),
-        ));
+        let what = format!("there is no generator {unknown:?}");
+        let fix = format!("the generators are {}", known.join(", "));
+        return Err(InputError::new("NAME", what, fix));
     }
     let is_chosen = |g: &Generator| names.is_empty() || names.iter().any(|name| name == g.name);
     Ok(all.into_iter().filter(is_chosen).collect())

@@ -3,14 +3,13 @@
 use std::path::PathBuf;
 
 use plane_contact::answer::Request;
-use plane_contact::answer::error::Error;
-use plane_contact::files;
+use plane_contact::answer::error::Result;
 use plane_contact::numbers::solve::memory;
 use plane_contact::paper::door::Call;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::matrix_market;
 
-use super::{ReadingArg, print};
+use super::{ReadingArg, write_or_print};
 
 /// Assemble MJS by the listing Km at the initial shape.
 #[derive(clap::Args)]
@@ -41,7 +40,7 @@ enum CoupledBy {
     None,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
@@ -53,8 +52,5 @@ pub fn run(args: &Args) -> Result<(), Error> {
     let matrix = call.km(&reading)?;
     let comment = format!("MJS of scene {}: equation 2n-1 is x of node n, 2n is y", scene.name);
     let text = matrix_market::matrix_market(&matrix, &comment);
-    match &args.matrix_market {
-        Some(path) => Ok(files::write(path, &text)?),
-        None => print(&text),
-    }
+    write_or_print(&args.matrix_market, &text)
 }

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
 use plane_contact::studies::benchmark::Kind;
 
-use super::print;
+use super::{folder, print};
 
 /// Generate a mesh and its scene: a benchmark, or the paper's example.
 #[derive(clap::Args)]
@@ -25,10 +25,9 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let benchmark = args.kind.generate()?;
-    let default = || PathBuf::from("out").join(format!("mesh-{}", benchmark.name));
-    let out = args.out.clone().unwrap_or_else(default);
+    let out = folder(&args.out, format!("mesh-{}", benchmark.name));
     benchmark.write(&out)?;
     let mesh = &benchmark.mesh;
     let (nodes, triangles) = (mesh.nodes.len(), mesh.of_dimension(2).count());

@@ -14,11 +14,14 @@ pub mod trace;
 pub mod trade;
 
 use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use plane_contact::answer::Request;
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
+use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{
     ContactModel, Coupling, Friction, Geometry, StatusRule, Variant,
@@ -86,26 +89,38 @@ impl ModelArgs {
 }
 
 /// Prints to standard output; a reader that has gone away (`| head`) is no error.
-pub fn print(text: &str) -> Result<(), Error> {
+pub fn print(text: &str) -> Result<()> {
     match std::io::stdout().write_all(text.as_bytes()) {
         Err(why) if why.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(plane_contact::error::InputError::new(
-                "standard output",
-                format!("cannot be written: {why}"),
-                "direct it to a place that can be written",
-            )
-            .into())
+            let what = format!("cannot be written: {why}");
+            let fix = "direct it to a place that can be written";
+            Err(InputError::new("standard output", what, fix).into())
         }
         _ => Ok(()),
     }
 }
 
-/// A sign of life on standard error for what may take over two seconds; it shows only in a
-/// terminal.
-pub fn waiting(what: &'static str) -> ProgressBar {
+/// Does `work`, with a sign of life on standard error for what may take over two seconds; it shows
+/// only in a terminal.
+pub fn waiting<R>(what: &'static str, work: impl FnOnce() -> R) -> R {
     let spinner = ProgressBar::new_spinner().with_message(what);
     spinner.enable_steady_tick(Duration::from_millis(500));
-    spinner
+    let result = work();
+    spinner.finish_and_clear();
+    result
+}
+
+/// The folder that is asked for, else `name` in the folder `out`.
+pub fn folder(asked: &Option<PathBuf>, name: String) -> PathBuf {
+    asked.clone().unwrap_or_else(|| Path::new("out").join(name))
+}
+
+/// Writes to the file that is asked for, else to standard output.
+pub fn write_or_print(file: &Option<PathBuf>, text: &str) -> Result<()> {
+    match file {
+        Some(path) => Ok(files::write(path, text)?),
+        None => print(text),
+    }
 }
 
 /// A progress bar on standard error; it shows only in a terminal.

@@ -1,6 +1,6 @@
 //! `plane-contact plan`.
 
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
 use plane_contact::numbers::solve::{Arithmetic, memory};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
@@ -39,7 +39,7 @@ pub struct Args {
     json: bool,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let request = args.model.request(&scene, args.variant, &args.reading);
     let plan = Plan::new(&request.arithmetic(args.arithmetic))?;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::{Error, NoEquilibrium};
+use plane_contact::answer::error::{NoEquilibrium, Result};
 use plane_contact::answer::{self, Assessment, Request, Solution, Step};
 use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::problem::modelling::Variant;
@@ -57,14 +57,13 @@ pub struct Args {
     json: bool,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let request = args.model.request(&scene, args.variant, &args.reading);
     let request = request.arithmetic(args.arithmetic);
     let (solution, accuracy) = solve(args, &request)?;
     let plan = Plan::new(&solution.request)?;
-    let default = || PathBuf::from("out").join(format!("{}-{}", scene.name, request.variant));
-    let out = args.out.clone().unwrap_or_else(default);
+    let out = super::folder(&args.out, format!("{}-{}", scene.name, request.variant));
     let assessment = Assessment::new(&solution);
     let result = folder::write(&out, &solution, &assessment, Some(&plan))?;
     if args.json {
@@ -82,7 +81,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
 }
 
 /// Ends with a status of its own where other equilibria are known.
-fn several(solution: &Solution) -> Result<(), Error> {
+fn several(solution: &Solution) -> Result<()> {
     let found = solution.equilibrium.as_ref();
     if !found.is_some_and(|found| found.uniqueness.is_refuted()) {
         return Ok(());
@@ -92,7 +91,7 @@ fn several(solution: &Solution) -> Result<(), Error> {
 }
 
 /// The solution, and under `--accuracy` how its precision was found.
-fn solve(args: &Args, request: &Request) -> Result<(Solution, String), Error> {
+fn solve(args: &Args, request: &Request) -> Result<(Solution, String)> {
     if let Some(asked) = args.accuracy {
         let reached = solve_to(request, asked)?;
         let words = report::trade::reached(&reached, asked);

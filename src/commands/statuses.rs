@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
 use plane_contact::files;
 use plane_contact::report::statuses as report;
 use plane_contact::studies::audit::statuses::measure;
@@ -36,10 +36,8 @@ pub struct Args {
     picture: Option<PathBuf>,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
-    let spinner = waiting("measuring");
-    let measured = measure(args.scenes as usize, args.seed);
-    spinner.finish_and_clear();
+pub fn run(args: &Args) -> Result<()> {
+    let measured = waiting("measuring", || measure(args.scenes as usize, args.seed));
     if let Some(path) = &args.picture {
         files::write(path, &report::picture(&measured))?;
     }

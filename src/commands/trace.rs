@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use plane_contact::answer::Request;
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::paper::door::Call;
 use plane_contact::paper::listings::{Which, settings};
@@ -55,7 +55,7 @@ struct Chosen {
     edited: bool,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
@@ -74,13 +74,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
 }
 
 /// Tells what an edit changed, or why the listing stopped.
-fn finish(
-    trace: Trace,
-    chosen: &Chosen,
-    args: &Args,
-    model: &Model,
-    call: &Call,
-) -> Result<(), Error> {
+fn finish(trace: Trace, chosen: &Chosen, args: &Args, model: &Model, call: &Call) -> Result<()> {
     let reading = args.reading.reading;
     match trace.result {
         Err(failure) if chosen.edited => {
@@ -102,8 +96,8 @@ fn finish(
 }
 
 /// One of the paper's listings by name, or the edited listing in a file.
-fn choose(name: &str, reading: &Reading) -> Result<Chosen, Error> {
-    if let Some(which) = [Which::CCnt, Which::Km].into_iter().find(|w| w.name() == name) {
+fn choose(name: &str, reading: &Reading) -> Result<Chosen> {
+    if let Ok(which) = name.parse::<Which>() {
         return Ok(Chosen { which, listing: which.under(reading), edited: false });
     }
     let text = std::fs::read_to_string(PathBuf::from(name)).map_err(|why| {
@@ -122,7 +116,7 @@ fn choose(name: &str, reading: &Reading) -> Result<Chosen, Error> {
 }
 
 /// The contact pairs that Km receives: those of c_cnt at the initial shape.
-fn linked(model: &Model, reading: &Reading, which: Which) -> Result<Call, Error> {
+fn linked(model: &Model, reading: &Reading, which: Which) -> Result<Call> {
     match which {
         Which::CCnt => Ok(Call::without_contact(model)),
         Which::Km => Ok(Call::c_cnt(model, reading, &model.nodes)?),
@@ -130,42 +124,35 @@ fn linked(model: &Model, reading: &Reading, which: Which) -> Result<Call, Error>
 }
 
 /// The turns that are shown: of `c_cnt` over the contact nodes, of `Km` over the triangles.
-fn turns(
-    which: Which,
-    model: &Model,
-    call: &Call,
-    node: Option<usize>,
-) -> Result<Vec<usize>, Error> {
+fn turns(which: Which, model: &Model, call: &Call, node: Option<usize>) -> Result<Vec<usize>> {
     let entries = |is: &dyn Fn(NodeId) -> bool| -> Vec<usize> {
-        let nodes = model.contact.nodes.iter().enumerate().filter(|(_, n)| is(**n));
-        nodes.map(|(k, _)| k + 1).collect()
+        let nodes = model.contact.nodes.iter().zip(1..);
+        nodes.filter(|(node, _)| is(**node)).map(|(_, i1)| i1).collect()
     };
     let triangles = |is: &dyn Fn(NodeId) -> bool| -> Vec<usize> {
         let with = model.triangle_ids().filter(|id| model.triangle(*id).nodes.into_iter().any(is));
         with.map(|id| id.number()).collect()
     };
-    let turns = match (which, node) {
-        (Which::CCnt, None) => entries(&|_| true),
-        (Which::CCnt, Some(node)) => entries(&|n| n.number() == node),
-        (Which::Km, None) => triangles(&|n| call.row(n).iter().any(|x| *x != 0.0)),
-        (Which::Km, Some(node)) => triangles(&|n| n.number() == node),
+    let (turns, place, what, fix) = match (which, node) {
+        (Which::CCnt, Some(node)) => {
+            let what = format!("node {node} is no contact node");
+            (entries(&|n| n.number() == node), "--node", what, "name a contact node, or none")
+        }
+        (Which::Km, Some(node)) => {
+            let what = format!("node {node} is in no triangle");
+            (triangles(&|n| n.number() == node), "--node", what, "name another node")
+        }
+        (Which::CCnt, None) => {
+            let what = "the scene has no contact, so c_cnt is not called".into();
+            (entries(&|_| true), "SCENE", what, "trace Km instead")
+        }
+        (Which::Km, None) => {
+            let linked = triangles(&|n| call.row(n).iter().any(|x| *x != 0.0));
+            (linked, "SCENE", "no element has a linked node".into(), "name a node with --node")
+        }
     };
     if !turns.is_empty() {
         return Ok(turns);
     }
-    let (place, what, fix) = match (which, node) {
-        (Which::CCnt, Some(node)) => {
-            ("--node", format!("node {node} is no contact node"), "name a contact node, or none")
-        }
-        (Which::Km, Some(node)) => {
-            ("--node", format!("node {node} is in no triangle"), "name another node")
-        }
-        (Which::CCnt, None) => {
-            ("SCENE", "the scene has no contact, so c_cnt is not called".into(), "trace Km instead")
-        }
-        (Which::Km, None) => {
-            ("SCENE", "no element has a linked node".into(), "name a node with --node")
-        }
-    };
     Err(InputError::new(place, what, fix).into())
 }

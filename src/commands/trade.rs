@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use plane_contact::answer::error::Error;
+use plane_contact::answer::error::Result;
 use plane_contact::answer::{Request, solve};
 use plane_contact::error::InputError;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
 use plane_contact::studies::trade::{self, Knob, Options, Trial, peak};
 
-use super::{ReadingArg, print, progress};
+use super::{ReadingArg, folder, print, progress};
 
 /// Measure speed against accuracy: precisions, solvers and the paper's own knobs.
 #[derive(clap::Args)]
@@ -49,7 +49,7 @@ pub struct Args {
     peak_of: Option<String>,
 }
 
-pub fn run(args: &Args) -> Result<(), Error> {
+pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let request = Request::new(&scene).reading(args.reading.reading);
     if let Some(name) = &args.peak_of {
@@ -66,8 +66,7 @@ pub fn run(args: &Args) -> Result<(), Error> {
     };
     let measured = trade::measure(&request, &options, in_a_process, watch)?;
     bar.finish_and_clear();
-    let default = || PathBuf::from("out").join(format!("trade-{}", scene.name));
-    let out = args.out.clone().unwrap_or_else(default);
+    let out = folder(&args.out, format!("trade-{}", scene.name));
     let json = report::write(&out, &measured)?;
     if args.json {
         return print(&json);
@@ -84,7 +83,7 @@ fn in_a_process(trial: &Trial) -> Option<u64> {
     std::str::from_utf8(&output.stdout).ok()?.trim().parse().ok()
 }
 
-fn peak_of(request: &Request, name: &str) -> Result<(), Error> {
+fn peak_of(request: &Request, name: &str) -> Result<()> {
     let trial = trade::find(request, name).ok_or_else(|| {
         InputError::new("--peak-of", format!("there is no trial {name:?}"), "leave it out")
     })?;

@@ -1,25 +1,24 @@
 //! The paper's listings, executed as printed on the arrays of a scene.
 
-use std::fmt;
-
+use crate::choices;
 use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mathcad::settings::Conjunction;
 use crate::paper::mathcad::value::Array;
 use crate::paper::mathcad::{
     Cause, Edit, Failure, Limits, Listing, Observer, ParseError, Runner, Settings, Value,
 };
 use crate::paper::mirror::{
-    LoopPlace, NodeTable, Order, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
+    LoopPlace, NodeTable, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
 };
 use crate::problem::element;
 
-/// One of the paper's two listings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
-    /// The listing of fig. 2, which finds the contact pairs.
-    CCnt,
-    /// The listing of fig. 3, which assembles the stiffness matrix.
-    Km,
+choices! {
+    /// One of the paper's two listings.
+    Which {
+        /// The listing of fig. 2, which finds the contact pairs.
+        CCnt = "c_cnt",
+        /// The listing of fig. 3, which assembles the stiffness matrix.
+        Km = "Km",
+    }
 }
 
 /// Returns the limits of an execution: 16 million steps, and the demand of arrays of the size of
@@ -33,13 +32,6 @@ fn limits(sheet: &Worksheet<f64>) -> Limits {
 pub type Traced<T> = Result<(T, Vec<String>), Box<Failure>>;
 
 impl Which {
-    pub fn name(self) -> &'static str {
-        match self {
-            Which::CCnt => "c_cnt",
-            Which::Km => "Km",
-        }
-    }
-
     pub fn text(self) -> &'static str {
         match self {
             Which::CCnt => include_str!("../../listings/c_cnt.txt"),
@@ -50,7 +42,7 @@ impl Which {
     /// Returns the listing whose text begins like one of the paper's.
     pub fn of(text: &str) -> Option<Which> {
         let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty())?;
-        [Which::CCnt, Which::Km].into_iter().find(|w| header.trim_start().starts_with(w.name()))
+        Which::ALL.iter().copied().find(|w| header.trim_start().starts_with(w.name()))
     }
 
     /// Returns the listing under a reading: the text of record with the reading's edits.
@@ -66,12 +58,6 @@ impl Which {
     /// Parses another text in place of the listing.
     pub fn edited(self, text: &str) -> Result<Listing, ParseError> {
         Listing::parse(self.name(), text)
-    }
-}
-
-impl fmt::Display for Which {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
 
@@ -106,12 +92,7 @@ fn edits(which: Which, reading: &Reading) -> Vec<&'static str> {
 
 /// Returns the worksheet's settings under a reading: R4.
 pub fn settings(reading: &Reading) -> Settings {
-    let conjunction = match reading.r4 {
-        Order::Guarded => Conjunction::Guarded,
-        Order::LeftToRight => Conjunction::LeftToRight,
-        Order::Eager => Conjunction::Eager,
-    };
-    Settings { conjunction, ..Settings::default() }
+    Settings { conjunction: reading.r4, ..Settings::default() }
 }
 
 /// Executes `c_cnt` on the shape `node_n`.

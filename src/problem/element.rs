@@ -13,7 +13,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::choices;
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 use crate::numbers::scalar::Scalar;
 
 choices! {
@@ -29,7 +29,7 @@ choices! {
 impl Plane {
     /// Checks that `nu` is a Poisson's ratio of the plane problem.
     /// Errors: the ratio is outside (-1, 0.5) in plane strain, or (-1, 1) in plane stress.
-    pub fn check_poisson(self, nu: f64, place: &str) -> Result<(), InputError> {
+    pub fn check_poisson(self, nu: f64, place: &str) -> Result<()> {
         let (below, name) = match self {
             Plane::Strain => (0.5, "plane strain"),
             Plane::Stress => (1.0, "plane stress"),

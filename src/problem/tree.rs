@@ -1,17 +1,12 @@
 //! A tree of boxes around edges: the edges near a point, or across a strip, without a look at all.
 
+pub use super::model::Bounds;
+
 /// A point or a direction: x and y.
 type Vector = [f64; 2];
 
 /// The most edges of a box that is not divided.
 const LEAF: usize = 4;
-
-/// A box with sides along the axes: its lowest and its highest coordinates, length.
-#[derive(Clone, Copy, Debug)]
-pub struct Bounds {
-    low: Vector,
-    high: Vector,
-}
 
 /// Boxes around edges, each divided in two halves of as many edges.
 pub struct Tree {
@@ -29,30 +24,6 @@ struct Divided {
 }
 
 impl Bounds {
-    /// Returns the box around the two ends of an edge.
-    fn around([a, b]: [Vector; 2]) -> Self {
-        Bounds {
-            low: [0, 1].map(|d| f64::min(a[d], b[d])),
-            high: [0, 1].map(|d| f64::max(a[d], b[d])),
-        }
-    }
-
-    fn with(self, other: Self) -> Self {
-        Bounds {
-            low: [0, 1].map(|d| self.low[d].min(other.low[d])),
-            high: [0, 1].map(|d| self.high[d].max(other.high[d])),
-        }
-    }
-
-    fn middle(self, axis: usize) -> f64 {
-        (self.low[axis] + self.high[axis]) / 2.0
-    }
-
-    /// Returns the larger extent, length.
-    pub fn size(self) -> f64 {
-        f64::max(self.high[0] - self.low[0], self.high[1] - self.low[1])
-    }
-
     /// Returns the distance from `p`, length; 0 inside.
     pub fn distance(self, p: Vector) -> f64 {
         let [x, y] = [0, 1].map(|d| (self.low[d] - p[d]).max(p[d] - self.high[d]).max(0.0));
@@ -71,7 +42,7 @@ impl Tree {
     /// Builds the tree over edges, each given by its number and its two ends.
     pub fn new(edges: impl IntoIterator<Item = (usize, [Vector; 2])>) -> Self {
         let mut bounds: Vec<(usize, Bounds)> =
-            edges.into_iter().map(|(k, ends)| (k, Bounds::around(ends))).collect();
+            edges.into_iter().map(|(k, ends)| (k, Bounds::of(&ends))).collect();
         let mut tree = Tree { edges: Vec::new(), boxes: Vec::new() };
         if !bounds.is_empty() {
             tree.boxes.push(Divided::over(&bounds, 0));
@@ -89,7 +60,7 @@ impl Tree {
         let Bounds { low, high } = self.boxes[at].bounds;
         let axis = usize::from(high[1] - low[1] > high[0] - low[0]);
         let half = bounds.len() / 2;
-        let key = |(k, b): &(usize, Bounds)| (b.middle(axis), *k);
+        let key = |(k, b): &(usize, Bounds)| ((b.low[axis] + b.high[axis]) / 2.0, *k);
         bounds.select_nth_unstable_by(half, |a, b| {
             let (a, b) = (key(a), key(b));
             a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
@@ -138,8 +109,7 @@ impl Tree {
 impl Divided {
     /// Returns the box over `bounds`, undivided.
     fn over(bounds: &[(usize, Bounds)], from: usize) -> Self {
-        let around = bounds.iter().map(|(_, b)| *b).reduce(Bounds::with);
-        let bounds_of_all = around.expect("a box is around an edge");
-        Divided { bounds: bounds_of_all, from, to: from + bounds.len(), halves: None }
+        let around = Bounds::of(bounds.iter().flat_map(|(_, b)| [&b.low, &b.high]));
+        Divided { bounds: around, from, to: from + bounds.len(), halves: None }
     }
 }

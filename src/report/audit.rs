@@ -234,8 +234,7 @@ pub fn explain(finding: &Finding, measured: &Measured, scene: &Scene) -> String 
 }
 
 fn quoted(finding: &Finding) -> String {
-    let Some(which) = [Which::CCnt, Which::Km].into_iter().find(|w| w.name() == finding.listing)
-    else {
+    let Ok(which) = finding.listing.parse::<Which>() else {
         return "  none: it is in what the paper does around the listings\n".into();
     };
     let printed: Vec<&str> = which.text().lines().filter(|line| !line.starts_with('#')).collect();

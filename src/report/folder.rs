@@ -7,7 +7,7 @@ use super::picture::{self, Drawing, Field};
 use super::result_file::ResultFile;
 use super::{pressure, vtu};
 use crate::answer::{Assessment, Solution};
-use crate::error::InputError;
+use crate::error::Result;
 use crate::files;
 use crate::problem::element::State;
 use crate::problem::scene::Scene;
@@ -21,7 +21,7 @@ pub fn write(
     solution: &Solution,
     assessment: &Assessment,
     plan: Option<&Plan>,
-) -> Result<String, InputError> {
+) -> Result<String> {
     let scene = &solution.request.scene;
     let drawing = Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
     let displacement = &solution.displacements()[..];

@@ -33,6 +33,4 @@ pub mod trade;
 pub mod vtu;
 pub mod xml;
 
-pub use result_file::{
-    BodyEstimates, ElementRow, IterationRow, KnownEstimates, ReadingInForce, ResultFile, known,
-};
+pub use result_file::{BodyEstimates, ElementRow, IterationRow, KnownEstimates, ResultFile, known};

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use crate::error::InputError;
+use crate::error::Result;
 use crate::files;
 
 /// Writes each content to the file of its name in `folder`.
-pub fn write_all(folder: &Path, contents: &[(&str, &str)]) -> Result<(), InputError> {
+pub fn write_all(folder: &Path, contents: &[(&str, &str)]) -> Result<()> {
     contents.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))
 }
 

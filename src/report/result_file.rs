@@ -7,13 +7,10 @@ use crate::answer::contact::{ContactNode, Status};
 use crate::answer::{
     Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Solution, Step,
 };
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 use crate::numbers::scalar::rational;
 use crate::numbers::solve::{Arithmetic, ScalarName};
-use crate::paper::mirror::{
-    LoopPlace, NodeTable, Order, Reading, RestraintIndex, Schedule, ToleranceUnit, Wedge,
-};
-use crate::problem::element::Plane;
+use crate::paper::mirror::Reading;
 use crate::problem::modelling::{ContactModel, Variant};
 use crate::problem::scene::Units;
 use crate::studies::plan::Plan;
@@ -28,8 +25,9 @@ pub struct ResultFile {
     pub title: String,
     /// The variant that was run.
     pub variant: Variant,
-    /// The reading of the print that was in force.
-    pub reading: ReadingInForce,
+    /// The reading of the print that was in force, with the plane problem (R6) and the load of an
+    /// iteration (R7) that the scene and the variant set where the reading did not.
+    pub reading: Reading,
     /// How contact was modelled: `coupling`, `friction`, `geometry` and `status`.
     #[serde(flatten)]
     pub modelled: ContactModel,
@@ -79,28 +77,6 @@ pub struct ResultFile {
     pub u_digits: Option<Vec<[String; 2]>>,
     /// The stresses and strains of each triangle.
     pub elements: Vec<ElementRow>,
-}
-
-/// The reading in force of each ambiguity of the print (`listings/READING.md`, section 4).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "UPPERCASE")]
-pub struct ReadingInForce {
-    /// R1: where the weights loop of `c_cnt` stands.
-    pub r1: LoopPlace,
-    /// R2: the index under which `Km` reads the restraint along x.
-    pub r2: RestraintIndex,
-    /// R3: where the adding loops of `Km` stand.
-    pub r3: Wedge,
-    /// R4: how `∧` is evaluated.
-    pub r4: Order,
-    /// R5: the coordinates that the weights come from.
-    pub r5: NodeTable,
-    /// R6: the plane problem.
-    pub r6: Plane,
-    /// R7: the load that an iteration carries.
-    pub r7: Schedule,
-    /// R8: the unit of c_tol.
-    pub r8: ToleranceUnit,
 }
 
 /// What an iteration came to.
@@ -183,7 +159,11 @@ impl ResultFile {
             scene: scene.name.clone(),
             title: scene.title.clone(),
             variant: request.variant,
-            reading: ReadingInForce::new(solution),
+            reading: Reading {
+                r6: Some(solution.model.plane),
+                r7: Some(request.schedule()),
+                ..request.reading
+            },
             modelled: request.contact,
             units: scene.units.clone(),
             arithmetic: Some(request.arithmetic).filter(|a| !a.is_default()),
@@ -218,7 +198,7 @@ impl ResultFile {
     ///
     /// # Errors
     /// Names the field that is wrong or that lacks one, or what follows the result.
-    pub fn from_json(text: &str) -> Result<Self, InputError> {
+    pub fn from_json(text: &str) -> Result<Self> {
         let fault = |place: String, why: &serde_json::Error| {
             InputError::new(place, why.to_string(), "give a result.json as solve writes it")
         };
@@ -227,14 +207,6 @@ impl ResultFile {
             .map_err(|e| fault(format!("field {} of the result", e.path()), e.inner()))?;
         deserializer.end().map_err(|e| fault("the end of the result".into(), &e))?;
         Ok(result)
-    }
-}
-
-impl ReadingInForce {
-    fn new(solution: &Solution) -> Self {
-        let Reading { r1, r2, r3, r4, r5, r8, .. } = solution.request.reading;
-        let (r6, r7) = (solution.model.plane, solution.request.schedule());
-        ReadingInForce { r1, r2, r3, r4, r5, r6, r7, r8 }
     }
 }
 

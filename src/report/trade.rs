@@ -6,7 +6,7 @@ use super::layout::Table;
 use super::numbers::or_dash;
 use super::output::{csv as csv_of, write_all};
 use super::picture::{Axis, Series, Style, chart};
-use crate::error::InputError;
+use crate::error::Result;
 use crate::problem::modelling::Variant;
 use crate::studies::trade::{Errors, Order, Reached, Row, Section, Trade};
 
@@ -18,7 +18,7 @@ pub const COLUMNS: &str = "knob,variant,setting,own,equations,in_contact,cycle,s
     change_displacement,change_energy,change_von_mises,pareto,failure";
 
 /// Writes `trade.json`, `trade.csv` and `trade.svg` to `folder`; gives back the first.
-pub fn write(folder: &Path, trade: &Trade) -> Result<String, InputError> {
+pub fn write(folder: &Path, trade: &Trade) -> Result<String> {
     let json = json(trade);
     let (csv, picture) = (csv(trade), picture(trade));
     write_all(folder, &[("trade.json", &json), ("trade.csv", &csv), ("trade.svg", &picture)])?;

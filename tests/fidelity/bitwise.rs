@@ -11,10 +11,12 @@ use plane_contact::answer::Request;
 use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mathcad::array::{Column, Table};
-use plane_contact::paper::mathcad::{Cause as MathcadCause, Failure as MathcadFailure};
+use plane_contact::paper::mathcad::{
+    Cause as MathcadCause, Conjunction, Failure as MathcadFailure,
+};
 use plane_contact::paper::mirror::{
-    Cause, Failure, Km, LoopPlace, NodeTable, Order, Pairs, Reading, RestraintIndex, Wedge,
-    Worksheet, c_cnt,
+    Cause, Failure, Km, LoopPlace, NodeTable, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
+    c_cnt,
 };
 use plane_contact::paper::near;
 use plane_contact::problem::element;
@@ -136,7 +138,7 @@ prop_compose! {
         r1 in select(LoopPlace::ALL),
         r2 in select(RestraintIndex::ALL),
         r3 in select(Wedge::ALL),
-        r4 in select(Order::ALL),
+        r4 in select(Conjunction::ALL),
         r5 in select(NodeTable::ALL),
     ) -> Reading {
         Reading { r1, r2, r3, r4, r5, ..Reading::default() }
@@ -400,7 +402,7 @@ fn all_readings() -> Vec<Reading> {
     all = times(all, &|r| LoopPlace::ALL.iter().map(|&r1| Reading { r1, ..r }).collect());
     all = times(all, &|r| RestraintIndex::ALL.iter().map(|&r2| Reading { r2, ..r }).collect());
     all = times(all, &|r| Wedge::ALL.iter().map(|&r3| Reading { r3, ..r }).collect());
-    all = times(all, &|r| Order::ALL.iter().map(|&r4| Reading { r4, ..r }).collect());
+    all = times(all, &|r| Conjunction::ALL.iter().map(|&r4| Reading { r4, ..r }).collect());
     all = times(all, &|r| NodeTable::ALL.iter().map(|&r5| Reading { r5, ..r }).collect());
     assert_eq!(all.len(), 72);
     all

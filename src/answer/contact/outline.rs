@@ -105,7 +105,7 @@ impl<'a> Outline<'a> {
         }
         let ends = |k: usize| (k, edges[k].nodes.map(|n| shape[n.index()]));
         let tree = Tree::new(once.into_iter().map(ends));
-        let tie = TIE * tree.bounds().map_or(0.0, Bounds::size);
+        let tie = TIE * tree.bounds().map_or(0.0, |all| all.larger_side());
         let normals = normals(edges, &placed, &at);
         Outline { edges, placed, undeformed, at, normals, tree, tie }
     }

@@ -31,8 +31,9 @@ use std::collections::HashMap;
 
 use crate::numbers::scalar::Scalar;
 use crate::paper::door::{self, ContactStatus};
+use crate::paper::mathcad::Conjunction;
 use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::{Failure, Order, Reading, Worksheet, c_cnt};
+use crate::paper::mirror::{Failure, Reading, Worksheet, c_cnt};
 use crate::problem::model::{EdgeId, Model, NodeId};
 use crate::problem::modelling::StatusRule;
 
@@ -59,7 +60,7 @@ pub fn statuses<T: Scalar>(
         StatusRule::Signs => printed(reading),
         StatusRule::Intersection => {
             // The sign rule is not used: a false operand keeps its lines from failing.
-            let printed = printed(&Reading { r4: Order::Guarded, ..*reading })?;
+            let printed = printed(&Reading { r4: Conjunction::Guarded, ..*reading })?;
             Ok(by_intersection(model, &target(), sheet.c_tll, node_n, printed))
         }
         StatusRule::Projection => Ok(by_projection(model, &target(), sheet.c_tll, node_n)),

@@ -1,7 +1,7 @@
 //! The scalar and the solver that are asked for.
 
 use crate::choices;
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 choices! {
     /// The number type that a run computes in.
@@ -86,7 +86,7 @@ impl Arithmetic {
 
     /// Checks that the solver is offered in the scalar, and that the tolerance is between 0 and 1.
     /// Errors: names the solvers that are offered, or the fault of the tolerance.
-    pub fn check(&self) -> Result<(), InputError> {
+    pub fn check(&self) -> Result<()> {
         use {ScalarName as Name, Solver::*};
         let offered: &[Solver] = match self.scalar {
             Name::F64 | Name::Bounded => &[DenseLu, DenseCholesky, SparseCholesky, Cg, Refined],

@@ -1,6 +1,6 @@
 //! Whether exact numbers on a scene end in a bearable time.
 
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 /// Seconds of an exact iteration of `EQUATIONS` equations of a plane mesh whose coordinates use all
 /// digits of an f64; most of them go into forces and stresses, whose fractions are as long as the
@@ -23,7 +23,7 @@ pub fn seconds(equations: usize, growing: bool, iterations: usize) -> f64 {
 
 /// Checks that exact solutions end within the limit.
 /// Errors: says how long they may take where they do not.
-pub fn check(equations: usize, growing: bool, iterations: usize) -> Result<(), InputError> {
+pub fn check(equations: usize, growing: bool, iterations: usize) -> Result<()> {
     let seconds = seconds(equations, growing, iterations);
     if seconds <= LIMIT {
         return Ok(());

@@ -2,7 +2,7 @@
 
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 /// Returns the bytes of `matrices` dense 2r x 2r matrices, `r` being the number of nodes.
 pub fn needed(r: usize, matrices: usize) -> u128 {
@@ -21,7 +21,7 @@ pub fn free() -> Option<u128> {
 
 /// Checks that `matrices` dense 2r x 2r matrices fit in `free` bytes.
 /// Errors: says how much they need where they do not.
-pub fn check(r: usize, matrices: usize, free: Option<u128>) -> Result<(), InputError> {
+pub fn check(r: usize, matrices: usize, free: Option<u128>) -> Result<()> {
     let free = free.unwrap_or(u128::MAX);
     if needed(r, matrices) <= free {
         return Ok(());

@@ -7,7 +7,7 @@
 use std::rc::Rc;
 
 use super::failure::Cause;
-use super::settings::{Settings, ZeroOverZero};
+use super::settings::Settings;
 use super::syntax::{Comparison, Operation};
 use super::value::{Array, Value};
 
@@ -20,7 +20,7 @@ fn finite(result: f64) -> Result<f64, Cause> {
 fn quotient(x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
     if y != 0.0 {
         finite(x / y)
-    } else if x == 0.0 && settings.zero_over_zero == ZeroOverZero::Zero {
+    } else if x == 0.0 && settings.zero_over_zero_is_zero {
         Ok(0.0)
     } else {
         Err(Cause::Singularity { numerator: x, denominator: y })

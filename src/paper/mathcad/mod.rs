@@ -50,5 +50,5 @@ pub use failure::{Cause, Failure, ParseError};
 pub use listing::{Line, Listing};
 pub use observe::{Observer, Recorder};
 pub use run::{Outcome, Runner};
-pub use settings::{Conjunction, Descending, LastIf, Limits, Settings, ZeroOverZero};
+pub use settings::{Conjunction, Limits, Settings};
 pub use value::{Array, Value};

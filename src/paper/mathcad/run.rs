@@ -7,8 +7,8 @@ use super::failure::{Cause, Fallible};
 use super::function::Function;
 use super::listing::Listing;
 use super::observe::Observer;
-use super::settings::{Descending, LastIf, Limits, Settings};
-use super::state::Run;
+use super::settings::{Limits, Settings};
+use super::state::{Cell, Run};
 use super::syntax::{Expr, Reference, Slot, Statement, Step};
 use super::value::Value;
 
@@ -80,7 +80,20 @@ impl<'l> Runner<'l> {
         observer: &mut O,
     ) -> Fallible<Outcome> {
         let Runner { listing, settings, limits, values, functions } = self;
-        let mut run = Run::new(listing, settings, limits, values, functions, observer);
+        let cell = |value: &Option<Value>| Cell { value: value.clone(), local: false };
+        let mut run = Run {
+            listing,
+            settings,
+            limits,
+            cells: values.iter().map(cell).collect(),
+            functions,
+            observer,
+            line: 0,
+            steps: 0,
+            stored: 0,
+            last: None,
+            trace: vec![],
+        };
         run.bind(arguments)?;
         run.block(&listing.program)?;
         run.outcome()
@@ -148,7 +161,7 @@ impl<O: Observer> Run<'_, '_, O> {
             let place = self.place(&condition.span);
             self.observer.condition(place, truth);
         }
-        if !truth && self.settings.last_if == LastIf::Zero {
+        if !truth && self.settings.last_if_is_zero {
             self.last = Some(Value::Number(0.0));
         }
         Ok(truth)
@@ -158,11 +171,10 @@ impl<O: Observer> Run<'_, '_, O> {
     fn repeat(&mut self, name: Slot, from: &Expr, to: &Expr, body: &[Statement]) -> Fallible<()> {
         let line = self.line;
         let (from, to) = (self.number(from)?, self.number(to)?);
-        let step = match self.settings.descending {
-            _ if from <= to => 1.0,
-            Descending::CountsDown => -1.0,
-            Descending::Empty => return Ok(()),
-        };
+        if from > to && self.settings.descending_is_empty {
+            return Ok(());
+        }
+        let step = if from > to { -1.0 } else { 1.0 };
         for turn in 0..=(to - from).abs().floor() as u64 {
             self.line = line;
             self.spend(1)?;

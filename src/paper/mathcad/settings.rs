@@ -1,46 +1,18 @@
 //! The worksheet's settings, and the limits of a run.
 
-/// What `0/0` gives: the worksheet's `zero-over-zero`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ZeroOverZero {
-    /// The division fails, as any division by zero does.
-    #[default]
-    Error,
-    /// The quotient is the number 0.
-    Zero,
-}
+use crate::choices;
 
-/// How `a ∧ b ∧ ...` is evaluated. Not known for Mathcad 14.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Conjunction {
-    /// All operands are evaluated; any false one decides, even if another fails. With none false
-    /// and one failed, the first failure stands.
-    #[default]
-    Guarded,
-    /// Operands are evaluated from the left, up to the first false one.
-    LeftToRight,
-    /// All operands are evaluated, and the first failure stands.
-    Eager,
-}
-
-/// What a range that ends below its start, as `1 .. 0`, runs through. Not known for Mathcad 14.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Descending {
-    /// The range counts down: 1, then 0.
-    #[default]
-    CountsDown,
-    /// The range is empty, and its body does not run.
-    Empty,
-}
-
-/// The value of a program whose last step is an `if` that was false. Not known for Mathcad 14.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LastIf {
-    /// The program has the value of the statement evaluated before it.
-    #[default]
-    Previous,
-    /// The program has the value 0.
-    Zero,
+choices! {
+    /// R4, c_cnt 17 and 18: the evaluation of `a ∧ b ∧ ...`. Not known for Mathcad 14.
+    Conjunction {
+        /// All operands are evaluated; any false one decides, even if another fails. With none
+        /// false and one failed, the first failure stands.
+        Guarded = "guarded",
+        /// Operands are evaluated from the left, up to the first false one.
+        LeftToRight = "left-to-right",
+        /// All operands are evaluated, and the first failure stands.
+        Eager = "eager",
+    }
 }
 
 /// The settings of a worksheet. The defaults are those of a blank Mathcad 14 worksheet, but for
@@ -49,8 +21,8 @@ pub enum LastIf {
 pub struct Settings {
     /// `ORIGIN`, the subscript of an array's first entry.
     pub origin: i32,
-    /// `zero-over-zero`, what 0/0 gives.
-    pub zero_over_zero: ZeroOverZero,
+    /// `zero-over-zero`: whether 0/0 is 0; otherwise it fails, as any division by zero does.
+    pub zero_over_zero_is_zero: bool,
     /// `exact-boolean`: true compares as IEEE 754 does; false takes two numbers as equal when they
     /// differ by less than 1e-12 of their mean, in `<` and its kin too.
     pub exact_boolean: bool,
@@ -59,22 +31,24 @@ pub struct Settings {
     pub tiny_is_zero: bool,
     /// The method by which `∧` is evaluated.
     pub conjunction: Conjunction,
-    /// What a descending range does.
-    pub descending: Descending,
-    /// The value of a program that ends in an `if` that was false.
-    pub last_if: LastIf,
+    /// Whether a range that ends below its start, as `1 .. 0`, is empty; otherwise it counts down:
+    /// 1, then 0. Not known for Mathcad 14.
+    pub descending_is_empty: bool,
+    /// Whether a program whose last step is an `if` that was false has the value 0; otherwise it
+    /// has that of the statement evaluated before. Not known for Mathcad 14.
+    pub last_if_is_zero: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
         Settings {
             origin: 1,
-            zero_over_zero: ZeroOverZero::default(),
+            zero_over_zero_is_zero: false,
             exact_boolean: true,
             tiny_is_zero: false,
             conjunction: Conjunction::default(),
-            descending: Descending::default(),
-            last_if: LastIf::default(),
+            descending_is_empty: false,
+            last_if_is_zero: false,
         }
     }
 }

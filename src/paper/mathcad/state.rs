@@ -18,14 +18,14 @@ pub struct Cell {
 pub struct Run<'r, 'l, O> {
     pub listing: &'r Listing,
     pub settings: &'r Settings,
-    limits: &'r Limits,
+    pub limits: &'r Limits,
     pub cells: Vec<Cell>,
     pub functions: &'r mut [Option<Function<'l>>],
     pub observer: &'r mut O,
     /// The current line, counted from 0 through the listing's lines.
     pub line: usize,
     /// Steps taken, which `limits.steps` bounds.
-    steps: u64,
+    pub steps: u64,
     /// Numbers stored by all names and trace lines, which `limits.entries` bounds.
     pub stored: usize,
     pub last: Option<Value>,
@@ -34,31 +34,6 @@ pub struct Run<'r, 'l, O> {
 }
 
 impl<'r, 'l, O> Run<'r, 'l, O> {
-    /// Begins a run on the first line; `values` and `functions` are what the worksheet defines.
-    pub fn new(
-        listing: &'r Listing,
-        settings: &'r Settings,
-        limits: &'r Limits,
-        values: &[Option<Value>],
-        functions: &'r mut [Option<Function<'l>>],
-        observer: &'r mut O,
-    ) -> Self {
-        let cell = |value: &Option<Value>| Cell { value: value.clone(), local: false };
-        Run {
-            listing,
-            settings,
-            limits,
-            cells: values.iter().map(cell).collect(),
-            functions,
-            observer,
-            line: 0,
-            steps: 0,
-            stored: 0,
-            last: None,
-            trace: vec![],
-        }
-    }
-
     /// Counts `steps` against the limit.
     pub fn spend(&mut self, steps: u64) -> Fallible<()> {
         self.steps = self.steps.saturating_add(steps);

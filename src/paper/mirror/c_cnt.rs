@@ -1,9 +1,10 @@
 //! Listing `c_cnt` (fig. 2): the contact pairs (`listings/READING.md`, section 2).
 
 use super::failure::{Cause, Failure};
-use super::reading::{LoopPlace, NodeTable, Order, Reading};
+use super::reading::{LoopPlace, NodeTable, Reading};
 use super::worksheet::Worksheet;
 use crate::numbers::scalar::Scalar;
+use crate::paper::mathcad::Conjunction;
 use crate::paper::mathcad::array::{Column, Table, max, min, rows};
 
 /// The arrays that `c_cnt` computes; the listing returns `k_cnt`.
@@ -234,9 +235,12 @@ fn listing<T: Scalar>(
 }
 
 /// Evaluates Mathcad's `∧` of several operands under reading R4.
-fn and(order: Order, operands: [&dyn Fn() -> Result<bool, Failure>; 4]) -> Result<bool, Failure> {
+fn and(
+    order: Conjunction,
+    operands: [&dyn Fn() -> Result<bool, Failure>; 4],
+) -> Result<bool, Failure> {
     match order {
-        Order::LeftToRight => {
+        Conjunction::LeftToRight => {
             for operand in operands {
                 if !operand()? {
                     return Ok(false);
@@ -244,8 +248,8 @@ fn and(order: Order, operands: [&dyn Fn() -> Result<bool, Failure>; 4]) -> Resul
             }
             Ok(true)
         }
-        Order::Eager => operands.iter().try_fold(true, |all, operand| Ok(operand()? && all)),
-        Order::Guarded => {
+        Conjunction::Eager => operands.iter().try_fold(true, |all, operand| Ok(operand()? && all)),
+        Conjunction::Guarded => {
             let values = operands.map(|operand| operand());
             if values.contains(&Ok(false)) {
                 return Ok(false);

@@ -2,7 +2,10 @@
 
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 use crate::choices;
+use crate::paper::mathcad::Conjunction;
 use crate::problem::element::Plane;
 
 choices! {
@@ -36,17 +39,6 @@ choices! {
     }
 }
 choices! {
-    /// R4, c_cnt 17 and 18: the evaluation of `∧`.
-    Order {
-        /// A false operand decides, whatever the others are.
-        Guarded = "guarded",
-        /// Evaluation stops at the first false operand.
-        LeftToRight = "left-to-right",
-        /// Evaluation includes all operands.
-        Eager = "eager",
-    }
-}
-choices! {
     /// R5, c_cnt 22 and 23: the coordinates from which weights are computed.
     NodeTable {
         /// The initial coordinates, as printed.
@@ -76,7 +68,8 @@ choices! {
 
 /// A choice for each ambiguity of the print (`listings/READING.md`, section 4). The scene and the
 /// variant set R6 and R7 unless the reading does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
 pub struct Reading {
     /// R1: the weights loop beside the zeroing loop, or inside it.
     pub r1: LoopPlace,
@@ -85,7 +78,7 @@ pub struct Reading {
     /// R3: the place of the adding loops of `Km`.
     pub r3: Wedge,
     /// R4: the evaluation of `∧`.
-    pub r4: Order,
+    pub r4: Conjunction,
     /// R5: the coordinates from which weights are computed.
     pub r5: NodeTable,
     /// R6: the plane problem in place of the scene's `plane`.

@@ -4,12 +4,14 @@
 //! 1, are made from a model in one place (`paper::door`).
 
 mod body;
+mod bounds;
 mod ids;
 mod sides;
 
 use nalgebra::DVector;
 
 pub use body::{Body, bodies, freedom};
+pub use bounds::Bounds;
 pub use ids::{Dof, EdgeId, NodeId, TriangleId};
 pub use sides::{Beside, Sides, unordered};
 

@@ -6,7 +6,7 @@ use super::description::{Axis, Contact, Description, Load, Material, Restraint, 
 use super::groups::GroupRef;
 use super::mesh::Mesh;
 use super::{Scene, file, gmsh, orphans};
-use crate::error::InputError;
+use crate::error::Result;
 use crate::files;
 use crate::problem::element::Plane;
 use crate::problem::modelling::Variant;
@@ -55,7 +55,7 @@ impl SceneBuilder {
         name: &str,
         text: &[u8],
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,
-    ) -> Result<Self, InputError> {
+    ) -> Result<Self> {
         let (source, description) = file::parse(text)?;
         Ok(SceneBuilder { name: name.into(), mesh: source.read(beside)?, description })
     }
@@ -155,7 +155,7 @@ impl SceneBuilder {
     ///
     /// # Errors
     /// The mesh, the description, or the two together are at fault.
-    pub fn build(&self) -> Result<Scene, InputError> {
+    pub fn build(&self) -> Result<Scene> {
         self.mesh.check()?;
         let mut description = self.description.clone();
         let dropped = self.mesh.orphans();
@@ -170,7 +170,7 @@ impl SceneBuilder {
     ///
     /// # Errors
     /// The errors of [`SceneBuilder::build`], or a file that cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<(), InputError> {
+    pub fn write(&self, folder: &Path) -> Result<()> {
         self.build()?;
         let mesh_file = format!("{}.msh", self.name);
         files::write(&folder.join(&mesh_file), &gmsh::write(&self.mesh))?;

@@ -5,14 +5,14 @@ use std::collections::{HashMap, HashSet};
 use super::description::{Axis, Description};
 use super::mesh::Mesh;
 use super::{groups, surface};
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 use crate::problem::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
 
 const MOST_ITERATIONS: usize = 1_000_000;
 
 /// Checks the thickness and the number of iterations.
 /// Errors: the thickness is not positive, or the number of iterations is 0 or too large.
-pub fn numbers(file: &Description) -> Result<(), InputError> {
+pub fn numbers(file: &Description) -> Result<()> {
     if !(file.thickness > 0.0 && file.thickness.is_finite()) {
         let what = format!("the thickness {} is not positive", file.thickness);
         return Err(InputError::new("field thickness", what, "the paper's is 1"));
@@ -27,10 +27,7 @@ pub fn numbers(file: &Description) -> Result<(), InputError> {
 /// Returns each triangle's material and the name of its group, in the order of `EL`.
 /// Errors: a material is out of its range, a triangle has no material or two, or a group has no
 /// triangle.
-pub fn materials(
-    mesh: &Mesh,
-    file: &Description,
-) -> Result<(Vec<model::Material>, Vec<String>), InputError> {
+pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material>, Vec<String>)> {
     let mut of_element = HashMap::new();
     for (group, material) in &file.materials.0 {
         let place = format!("materials.{}", group.text());
@@ -64,7 +61,7 @@ pub fn materials(
 
 /// Returns whether each degree of freedom is restrained.
 /// Errors: a restraint names no place or two, or a node or group that does not exist.
-pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>, InputError> {
+pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>> {
     let mut restrained = vec![false; 2 * mesh.nodes.len()];
     for (k, restraint) in file.restraints.iter().enumerate() {
         let place = format!("restraints[{k}]");
@@ -95,7 +92,7 @@ pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>, InputErr
 
 /// Returns the two contact surfaces and their tolerance; empty where the scene has no contact.
 /// Errors: the tolerance is negative, or the surfaces do not exist or share a node.
-pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, InputError> {
+pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
     if !(contact.tolerance >= 0.0 && contact.tolerance.is_finite()) {
         let what = format!("c_tll = {} is negative", contact.tolerance);
@@ -126,7 +123,7 @@ pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces, Input
 /// Checks that restraints fix each body that no contact surface touches, and, taken as one, the
 /// bodies that contact joins.
 /// Errors: a body can still move; the error says how.
-pub fn restrained_bodies(model: &Model) -> Result<(), InputError> {
+pub fn restrained_bodies(model: &Model) -> Result<()> {
     let target_nodes = model.target_edges().map(|edge| edge.nodes[0]);
     let in_contact: Vec<NodeId> = model.contact.nodes.iter().copied().chain(target_nodes).collect();
     let touched = |body: &Body| in_contact.iter().any(|n| body.has(*n));

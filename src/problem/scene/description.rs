@@ -14,38 +14,50 @@ use crate::problem::modelling::{
     Coupling, Friction, Geometry, LOAD_STEPS, StatusRule, Variant, load_steps,
 };
 
-/// The description of a mesh, without the mesh itself. Lengths, forces and stresses may be in any
-/// consistent unit. Fields with their default are not written.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// The description of a mesh: a scene file, field by field. Lengths, forces and stresses may be in
+/// any consistent unit. Fields with their default are not written.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Description {
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub title: String,
+    /// In a scene file, the name of a Gmsh file beside it; None where `node` and `elem` are given,
+    /// and once the mesh is read.
+    #[serde(skip_serializing_if = "is_default")]
+    pub mesh: Option<String>,
+    /// In a scene file, the paper's node table, with rows of number, x, y, z.
+    #[serde(skip_serializing_if = "is_default")]
+    pub node: Option<Vec<[f64; 4]>>,
+    /// In a scene file, the paper's element table, with Gmsh 2 rows of two tags.
+    #[serde(skip_serializing_if = "is_default")]
+    pub elem: Option<Vec<Vec<usize>>>,
     /// The plane problem: plane strain or plane stress.
+    #[serde(deserialize_with = "by_name")]
     pub plane: Plane,
     /// The thickness across the plane, length.
-    #[serde(skip_serializing_if = "is_default_thickness")]
+    #[serde(default = "default_thickness", skip_serializing_if = "is_default_thickness")]
     pub thickness: f64,
     /// The unit names for tables and pictures; no number is converted.
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub units: Units,
     pub materials: Materials,
     /// The displacements that are restrained to 0.
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub restraints: Vec<Restraint>,
     /// The pressures, tractions and forces on the mesh.
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub loads: Vec<Load>,
     /// The two contact surfaces; without them no contact is modelled.
     #[serde(skip_serializing_if = "is_default")]
     pub contact: Option<Contact>,
     /// The number of iterations of the variants that the paper describes.
-    #[serde(skip_serializing_if = "is_default_iterations")]
+    #[serde(default = "default_iterations", skip_serializing_if = "is_default_iterations")]
     pub iterations: usize,
     /// The variant that is run unless the command line names another.
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub variant: Variant,
     /// Whether nodes that belong to no triangle are dropped; otherwise they are refused.
-    #[serde(skip_serializing_if = "is_default")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub drop_orphans: bool,
 }
 
@@ -54,6 +66,9 @@ impl Description {
     pub fn new(plane: Plane) -> Self {
         Description {
             title: String::new(),
+            mesh: None,
+            node: None,
+            elem: None,
             plane,
             thickness: default_thickness(),
             units: Units::default(),
@@ -69,12 +84,12 @@ impl Description {
 }
 
 /// Returns the thickness of a scene that sets none, length.
-pub fn default_thickness() -> f64 {
+fn default_thickness() -> f64 {
     1.0
 }
 
 /// Returns the number of iterations of a scene that sets none, which is the paper's.
-pub fn default_iterations() -> usize {
+fn default_iterations() -> usize {
     20
 }
 
@@ -96,16 +111,13 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 
 /// The unit names that are shown beside numbers.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Units {
     /// The unit of lengths and displacements, such as `mm`.
-    #[serde(default)]
     pub length: String,
     /// The unit of stresses and elastic moduli, such as `MPa`.
-    #[serde(default)]
     pub stress: String,
     /// The unit of forces (per unit thickness where the thickness is 1), such as `N`.
-    #[serde(default)]
     pub force: String,
 }
 
@@ -220,6 +232,6 @@ impl Contact {
 }
 
 /// Reads a choice of a closed set by its name on the command line.
-pub fn by_name<'de, D: Deserializer<'de>, T: FromStr<Err = String>>(d: D) -> Result<T, D::Error> {
+fn by_name<'de, D: Deserializer<'de>, T: FromStr<Err = String>>(d: D) -> Result<T, D::Error> {
     String::deserialize(d)?.parse().map_err(de::Error::custom)
 }

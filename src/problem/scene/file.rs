@@ -6,56 +6,19 @@ use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 
-use super::description::{
-    Contact, Description, Load, Material, Materials, Restraint, Units, by_name, default_iterations,
-    default_thickness,
-};
+use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::source::MeshSource;
 use super::surface::Surface;
-use crate::error::InputError;
-use crate::problem::element::Plane;
-use crate::problem::modelling::Variant;
-
-/// A scene file before it is compared with the mesh.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SceneFile {
-    #[serde(default)]
-    title: String,
-    /// The name of a Gmsh file beside the scene file; None where `node` and `elem` are given.
-    mesh: Option<String>,
-    /// The paper's node table, with rows of number, x, y, z.
-    node: Option<Vec<[f64; 4]>>,
-    /// The paper's element table, with Gmsh 2 rows of two tags.
-    #[serde(rename = "elem")]
-    elements: Option<Vec<Vec<usize>>>,
-    #[serde(deserialize_with = "by_name")]
-    plane: Plane,
-    #[serde(default = "default_thickness")]
-    thickness: f64,
-    #[serde(default)]
-    units: Units,
-    materials: Materials,
-    #[serde(default)]
-    restraints: Vec<Restraint>,
-    #[serde(default)]
-    loads: Vec<Load>,
-    contact: Option<Contact>,
-    #[serde(default = "default_iterations")]
-    iterations: usize,
-    #[serde(default, deserialize_with = "by_name")]
-    variant: Variant,
-    #[serde(default)]
-    drop_orphans: bool,
-}
+use crate::error::{InputError, Result};
 
 /// Parses a scene file: the source of its mesh, and its description.
 /// Errors: the text is no scene file; the error names the field's path, the line and the column.
-pub fn parse(text: &[u8]) -> Result<(MeshSource, Description), InputError> {
+pub fn parse(text: &[u8]) -> Result<(MeshSource, Description)> {
     let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
     let mut deserializer = serde_json::Deserializer::from_slice(text);
-    let file: SceneFile = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
+    let scene = serde_path_to_error::deserialize(&mut deserializer);
+    let mut scene: Description = scene.map_err(|error| {
         let place = match error.path().to_string() {
             path if path == "." || path == "?" => "the scene file".into(),
             path => format!("field {path}"),
@@ -66,34 +29,18 @@ pub fn parse(text: &[u8]) -> Result<(MeshSource, Description), InputError> {
         let fix = "remove what follows the scene";
         InputError::new("the end of the scene file", error.to_string(), fix)
     })?;
-    let description = Description {
-        title: file.title,
-        plane: file.plane,
-        thickness: file.thickness,
-        units: file.units,
-        materials: file.materials,
-        restraints: file.restraints,
-        loads: file.loads,
-        contact: file.contact,
-        iterations: file.iterations,
-        variant: file.variant,
-        drop_orphans: file.drop_orphans,
-    };
-    Ok((MeshSource::new(file.mesh, file.node, file.elements)?, description))
+    let source = MeshSource::new(scene.mesh.take(), scene.node.take(), scene.elem.take())?;
+    Ok((source, scene))
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line
 /// for each field and, in a list of several, for each item. Fields with their default are left out.
 pub fn write(description: &Description, mesh: &str) -> String {
-    let fields = serde_json::to_value(description).expect("a description's keys are strings");
-    let mut fields: Vec<String> = fields
-        .as_object()
-        .expect("a description is an object")
-        .iter()
-        .map(|(key, value)| format!("  \"{key}\": {}", lines(value)))
-        .collect();
-    let after_title = usize::from(!description.title.is_empty());
-    fields.insert(after_title, format!("  \"mesh\": {}", Value::from(mesh)));
+    let with_mesh = Description { mesh: Some(mesh.into()), ..description.clone() };
+    let fields = serde_json::to_value(with_mesh).expect("a description's keys are strings");
+    let fields = fields.as_object().expect("a description is an object").iter();
+    let fields: Vec<_> =
+        fields.map(|(key, value)| format!("  \"{key}\": {}", lines(value))).collect();
     format!("{{\n{}\n}}\n", fields.join(",\n"))
 }
 

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::mesh::{Element, Mesh};
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(untagged)]
@@ -59,7 +59,7 @@ pub fn members<'m>(
     dim: usize,
     group: &GroupRef,
     place: &str,
-) -> Result<Vec<&'m Element>, InputError> {
+) -> Result<Vec<&'m Element>> {
     let what = ELEMENT_NAMES[dim];
     let error = |what: String| InputError::new(place, what, known(mesh, dim));
     let tag = tag(mesh, dim, group)
@@ -74,7 +74,7 @@ pub fn members<'m>(
 }
 
 /// Returns the nodes of a group, ascending: a group of edges, else of points, else of triangles.
-pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>, InputError> {
+pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>> {
     let dim = [1, 0, 2].into_iter().find(|&dim| {
         tag(mesh, dim, group)
             .is_some_and(|tag| mesh.of_dimension(dim).any(|e| e.physical.contains(&tag)))

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::description::Load;
 use super::groups::{self, GroupRef};
 use super::mesh::Mesh;
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 use crate::problem::model::{NodeId, Sides};
 
 /// Returns the forces that each stage adds on all 2R degrees of freedom, restrained ones included,
@@ -20,72 +20,48 @@ pub fn stages(
     sides: &Sides,
     loads: &[Load],
     thickness: f64,
-) -> Result<Vec<DVector<f64>>, InputError> {
-    let stage = |load: &Load| load.stage.unwrap_or(1);
-    let last = loads.iter().map(stage).max().unwrap_or(1);
-    let of_stage = |k: usize| {
-        let own: Vec<Load> = loads.iter().filter(|load| stage(load) == k).cloned().collect();
-        if own.is_empty() && !loads.is_empty() {
-            let what = format!("no load has stage {k}, but one has stage {last}");
-            return Err(InputError::new(
-                "loads",
-                what,
-                "number the stages 1, 2, ... without a gap",
-            ));
-        }
-        vector(mesh, sides, &own, thickness)
-    };
+) -> Result<Vec<DVector<f64>>> {
     if let Some(k) = loads.iter().position(|load| load.stage == Some(0)) {
         let what = "stages count from 1";
         return Err(InputError::new(format!("loads[{k}].stage"), what, "give 1 or more"));
     }
+    let stage = |load: &Load| load.stage.unwrap_or(1);
+    let last = loads.iter().map(stage).max().unwrap_or(1);
+    let of_stage = |k: usize| {
+        if !loads.is_empty() && loads.iter().all(|load| stage(load) != k) {
+            let what = format!("no load has stage {k}, but one has stage {last}");
+            let fix = "number the stages 1, 2, ... without a gap";
+            return Err(InputError::new("loads", what, fix));
+        }
+        let own = loads.iter().enumerate().filter(|(_, load)| stage(load) == k);
+        vector(mesh, sides, own, thickness)
+    };
     (1..=last.min(loads.len() + 1)).map(of_stage).collect()
 }
 
-/// Returns the forces on all 2R degrees of freedom, restrained ones included, force.
+/// Returns the forces of `loads`, each with its place in the scene file, on all 2R degrees of
+/// freedom, restrained ones included, force.
 /// Errors: a load has another form, its edge bounds no triangle or two, or a number is not finite.
-pub fn vector(
+pub fn vector<'a>(
     mesh: &Mesh,
     sides: &Sides,
-    loads: &[Load],
+    loads: impl Iterator<Item = (usize, &'a Load)>,
     thickness: f64,
-) -> Result<DVector<f64>, InputError> {
+) -> Result<DVector<f64>> {
     let mut f = DVector::zeros(2 * mesh.nodes.len());
-    for (k, load) in loads.iter().enumerate() {
+    for (k, load) in loads {
         let place = format!("loads[{k}]");
-        match load {
-            Load {
-                node: Some(n),
-                force: Some(p),
-                on: None,
-                pressure: None,
-                traction: None,
-                ..
-            } => {
-                mesh.check_node(*n, &place)?;
-                add(&mut f, *n, *p);
+        match (&load.on, load.node, load.pressure, load.traction, load.force) {
+            (None, Some(n), None, None, Some(force)) => {
+                mesh.check_node(n, &place)?;
+                add(&mut f, n, force);
             }
-            Load {
-                on: Some(on),
-                pressure: Some(p),
-                traction: None,
-                node: None,
-                force: None,
-                ..
-            } => {
-                on_edges(&mut f, (mesh, sides), on, thickness, &place, |inward| {
-                    [p * inward[0], p * inward[1]]
-                })?;
+            (Some(on), None, Some(p), None, None) => {
+                let along = |inward: [f64; 2]| inward.map(|component| p * component);
+                on_edges(&mut f, (mesh, sides), on, thickness, &place, along)?;
             }
-            Load {
-                on: Some(on),
-                traction: Some(t),
-                pressure: None,
-                node: None,
-                force: None,
-                ..
-            } => {
-                on_edges(&mut f, (mesh, sides), on, thickness, &place, |_| *t)?;
+            (Some(on), None, None, Some(t), None) => {
+                on_edges(&mut f, (mesh, sides), on, thickness, &place, |_| t)?;
             }
             _ => {
                 let what = "a load is {on, pressure}, {on, traction} or {node, force}";
@@ -108,7 +84,7 @@ fn on_edges(
     thickness: f64,
     place: &str,
     traction: impl Fn([f64; 2]) -> [f64; 2],
-) -> Result<(), InputError> {
+) -> Result<()> {
     let mut loaded = HashMap::new();
     for edge in groups::members(mesh, 1, on, &format!("{place}.on"))? {
         let [a, b] = [edge.nodes[0], edge.nodes[1]];
@@ -139,12 +115,7 @@ fn add(f: &mut DVector<f64>, node: usize, force: [f64; 2]) {
 }
 
 /// Returns the node opposite the edge in the one triangle that it bounds.
-fn third_node(
-    sides: &Sides,
-    [a, b]: [usize; 2],
-    number: usize,
-    place: &str,
-) -> Result<usize, InputError> {
+fn third_node(sides: &Sides, [a, b]: [usize; 2], number: usize, place: &str) -> Result<usize> {
     match sides.beside([a, b].map(NodeId::from_number)) {
         [one] => Ok(one.third.number()),
         beside => {

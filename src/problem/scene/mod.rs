@@ -36,7 +36,7 @@ pub use surface::Surface;
 
 use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Variant};
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 /// A scene that passed all checks.
 #[derive(Clone, Debug)]
@@ -66,7 +66,7 @@ impl Scene {
     ///
     /// # Errors
     /// The scene file, the mesh file, or the two together are at fault.
-    pub fn open(name_or_path: &str) -> Result<Self, InputError> {
+    pub fn open(name_or_path: &str) -> Result<Self> {
         let mut embedded = SCENES.iter().chain(FINDING_SCENES);
         if let Some(embedded) = embedded.find(|s| s.name == name_or_path) {
             let beside = |file: &str| {
@@ -97,16 +97,11 @@ impl Scene {
         name: &str,
         text: &[u8],
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,
-    ) -> Result<Self, InputError> {
+    ) -> Result<Self> {
         SceneBuilder::read(name, text, beside)?.build()
     }
 
-    fn assemble(
-        name: &str,
-        file: Description,
-        mesh: &Mesh,
-        dropped: Vec<usize>,
-    ) -> Result<Self, InputError> {
+    fn assemble(name: &str, file: Description, mesh: &Mesh, dropped: Vec<usize>) -> Result<Self> {
         check::numbers(&file)?;
         let (materials, names) = check::materials(mesh, &file)?;
         let restrained = check::restraints(mesh, &file)?;
@@ -132,7 +127,8 @@ impl Scene {
             restrained,
         };
         check::restrained_bodies(&model)?;
-        model.load = load::vector(mesh, &model.sides, &file.loads, file.thickness)?;
+        model.load =
+            load::vector(mesh, &model.sides, file.loads.iter().enumerate(), file.thickness)?;
         model.stages = load::stages(mesh, &model.sides, &file.loads, file.thickness)?;
         Ok(Scene {
             name: name.into(),

@@ -3,16 +3,12 @@
 use super::description::Description;
 use super::mesh::{Mesh, new_number};
 use super::surface::Surface;
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 /// Drops the nodes `dropped`, which belong to no triangle, where the description allows it, and
 /// renumbers the nodes that the description names.
 /// Errors: nodes may not be dropped, or the description names a dropped one.
-pub fn drop(
-    mesh: &Mesh,
-    dropped: &[usize],
-    description: &mut Description,
-) -> Result<Mesh, InputError> {
+pub fn drop(mesh: &Mesh, dropped: &[usize], description: &mut Description) -> Result<Mesh> {
     if !description.drop_orphans {
         let what = format!(
             "nodes {} belong to no triangle (finding K4: Km would be singular)",

@@ -14,7 +14,7 @@ use super::Scene;
 use super::description::Description;
 use super::mesh::{Element, Mesh, Node};
 use super::surface::Surface;
-use crate::error::InputError;
+use crate::error::Result;
 use crate::problem::model::NodeId;
 
 /// A finer scene. Nodes keep their numbers; triangle n (row of `EL`) becomes 4n − 3 .. 4n.
@@ -29,7 +29,7 @@ impl Scene {
     /// Returns the scene on a mesh of half the element size, with everything else unchanged; None
     /// for half a scene, which has no mesh. A restraint or a force on a single node stays on that
     /// node.
-    pub fn refined(&self) -> Result<Option<Refined>, InputError> {
+    pub fn refined(&self) -> Result<Option<Refined>> {
         let Some(source) = &self.source else { return Ok(None) };
         let (file, mesh) = (&source.0, &source.1);
         let halves = Halves::new(mesh);

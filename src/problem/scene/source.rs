@@ -2,7 +2,7 @@
 
 use super::gmsh;
 use super::mesh::Mesh;
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 pub enum MeshSource {
     /// A Gmsh file beside the scene file, by its name.
@@ -18,7 +18,7 @@ impl MeshSource {
         mesh: Option<String>,
         node: Option<Vec<[f64; 4]>>,
         elem: Option<Vec<Vec<usize>>>,
-    ) -> Result<Self, InputError> {
+    ) -> Result<Self> {
         match (mesh, node, elem) {
             (Some(name), None, None) => Ok(MeshSource::File(name)),
             (None, Some(node), Some(elem)) => Ok(MeshSource::Tables(node, elem)),
@@ -32,10 +32,7 @@ impl MeshSource {
 
     /// Reads the mesh; `beside` reads a file in the scene file's folder.
     /// Errors: the file cannot be read, or a row of a table has another form.
-    pub fn read(
-        &self,
-        beside: impl Fn(&str) -> Result<Vec<u8>, String>,
-    ) -> Result<Mesh, InputError> {
+    pub fn read(&self, beside: impl Fn(&str) -> Result<Vec<u8>, String>) -> Result<Mesh> {
         let name = match self {
             MeshSource::Tables(node, elem) => return Mesh::from_tables(node, elem),
             MeshSource::File(name) => name,

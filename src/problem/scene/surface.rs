@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::groups::{self, GroupRef};
 use super::mesh::{Element, Mesh};
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
@@ -37,7 +37,7 @@ impl From<Vec<usize>> for Surface {
 /// Returns the node numbers of the contact surface `cnt`, in order along it. A list is taken as it
 /// is; a group's edges are followed as a chain from its first end.
 /// Errors: a group is no single chain, or a number is no node.
-pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputError> {
+pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     let place = "contact.cnt";
     match surface {
         Surface::Group(group) => {
@@ -58,7 +58,7 @@ pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, Input
 
 /// Returns the `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
 /// Errors: a number is no edge.
-pub fn target_edges(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputError> {
+pub fn target_edges(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     let place = "contact.trg";
     match surface {
         Surface::Group(group) => {
@@ -75,14 +75,14 @@ pub fn target_edges(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>, InputE
 }
 
 /// Returns the edge with `elem` number `number`.
-fn edge<'m>(mesh: &'m Mesh, number: usize, place: &str) -> Result<&'m Element, InputError> {
+fn edge<'m>(mesh: &'m Mesh, number: usize, place: &str) -> Result<&'m Element> {
     mesh.of_dimension(1).find(|e| e.number == number).ok_or_else(|| {
         let what = format!("elem {number} is no edge of the mesh");
         InputError::new(place, what, "name elem rows of type 1")
     })
 }
 
-fn not_empty(numbers: &[usize], place: &str) -> Result<(), InputError> {
+fn not_empty(numbers: &[usize], place: &str) -> Result<()> {
     if numbers.is_empty() {
         let fix = "name at least one, or leave out contact";
         return Err(InputError::new(place, "the list is empty", fix));

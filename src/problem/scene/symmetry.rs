@@ -11,7 +11,7 @@ use nalgebra::DVector;
 
 use super::Scene;
 use crate::problem::model::{
-    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Model, NodeId, Row, Sides, Triangle,
+    Body, Bounds, ContactSurfaces, Dof, Edge, EdgeId, Element, Model, NodeId, Row, Sides, Triangle,
     TriangleId, unordered,
 };
 
@@ -77,18 +77,13 @@ impl Images {
 impl<'a> Mirror<'a> {
     /// Finds the only possible line; None where a triangle lies across it.
     fn new(model: &'a Model) -> Option<Self> {
-        let range = |axis: usize| {
-            let values = model.nodes.iter().map(|xy| xy[axis]);
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
-        };
-        let ((left, right), (low, high)) = (range(0), range(1));
-        let (at, place) = (left + (right - left) / 2.0, PLACE * (right - left).max(high - low));
-        let mirror = Mirror { model, at, place };
+        let all = Bounds::of(&model.nodes);
+        let mirror = Mirror { model, at: all.centre()[0], place: PLACE * all.larger_side() };
         let across = |triangle: &Triangle| {
             let sides = triangle.nodes.map(|node| mirror.side(node));
             sides.contains(&1) && sides.contains(&-1)
         };
-        if model.triangles.iter().any(across) { None } else { Some(mirror) }
+        (!model.triangles.iter().any(across)).then_some(mirror)
     }
 
     /// Returns -1 for a node left of the line, 0 on it, 1 right of it.

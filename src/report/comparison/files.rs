@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{Compared, WORST};
-use crate::error::InputError;
+use crate::error::Result;
 use crate::problem::model::{NodeId, Triangle, TriangleId};
 use crate::report::json::line;
 use crate::report::output::{csv, write_all};
@@ -26,7 +26,7 @@ const ELEMENTS: [&str; 2] = [
 
 /// Writes `compare.json`, `nodes.csv`, `elements.csv` and three pictures to `folder`; gives back
 /// the first one's content.
-pub fn write(folder: &Path, compared: &Compared) -> Result<String, InputError> {
+pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
     let Compared { scene, model, comparison, .. } = compared;
     let Comparison { ours, theirs, von_mises, displacement, .. } = comparison;
     let kind = match compared.contact {

@@ -1,42 +1,9 @@
 //! From the mesh's coordinates (y upwards, any unit) to pixels (y downwards).
 
 use super::svg::Pixel;
-
-/// A box in the mesh's coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    pub low: [f64; 2],
-    pub high: [f64; 2],
-}
+pub use crate::problem::model::Bounds;
 
 impl Bounds {
-    /// Returns the smallest box around `points`, at least one.
-    pub fn of<'a>(points: impl IntoIterator<Item = &'a [f64; 2]>) -> Self {
-        let nothing = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
-        points.into_iter().fold(nothing, |bounds, point| Self {
-            low: [0, 1].map(|axis| bounds.low[axis].min(point[axis])),
-            high: [0, 1].map(|axis| bounds.high[axis].max(point[axis])),
-        })
-    }
-
-    pub fn size(&self) -> [f64; 2] {
-        [0, 1].map(|axis| self.high[axis] - self.low[axis])
-    }
-
-    pub fn larger_side(&self) -> f64 {
-        let [width, height] = self.size();
-        width.max(height)
-    }
-
-    pub fn centre(&self) -> [f64; 2] {
-        [0, 1].map(|axis| self.low[axis] + self.size()[axis] / 2.0)
-    }
-
-    /// Returns the box with `margin` more on each side.
-    pub fn padded(&self, margin: f64) -> Self {
-        Self { low: self.low.map(|x| x - margin), high: self.high.map(|x| x + margin) }
-    }
-
     /// Returns the box grown about its centre until width : height is `ratio`.
     pub fn with_ratio(&self, ratio: f64) -> Self {
         let [width, height] = self.size();

@@ -9,7 +9,6 @@ use crate::answer::{Detail, Solution, max_displacement, solve};
 use crate::paper::door::{self, Call};
 use crate::paper::listings::{self, Which};
 use crate::paper::mathcad::array::Table;
-use crate::paper::mathcad::settings::{Descending, LastIf, ZeroOverZero};
 use crate::paper::mathcad::{Failure, Settings};
 use crate::paper::mirror::{Km, Pairs, Reading};
 use crate::problem::element::{self, Plane};
@@ -74,11 +73,11 @@ pub fn effects(case: &Case) -> Vec<Effect> {
         ("R7", "-", schedule, load),
         ("R8", "c_cnt 5-7, 16", "R8 = m", Mirror(own)),
         ("R9", "both", "ORIGIN = 0", Worksheet(|s| s.origin = 0)),
-        ("R9", "c_cnt 10, 22, 23", "0/0 = 0", Worksheet(|s| s.zero_over_zero = ZeroOverZero::Zero)),
+        ("R9", "c_cnt 10, 22, 23", "0/0 = 0", Worksheet(|s| s.zero_over_zero_is_zero = true)),
         ("R9", "both", "comparisons to 1e-12", Worksheet(|s| s.exact_boolean = false)),
         ("R9", "both", "below 1e-307 is 0", Worksheet(|s| s.tiny_is_zero = true)),
-        ("R9", "both", "1 .. 0 is empty", Worksheet(|s| s.descending = Descending::Empty)),
-        ("R9", "both", "a failed last if is 0", Worksheet(|s| s.last_if = LastIf::Zero)),
+        ("R9", "both", "1 .. 0 is empty", Worksheet(|s| s.descending_is_empty = true)),
+        ("R9", "both", "a failed last if is 0", Worksheet(|s| s.last_if_is_zero = true)),
         ("R10", "-", "stress formula / (1 + nu)", StrainFormula),
     ];
     let blank = executed(case, &Settings::default());

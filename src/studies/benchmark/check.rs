@@ -1,12 +1,12 @@
 //! Checks of the parameters of benchmarks.
 
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 /// More divisions of a side than anybody has memory for.
 const MOST: usize = 2000;
 
 /// Checks that a number of divisions lies in `least ..= MOST`.
-pub fn count(option: &str, n: usize, least: usize) -> Result<(), InputError> {
+pub fn count(option: &str, n: usize, least: usize) -> Result<()> {
     if (least..=MOST).contains(&n) {
         return Ok(());
     }
@@ -16,7 +16,7 @@ pub fn count(option: &str, n: usize, least: usize) -> Result<(), InputError> {
 
 /// Checks that a number of divisions is even too: a node must stand in the middle.
 /// Errors: it is odd, or outside the range of [`count`].
-pub fn even(option: &str, n: usize) -> Result<(), InputError> {
+pub fn even(option: &str, n: usize) -> Result<()> {
     count(option, n, 2)?;
     if n.is_multiple_of(2) {
         return Ok(());
@@ -26,7 +26,7 @@ pub fn even(option: &str, n: usize) -> Result<(), InputError> {
 }
 
 /// Checks that a length, load or modulus is positive and finite.
-pub fn positive(option: &str, x: f64) -> Result<(), InputError> {
+pub fn positive(option: &str, x: f64) -> Result<()> {
     if x > 0.0 && x.is_finite() {
         return Ok(());
     }
@@ -34,7 +34,7 @@ pub fn positive(option: &str, x: f64) -> Result<(), InputError> {
 }
 
 /// Checks that a ratio lies in a range.
-pub fn between(option: &str, x: f64, [least, most]: [f64; 2]) -> Result<(), InputError> {
+pub fn between(option: &str, x: f64, [least, most]: [f64; 2]) -> Result<()> {
     if (least..=most).contains(&x) {
         return Ok(());
     }

@@ -7,7 +7,7 @@ use super::line::{between, part};
 use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, frictionless, scene};
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 use crate::problem::element::Plane;
 use crate::problem::modelling::Geometry;
 use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
@@ -65,7 +65,7 @@ impl Hertz {
     /// Generates the scene.
     /// Errors: there are fewer than four elements, or too many; the radius or the load is not
     /// positive; the half width is beyond a quarter of the radius.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("--size", self.size, 4)?;
         check::positive("--radius", self.radius)?;
         check::positive("--load", self.load)?;
@@ -85,7 +85,7 @@ impl Hertz {
             .contact(Contact { geometry: Geometry::Initial, ..frictionless() }))
     }
 
-    fn check_half_width(&self) -> Result<(), InputError> {
+    fn check_half_width(&self) -> Result<()> {
         let (a, most) = (self.half_width(), self.radius / 4.0);
         if a > 1e-3 * self.radius && a < most {
             return Ok(());

@@ -32,7 +32,7 @@ pub use plates::{Annulus, Cook, Ellipse, Hole};
 pub use punch::Punch;
 pub use strand::Strand;
 
-use crate::error::InputError;
+use crate::error::Result;
 use crate::problem::element::Plane;
 use crate::problem::modelling::{Coupling, Friction, Variant};
 use crate::problem::scene::{Contact, MeshBuilder, SceneBuilder};
@@ -56,7 +56,7 @@ impl Kind {
     ///
     /// # Errors
     /// A parameter is out of its range.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         match self {
             Kind::Blocks(kind) => kind.generate(),
             Kind::PunchPatch(kind) => kind.generate(),

@@ -5,7 +5,7 @@ use super::line::part;
 use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, frictionless, scene};
-use crate::error::InputError;
+use crate::error::Result;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
@@ -32,7 +32,7 @@ const SIZE: [f64; 2] = [50.0, 25.0];
 impl Blocks {
     /// Generates the scene.
     /// Errors: there is no division, or there are too many.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("--upper", self.upper, 1)?;
         check::count("--lower", self.lower, 1)?;
         let mut mesh = MeshBuilder::default();
@@ -99,7 +99,7 @@ const ALL: f64 = 7.0;
 impl PunchPatch {
     /// Generates the scene.
     /// Errors: a number of divisions is odd, zero or too large; the pressure is not positive.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         check::even("--punch", self.punch)?;
         check::even("--foundation", self.foundation)?;
         check::positive("--pressure", self.pressure)?;

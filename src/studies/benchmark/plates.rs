@@ -7,7 +7,7 @@ use super::line::{between, geometric, part, quarter};
 use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, scene};
-use crate::error::InputError;
+use crate::error::Result;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
@@ -36,7 +36,7 @@ const RADII: [f64; 2] = [10.0, 20.0];
 impl Annulus {
     /// Generates the scene.
     /// Errors: there is no division, or there are too many.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("--radial", self.radial, 1)?;
         check::count("--around", self.around, 2)?;
         let mut mesh = MeshBuilder::default();
@@ -82,7 +82,7 @@ impl Hole {
     /// Generates the scene.
     /// Errors: there are fewer than two divisions, or too many; the outer radius is below 1.5 or
     /// beyond 1e6.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("--around", self.around, 2)?;
         check::between("--outer", self.outer, [1.5, 1e6])?;
         let n = self.around;
@@ -151,7 +151,7 @@ Examples:
 impl Cook {
     /// Generates the scene.
     /// Errors: there is no division, or there are too many.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         let n = self.n;
         check::count("--n", n, 1)?;
         let mut mesh = MeshBuilder::default();
@@ -194,7 +194,7 @@ const OUTER: [f64; 2] = [3.25, 2.75];
 impl Ellipse {
     /// Generates the scene.
     /// Errors: there are fewer than two divisions, or too many.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         let n = self.n;
         check::count("--n", n, 2)?;
         let mut mesh = MeshBuilder::default();

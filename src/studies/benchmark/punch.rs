@@ -4,7 +4,7 @@ use super::line::{part, quarter};
 use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, confocal, frictionless, scene};
-use crate::error::InputError;
+use crate::error::Result;
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
@@ -36,7 +36,7 @@ impl Punch {
     /// Generates the scene.
     /// Errors: there are fewer than four divisions, or too many; the outer radius is below 2 or
     /// beyond 1e4.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("--punch", self.punch, 4)?;
         check::count("--foundation", self.foundation, 4)?;
         check::between("--outer", self.outer, [2.0, 1e4])?;

@@ -18,7 +18,7 @@ use super::line::{cos_sin, graded, quarter};
 use super::mirrored::Mirrored;
 use super::parameters::parameters;
 use super::{check, scene};
-use crate::error::InputError;
+use crate::error::Result;
 use crate::problem::element::Plane;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
@@ -81,7 +81,7 @@ impl Strand {
     /// The duct's radius is outside 1 to 22 mm; the strand's is outside a third of it to the whole;
     /// the size is outside 0.05 mm to 0.16 of the strand's radius, or beyond 0.4 of the width of
     /// the block beside the duct.
-    pub fn generate(&self) -> Result<SceneBuilder, InputError> {
+    pub fn generate(&self) -> Result<SceneBuilder> {
         check::between("--duct", self.duct, DUCT)?;
         check::between("--strand", self.strand, [self.duct / WIDEST, self.duct])?;
         let coarsest = (COARSEST * self.strand).min(ACROSS * (SIDE - self.duct));

@@ -1,7 +1,7 @@
 //! The input deck of `ccx`.
 
 use super::problem::{Contact, Equation, Pair, Problem};
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 use crate::problem::element::Plane;
 use crate::problem::model::{Dof, Material, Model, NodeId, unordered};
 use crate::problem::modelling::Friction;
@@ -18,7 +18,7 @@ const STICK_SLOPE: f64 = 0.1;
 /// The deck of a problem: plane triangles, the whole load in one static step; displacements and
 /// stresses go to the `.dat` file, where ccx prints seven digits (`.frd`: six).
 /// Errors: the surfaces of a pair bound no triangle.
-pub fn deck(problem: &Problem) -> Result<String, InputError> {
+pub fn deck(problem: &Problem) -> Result<String> {
     let model = problem.model;
     let contact = match problem.contact {
         Contact::Equations(equations, _) => equation_cards(model, equations),
@@ -114,7 +114,7 @@ fn place(dof: Dof) -> String {
 
 /// The two surfaces and the pair. Both surfaces are made of element faces: with a slave surface of
 /// nodes ccx knows no area for a node.
-fn pair_cards(model: &Model, pair: &Pair) -> Result<String, InputError> {
+fn pair_cards(model: &Model, pair: &Pair) -> Result<String> {
     let slave =
         surface(model, "SLAVE", |side| side.iter().all(|node| model.contact.nodes.contains(node)))?;
     let master = surface(model, "MASTER", |side| {
@@ -132,11 +132,7 @@ fn pair_cards(model: &Model, pair: &Pair) -> Result<String, InputError> {
 }
 
 /// The faces of triangles whose sides `wanted` takes, as a surface.
-fn surface(
-    model: &Model,
-    name: &str,
-    wanted: impl Fn([NodeId; 2]) -> bool,
-) -> Result<String, InputError> {
+fn surface(model: &Model, name: &str, wanted: impl Fn([NodeId; 2]) -> bool) -> Result<String> {
     let mut text = format!("*SURFACE, NAME={name}, TYPE=ELEMENT\n");
     let mut faces = 0;
     for (id, triangle) in model.triangle_ids().zip(&model.triangles) {

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use crate::answer::Detail;
 use crate::answer::{Constraint, Motion, Solution, Step};
 use crate::choices;
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 use crate::paper::mirror::Schedule;
 use crate::problem::model::{Dof, Edge, Model, NodeId};
 use crate::problem::modelling::{Friction, Variant};
@@ -57,7 +57,7 @@ impl Contact {
     /// load it is the sum of the increments: each contact state that came, with the whole load,
     /// times its share of the steps. The last step's state comes last.
     /// Errors: the variant is `printed`, which constrains nothing.
-    pub fn parts(solution: &Solution) -> Result<Vec<Part>, InputError> {
+    pub fn parts(solution: &Solution) -> Result<Vec<Part>> {
         if solution.request.variant == Variant::Printed {
             let what = "the variant printed adds stiffness and constrains nothing: there are no \
                         equations to write";

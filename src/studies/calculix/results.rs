@@ -1,7 +1,7 @@
 //! What `ccx` printed to its `.dat` file.
 
 use super::fields::Fields;
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 #[derive(Clone, Copy)]
 enum Block {
@@ -17,7 +17,7 @@ enum Block {
 ///
 /// A plane triangle has two integration points across the thickness: its stress is their mean.
 /// Errors: a node or a triangle is missing; something is no number.
-pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields, InputError> {
+pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields> {
     let mut u = vec![None; nodes];
     let mut points: Vec<Vec<[f64; 6]>> = vec![Vec::new(); triangles];
     let mut block = Block::Other;
@@ -64,12 +64,12 @@ fn heading(line: &str) -> Block {
     }
 }
 
-fn entry<'a, T>(of: &'a mut [T], number: usize, line: &str) -> Result<&'a mut T, InputError> {
+fn entry<'a, T>(of: &'a mut [T], number: usize, line: &str) -> Result<&'a mut T> {
     number.checked_sub(1).and_then(|k| of.get_mut(k)).ok_or_else(|| not_understood(line))
 }
 
 /// `I` numbers, then `V` values.
-fn row<const I: usize, const V: usize>(line: &str) -> Result<([usize; I], [f64; V]), InputError> {
+fn row<const I: usize, const V: usize>(line: &str) -> Result<([usize; I], [f64; V])> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let parsed = || -> Option<([usize; I], [f64; V])> {
         let (numbers, values) = words.split_at_checked(I)?;

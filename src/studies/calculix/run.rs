@@ -7,7 +7,7 @@ use super::deck::deck;
 use super::fields::Fields;
 use super::problem::{Part, Problem};
 use super::results::parse;
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 use crate::files;
 use crate::problem::model::Model;
 use crate::problem::scene::Scene;
@@ -25,7 +25,7 @@ pub struct Ran {
 /// Runs `program` on a deck for each part and sums the results with the parts' shares.
 /// Errors: there is no such program, or it fails, with the last lines of its output; its results
 /// cannot be read; a pair's surfaces bound no triangle.
-pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Result<Ran, InputError> {
+pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Result<Ran> {
     let version = version(program)?;
     let (nodes, triangles) = (model.nodes.len(), model.triangles.len());
     let mut fields = Fields::zero(nodes, triangles);
@@ -37,7 +37,7 @@ pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Resul
 }
 
 /// What `program` prints to its `.dat` file for `deck`, in a temporary folder.
-fn print(program: &str, deck: &str) -> Result<String, InputError> {
+fn print(program: &str, deck: &str) -> Result<String> {
     let folder = tempfile::tempdir().map_err(|why| {
         let what = format!("no temporary folder can be made: {why}");
         InputError::new("the temporary folder", what, "set TMPDIR to a place that can be written")
@@ -53,13 +53,13 @@ fn print(program: &str, deck: &str) -> Result<String, InputError> {
 }
 
 /// The last word of `ccx -v`: "This is Version 2.20".
-fn version(program: &str) -> Result<String, InputError> {
+fn version(program: &str) -> Result<String> {
     let output = start(program, &["-v"], Path::new("."))?;
     Ok(text(&output).split_whitespace().last().unwrap_or("unknown").to_string())
 }
 
 /// Starts `program` on one thread: with several, sums come in any order.
-fn start(program: &str, args: &[&str], folder: &Path) -> Result<Output, InputError> {
+fn start(program: &str, args: &[&str], folder: &Path) -> Result<Output> {
     let mut command = Command::new(program);
     command.args(args).current_dir(folder).env("OMP_NUM_THREADS", "1");
     command.output().map_err(|why| {

@@ -12,7 +12,7 @@
 use serde::Serialize;
 
 use crate::answer::contact::search::Segment;
-use crate::problem::model::{Edge, Model};
+use crate::problem::model::{Bounds, Edge, Model};
 
 /// How far a node may move, in lengths of the edge: one that moves further passes over half of it
 /// in one step, which the contact search is not made for either.
@@ -39,7 +39,12 @@ impl Candidates {
         let ends = |edge: &Edge| edge.nodes.map(|node| model.at(node));
         let edges: Vec<[[f64; 2]; 2]> = model.target_edges().map(ends).collect();
         let points = || model.contact.nodes.iter().map(|node| model.at(*node));
-        let near = |p| edges.iter().filter(|edge| near(p, edge, tolerance)).count();
+        let grown = |ends: &[[f64; 2]; 2]| {
+            let [[ax, ay], [bx, by]] = *ends;
+            Bounds::of(ends).padded(tolerance + MARGIN * (bx - ax).hypot(by - ay))
+        };
+        let boxes: Vec<Bounds> = edges.iter().map(grown).collect();
+        let near = |p| boxes.iter().filter(|edge| edge.contains(p)).count();
         let of_node: Vec<usize> = points().map(near).collect();
         let segments: Vec<Segment<f64>> = edges.iter().copied().map(Segment::new).collect();
         let touches = |p: &[f64; 2]| {
@@ -58,13 +63,4 @@ impl Candidates {
     pub fn all(&self) -> usize {
         self.nodes * self.edges
     }
-}
-
-/// Whether `p` lies in the box of `edge`, grown.
-fn near(p: [f64; 2], [a, b]: &[[f64; 2]; 2], c_tll: f64) -> bool {
-    let margin = c_tll + MARGIN * (b[0] - a[0]).hypot(b[1] - a[1]);
-    [0, 1].into_iter().all(|d| {
-        let (low, high) = (a[d].min(b[d]) - margin, a[d].max(b[d]) + margin);
-        (low..=high).contains(&p[d])
-    })
 }

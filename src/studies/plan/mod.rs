@@ -21,7 +21,7 @@ use cost::{Cost, Work};
 
 use crate::answer::{Request, dense_matrices, kept_equations};
 use crate::choices;
-use crate::error::InputError;
+use crate::error::Result;
 use crate::numbers::solve::{FactorSize, ScalarName, Solver, memory};
 use crate::problem::model::Model;
 use crate::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
@@ -98,7 +98,7 @@ pub struct ContactPlan {
 impl Plan {
     /// The plan of `request`. Neither a matrix is built nor an equation solved.
     /// Errors: A Poisson's ratio that R6 does not allow; a solver that the scalar does not have.
-    pub fn new(request: &Request) -> Result<Self, InputError> {
+    pub fn new(request: &Request) -> Result<Self> {
         let Request { ref scene, variant, arithmetic, .. } = *request;
         arithmetic.check()?;
         let model = &*request.model()?;
@@ -147,7 +147,7 @@ impl Plan {
     }
 
     /// Checks that the dense matrices of the run fit in `free` bytes: what `solve` asks first.
-    pub fn check_memory(&self, free: Option<u128>) -> Result<(), InputError> {
+    pub fn check_memory(&self, free: Option<u128>) -> Result<()> {
         memory::check(self.nodes, self.cost.dense_matrices, free)
     }
 }

@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 
 use super::{Element, KINDS, Mesh, PhysicalName};
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 use crate::problem::element;
 
 impl Mesh {
     /// Checks that `n` is a node of the mesh.
-    pub fn check_node(&self, n: usize, place: &str) -> Result<(), InputError> {
+    pub fn check_node(&self, n: usize, place: &str) -> Result<()> {
         let r = self.nodes.len();
         if (1..=r).contains(&n) {
             return Ok(());
@@ -23,14 +23,14 @@ impl Mesh {
     /// plane, elements name existing nodes, triangles have a positive area, and no triangle occurs
     /// twice.
     /// Errors: the first condition that is violated, by node or element number.
-    pub fn check(&self) -> Result<(), InputError> {
+    pub fn check(&self) -> Result<()> {
         self.check_names()?;
         self.check_nodes()?;
         self.check_elements()?;
         self.of_dimension(2).try_for_each(|triangle| self.check_area(triangle))
     }
 
-    fn check_names(&self) -> Result<(), InputError> {
+    fn check_names(&self) -> Result<()> {
         for (k, a) in self.names.iter().enumerate() {
             let same = |b: &&PhysicalName| a.dim == b.dim && a.name == b.name && a.tag != b.tag;
             if let Some(b) = self.names[..k].iter().find(same) {
@@ -45,7 +45,7 @@ impl Mesh {
         Ok(())
     }
 
-    fn check_nodes(&self) -> Result<(), InputError> {
+    fn check_nodes(&self) -> Result<()> {
         let place = "the mesh's nodes";
         for (k, node) in self.nodes.iter().enumerate() {
             if k > 0 && self.nodes[k - 1].number == node.number {
@@ -68,7 +68,7 @@ impl Mesh {
         Ok(())
     }
 
-    fn check_elements(&self) -> Result<(), InputError> {
+    fn check_elements(&self) -> Result<()> {
         let place = "the mesh's elements";
         let mut triangles = HashMap::new();
         for (k, element) in self.elements.iter().enumerate() {
@@ -100,7 +100,7 @@ impl Mesh {
 
     /// Checks that an element's number is not far beyond the number of elements, and that the
     /// element names different nodes of the mesh.
-    fn check_element(&self, element: &Element) -> Result<(), InputError> {
+    fn check_element(&self, element: &Element) -> Result<()> {
         let place = "the mesh's elements";
         let (number, nodes, count) = (element.number, &element.nodes, self.elements.len());
         if number == 0 || number > 16 * count + 1024 {
@@ -118,7 +118,7 @@ impl Mesh {
         Ok(())
     }
 
-    fn check_area(&self, triangle: &Element) -> Result<(), InputError> {
+    fn check_area(&self, triangle: &Element) -> Result<()> {
         let area = element::area(&self.corners(triangle));
         if area > 0.0 && area.is_finite() {
             return Ok(());

@@ -1,13 +1,13 @@
 //! Meshes from the paper's own tables.
 
 use super::{Element, KINDS, Mesh, Node};
-use crate::error::InputError;
+use crate::error::{InputError, Result};
 
 impl Mesh {
     /// Reads the paper's own tables: rows of `node` are number, x, y, z; rows of `elem` are number,
     /// type, 2, physical tag, geometric tag, nodes.
     /// Errors: a row has another form.
-    pub fn from_tables(node: &[[f64; 4]], elem: &[Vec<usize>]) -> Result<Self, InputError> {
+    pub fn from_tables(node: &[[f64; 4]], elem: &[Vec<usize>]) -> Result<Self> {
         let mut mesh = Mesh::default();
         for (k, &[number, x, y, z]) in node.iter().enumerate() {
             if number.fract() != 0.0 || !(1.0..9e15).contains(&number) {
@@ -27,7 +27,7 @@ impl Mesh {
 }
 
 /// Reads a row of `elem`: number, type, 2, physical tag, geometric tag, nodes.
-fn element(row: &[usize]) -> Result<Element, InputError> {
+fn element(row: &[usize]) -> Result<Element> {
     let fix = "a row is number, type, 2, physical tag, geometric tag, nodes: \
                [7, 1, 2, 10, 1, 3, 4] for an edge";
     let bad = |what: String| InputError::new("", what, fix);

@@ -3,7 +3,8 @@
 use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, inner_sign};
 use super::{Measured, Outcome};
 use crate::paper::door::Call;
-use crate::paper::mirror::{Cause, Order, Reading};
+use crate::paper::mathcad::Conjunction;
+use crate::paper::mirror::{Cause, Reading};
 use crate::problem::model::NodeId;
 use crate::studies::audit::Case;
 
@@ -69,7 +70,7 @@ pub(super) fn strictly_less(case: &Case) -> Outcome<'_> {
 
 /// C10: `∧` evaluated from left to right, at the initial shape.
 pub(super) fn left_to_right(case: &Case) -> Outcome<'_> {
-    let reading = Reading { r4: Order::LeftToRight, ..Reading::default() };
+    let reading = Reading { r4: Conjunction::LeftToRight, ..Reading::default() };
     let call = case.initial().map_err(|_| "c_cnt fails before line 18")?;
     let first = call.statuses.first().ok_or("no contact node")?.distance;
     Ok(match Call::c_cnt(case.model(), &reading, &case.model().nodes) {
