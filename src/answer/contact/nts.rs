@@ -1,7 +1,7 @@
 //! Node to segment: the point of the target closest to each contact node, by the rules of
 //! `outline.rs`; and how deep nodes of either surface lie in the other body.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use super::outline::{Faced, Outline};
 use super::pairing::{Pairing, Vector, unit};
@@ -55,9 +55,7 @@ impl Surfaces {
     /// curved surfaces that lie flush it is of the size of the sagitta of an edge.
     pub fn deepest_target_node(&self, shape: &[Vector]) -> Option<(NodeId, f64)> {
         let outline = Outline::new(&self.contact, &self.undeformed.contact, shape);
-        let mut nodes: Vec<NodeId> = self.target.iter().flat_map(|edge| edge.nodes).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        let nodes: BTreeSet<NodeId> = self.target.iter().flat_map(|edge| edge.nodes).collect();
         let depth = |node: NodeId| {
             let own = self.undeformed.target_nodes.get(&node).map(|normal| unit(*normal));
             let faced = outline.faced(shape[node.index()], own)?;
@@ -69,9 +67,7 @@ impl Surfaces {
     /// Checks that no contact node lies deep in the target before the loads act. What counts as
     /// deep is more than half the longest contact edge beside the node and more than 1 % of the
     /// scene's larger extent.
-    ///
-    /// # Errors
-    /// A contact node lies deep in the target; the error names the deepest.
+    /// Errors: a contact node lies deep in the target; the error names the deepest.
     pub fn check_initial_penetration(&self, model: &Model) -> Result<(), InputError> {
         let outline = target(self, &model.nodes);
         let size = Bounds::of(&model.nodes).larger_side();

@@ -13,9 +13,7 @@ const PLACE: &str = "contact.cnt";
 
 /// Returns the nodes of the contact surface in order along it, each once. A surface of one node,
 /// which bounds no contact edge, is that node.
-///
-/// # Errors
-/// A node is joined to no other one by an edge of the outline, or to more than two.
+/// Errors: a node is joined to no other one by an edge of the outline, or to more than two.
 pub fn along(model: &Model) -> Result<Vec<NodeId>, InputError> {
     let listed: HashSet<NodeId> = model.contact.nodes.iter().copied().collect();
     if listed.len() < 2 {

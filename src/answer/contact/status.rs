@@ -26,6 +26,8 @@
 //! cut), nor a node beside the target whose side enters through the target's flank, which is no
 //! target edge, and leaves through the surface.
 
+use std::collections::BTreeSet;
+
 use super::search::{Closest, Segment, closest};
 use std::collections::HashMap;
 
@@ -44,9 +46,8 @@ use crate::problem::modelling::StatusRule;
 /// but where `c_cnt` found no edge for a node in contact, the edge is the nearest one. Under
 /// *projection* the edge is the nearest one, None past the surface's end, and the distance is minus
 /// the signed distance to it: > 0 inside the target.
-///
-/// # Errors
-/// The lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 under *intersection*.
+/// Errors: the lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 under
+/// *intersection*.
 pub fn statuses<T: Scalar>(
     rule: StatusRule,
     model: &Model,
@@ -149,12 +150,9 @@ fn intersects<T: Scalar>(model: &Model, target: &Target<T>, node_n: &Table<T>, n
 }
 
 /// Returns the nodes that share a triangle with node `n`, ascending.
-fn sides(model: &Model, n: NodeId) -> Vec<NodeId> {
+fn sides(model: &Model, n: NodeId) -> BTreeSet<NodeId> {
     let triangles = model.triangles.iter().map(|t| t.nodes).filter(|t| t.contains(&n));
-    let mut others: Vec<NodeId> = triangles.flatten().filter(|other| *other != n).collect();
-    others.sort_unstable();
-    others.dedup();
-    others
+    triangles.flatten().filter(|other| *other != n).collect()
 }
 
 /// Returns +1 where the segment from `c` to `q` crosses `edge` outwards, −1 inwards, and 0 where it

@@ -82,9 +82,7 @@ impl Placed {
 
 impl Surfaces {
     /// Finds the surfaces of a model.
-    ///
-    /// # Errors
-    /// A target edge bounds no triangle, so that its outer side is unknown.
+    /// Errors: a target edge bounds no triangle, so that its outer side is unknown.
     pub fn new(model: &Model) -> Result<Self, InputError> {
         let nodes = model.contact.nodes.clone();
         let boundary = |pair: [NodeId; 2]| model.sides.boundary(pair).map(|one| one.nodes);

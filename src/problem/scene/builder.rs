@@ -5,7 +5,7 @@ use std::path::Path;
 use super::description::{Axis, Contact, Description, Load, Material, Restraint, Units};
 use super::groups::GroupRef;
 use super::mesh::Mesh;
-use super::{Scene, file, gmsh, orphans};
+use super::{Scene, file, gmsh, orphans, source};
 use crate::error::Result;
 use crate::files;
 use crate::problem::element::Plane;
@@ -56,8 +56,9 @@ impl SceneBuilder {
         text: &[u8],
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self> {
-        let (source, description) = file::parse(text)?;
-        Ok(SceneBuilder { name: name.into(), mesh: source.read(beside)?, description })
+        let mut description = file::parse(text)?;
+        let mesh = source::mesh(&mut description, beside)?;
+        Ok(SceneBuilder { name: name.into(), mesh, description })
     }
 
     /// Sets the title for people.

@@ -8,17 +8,16 @@ use serde_json::Value;
 
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
-use super::source::MeshSource;
 use super::surface::Surface;
 use crate::error::{InputError, Result};
 
-/// Parses a scene file: the source of its mesh, and its description.
+/// Parses a scene file, with the source of its mesh still in it.
 /// Errors: the text is no scene file; the error names the field's path, the line and the column.
-pub fn parse(text: &[u8]) -> Result<(MeshSource, Description)> {
+pub fn parse(text: &[u8]) -> Result<Description> {
     let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
     let mut deserializer = serde_json::Deserializer::from_slice(text);
     let scene = serde_path_to_error::deserialize(&mut deserializer);
-    let mut scene: Description = scene.map_err(|error| {
+    let scene: Description = scene.map_err(|error| {
         let place = match error.path().to_string() {
             path if path == "." || path == "?" => "the scene file".into(),
             path => format!("field {path}"),
@@ -29,8 +28,7 @@ pub fn parse(text: &[u8]) -> Result<(MeshSource, Description)> {
         let fix = "remove what follows the scene";
         InputError::new("the end of the scene file", error.to_string(), fix)
     })?;
-    let source = MeshSource::new(scene.mesh.take(), scene.node.take(), scene.elem.take())?;
-    Ok((source, scene))
+    Ok(scene)
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line

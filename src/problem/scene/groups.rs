@@ -1,5 +1,6 @@
 //! Physical groups: the elements that belong to a name or a tag.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use serde::Serialize;
@@ -80,10 +81,8 @@ pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>> {
             .is_some_and(|tag| mesh.of_dimension(dim).any(|e| e.physical.contains(&tag)))
     });
     let members = members(mesh, dim.unwrap_or(1), group, place)?;
-    let mut nodes: Vec<usize> = members.iter().flat_map(|e| e.nodes.iter().copied()).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    Ok(nodes)
+    let nodes: BTreeSet<usize> = members.iter().flat_map(|e| e.nodes.iter().copied()).collect();
+    Ok(nodes.into_iter().collect())
 }
 
 /// Returns the tag of a group with elements of dimension `dim`. A name may be a tag as text.
@@ -100,10 +99,8 @@ fn tag(mesh: &Mesh, dim: usize, group: &GroupRef) -> Option<usize> {
 
 /// Returns the groups that exist, in the words of an error.
 fn known(mesh: &Mesh, dim: usize) -> String {
-    let mut tags: Vec<usize> =
+    let tags: BTreeSet<usize> =
         mesh.of_dimension(dim).flat_map(|e| e.physical.iter().copied()).collect();
-    tags.sort_unstable();
-    tags.dedup();
     let names: Vec<String> = tags
         .iter()
         .map(|tag| match mesh.names.iter().find(|n| n.dim == dim && n.tag == *tag) {

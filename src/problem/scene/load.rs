@@ -12,9 +12,7 @@ use crate::problem::model::{NodeId, Sides};
 
 /// Returns the forces that each stage adds on all 2R degrees of freedom, restrained ones included,
 /// force. There is at least one stage.
-///
-/// # Errors
-/// No load belongs to a stage before the last one; and the errors of [`vector`].
+/// Errors: no load belongs to a stage before the last one; and the errors of [`vector`].
 pub fn stages(
     mesh: &Mesh,
     sides: &Sides,

@@ -108,8 +108,9 @@ impl Scene {
         let triangles: Vec<Triangle> = mesh
             .of_dimension(2)
             .zip(materials)
-            .map(|(element, material)| Triangle { nodes: corners(element), material })
+            .map(|(element, material)| Triangle { nodes: nodes(element), material })
             .collect();
+        let edge = |edge: &Element| Edge { number: edge.number, nodes: nodes(edge) };
         let sides = Sides::new(triangles.iter().map(|triangle| triangle.nodes));
         let mut model = Model {
             plane: file.plane,
@@ -152,15 +153,9 @@ impl Scene {
     }
 }
 
-/// Returns the corners of a triangle of the mesh.
-fn corners(element: &Element) -> [NodeId; 3] {
-    [0, 1, 2].map(|k| NodeId::from_number(element.nodes[k]))
-}
-
-/// Returns an edge of the mesh as an edge of the model.
-fn edge(element: &Element) -> Edge {
-    let nodes = [0, 1].map(|k| NodeId::from_number(element.nodes[k]));
-    Edge { number: element.number, nodes }
+/// Returns the nodes of an element of the mesh, which has `N`.
+fn nodes<const N: usize>(element: &Element) -> [NodeId; N] {
+    std::array::from_fn(|k| NodeId::from_number(element.nodes[k]))
 }
 
 /// Returns the elements of the mesh file as rows of its table.

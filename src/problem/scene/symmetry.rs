@@ -4,7 +4,7 @@
 //! lie across the line. Then the solution is symmetric too, the line moves only along itself, and
 //! the half right of it, restrained in x on the line, has the same solution.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -47,10 +47,9 @@ pub fn half(scene: &Scene) -> Option<Half> {
     let right =
         |id: &TriangleId| model.triangle(*id).nodes.into_iter().all(|node| mirror.side(node) >= 0);
     let triangles: Vec<TriangleId> = model.triangle_ids().filter(right).collect();
-    let mut nodes: Vec<NodeId> =
+    let nodes: BTreeSet<NodeId> =
         triangles.iter().flat_map(|id| model.triangle(*id).nodes).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
+    let nodes: Vec<NodeId> = nodes.into_iter().collect();
     let departure = nodes.iter().map(|&n| mirror.distance(n, images.of(n))).fold(0.0, f64::max);
     let model = Restriction::new(&mirror, &nodes, &triangles).model();
     let scene = Scene { model: Arc::new(model), source: None, ..scene.clone() };

@@ -53,9 +53,7 @@ pub enum Kind {
 
 impl Kind {
     /// Generates the scene; it has the kind's name.
-    ///
-    /// # Errors
-    /// A parameter is out of its range.
+    /// Errors: a parameter is out of its range.
     pub fn generate(&self) -> Result<SceneBuilder> {
         match self {
             Kind::Blocks(kind) => kind.generate(),

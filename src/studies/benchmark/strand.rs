@@ -76,11 +76,9 @@ const GROWTH: f64 = 0.19;
 
 impl Strand {
     /// Generates the scene.
-    ///
-    /// # Errors
-    /// The duct's radius is outside 1 to 22 mm; the strand's is outside a third of it to the whole;
-    /// the size is outside 0.05 mm to 0.16 of the strand's radius, or beyond 0.4 of the width of
-    /// the block beside the duct.
+    /// Errors: the duct's radius is outside 1 to 22 mm; the strand's is outside a third of it to the
+    /// whole; the size is outside 0.05 mm to 0.16 of the strand's radius, or beyond 0.4 of the width
+    /// of the block beside the duct.
     pub fn generate(&self) -> Result<SceneBuilder> {
         check::between("--duct", self.duct, DUCT)?;
         check::between("--strand", self.strand, [self.duct / WIDEST, self.duct])?;
