@@ -29,8 +29,8 @@ pub struct Description {
     #[serde(skip_serializing_if = "is_default")]
     pub node: Option<Vec<[f64; 4]>>,
     /// In a scene file, the paper's element table, with Gmsh 2 rows of two tags.
-    #[serde(skip_serializing_if = "is_default")]
-    pub elem: Option<Vec<Vec<usize>>>,
+    #[serde(rename = "elem", skip_serializing_if = "is_default")]
+    pub elements: Option<Vec<Vec<usize>>>,
     /// The plane problem: plane strain or plane stress.
     #[serde(deserialize_with = "by_name")]
     pub plane: Plane,
@@ -68,7 +68,7 @@ impl Description {
             title: String::new(),
             mesh: None,
             node: None,
-            elem: None,
+            elements: None,
             plane,
             thickness: default_thickness(),
             units: Units::default(),

@@ -13,7 +13,7 @@ pub fn mesh(
     scene: &mut Description,
     beside: impl Fn(&str) -> Result<Vec<u8>, String>,
 ) -> Result<Mesh> {
-    let name = match (scene.mesh.take(), scene.node.take(), scene.elem.take()) {
+    let name = match (scene.mesh.take(), scene.node.take(), scene.elements.take()) {
         (Some(name), None, None) => name,
         (None, Some(node), Some(elem)) => return Mesh::from_tables(&node, &elem),
         _ => {
