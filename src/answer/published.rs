@@ -21,6 +21,7 @@ use super::support::against_load;
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{Inputs, Precision, ScalarName, cost, memory};
+use crate::paper::decisions::{Decision, decisions};
 use crate::paper::door::{self, NodeToSegment};
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet};
@@ -61,12 +62,20 @@ pub(super) fn published<T: Precision>(
         factored: run.visited.len(),
         digits: T::zero().digits().and_then(|_| run.u.iter().map(|u| u.to_rational()).collect()),
         equilibrium: None,
-        error_bound: run.u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e))),
+        error_bound: error_bound(&run.u, &steps),
         u: run.u.map(T::to_f64),
         request: request.clone(),
         model: Arc::clone(&model),
         steps,
     })
+}
+
+/// Returns the bound on the error of an entry of `u`, where T keeps one; infinite where a decision of
+/// a step is left to rounding, or that is not known.
+fn error_bound<T: Scalar>(u: &DVector<T>, steps: &[Step]) -> Option<f64> {
+    let bound = u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e)))?;
+    let is_certain = |step: &Step| step.undecided().is_some_and(<[Decision]>::is_empty);
+    Some(if steps.iter().all(is_certain) { bound } else { f64::INFINITY })
 }
 
 /// Checks that no load vanished or lost digits where the scalar has no smaller numbers: zero
@@ -138,6 +147,9 @@ struct Found<T> {
     constraints: Vec<Constraint<T>>,
     /// The position of each node in contact on its target edge, to measure eq. (1).
     places: Vec<NodeToSegment<T>>,
+    /// The decisions that rounding may have taken; None where T keeps no bound, or under a rule whose
+    /// decisions are not looked at.
+    undecided: Option<Vec<Decision>>,
 }
 
 impl<'a, T: Precision> Run<'a, T> {
@@ -167,7 +179,7 @@ impl<'a, T: Precision> Run<'a, T> {
     }
 
     fn iterate(&mut self, k: usize) -> Result<Step, Error> {
-        let found = self.search()?;
+        let found = self.search(k)?;
         let before = self.visited.iter().position(|visited| visited.is(&found));
         let (cycle, solved) = match before.map(|at| self.visited.swap_remove(at)) {
             Some(visited) => {
@@ -183,25 +195,30 @@ impl<'a, T: Precision> Run<'a, T> {
         Ok(step)
     }
 
-    /// Finds the contact state in the current shape.
-    fn search(&self) -> Result<Found<T>, Error> {
+    /// Finds the contact state in the current shape in iteration `k`.
+    fn search(&self, k: usize) -> Result<Found<T>, Error> {
         let node_n = door::moved(self.sheet, &self.u);
         let reading = &self.request.reading;
+        let keeps_bound = T::zero().error_bound().is_some();
         if !self.model.has_contact() {
             // Without contact `c_cnt` is not called.
             let pairs = Pairs::none(self.sheet.R());
-            return Ok(Found { node_n, pairs, constraints: Vec::new(), places: Vec::new() });
+            let undecided = keeps_bound.then(Vec::new);
+            return Ok(Found { node_n, pairs, constraints: vec![], places: vec![], undecided });
         }
         let (rule, variant) = (self.request.contact.status, self.request.variant);
-        let pairs = if rule == StatusRule::Signs || variant == Variant::Printed {
+        let by_listing = rule == StatusRule::Signs || variant == Variant::Printed;
+        let pairs = if by_listing {
             c_cnt(self.sheet, reading, &node_n)?
         } else {
             let found = status::statuses(rule, self.model, self.sheet, reading, &node_n)?;
             door::pairs(self.model, self.sheet, reading, &node_n, &found)?
         };
+        let undecided =
+            (keeps_bound && by_listing).then(|| decisions(self.sheet, reading, &node_n, &pairs, k));
         let places = door::on_edges(self.sheet, &pairs, reading, &node_n);
         let constraints = self.constraints(door::linked(self.sheet, &pairs), &node_n);
-        Ok(Found { node_n, pairs, constraints, places })
+        Ok(Found { node_n, pairs, constraints, places, undecided })
     }
 
     /// Returns eq. (1) for the nodes in contact, with the weights that were found, or with mortar's
@@ -232,7 +249,7 @@ impl<'a, T: Precision> Run<'a, T> {
     }
 
     fn step(&self, k: usize, found: &Found<T>, cycle: Option<Cycle>, solved: &Solved<T>) -> Step {
-        let Found { node_n, pairs, constraints, places } = found;
+        let Found { node_n, pairs, constraints, places, undecided } = found;
         let bound: &[Constraint<T>] = match self.request.variant {
             Variant::Printed => &[],
             _ => constraints,
@@ -252,6 +269,7 @@ impl<'a, T: Precision> Run<'a, T> {
             solve_residual: solved.residual,
             detail: Detail::Published(Published {
                 pairs: pairs.map(T::to_f64),
+                undecided: undecided.clone(),
                 eq1_residual: residual(&self.u),
                 eq1_residual_step: residual(&solved.u),
             }),

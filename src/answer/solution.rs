@@ -10,6 +10,7 @@ use super::contact::{ContactNode, Pairing, Status};
 use super::elimination::Constraint;
 use super::request::Request;
 use crate::numbers::scalar::Scalar;
+use crate::paper::decisions::Decision;
 use crate::paper::mirror::Pairs;
 use crate::problem::element::State;
 use crate::problem::model::{Model, NodeId};
@@ -52,6 +53,9 @@ pub enum Detail {
 pub struct Published {
     /// The pairs that `c_cnt` found in the shape at the start, in its own arrays.
     pub pairs: Pairs<f64>,
+    /// The decisions on who is in contact that rounding may have taken; None where the numbers keep
+    /// no bound on their error, or under a status rule whose decisions are not looked at.
+    pub undecided: Option<Vec<Decision>>,
     /// The residual of eq. (1): the largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in
     /// contact, in total displacements, length.
     pub eq1_residual: f64,
@@ -141,6 +145,15 @@ impl Step {
         }
     }
 
+    /// Returns the decisions on who is in contact that rounding may have taken; None where that is
+    /// not known of the step alone.
+    pub fn undecided(&self) -> Option<&[Decision]> {
+        match &self.detail {
+            Detail::Published(step) => step.undecided.as_deref(),
+            Detail::Unilateral(_) => None,
+        }
+    }
+
     /// Returns the residual of the contact condition, length: of eq. (1), or of the gaps.
     pub fn contact_residual(&self) -> f64 {
         match &self.detail {
@@ -193,8 +206,8 @@ pub struct Solution {
     /// All significant digits of `u`, where the scalar has more than an `f64`.
     pub digits: Option<Vec<RBig>>,
     /// A bound on the largest error of an entry of `u` against the same run without rounding,
-    /// length, where the scalar computes one. It is valid while rounding does not change which
-    /// nodes are in contact.
+    /// length, where the scalar computes one; infinite where rounding may have changed who is in
+    /// contact.
     pub error_bound: Option<f64>,
     /// What `unilateral` knows beside its solution; None under the other variants.
     pub equilibrium: Option<Equilibrium>,

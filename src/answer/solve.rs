@@ -9,7 +9,7 @@ use super::solution::{Solution, Step};
 use super::sparse::{Condensing, Sparse, Whole};
 use super::unilateral::unilateral;
 use crate::error::InputError;
-use crate::numbers::scalar::{self, Bounded, Exact, F64x2};
+use crate::numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
 use crate::numbers::solve::{ScalarName, Solver};
 use crate::problem::element::State;
 use crate::problem::model::Model;
@@ -32,6 +32,9 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
         (_, ScalarName::F32) => published::<f32>(request, Some(|_, _| Box::new(Whole)), watch)?,
         (_, ScalarName::F64x2) => published::<F64x2>(request, Some(condensing), watch)?,
         (_, ScalarName::Bounded) => published::<Bounded>(request, Some(condensing), watch)?,
+        (_, ScalarName::BoundedDouble) => {
+            published::<BoundedDouble>(request, Some(condensing), watch)?
+        }
         (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(request, None, watch))?,
     };
     check_finite(&solution)?;

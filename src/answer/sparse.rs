@@ -8,10 +8,10 @@ use super::condensation::{Bodies, Bound, refined};
 use super::elimination::{Constraint, Elimination};
 use super::request::Request;
 use super::stiffness::Stiffness;
-use crate::numbers::scalar::{Bounded, F64x2, Scalar};
+use crate::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar, WithBound};
 use crate::numbers::solve::{
-    Arithmetic, Field, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky, Unsolved,
-    error_bound, refine,
+    Arithmetic, Factors, Field, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky,
+    SparseSymmetric, Unsolved, error_bound, refine,
 };
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
@@ -110,20 +110,45 @@ impl Sparse<Bounded> for Condensing {
 }
 
 impl Sparse<F64x2> for Condensing {
-    /// Refines the solution in `f64`; where that does not converge, by LDLᵀ factors.
     fn solve(&self, state: &State<F64x2>) -> Result<Solved<F64x2>, Unsolved> {
-        /// The relative residual at which refinement ends, in units of the scalar's epsilon.
-        const TOL: f64 = 4.0;
         let matrix = state.stiffness.reduced(state.t);
-        let (_, bound) = self.factors(state);
-        let refined = bound.and_then(|bound| {
-            refine(&bound, &matrix, state.f, TOL * <F64x2 as Field>::EPSILON).ok()
-        });
-        let x = match refined {
-            Some(x) => x,
-            None => DVector::from_vec(Ldlt::new(&matrix)?.solve(state.f.as_slice())),
-        };
+        let (x, _) = in_double(&matrix, state.f, self.factors(state).1)?;
         Ok(Solved { residual: matrix.residual(&x, state.f), x })
+    }
+}
+
+impl Sparse<BoundedDouble> for Condensing {
+    /// Solves as in double-double, with a bound on the error of the solution.
+    fn solve(&self, state: &State<BoundedDouble>) -> Result<Solved<BoundedDouble>, Unsolved> {
+        let entries = state.stiffness.reduced(state.t);
+        let (matrix, f) = (entries.map(|x| x.value()), state.f.map(WithBound::value));
+        let (x, bound) = in_double(&matrix, &f, self.factors(state).1)?;
+        let factors: Box<dyn Factors<f64>> = match bound {
+            Some(bound) => Box::new(bound),
+            None => Box::new(SparseCholesky::new(matrix.map(|x| x.to_f64()))?),
+        };
+        let error = error_bound(&*factors, entries.both_triangles(), state.f, &x);
+        let residual = matrix.residual(&x, &f);
+        Ok(Solved { residual, x: x.map(|x| BoundedDouble::new(x, error)) })
+    }
+}
+
+/// Refines the solution of A x = `f` by factors in `f64`, and returns those; where that does not
+/// converge, solves by LDLᵀ factors.
+fn in_double(
+    matrix: &SparseSymmetric<F64x2>,
+    f: &DVector<F64x2>,
+    factors: Option<Bound>,
+) -> Result<(DVector<F64x2>, Option<Bound>), Unsolved> {
+    /// The relative residual at which refinement ends, in units of the scalar's epsilon.
+    const TOL: f64 = 4.0;
+    let refined = factors.and_then(|factors| {
+        let x = refine(&factors, matrix, f, TOL * <F64x2 as Field>::EPSILON).ok()?;
+        Some((x, Some(factors)))
+    });
+    match refined {
+        Some(refined) => Ok(refined),
+        None => Ok((DVector::from_vec(Ldlt::new(matrix)?.solve(f.as_slice())), None)),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The paper: its listings as text and in Rust, Mathcad's semantics, its readings and its arrays.
 
+pub mod decisions;
 pub mod door;
 pub mod listings;
 pub mod mathcad;

@@ -10,6 +10,7 @@ use crate::answer::{
 use crate::error::{InputError, Result};
 use crate::numbers::scalar::rational;
 use crate::numbers::solve::{Arithmetic, ScalarName};
+use crate::paper::decisions::Decision;
 use crate::paper::mirror::Reading;
 use crate::problem::modelling::{ContactModel, Variant};
 use crate::problem::scene::Units;
@@ -114,6 +115,8 @@ pub struct IterationRow {
 pub struct KnownEstimates {
     /// What rounding may do to a displacement, length.
     pub displacement_arithmetic: Option<f64>,
+    /// The decisions on who is in contact that rounding may have taken.
+    pub decided_by_rounding: Option<Vec<Decision>>,
     /// The error of the mesh in the energy norm, relative to the norm of the solution.
     pub mesh_energy_relative: Option<f64>,
     /// The estimates for each body.
@@ -244,6 +247,7 @@ impl KnownEstimates {
         });
         KnownEstimates {
             displacement_arithmetic: known(estimates.displacement),
+            decided_by_rounding: estimates.decisions.clone(),
             mesh_energy_relative: known(estimates.mesh.relative()),
             bodies: bodies.collect(),
         }

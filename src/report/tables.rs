@@ -9,6 +9,7 @@ use crate::answer::{
     Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Solution, Step,
     Uniqueness, max_displacement,
 };
+use crate::paper::decisions::Decision;
 use crate::paper::door::Call;
 use crate::problem::model::{EdgeId, Model, NodeId};
 use crate::problem::modelling::Variant;
@@ -276,7 +277,32 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
     if relative > FAIR {
         text += ": too coarse for its estimates to be relied on";
     }
-    text + "\n"
+    text + "\n" + &by_rounding(solution, estimates.decisions.as_deref())
+}
+
+/// Tells what rounding may have decided, its first decision and how many there are; nothing where it
+/// decided nothing.
+fn by_rounding(solution: &Solution, decisions: Option<&[Decision]>) -> String {
+    let unit = &solution.request.scene.units.length;
+    let length = |x: f64| with_unit(&format!("{x:.1e}"), unit);
+    let Some(decisions) = decisions else {
+        return "  who is in contact: whether rounding decides it is not known\n".into();
+    };
+    let Some(Decision { iteration, node, condition, margin, bound }) = decisions.first() else {
+        return String::new();
+    };
+    let margin = margin.map_or(String::new(), |margin| {
+        let bound = or_dash(*bound, length);
+        format!(" (margin {}, bound {bound})", length(margin))
+    });
+    format!(
+        "  who is in contact: rounding may have decided {}, first in iteration {iteration} at \
+         node {node}: {condition}{margin}\n",
+        match decisions.len() {
+            1 => "once".into(),
+            times => format!("{times} times"),
+        }
+    )
 }
 
 /// Lays out how far a run is from the reference solution and from the equilibrium under the scene's

@@ -4,7 +4,7 @@
 use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{ROUNDING_BOUND_WIDTH, Tolerance};
 use nalgebra::DVector;
-use plane_contact::answer::estimates::arithmetic::{displacement_bound, stress_bounds};
+use plane_contact::answer::estimates::arithmetic::{self, stress_bounds};
 use plane_contact::answer::{Constraint, Detail, Elimination, Request, Solution, Stiffness, solve};
 use plane_contact::numbers::scalar::{Exact, Scalar, scope};
 use plane_contact::numbers::solve::{Arithmetic, Ldlt, ScalarName, Solver};
@@ -59,7 +59,7 @@ fn the_bound_on_rounding_holds_on_every_setting() {
                 // The exact numbers are rounded to f64 to be compared.
                 let rounding = f64::EPSILON / 2.0 * exact.u.amax();
                 let error = off(&solution.u, &exact.u) - rounding;
-                let bound = displacement_bound(&solution);
+                let bound = arithmetic::rounding(&solution).displacement;
                 let what = format!(
                     "{}, {variant}, {} by {}",
                     scene.name,
@@ -112,7 +112,12 @@ fn the_bar_of_unilateral_holds() {
             let rounding = f64::EPSILON / 2.0 * solution.u.amax();
             let error = off(&solution.u, &exact_state(&solution)) - rounding;
             let what = format!("{}, {coupling}, friction {friction}", scene.name);
-            assert_bound(&what, displacement_bound(&solution), error, solution.u.amax());
+            assert_bound(
+                &what,
+                arithmetic::rounding(&solution).displacement,
+                error,
+                solution.u.amax(),
+            );
             held += 1;
         }
     }

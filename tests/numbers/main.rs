@@ -12,6 +12,7 @@ mod common {
 }
 
 mod arithmetic;
+mod decisions;
 mod discretisation;
 mod element;
 mod error_estimates;

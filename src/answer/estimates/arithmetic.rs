@@ -1,16 +1,19 @@
 //! The arithmetic error: the effect of rounding on displacements and stresses.
 //!
-//! A run is repeated in `f64` with a running bound on the error ([`Bounded`]), by the solver that
-//! suits its matrix. The bound of that run and its distance from the assessed run bound the error
-//! of the latter, whatever its numbers and its solver. Under `unilateral` the equilibrium of the
-//! last contact state is solved again, with its normals and weights unchanged. Both bounds are
-//! valid while rounding does not change which nodes are in contact.
+//! A run is repeated in numbers with a running bound on the error, `f64` ([`Bounded`]) or where the
+//! run has more digits double-double, by the solver that is the scalar's own. The bound of that run and
+//! its distance from the assessed run bound the error of the latter, whatever its numbers and its
+//! solver, where no decision on who is in contact is left to rounding and both runs decided alike.
+//! Under `unilateral` the equilibrium of the last contact state is solved again, with its normals and
+//! weights unchanged.
 
 use nalgebra::{DVector, SVector};
 
+use super::ties::ties;
 use crate::answer::{Detail, Elimination, Request, Solution, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
-use crate::numbers::solve::{Arithmetic, ScalarName, Solver, SparseCholesky, error_bound};
+use crate::numbers::solve::{Arithmetic, ScalarName, SparseCholesky, error_bound};
+use crate::paper::decisions::{Decision, first_difference};
 use crate::problem::element::Plane;
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
@@ -18,36 +21,91 @@ use crate::problem::modelling::Variant;
 /// The number of roundings in a von Mises value from its stresses, in units of 2^-53.
 const ROUNDINGS: f64 = 32.0;
 
-/// Returns a bound on the error of any displacement, length; infinite where nothing is known.
-pub fn displacement_bound(solution: &Solution) -> f64 {
-    let again = match solution.request.variant {
-        Variant::Unilateral => last_state(solution),
-        _ => bounded_run(solution),
+/// What rounding may do to a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rounding {
+    /// A bound on the error of any displacement, length; infinite where nothing is known, as where
+    /// rounding may have decided who is in contact.
+    pub displacement: f64,
+    /// The decisions on who is in contact that rounding may have taken; None where that is not known.
+    pub decisions: Option<Vec<Decision>>,
+}
+
+/// Returns what rounding may do to a solution.
+pub fn rounding(solution: &Solution) -> Rounding {
+    match (solution.request.variant, solution.request.arithmetic.scalar) {
+        (Variant::Unilateral, _) => of_equilibrium(solution),
+        // What is rounded is the displacements themselves, to be written as f64.
+        (_, ScalarName::Exact) => Rounding {
+            displacement: solution.u.amax() * f64::EPSILON / 2.0,
+            decisions: Some(Vec::new()),
+        },
+        _ => of_run(solution),
+    }
+}
+
+fn of_equilibrium(solution: &Solution) -> Rounding {
+    let Some(u) = last_state(solution) else {
+        return Rounding { displacement: f64::INFINITY, decisions: None };
     };
+    let (decisions, only_ties) = ties(solution, &u);
     // What is left of the change of shape is no rounding, but no less an error of the displacements.
     let shape_change = solution.equilibrium.as_ref().map_or(0.0, |found| found.shape_change);
-    again.map_or(f64::INFINITY, |u| {
-        let error = |e: usize| (u[e].to_f64() - solution.u[e]).abs() + u[e].error();
-        (0..u.len()).map(error).fold(shape_change, f64::max)
+    let displacement =
+        if only_ties { error(solution, &u).max(shape_change) } else { f64::INFINITY };
+    Rounding { displacement, decisions: Some(decisions) }
+}
+
+fn of_run(solution: &Solution) -> Rounding {
+    let Some(again) = bounded_run(solution) else {
+        return Rounding { displacement: f64::INFINITY, decisions: None };
+    };
+    let undecided = again.steps.iter().map(|step| step.undecided().map(<[Decision]>::to_vec));
+    let undecided: Option<Vec<Vec<Decision>>> = undecided.collect();
+    let decisions = undecided.map(|undecided| {
+        undecided.into_iter().flatten().chain(other_turn(solution, &again)).collect::<Vec<_>>()
+    });
+    let is_certain = decisions.as_ref().is_some_and(Vec::is_empty);
+    let bound = again.error_bound.filter(|_| is_certain).unwrap_or(f64::INFINITY);
+    // Digits beyond those of an f64 are rounded away in `u`.
+    let written = if again.digits.is_some() { f64::EPSILON / 2.0 } else { 0.0 };
+    let u = again.u.map(|u| Bounded::new(u, bound + written * u.abs()));
+    Rounding { displacement: error(solution, &u), decisions }
+}
+
+/// Returns the first iteration and node whose edge or status differs from that of the same run in
+/// numbers with a bound.
+fn other_turn(solution: &Solution, again: &Solution) -> Option<Decision> {
+    solution.steps.iter().zip(&again.steps).find_map(|(own, other)| {
+        let (Detail::Published(a), Detail::Published(b)) = (&own.detail, &other.detail) else {
+            return None;
+        };
+        let node = first_difference(&solution.model.contact.nodes, &a.pairs, &b.pairs)?;
+        let scalar = again.request.arithmetic.scalar;
+        let condition = format!("the edge or status is another one in {scalar}");
+        Some(Decision { iteration: own.k, node, condition, margin: None, bound: None })
     })
 }
 
+/// Returns the largest distance of a displacement from one that is known within a bound, length.
+fn error(solution: &Solution, u: &DVector<Bounded>) -> f64 {
+    let error = |e: usize| (u[e].to_f64() - solution.u[e]).abs() + u[e].error();
+    (0..u.len()).map(error).fold(0.0, f64::max)
+}
+
 /// Repeats the run with a bound on each displacement.
-fn bounded_run(solution: &Solution) -> Option<DVector<Bounded>> {
-    let solver = match solution.request.variant {
-        Variant::Printed => Solver::DenseLu,
-        _ => Solver::SparseCholesky,
-    };
+fn bounded_run(solution: &Solution) -> Option<Solution> {
+    let own = solution.request.arithmetic;
     let arithmetic = Arithmetic {
-        scalar: ScalarName::Bounded,
-        solver: Some(solver),
-        inputs: solution.request.arithmetic.inputs,
+        scalar: match own.scalar {
+            ScalarName::F64x2 | ScalarName::BoundedDouble => ScalarName::BoundedDouble,
+            _ => ScalarName::Bounded,
+        },
+        inputs: own.inputs,
         ..Arithmetic::default()
     };
     let request = Request { arithmetic, ..solution.request.clone() };
-    let run = solve(&request, &mut |_| ()).ok()?;
-    let bound = run.error_bound?;
-    Some(run.u.map(|u| Bounded::new(u, bound)))
+    solve(&request, &mut |_| ()).ok()
 }
 
 /// Solves the last contact state of `unilateral` again, under its friction, with a bound on each

@@ -10,15 +10,20 @@ pub mod arithmetic;
 pub mod discretisation;
 mod patches;
 mod recovery;
+mod ties;
 
 use super::solution::Solution;
+use crate::paper::decisions::Decision;
 use discretisation::Discretisation;
 
 /// The error estimates of a run.
 #[derive(Clone, Debug)]
 pub struct ErrorEstimates {
-    /// A bound on the rounding error of any displacement, length; infinite where unknown.
+    /// A bound on the rounding error of any displacement, length; infinite where unknown, as where
+    /// rounding may have decided who is in contact.
     pub displacement: f64,
+    /// The decisions on who is in contact that rounding may have taken; None where that is not known.
+    pub decisions: Option<Vec<Decision>>,
     /// The error that the mesh causes in the stresses.
     pub mesh: Discretisation,
     /// The error estimates of each body's largest stress, in the model's order.
@@ -44,7 +49,7 @@ impl ErrorEstimates {
     /// Estimates the errors of a run.
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
-        let displacement = arithmetic::displacement_bound(solution);
+        let arithmetic::Rounding { displacement, decisions } = arithmetic::rounding(solution);
         let stress = arithmetic::stress_bounds(solution, displacement);
         let mesh = Discretisation::new(model, &solution.elements);
         let bodies = model.bodies.iter().map(|body| {
@@ -58,6 +63,6 @@ impl ErrorEstimates {
                 arithmetic: rounding.fold(0.0, f64::max),
             }
         });
-        ErrorEstimates { displacement, bodies: bodies.collect(), mesh }
+        ErrorEstimates { displacement, decisions, bodies: bodies.collect(), mesh }
     }
 }

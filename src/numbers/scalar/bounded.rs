@@ -1,24 +1,57 @@
-//! An `f64` that carries a bound on its error: the mirror, run in it, tells how far rounding may
+//! A number that carries a bound on its error: the mirror, run in it, tells how far rounding may
 //! have led.
 //!
-//! Each operation adds its own rounding error to what it passes on of its operands' errors. The
-//! rounding error is computed and not estimated: of a sum and a product it is itself an `f64`, of a
-//! quotient the remainder over the divisor. Source: J. H. Wilkinson's running error analysis, as in
-//! N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., section 3.3.
+//! Each operation adds its own rounding error to what it passes on of its operands' errors. In `f64`
+//! the rounding error is computed and not estimated: of a sum and a product it is itself an `f64`,
+//! of a quotient the remainder over the divisor. In [`F64x2`] it is what is proven of the operation.
+//! Source: J. H. Wilkinson's running error analysis, as in N. J. Higham, *Accuracy and Stability of
+//! Numerical Algorithms*, 2nd ed., section 3.3.
 
 use std::fmt;
 
+use dashu_ratio::RBig;
 use num_traits::Zero;
 
+use super::f64x2::F64x2;
 use super::number::{Scalar, Subscript};
 use super::operators::operators;
 
 /// A number within `error` of `value`. It compares as its value, so that what runs in it takes the
-/// same turns as in `f64`.
+/// same turns as in V.
 #[derive(Clone, Copy, Debug)]
-pub struct Bounded {
-    value: f64,
+pub struct WithBound<V> {
+    value: V,
     error: f64,
+}
+
+/// An `f64` with a bound on its error.
+pub type Bounded = WithBound<f64>;
+
+/// A double-double number with a bound on its error.
+pub type BoundedDouble = WithBound<F64x2>;
+
+/// A number whose operations have rounding errors that are known, or bounded.
+pub trait Rounded: Scalar {
+    /// The number 0.
+    const ZERO: Self;
+
+    /// The number 1.
+    const ONE: Self;
+
+    /// Returns a bound on the rounding error of `sum`, which is `x` + `y`.
+    fn of_sum(x: Self, y: Self, sum: Self) -> f64;
+
+    /// Returns a bound on the rounding error of `product`, which is `x` · `y`.
+    fn of_product(x: Self, y: Self, product: Self) -> f64;
+
+    /// Returns a bound on the rounding error of `quotient`, which is `x` / `y`.
+    fn of_quotient(x: Self, y: Self, quotient: Self) -> f64;
+
+    /// Returns a bound on the distance of the number made of a decimal from that decimal.
+    fn of_decimal(self) -> f64;
+
+    /// Returns the same number in double-double.
+    fn double(self) -> F64x2;
 }
 
 /// Covers the roundings of an error's own few operations.
@@ -29,14 +62,73 @@ const ROUNDED_UP: f64 = 1.0 + 8.0 * f64::EPSILON;
 const SMALL: f64 = 1e-280;
 const SMALL_ERROR: f64 = 1e-300;
 
-impl Bounded {
-    const ZERO: Self = Bounded { value: 0.0, error: 0.0 };
-    const ONE: Self = Bounded { value: 1.0, error: 0.0 };
+impl Rounded for f64 {
+    const ZERO: f64 = 0.0;
+    const ONE: f64 = 1.0;
+
+    fn of_sum(x: f64, y: f64, sum: f64) -> f64 {
+        let of_y = sum - x;
+        ((x - (sum - of_y)) + (y - of_y)).abs()
+    }
+    fn of_product(x: f64, y: f64, product: f64) -> f64 {
+        underflowing(product, x.mul_add(y, -product))
+    }
+    fn of_quotient(x: f64, y: f64, quotient: f64) -> f64 {
+        underflowing(quotient, (-quotient).mul_add(y, x) / y)
+    }
+    fn of_decimal(self) -> f64 {
+        self.abs() * f64::EPSILON / 2.0 + 5e-324
+    }
+    fn double(self) -> F64x2 {
+        F64x2::from_f64(self)
+    }
+}
+
+/// u² of double-double, 2^-106.
+const SQUARE_UNIT: f64 = f64::EPSILON * f64::EPSILON / 4.0;
+
+impl Rounded for F64x2 {
+    const ZERO: F64x2 = F64x2::ZERO;
+    const ONE: F64x2 = F64x2::ONE;
+
+    fn of_sum(_: Self, _: Self, sum: Self) -> f64 {
+        3.0 * SQUARE_UNIT * sum.to_f64().abs()
+    }
+    fn of_product(_: Self, _: Self, product: Self) -> f64 {
+        underflowing(product.to_f64(), 4.0 * SQUARE_UNIT * product.to_f64())
+    }
+    fn of_quotient(x: Self, y: Self, quotient: Self) -> f64 {
+        let size = x.to_f64().abs().min(quotient.to_f64().abs());
+        let underflow =
+            if size < SMALL { SMALL_ERROR.max(SMALL_ERROR / y.to_f64().abs()) } else { 0.0 };
+        9.8 * SQUARE_UNIT * quotient.to_f64().abs() + underflow
+    }
+    fn of_decimal(self) -> f64 {
+        SQUARE_UNIT * self.to_f64().abs() + SMALL_ERROR
+    }
+    fn double(self) -> F64x2 {
+        self
+    }
+}
+
+/// Returns the size of the rounding error of a product or quotient.
+fn underflowing(value: f64, rounding: f64) -> f64 {
+    if value.abs() < SMALL { rounding.abs() + SMALL_ERROR } else { rounding.abs() }
+}
+
+impl<V: Rounded> WithBound<V> {
+    const ZERO: Self = WithBound { value: V::ZERO, error: 0.0 };
+    const ONE: Self = WithBound { value: V::ONE, error: 0.0 };
 
     /// Makes a number within `error` of `value`.
-    pub fn new(value: f64, error: f64) -> Self {
+    pub fn new(value: V, error: f64) -> Self {
         // A NaN, as of 0 times an infinite error, bounds nothing.
-        Bounded { value, error: if error.is_nan() { f64::INFINITY } else { error * ROUNDED_UP } }
+        WithBound { value, error: if error.is_nan() { f64::INFINITY } else { error * ROUNDED_UP } }
+    }
+
+    /// Returns the number without its bound.
+    pub fn value(self) -> V {
+        self.value
     }
 
     /// Returns the bound on |value − the number without rounding|, infinite where there is none.
@@ -44,11 +136,17 @@ impl Bounded {
         self.error
     }
 
+    fn exactly(value: V) -> Self {
+        WithBound { value, error: 0.0 }
+    }
+
+    fn size(self) -> f64 {
+        self.value.to_f64().abs()
+    }
+
     fn sum(x: Self, y: Self) -> Self {
         let value = x.value + y.value;
-        let of_y = value - x.value;
-        let rounding = (x.value - (value - of_y)) + (y.value - of_y);
-        Bounded::new(value, x.error + y.error + rounding.abs())
+        Self::new(value, x.error + y.error + V::of_sum(x.value, y.value, value))
     }
 
     fn difference(x: Self, y: Self) -> Self {
@@ -58,71 +156,71 @@ impl Bounded {
     fn product(x: Self, y: Self) -> Self {
         let value = x.value * y.value;
         if x.is_zero() || y.is_zero() {
-            return Bounded { value, error: 0.0 };
+            return Self::exactly(value);
         }
-        let passed = x.value.abs() * y.error + y.value.abs() * x.error + x.error * y.error;
-        Bounded::new(value, passed + own(value, x.value.mul_add(y.value, -value)))
+        let passed = x.size() * y.error + y.size() * x.error + x.error * y.error;
+        Self::new(value, passed + V::of_product(x.value, y.value, value))
     }
 
     fn quotient(x: Self, y: Self) -> Self {
-        let (value, least) = (x.value / y.value, y.value.abs() - y.error);
+        let value = x.value / y.value;
+        let least = (Scalar::abs(y.value) - V::from_f64(y.error)).to_f64();
         if x.is_zero() && least > 0.0 {
-            return Bounded { value, error: 0.0 };
+            return Self::exactly(value);
         }
         if least.is_nan() || least <= 0.0 {
-            return Bounded { value, error: f64::INFINITY };
+            return WithBound { value, error: f64::INFINITY };
         }
-        let rounding = (-value).mul_add(y.value, x.value) / y.value;
-        let passed = (x.error + value.abs() * y.error) / (least / ROUNDED_UP);
-        Bounded::new(value, passed + own(value, rounding))
+        let passed = (x.error + value.to_f64().abs() * y.error) / (least / ROUNDED_UP);
+        Self::new(value, passed + V::of_quotient(x.value, y.value, value))
     }
 
     fn negative(x: Self) -> Self {
-        Bounded { value: -x.value, ..x }
+        WithBound { value: -x.value, ..x }
     }
 
     /// Returns whether the number is known to be 0.
     fn vanishes(x: Self) -> bool {
-        x.value == 0.0 && x.error == 0.0
+        x.value.is_zero() && x.error == 0.0
     }
 }
 
-operators!(Bounded);
+operators!(<V: Rounded> WithBound<V>);
 
-/// Returns the error of a product or quotient from its own rounding.
-fn own(value: f64, rounding: f64) -> f64 {
-    if value.abs() < SMALL { rounding.abs() + SMALL_ERROR } else { rounding.abs() }
-}
-
-impl PartialEq for Bounded {
+impl<V: Rounded> PartialEq for WithBound<V> {
     fn eq(&self, y: &Self) -> bool {
         self.value == y.value
     }
 }
 
-impl PartialOrd for Bounded {
+impl<V: Rounded> PartialOrd for WithBound<V> {
     fn partial_cmp(&self, y: &Self) -> Option<std::cmp::Ordering> {
         self.value.partial_cmp(&y.value)
     }
 }
 
-impl Subscript for Bounded {
+impl<V: Rounded> Subscript for WithBound<V> {
     fn at(self) -> usize {
         self.value.at()
     }
 }
 
-impl Scalar for Bounded {
+impl<V: Rounded> Scalar for WithBound<V> {
     fn from_f64(x: f64) -> Self {
-        Bounded { value: x, error: 0.0 }
+        Self::exactly(V::from_f64(x))
     }
     fn to_f64(self) -> f64 {
-        self.value
+        self.value.to_f64()
     }
-    /// The decimal is within half a unit in the last place of `x`.
     fn from_decimal(x: f64) -> Self {
-        let whole = x.fract() == 0.0 && x.abs() < 1e15;
-        Bounded { value: x, error: if whole { 0.0 } else { x.abs() * f64::EPSILON / 2.0 + 5e-324 } }
+        let (whole, value) = (x.fract() == 0.0 && x.abs() < 1e15, V::from_decimal(x));
+        WithBound { value, error: if whole { 0.0 } else { value.of_decimal() } }
+    }
+    fn to_rational(self) -> Option<RBig> {
+        self.value.to_rational()
+    }
+    fn digits(self) -> Option<String> {
+        self.value.digits()
     }
     fn same(self, other: Self) -> bool {
         self.value == other.value && self.error == other.error
@@ -131,17 +229,17 @@ impl Scalar for Bounded {
         Some(self.error)
     }
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
-        f64::scaled_root(factor.value, scale.value, square.value)
+        V::scaled_root(factor.value, scale.value, square.value)
     }
     fn hypot(self, other: Self) -> f64 {
-        self.value.hypot(other.value)
+        Scalar::hypot(self.value, other.value)
     }
     fn is_finite(self) -> bool {
-        self.value.is_finite()
+        Scalar::is_finite(self.value)
     }
 }
 
-impl fmt::Display for Bounded {
+impl<V: Rounded> fmt::Display for WithBound<V> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}", self.value)
     }

@@ -23,8 +23,8 @@ pub struct F64x2 {
 }
 
 impl F64x2 {
-    const ZERO: Self = F64x2 { hi: 0.0, lo: 0.0 };
-    const ONE: Self = F64x2 { hi: 1.0, lo: 0.0 };
+    pub(super) const ZERO: Self = F64x2 { hi: 0.0, lo: 0.0 };
+    pub(super) const ONE: Self = F64x2 { hi: 1.0, lo: 0.0 };
 
     /// Returns the number nearest to `x`.
     pub fn nearest(x: &RBig) -> Self {

@@ -6,6 +6,7 @@
 //! | `f64` | 16 | Mathcad's own |
 //! | [`Bounded`] | 16 | `f64` with a bound on its error |
 //! | [`F64x2`] | 31 | a reference for scenes of any size |
+//! | [`BoundedDouble`] | 31 | the same with a bound on its error |
 //! | [`Exact`] | all | rational numbers: a reference without doubt, for small scenes |
 //!
 //! The traits are in `number`, which imports none of the others; the types use it, `operators` and
@@ -19,7 +20,7 @@ mod number;
 mod operators;
 pub mod rational;
 
-pub use bounded::Bounded;
+pub use bounded::{Bounded, BoundedDouble, Rounded, WithBound};
 pub use exact::{Exact, scope};
 pub use f64x2::F64x2;
 pub use number::{Scalar, Subscript};

@@ -5,44 +5,57 @@
 /// `ONE`.
 macro_rules! operators {
     ($scalar:ident) => {
-        operators!(@plain $scalar: Add add sum, Sub sub difference, Mul mul product,
-            Div div quotient);
-        operators!(@assigning $scalar: AddAssign add_assign sum, SubAssign sub_assign difference,
-            MulAssign mul_assign product);
-        impl std::ops::Neg for $scalar {
+        operators!(@all [] $scalar);
+    };
+    (<$v:ident: $bound:ident> $scalar:ty) => {
+        operators!(@all [<$v: $bound>] $scalar);
+    };
+    (@all [$($generics:tt)*] $scalar:ty) => {
+        operators!(@plain [$($generics)*] $scalar: Add add sum, Sub sub difference,
+            Mul mul product, Div div quotient);
+        operators!(@assigning [$($generics)*] $scalar: AddAssign add_assign sum,
+            SubAssign sub_assign difference, MulAssign mul_assign product);
+        impl $($generics)* std::ops::Neg for $scalar {
             type Output = Self;
             fn neg(self) -> Self {
-                $scalar::negative(self)
+                <$scalar>::negative(self)
             }
         }
-        impl num_traits::Zero for $scalar {
+        impl $($generics)* num_traits::Zero for $scalar {
             fn zero() -> Self {
-                $scalar::ZERO
+                <$scalar>::ZERO
             }
             fn is_zero(&self) -> bool {
-                $scalar::vanishes(*self)
+                <$scalar>::vanishes(*self)
             }
         }
-        impl num_traits::One for $scalar {
+        impl $($generics)* num_traits::One for $scalar {
             fn one() -> Self {
-                $scalar::ONE
+                <$scalar>::ONE
             }
         }
     };
-    (@plain $scalar:ident: $($operator:ident $method:ident $function:ident),+) => {
-        $(impl std::ops::$operator for $scalar {
+    (@plain $generics:tt $scalar:ty: $($operator:ident $method:ident $function:ident),+) => {
+        $(operators!(@one $generics $scalar: $operator $method $function);)+
+    };
+    (@one [$($generics:tt)*] $scalar:ty: $operator:ident $method:ident $function:ident) => {
+        impl $($generics)* std::ops::$operator for $scalar {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                $scalar::$function(self, other)
+                <$scalar>::$function(self, other)
             }
-        })+
+        }
     };
-    (@assigning $scalar:ident: $($operator:ident $method:ident $function:ident),+) => {
-        $(impl std::ops::$operator for $scalar {
+    (@assigning $generics:tt $scalar:ty: $($operator:ident $method:ident $function:ident),+) => {
+        $(operators!(@one_assigning $generics $scalar: $operator $method $function);)+
+    };
+    (@one_assigning [$($generics:tt)*] $scalar:ty:
+        $operator:ident $method:ident $function:ident) => {
+        impl $($generics)* std::ops::$operator for $scalar {
             fn $method(&mut self, other: Self) {
-                *self = $scalar::$function(*self, other);
+                *self = <$scalar>::$function(*self, other);
             }
-        })+
+        }
     };
 }
 pub(crate) use operators;

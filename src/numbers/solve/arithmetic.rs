@@ -14,6 +14,8 @@ choices! {
         F64x2 = "f64x2",
         /// Computes with 16 digits, and a bound on the error.
         Bounded = "f64-bounded",
+        /// Computes with 31 digits, and a bound on the error.
+        BoundedDouble = "f64x2-bounded",
         /// Computes with rational numbers, without rounding.
         Exact = "exact",
     }
@@ -51,8 +53,8 @@ choices! {
     Clone, Copy, Debug, Default, PartialEq, clap::Args, serde::Serialize, serde::Deserialize,
 )]
 pub struct Arithmetic {
-    /// f64, f32, f64x2 (31 digits), f64-bounded (f64 with a bound on the error of the
-    /// displacements), exact (rational numbers, for some hundred equations).
+    /// f64, f32, f64x2 (31 digits), f64-bounded and f64x2-bounded (the same with a bound on the error
+    /// of the displacements), exact (rational numbers, for some hundred equations).
     #[arg(long, value_name = "NAME", default_value = "f64")]
     pub scalar: ScalarName,
     /// dense-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients to --tol), refined
@@ -74,7 +76,8 @@ impl Arithmetic {
     /// Returns the solver asked for; else dense LU in a scalar of the machine for a matrix that is
     /// `printed`, as Mathcad solves it, and sparse Cholesky for every other one.
     pub fn solver(&self, printed: bool) -> Solver {
-        let slow = matches!(self.scalar, ScalarName::F64x2 | ScalarName::Exact);
+        use ScalarName::{BoundedDouble, Exact, F64x2};
+        let slow = matches!(self.scalar, F64x2 | BoundedDouble | Exact);
         let own = if printed && !slow { Solver::DenseLu } else { Solver::SparseCholesky };
         self.solver.unwrap_or(own)
     }
@@ -92,7 +95,7 @@ impl Arithmetic {
             Name::F64 | Name::Bounded => &[DenseLu, DenseCholesky, SparseCholesky, Cg, Refined],
             Name::F32 => &[DenseLu, DenseCholesky, SparseCholesky, Cg],
             Name::F64x2 => &[DenseLu, SparseCholesky, Cg, Refined],
-            Name::Exact => &[DenseLu, SparseCholesky],
+            Name::Exact | Name::BoundedDouble => &[DenseLu, SparseCholesky],
         };
         if !offered.contains(&self.solver(true)) {
             let names: Vec<&str> = offered.iter().map(|solver| solver.name()).collect();

@@ -9,27 +9,27 @@
 use nalgebra::DVector;
 
 use super::factors::Factors;
-use crate::numbers::scalar::{Bounded, F64x2, Scalar};
+use crate::numbers::scalar::{BoundedDouble, Rounded, Scalar, WithBound};
 
 /// Returns a bound on the largest |δ|, infinite where A cannot be told from a singular matrix.
-/// `entries` are those of the whole of A: row, column, value.
-pub fn error_bound(
+/// `factors` are those of A rounded to `f64`; `entries` those of the whole of A: row, column, value.
+pub fn error_bound<V: Rounded>(
     factors: &dyn Factors<f64>,
-    entries: impl Iterator<Item = (usize, usize, Bounded)>,
-    b: &DVector<Bounded>,
-    x: &DVector<f64>,
+    entries: impl Iterator<Item = (usize, usize, WithBound<V>)>,
+    b: &DVector<WithBound<V>>,
+    x: &DVector<V>,
 ) -> f64 {
-    let double = |value: f64| F64x2::from_f64(value);
-    // In double-double the residual's own rounding does not show.
-    let mut r = b.map(|b| double(b.to_f64()));
-    let (mut w, mut spread) = (DVector::zeros(x.len()), DVector::zeros(x.len()));
+    let double = |x: WithBound<V>| BoundedDouble::new(x.value().double(), x.error());
+    let x = x.map(|x| BoundedDouble::new(x.double(), 0.0));
+    // In double-double, which bounds its own rounding, the error of b and of A included.
+    let mut r = b.map(double);
+    let mut spread = DVector::zeros(x.len());
     for (i, j, a) in entries {
-        r[i] -= double(a.to_f64()) * double(x[j]);
-        w[i] += a.error() * x[j].abs();
-        spread[i] += a.error();
+        r[i] -= double(a) * x[j];
+        let rounding = a.value().double() - a.value().to_f64().double();
+        spread[i] += a.error() + rounding.to_f64().abs();
     }
-    w += r.map(|r| r.to_f64().abs());
-    w += b.map(Bounded::error);
+    let w = r.map(|r| r.to_f64().abs() + r.error());
     let rho = inverse_norm(factors, &spread);
     if rho < 1.0 { inverse_norm(factors, &w) / (1.0 - rho) } else { f64::INFINITY }
 }

@@ -1,12 +1,12 @@
 //! The solution of A x = b in each scalar by each solver.
 //!
-//! | | `f32` | `f64`, `f64-bounded` | `f64x2` | `exact` |
+//! | | `f32` | `f64`, `f64-bounded` | `f64x2`, `f64x2-bounded` | `exact` |
 //! |---|---|---|---|---|
 //! | `dense-lu` | faer | faer | own | own |
 //! | `dense-cholesky` | faer | faer | - | - |
 //! | `sparse-cholesky` | faer | faer | LDLᵀ | LDLᵀ modulo a prime, lifted |
-//! | `cg` | to `tol` | to `tol` | to `tol` | - |
-//! | `refined` | - | factors in f32 | factors in f64 | - |
+//! | `cg` | to `tol` | to `tol` | to `tol`; - with a bound | - |
+//! | `refined` | - | factors in f32 | factors in f64; - with a bound | - |
 
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
@@ -22,7 +22,9 @@ use super::ldlt::Ldlt;
 use super::lifting::lift;
 use super::lu::solve_dense;
 use super::sparse::{SparseCholesky, SparseSymmetric};
-use crate::numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
+use crate::numbers::scalar::{
+    Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope,
+};
 
 #[derive(Clone, Debug)]
 pub struct Solved<T> {
@@ -102,12 +104,32 @@ impl Precision for Bounded {
             let factors = SparseCholesky::new(SparseSymmetric::of_lower(&values))?;
             (Box::new(factors), f64::solve(values, &f, by, tol)?)
         };
-        let column = |j: usize| a.column(j).into_iter().enumerate();
-        let entries = (0..b.len()).flat_map(|j| column(j).map(move |(i, a)| (i, j, *a)));
-        let entries = entries.filter(|(_, _, a)| !a.is_zero());
-        let error = error_bound(&*factors, entries, b, &solved.x);
-        Ok(Solved { x: solved.x.map(|x| Bounded::new(x, error)), residual: solved.residual })
+        Ok(with_bound(&*factors, &a, b, solved))
     }
+}
+
+impl Precision for BoundedDouble {
+    /// Solves as in double-double, digit for digit; every entry of x carries the bound on the
+    /// largest error of an entry.
+    fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
+        let factors = DenseLu::new(a.map(Scalar::to_f64))?;
+        let solved = F64x2::solve(a.map(WithBound::value), &b.map(WithBound::value), by, tol)?;
+        Ok(with_bound(&factors, &a, b, solved))
+    }
+}
+
+/// Returns a solution of A x = b with the bound on its error, by factors of A rounded to `f64`.
+fn with_bound<V: Rounded>(
+    factors: &dyn Factors<f64>,
+    a: &DMatrix<WithBound<V>>,
+    b: &DVector<WithBound<V>>,
+    solved: Solved<V>,
+) -> Solved<WithBound<V>> {
+    let column = |j: usize| a.column(j).into_iter().enumerate();
+    let entries = (0..b.len()).flat_map(|j| column(j).map(move |(i, a)| (i, j, *a)));
+    let entries = entries.filter(|(_, _, a)| !a.is_zero());
+    let error = error_bound(factors, entries, b, &solved.x);
+    Solved { x: solved.x.map(|x| WithBound::new(x, error)), residual: solved.residual }
 }
 
 impl Precision for F64x2 {

@@ -101,7 +101,7 @@ fn eps(scalar: ScalarName) -> f64 {
     match scalar {
         ScalarName::F32 => f64::from(f32::EPSILON) / 2.0,
         ScalarName::F64 | ScalarName::Bounded => f64::EPSILON / 2.0,
-        ScalarName::F64x2 => f64::EPSILON * f64::EPSILON,
+        ScalarName::F64x2 | ScalarName::BoundedDouble => f64::EPSILON * f64::EPSILON,
         ScalarName::Exact => 0.0,
     }
 }

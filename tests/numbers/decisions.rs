@@ -1,0 +1,141 @@
+//! Who is in contact: wherever rounding decides it, the run has said so.
+
+use std::cell::Cell;
+
+use crate::common::embedded::scene_json;
+use crate::common::json::build;
+use crate::common::random::fixed;
+use plane_contact::answer::estimates::arithmetic::rounding;
+use plane_contact::answer::{Detail, Request, Solution, solve};
+use plane_contact::numbers::solve::{Arithmetic, ScalarName};
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
+
+/// What is drawn of a scene of one block on another.
+#[derive(Clone, Debug)]
+struct Drawn {
+    /// How far the nodes of the interface are moved: three of the target, then three of the stamp.
+    moves: Vec<[f64; 2]>,
+    /// The part of the moves that is kept, as a power of ten; none where it is 0.
+    near: i32,
+    /// The tolerance, as a power of ten.
+    tolerance: i32,
+    /// The gap, in units of the tolerance.
+    gap: f64,
+    /// The distance from the origin.
+    offset: f64,
+    /// Whether the right sides of both blocks are held, so that the stamp need not touch.
+    held: bool,
+    iterations: usize,
+    variant: Variant,
+}
+
+fn drawn() -> impl Strategy<Value = Drawn> {
+    let variants = [Variant::Printed, Variant::Tied, Variant::Stepped];
+    let geometry = (
+        prop::collection::vec([-0.3..0.3_f64, -0.3..0.3_f64], 6),
+        prop_oneof![Just(0), 1..16_i32],
+        3..17_i32,
+        prop::sample::select(vec![-0.5, 0.0, 0.5, 1.0, 1.0, 3.0]),
+    );
+    let rest = (
+        prop::sample::select(vec![0.0, 0.0, 0.1, 77.7, 12345.6]),
+        prop::sample::select(vec![true, true, true, false]),
+        1..9_usize,
+        prop::sample::select(variants.to_vec()),
+    );
+    (geometry, rest).prop_map(
+        |((moves, near, tolerance, gap), (offset, held, iterations, variant))| Drawn {
+            moves,
+            near: -near,
+            tolerance: -tolerance,
+            gap,
+            offset,
+            held,
+            iterations,
+            variant,
+        },
+    )
+}
+
+fn scene(drawn: &Drawn) -> Scene {
+    let mut json = scene_json("two-blocks");
+    let tolerance = 10f64.powi(drawn.tolerance);
+    let kept = if drawn.near == 0 { 0.0 } else { 10f64.powi(drawn.near) };
+    for k in 0..18_usize {
+        let [dx, dy] = if (6..12).contains(&k) { drawn.moves[k - 6] } else { [0.0; 2] };
+        let lifted = if k >= 9 { drawn.gap * tolerance } else { 0.0 };
+        // The ends keep their places along x, where restraints stand.
+        let dx = if k % 3 == 1 { dx } else { 0.0 };
+        let node = &mut json["node"][k];
+        let moved = |x: &serde_json::Value, by: f64| (x.as_f64().unwrap() + by).into();
+        node[1] = moved(&node[1], kept * dx + drawn.offset);
+        node[2] = moved(&node[2], kept * dy + lifted + drawn.offset);
+    }
+    if drawn.held {
+        json["restraints"][2]["fix"] = serde_json::json!(["x", "y"]);
+    }
+    json["contact"]["c_tll"] = tolerance.into();
+    json["iterations"] = drawn.iterations.into();
+    build(&json).expect("a drawn scene is sound")
+}
+
+/// The edge and the status of each contact node in each iteration.
+fn history(solution: &Solution) -> Vec<(Vec<usize>, Vec<usize>)> {
+    let found = |detail: &Detail| match detail {
+        Detail::Published(step) => {
+            (step.pairs.ct.as_slice().to_vec(), step.pairs.dy.as_slice().to_vec())
+        }
+        Detail::Unilateral(_) => panic!("a variant of the paper"),
+    };
+    solution.steps.iter().map(|step| found(&step.detail)).collect()
+}
+
+/// Runs in f64, in f64x2 and in exact numbers: where one of the first two has another history than
+/// the last, it has said that rounding may have decided; where it has not said so, its bound holds.
+/// `PROPTEST_CASES=2000` and `--nocapture` tell how often on how many scenes.
+#[test]
+fn what_rounding_decides_is_said() {
+    let [compared, turned, said, in_vain] = [0, 0, 0, 0].map(|_: i32| Cell::new(0_usize));
+    let count = |cell: &Cell<usize>, one: bool| cell.set(cell.get() + usize::from(one));
+    let check = |drawn: Drawn| {
+        let scene = scene(&drawn);
+        let run = |scalar| {
+            let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
+            let request = Request::new(&scene).variant(drawn.variant).arithmetic(arithmetic);
+            solve(&request, &mut |_| ()).ok()
+        };
+        let Some(exact) = run(ScalarName::Exact) else { return Ok(()) };
+        for scalar in [ScalarName::F64, ScalarName::F64x2] {
+            let Some(solution) = run(scalar) else { continue };
+            let found = rounding(&solution);
+            let is_sure = found.decisions.as_ref().is_some_and(Vec::is_empty);
+            let differs = history(&solution) != history(&exact);
+            prop_assert!(!(differs && is_sure), "{scalar}: another history, and not a word of it");
+            if is_sure {
+                let written = f64::EPSILON / 2.0 * exact.u.amax();
+                let error = (&solution.u - &exact.u).amax() - written;
+                prop_assert!(error <= found.displacement, "{scalar}: error {error:e}: {found:?}");
+            } else {
+                prop_assert!(found.displacement.is_infinite(), "a bound as if it held");
+            }
+            if scalar == ScalarName::F64 {
+                count(&compared, true);
+                count(&turned, differs);
+                count(&said, !is_sure);
+                count(&in_vain, !is_sure && !differs);
+            }
+        }
+        Ok(())
+    };
+    TestRunner::new(fixed(80)).run(&drawn(), check).unwrap();
+    let [compared, turned, said, in_vain] = [compared, turned, said, in_vain].map(|c| c.get());
+    println!(
+        "{compared} scenes compared with exact numbers: rounding decided on {turned}, \
+         was said to on {said}, in vain on {in_vain}"
+    );
+    assert!(turned > 0, "on some scene rounding is here to decide");
+    assert!(said < compared, "on some scene it is not");
+}
