@@ -46,7 +46,7 @@ pub(super) fn published<T: Precision>(
         Inputs::Decimal => T::from_decimal(x),
     };
     let sheet = door::worksheet(&model, number);
-    let load = model.load.map(number);
+    let load = model.load_in(number);
     check_load(request, &model, &load)?;
     let mut run = Run::new(request, &model, &sheet, load, sparse, &number)?;
     let mut steps: Vec<Step> = Vec::new();
@@ -78,8 +78,8 @@ fn error_bound<T: Scalar>(u: &DVector<T>, steps: &[Step]) -> Option<f64> {
     Some(if steps.iter().all(is_certain) { bound } else { f64::INFINITY })
 }
 
-/// Checks that no load vanished or lost digits where the scalar has no smaller numbers: zero
-/// displacements would look like a result.
+/// Checks that no load vanished or is too small for all digits of the scalar: zero displacements
+/// would look like a result.
 fn check_load<T: Scalar>(
     request: &Request,
     model: &Model,
@@ -88,7 +88,9 @@ fn check_load<T: Scalar>(
     /// The largest relative error of a load in range; it is 6e-8 in the coarsest scalar, f32.
     const ROUNDED: f64 = 1e-6;
     let lost = |(x, y): &(&f64, &T)| {
-        y.to_f64().is_finite() && (y.to_f64() - **x).abs() > ROUNDED * x.abs()
+        let near = T::from_f64(**x).to_f64();
+        let rounded = near.is_finite() && (near - **x).abs() > ROUNDED * x.abs();
+        rounded || **x != 0.0 && y.to_f64() == 0.0
     };
     match model.load.iter().zip(load.iter()).find(lost) {
         None => Ok(()),

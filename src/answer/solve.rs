@@ -10,7 +10,8 @@ use super::sparse::{Condensing, Sparse, Whole};
 use super::unilateral::unilateral;
 use crate::error::InputError;
 use crate::numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
-use crate::numbers::solve::{ScalarName, Solver};
+use crate::numbers::solve::{Arithmetic, ScalarName, Solver, cost};
+use crate::paper::mirror::NodeTable;
 use crate::problem::element::State;
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
@@ -23,6 +24,44 @@ use crate::problem::modelling::Variant;
 /// under `unilateral` contact and restraints do not restrain the bodies.
 pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
     request.arithmetic.check()?;
+    run(request, watch).map_err(|why| blamed(request, why))
+}
+
+/// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is
+/// singular to the digits of a scalar only is no fault of the print, nor is what `f32` cannot
+/// represent, as the paper's worksheet computes in `f64`.
+fn blamed(request: &Request, why: Error) -> Error {
+    let Arithmetic { scalar, inputs, .. } = request.arithmetic;
+    let rounded = match why {
+        Error::Singular(_) => scalar != ScalarName::Exact,
+        Error::Listing(_) => scalar == ScalarName::F32,
+        _ => false,
+    };
+    let more = more_precise(request).filter(|more| rounded && *more != scalar);
+    let Some(more) = more else { return why };
+    let arithmetic = Arithmetic { scalar: more, inputs, ..Arithmetic::default() };
+    match run(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
+        Ok(_) => {
+            let what = format!("in {scalar} {why}; in {more} the run does not fail");
+            InputError::new("--scalar", what, format!("use --scalar {more}")).into()
+        }
+        Err(_) => why,
+    }
+}
+
+/// Returns the scalar that tells whether rounding is at fault: exact numbers where they end in a
+/// moment.
+fn more_precise(request: &Request) -> Option<ScalarName> {
+    /// The seconds of a moment.
+    const MOMENT: f64 = 2.0;
+    let growing = request.reading.r5 == NodeTable::NodeN;
+    let equations = request.scene.model.free_dofs();
+    let exact = cost::seconds(equations, growing, request.iterations) <= MOMENT;
+    let more = if exact { ScalarName::Exact } else { ScalarName::F64x2 };
+    (request.variant != Variant::Unilateral).then_some(more)
+}
+
+fn run(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
     let solution = match (request.variant, request.arithmetic.scalar) {
         (Variant::Unilateral, _) => {
             check_unilateral(request)?;

@@ -8,7 +8,7 @@ use super::output::{csv as csv_of, write_all};
 use super::picture::{Axis, Series, Style, chart};
 use crate::error::Result;
 use crate::problem::modelling::Variant;
-use crate::studies::trade::{Errors, Order, Reached, Row, Section, Trade};
+use crate::studies::trade::{Came, Errors, Order, Reached, Row, Section, Trade};
 
 pub use super::json::line as json;
 
@@ -145,16 +145,19 @@ pub fn picture(trade: &Trade) -> String {
 pub fn reached(reached: &Reached, accuracy: f64) -> String {
     let mut text = format!("\nAccuracy {accuracy:e} asked of the displacements, rounding alone\n");
     for attempt in &reached.attempts {
-        let kind = if attempt.bound { "bound" } else { "estimate" };
-        let came = match attempt.found {
-            None => "too large: not run".into(),
-            Some(found) if found <= accuracy => format!("run; {kind} {found:.0e}: taken"),
-            Some(found) => format!("run; {kind} {found:.0e}: missed, so up one precision"),
+        let came = match &attempt.came {
+            Came::NotRun(why) => format!("not run: {why}"),
+            Came::Failed(why) => format!("failed, so up one precision: {why}"),
+            Came::Bound(0.0) => "no rounding: taken".into(),
+            Came::Bound(bound) if *bound <= accuracy => format!("within {bound:.0e}: taken"),
+            Came::Bound(bound) if bound.is_finite() => {
+                format!("within {bound:.0e}, so up one precision")
+            }
+            Came::Bound(_) => "without a bound, so up one precision".into(),
         };
         let printed = reached.solution.request.variant == Variant::Printed;
         let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver(printed));
-        let predicted = attempt.predicted;
-        text += &format!("  {scalar} by {solver}: {predicted:.0e} predicted, {came}\n");
+        text += &format!("  {scalar} by {solver}: {came}\n");
     }
     if !reached.solution.contact.is_empty() {
         text += "  This holds while rounding does not change who is in contact.\n";

@@ -11,6 +11,7 @@ mod common {
     pub mod tolerances;
 }
 
+mod accuracy;
 mod arithmetic;
 mod decisions;
 mod discretisation;

@@ -13,7 +13,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::problem::scene::symmetry::half;
 use plane_contact::report::trade as report;
 use plane_contact::studies::benchmark::Annulus;
-use plane_contact::studies::trade::{self, Knob, Options, Order, Trade, pareto, solve_to};
+use plane_contact::studies::trade::{self, Came, Knob, Options, Order, Trade, pareto, solve_to};
 use serde_json::{Value, json};
 
 fn measured(scene: &Scene, only: &[Knob]) -> Trade {
@@ -233,13 +233,16 @@ fn everything_but_times_is_reproducible() {
 fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
     let request = Request::new(&open("fig1")).variant(Variant::Tied);
     let reach = |accuracy| solve_to(&request, accuracy);
-    for (accuracy, scalar) in
-        [(1e-2, ScalarName::F32), (1e-10, ScalarName::Bounded), (1e-20, ScalarName::F64x2)]
-    {
+    for (accuracy, scalar) in [
+        (1e-2, ScalarName::F32),
+        (1e-10, ScalarName::Bounded),
+        (1e-20, ScalarName::BoundedDouble),
+        (1e-35, ScalarName::Exact),
+    ] {
         let reached = reach(accuracy).expect("a precision meets it");
         let last = reached.attempts.last().expect("an attempt");
         assert_eq!(last.arithmetic.scalar, scalar, "{accuracy:e}: {:?}", reached.attempts);
-        assert!(last.found.expect("it ran") <= accuracy);
+        assert!(matches!(last.came, Came::Bound(bound) if bound <= accuracy));
         let words = report::reached(&reached, accuracy);
         assert!(words.contains("mesh"), "{words}");
     }
@@ -259,7 +262,9 @@ fn the_bar_of_an_accuracy_holds() {
         for accuracy in [0.5, 1e-6, 1e-8] {
             let reached = reach(accuracy);
             let error = (&reached.solution.u - &best).amax() / best.amax();
-            let bar = reached.attempts.last().and_then(|a| a.found).expect("it ran");
+            let Came::Bound(bar) = reached.attempts.last().expect("an attempt").came else {
+                panic!("it ran");
+            };
             assert!(error <= bar && bar <= accuracy, "{name}: {error:e}, {bar:e}, {accuracy:e}");
         }
     }

@@ -117,7 +117,8 @@ fn last_state(solution: &Solution) -> Option<DVector<Bounded>> {
     let t = Elimination::closing(&model.restrained, &constraints);
     let stiffness = Stiffness::new(model, Bounded::from_f64);
     let Detail::Unilateral(detail) = &solution.last().detail else { return None };
-    let load = model.free_part(&(&model.load + &detail.friction)).map(Bounded::from_f64);
+    let friction = detail.friction.map(Bounded::from_f64);
+    let load = model.free_part(&(model.load_in(Bounded::from_f64) + friction));
     let (matrix, b) = (stiffness.reduced(&t), t.load(&(load - stiffness.times(t.shift()))));
     let factors = SparseCholesky::new(matrix.map(|a| a.to_f64())).ok()?;
     let x = factors.solve(&b.map(Scalar::to_f64));

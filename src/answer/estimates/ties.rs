@@ -18,7 +18,7 @@ use crate::problem::model::NodeId;
 pub fn ties(solution: &Solution, u: &DVector<Bounded>) -> (Vec<Decision>, bool) {
     let model = &*solution.model;
     let Detail::Unilateral(last) = &solution.last().detail else { return (Vec::new(), true) };
-    let load = (&model.load + &last.friction).map(Bounded::from_f64);
+    let load = model.load_in(Bounded::from_f64) + last.friction.map(Bounded::from_f64);
     let reaction = Stiffness::new(model, Bounded::from_f64).times(u) - load;
     let coefficient = solution.request.contact.friction.coefficient();
     let (mut decisions, mut only_ties) = (Vec::new(), true);

@@ -185,7 +185,7 @@ impl<V: Rounded> WithBound<V> {
     }
 }
 
-operators!(<V: Rounded> WithBound<V>);
+operators!([<V: Rounded>] WithBound<V>);
 
 impl<V: Rounded> PartialEq for WithBound<V> {
     fn eq(&self, y: &Self) -> bool {
@@ -227,6 +227,11 @@ impl<V: Rounded> Scalar for WithBound<V> {
     }
     fn error_bound(self) -> Option<f64> {
         Some(self.error)
+    }
+    /// The root passes on the errors of x and y at most, and adds some roundings of its own.
+    fn length(x: Self, y: Self) -> Self {
+        let value = V::length(x.value, y.value);
+        Self::new(value, x.error + y.error + 32.0 * value.of_decimal())
     }
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
         V::scaled_root(factor.value, scale.value, square.value)

@@ -193,6 +193,9 @@ impl Scalar for Exact {
     fn digits(self) -> Option<String> {
         self.with(|x| rational::decimal(x, 40))
     }
+    fn length(x: Self, y: Self) -> Self {
+        (x * x + y * y).with(rational::root).map_or(Exact::UNDEFINED, Exact::new)
+    }
     fn scale(_: Self) -> Self {
         Exact::ONE
     }

@@ -137,6 +137,11 @@ impl Scalar for F64x2 {
     fn digits(self) -> Option<String> {
         Some(self.to_string())
     }
+    fn length(x: Self, y: Self) -> Self {
+        let largest = Scalar::max(Scalar::abs(x), Scalar::abs(y));
+        let (x, y) = (x / largest, y / largest);
+        largest * (x * x + y * y).sqrt()
+    }
     fn scaled_root(factor: Self, scale: Self, square: Self) -> f64 {
         (factor.sqrt() * (scale * square.sqrt())).hi
     }

@@ -94,6 +94,12 @@ pub trait Scalar:
         Self::scaled_root(Self::one(), scale, a * a + b * b)
     }
 
+    /// Returns sqrt(x² + y²) in the scalar's own digits; of exact numbers, a root that is not
+    /// rational to 100 digits.
+    fn length(x: Self, y: Self) -> Self {
+        Self::from_f64(x.to_f64().hypot(y.to_f64()))
+    }
+
     /// Returns a whole number of the paper's tables (of a node, or a restraint) as a scalar.
     fn from_number(n: usize) -> Self {
         Self::from_f64(n as f64)

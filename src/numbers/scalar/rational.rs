@@ -36,6 +36,21 @@ pub fn nearest_root(x: &RBig) -> f64 {
     nearest(&times_power_of_two(mantissa, -shift - 1))
 }
 
+/// Returns the square root of `x` ≥ 0, exactly where it is rational, else to 100 digits.
+pub fn root(x: &RBig) -> RBig {
+    /// Bits of 100 digits.
+    const BITS: usize = 333;
+    let q = x.denominator().clone();
+    let product = x.numerator().clone().into_parts().1 * &q;
+    match product.sqrt_rem() {
+        (root, rest) if rest.is_zero() => RBig::from_parts(root.into(), q),
+        _ => {
+            let (root, _) = (product << (2 * BITS)).sqrt_rem();
+            RBig::from_parts(root.into(), q << BITS)
+        }
+    }
+}
+
 /// Writes `x` in scientific decimal, correctly rounded to `digits` significant digits, or fewer
 /// where fewer say it exactly.
 pub fn decimal(x: &RBig, digits: usize) -> String {

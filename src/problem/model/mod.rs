@@ -5,6 +5,7 @@
 
 mod body;
 mod bounds;
+mod force;
 mod ids;
 mod sides;
 
@@ -12,10 +13,12 @@ use nalgebra::DVector;
 
 pub use body::{Body, bodies, freedom};
 pub use bounds::Bounds;
+pub use force::Force;
 pub use ids::{Dof, EdgeId, NodeId, TriangleId};
 pub use sides::{Beside, Sides, unordered};
 
 use super::element::{Corners, Plane};
+use crate::numbers::scalar::Scalar;
 
 /// An isotropic elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +94,9 @@ pub struct Model {
     pub edges: Vec<Edge>,
     /// Whether each degree of freedom is restrained to 0.
     pub restrained: Vec<bool>,
-    /// The load by degree of freedom, restrained ones included, force.
+    /// The parts of the load, as the scene states them.
+    pub forces: Vec<Force>,
+    /// The load by degree of freedom, restrained ones included, force, as `f64` adds it up.
     pub load: DVector<f64>,
     /// The part of the load that each stage adds, in order, restrained degrees of freedom included,
     /// force; they sum to the load.
@@ -156,14 +161,22 @@ impl Model {
         self.restrained.iter().filter(|restrained| !**restrained).count()
     }
 
+    /// Returns the load by degree of freedom, restrained ones included, force, computed in T from
+    /// numbers that pass through `number`.
+    pub fn load_in<T: Scalar>(&self, number: impl Fn(f64) -> T) -> DVector<T> {
+        let mut f = DVector::from_element(self.dofs(), T::zero());
+        self.forces.iter().for_each(|force| force.add_to(&mut f, self, &number));
+        f
+    }
+
     /// Returns the load by degree of freedom, 0 at restrained ones, force.
     pub fn free_load(&self) -> DVector<f64> {
         self.free_part(&self.load)
     }
 
     /// Returns a load by degree of freedom with 0 at restrained ones, force.
-    pub fn free_part(&self, load: &DVector<f64>) -> DVector<f64> {
-        let free = |e, _| if self.restrained[e] { 0.0 } else { load[e] };
+    pub fn free_part<T: Scalar>(&self, load: &DVector<T>) -> DVector<T> {
+        let free = |e, _| if self.restrained[e] { T::zero() } else { load[e] };
         DVector::from_fn(self.dofs(), free)
     }
 

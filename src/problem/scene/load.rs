@@ -1,4 +1,4 @@
-//! The load vector, consistent with linear edges.
+//! The load, consistent with linear edges.
 
 use std::collections::HashMap;
 
@@ -8,17 +8,29 @@ use super::description::Load;
 use super::groups::{self, GroupRef};
 use super::mesh::Mesh;
 use crate::error::{InputError, Result};
-use crate::problem::model::{NodeId, Sides};
+use crate::numbers::scalar::Scalar;
+use crate::problem::model::{Force, Model, NodeId, Sides};
 
 /// Returns the forces that each stage adds on all 2R degrees of freedom, restrained ones included,
 /// force. There is at least one stage.
-/// Errors: no load belongs to a stage before the last one; and the errors of [`vector`].
-pub fn stages(
-    mesh: &Mesh,
-    sides: &Sides,
-    loads: &[Load],
-    thickness: f64,
-) -> Result<Vec<DVector<f64>>> {
+///
+/// # Errors
+/// No load belongs to a stage before the last one; and the errors of [`forces`].
+pub fn stages(mesh: &Mesh, model: &Model, loads: &[Load]) -> Result<Vec<DVector<f64>>> {
+    let stage = |load: &Load| load.stage.unwrap_or(1);
+    let last = loads.iter().map(stage).max().unwrap_or(1);
+    let of_stage = |k: usize| {
+        let own: Vec<Load> = loads.iter().filter(|load| stage(load) == k).cloned().collect();
+        if own.is_empty() && !loads.is_empty() {
+            let what = format!("no load has stage {k}, but one has stage {last}");
+            return Err(InputError::new(
+                "loads",
+                what,
+                "number the stages 1, 2, ... without a gap",
+            ));
+        }
+        forces(mesh, model, &own).map(|(_, f)| f)
+    };
     if let Some(k) = loads.iter().position(|load| load.stage == Some(0)) {
         let what = "stages count from 1";
         return Err(InputError::new(format!("loads[{k}].stage"), what, "give 1 or more"));
@@ -37,53 +49,65 @@ pub fn stages(
     (1..=last.min(loads.len() + 1)).map(of_stage).collect()
 }
 
-/// Returns the forces of `loads`, each with its place in the scene file, on all 2R degrees of
-/// freedom, restrained ones included, force.
-/// Errors: a load has another form, its edge bounds no triangle or two, or a number is not finite.
-pub fn vector<'a>(
+/// Returns the parts of the load, and what they come to in `f64` on all 2R degrees of freedom,
+/// restrained ones included, force.
+///
+/// # Errors
+/// A load has another form, its edge bounds no triangle or two, or a number is not finite.
+pub fn forces(
     mesh: &Mesh,
-    sides: &Sides,
-    loads: impl Iterator<Item = (usize, &'a Load)>,
-    thickness: f64,
-) -> Result<DVector<f64>> {
-    let mut f = DVector::zeros(2 * mesh.nodes.len());
-    for (k, load) in loads {
+    model: &Model,
+    loads: &[Load],
+) -> Result<(Vec<Force>, DVector<f64>)> {
+    let (mut forces, mut f) = (Vec::new(), DVector::zeros(model.dofs()));
+    for (k, load) in loads.iter().enumerate() {
         let place = format!("loads[{k}]");
-        match (&load.on, load.node, load.pressure, load.traction, load.force) {
-            (None, Some(n), None, None, Some(force)) => {
-                mesh.check_node(n, &place)?;
-                add(&mut f, n, force);
-            }
-            (Some(on), None, Some(p), None, None) => {
-                let along = |inward: [f64; 2]| inward.map(|component| p * component);
-                on_edges(&mut f, (mesh, sides), on, thickness, &place, along)?;
-            }
-            (Some(on), None, None, Some(t), None) => {
-                on_edges(&mut f, (mesh, sides), on, thickness, &place, |_| t)?;
-            }
-            _ => {
-                let what = "a load is {on, pressure}, {on, traction} or {node, force}";
-                return Err(InputError::new(place, what, "give exactly one of the three pairs"));
-            }
-        }
+        let own = parts(mesh, &model.sides, load, &place)?;
+        own.iter().for_each(|force| force.add_to(&mut f, model, &|x| x));
         if f.iter().any(|x| !x.is_finite()) {
             let what = "the load is too large to represent";
             return Err(InputError::new(place, what, "choose other units"));
         }
+        forces.extend(own);
     }
-    Ok(f)
+    Ok((forces, f))
 }
 
-/// Adds half of each edge's load to its nodes; `traction` receives the inward unit normal.
+/// Returns the parts of one load: one for its node, or for each of its edges.
+fn parts(mesh: &Mesh, sides: &Sides, load: &Load, place: &str) -> Result<Vec<Force>> {
+    match load {
+        Load {
+            node: Some(n),
+            force: Some(force),
+            on: None,
+            pressure: None,
+            traction: None,
+            ..
+        } => {
+            mesh.check_node(*n, place)?;
+            Ok(vec![Force::Node(NodeId::from_number(*n), *force)])
+        }
+        Load {
+            on: Some(on), pressure: Some(p), traction: None, node: None, force: None, ..
+        } => on_edges((mesh, sides), on, place, |edge| Force::Pressure(edge, *p)),
+        Load {
+            on: Some(on), traction: Some(t), pressure: None, node: None, force: None, ..
+        } => on_edges((mesh, sides), on, place, |edge| Force::Traction(edge, *t)),
+        _ => {
+            let what = "a load is {on, pressure}, {on, traction} or {node, force}";
+            Err(InputError::new(place, what, "give exactly one of the three pairs"))
+        }
+    }
+}
+
+/// Returns the `part` of each edge of a group; it receives the edge with the body on its left.
 fn on_edges(
-    f: &mut DVector<f64>,
     (mesh, sides): (&Mesh, &Sides),
     on: &GroupRef,
-    thickness: f64,
     place: &str,
-    traction: impl Fn([f64; 2]) -> [f64; 2],
-) -> Result<()> {
-    let mut loaded = HashMap::new();
+    part: impl Fn([NodeId; 2]) -> Force,
+) -> Result<Vec<Force>> {
+    let (mut loaded, mut parts) = (HashMap::new(), Vec::new());
     for edge in groups::members(mesh, 1, on, &format!("{place}.on"))? {
         let [a, b] = [edge.nodes[0], edge.nodes[1]];
         if let Some(first) = loaded.insert([a.min(b), a.max(b)], edge.number) {
@@ -94,22 +118,11 @@ fn on_edges(
             return Err(InputError::new(place, what, "keep one: the load would count twice"));
         }
         let third = third_node(sides, [a, b], edge.number, place)?;
-        let ([ax, ay], [bx, by], [cx, cy]) = (mesh.xy(a), mesh.xy(b), mesh.xy(third));
-        let length = (bx - ax).hypot(by - ay);
-        let left = [-(by - ay) / length, (bx - ax) / length];
-        let inside = left[0] * (cx - ax) + left[1] * (cy - ay) > 0.0;
-        let inward = if inside { left } else { [-left[0], -left[1]] };
-        let half = traction(inward).map(|t| t * length * thickness / 2.0);
-        add(f, a, half);
-        add(f, b, half);
+        let inside = f64::orientation(mesh.xy(a), mesh.xy(b), mesh.xy(third)) > 0.0;
+        let edge = if inside { [a, b] } else { [b, a] };
+        parts.push(part(edge.map(NodeId::from_number)));
     }
-    Ok(())
-}
-
-fn add(f: &mut DVector<f64>, node: usize, force: [f64; 2]) {
-    for (dof, force) in NodeId::from_number(node).dofs().into_iter().zip(force) {
-        f[dof.index()] += force;
-    }
+    Ok(parts)
 }
 
 /// Returns the node opposite the edge in the one triangle that it bounds.

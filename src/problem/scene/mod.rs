@@ -119,6 +119,7 @@ impl Scene {
             z: mesh.nodes[0].xyz[2],
             edges: mesh.of_dimension(1).map(edge).collect(),
             contact: check::contact(mesh, &file)?,
+            forces: Vec::new(),
             load: DVector::zeros(2 * mesh.nodes.len()),
             stages: Vec::new(),
             bodies: model::bodies(mesh.nodes.len(), &triangles, &names),
@@ -128,9 +129,8 @@ impl Scene {
             restrained,
         };
         check::restrained_bodies(&model)?;
-        model.load =
-            load::vector(mesh, &model.sides, file.loads.iter().enumerate(), file.thickness)?;
-        model.stages = load::stages(mesh, &model.sides, &file.loads, file.thickness)?;
+        (model.forces, model.load) = load::forces(mesh, &model, &file.loads)?;
+        model.stages = load::stages(mesh, &model, &file.loads)?;
         Ok(Scene {
             name: name.into(),
             title: file.title.clone(),

@@ -11,7 +11,7 @@ use nalgebra::DVector;
 
 use super::Scene;
 use crate::problem::model::{
-    Body, Bounds, ContactSurfaces, Dof, Edge, EdgeId, Element, Model, NodeId, Row, Sides, Triangle,
+    Body, Bounds, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Row, Sides, Triangle,
     TriangleId, unordered,
 };
 
@@ -181,13 +181,16 @@ impl<'a> Restriction<'a> {
             Some(Edge { nodes: self.renumbered(edge.nodes)?, number: edge.number })
         });
         let bodies = whole.bodies.iter().map(|body| self.body(body));
+        let load = self.load(&whole.load);
+        let force = |node: NodeId| Force::Node(node, node.of(&load));
         Model {
             nodes: self.nodes.iter().map(|n| whole.at(*n)).collect(),
             sides: Sides::new(triangles.iter().map(|triangle| triangle.nodes)),
             triangles,
             edges: edges.collect(),
             restrained: self.dofs().map(|dof| self.is_restrained(dof)).collect(),
-            load: self.load(&whole.load),
+            forces: NodeId::all(self.nodes.len()).map(force).collect(),
+            load,
             stages: whole.stages.iter().map(|stage| self.load(stage)).collect(),
             bodies: bodies.filter(|body| !body.triangles.is_empty()).collect(),
             contact: self.contact(),

@@ -19,7 +19,7 @@ mod rows;
 mod trials;
 mod words;
 
-pub use accuracy::{Reached, solve_to};
+pub use accuracy::{Came, Reached, solve_to};
 pub use errors::Errors;
 pub use measure::{Options, measure, pareto};
 pub use order::Order;

@@ -9,7 +9,7 @@ use crate::problem::modelling::{Coupling, StatusRule, Variant};
 use crate::problem::scene::{Scene, symmetry};
 
 /// Seconds beyond which exact numbers are left out.
-const EXACT: f64 = 10.0;
+pub(super) const EXACT: f64 = 10.0;
 /// Degrees of freedom beyond which no finer mesh is tried.
 const EQUATIONS: usize = 150_000;
 /// How many meshes are tried at most.
@@ -173,7 +173,7 @@ pub(super) fn cg(tol: f64) -> Arithmetic {
     Arithmetic { tol: Some(tol), ..by(ScalarName::F64, Solver::Cg) }
 }
 
-fn by(scalar: ScalarName, solver: Solver) -> Arithmetic {
+pub(super) fn by(scalar: ScalarName, solver: Solver) -> Arithmetic {
     Arithmetic { scalar, solver: Some(solver), ..Arithmetic::default() }
 }
 

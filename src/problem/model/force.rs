@@ -1,0 +1,43 @@
+//! The load as the scene states it, and the forces on nodes that it comes to in any scalar.
+
+use nalgebra::DVector;
+
+use super::Model;
+use super::ids::NodeId;
+use crate::numbers::scalar::Scalar;
+
+/// A part of the load. On an edge it is uniform, per area of edge length times thickness; the body
+/// lies on the left of the way from the edge's first node to its second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Force {
+    /// A force on a node along x and y, force.
+    Node(NodeId, [f64; 2]),
+    /// A pressure on an edge that pushes into the body, stress.
+    Pressure([NodeId; 2], f64),
+    /// A force per area on an edge along x and y, stress.
+    Traction([NodeId; 2], [f64; 2]),
+}
+
+impl Force {
+    /// Adds it to the forces `f` on all degrees of freedom of `model`; each number of the scene
+    /// passes through `number`. Linear edges have half of their load on each end.
+    pub fn add_to<T: Scalar>(&self, f: &mut DVector<T>, model: &Model, number: &impl Fn(f64) -> T) {
+        let mut add = |node: NodeId, force: [T; 2]| {
+            for (dof, force) in node.dofs().into_iter().zip(force) {
+                f[dof.index()] += force;
+            }
+        };
+        let (edge, pressure, traction) = match *self {
+            Force::Node(node, force) => return add(node, force.map(number)),
+            Force::Pressure(edge, pressure) => (edge, Some(number(pressure)), [T::zero(); 2]),
+            Force::Traction(edge, traction) => (edge, None, traction.map(number)),
+        };
+        let [[ax, ay], [bx, by]] = edge.map(|node| model.at(node).map(number));
+        let length = T::length(bx - ax, by - ay);
+        let inward = [-(by - ay) / length, (bx - ax) / length];
+        let per_area = pressure.map_or(traction, |p| inward.map(|n| p * n));
+        let (thickness, two) = (number(model.thickness), T::from_f64(2.0));
+        let half = per_area.map(|t| t * length * thickness / two);
+        edge.into_iter().for_each(|node| add(node, half));
+    }
+}

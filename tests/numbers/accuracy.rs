@@ -1,0 +1,271 @@
+//! `solve --accuracy`: what it delivers is within what was asked of the numbers without rounding, or
+//! it says that it cannot.
+
+use std::cell::Cell;
+
+use crate::common::json::build;
+use crate::common::random::fixed;
+use dashu_ratio::RBig;
+use plane_contact::answer::error::Error;
+use plane_contact::answer::{Request, Solution, max_displacement, solve};
+use plane_contact::numbers::scalar::rational;
+use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName};
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use plane_contact::studies::trade::{Came, Reached, solve_to};
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
+use serde_json::{Value, json};
+
+const PUBLISHED: [Variant; 3] = [Variant::Printed, Variant::Tied, Variant::Stepped];
+
+/// A block of two by one squares under a stamp of the same size, both of which are held; exponents
+/// are decimal.
+#[derive(Clone, Debug)]
+struct Drawn {
+    variant: Variant,
+    accuracy: i32,
+    offset: Option<i32>,
+    moduli: [i32; 2],
+    /// The height of the block: a sliver where it is small.
+    height: i32,
+    /// The units of length and of stress.
+    units: [i32; 2],
+    load: i32,
+    /// The gap between the bodies, in units of `c_tll`.
+    gap: f64,
+    moves: Vec<[f64; 2]>,
+}
+
+fn ten(exponent: i32) -> f64 {
+    10f64.powi(exponent)
+}
+
+impl Drawn {
+    fn json(&self) -> Value {
+        const C_TLL: f64 = 1e-2;
+        let (height, unit) = (ten(self.height), ten(self.units[0]));
+        let offset = self.offset.map_or(0.0, ten);
+        let rows = [1.0 - height, 1.0, 1.0 + self.gap * C_TLL, 2.0];
+        let node = |k: usize| {
+            let (row, column) = (k / 3, k % 3);
+            let [dx, dy] = self.moves[k];
+            // The block's nodes move by a part of its height.
+            let part = if row < 2 { height } else { 1.0 };
+            // Those of the two surfaces stay on them.
+            let dy = if row == 1 || row == 2 { 0.0 } else { dy * part };
+            let [x, y] = [column as f64 + dx, rows[row] + dy].map(|x| (offset + x) * unit);
+            json!([k + 1, x, y, 0.0])
+        };
+        let edge =
+            |n: usize, group: usize, a: usize, b: usize| json!([n, 1, 2, group, group, a, b]);
+        let mut elem = vec![edge(1, 10, 4, 5), edge(2, 10, 5, 6), edge(3, 20, 10, 11)];
+        elem.extend([edge(4, 20, 11, 12), edge(5, 21, 9, 12)]);
+        for (body, first) in [(1, 1), (2, 7)] {
+            for a in [first, first + 1] {
+                for [b, c] in [[a + 1, a + 4], [a + 4, a + 3]] {
+                    elem.push(json!([elem.len() + 1, 2, 2, body, body, a, b, c]));
+                }
+            }
+        }
+        let [e1, e2] = self.moduli.map(|e| ten(e + self.units[1]));
+        let load = ten(self.load) * e2;
+        json!({
+            "plane": "strain",
+            "node": (0..12).map(node).collect::<Vec<_>>(),
+            "elem": elem,
+            "materials": { "1": { "E": e1, "nu": 0.2 }, "2": { "E": e2, "nu": 0.3 } },
+            "restraints": [
+                { "node": 1, "fix": ["x", "y"] }, { "node": 2, "fix": ["x", "y"] },
+                { "node": 3, "fix": ["x", "y"] }, { "node": 10, "fix": ["x", "y"] },
+                { "node": 12, "fix": ["x"] }
+            ],
+            "loads": [{ "on": 20, "pressure": load }, { "on": 21, "traction": [-load, load / 3.0] }],
+            "contact": { "cnt": [7, 8, 9], "trg": [1, 2], "c_tll": C_TLL * unit },
+            "iterations": 3
+        })
+    }
+}
+
+fn drawn() -> impl Strategy<Value = Drawn> {
+    let exponent = |range| prop_oneof![2 => Just(0), 1 => range];
+    let numbers = (
+        prop_oneof![2 => -9..=-1, 1 => -34..=-10],
+        prop::option::of(0..=9),
+        [-5..=5, -5..=5],
+        exponent(-8..=0),
+        [exponent(-50..=40), exponent(-50..=40)],
+        prop_oneof![3 => -5..=-2, 1 => -60..=-6],
+    );
+    let moves = prop::collection::vec([-0.2..0.2_f64, -0.2..0.2_f64], 12);
+    let variant = prop::sample::select(&PUBLISHED[..]);
+    (variant, numbers, -1.5..1.5_f64, moves).prop_map(|(variant, numbers, gap, moves)| {
+        let (accuracy, offset, moduli, height, units, load) = numbers;
+        Drawn { variant, accuracy, offset, moduli, height, units, load, gap, moves }
+    })
+}
+
+/// The displacements with all their digits.
+fn digits(solution: &Solution) -> Vec<RBig> {
+    let plain = || solution.u.iter().map(|u| RBig::try_from(*u).expect("finite")).collect();
+    solution.digits.clone().unwrap_or_else(plain)
+}
+
+fn exactly(request: &Request) -> Result<Solution, Error> {
+    let exact = Arithmetic { scalar: ScalarName::Exact, ..Arithmetic::default() };
+    solve(&request.clone().arithmetic(exact), &mut |_| ())
+}
+
+/// The largest error of a displacement component over the largest displacement, both without
+/// rounding.
+fn error(delivered: &Solution, exact: &Solution) -> f64 {
+    let pairs = digits(delivered).into_iter().zip(digits(exact));
+    let off = pairs.map(|(a, b)| (a - b).to_f64().value().abs()).fold(0.0, f64::max);
+    if off == 0.0 { 0.0 } else { off / max_displacement(&exact.u) }
+}
+
+fn case(scene: &Value, variant: Variant, accuracy: f64) -> Result<Reached, Error> {
+    solve_to(&Request::new(&build(scene).expect("a scene")).variant(variant), accuracy)
+}
+
+#[test]
+fn an_accuracy_is_held_or_refused() {
+    let [delivered, refused, unbuilt] = [(); 3].map(|()| Cell::new(0));
+    let count = |of: &Cell<usize>| of.set(of.get() + 1);
+    let held = TestRunner::new(fixed(120)).run(&drawn(), |drawn| {
+        let Ok(scene) = build(&drawn.json()) else {
+            count(&unbuilt);
+            return Ok(());
+        };
+        let request = Request::new(&scene).variant(drawn.variant);
+        let accuracy = ten(drawn.accuracy);
+        match solve_to(&request, accuracy) {
+            Ok(reached) => {
+                let exact = exactly(&request);
+                prop_assert!(exact.is_ok(), "a result where exact numbers fail: {:?}", exact.err());
+                let error = error(&reached.solution, &exact.expect("it is sound"));
+                prop_assert!(error <= accuracy, "{:e}: {:?}", error, reached.attempts);
+                count(&delivered);
+            }
+            Err(why) => {
+                let fails = exactly(&request).is_err();
+                prop_assert!(
+                    why.exit_status() == 2 || fails,
+                    "exit {}: {}",
+                    why.exit_status(),
+                    why
+                );
+                count(&refused);
+            }
+        }
+        Ok(())
+    });
+    let [delivered, refused, unbuilt] = [delivered, refused, unbuilt].map(Cell::into_inner);
+    println!("{delivered} delivered, {refused} refused, {unbuilt} are no scenes");
+    held.unwrap_or_else(|why| panic!("{why}"));
+    assert!(delivered > refused + unbuilt, "{delivered}, {refused}, {unbuilt}");
+}
+
+/// A square under pressure at `at`, in units of stress and force as given.
+fn square(at: f64, e: f64, pressure: f64) -> Value {
+    json!({
+        "plane": "strain",
+        "node": [[1, at, 0.0, 0.0], [2, at + 1.0, 0.0, 0.0], [3, at + 1.0, 1.0, 0.0], [4, at, 1.0, 0.0]],
+        "elem": [[1, 1, 2, 10, 1, 3, 4], [2, 2, 2, 1, 1, 1, 2, 3], [3, 2, 2, 1, 1, 1, 3, 4]],
+        "materials": { "1": { "E": e, "nu": 0.3 } },
+        "restraints": [{ "node": 1, "fix": ["x", "y"] }, { "node": 2, "fix": ["x", "y"] }],
+        "loads": [{ "on": 10, "pressure": pressure }],
+        "iterations": 1
+    })
+}
+
+/// What overflows, vanishes or collapses in `f32` is taken to the next precision.
+#[test]
+fn what_f32_cannot_represent_climbs() {
+    for (what, scene) in [
+        ("an overflow", square(0.0, 1e40, 1e38)),
+        ("a load that vanishes", square(0.0, 1.0, 1e-50)),
+        ("an edge that collapses", square(1e9, 1.0, 0.1)),
+    ] {
+        let reached =
+            case(&scene, Variant::Tied, 1e-3).unwrap_or_else(|why| panic!("{what}: {why}"));
+        assert!(matches!(reached.attempts[0].came, Came::Failed(_)), "{what}: {reached:?}");
+        assert_eq!(reached.solution.request.arithmetic.scalar, ScalarName::Bounded, "{what}");
+    }
+}
+
+/// f32 rounds coordinates far from the origin: no number of its run shows that.
+#[test]
+fn rounded_coordinates_count() {
+    let scene = square(1e5 + 0.3, 1.0, 0.1);
+    let request = Request::new(&build(&scene).unwrap()).variant(Variant::Tied);
+    let single = Arithmetic { scalar: ScalarName::F32, ..Arithmetic::default() };
+    let single = solve(&request.clone().arithmetic(single), &mut |_| ()).unwrap();
+    assert!(error(&single, &exactly(&request).unwrap()) > 1e-3, "f32 would do");
+    let reached = case(&scene, Variant::Tied, 1e-5).unwrap();
+    assert_eq!(reached.solution.request.arithmetic.scalar, ScalarName::Bounded);
+}
+
+#[test]
+fn printed_reaches_double_double() {
+    for name in ["fig1", "two-blocks", "strand"] {
+        let request = Request::new(&Scene::open(name).unwrap()).variant(Variant::Printed);
+        let reached = solve_to(&request, 1e-20).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let last = reached.attempts.last().unwrap();
+        assert_eq!(last.arithmetic.scalar, ScalarName::BoundedDouble, "{name}: {last:?}");
+    }
+}
+
+#[test]
+fn what_no_precision_meets_names_what_was_reached() {
+    let strand = Request::new(&Scene::open("strand").unwrap()).variant(Variant::Unilateral);
+    let error = solve_to(&strand, 1e-16).unwrap_err();
+    assert_eq!(error.exit_status(), 2);
+    let words = error.to_string();
+    assert!(words.contains("no precision meets") && words.contains("f64: within"), "{words}");
+}
+
+/// A matrix that is singular to the digits of f64 only is no fault of the print.
+#[test]
+fn singular_by_rounding_is_not_blamed_on_the_print() {
+    // A stamp 1e18 times as soft as the spring that the last triangle makes of it.
+    let mut scene = square(0.0, 1.0, 0.1);
+    scene["node"] =
+        json!([[1, 0.0, 0.0, 0.0], [2, 1.0, 0.0, 0.0], [3, 1.0, 1.0, 0.0], [4, 0.0, 1.0, 0.0]]);
+    scene["elem"] =
+        json!([[1, 1, 2, 10, 1, 3, 4], [2, 2, 2, 1, 1, 1, 2, 3], [3, 2, 2, 2, 2, 1, 3, 4]]);
+    scene["materials"] = json!({ "1": { "E": 1e-18, "nu": 0.3 }, "2": { "E": 1.0, "nu": 0.3 } });
+    scene["restraints"] =
+        json!([{ "node": 1, "fix": ["x", "y"] }, { "node": 2, "fix": ["x", "y"] }]);
+    let request = Request::new(&build(&scene).unwrap()).variant(Variant::Printed);
+    let error = solve(&request, &mut |_| ()).unwrap_err();
+    assert_eq!(error.exit_status(), 2, "{error}");
+    assert!(error.to_string().contains("in exact the run does not fail"), "{error}");
+    assert!(solve_to(&request, 1e-3).is_ok());
+}
+
+/// 6.3 · 0.35 on an edge of length 1 and a thickness of 2 is 2.205 on each end, as decimals.
+#[test]
+fn decimal_loads_are_multiplied_exactly() {
+    let mut scene = square(0.0, 1.0, 6.3);
+    scene["thickness"] = json!(0.7);
+    let request = Request::new(&build(&scene).unwrap()).variant(Variant::Tied);
+    let number = |x| rational::of_decimal(x).unwrap();
+    let forces = plane_contact::numbers::scalar::scope(|| {
+        use plane_contact::numbers::scalar::{Exact, Scalar};
+        let load = request.scene.model.load_in(Exact::from_decimal);
+        load.iter().map(|f| f.to_rational().unwrap()).collect::<Vec<_>>()
+    });
+    assert_ne!(request.scene.model.load[5], -2.205);
+    assert_eq!(forces[5], -number(2.205));
+    assert_eq!(forces[4], RBig::ZERO);
+    // And the run takes them: it is that of a nodal load of the same size.
+    let decimals =
+        Arithmetic { scalar: ScalarName::Exact, inputs: Inputs::Decimal, ..Arithmetic::default() };
+    let run =
+        |request: &Request| solve(&request.clone().arithmetic(decimals), &mut |_| ()).unwrap();
+    scene["loads"] =
+        json!([{ "node": 3, "force": [0.0, -2.205] }, { "node": 4, "force": [0.0, -2.205] }]);
+    let nodal = Request::new(&build(&scene).unwrap()).variant(Variant::Tied);
+    assert_eq!(run(&request).digits, run(&nodal).digits);
+}
