@@ -63,6 +63,6 @@ pub fn distance(solution: &Solution, reference: &Solution) -> Distance {
 }
 
 /// Returns a difference over a scale, where 0 over 0 is 0.
-fn over(difference: f64, scale: f64) -> f64 {
+pub fn over(difference: f64, scale: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / scale }
 }

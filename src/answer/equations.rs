@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
+use super::contact::Surfaces;
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
 use super::request::Request;
@@ -17,7 +18,7 @@ use crate::paper::door;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{Km, Pairs, RestraintIndex, Schedule, Worksheet};
 use crate::problem::model::{Dof, Model};
-use crate::problem::modelling::Variant;
+use crate::problem::modelling::{Coupling, Variant};
 
 /// The source of the matrix of an iteration.
 enum Assembly<T> {
@@ -192,6 +193,16 @@ impl<'a, T: Precision> Equations<'a, T> {
         InputError::new("--solver, --tol", what, "give a larger --tol or another solver").into()
     }
 
+    /// Returns the smallest gap of the initial shape and c_tll, length; None where no contact node
+    /// faces the target.
+    fn smallest_gap(&self) -> Option<[f64; 2]> {
+        let surfaces = Surfaces::new(self.model).ok()?;
+        let pairings = surfaces.pairings(Coupling::Nts, &self.model.nodes);
+        let gaps = pairings.iter().flatten().map(|pairing| pairing.gap);
+        let gap = gaps.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        Some([gap, self.model.contact.tolerance])
+    }
+
     fn singular_matrix(
         &self,
         pairs: &Pairs<T>,
@@ -200,13 +211,16 @@ impl<'a, T: Precision> Equations<'a, T> {
         pivot: f64,
     ) -> SingularMatrix {
         let body = self.model.body_of(dof.node());
+        let in_contact = pairs.dy.iter().sum();
+        let first = iteration == 1 && in_contact == 0 && self.model.has_contact();
         SingularMatrix {
             variant: self.request.variant.name(),
             iteration,
             node: dof.node().number(),
             direction: dof.axis(),
             pivot,
-            in_contact: pairs.dy.iter().sum(),
+            in_contact,
+            apart: first.then(|| self.smallest_gap()).flatten(),
             body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
         }
     }

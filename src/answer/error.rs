@@ -50,7 +50,11 @@ pub struct NoEquilibrium {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "variant {variant} cannot go on: iteration {iteration}: the matrix is singular at node \
-     {node}{body}, direction {direction} (pivot {pivot:e}); {} in contact, and {}",
+     {node}{body}, direction {direction} ({}); {} in contact, and {}",
+    match .pivot.is_nan() {
+        true => "no pivot: the matrix is not positive definite".into(),
+        false => format!("pivot {pivot:e}"),
+    },
     match .in_contact {
         0 => "no node is".into(),
         1 => "1 node is".into(),
@@ -59,7 +63,10 @@ pub struct NoEquilibrium {
     match .in_contact {
         0 => "the restraints alone do not hold the body",
         _ => "that does not hold the body (finding K6), or to the last digit it does not",
-    }
+    }.to_string() + &.apart.map_or(String::new(), |[gap, c_tll]| format!(
+        ": the smallest gap is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
+         larger c_tll"
+    ))
 )]
 pub struct SingularMatrix {
     /// The name of the variant that was run.
@@ -74,6 +81,8 @@ pub struct SingularMatrix {
     pub pivot: f64,
     /// The number of contact nodes with dy = 1.
     pub in_contact: usize,
+    /// Where the first contact fails, the smallest gap of the initial shape, and c_tll, length.
+    pub apart: Option<[f64; 2]>,
     /// The text ` of body "stamp"`, or no text where no body has the node.
     pub body: String,
 }

@@ -22,7 +22,7 @@ mod unilateral;
 
 pub use assessment::{Assessment, Measured};
 pub use condensation::kept_equations;
-pub use distance::{BodyDistance, Distance, distance};
+pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;
 pub use request::Request;

@@ -7,7 +7,7 @@ use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
 use super::export::{Code, DeckArgs};
-use super::{folder, print, waiting};
+use super::{folder, folder_name, print, waiting};
 
 /// Run a scene here and in another code, and show the differences.
 #[derive(clap::Args)]
@@ -35,7 +35,8 @@ pub struct Args {
     /// The program of CalculiX.
     #[arg(long, value_name = "PROGRAM", default_value = "ccx")]
     ccx: String,
-    /// Folder for data and pictures [default: out/<scene>-<variant>-calculix-<contact>].
+    /// Folder for data and pictures [default: out/<scene>-<variant>-calculix-<contact>, and every
+    /// option that differs from the scene's own].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print compare.json in place of the tables.
@@ -58,8 +59,9 @@ pub fn run(args: &Args) -> Result<()> {
         version: &ran.version,
         comparison: &Comparison::new(model, Fields::of(&solution), ran.fields),
     };
-    let (scene, kind) = (&scene.name, args.deck.contact);
-    let out = folder(&args.out, format!("{scene}-{}-calculix-{kind}", compared.variant));
+    let mut asked = vec![format!("calculix-{}", args.deck.contact)];
+    asked.extend(args.deck.penalty.map(|penalty| format!("penalty-{penalty:e}")));
+    let out = folder(&args.out, folder_name(&solution.request, &asked));
     let json = report::write(&out, &compared)?;
     if args.json {
         return print(&json);

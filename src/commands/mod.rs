@@ -22,6 +22,7 @@ use plane_contact::answer::Request;
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{
     ContactModel, Coupling, Friction, Geometry, StatusRule, Variant,
@@ -48,7 +49,8 @@ pub struct ModelArgs {
     #[arg(long)]
     coupling: Option<Coupling>,
     /// Under unilateral: Coulomb's coefficient, 0 (contact nodes slide freely), or stick (they never
-    /// slide) [default: the scene's].
+    /// slide); under printed, tied and stepped it changes only the equilibrium that they are
+    /// compared with [default: the scene's].
     #[arg(long, value_name = "MU")]
     friction: Option<Friction>,
     /// Under unilateral, the shape in which contact is measured: current (the one reached), or initial
@@ -86,6 +88,31 @@ impl ModelArgs {
             .variant(variant.unwrap_or(scene.variant))
             .reading(reading.reading)
     }
+}
+
+/// Returns the name of the default folder of a run: `<scene>-<variant>`, and every option that differs from
+/// what the scene and the program do by themselves, so that no two results share one.
+pub fn folder_name(request: &Request, more: &[String]) -> String {
+    let Request { scene, contact, arithmetic, reading, .. } = request;
+    let (own, plain) = (scene.contact, Arithmetic::default());
+    let mut name = format!("{}-{}", scene.name, request.variant);
+    let mut add = |differs: bool, option: String| {
+        if differs {
+            name += &format!("-{option}");
+        }
+    };
+    add(contact.coupling != own.coupling, contact.coupling.to_string());
+    add(contact.friction != own.friction, format!("friction-{}", contact.friction));
+    add(contact.geometry != own.geometry, contact.geometry.to_string());
+    add(contact.load_steps != own.load_steps, format!("load-steps-{}", contact.load_steps));
+    add(contact.status != own.status, contact.status.to_string());
+    add(arithmetic.scalar != plain.scalar, arithmetic.scalar.to_string());
+    add(arithmetic.solver != plain.solver, request.solver().to_string());
+    add(arithmetic.tol.is_some(), format!("tol-{:e}", arithmetic.tol.unwrap_or_default()));
+    add(arithmetic.inputs != plain.inputs, arithmetic.inputs.to_string());
+    add(*reading != Reading::default(), reading.to_string());
+    more.iter().for_each(|option| add(true, option.clone()));
+    name
 }
 
 /// Prints to standard output; a reader that has gone away (`| head`) is no error.

@@ -7,11 +7,11 @@ use plane_contact::answer::{self, Assessment, Request, Solution, Step};
 use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::{self, folder, tables};
+use plane_contact::report::{self, tables};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::solve_to;
 
-use super::{ModelArgs, ReadingArg, print, progress};
+use super::{ModelArgs, ReadingArg, folder, folder_name, print, progress};
 
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
@@ -49,7 +49,8 @@ pub struct Args {
     accuracy: Option<f64>,
     #[command(flatten)]
     reading: ReadingArg,
-    /// Folder for pictures and data [default: out/<scene>-<variant>].
+    /// Folder for pictures and data [default: out/<scene>-<variant>, and every option that differs
+    /// from the scene's own].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print result.json in place of the tables.
@@ -63,9 +64,10 @@ pub fn run(args: &Args) -> Result<()> {
     let request = request.arithmetic(args.arithmetic);
     let (solution, accuracy) = solve(args, &request)?;
     let plan = Plan::new(&solution.request)?;
-    let out = super::folder(&args.out, format!("{}-{}", scene.name, request.variant));
+    let asked: Vec<String> = args.accuracy.iter().map(|a| format!("accuracy-{a:e}")).collect();
+    let out = folder(&args.out, folder_name(&request, &asked));
     let assessment = Assessment::new(&solution);
-    let result = folder::write(&out, &solution, &assessment, Some(&plan))?;
+    let result = report::folder::write(&out, &solution, &assessment, Some(&plan))?;
     if args.json {
         eprint!("{accuracy}");
         print(&result)?;

@@ -82,6 +82,7 @@ fn findings(findings: &[(&Finding, Measured)]) -> String {
         .column("line", |(finding, _)| lines(finding).trim_end().to_string())
         .column("verdict", |(_, measured)| measured.verdict.name())
         .column("number", |(_, measured)| short(measured.number))
+        .column("of", |(finding, _)| finding.number)
         .column("what the listing does that the text does not say", |(finding, _)| finding.title)
         .text()
 }

@@ -86,5 +86,10 @@ fn sweep(measured: &Measured) -> String {
         std::iter::once(label.clone()).chain(measured.columns.iter().map(cell)).collect()
     });
     let head = std::iter::once(measured.magnitude.to_string()).chain(numbers);
-    format!("{}\n{}", names.join("\n"), aligned(head, rows))
+    let unknown = measured.columns.iter().any(|c| c.verdicts.contains(&Verdict::Unknown));
+    let note = match unknown {
+        true => "  ?: an answer that no exact one stands beside: under unilateral a node opens\n",
+        false => "",
+    };
+    format!("{}\n{}{note}", names.join("\n"), aligned(head, rows))
 }

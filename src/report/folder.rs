@@ -27,7 +27,10 @@ pub fn write(
     let displacement = &solution.displacements()[..];
     let field = |quantity, unit, of: fn(&State) -> f64| {
         let values: Vec<f64> = solution.elements.iter().map(of).collect();
-        picture::field(&drawing, &Field { quantity, unit, values: &values, displacement })
+        picture::field(
+            &drawing,
+            &Field { quantity, unit, values: &values, displacement, largest_at: None },
+        )
     };
     let stress = field("von Mises stress", &scene.units.stress, |state| state.von_mises_stress);
     let strain = field("von Mises strain", "1", |state| state.von_mises_strain);

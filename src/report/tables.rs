@@ -1,7 +1,7 @@
 //! The tables of `solve` and `c-cnt`.
 
 use super::layout::{Table, aligned, listed};
-use super::numbers::{or_dash, percent, place, quantity, short, uncertain, with_unit};
+use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, with_unit};
 use super::pressure;
 use crate::answer::contact::{ContactNode, Status};
 use crate::answer::error::Error;
@@ -41,6 +41,10 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
     text += &format!("\nBodies\n{}", bodies(&scene.units, &assessment.bodies));
     if solution.in_contact().next().is_some() {
         text += &format!("\nContact surface\n{}", contact_surface(solution));
+        if solution.request.variant == Variant::Printed {
+            text += "  The pressures are what the blocks that Km adds to the stamp take up; nothing \
+                     couples the bodies (finding K1),\n  so that none of it reaches the target\n";
+        }
     }
     text
 }
@@ -339,11 +343,13 @@ fn distance_from(solution: &Solution, what: &str, other: &Result<Measured, Error
         ]
     });
     format!(
-        "\nDistance from the {what} ({}, {} geometry; {} in contact)\n{}",
+        "\nDistance from the {what} ({}, {} geometry; {} in contact)\n{}{}{}",
         pressure::name(reference),
         reference.request.contact.geometry,
         reference.in_contact().count(),
-        aligned(["", "this run", "there", "difference"], wholes.into_iter().chain(bodies))
+        aligned(["", "this run", "there", "difference"], wholes.into_iter().chain(bodies)),
+        note("displacement_relative", [of.displacement_relative]),
+        note("relative", of.bodies.iter().map(|body| body.relative)),
     )
 }
 

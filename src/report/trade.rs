@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::layout::Table;
-use super::numbers::or_dash;
+use super::numbers::{note, or_dash};
 use super::output::{csv as csv_of, write_all};
 use super::picture::{Axis, Series, Style, chart};
 use crate::error::Result;
@@ -40,6 +40,7 @@ fn cells(section: &Section, row: &Row) -> Vec<String> {
     }
     let parts = [row.error, row.change].map(|errors| {
         [errors.map(|e| e.displacement), errors.map(|e| e.energy), errors.map(|e| e.von_mises)]
+            .map(|error| error.filter(|error| error.is_finite()))
     });
     let start = [
         section.knob.to_string(),
@@ -85,8 +86,11 @@ fn trials(section: &Section) -> String {
     let mark = |is: bool, mark| if is { mark } else { "" };
     let error = |errors: Option<Errors>, of: fn(&Errors) -> f64| match errors.as_ref().map(of) {
         Some(0.0) => "0".into(),
-        error => or_dash(error, |error| format!("{error:.1e}")),
+        error => or_dash(error.filter(|error| error.is_finite()), |error| format!("{error:.1e}")),
     };
+    let errors = || section.rows.iter().flat_map(|row| [row.error, row.change]).flatten();
+    let notes = note("displacement", errors().map(|errors| errors.displacement))
+        + &note("von_mises", errors().map(|errors| errors.von_mises));
     let table = Table::of(&section.rows)
         .column("", |row| [mark(row.pareto, "*"), mark(row.own, ">")].concat())
         .column("variant", |row| row.variant)
@@ -100,10 +104,10 @@ fn trials(section: &Section) -> String {
         .column("von Mises", |row| error(row.error, |e| e.von_mises))
         .column("moved by", |row| error(row.change, |e| e.displacement));
     if section.rows.iter().all(|row| row.failure.is_none()) {
-        return table.text();
+        return table.text() + &notes;
     }
     let first_line = |why: &String| why.lines().next().unwrap_or_default().to_string();
-    table.column("", |row| row.failure.as_ref().map_or(String::new(), first_line)).text()
+    table.column("", |row| row.failure.as_ref().map_or(String::new(), first_line)).text() + &notes
 }
 
 fn orders(orders: &[Order]) -> String {

@@ -1,5 +1,6 @@
 //! The ambiguities R1 to R8 of the print, each a switch with a default.
 
+use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
@@ -106,6 +107,27 @@ impl FromStr for Reading {
             reading.set(id.trim(), value.trim()).map_err(|why| format!("{id}: {why}"))?;
         }
         Ok(reading)
+    }
+}
+
+impl fmt::Display for Reading {
+    /// Writes the readings that differ from the default, as `R2=printed,R5=node_n`.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let plain = Reading::default();
+        let r6 = self.r6.map(|r6| r6.name());
+        let r7 = self.r7.map(|r7| r7.name());
+        let all = [
+            ("R1", Some(self.r1.name()).filter(|_| self.r1 != plain.r1)),
+            ("R2", Some(self.r2.name()).filter(|_| self.r2 != plain.r2)),
+            ("R3", Some(self.r3.name()).filter(|_| self.r3 != plain.r3)),
+            ("R4", Some(self.r4.name()).filter(|_| self.r4 != plain.r4)),
+            ("R5", Some(self.r5.name()).filter(|_| self.r5 != plain.r5)),
+            ("R6", r6),
+            ("R7", r7),
+            ("R8", Some(self.r8.name()).filter(|_| self.r8 != plain.r8)),
+        ];
+        let given = all.iter().filter_map(|(id, value)| Some(format!("{id}={}", (*value)?)));
+        f.write_str(&given.collect::<Vec<_>>().join(","))
     }
 }
 

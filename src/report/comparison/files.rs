@@ -36,13 +36,19 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
     let title = format!("{} ({}, {kind})", scene.title, compared.variant);
     let drawing = Drawing::new(scene, &title);
     let field = |quantity: &str, unit: &str, values: &[f64], displacement: &[[f64; 2]]| {
-        picture::field(&drawing, &Field { quantity, unit, values, displacement })
+        picture::field(&drawing, &Field { quantity, unit, values, displacement, largest_at: None })
     };
     let largest_at_corners = |triangle: &Triangle| {
         triangle.nodes.map(|node| displacement.at[node.index()].1).into_iter().fold(0.0, f64::max)
     };
-    let moved: Vec<f64> = model.triangles.iter().map(largest_at_corners).collect();
-    let [stress, length] = [&scene.units.stress, &scene.units.length];
+    let difference = Field {
+        quantity: "difference of displacements",
+        unit: &scene.units.length,
+        values: &model.triangles.iter().map(largest_at_corners).collect::<Vec<_>>(),
+        displacement: &ours.u,
+        largest_at: Some(displacement.largest.at.index()),
+    };
+    let stress = &scene.units.stress;
     let (nodes, elements) = (nodes(comparison), elements(comparison));
     let json = json(compared, &nodes, &elements);
     write_all(
@@ -58,7 +64,7 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
                 "von_mises_stress_calculix.svg",
                 &field("von Mises stress, CalculiX", stress, &von_mises[1], &theirs.u),
             ),
-            ("difference.svg", &field("difference of displacements", length, &moved, &ours.u)),
+            ("difference.svg", &picture::field(&drawing, &difference)),
             ("compare.json", &json),
         ],
     )?;

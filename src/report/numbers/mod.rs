@@ -4,24 +4,29 @@
 mod decimal;
 mod typeset;
 mod uncertain;
+mod undefined;
 
 pub use decimal::Decimal;
 pub use typeset::{common_exponent, power_of_ten, shifted, significant, ticks};
 pub use uncertain::uncertain;
+pub use undefined::{note, reason};
 
 /// Writes a whole number as it is, another one with five decimals, and one that is very large or
-/// very small in scientific notation.
+/// very small in scientific notation; `-` stands for what is no number.
 pub fn short(x: f64) -> String {
     match x.abs() {
+        size if !size.is_finite() => "-".into(),
         size if size < 1e9 && x.fract() == 0.0 => format!("{x:.0}"),
         size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),
         _ => format!("{x:.3e}"),
     }
 }
 
-/// Writes a part of 1 in per cent: 0.125 with one decimal is `12.5 %`.
+/// Writes a part of 1 in per cent: 0.125 with one decimal is `12.5 %`; `-` stands for what is no
+/// number.
 pub fn percent(part: f64, decimals: usize) -> String {
-    format!("{:.decimals$} %", 100.0 * part)
+    let percent = 100.0 * part;
+    if percent.is_finite() { format!("{percent:.decimals$} %") } else { "-".into() }
 }
 
 pub fn place([x, y]: [f64; 2], decimals: usize) -> String {

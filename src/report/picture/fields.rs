@@ -39,13 +39,13 @@ impl<'a> FieldPicture<'a> {
     pub fn draw(&self, view: &View) -> Element {
         let [before, after] = [&self.drawing.points, &self.deformed].map(|points| view.all(points));
         let width = if view.enlarged { 1.6 } else { 1.1 };
-        let largest = self.drawing.triangles[self.largest].map(|point| after[point]);
+        let largest = self.largest_of(&after);
         group()
             .with(self.triangles(view, &after))
             .with_all(view.enlarged.then(|| self.grid(view, &after)))
             .with(segments(&self.boundary, &before).stroke(UNDEFORMED_OUTLINE, 0.8))
             .with(segments(&self.boundary, &after).stroke(OUTLINE, width))
-            .with_all((!self.scale.is_uniform()).then(|| marker(middle(largest))))
+            .with_all((!self.scale.is_uniform()).then(|| marker(largest)))
     }
 
     pub fn captions(&self) -> Vec<String> {
@@ -92,17 +92,27 @@ impl<'a> FieldPicture<'a> {
         if self.scale.is_uniform() {
             return format!("The value is the same in every triangle: {largest}.");
         }
-        let [low, high] = [self.smallest, self.largest].map(|at| self.place_in_words(at));
+        let points = &self.drawing.points;
+        let [low, high] = [self.middle_of(self.smallest, points), self.largest_of(points)]
+            .map(|place| self.place_in_words(place));
         format!(
             "Largest value {largest} at {high} (red circle); smallest value {smallest} at {low}."
         )
     }
 
-    /// Writes where the middle of a triangle was before the deformation.
-    fn place_in_words(&self, triangle: usize) -> String {
-        let points = &self.drawing.points;
-        let round_off = Bounds::of(points).larger_side() * 1e-6;
-        let place = middle(self.drawing.triangles[triangle].map(|point| points[point]));
+    /// Returns where the largest value is, `points` being the places of the mesh's points.
+    fn largest_of(&self, points: &[[f64; 2]]) -> [f64; 2] {
+        let at = self.field.largest_at;
+        at.map_or_else(|| self.middle_of(self.largest, points), |point| points[point])
+    }
+
+    fn middle_of(&self, triangle: usize, points: &[[f64; 2]]) -> [f64; 2] {
+        middle(self.drawing.triangles[triangle].map(|point| points[point]))
+    }
+
+    /// Writes a place of the mesh before the deformation.
+    fn place_in_words(&self, place: [f64; 2]) -> String {
+        let round_off = Bounds::of(&self.drawing.points).larger_side() * 1e-6;
         let [x, y] = place.map(|x| significant(if x.abs() < round_off { 0.0 } else { x }, 4));
         // No-break spaces: a line must not end with the sign.
         format!("x\u{a0}=\u{a0}{x}, y\u{a0}=\u{a0}{}", with_unit(&y, &self.drawing.length_unit))

@@ -9,7 +9,7 @@ use super::trials::{Against, Trial, trials};
 use super::{Knob, words};
 use crate::answer::error::Error;
 use crate::answer::{
-    Request, Solution, Stiffness, equilibrium, max_displacement, solve, summaries,
+    Request, Solution, Stiffness, equilibrium, max_displacement, over, solve, summaries,
 };
 
 /// Seconds beyond which a trial is not run again: the median of one is itself.
@@ -192,7 +192,8 @@ impl Bench<'_> {
             .map(|(level, solution)| prolonged((*solution).clone(), &meshes[level..], finest))
             .collect();
         let norm = stiffness.energy_norm(&finest.u);
-        let between = |pair: &[Solution]| stiffness.energy_norm(&(&pair[0].u - &pair[1].u)) / norm;
+        let between =
+            |pair: &[Solution]| over(stiffness.energy_norm(&(&pair[0].u - &pair[1].u)), norm);
         let displacements = solutions.iter().map(|s| max_displacement(&s.u)).collect();
         let stress = |solution: &Solution| {
             let bodies = summaries(solution);
@@ -209,7 +210,7 @@ impl Bench<'_> {
 /// The order in which the differences of `values` fall, relative to the last.
 fn of_values(quantity: &'static str, values: Vec<f64>) -> Order {
     let last = values.last().copied().unwrap_or(1.0);
-    let differences = values.windows(2).map(|pair| ((pair[0] - pair[1]) / last).abs());
+    let differences = values.windows(2).map(|pair| over(pair[0] - pair[1], last).abs());
     Order::fit(quantity, differences.collect())
 }
 

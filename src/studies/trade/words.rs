@@ -43,9 +43,11 @@ fn by_variant(
     Variant::ALL.iter().filter_map(of).collect()
 }
 
-/// A share in percent: `0.12 %`, or a power of ten where that is shorter.
+/// A share in percent: `0.12 %`, or a power of ten where that is shorter; in words where it is a
+/// share of nothing.
 fn percent(x: f64) -> String {
     match 100.0 * x {
+        p if !p.is_finite() => "an undefined share (of 0)".into(),
         0.0 => "0 %".into(),
         p if p >= 0.01 => format!("{p:.2} %"),
         p => format!("{p:.0e} %"),
@@ -120,6 +122,9 @@ fn mesh(rows: &[Row], orders: &[Order]) -> Vec<String> {
 
 fn order(order: &Order) -> String {
     let Order { quantity, differences, order, scatter, left } = order;
+    if differences.iter().any(|d| !d.is_finite()) {
+        return format!("The {quantity} has no order of convergence: on the finest mesh it is 0.");
+    }
     let listed: Vec<String> = differences.iter().map(|d| format!("{d:.1e}")).collect();
     let listed = listed.join(", ");
     let (Some(p), Some(left)) = (order, left) else {

@@ -1,0 +1,52 @@
+//! Numbers that have no value: `-` in tables and null in files, each with its reason.
+
+/// Why a number has no value, by the name of its field in the files.
+const REASONS: &[(&str, &str)] = &[
+    ("relative", "the value compared with is 0"),
+    ("displacement_relative", "nothing moves in the solution compared with"),
+    ("energy_relative", "the solution compared with has no energy"),
+    ("displacement", "nothing moves in what is compared with, or nothing could be compared"),
+    ("energy", "the solution compared with has no energy"),
+    ("von_mises", "the stress compared with is 0"),
+    ("differences", "the quantity is 0 on the finest mesh"),
+    ("order", "the differences between meshes do not fall, or are fewer than two"),
+    ("scatter", "there is no order, or a line through two differences only"),
+    ("left", "there is no order of convergence"),
+    ("cycle", "the contact state is new"),
+    ("hertz", "Hertz's theory does not apply: it takes two curved bodies pressed by a known force"),
+    ("pressure", "restraints leave the force undetermined"),
+    ("shear", "restraints leave the force undetermined"),
+    ("force", "restraints leave the force undetermined"),
+    ("friction_needed", "the node is not pressed, or its force is not determined"),
+    ("status", "the variant knows no statuses, or the node is not in contact"),
+    ("mesh", "a body has too few triangles for an estimate"),
+    ("mesh_energy_relative", "a body has too few triangles for an estimate"),
+    ("arithmetic", "no bound is known"),
+    ("displacement_arithmetic", "no bound is known"),
+    ("distance", "there is no such solution, or the scene has no contact"),
+    ("distance_from_equilibrium", "there is none, or it is the reference solution"),
+    ("equilibrium", "there is none, or the scene has no contact"),
+    ("reference", "there is none, or the scene has no contact"),
+    ("change", "the scene does not stand at any of the places tried, or the run failed"),
+    ("error", "the run failed, or what it is measured against did"),
+    ("failure", "the run did not fail"),
+    ("in_contact", "the run failed"),
+    ("seconds", "the run failed"),
+    ("peak_bytes", "it was not measured"),
+    ("solver", "the scalar's own solver"),
+    ("tol", "the solver has no tolerance, or the scalar's own"),
+];
+
+/// Returns why a field has no value.
+pub fn reason(field: &str) -> &'static str {
+    REASONS.iter().find(|(name, _)| *name == field).map_or("there is none", |(_, reason)| reason)
+}
+
+/// Writes the line under a table that says why there is a `-` for a field; nothing where all its
+/// `numbers` have values.
+pub fn note(field: &str, numbers: impl IntoIterator<Item = f64>) -> String {
+    match numbers.into_iter().all(f64::is_finite) {
+        true => String::new(),
+        false => format!("  -: {}\n", reason(field)),
+    }
+}
