@@ -185,7 +185,7 @@ impl<V: Rounded> WithBound<V> {
     }
 }
 
-operators!([<V: Rounded>] WithBound<V>);
+operators!(<V: Rounded> WithBound<V>);
 
 impl<V: Rounded> PartialEq for WithBound<V> {
     fn eq(&self, y: &Self) -> bool {
