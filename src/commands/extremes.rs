@@ -32,7 +32,8 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
-    /// Folder for extremes.txt, extremes.json and a picture for each generator.
+    /// Folder for extremes.txt, extremes.json and a picture for each generator, or more of 8 curves
+    /// each.
     #[arg(long, value_name = "DIR", default_value = "out/extremes")]
     out: PathBuf,
 }
@@ -47,7 +48,10 @@ pub fn run(args: &Args) -> Result<()> {
     files::write(&args.out.join("extremes.txt"), &text)?;
     files::write(&args.out.join("extremes.json"), &json)?;
     for of in &measured {
-        files::write(&args.out.join(format!("{}.svg", of.name)), &report::picture(of))?;
+        for (picture, k) in report::pictures(of).iter().zip(1..) {
+            let more = if k == 1 { String::new() } else { format!("-{k}") };
+            files::write(&args.out.join(format!("{}{more}.svg", of.name)), picture)?;
+        }
     }
     print(if args.json { &json } else { &text })
 }

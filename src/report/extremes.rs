@@ -1,7 +1,7 @@
 //! Stability at the extremes, for people, for machines and as a picture.
 
 use super::layout::{Table, aligned};
-use super::picture::{Axis, Series, Style, chart};
+use super::picture::{Axis, SERIES, Series, Style, chart};
 use crate::studies::extremes::{Break, Column, Generator, Measured, Verdict};
 
 pub use super::json::line as json;
@@ -20,10 +20,14 @@ pub fn text(measured: &[Measured]) -> String {
     measured.iter().map(of).collect::<Vec<_>>().join("\n\n")
 }
 
-/// Draws the digits that each method keeps against the magnitude.
-pub fn picture(measured: &Measured) -> String {
-    let series: Vec<Series> =
-        measured.columns.iter().map(|column| curve(measured, column)).collect();
+/// Draws the digits that each method keeps against the magnitude, in as many pictures as its curves
+/// need.
+pub fn pictures(measured: &Measured) -> Vec<String> {
+    measured.columns.chunks(SERIES).map(|columns| picture(measured, columns)).collect()
+}
+
+fn picture(measured: &Measured, columns: &[Column]) -> String {
+    let series: Vec<Series> = columns.iter().map(|column| curve(measured, column)).collect();
     let (label, magnitudes) = match measured.logarithmic {
         true => (measured.magnitude, measured.magnitude.into()),
         false => {

@@ -277,3 +277,36 @@ fn a_chart_of_nothing_is_a_chart() {
     assert!(drawn(false, vec![]).contains("</svg>"));
     assert!(drawn(true, vec![]).contains("</svg>"));
 }
+
+#[test]
+fn the_largest_value_of_points_is_at_its_point() {
+    let values = [1.0, 3.0];
+    let words = |largest_at| {
+        let of = Field { largest_at, ..stress(&values, &[[0.0; 2]; 4]) };
+        texts(&field(&square(), &of)).replace('\u{a0}', " ")
+    };
+    assert!(words(Some(3)).contains("3 MPa at x = 0, y = 10 mm"), "{}", words(Some(3)));
+    assert!(words(None).contains("3 MPa at x = 3.333, y = 6.667 mm"), "{}", words(None));
+}
+
+/// Names of curves that end at one place stand below each other, inside the axes.
+#[test]
+fn a_curve_has_its_name_at_its_end() {
+    let curve = |k: usize| Series {
+        name: format!("curve {k}"),
+        points: vec![[0.0, k as f64], [1.0, 0.0]],
+        style: Style::Dotted,
+    };
+    let series: Vec<Series> = (0..8).map(curve).collect();
+    let axis = |label| Axis { label, logarithmic: false };
+    let picture = chart("t", [axis("x"), axis("y")], &series, &[]);
+    let document = Document::parse(&picture).unwrap();
+    let text = document.descendants().filter(|node| node.has_tag_name("text"));
+    let at = |node: &roxmltree::Node| node.attribute("y").unwrap().parse::<f64>().unwrap();
+    let names: Vec<f64> = text
+        .filter(|node| node.text().is_some_and(|words| words.starts_with("curve")))
+        .map(|node| at(&node))
+        .collect();
+    assert_eq!(names.len(), 8);
+    assert!(names.windows(2).all(|pair| pair[1] - pair[0] >= 14.0), "{names:?}");
+}

@@ -24,4 +24,5 @@ mod scene_builder;
 mod scenes;
 mod texts;
 mod trade;
+mod undefined;
 mod xml;

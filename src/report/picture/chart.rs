@@ -1,7 +1,7 @@
-//! A chart: curves over one axis, each axis linear or logarithmic.
+//! A chart: curves over one axis, each axis linear or logarithmic. A curve has its name at its end.
 
-use super::page::{INNER, MARGIN, Page, Sign};
-use super::svg::{Anchor, DARK, Pixel, circle, group, line, path, text};
+use super::page::{INNER, MARGIN, Page, Sign, text_width};
+use super::svg::{Anchor, DARK, Pixel, TEXT_SIZE, circle, group, line, path, text};
 use crate::report::numbers::{power_of_ten, ticks};
 use crate::report::xml::Element;
 
@@ -14,8 +14,14 @@ const LEFT: f64 = 78.0;
 /// The colour of the lines across the area.
 const GRID: &str = "#dddddd";
 
-/// Colours that the colour-blind tell apart (M. Okabe, K. Ito, 2008), then repeated.
-const COLOURS: [&str; 8] =
+/// The most series of a chart: no more colours can be told apart.
+pub const SERIES: usize = 8;
+
+/// The least distance between the base lines of two names, pixels.
+const LINE: f64 = 17.0;
+
+/// Colours that the colour-blind tell apart (M. Okabe, K. Ito, 2008).
+const COLOURS: [&str; SERIES] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#222222", "#f0e442"];
 
 /// An axis: what it shows, and how.
@@ -44,17 +50,26 @@ pub enum Style {
     Rings,
 }
 
-/// Draws a chart of `series`, with paragraphs under it.
+impl Style {
+    fn is_curve(self) -> bool {
+        matches!(self, Style::Dotted | Style::Line)
+    }
+}
+
+/// Draws a chart of `series`, beside rings at most [`SERIES`], with paragraphs under it.
 pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[String]) -> String {
     let mut page = Page::new(title);
     page.paragraph(y.label);
     let scales = [Scale::of(&x, series, 0), Scale::of(&y, series, 1)];
-    let plot = Plot { scales, top: page.y + 6.0 };
+    let curves = series.iter().filter(|series| series.style.is_curve());
+    let names = curves.map(|series| text_width(&series.name, TEXT_SIZE) + 20.0);
+    let plot = Plot { scales, top: page.y + 6.0, width: INNER - LEFT - names.fold(0.0, f64::max) };
     page.put(plot.grid());
     for (k, series) in series.iter().enumerate() {
-        page.put(plot.series(series, COLOURS[k % COLOURS.len()]));
+        page.put(plot.series(series, colour(k, series.style)));
     }
-    let under = [MARGIN + LEFT + (INNER - LEFT) / 2.0, plot.top + HEIGHT + 40.0];
+    page.put(plot.names(series));
+    let under = [MARGIN + LEFT + plot.width / 2.0, plot.top + HEIGHT + 40.0];
     page.put(text(under, Anchor::Middle, x.label));
     page.y = plot.top + HEIGHT + 56.0;
     page.legend(&legend(series));
@@ -62,13 +77,22 @@ pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[Stri
     page.finish()
 }
 
+/// Returns the colour of the series at place `k`; rings have that of text.
+fn colour(k: usize, style: Style) -> &'static str {
+    if style == Style::Rings { DARK } else { COLOURS[k] }
+}
+
+/// Returns the signs of the series without a line, whose names stand under the chart.
 fn legend(series: &[Series]) -> Vec<(Sign, String)> {
-    let sign = |k: usize, style| match style {
-        Style::Dots => Sign::Node(COLOURS[k % COLOURS.len()]),
-        Style::Rings => Sign::Ring(DARK),
-        Style::Line | Style::Dotted => Sign::Edge(COLOURS[k % COLOURS.len()]),
+    let sign = |(k, series): (usize, &Series)| {
+        let colour = colour(k, series.style);
+        let sign = match series.style {
+            Style::Rings => Sign::Ring(colour),
+            _ => Sign::Node(colour),
+        };
+        (sign, series.name.clone())
     };
-    series.iter().enumerate().map(|(k, s)| (sign(k, s.style), s.name.clone())).collect()
+    series.iter().enumerate().filter(|(_, series)| !series.style.is_curve()).map(sign).collect()
 }
 
 /// The range of an axis; of a logarithmic one `low` and `high` are exponents of ten.
@@ -117,15 +141,16 @@ fn on_axis(value: f64, logarithmic: bool) -> Option<f64> {
     if logarithmic { (value > 0.0).then(|| value.log10()) } else { Some(value) }
 }
 
-/// The area inside the axes, `top` pixels from the upper end of the picture.
+/// The area inside the axes, `top` pixels from the upper end of the picture and `width` pixels wide.
 struct Plot {
     scales: [Scale; 2],
     top: f64,
+    width: f64,
 }
 
 impl Plot {
     fn at(&self, x: f64, y: f64) -> Pixel {
-        [MARGIN + LEFT + x * (INNER - LEFT), self.top + (1.0 - y) * HEIGHT]
+        [MARGIN + LEFT + x * self.width, self.top + (1.0 - y) * HEIGHT]
     }
 
     fn grid(&self) -> Element {
@@ -148,11 +173,39 @@ impl Plot {
         group().with(lines).with(axes).with(words)
     }
 
-    fn series(&self, series: &Series, colour: &str) -> Element {
+    /// Returns the points of a series that the axes can show.
+    fn points(&self, series: &Series) -> Vec<Pixel> {
         let place = |scale: &Scale, value| Some(scale.place(on_axis(value, scale.logarithmic)?));
         let [scale_x, scale_y] = &self.scales;
         let place = |[x, y]: &[f64; 2]| Some(self.at(place(scale_x, *x)?, place(scale_y, *y)?));
-        let points: Vec<Pixel> = series.points.iter().filter_map(place).collect();
+        series.points.iter().filter_map(place).collect()
+    }
+
+    /// Draws the names of the curves on the right, each joined to its curve's end, in the order of
+    /// these ends from above.
+    fn names(&self, series: &[Series]) -> Element {
+        let end = |(k, series): (usize, &Series)| {
+            let end = *self.points(series).last()?;
+            series.style.is_curve().then(|| (end, series.name.as_str(), COLOURS[k]))
+        };
+        let mut ends: Vec<(Pixel, &str, &str)> =
+            series.iter().enumerate().filter_map(end).collect();
+        ends.sort_by(|(a, ..), (b, ..)| a[1].total_cmp(&b[1]));
+        // No name stands so low that those after it do not fit above the axis.
+        let lowest = self.top + HEIGHT;
+        let [mut y, x] = [self.top - LINE, self.at(1.0, 0.0)[0] + 14.0];
+        let mut names = group();
+        let count = ends.len();
+        for (k, (end, name, colour)) in ends.into_iter().enumerate() {
+            y = end[1].min(lowest - LINE * (count - 1 - k) as f64).max(y + LINE);
+            names.push(line(end, [x - 3.0, y]).stroke(colour, 0.7));
+            names.push(text([x, y + 5.0], Anchor::Start, name).fill(colour));
+        }
+        names
+    }
+
+    fn series(&self, series: &Series, colour: &str) -> Element {
+        let points = self.points(series);
         let mut drawn = group();
         if series.style == Style::Rings {
             let rings = points.iter().map(|p| circle(*p, 6.0).fill("none").stroke(DARK, 1.5));

@@ -22,7 +22,7 @@ pub mod page;
 pub mod svg;
 pub mod view;
 
-pub use self::chart::{Axis, Series, Style, chart};
+pub use self::chart::{Axis, SERIES, Series, Style, chart};
 pub use self::drawing::{Contact, Drawing, Field};
 
 use self::bodies::{draw_bodies, legend};
