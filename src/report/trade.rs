@@ -157,14 +157,14 @@ pub fn reached(reached: &Reached, accuracy: f64) -> String {
             Came::Bound(bound) if bound.is_finite() => {
                 format!("within {bound:.0e}, so up one precision")
             }
-            Came::Bound(_) => "without a bound, so up one precision".into(),
+            Came::Bound(_) => {
+                "no bound, as where rounding may have decided who is in contact: up one precision"
+                    .into()
+            }
         };
         let printed = reached.solution.request.variant == Variant::Printed;
         let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver(printed));
         text += &format!("  {scalar} by {solver}: {came}\n");
-    }
-    if !reached.solution.contact.is_empty() {
-        text += "  This holds while rounding does not change who is in contact.\n";
     }
     text + &mesh(reached.mesh, accuracy)
 }

@@ -197,9 +197,9 @@ fn what_f32_cannot_represent_climbs() {
 /// f32 rounds coordinates far from the origin: no number of its run shows that.
 #[test]
 fn rounded_coordinates_count() {
-    let mut scene = square(1e5, 1.0, 0.1);
+    let mut scene = square(1e6, 1.0, 0.1);
     for node in [1, 2] {
-        scene["node"][node][1] = json!(1e5 + 0.7);
+        scene["node"][node][1] = json!(1e6 + 0.7);
     }
     let request = Request::new(&build(&scene).unwrap()).variant(Variant::Tied);
     let single = Arithmetic { scalar: ScalarName::F32, ..Arithmetic::default() };

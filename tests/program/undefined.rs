@@ -95,7 +95,9 @@ fn a_trade_of_what_does_not_move_has_no_undefined_number() {
         assert_eq!(status, Some(0), "{text}");
         has_no_undefined_number(&text);
         is_explained(&folder.path().join("t/trade.json"));
-        has_no_undefined_number(&std::fs::read_to_string(folder.path().join("t/trade.csv")).unwrap());
+        has_no_undefined_number(
+            &std::fs::read_to_string(folder.path().join("t/trade.csv")).unwrap(),
+        );
     }
 }
 
@@ -104,7 +106,8 @@ fn a_trade_of_what_does_not_move_has_no_undefined_number() {
 fn a_first_contact_that_fails_names_gap_tolerance_and_a_way_out() {
     let folder = TempDir::new().unwrap();
     let mut free = scene(-0.2, 0.25);
-    free["restraints"] = json!([{ "node": 3, "fix": ["x", "y"] }, { "node": 4, "fix": ["x", "y"] }]);
+    free["restraints"] =
+        json!([{ "node": 3, "fix": ["x", "y"] }, { "node": 4, "fix": ["x", "y"] }]);
     let (status, text) =
         output(folder.path(), &free, &["solve", "scene.json", "--variant", "tied"]);
     assert_eq!(status, Some(3), "{text}");
@@ -117,13 +120,25 @@ fn a_first_contact_that_fails_names_gap_tolerance_and_a_way_out() {
 fn every_option_that_changes_the_result_is_in_the_folder() {
     let folder = TempDir::new().unwrap();
     let options = [
-        "--coupling mortar", "--friction 0.3", "--geometry initial", "--load-steps 8",
-        "--status projection", "--scalar f32", "--solver dense-cholesky", "--inputs decimal",
-        "--reading R3=nested", "--reading R3=per-node", "--accuracy 1e-3", "--variant printed",
-        "--solver cg --tol 1e-9", "--solver cg", "",
+        "--coupling mortar",
+        "--friction 0.3",
+        "--geometry initial",
+        "--load-steps 8",
+        "--status projection",
+        "--scalar f32",
+        "--solver dense-cholesky",
+        "--inputs decimal",
+        "--reading R3=nested",
+        "--reading R3=per-node",
+        "--accuracy 1e-3",
+        "--variant printed",
+        "--solver cg --tol 1e-9",
+        "--solver cg",
+        "",
     ];
     for option in options {
-        let args: Vec<&str> = ["solve", "fig1"].into_iter().chain(option.split_whitespace()).collect();
+        let args: Vec<&str> =
+            ["solve", "fig1"].into_iter().chain(option.split_whitespace()).collect();
         assert_eq!(run(folder.path(), &args).status.code(), Some(0), "{option}");
     }
     let folders = std::fs::read_dir(folder.path().join("out")).unwrap().count();

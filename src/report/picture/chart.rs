@@ -184,12 +184,10 @@ impl Plot {
     /// Draws the names of the curves on the right, each joined to its curve's end, in the order of
     /// these ends from above.
     fn names(&self, series: &[Series]) -> Element {
-        let end = |(k, series): (usize, &Series)| {
-            let end = *self.points(series).last()?;
-            series.style.is_curve().then(|| (end, series.name.as_str(), COLOURS[k]))
-        };
-        let mut ends: Vec<(Pixel, &str, &str)> =
-            series.iter().enumerate().filter_map(end).collect();
+        let mut ends: Vec<(Pixel, &str, &str)> = Vec::new();
+        for (k, series) in series.iter().enumerate().filter(|(_, s)| s.style.is_curve()) {
+            ends.extend(self.points(series).last().map(|end| (*end, &*series.name, COLOURS[k])));
+        }
         ends.sort_by(|(a, ..), (b, ..)| a[1].total_cmp(&b[1]));
         // No name stands so low that those after it do not fit above the axis.
         let lowest = self.top + HEIGHT;
