@@ -7,10 +7,12 @@ use super::distance::{Distance, distance};
 use super::error::Error;
 use super::estimates::ErrorEstimates;
 use super::hertz::Hertz;
+use super::probe::{Probe, probes};
 use super::request::Request;
 use super::solution::Solution;
 use super::solve::solve;
 use super::summary::{BodySummary, summaries};
+use crate::error::InputError;
 use crate::problem::modelling::ContactModel;
 
 /// The values and estimates that reports print beside a solution.
@@ -19,6 +21,8 @@ pub struct Assessment<'a> {
     pub bodies: Vec<BodySummary>,
     /// The estimated errors from rounding and from the mesh.
     pub estimates: ErrorEstimates,
+    /// What the run says of the points that were asked for: [`Assessment::probe`].
+    pub probes: Vec<Probe>,
     /// The change of the largest displacement component against a path of half as many steps of the
     /// load, length: what is left of the size of the steps. None without a path, and where there is
     /// none such to compare with.
@@ -79,11 +83,21 @@ impl<'a> Assessment<'a> {
         Assessment {
             bodies: summaries(solution),
             estimates: ErrorEstimates::new(solution),
+            probes: Vec::new(),
             path_change: path_change(solution),
             hertz: Hertz::of(solution),
             reference: measured(reference),
             equilibrium: measured(equilibrium),
         }
+    }
+
+    /// Adds what `solution`, which is assessed, says of `points` of the undeformed shape.
+    ///
+    /// # Errors
+    /// A point lies outside every body.
+    pub fn probe(&mut self, solution: &Solution, points: &[[f64; 2]]) -> Result<(), InputError> {
+        self.probes = probes(solution, &self.estimates, points)?;
+        Ok(())
     }
 
     /// Returns the comparison with the equilibrium under the scene's own friction and geometry, where

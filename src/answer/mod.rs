@@ -10,6 +10,7 @@ pub mod error;
 pub mod estimates;
 mod hertz;
 mod not_finite;
+mod probe;
 mod published;
 mod request;
 mod solution;
@@ -25,6 +26,7 @@ pub use condensation::kept_equations;
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;
+pub use probe::{Probe, Quantity};
 pub use request::Request;
 pub use solution::{
     Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, Unilateral, Uniqueness,

@@ -29,6 +29,7 @@ Examples:
   plane-contact solve fig1 --scalar exact --inputs decimal
   plane-contact solve strand --variant tied --scalar f64x2 --solver refined --tol 1e-28
   plane-contact solve strand --accuracy 1e-3
+  plane-contact solve strand --probe 0,-8 --probe=-2,-9
   plane-contact solve my/scene.json --reading R6=stress,R8=m")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
@@ -47,6 +48,10 @@ pub struct Args {
     /// largest, and say what was done; the mesh's own error is reported beside it.
     #[arg(long, value_name = "A", conflicts_with_all = ["scalar", "solver", "tol", "inputs"])]
     accuracy: Option<f64>,
+    /// Print displacement, stress and strain at a point of the undeformed mesh, with what rounding and
+    /// the mesh may do to them; may be given more than once.
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    probe: Vec<[f64; 2]>,
     #[command(flatten)]
     reading: ReadingArg,
     /// Folder for pictures and data [default: out/<scene>-<variant>, and every option that differs
@@ -66,7 +71,8 @@ pub fn run(args: &Args) -> Result<()> {
     let plan = Plan::new(&solution.request)?;
     let asked: Vec<String> = args.accuracy.iter().map(|a| format!("accuracy-{a:e}")).collect();
     let out = folder(&args.out, folder_name(&request, &asked));
-    let assessment = Assessment::new(&solution);
+    let mut assessment = Assessment::new(&solution);
+    assessment.probe(&solution, &args.probe)?;
     let result = report::folder::write(&out, &solution, &assessment, Some(&plan))?;
     if args.json {
         eprint!("{accuracy}");
@@ -75,11 +81,21 @@ pub fn run(args: &Args) -> Result<()> {
     }
     let tables = tables::solution(&solution, &assessment)
         + &tables::error_estimates(&solution, &assessment)
+        + &tables::probes(&solution, &assessment)
         + &tables::distance(&solution, &assessment)
         + &accuracy;
     let plan = report::plan::line(&plan);
     print(&format!("{tables}\n{plan}\nWritten to {}\n", out.display()))?;
     several(&solution)
+}
+
+/// Reads a point such as `3.5,-1`.
+fn point(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some([x, y]) if x.is_finite() && y.is_finite() => Ok([*x, *y]),
+        _ => Err("give two numbers, such as 3.5,-1".into()),
+    }
 }
 
 /// Ends with a status of its own where other equilibria are known.

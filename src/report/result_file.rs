@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{json, plan};
 use crate::answer::contact::{ContactNode, Status};
+use crate::answer::estimates::NoLimit;
 use crate::answer::{
-    Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Solution, Step,
+    Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Probe, Solution, Step,
 };
 use crate::error::{InputError, Result};
 use crate::numbers::scalar::rational;
@@ -57,6 +58,9 @@ pub struct ResultFile {
     pub hertz: Option<Hertz>,
     /// How far the numbers may be from the truth.
     pub error_estimates: KnownEstimates,
+    /// What the run says of the points that `--probe` asks for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub probes: Vec<Probe>,
     /// What `unilateral` knows of its equilibrium: the path of the load, and whether there are others;
     /// absent under the other variants.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -117,6 +121,8 @@ pub struct KnownEstimates {
     pub displacement_arithmetic: Option<f64>,
     /// The decisions on who is in contact that rounding may have taken.
     pub decided_by_rounding: Option<Vec<Decision>>,
+    /// What the mesh may do to the largest displacement of a node, length.
+    pub displacement_mesh: Option<f64>,
     /// The error of the mesh in the energy norm, relative to the norm of the solution.
     pub mesh_energy_relative: Option<f64>,
     /// The estimates for each body.
@@ -132,8 +138,13 @@ pub struct BodyEstimates {
     pub von_mises_stress: f64,
     /// The largest von Mises value of the recovered stresses, as a rule nearer to the truth.
     pub recovered: f64,
-    /// What the mesh may do to it, stress; nothing where that is not known.
+    /// What the mesh may do to it, stress; nothing where that is not known, and where it was found at
+    /// a point where the stress has no limit.
     pub mesh: Option<f64>,
+    /// A point of the body where the stress has no limit as the mesh is refined; what the mesh may do
+    /// is said of the other ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_limit: Option<NoLimit>,
     /// What rounding may do to it, stress; nothing where that is not known.
     pub arithmetic: Option<f64>,
 }
@@ -179,6 +190,7 @@ impl ResultFile {
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
             error_estimates: KnownEstimates::new(assessment),
+            probes: assessment.probes.clone(),
             equilibrium: solution.equilibrium.clone(),
             path_change: assessment.path_change,
             distance: assessment.measure().map(|measured| measured.distance.clone()),
@@ -243,11 +255,13 @@ impl KnownEstimates {
             von_mises_stress: body.value,
             recovered: body.recovered,
             mesh: known(body.mesh),
+            no_limit: body.no_limit.clone(),
             arithmetic: known(body.arithmetic),
         });
         KnownEstimates {
             displacement_arithmetic: known(estimates.displacement),
             decided_by_rounding: estimates.decisions.clone(),
+            displacement_mesh: known(estimates.displacement_mesh),
             mesh_energy_relative: known(estimates.mesh.relative()),
             bodies: bodies.collect(),
         }

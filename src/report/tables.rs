@@ -5,9 +5,10 @@ use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, 
 use super::pressure;
 use crate::answer::contact::{ContactNode, Status};
 use crate::answer::error::Error;
+use crate::answer::estimates::NoLimit;
 use crate::answer::{
-    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Solution, Step,
-    Uniqueness, max_displacement,
+    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Probe, Quantity, Solution,
+    Step, Uniqueness, max_displacement,
 };
 use crate::paper::decisions::Decision;
 use crate::paper::door::Call;
@@ -263,14 +264,25 @@ fn contact_surface(solution: &Solution) -> String {
 pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
     let (units, estimates) = (&solution.request.scene.units, &assessment.estimates);
     let moved = assessment.bodies.iter().map(|body| body.max_displacement).fold(0.0, f64::max);
-    let of_displacement = [(estimates.displacement, "arithmetic")];
+    let of_displacement =
+        [(estimates.displacement_mesh, "mesh"), (estimates.displacement, "arithmetic")];
     let mut text = format!(
         "\nError estimates\n  largest |u|: {}\n",
         uncertain(moved, &units.length, &of_displacement)
     );
     for body in &estimates.bodies {
         let of_stress = [(body.mesh, "mesh"), (body.arithmetic, "arithmetic")];
-        let stress = uncertain(body.value, &units.stress, &of_stress);
+        let stress = match &body.no_limit {
+            Some(NoLimit { node, cause, is_largest: true }) => format!(
+                "{} on this mesh; it has no limit on finer ones: at node {node}, {cause}",
+                with_unit(&short(body.value), &units.stress)
+            ),
+            Some(NoLimit { node, cause, .. }) => format!(
+                "{}, away from node {node}, {cause}, where it has no limit",
+                uncertain(body.value, &units.stress, &of_stress)
+            ),
+            None => uncertain(body.value, &units.stress, &of_stress),
+        };
         text += &format!("  largest von Mises stress, {}: {stress}\n", body.name);
     }
     let relative = estimates.mesh.relative();
@@ -280,6 +292,8 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
     };
     if relative > FAIR {
         text += ": too coarse for its estimates to be relied on";
+    } else if estimates.bodies.iter().any(|body| body.no_limit.is_some()) {
+        text += ": too low where the stress has no limit; trade --only mesh measures it";
     }
     text + "\n" + &by_rounding(solution, estimates.decisions.as_deref())
 }
@@ -307,6 +321,40 @@ fn by_rounding(solution: &Solution, decisions: Option<&[Decision]>) -> String {
             times => format!("{times} times"),
         }
     )
+}
+
+/// Lays out what a run says of the points that were asked for.
+pub fn probes(solution: &Solution, assessment: &Assessment) -> String {
+    let units = &solution.request.scene.units;
+    assessment.probes.iter().map(|probe| self::probe(units, probe)).collect()
+}
+
+fn probe(units: &Units, probe: &Probe) -> String {
+    let [x, y] = probe.at;
+    let shared = match &probe.shared[..] {
+        [] => String::new(),
+        others => format!(
+            ", of which it has an edge or a node with {}: the values are those of {} alone",
+            listed(others),
+            probe.triangle
+        ),
+    };
+    let unit = |q: &&Quantity| match &q.name {
+        name if name.starts_with("u_") => quantity(name, &units.length),
+        name if name.starts_with("sigma") || name.contains("stress") || name.starts_with("tau") => {
+            quantity(name, &units.stress)
+        }
+        name => name.clone(),
+    };
+    let error = |error: Option<f64>| or_dash(error, |x| format!("{x:.1e}"));
+    let table = Table::of(&probe.quantities)
+        .column("", unit)
+        .column("value", |q| short(q.value))
+        .column("recovered", |q| or_dash(q.recovered, short))
+        .column("+- mesh", |q| error(q.mesh))
+        .column("+- arithmetic", |q| error(q.arithmetic))
+        .text();
+    format!("\nAt {x}, {y}: body {}, triangle {}{shared}\n{table}", probe.body, probe.triangle)
 }
 
 /// Lays out how far a run is from the reference solution and from the equilibrium under the scene's

@@ -116,7 +116,9 @@ fn orders(orders: &[Order]) -> String {
         .column("quantity", |order| order.quantity)
         .column("order", |order| decimals(order.order))
         .column("scatter", |order| decimals(order.scatter))
-        .column("left on the finest", |order| or_dash(order.left, |x| format!("{x:.1e}")))
+        .column("left on the finest", |order| {
+            or_dash(order.errors.as_ref().and_then(|e| e.last()), |x| format!("{x:.1e}"))
+        })
         .text()
 }
 

@@ -13,6 +13,7 @@ mod hertz;
 mod kirsch;
 mod lame;
 mod le1;
+mod mesh_bounds;
 mod meshes;
 mod patch;
 mod punch;

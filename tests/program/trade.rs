@@ -1,7 +1,9 @@
 //! Speed against accuracy: what is measured, and what it says. No test asserts a time.
 
 use crate::common::json::build;
-use crate::common::tolerances::{HALF, LAME_ENERGY_ORDER, assert_near};
+use crate::common::tolerances::{
+    CONSTANT_FIELD, EFFECTIVITY_HIGH, EFFECTIVITY_LOW, HALF, LAME_ENERGY_ORDER, assert_near,
+};
 use plane_contact::answer::error::Error;
 use plane_contact::answer::{Request, Solution, solve};
 use plane_contact::error::InputError;
@@ -64,11 +66,39 @@ fn the_front_is_what_nothing_beats() {
 
 #[test]
 fn a_made_up_order_is_found() {
-    let order = Order::fit("x", vec![0.4, 0.1, 0.025]);
+    // The errors are 0.8 / 4^l.
+    let order = Order::fit("x", vec![0.6, 0.15, 0.0375], 1);
     assert_eq!((order.order, order.scatter), (Some(2.0), Some(1.0)));
-    assert_eq!(order.left, Some(0.025 / 3.0));
-    assert_eq!(Order::fit("x", vec![0.1, 0.2]).order, None);
-    assert_eq!(Order::fit("x", vec![0.1]).order, None);
+    assert_eq!(order.errors, Some(vec![0.8, 0.2, 0.05, 0.0125]));
+    assert_eq!(Order::fit("x", vec![0.1, 0.2], 1).order, None);
+    assert_eq!(Order::fit("x", vec![0.1], 1).order, None);
+}
+
+/// Squares of errors 1, 1/2, 1/4, ... are 1, 1/4, 1/16, ..., and differences the roots of 3/4 of
+/// them.
+#[test]
+fn squares_of_differences_add_in_the_energy_norm() {
+    let differences = [1.0, 0.5, 0.25].map(|e: f64| e * 0.75f64.sqrt());
+    let errors = Order::fit("x", differences.to_vec(), 2).errors.expect("an order");
+    for (found, expected) in errors.iter().zip([1.0, 0.5, 0.25, 0.125]) {
+        assert_near("error", *found, expected, expected, &CONSTANT_FIELD);
+    }
+}
+
+/// Without contact squares add to rounding, and the limit that the ladder finds is the one that the
+/// estimates of single meshes point to.
+#[test]
+fn the_ladder_finds_its_limit() {
+    let scene = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.build()).unwrap();
+    let trade = measured(&scene, &[Knob::Mesh]);
+    let section = &trade.sections[0];
+    let ladder = section.ladder.as_ref().expect("every mesh ran");
+    assert_near("Pythagoras", ladder.departure.unwrap(), 0.0, 1.0, &HALF);
+    let errors = section.orders[0].errors.as_ref().expect("an order");
+    for (error, estimate) in errors.iter().zip(&ladder.estimates) {
+        assert!(estimate / error > EFFECTIVITY_LOW.limit, "{estimate} for {error}");
+        assert!(estimate / error < EFFECTIVITY_HIGH.limit, "{estimate} for {error}");
+    }
 }
 
 #[test]

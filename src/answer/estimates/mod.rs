@@ -3,18 +3,27 @@
 //!
 //! ```text
 //!  Model, States --patches--> sites --recovery--> stresses --discretisation--> errors of the mesh
-//!  Solution ------------------------------------------------ arithmetic -----> errors of rounding
+//!                                        |                     '--dual-----> errors of displacements
+//!  Solution ------------------------------+----------------- arithmetic -----> errors of rounding
+//!                                          '------------------ singular -----> where no stress has a limit
 //! ```
 
 pub mod arithmetic;
 pub mod discretisation;
+mod dual;
 mod patches;
 mod recovery;
+mod singular;
 mod ties;
+
+use serde::{Deserialize, Serialize};
 
 use super::solution::Solution;
 use crate::paper::decisions::Decision;
+use crate::problem::model::{Body, NodeId, TriangleId};
 use discretisation::Discretisation;
+pub use dual::Dual;
+pub use singular::{Cause, Singular, singular};
 
 /// The error estimates of a run.
 #[derive(Clone, Debug)]
@@ -24,6 +33,9 @@ pub struct ErrorEstimates {
     pub displacement: f64,
     /// The decisions on who is in contact that rounding may have taken; None where that is not known.
     pub decisions: Option<Vec<Decision>>,
+    /// The estimated error of the largest displacement |u| of a node that the mesh causes, length;
+    /// infinite where unknown.
+    pub displacement_mesh: f64,
     /// The error that the mesh causes in the stresses.
     pub mesh: Discretisation,
     /// The error estimates of each body's largest stress, in the model's order.
@@ -39,10 +51,25 @@ pub struct BodyEstimates {
     pub value: f64,
     /// The largest of the recovered stresses, typically nearer to the truth, stress.
     pub recovered: f64,
-    /// The estimated error of `value` that the mesh causes, stress.
+    /// The estimated error of `value` that the mesh causes, stress; infinite too where `no_limit` is
+    /// where `value` was found.
     pub mesh: f64,
+    /// A point of the body where the stress has no limit as the mesh is refined; None where there is
+    /// none.
+    pub no_limit: Option<NoLimit>,
     /// A bound on the error of `value` that rounding causes, stress.
     pub arithmetic: f64,
+}
+
+/// A point of a body where the stress grows without limit as the mesh is refined.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NoLimit {
+    /// The node that stands there; of contact, that of the contact surface.
+    pub node: NodeId,
+    /// Why the stress has no limit.
+    pub cause: Cause,
+    /// Whether the body's largest stress was found in a triangle about it.
+    pub is_largest: bool,
 }
 
 impl ErrorEstimates {
@@ -52,17 +79,42 @@ impl ErrorEstimates {
         let arithmetic::Rounding { displacement, decisions } = arithmetic::rounding(solution);
         let stress = arithmetic::stress_bounds(solution, displacement);
         let mesh = Discretisation::new(model, &solution.elements);
+        let points = singular(solution);
         let bodies = model.bodies.iter().map(|body| {
-            let largest = mesh.largest_von_mises(model, &solution.elements, &body.triangles);
+            let states = &solution.elements;
+            let largest = mesh.largest_von_mises(model, states, &body.triangles);
+            let no_limit = no_limit(body, &points, largest.at);
+            let is_smooth = |id: &TriangleId| !points.iter().any(|p| p.triangles.contains(id));
+            let smooth: Vec<TriangleId> =
+                body.triangles.iter().copied().filter(is_smooth).collect();
             let rounding = body.triangles.iter().map(|id| stress[id.index()]);
             BodyEstimates {
                 name: body.name.clone(),
                 value: largest.value,
                 recovered: largest.recovered,
-                mesh: largest.error,
+                mesh: match no_limit {
+                    Some(NoLimit { is_largest: true, .. }) => f64::INFINITY,
+                    _ => mesh.largest_von_mises(model, states, &smooth).error,
+                },
+                no_limit,
                 arithmetic: rounding.fold(0.0, f64::max),
             }
         });
-        ErrorEstimates { displacement, decisions, bodies: bodies.collect(), mesh }
+        let bodies = bodies.collect();
+        let of_largest = |dual: Dual| dual.error_of_largest(&solution.u);
+        let displacement_mesh = Dual::new(solution, &mesh).map_or(f64::INFINITY, of_largest);
+        ErrorEstimates { displacement, decisions, displacement_mesh, bodies, mesh }
     }
+}
+
+/// Returns the point of a body where the stress has no limit, that where its largest stress was found
+/// before the others.
+fn no_limit(body: &Body, points: &[Singular], largest: TriangleId) -> Option<NoLimit> {
+    let is_largest = |point: &Singular| point.triangles.contains(&largest);
+    let mut of_body = points
+        .iter()
+        .filter(|point| point.triangles.iter().any(|id| body.triangles.binary_search(id).is_ok()));
+    let first = of_body.clone().next()?;
+    let point = of_body.find(|point| is_largest(point)).unwrap_or(first);
+    Some(NoLimit { node: point.node, cause: point.cause, is_largest: is_largest(point) })
 }

@@ -3,11 +3,12 @@
 use std::time::Instant;
 
 use super::errors::{Errors, meshes, prolonged};
-use super::order::Order;
-use super::rows::{Row, Section, Trade};
+use super::order::{Order, departure};
+use super::rows::{Ladder, Row, Section, Trade};
 use super::trials::{Against, Trial, trials};
 use super::{Knob, words};
 use crate::answer::error::Error;
+use crate::answer::estimates::discretisation::Discretisation;
 use crate::answer::{
     Request, Solution, Stiffness, equilibrium, max_displacement, over, solve, summaries,
 };
@@ -45,9 +46,11 @@ pub fn measure(
             watch("peak memory");
         }
         mark_front(&mut rows);
-        let orders = if *knob == Knob::Mesh { bench.orders()? } else { Vec::new() };
-        let answers = words::answers(request, *knob, &rows, &orders);
-        sections.push(Section { knob: *knob, against: against(*knob), rows, orders, answers });
+        let (orders, ladder) =
+            if *knob == Knob::Mesh { bench.ladder()? } else { Default::default() };
+        let answers = words::answers(request, *knob, &rows, &orders, ladder.as_ref());
+        let against = against(*knob);
+        sections.push(Section { knob: *knob, against, rows, orders, ladder, answers });
     }
     Ok(Trade {
         scene: request.scene.name.clone(),
@@ -63,7 +66,7 @@ fn against(knob: Knob) -> &'static str {
     match knob {
         Knob::Arithmetic => "the last row that ran",
         Knob::Solver => "f64x2",
-        Knob::Mesh => "the finest mesh that ran",
+        Knob::Mesh => "the reference solution on the finest mesh that ran",
         Knob::Symmetry => "the whole scene under the same variant",
         _ => "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)",
     }
@@ -177,14 +180,14 @@ impl Bench<'_> {
         }
     }
 
-    /// Orders of convergence, from meshes each of half the element size of the one before.
-    fn orders(&self) -> Result<Vec<Order>, Error> {
+    /// Orders of convergence, from meshes each of half the element size of the one before, and what
+    /// the ladder of them tells; nothing where one of them failed.
+    fn ladder(&self) -> Result<(Vec<Order>, Option<Ladder>), Error> {
         let solutions: Vec<&Solution> =
             self.runs.iter().filter_map(|run| run.solution.as_ref().ok()).collect();
-        if solutions.len() < self.runs.len() {
-            return Ok(Vec::new());
-        }
-        let Some(&finest) = solutions.last() else { return Ok(Vec::new()) };
+        let Some(&finest) = solutions.last().filter(|_| solutions.len() == self.runs.len()) else {
+            return Ok((Vec::new(), None));
+        };
         let meshes = meshes(&self.request.scene, solutions.len() - 1)?;
         let stiffness = Stiffness::new(&finest.model, |x| x);
         let levels = solutions.iter().enumerate();
@@ -193,17 +196,26 @@ impl Bench<'_> {
             .collect();
         let norm = stiffness.energy_norm(&finest.u);
         let between =
-            |pair: &[Solution]| over(stiffness.energy_norm(&(&pair[0].u - &pair[1].u)), norm);
+            |a: usize, b: usize| over(stiffness.energy_norm(&(&on_finest[a].u - &on_finest[b].u)), norm);
+        let neighbours = (1..solutions.len()).map(|l| between(l - 1, l));
+        let threes = (2..solutions.len())
+            .map(|l| [between(l - 2, l - 1), between(l - 1, l), between(l - 2, l)]);
+        let estimate = |s: &&Solution| Discretisation::new(&s.model, &s.elements).relative();
+        let ladder = Ladder {
+            estimates: solutions.iter().map(estimate).collect(),
+            departure: departure(threes),
+        };
         let displacements = solutions.iter().map(|s| max_displacement(&s.u)).collect();
         let stress = |solution: &Solution| {
             let bodies = summaries(solution);
             bodies.iter().map(|body| body.max_von_mises_stress).fold(0.0, f64::max)
         };
-        Ok(vec![
-            Order::fit("energy norm", on_finest.windows(2).map(between).collect()),
+        let orders = vec![
+            Order::fit("energy norm", neighbours.collect(), 2),
             of_values("largest displacement", displacements),
             of_values("largest von Mises stress", on_finest.iter().map(stress).collect()),
-        ])
+        ];
+        Ok((orders, Some(ladder)))
     }
 }
 
@@ -211,7 +223,7 @@ impl Bench<'_> {
 fn of_values(quantity: &'static str, values: Vec<f64>) -> Order {
     let last = values.last().copied().unwrap_or(1.0);
     let differences = values.windows(2).map(|pair| over(pair[0] - pair[1], last).abs());
-    Order::fit(quantity, differences.collect())
+    Order::fit(quantity, differences.collect(), 1)
 }
 
 /// The middle one of `times`, or the mean of the two in the middle.

@@ -23,7 +23,7 @@ pub use accuracy::{Came, Reached, solve_to};
 pub use errors::Errors;
 pub use measure::{Options, measure, pareto};
 pub use order::Order;
-pub use rows::{Row, Section, Trade};
+pub use rows::{Ladder, Row, Section, Trade};
 pub use trials::{Trial, find, trials};
 
 use crate::choices;

@@ -2,8 +2,17 @@
 //! answer being unknown.
 //!
 //! Where the error is C·h^p, differences between neighbours d_l = |q_l − q_(l+1)| fall by 2^p from
-//! mesh to mesh, whatever the truth: p is the slope of a line fitted to log2 d_l, and what is left
-//! beyond the finest mesh is d_last / (2^p − 1).
+//! mesh to mesh, whatever the truth: p is the slope of a line fitted to log2 d_l. Continued beyond
+//! the finest mesh they add up to the distance from the limit, by their powers k:
+//!
+//! ```text
+//!  e_l^k = d_l^k + d_(l+1)^k + ... + e_finest^k,     e_finest = d_last / (2^(k·p) − 1)^(1/k)
+//! ```
+//!
+//! k = 1 for a number that approaches its limit from one side. k = 2 for the energy norm of
+//! displacements on nested meshes under one load: u_(l+1) − u_l is orthogonal to all that mesh l can
+//! do, so that squares add, as Pythagoras has it. Contact makes this approximate, because the
+//! bodies' surfaces meet otherwise on each mesh: [`departure`] measures by how much.
 
 use serde::Serialize;
 
@@ -18,26 +27,39 @@ pub struct Order {
     /// How far the farthest difference lies from the fitted line, as a factor; nothing of two,
     /// which a line always passes through.
     pub scatter: Option<f64>,
-    /// Estimated relative error of the finest mesh.
-    pub left: Option<f64>,
+    /// Estimated relative error of each mesh, the coarsest first; nothing without an order.
+    pub errors: Option<Vec<f64>>,
 }
 
 impl Order {
-    /// Fits p to `differences` of the quantity between neighbouring meshes.
-    pub fn fit(quantity: &'static str, differences: Vec<f64>) -> Self {
+    /// Fits p to `differences` of the quantity between neighbouring meshes, whose powers `k` add.
+    pub fn fit(quantity: &'static str, differences: Vec<f64>, k: i32) -> Self {
         let falling = differences.len() > 1
             && differences.windows(2).all(|d| d[1] < d[0])
             && differences.iter().all(|d| *d > 0.0);
         if !falling {
-            return Order { quantity, differences, order: None, scatter: None, left: None };
+            return Order { quantity, differences, order: None, scatter: None, errors: None };
         }
         let logs: Vec<f64> = differences.iter().map(|d| d.log2()).collect();
         let (slope, start) = line(&logs);
         let apart = logs.iter().enumerate().map(|(l, y)| (y - start - slope * l as f64).abs());
         let scatter = (logs.len() > 2).then(|| apart.fold(0.0, f64::max).exp2());
-        let left = differences[differences.len() - 1] / ((-slope).exp2() - 1.0);
-        Order { quantity, differences, order: Some(-slope), scatter, left: Some(left) }
+        let root = |x: f64| x.powf(1.0 / f64::from(k));
+        let last = differences[differences.len() - 1];
+        let mut errors = vec![last / root((f64::from(k) * -slope).exp2() - 1.0)];
+        for d in differences.iter().rev() {
+            errors.push(root(errors[errors.len() - 1].powi(k) + d.powi(k)));
+        }
+        errors.reverse();
+        Order { quantity, differences, order: Some(-slope), scatter, errors: Some(errors) }
     }
+}
+
+/// How far squares are from adding up: the largest |a² + b² − c²| / c² over three meshes in turn, a
+/// and b being the distances between neighbours and c that between the first and the third.
+pub fn departure(distances: impl Iterator<Item = [f64; 3]>) -> Option<f64> {
+    let apart = |[a, b, c]: [f64; 3]| ((a * a + b * b) / (c * c) - 1.0).abs();
+    distances.map(apart).reduce(f64::max)
 }
 
 /// Slope and start of the line through (0, y_0), (1, y_1), ..., by least squares.

@@ -27,8 +27,20 @@ pub struct Section {
     pub rows: Vec<Row>,
     /// Orders of convergence, of the element size only.
     pub orders: Vec<Order>,
+    /// The meshes beside their limit, of the element size only; nothing where one of them failed.
+    pub ladder: Option<Ladder>,
     /// What the rows say, in words.
     pub answers: Vec<String>,
+}
+
+/// What a ladder of meshes, each of half the element size of the one before, tells of each of them.
+#[derive(Clone, Debug, Serialize)]
+pub struct Ladder {
+    /// The error of each mesh in the energy norm as `solve` estimates it from that mesh alone,
+    /// relative; infinite where unknown.
+    pub estimates: Vec<f64>,
+    /// How far the squares of differences are from adding up; nothing of two meshes.
+    pub departure: Option<f64>,
 }
 
 /// What was measured of a trial. Times and peaks are this machine's.

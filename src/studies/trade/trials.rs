@@ -32,7 +32,7 @@ pub enum Setting {
     Iterations(usize),
     Status(StatusRule),
     Coupling(Coupling),
-    /// The scene with its mesh refined so many times.
+    /// The reference solution of the scene with its mesh refined so many times.
     Refined(usize),
     Half,
 }
@@ -89,6 +89,7 @@ impl Trial {
                     })?;
                     request.scene = refined.scene;
                 }
+                request = request.reference();
             }
             Setting::Half => {
                 let half = symmetry::half(&request.scene).ok_or_else(|| {
@@ -235,7 +236,7 @@ fn against_the_last(
     arithmetics.into_iter().map(trial).collect()
 }
 
-/// Meshes under `unilateral`, which keeps no dense matrix.
+/// Meshes, each with its reference solution, which has no path of the load to follow.
 fn meshes(scene: &Scene) -> Vec<Trial> {
     let equations = |times: usize| scene.model.dofs() << (2 * times);
     let count = (1..MESHES).take_while(|times| equations(*times) <= EQUATIONS).count() + 1;

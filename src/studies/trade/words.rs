@@ -3,7 +3,7 @@
 use super::Knob;
 use super::errors::Errors;
 use super::order::Order;
-use super::rows::Row;
+use super::rows::{Ladder, Row};
 use super::trials::{cg, exact_seconds, sparse};
 use crate::answer::Request;
 use crate::numbers::solve::{ScalarName, Solver};
@@ -14,7 +14,13 @@ use crate::problem::scene::{Scene, symmetry};
 const NOTICEABLE: f64 = 0.01;
 
 /// What the rows of a knob say, a sentence for each question.
-pub fn answers(request: &Request, knob: Knob, rows: &[Row], orders: &[Order]) -> Vec<String> {
+pub fn answers(
+    request: &Request,
+    knob: Knob,
+    rows: &[Row],
+    orders: &[Order],
+    ladder: Option<&Ladder>,
+) -> Vec<String> {
     let scene = &request.scene;
     match knob {
         Knob::Symmetry if rows.is_empty() => {
@@ -23,7 +29,7 @@ pub fn answers(request: &Request, knob: Knob, rows: &[Row], orders: &[Order]) ->
         _ if rows.is_empty() => vec!["The scene has no contact: there is nothing to turn.".into()],
         Knob::Arithmetic => arithmetic(request, rows),
         Knob::Solver => solver(rows),
-        Knob::Mesh => mesh(rows, orders),
+        Knob::Mesh => mesh(scene, rows, orders, ladder),
         Knob::Tolerance => by_variant(scene, rows, tolerance),
         Knob::Iterations => by_variant(scene, rows, iterations),
         Knob::Status | Knob::Coupling => by_variant(scene, rows, nearest),
@@ -102,7 +108,7 @@ fn solver(rows: &[Row]) -> Vec<String> {
     sentences
 }
 
-fn mesh(rows: &[Row], orders: &[Order]) -> Vec<String> {
+fn mesh(scene: &Scene, rows: &[Row], orders: &[Order], ladder: Option<&Ladder>) -> Vec<String> {
     let mut sentences: Vec<String> = orders.iter().map(order).collect();
     sentences.extend(rows.first().and_then(|row| row.error).map(|error| {
         let [displacement, energy, stress] =
@@ -112,6 +118,10 @@ fn mesh(rows: &[Row], orders: &[Order]) -> Vec<String> {
              one, {energy} in the energy norm, {stress} of the largest von Mises stress."
         )
     }));
+    if let (Some(energy), Some(ladder)) = (orders.first(), ladder) {
+        sentences.extend(pythagoras(scene, ladder));
+        sentences.extend(estimate(energy, ladder));
+    }
     sentences.push(
         "The outline is the polygon of the scene's own mesh on every mesh: what a curved surface \
          loses to its chords is not in these numbers."
@@ -120,14 +130,47 @@ fn mesh(rows: &[Row], orders: &[Order]) -> Vec<String> {
     sentences
 }
 
+/// Why squares add in the energy norm, and how nearly they do.
+fn pythagoras(scene: &Scene, ladder: &Ladder) -> Option<String> {
+    let departure = percent(ladder.departure?);
+    let why = match scene.model.target() {
+        None => {
+            "because each mesh is nested in the next and the load is the same; \
+                 what they miss by is rounding"
+        }
+        Some(_) => {
+            "because each mesh is nested in the next and the load is the same; with \
+             contact only nearly, for the surfaces meet otherwise on each mesh"
+        }
+    };
+    Some(format!(
+        "In the energy norm the squares of the differences add, {why}: over three meshes in turn \
+         they miss the square of the whole by {departure} at most."
+    ))
+}
+
+/// What `solve` estimates beside what the ladder measures.
+fn estimate(energy: &Order, ladder: &Ladder) -> Option<String> {
+    let errors = energy.errors.as_ref()?;
+    let pairs = errors.iter().zip(&ladder.estimates).filter(|(_, estimate)| estimate.is_finite());
+    let listed: Vec<String> = pairs
+        .map(|(error, estimate)| format!("{} for {}", percent(*estimate), percent(*error)))
+        .collect();
+    Some(format!(
+        "What solve estimates of these meshes, each from itself alone: {}. The ladder has the last \
+         word: the estimate is too low where the stress is singular.",
+        listed.join(", ")
+    ))
+}
+
 fn order(order: &Order) -> String {
-    let Order { quantity, differences, order, scatter, left } = order;
+    let Order { quantity, differences, order, scatter, errors } = order;
     if differences.iter().any(|d| !d.is_finite()) {
         return format!("The {quantity} has no order of convergence: on the finest mesh it is 0.");
     }
     let listed: Vec<String> = differences.iter().map(|d| format!("{d:.1e}")).collect();
     let listed = listed.join(", ");
-    let (Some(p), Some(left)) = (order, left) else {
+    let (Some(p), Some([own, .., finest])) = (order, errors.as_deref()) else {
         return format!(
             "The {quantity} shows no order of convergence on these meshes (differences {listed})."
         );
@@ -137,8 +180,9 @@ fn order(order: &Order) -> String {
     });
     format!(
         "The {quantity} converges with order {p:.2} (differences from mesh to mesh {listed}; \
-         {scatter}); the finest mesh is about {} from the limit.",
-        percent(*left)
+         {scatter}); the finest mesh is about {} from the limit, the scene's own {}.",
+        percent(*finest),
+        percent(*own)
     )
 }
 
