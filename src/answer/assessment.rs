@@ -31,8 +31,8 @@ pub struct Assessment<'a> {
     pub hertz: Option<Hertz>,
     /// The comparison with the reference solution, or why there is none; None without contact.
     pub reference: Option<Result<Measured<'a>, Error>>,
-    /// The comparison with the equilibrium under the scene's own friction and geometry, or why there
-    /// is none; None without contact, and where that is the reference solution.
+    /// The comparison with the equilibrium under the scene's own friction and geometry, or why
+    /// there is none; None without contact, and where that is the reference solution.
     pub equilibrium: Option<Result<Measured<'a>, Error>>,
 }
 
@@ -62,8 +62,8 @@ impl<'a> Assessment<'a> {
         Assessment::measured(solution, reference, target.and(own).map(solved))
     }
 
-    /// Assesses a solution against solutions that are already known: the reference solution, and the
-    /// equilibrium under the scene's own friction and geometry.
+    /// Assesses a solution against solutions that are already known: the reference solution, and
+    /// the equilibrium under the scene's own friction and geometry.
     pub fn against(
         solution: &'a Solution,
         [reference, equilibrium]: [Option<&'a Solution>; 2],
@@ -100,8 +100,8 @@ impl<'a> Assessment<'a> {
         Ok(())
     }
 
-    /// Returns the comparison with the equilibrium under the scene's own friction and geometry, where
-    /// that one was solved.
+    /// Returns the comparison with the equilibrium under the scene's own friction and geometry,
+    /// where that one was solved.
     pub fn own(&self) -> Option<&Measured<'a>> {
         match &self.equilibrium {
             Some(measured) => measured.as_ref().ok(),

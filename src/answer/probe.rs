@@ -1,4 +1,5 @@
-//! The displacement, stress and strain at a point, each with what rounding and the mesh may do to it.
+//! The displacement, stress and strain at a point, each with what rounding and the mesh may do to
+//! it.
 
 use nalgebra::{DVector, SVector, Vector3};
 use serde::{Deserialize, Serialize};
@@ -174,7 +175,8 @@ impl Bench<'_> {
         )
     }
 
-    /// Puts together values, recovered values, differences between the two, and what rounding may do.
+    /// Puts together values, recovered values, differences between the two, and what rounding may
+    /// do.
     fn quantities<const N: usize>(
         &self,
         id: TriangleId,
@@ -202,7 +204,8 @@ fn largest<const N: usize>(corners: [[f64; N]; 3]) -> [f64; N] {
     std::array::from_fn(|i| corners.iter().map(|corner| corner[i]).fold(0.0, f64::max))
 }
 
-/// Returns the parts of a triangle's area on the other side of `p` from each corner: all ≥ 0 inside.
+/// Returns the parts of a triangle's area on the other side of `p` from each corner: all ≥ 0
+/// inside.
 fn weights(corners: &Corners<f64>, p: [f64; 2]) -> [f64; 3] {
     let whole = element::area(corners);
     std::array::from_fn(|k| {

@@ -48,8 +48,8 @@ pub struct Args {
     /// largest, and say what was done; the mesh's own error is reported beside it.
     #[arg(long, value_name = "A", conflicts_with_all = ["scalar", "solver", "tol", "inputs"])]
     accuracy: Option<f64>,
-    /// Print displacement, stress and strain at a point of the undeformed mesh, with what rounding and
-    /// the mesh may do to them; may be given more than once.
+    /// Print displacement, stress and strain at a point of the undeformed mesh, with what rounding
+    /// and the mesh may do to them; may be given more than once.
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     probe: Vec<[f64; 2]>,
     #[command(flatten)]

@@ -61,16 +61,16 @@ pub struct ResultFile {
     /// What the run says of the points that `--probe` asks for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<Probe>,
-    /// What `unilateral` knows of its equilibrium: the path of the load, and whether there are others;
-    /// absent under the other variants.
+    /// What `unilateral` knows of its equilibrium: the path of the load, and whether there are
+    /// others; absent under the other variants.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium: Option<Equilibrium>,
     /// What half as many steps of the load change of the largest displacement component, length;
     /// absent without a path.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path_change: Option<f64>,
-    /// How far the run is from the reference solution (no friction, initial geometry, mortar), where
-    /// there is one.
+    /// How far the run is from the reference solution (no friction, initial geometry, mortar),
+    /// where there is one.
     pub distance: Option<Distance>,
     /// How far the run is from the equilibrium under the scene's own friction and geometry; nothing
     /// where that is the reference solution, or there is none.
@@ -138,11 +138,11 @@ pub struct BodyEstimates {
     pub von_mises_stress: f64,
     /// The largest von Mises value of the recovered stresses, as a rule nearer to the truth.
     pub recovered: f64,
-    /// What the mesh may do to it, stress; nothing where that is not known, and where it was found at
-    /// a point where the stress has no limit.
+    /// What the mesh may do to it, stress; nothing where that is not known, and where it was found
+    /// at a point where the stress has no limit.
     pub mesh: Option<f64>,
-    /// A point of the body where the stress has no limit as the mesh is refined; what the mesh may do
-    /// is said of the other ones.
+    /// A point of the body where the stress has no limit as the mesh is refined; what the mesh may
+    /// do is said of the other ones.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_limit: Option<NoLimit>,
     /// What rounding may do to it, stress; nothing where that is not known.

@@ -1,9 +1,9 @@
 //! What `solve --probe` prints, beside closed forms: the numbers, and how much wider than the true
 //! error their mesh bounds are.
 //!
-//! SOURCE: Lamé, Kirsch: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 28 and 35; Cook:
-//! 23.96, R. D. Cook, J. Struct. Div. ASCE 100 (1974) 1851-1863; corners: M. L. Williams, J. Appl.
-//! Mech. 19 (1952) 526-528.
+//! SOURCE: Lamé, Kirsch: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 28 and 35;
+//! Cook: 23.96, R. D. Cook, J. Struct. Div. ASCE 100 (1974) 1851-1863; corners: M. L. Williams, J.
+//! Appl. Mech. 19 (1952) 526-528.
 //!
 //! GOAL: bounds of displacements that hold, and are at most MESH_BOUND_WIDTH times as wide as the
 //! error; recovered stresses within RECOVERED; no bound where the stress has no limit.

@@ -25,8 +25,8 @@
 //! error, and on coarse meshes about zero. The price is a wide estimate: there it is typically 2.6
 //! to 10 times the true error, and more where that error happens to be small. At a re-entrant
 //! corner, under a point load or at the edge of a sticking contact the true stress has no largest
-//! value, and no estimate bounds it (`singular.rs` finds such places); nor does a triangle see the error that such a place causes far
-//! away.
+//! value, and no estimate bounds it (`singular.rs` finds such places); nor does a triangle see the
+//! error that such a place causes far away.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 use nalgebra::Matrix3;

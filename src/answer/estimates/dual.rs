@@ -9,11 +9,11 @@
 //!  estimate      = SAFETY · | ∫ (σ* − σ_h)(u)ᵀ D⁻¹ (σ* − σ_h)(z) dV |
 //! ```
 //!
-//! with the recovered stresses σ* (`recovery.rs`) for the true ones. Under friction, and where contact
-//! changes with the mesh, the equality holds nearly only.
+//! with the recovered stresses σ* (`recovery.rs`) for the true ones. Under friction, and where
+//! contact changes with the mesh, the equality holds nearly only.
 //!
-//! Source: R. Becker, R. Rannacher, "An optimal control approach to a posteriori error estimation in
-//! finite element methods", Acta Numerica 10 (2001) 1-102.
+//! Source: R. Becker, R. Rannacher, "An optimal control approach to a posteriori error estimation
+//! in finite element methods", Acta Numerica 10 (2001) 1-102.
 
 use nalgebra::DVector;
 
@@ -37,8 +37,8 @@ pub struct Dual<'a> {
 
 impl<'a> Dual<'a> {
     /// Factors the stiffness of the last contact state; `errors` is the estimate of the run. None
-    /// where that state does not hold the bodies, and of `Km` as printed, which is the stiffness of no
-    /// bodies in contact.
+    /// where that state does not hold the bodies, and of `Km` as printed, which is the stiffness of
+    /// no bodies in contact.
     pub fn new(solution: &'a Solution, errors: &Discretisation) -> Option<Self> {
         let (model, constraints) = (&*solution.model, &solution.last().constraints);
         let t = match solution.request.variant {
@@ -52,8 +52,9 @@ impl<'a> Dual<'a> {
         Some(Dual { model, errors, stiffness, t, factors })
     }
 
-    /// Returns the estimated error of the displacement in whose place and direction `force`, by degree
-    /// of freedom, is a unit force, length; infinite where the error of a triangle is unknown.
+    /// Returns the estimated error of the displacement in whose place and direction `force`, by
+    /// degree of freedom, is a unit force, length; infinite where the error of a triangle is
+    /// unknown.
     pub fn error(&self, force: &DVector<f64>) -> f64 {
         let q = self.factors.solve(&self.t.load(&self.model.free_part(force)));
         let z = self.stiffness.states(&(self.t.expand(&q) - self.t.shift()));

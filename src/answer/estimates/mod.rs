@@ -51,11 +51,11 @@ pub struct BodyEstimates {
     pub value: f64,
     /// The largest of the recovered stresses, typically nearer to the truth, stress.
     pub recovered: f64,
-    /// The estimated error of `value` that the mesh causes, stress; infinite too where `no_limit` is
-    /// where `value` was found.
+    /// The estimated error of `value` that the mesh causes, stress; infinite too where `no_limit`
+    /// is where `value` was found.
     pub mesh: f64,
-    /// A point of the body where the stress has no limit as the mesh is refined; None where there is
-    /// none.
+    /// A point of the body where the stress has no limit as the mesh is refined; None where there
+    /// is none.
     pub no_limit: Option<NoLimit>,
     /// A bound on the error of `value` that rounding causes, stress.
     pub arithmetic: f64,
@@ -107,8 +107,8 @@ impl ErrorEstimates {
     }
 }
 
-/// Returns the point of a body where the stress has no limit, that where its largest stress was found
-/// before the others.
+/// Returns the point of a body where the stress has no limit, that where its largest stress was
+/// found before the others.
 fn no_limit(body: &Body, points: &[Singular], largest: TriangleId) -> Option<NoLimit> {
     let is_largest = |point: &Singular| point.triangles.contains(&largest);
     let mut of_body = points

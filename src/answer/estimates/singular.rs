@@ -1,4 +1,5 @@
-//! Points where the stress grows without limit as the mesh is refined: no mesh has its largest value.
+//! Points where the stress grows without limit as the mesh is refined: no mesh has its largest
+//! value.
 //!
 //! ```text
 //!   re-entrant corner      end of a held edge       edge of sticking contact
@@ -8,8 +9,8 @@
 //!     +--+   <- here          //+--------
 //! ```
 //!
-//! About the meeting of two straight sides the stress goes like r^(λ−1); it has a limit unless λ < 1,
-//! which begins at an angle ω between the sides that depends on how they are held:
+//! About the meeting of two straight sides the stress goes like r^(λ−1); it has a limit unless λ <
+//! 1, which begins at an angle ω between the sides that depends on how they are held:
 //!
 //! | sides | λ < 1 beyond |
 //! |---|---|
@@ -21,8 +22,8 @@
 //! ends at the edge of a body, the traction goes like r^(−1/2) or nearly so; where it ends
 //! without friction between smooth surfaces, it goes to 0.
 //!
-//! Source: M. L. Williams, "Stress singularities resulting from various boundary conditions in angular
-//! corners of plates in extension", J. Appl. Mech. 19 (1952) 526-528.
+//! Source: M. L. Williams, "Stress singularities resulting from various boundary conditions in
+//! angular corners of plates in extension", J. Appl. Mech. 19 (1952) 526-528.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -36,8 +37,8 @@ use crate::problem::model::{Beside, Model, NodeId, TriangleId};
 /// The turn of an outline below which it is taken for a chord of a curve and not for a corner, rad.
 const CHORD: f64 = PI / 6.0;
 
-/// The force of a restraint on a single node, over the largest force on any node, below which it only
-/// keeps the body from moving as a whole.
+/// The force of a restraint on a single node, over the largest force on any node, below which it
+/// only keeps the body from moving as a whole.
 const IDLE: f64 = 1e-6;
 
 /// How near, in lengths of an edge, the ends of two surfaces in contact make one straight outline.

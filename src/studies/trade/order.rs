@@ -10,8 +10,8 @@
 //! ```
 //!
 //! k = 1 for a number that approaches its limit from one side. k = 2 for the energy norm of
-//! displacements on nested meshes under one load: u_(l+1) − u_l is orthogonal to all that mesh l can
-//! do, so that squares add, as Pythagoras has it. Contact makes this approximate, because the
+//! displacements on nested meshes under one load: u_(l+1) − u_l is orthogonal to all that mesh l
+//! can do, so that squares add, as Pythagoras has it. Contact makes this approximate, because the
 //! bodies' surfaces meet otherwise on each mesh: [`departure`] measures by how much.
 
 use serde::Serialize;
