@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::contact::search::Segment;
 use super::estimates::arithmetic::stress_bounds;
 use super::estimates::discretisation::{SAFETY, compliance, von_mises};
-use super::estimates::{Dual, ErrorEstimates};
+use super::estimates::{Cause, Dual, ErrorEstimates, Singular, singular};
 use super::solution::Solution;
 use super::stiffness::Stiffness;
 use crate::error::InputError;
@@ -29,6 +29,10 @@ pub struct Probe {
     pub triangle: usize,
     /// The triangles of the body that have the point too, where it is on an edge or a node.
     pub shared: Vec<usize>,
+    /// Why no mesh bounds the stress here, within two rings of triangles about a point where it has
+    /// no limit; nothing elsewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_limit: Option<Cause>,
     /// The displacement, then the stresses, then the strains.
     pub quantities: Vec<Quantity>,
 }
@@ -66,6 +70,7 @@ pub fn probes(
         solution,
         estimates,
         dual: Dual::new(solution, &estimates.mesh),
+        singular: singular(solution),
         of_stress: stress_bounds(solution, estimates.displacement),
         bounded: {
             let u = solution.u.map(|u| Bounded::new(u, estimates.displacement));
@@ -87,6 +92,7 @@ struct Bench<'a> {
     solution: &'a Solution,
     estimates: &'a ErrorEstimates,
     dual: Option<Dual<'a>>,
+    singular: Vec<Singular>,
     /// What rounding may do to the von Mises stress of each triangle, stress.
     of_stress: Vec<f64>,
     /// The stresses of each triangle with what rounding may do to them, stress.
@@ -107,8 +113,14 @@ impl Bench<'_> {
             body: body.name.clone(),
             triangle: id.number(),
             shared: triangles.map(|id| id.number()).collect(),
+            no_limit: self.no_limit(id),
             quantities: [displacement, stress, strain].concat(),
         })
+    }
+
+    fn no_limit(&self, id: TriangleId) -> Option<Cause> {
+        let near = self.singular.iter().find(|point| point.triangles.contains(&id));
+        near.map(|point| point.cause)
     }
 
     fn displacement(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Quantity> {
@@ -183,12 +195,13 @@ impl Bench<'_> {
         names: [&str; N],
         [value, recovered, mesh, arithmetic]: [[f64; N]; 4],
     ) -> Vec<Quantity> {
+        let is_singular = self.no_limit(id).is_some();
         let is_recovered = self.estimates.mesh.stress_errors[id.index()].is_finite();
         let quantity = |(i, name): (usize, &str)| Quantity {
             name: name.into(),
             value: value[i],
             recovered: is_recovered.then_some(recovered[i]),
-            mesh: is_recovered.then_some(SAFETY * mesh[i]),
+            mesh: (is_recovered && !is_singular).then_some(SAFETY * mesh[i]),
             arithmetic: known(arithmetic[i]),
         };
         names.into_iter().enumerate().map(quantity).collect()

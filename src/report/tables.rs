@@ -334,9 +334,8 @@ fn probe(units: &Units, probe: &Probe) -> String {
     let shared = match &probe.shared[..] {
         [] => String::new(),
         others => format!(
-            ", of which it has an edge or a node with {}: the values are those of {} alone",
-            listed(others),
-            probe.triangle
+            " (edge or node shared with {}: values are its own, recovered ones are common)",
+            listed(others)
         ),
     };
     let unit = |q: &&Quantity| match &q.name {
@@ -354,7 +353,11 @@ fn probe(units: &Units, probe: &Probe) -> String {
         .column("+- mesh", |q| error(q.mesh))
         .column("+- arithmetic", |q| error(q.arithmetic))
         .text();
-    format!("\nAt {x}, {y}: body {}, triangle {}{shared}\n{table}", probe.body, probe.triangle)
+    let no_limit = probe.no_limit.map_or(String::new(), |cause| {
+        format!("  beside {cause}, where the stress has no limit: no mesh bounds it\n")
+    });
+    let head = format!("\nAt {x}, {y}: body {}, triangle {}{shared}\n", probe.body, probe.triangle);
+    head + &no_limit + &table
 }
 
 /// Lays out how far a run is from the reference solution and from the equilibrium under the scene's

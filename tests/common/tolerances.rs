@@ -176,8 +176,8 @@ tolerances! {
 
     /// Widest mesh bound of a probed displacement or stress, against the true error.
     MESH_BOUND_WIDTH = 4.0,
-        "a safety factor of 2 on estimates that find 0.6 of the error and more: 1.2 to 2.0 was \
-         measured for displacements";
+        "a safety factor of 2 on estimates that find 0.6 of the error and more: 1.2 to 2.2 was \
+         measured";
 
     /// Recovered stresses at the bore and at the hole, relative to the closed form.
     RECOVERED = 1e-2, "second order where three triangles meet at most: 32 and 64 divisions";

@@ -3,9 +3,9 @@
 //!
 //! ```text
 //!  Model, States --patches--> sites --recovery--> stresses --discretisation--> errors of the mesh
-//!                                        |                     '--dual-----> errors of displacements
-//!  Solution ------------------------------+----------------- arithmetic -----> errors of rounding
-//!                                          '------------------ singular -----> where no stress has a limit
+//!  Solution ---------------------------------------- and these --dual--> errors of displacements
+//!  Solution ---------------------------------------------- arithmetic -----> errors of rounding
+//!  Solution ---------------------------------------------- singular -> where stress has no limit
 //! ```
 
 pub mod arithmetic;

@@ -122,11 +122,14 @@ fn mesh(scene: &Scene, rows: &[Row], orders: &[Order], ladder: Option<&Ladder>) 
         sentences.extend(pythagoras(scene, ladder));
         sentences.extend(estimate(energy, ladder));
     }
-    sentences.push(
+    let corners = match scene.model.target() {
+        None => "",
+        Some(_) => " Where its corners press, the stress has no limit.",
+    };
+    sentences.push(format!(
         "The outline is the polygon of the scene's own mesh on every mesh: what a curved surface \
-         loses to its chords is not in these numbers."
-            .into(),
-    );
+         loses to its chords is not in these numbers.{corners}"
+    ));
     sentences
 }
 
