@@ -83,7 +83,8 @@ impl ErrorEstimates {
         let bodies = model.bodies.iter().map(|body| {
             let states = &solution.elements;
             let largest = mesh.largest_von_mises(model, states, &body.triangles);
-            let no_limit = no_limit(body, &points, largest.at);
+            let loaded = Some(&points).filter(|_| largest.value > 0.0);
+            let no_limit = loaded.and_then(|points| no_limit(body, points, largest.at));
             let is_smooth = |id: &TriangleId| !points.iter().any(|p| p.triangles.contains(id));
             let smooth: Vec<TriangleId> =
                 body.triangles.iter().copied().filter(is_smooth).collect();
