@@ -95,7 +95,8 @@ impl ErrorEstimates {
                 recovered: largest.recovered,
                 mesh: match no_limit {
                     Some(NoLimit { is_largest: true, .. }) => f64::INFINITY,
-                    _ => mesh.largest_von_mises(model, states, &smooth).error,
+                    Some(_) => mesh.largest_von_mises(model, states, &smooth).error,
+                    None => largest.error,
                 },
                 no_limit,
                 arithmetic: rounding.fold(0.0, f64::max),
