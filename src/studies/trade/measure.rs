@@ -195,8 +195,9 @@ impl Bench<'_> {
             .map(|(level, solution)| prolonged((*solution).clone(), &meshes[level..], finest))
             .collect();
         let norm = stiffness.energy_norm(&finest.u);
-        let between =
-            |a: usize, b: usize| over(stiffness.energy_norm(&(&on_finest[a].u - &on_finest[b].u)), norm);
+        let between = |a: usize, b: usize| {
+            over(stiffness.energy_norm(&(&on_finest[a].u - &on_finest[b].u)), norm)
+        };
         let neighbours = (1..solutions.len()).map(|l| between(l - 1, l));
         let threes = (2..solutions.len())
             .map(|l| [between(l - 2, l - 1), between(l - 1, l), between(l - 2, l)]);
