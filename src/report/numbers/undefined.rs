@@ -13,6 +13,8 @@ const REASONS: &[(&str, &str)] = &[
     ("scatter", "there is no order, or a line through two differences only"),
     ("errors", "there is no order of convergence"),
     ("estimates", "nothing moves, or a body has too few triangles"),
+    ("departure", "there are fewer than three meshes, or nothing moves"),
+    ("ladder", "the section is not that of meshes"),
     ("cycle", "the contact state is new"),
     ("hertz", "Hertz's theory does not apply: it takes two curved bodies pressed by a known force"),
     ("pressure", "restraints leave the force undetermined"),
