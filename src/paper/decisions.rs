@@ -9,8 +9,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::mathcad;
 use super::mathcad::array::{Table, rows};
-use super::mirror::{Order, Pairs, Reading, Worksheet};
+use super::mirror::{Pairs, Reading, Worksheet};
 use crate::numbers::scalar::Scalar;
 use crate::problem::model::NodeId;
 
@@ -145,7 +146,7 @@ fn status<T: Scalar>(
     let (yt, zero) = (&pairs.yt, T::zero());
     let below = |line: usize| Comparison::less(line, "yt[i1] < 0", yt[i1], zero);
     // At i1 = 1 line 18 fails from left to right where its first operand holds.
-    let fails = reading.r4 == Order::LeftToRight && i1 == 1 && !below(18).is_sure();
+    let fails = reading.r4 == mathcad::Conjunction::LeftToRight && i1 == 1 && !below(18).is_sure();
     let mut left = Vec::from_iter(fails.then(|| below(18)));
     if pairs.ct[i1] == 0 {
         return left;

@@ -17,20 +17,6 @@ use crate::problem::model::{Force, Model, NodeId, Sides};
 /// # Errors
 /// No load belongs to a stage before the last one; and the errors of [`forces`].
 pub fn stages(mesh: &Mesh, model: &Model, loads: &[Load]) -> Result<Vec<DVector<f64>>> {
-    let stage = |load: &Load| load.stage.unwrap_or(1);
-    let last = loads.iter().map(stage).max().unwrap_or(1);
-    let of_stage = |k: usize| {
-        let own: Vec<Load> = loads.iter().filter(|load| stage(load) == k).cloned().collect();
-        if own.is_empty() && !loads.is_empty() {
-            let what = format!("no load has stage {k}, but one has stage {last}");
-            return Err(InputError::new(
-                "loads",
-                what,
-                "number the stages 1, 2, ... without a gap",
-            ));
-        }
-        forces(mesh, model, &own).map(|(_, f)| f)
-    };
     if let Some(k) = loads.iter().position(|load| load.stage == Some(0)) {
         let what = "stages count from 1";
         return Err(InputError::new(format!("loads[{k}].stage"), what, "give 1 or more"));
@@ -44,23 +30,24 @@ pub fn stages(mesh: &Mesh, model: &Model, loads: &[Load]) -> Result<Vec<DVector<
             return Err(InputError::new("loads", what, fix));
         }
         let own = loads.iter().enumerate().filter(|(_, load)| stage(load) == k);
-        vector(mesh, sides, own, thickness)
+        forces(mesh, model, own).map(|(_, f)| f)
     };
     (1..=last.min(loads.len() + 1)).map(of_stage).collect()
 }
 
-/// Returns the parts of the load, and what they come to in `f64` on all 2R degrees of freedom,
+/// Returns the parts of `loads`, each with its place in the scene file, and what they come to in
+/// `f64` on all 2R degrees of freedom,
 /// restrained ones included, force.
 ///
 /// # Errors
 /// A load has another form, its edge bounds no triangle or two, or a number is not finite.
-pub fn forces(
+pub fn forces<'a>(
     mesh: &Mesh,
     model: &Model,
-    loads: &[Load],
+    loads: impl Iterator<Item = (usize, &'a Load)>,
 ) -> Result<(Vec<Force>, DVector<f64>)> {
     let (mut forces, mut f) = (Vec::new(), DVector::zeros(model.dofs()));
-    for (k, load) in loads.iter().enumerate() {
+    for (k, load) in loads {
         let place = format!("loads[{k}]");
         let own = parts(mesh, &model.sides, load, &place)?;
         own.iter().for_each(|force| force.add_to(&mut f, model, &|x| x));

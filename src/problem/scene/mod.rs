@@ -129,7 +129,7 @@ impl Scene {
             restrained,
         };
         check::restrained_bodies(&model)?;
-        (model.forces, model.load) = load::forces(mesh, &model, &file.loads)?;
+        (model.forces, model.load) = load::forces(mesh, &model, file.loads.iter().enumerate())?;
         model.stages = load::stages(mesh, &model, &file.loads)?;
         Ok(Scene {
             name: name.into(),

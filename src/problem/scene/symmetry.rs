@@ -11,8 +11,8 @@ use nalgebra::DVector;
 
 use super::Scene;
 use crate::problem::model::{
-    Body, Bounds, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Row, Sides, Triangle,
-    TriangleId, unordered,
+    Body, Bounds, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Row, Sides,
+    Triangle, TriangleId, unordered,
 };
 
 /// The largest distance of a node from its image, over the scene's size: meshes are rounded.
