@@ -9,6 +9,7 @@ use plane_contact::files;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{audit as report, folder, pressure};
+use plane_contact::studies::audit::claims::DUCTS;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::{Audit, Case, audit};
 
@@ -17,13 +18,15 @@ use super::{print, waiting};
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Three tables: the readings (what the other reading changes), the findings (holds, does not arise,
+First the claims of the paper with their verdicts, how far each reaches, and what they assume;
+then three tables: the readings (what the other reading changes), the findings (holds, does not arise,
 contradicted; with a number), and the variants side by side. --finding explains one on its
 smallest scene, or on SCENE where that is given.
 
 Examples:
   plane-contact audit
   plane-contact audit fig1 --json
+  plane-contact audit --range
   plane-contact audit --finding C4
   plane-contact audit strand --finding K1
   plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
@@ -36,6 +39,10 @@ pub struct Args {
     /// Explain one finding.
     #[arg(long, value_name = "ID")]
     finding: Option<String>,
+    /// Judge the claims on the paper's example with ducts of other radii too; takes several times
+    /// as long.
+    #[arg(long, conflicts_with_all = ["scene", "finding"])]
+    range: bool,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -80,7 +87,8 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
 
 fn whole(args: &Args) -> Result<()> {
     let case = Case::new(Scene::open(args.scene.as_deref().unwrap_or("strand"))?);
-    let found = waiting("auditing", || audit(&case));
+    let ducts = if args.range { &DUCTS[..] } else { &[] };
+    let found = waiting("auditing", || audit(&case, ducts));
     let (text, json) = (report::text(&found, &case.scene), report::json(&found, &case.scene));
     if let Some(out) = &args.out {
         write(out, &case, &found, &text, &json)?;

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::json;
 
+use super::claims;
 use super::json::line;
 use super::layout::{Table, aligned, listed};
 use super::numbers::{or_dash, percent, short};
@@ -20,11 +21,13 @@ use crate::studies::audit::{Audit, Compared, Rubbing};
 pub fn text(audit: &Audit, scene: &Scene) -> String {
     format!(
         "Audit of scene {} ({})\n\n\
+         Claims of the paper, and what they assume\n{}\n\
          1. Readings: what the other reading changes, at the initial shape and at the end\n{}\n\
          2. Findings (`audit --finding C4` explains one)\n{}\n\
          3. Variants side by side\n{}{}{}",
         scene.name,
         scene.title,
+        claims::text(&audit.claims, &audit.assumptions),
         readings(&audit.readings),
         findings(&audit.findings),
         variants(&audit.variants),
@@ -207,6 +210,8 @@ pub fn json(audit: &Audit, scene: &Scene) -> String {
     let findings: Vec<serde_json::Value> = findings.map(|(f, m)| f.row(m)).collect();
     line(&json!({
         "scene": scene.name,
+        "claims": audit.claims,
+        "assumptions": audit.assumptions,
         "readings": audit.readings,
         "findings": findings,
         "variants": audit.variants,

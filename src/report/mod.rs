@@ -14,6 +14,7 @@
 //! | `layout`, `numbers`                                | columns of words, numbers as text      |
 
 pub mod audit;
+pub mod claims;
 pub mod comparison;
 pub mod extremes;
 pub mod folder;

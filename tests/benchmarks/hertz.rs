@@ -9,10 +9,7 @@
 //! BOUNDARY CONDITIONS: R = 50 mm, 35 kN/mm on the top of the cylinder, bottom held in y, axis in
 //! x, frictionless. E = 210 and 70 GPa, nu = 0.3, plane strain.
 //!
-//! Half width and peak are those of the best p² = p0² (1 − (s/a)²) through the pressures: a node
-//! resolves either to an edge length only. The node on the axis is left out: the triangles that
-//! meet there stand for half of a symmetric patch whose diagonals do not mirror. So is the last
-//! tenth: the contact ends between two nodes, and the last one or two share what lies between.
+//! Half width and peak are fitted to the pressures (`common::fitted_hertz`).
 //!
 //! A SECOND CODE (run once, on the meshes of 10 and 20 edges on the half width): Kratos 10.4.4's dual
 //! mortar (ALMContactFrictionless, segments cut exactly, normals of the contact surface, the moved
@@ -21,41 +18,16 @@
 //! mesh not moved its normals are the cylinder's and ours the block's: 9e-3. Standard in place of
 //! dual multipliers (an own code) change displacements by 4e-4 and 9e-5.
 
-use crate::common::recovery::solved_by;
+use crate::common::fitted_hertz::over_hertz;
 use crate::common::tolerances::{
     HERTZ_COARSE, HERTZ_FINE, HERTZ_PRINTED, KNOWN_CURVATURE, assert_near,
 };
-use plane_contact::answer::Solution;
-use plane_contact::problem::modelling::{ContactModel, Coupling, Geometry};
+use plane_contact::problem::modelling::{Coupling, Geometry};
 use plane_contact::studies::benchmark::Hertz;
 
 const HALF_WIDTH: f64 = 6.2146;
 const PEAK: f64 = 3585.36;
 const LOAD: f64 = 35000.0;
-const INNER: f64 = 0.9;
-
-/// Half width and peak by least squares of p² over s².
-fn fitted(solution: &Solution) -> [f64; 2] {
-    let edge = solution.in_contact().map(|c| c.arc).fold(0.0, f64::max);
-    let pressing = solution.contact.iter().filter(|c| 0.0 < c.arc && c.arc < INNER * edge);
-    let points: Vec<[f64; 2]> =
-        pressing.map(|c| [c.arc.powi(2), c.pressure.unwrap().powi(2)]).collect();
-    let count = points.len() as f64;
-    let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / count;
-    let (x, y) = (mean(0), mean(1));
-    let above: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
-    let below: f64 = points.iter().map(|p| (p[0] - x).powi(2)).sum();
-    let slope = above / below;
-    let square = y - slope * x;
-    [(-square / slope).sqrt(), square.sqrt()]
-}
-
-/// Half width and peak over Hertz's at `load`, N/mm.
-fn over_hertz(size: usize, load: f64, change: impl Fn(&mut ContactModel)) -> [f64; 2] {
-    let hertz = Hertz { size, load, ..Hertz::default() };
-    let [half_width, peak] = fitted(&solved_by(hertz.generate(), change));
-    [half_width / hertz.half_width(), peak / hertz.peak_pressure()]
-}
 
 #[test]
 fn the_closed_form_is_the_benchmarks() {

@@ -2,6 +2,7 @@
 
 #[path = "../common"]
 mod common {
+    pub mod fitted_hertz;
     pub mod program;
     pub mod recovery;
     pub mod tolerances;

@@ -96,6 +96,10 @@ tolerances! {
     /// Displacements in 16 steps of the load beside those in 32.
     LOAD_STEP = 1e-5, "a node that slips and then sticks within a step; 3e-6 measured";
 
+    /// The number of a claim beside the one that its command prints, relative to that.
+    CLAIM = 1e-9,
+        "1e-13 of the largest displacement by either solver, over a change of a thousandth of it";
+
     /// The number of a finding on its own scene, worked out by hand, relative to that number.
     FINDING = 1e-12, "a handful of operations, and LU of a few equations, on numbers of order 1";
 

@@ -3,22 +3,25 @@
 #[path = "../common"]
 mod common {
     pub mod embedded;
+    pub mod fitted_hertz;
     pub mod golden;
     pub mod json;
     pub mod program;
     pub mod random;
+    pub mod recovery;
     pub mod tolerances;
 }
 
+mod claims;
 mod cli;
 mod drawing;
 mod examples;
 mod factors;
 mod gmsh;
+mod held;
 mod pictures;
 mod plan;
 mod printed_numbers;
-mod readme;
 mod result_file;
 mod scene_builder;
 mod scenes;

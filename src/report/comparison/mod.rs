@@ -5,7 +5,7 @@ mod files;
 use std::fmt::Display;
 
 use super::layout::{Table, aligned};
-use super::numbers::{or_dash, place, quantity, short, with_unit};
+use super::numbers::{or_dash, percent, place, quantity, short, with_unit};
 use crate::problem::element::Plane;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Variant;
@@ -34,7 +34,7 @@ pub struct Compared<'a> {
 pub fn text(compared: &Compared) -> String {
     let Compared { scene, comparison, .. } = compared;
     format!(
-        "{}\n{}\n\nLargest differences\n{}\n{}\n{}\nThe worst nodes\n{}",
+        "{}\n{}\n\nLargest differences, over CalculiX's largest value\n{}\n{}\n{}\nThe worst nodes\n{}",
         scene.title,
         heading(compared),
         differences(compared),
@@ -95,7 +95,7 @@ fn differences(compared: &Compared) -> String {
         row(quantity("displacement", &scene.units.length), u, "node", model.at(u.largest.at)),
         row(quantity("stress", &scene.units.stress), s, "triangle", centre),
     ];
-    aligned(["of", "largest", "relative", "of the largest", "at", "at x, y", "rms"], rows)
+    aligned(["of", "largest", "relative", "over", "at", "at x, y", "rms"], rows)
 }
 
 /// Returns the cells of the largest difference: of what, how large, and where.
@@ -122,9 +122,8 @@ fn bodies(comparison: &Comparison) -> String {
         .column("body", |body| body.name.clone())
         .column("here", |body| short(body.ours))
         .column("CalculiX", |body| short(body.calculix))
-        .column("relative difference", |body| {
-            let scale = Some(body.ours).filter(|ours| *ours != 0.0);
-            or_dash(scale, |ours| format!("{:.1e}", (body.calculix - ours) / ours))
+        .column("difference over CalculiX's", |body| {
+            or_dash(body.relative(), |relative| percent(relative, 1))
         })
         .text()
 }

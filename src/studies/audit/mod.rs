@@ -1,6 +1,8 @@
 //! The audit: what the ambiguities and the findings of the print do on a scene.
 
+mod assumptions;
 mod case;
+pub mod claims;
 pub mod findings;
 pub mod readings;
 pub mod statuses;
@@ -10,16 +12,22 @@ pub mod variants;
 use rayon::prelude::*;
 use serde::Serialize;
 
+pub use assumptions::{Assumption, assumptions};
 pub use case::Case;
 
 use crate::answer::contact::ContactNode;
 use crate::answer::{BodySummary, Request, Solution, solve, summaries};
 use crate::problem::modelling::{ContactModel, Friction};
+use claims::Judged;
 use findings::{FINDINGS, Finding, Measured};
 use readings::Effect;
 use variants::VariantRow;
 
 pub struct Audit {
+    /// What the paper says, each with its verdict, in the order of its text.
+    pub claims: Vec<Judged>,
+    /// What the paper leaves open, and what the scene has in its place.
+    pub assumptions: Vec<Assumption>,
     /// What each other reading changes, in the order of `listings/READING.md`, section 4.
     pub readings: Vec<Effect>,
     /// What the scene shows of each finding, in the order of the register.
@@ -58,12 +66,15 @@ pub struct Compared {
     pub bodies: Vec<BodySummary>,
 }
 
-/// Audits a scene: readings, findings and variants, each against the default.
-pub fn audit(case: &Case) -> Audit {
+/// Audits a scene: claims, readings, findings and variants, each against the default; claims also
+/// on the paper's example with `ducts` of other radii, mm.
+pub fn audit(case: &Case, ducts: &[f64]) -> Audit {
     let variants = variants::side_by_side(case);
     let readings = readings::effects(case);
     let findings = FINDINGS.par_iter().map(|finding| (finding, finding.measure(case))).collect();
     Audit {
+        claims: claims::judge(case, ducts),
+        assumptions: assumptions(&case.scene),
         readings,
         findings,
         variants,

@@ -22,8 +22,8 @@ parameters! {
     /// half and with it the contact arc, where the point load is a diameter away.
     ///
     /// Contact is measured in the initial shape, as Hertz's theory of small displacements does: in
-    /// the current one the peak is 1.8 % higher at any mesh, for the surfaces shorten by 1 to 3 %
-    /// under the pressure.
+    /// the current one the peak is 0.8 % higher at any mesh, for the surfaces shorten under the
+    /// pressure.
     ///
     /// Source: NAFEMS, Benchmark Tests for Various Finite Element Contact Problems, CGS-1; closed
     /// form: K. L. Johnson, Contact Mechanics, 1985, section 4.2.

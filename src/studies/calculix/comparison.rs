@@ -12,8 +12,8 @@ pub struct Comparison {
     /// Von Mises stress of each triangle, by this program and by CalculiX.
     pub von_mises: [Vec<f64>; 2],
     pub displacement: Difference<NodeId>,
-    /// Stresses, by triangle: the largest component of sigma_x, sigma_y, tau_xy; relative to the
-    /// largest von Mises stress.
+    /// Stresses, by triangle: the largest component of sigma_x, sigma_y, tau_xy; relative to
+    /// CalculiX's largest von Mises stress.
     pub stress: Difference<TriangleId>,
     /// The largest von Mises stress of each body, by both.
     pub bodies: Vec<BodyStress>,
@@ -29,13 +29,13 @@ pub struct Difference<Place> {
     pub rms: f64,
 }
 
-/// The largest difference, where it is, and against what.
+/// The largest difference, where it is, and against what: every share is of CalculiX's value.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Largest<Place> {
     pub at: Place,
     /// The difference there, length or stress.
     pub difference: f64,
-    /// The largest value by this program.
+    /// The largest value by CalculiX.
     pub scale: f64,
     /// Difference over scale; 0 where both are 0.
     pub relative: f64,
@@ -48,6 +48,13 @@ pub struct BodyStress {
     pub ours: f64,
     /// Its largest stress by CalculiX.
     pub calculix: f64,
+}
+
+impl BodyStress {
+    /// Returns the difference of the two over CalculiX's; None where that is 0.
+    pub fn relative(&self) -> Option<f64> {
+        (self.calculix != 0.0).then(|| (self.ours - self.calculix) / self.calculix)
+    }
 }
 
 impl Comparison {
@@ -63,7 +70,7 @@ impl Comparison {
         let u = ours.u.iter().zip(&theirs.u).map(apart);
         let stress = ours.sigma.iter().zip(&theirs.sigma).map(stressed);
         let (u_scale, stress_scale) =
-            (largest(ours.u.iter().map(length)), largest(von_mises[0].iter().copied()));
+            (largest(theirs.u.iter().map(length)), largest(von_mises[1].iter().copied()));
         Comparison {
             displacement: Difference::new(model.node_ids().zip(u).collect(), u_scale),
             stress: Difference::new(model.triangle_ids().zip(stress).collect(), stress_scale),

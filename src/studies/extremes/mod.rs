@@ -23,7 +23,7 @@ mod verdict;
 
 use rayon::prelude::*;
 
-pub use sweep::{Break, Column, Generator, Measured};
+pub use sweep::{Break, Column, Generator, LEAST, Measured};
 pub use verdict::Verdict;
 
 /// Every generator, in the order of the tables.

@@ -8,7 +8,7 @@ use crate::answer::error::Error;
 use crate::numbers::solve::ScalarName;
 
 /// Fewer right digits than these, and an engineer is misled.
-const LEAST: f64 = 3.0;
+pub const LEAST: f64 = 3.0;
 
 pub struct Generator {
     pub name: &'static str,

@@ -14,7 +14,7 @@ use crate::answer::{
 };
 
 /// Seconds beyond which a trial is not run again: the median of one is itself.
-const PATIENCE: f64 = 4.0;
+pub const PATIENCE: f64 = 4.0;
 
 #[derive(Clone, Debug)]
 pub struct Options {

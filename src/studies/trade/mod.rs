@@ -21,7 +21,7 @@ mod words;
 
 pub use accuracy::{Came, Reached, solve_to};
 pub use errors::Errors;
-pub use measure::{Options, measure, pareto};
+pub use measure::{Options, PATIENCE, measure, pareto};
 pub use order::Order;
 pub use rows::{Ladder, Row, Section, Trade};
 pub use trials::{Trial, find, trials};

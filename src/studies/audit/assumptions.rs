@@ -1,0 +1,63 @@
+//! What the paper does not give, and what a scene has in its place.
+
+use serde::Serialize;
+
+use crate::problem::model::{Model, NodeId};
+use crate::problem::scene::Scene;
+
+/// A thing that the paper leaves open.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Assumption {
+    pub what: &'static str,
+    /// What the scene has.
+    pub set_to: String,
+}
+
+/// What a scene assumes; nothing without contact.
+pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
+    let model = &*scene.model;
+    let (contact, target): (&[NodeId], Vec<NodeId>) =
+        (&model.contact.nodes, model.target_edges().flat_map(|edge| edge.nodes).collect());
+    let Some(stamp) = contact.first().and_then(|node| model.body_of(*node)) else {
+        return Vec::new();
+    };
+    let unit = &scene.units.length;
+    let [width, height] = across(model, &stamp.nodes);
+    let restrained =
+        |axis: usize| stamp.nodes.iter().filter(|node| model.restraints_of(**node)[axis]).count();
+    let assumed = |what, set_to: String| Assumption { what, set_to: set_to.trim_end().into() };
+    vec![
+        assumed(
+            "radius of the duct (half the width of the target surface)",
+            format!("{:.6} {unit}", across(model, &target)[0] / 2.0),
+        ),
+        assumed(
+            "radius of the strand (half the width of the contact surface)",
+            format!("{:.6} {unit}", across(model, contact)[0] / 2.0),
+        ),
+        assumed(
+            "mesh",
+            format!(
+                "{} nodes, {} triangles, {} target edges",
+                model.nodes.len(),
+                model.triangles.len(),
+                model.contact.target.len()
+            ),
+        ),
+        assumed("shape of the stamp (width x height)", format!("{width:.6} x {height:.6} {unit}")),
+        assumed("plane problem", format!("plane {}", model.plane)),
+        assumed(
+            "restraint of the stamp's axis",
+            format!("{} nodes of the stamp in x, {} in y", restrained(0), restrained(1)),
+        ),
+        assumed("unit of c_tol", format!("{} {unit}", model.contact.tolerance)),
+    ]
+}
+
+/// Width and height of a set of nodes, length.
+fn across(model: &Model, nodes: &[NodeId]) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        let places = nodes.iter().map(|node| model.at(*node)[axis]);
+        places.clone().fold(f64::MIN, f64::max) - places.fold(f64::MAX, f64::min)
+    })
+}

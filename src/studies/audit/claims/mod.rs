@@ -1,0 +1,153 @@
+//! The register of claims: what the paper says that can be checked.
+//!
+//! A claim is data (the paper's words, what they claim, what the verdict rests on, the command that
+//! reproduces its number) and a measure that runs on any scene. Where the verdict rests on the
+//! listings it is true of any scene. Where it rests on a scene it is measured on ducts of other
+//! radii too, for the paper gives none.
+
+mod measures;
+mod register;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+pub use register::CLAIMS;
+
+use super::Case;
+use crate::choices;
+use crate::problem::scene::Scene;
+use crate::studies::benchmark::Strand;
+
+/// Something that the paper says.
+#[derive(Clone, Debug, Serialize)]
+pub struct Claim {
+    /// Its name: P1, P2, ...
+    pub id: &'static str,
+    /// The line of the paper's text on which the words stand.
+    pub line: usize,
+    /// The paper's words.
+    pub quote: &'static str,
+    /// What they claim.
+    pub says: &'static str,
+    /// What the verdict rests on.
+    pub basis: Basis,
+    /// What the measured number is, with its unit.
+    #[serde(rename = "of")]
+    pub number: &'static str,
+    /// The arguments of a command that prints the number in JSON.
+    pub command: &'static [&'static str],
+    /// Where it stands there: a JSON pointer, or two of which it is the quotient.
+    pub at: &'static [&'static str],
+    #[serde(skip)]
+    measure: fn(&Case) -> Outcome<'_>,
+}
+
+choices! {
+    /// What a verdict rests on.
+    Basis {
+        /// The text of a listing: the verdict follows from its lines.
+        Listing = "proved on the listing",
+        /// Random scenes whose statuses are known.
+        Random = "measured on random scenes",
+        /// Runs of a scene.
+        Runs = "measured on runs",
+        /// Nothing that is at hand.
+        Nothing = "what is needed is not at hand",
+    }
+}
+
+choices! {
+    /// Whether what the paper says is so.
+    Verdict {
+        Holds = "holds",
+        Condition = "holds with a condition",
+        Fails = "does not hold",
+        Unknown = "cannot be checked",
+    }
+}
+
+choices! {
+    /// How far a verdict reaches.
+    Scope {
+        /// It does not depend on the scene.
+        AnyScene = "any scene",
+        /// It is the same on every duct of the range.
+        Range = "over the assumed range",
+        /// It is another one on another duct, or no other was asked for.
+        OneScene = "this scene only",
+    }
+}
+
+/// What a scene says of a claim, or why a run failed.
+type Outcome<'a> = Result<Measured, Box<dyn std::error::Error + 'a>>;
+
+/// A verdict, the number that the claim names, and what else is to be said.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Measured {
+    pub verdict: Verdict,
+    pub number: Option<f64>,
+    pub detail: String,
+}
+
+/// A claim with its verdict on a scene and on the other ducts of the range.
+#[derive(Clone, Debug, Serialize)]
+pub struct Judged {
+    #[serde(flatten)]
+    pub claim: Claim,
+    #[serde(flatten)]
+    pub measured: Measured,
+    pub scope: Scope,
+    /// The verdicts on ducts of other radii; empty where the scene has no part in the verdict.
+    pub elsewhere: Vec<Elsewhere>,
+}
+
+/// A verdict on the paper's example with a duct of another radius.
+#[derive(Clone, Debug, Serialize)]
+pub struct Elsewhere {
+    /// The radius of the duct, mm; that of the strand is 7.6 mm.
+    pub duct: f64,
+    #[serde(flatten)]
+    pub measured: Measured,
+}
+
+/// The radii of the ducts of the range, mm, from nearly conforming to wide.
+pub const DUCTS: [f64; 5] = [7.62, 7.65, 7.9, 8.0, 8.5];
+
+/// Judges every claim on a scene, and on the paper's example with each of the ducts of these radii,
+/// mm.
+pub fn judge(case: &Case, ducts: &[f64]) -> Vec<Judged> {
+    let ducts: Vec<(f64, Case)> =
+        ducts.iter().map(|duct| (*duct, Case::quick(other(*duct)))).collect();
+    CLAIMS.par_iter().map(|claim| claim.judge(case, &ducts)).collect()
+}
+
+/// The paper's example with a duct of another radius, mm.
+fn other(duct: f64) -> Scene {
+    let strand = Strand { duct, ..Strand::default() };
+    strand.generate().and_then(|scene| scene.build()).expect("the radii are in range")
+}
+
+impl Claim {
+    /// Measures the claim on a scene. Where a run fails, the detail says so.
+    pub fn measure(&self, case: &Case) -> Measured {
+        (self.measure)(case).unwrap_or_else(|why| {
+            let detail = why.to_string().lines().next().unwrap_or_default().into();
+            Measured { verdict: Verdict::Unknown, number: None, detail }
+        })
+    }
+
+    fn judge(&self, case: &Case, ducts: &[(f64, Case)]) -> Judged {
+        let measured = self.measure(case);
+        let ducts = if self.basis == Basis::Runs { ducts } else { &[] };
+        let elsewhere =
+            |(duct, case): &(f64, Case)| Elsewhere { duct: *duct, measured: self.measure(case) };
+        let elsewhere: Vec<Elsewhere> = ducts.par_iter().map(elsewhere).collect();
+        let same = elsewhere.iter().all(|other| other.measured.verdict == measured.verdict);
+        let scope = match self.basis {
+            Basis::Listing | Basis::Random | Basis::Nothing => Scope::AnyScene,
+            Basis::Runs if !elsewhere.is_empty() && same => Scope::Range,
+            Basis::Runs => Scope::OneScene,
+        };
+        Judged { claim: self.clone(), measured, scope, elsewhere }
+    }
+}

@@ -1,0 +1,72 @@
+//! The register of claims: every number is the one that its command prints.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::common::program::run;
+use crate::common::tolerances::{CLAIM, assert_near};
+use plane_contact::Scene;
+use plane_contact::studies::audit::Case;
+use plane_contact::studies::audit::claims::{CLAIMS, DUCTS, Scope, Verdict, judge};
+
+fn open(name: &str) -> Case {
+    Case::new(Scene::open(name).expect("an embedded scene"))
+}
+
+#[test]
+fn a_claims_number_is_the_one_that_its_command_prints() {
+    let folder = TempDir::new().expect("a temporary folder");
+    let mut printed: BTreeMap<&[&str], Value> = BTreeMap::new();
+    let case = open("strand");
+    for claim in CLAIMS {
+        let json = printed.entry(claim.command).or_insert_with(|| {
+            let output = run(folder.path(), claim.command);
+            serde_json::from_slice(&output.stdout).expect("the command prints JSON")
+        });
+        let at = |pointer: &&str| {
+            let value = json.pointer(pointer).and_then(Value::as_f64);
+            value.unwrap_or_else(|| panic!("{}: no number at {pointer}", claim.id))
+        };
+        let values: Vec<f64> = claim.at.iter().map(at).collect();
+        let expected = values.iter().copied().reduce(|over, under| over / under);
+        let number = claim.measure(&case).number;
+        assert_eq!(number.is_some(), expected.is_some(), "{}", claim.id);
+        if let Some((number, expected)) = number.zip(expected) {
+            assert_near(claim.id, number, expected, expected, &CLAIM);
+        }
+        // What `audit` itself prints of the claim is that number too.
+        let own =
+            json["claims"].as_array().and_then(|all| all.iter().find(|c| c["id"] == claim.id));
+        if let Some((own, expected)) = own.and_then(|own| own["number"].as_f64()).zip(expected) {
+            assert_near(claim.id, own, expected, expected, &CLAIM);
+        }
+    }
+}
+
+#[test]
+fn claims_stand_in_the_order_of_the_text_each_once() {
+    let ids: BTreeSet<&str> = CLAIMS.iter().map(|claim| claim.id).collect();
+    assert_eq!(ids.len(), CLAIMS.len());
+    assert!(CLAIMS.windows(2).all(|pair| pair[0].line <= pair[1].line));
+}
+
+/// A verdict is said to hold over the range only where every duct was tried and has the same.
+#[test]
+fn a_scope_is_what_was_tried() {
+    for judged in judge(&open("strand"), &DUCTS) {
+        let same =
+            judged.elsewhere.iter().all(|other| other.measured.verdict == judged.measured.verdict);
+        match judged.scope {
+            Scope::AnyScene => assert!(judged.elsewhere.is_empty(), "{}", judged.claim.id),
+            Scope::Range => assert!(same && judged.elsewhere.len() == DUCTS.len()),
+            Scope::OneScene => assert!(!same, "{}", judged.claim.id),
+        }
+    }
+    for judged in judge(&open("fig1"), &[]) {
+        assert!(judged.elsewhere.is_empty() && judged.scope != Scope::Range);
+        let known = judged.measured.number.is_some() || judged.measured.verdict == Verdict::Unknown;
+        assert!(known, "{}", judged.claim.id);
+    }
+}
