@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use plane_contact::Scene;
+use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{Friction, Geometry, LOAD_STEPS};
 use plane_contact::problem::scene::SceneBuilder;
@@ -11,9 +11,10 @@ use plane_contact::studies::benchmark::{
 };
 use plane_contact::studies::calculix::Pair;
 use plane_contact::studies::{extremes, trade};
+use plane_contact::{Request, Scene};
 
 use super::Passages;
-use super::measured::{STRAND, golden, mean_edge, stiffest};
+use super::measured::{STRAND, golden, mean_edge, solved as solve, stiffest};
 use crate::common::fitted_hertz::over_hertz;
 use crate::common::program::run;
 use crate::common::recovery::{node_at, solved};
@@ -31,6 +32,8 @@ pub const PASSAGES: Passages = Passages {
         ("4 no equilibrium was found", "as above"),
         ("1 = in contact", "the meaning of a value, its definition"),
         ("Coulomb's coefficient, 0 (contact nodes slide freely)", "as above"),
+        ("NAFEMS CGS-1", "the name of a benchmark"),
+        ("Finite Element Contact Problems, CGS-1", "as above"),
         ("MSH 2.2", "a version of a file format"),
         ("P / (pi sqrt(a^2 - x^2))", "a formula"),
         ("Springer, 1991.", "the year of a source"),
@@ -90,6 +93,7 @@ fn commands() -> Vec<String> {
     let pair = Pair::new(&STRAND.model, None, Friction::STICK);
     vec![
         format!("f64x2 ({digits} digits)"),
+        stops_at(16.0),
         format!("[default: the scene's, or {LOAD_STEPS}]"),
         format!(
             "[default: {:.0} times the largest E over the target's mean edge]",
@@ -99,6 +103,17 @@ fn commands() -> Vec<String> {
         format!("what takes over {} s is run once", trade::PATIENCE),
         format!("coordinate format, {figures} significant digits"),
     ]
+}
+
+/// Where cg stops unless it is told: at so many units of the scalar's last place.
+fn stops_at(eps: f64) -> String {
+    let fig1 = Scene::open("fig1").expect("an embedded scene");
+    let by = |tol| {
+        let arithmetic = Arithmetic { solver: Some(Solver::Cg), tol, ..Arithmetic::default() };
+        solve(&Request::new(&fig1).arithmetic(arithmetic)).u
+    };
+    assert_eq!(by(None), by(Some(eps * f64::EPSILON)), "cg stops elsewhere");
+    format!("[default: {eps} eps of the scalar]")
 }
 
 fn built(benchmark: Result<SceneBuilder, plane_contact::error::InputError>) -> Scene {

@@ -75,6 +75,10 @@ choices! {
         Range = "over the assumed range",
         /// It is another one on another duct, or no other was asked for.
         OneScene = "this scene only",
+        /// It was measured on scenes drawn at random.
+        Drawn = "random scenes",
+        /// There is none.
+        Nowhere = "-",
     }
 }
 
@@ -144,7 +148,9 @@ impl Claim {
         let elsewhere: Vec<Elsewhere> = ducts.par_iter().map(elsewhere).collect();
         let same = elsewhere.iter().all(|other| other.measured.verdict == measured.verdict);
         let scope = match self.basis {
-            Basis::Listing | Basis::Random | Basis::Nothing => Scope::AnyScene,
+            Basis::Listing => Scope::AnyScene,
+            Basis::Random => Scope::Drawn,
+            Basis::Nothing => Scope::Nowhere,
             Basis::Runs if !elsewhere.is_empty() && same => Scope::Range,
             Basis::Runs => Scope::OneScene,
         };
