@@ -19,8 +19,8 @@ use super::{print, waiting};
 #[derive(clap::Args)]
 #[command(after_help = "\
 First the claims of the paper with their verdicts, how far each reaches, and what they assume;
-then three tables: the readings (what the other reading changes), the findings (holds, does not arise,
-contradicted; with a number), and the variants side by side. --finding explains one on its
+then three tables: the readings (what the other reading changes), the findings (holds, does not
+arise, contradicted; with a number), and the variants side by side. --finding explains one on its
 smallest scene, or on SCENE where that is given.
 
 Examples:

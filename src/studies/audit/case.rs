@@ -4,7 +4,6 @@ use std::sync::OnceLock;
 
 use crate::answer::error::Error;
 use crate::answer::{Request, Solution, equilibrium, solve};
-use crate::numbers::solve::{Arithmetic, Solver};
 use crate::paper::door::Call;
 use crate::paper::mirror::{Failure, Reading};
 use crate::problem::model::Model;
@@ -14,7 +13,6 @@ use crate::problem::scene::Scene;
 /// A scene under audit. Runs are made when they are first asked for, once.
 pub struct Case {
     pub scene: Scene,
-    arithmetic: Arithmetic,
     runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
     reference: OnceLock<Option<Solution>>,
     equilibrium: OnceLock<Option<Solution>>,
@@ -25,17 +23,10 @@ impl Case {
     pub fn new(scene: Scene) -> Self {
         Case {
             scene,
-            arithmetic: Arithmetic::default(),
             runs: Default::default(),
             reference: OnceLock::new(),
             equilibrium: OnceLock::new(),
         }
-    }
-
-    /// The same, its runs by sparse Cholesky, which takes a small part of the time.
-    pub fn quick(scene: Scene) -> Self {
-        let solver = Some(Solver::SparseCholesky);
-        Case { arithmetic: Arithmetic { solver, ..Arithmetic::default() }, ..Case::new(scene) }
     }
 
     /// The model, as it is under the default reading.
@@ -45,7 +36,7 @@ impl Case {
 
     /// What is asked for under the default reading.
     pub fn request(&self, variant: Variant) -> Request {
-        Request::new(&self.scene).variant(variant).arithmetic(self.arithmetic)
+        Request::new(&self.scene).variant(variant)
     }
 
     /// The run of a variant under the default reading, or why there is none.

@@ -14,7 +14,7 @@ use plane_contact::studies::{extremes, trade};
 use plane_contact::{Request, Scene};
 
 use super::Passages;
-use super::measured::{STRAND, golden, mean_edge, solved as solve, stiffest};
+use super::measured::{STRAND, digits_of_two, mean_edge, solved as solve, stiffest};
 use crate::common::fitted_hertz::over_hertz;
 use crate::common::program::run;
 use crate::common::recovery::{node_at, solved};
@@ -86,13 +86,12 @@ fn names(of: &[&str]) -> Vec<String> {
 }
 
 fn commands() -> Vec<String> {
-    let digits = golden("extremes/table.snap", "moduli:", "tied f64x2", 1);
     let km = String::from_utf8(run(Path::new("."), &["km", "fig1"]).stdout).expect("UTF-8");
     let entry = km.split_whitespace().last().and_then(|entry| entry.split('e').next());
     let figures = entry.expect("an entry").chars().filter(char::is_ascii_digit).count();
     let pair = Pair::new(&STRAND.model, None, Friction::STICK);
     vec![
-        format!("f64x2 ({digits} digits)"),
+        format!("f64x2 ({} digits)", digits_of_two()),
         stops_at(16.0),
         format!("[default: the scene's, or {LOAD_STEPS}]"),
         format!(

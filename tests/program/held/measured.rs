@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use plane_contact::answer::{Solution, distance, equilibrium, solve};
-use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
+use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
 use plane_contact::studies::audit::statuses::{self, Measurement, Row};
 use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, Part, run};
@@ -37,10 +37,9 @@ pub fn solved(request: &Request) -> Solution {
     solve(request, &mut |_| ()).expect("the variant runs")
 }
 
-/// A variant of the paper in numbers of type `scalar`, by sparse Cholesky, with a knob turned.
+/// A variant of the paper in numbers of type `scalar`, with a knob turned.
 pub fn turned(variant: Variant, scalar: ScalarName, turn: impl Fn(&mut Request)) -> Solution {
-    let solver = Some(Solver::SparseCholesky);
-    let arithmetic = Arithmetic { scalar, solver, ..Arithmetic::default() };
+    let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
     let mut request = Request::new(&STRAND).variant(variant).arithmetic(arithmetic);
     turn(&mut request);
     solved(&request)
@@ -121,6 +120,11 @@ pub fn mean_edge() -> f64 {
 /// The largest elastic modulus of `strand`, MPa.
 pub fn stiffest() -> f64 {
     STRAND.model.triangles.iter().map(|triangle| triangle.material.e).fold(0.0, f64::max)
+}
+
+/// Decimal digits of two f64.
+pub fn digits_of_two() -> u32 {
+    (f64::from(2 * f64::MANTISSA_DIGITS) * 2f64.log10()).floor() as u32
 }
 
 /// `limit`, once `value` has been found to be below it.

@@ -22,12 +22,19 @@ struct Passages {
 /// A page as one line, without its blocks of code.
 fn in_one_line(page: &str) -> String {
     let mut in_code = false;
+    // A quotation's lines start with its mark.
+    let unquoted = |line| str::trim_start_matches(line, "> ");
     let text = |line: &&str| {
         let is_fence = line.trim_start().starts_with("```");
         in_code ^= is_fence;
         !in_code && !is_fence
     };
-    page.lines().filter(text).flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
+    page.lines()
+        .filter(text)
+        .map(unquoted)
+        .flat_map(str::split_whitespace)
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// The numbers of a page in one line, and where they start. No number: a digit of a name (C4, f64),
@@ -100,7 +107,7 @@ fn numbers_are_found() {
         numbers(&page).into_iter().map(|(_, number)| number.to_string()).collect::<Vec<_>>()
     };
     assert_eq!(
-        found("from 1e-3 to 2.5 (see C4, `f64` and [7](a/8.md)).\n```\n9\n```\nAnd 10."),
+        found("from 1e-3 to 2.5 (see C4, `f64` and [7](a/8)).\n```\n9\n```\nAnd 10."),
         ["1e-3", "2.5", "7", "10"]
     );
     assert!(found("no number: R10, f64x2, LE1").is_empty());

@@ -121,7 +121,7 @@ pub const DUCTS: [f64; 5] = [7.62, 7.65, 7.9, 8.0, 8.5];
 /// mm.
 pub fn judge(case: &Case, ducts: &[f64]) -> Vec<Judged> {
     let ducts: Vec<(f64, Case)> =
-        ducts.iter().map(|duct| (*duct, Case::quick(other(*duct)))).collect();
+        ducts.iter().map(|duct| (*duct, Case::new(other(*duct)))).collect();
     CLAIMS.par_iter().map(|claim| claim.judge(case, &ducts)).collect()
 }
 
