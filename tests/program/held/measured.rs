@@ -128,7 +128,7 @@ pub fn digits_of_two() -> u32 {
 }
 
 /// `limit`, once `value` has been found to be below it.
-pub fn below<'a>(value: f64, limit: &'a str) -> &'a str {
+pub fn below(value: f64, limit: &str) -> &str {
     let bound: f64 = limit.parse().expect("a number");
     assert!(value.abs() < bound, "{value:e} is not below {limit}");
     limit
