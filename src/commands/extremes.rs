@@ -32,8 +32,8 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
-    /// Folder for extremes.txt, extremes.json and a picture for each generator, or more of 8 curves
-    /// each.
+    /// Folder for extremes.txt, extremes.json and a picture for each generator, or more where
+    /// its curves are too many for one.
     #[arg(long, value_name = "DIR", default_value = "out/extremes")]
     out: PathBuf,
 }
