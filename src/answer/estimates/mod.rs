@@ -9,6 +9,7 @@
 //! ```
 
 pub mod arithmetic;
+mod certain;
 pub mod discretisation;
 mod dual;
 mod patches;
@@ -21,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use super::solution::Solution;
 use crate::paper::decisions::Decision;
 use crate::problem::model::{Body, NodeId, TriangleId};
+pub use certain::{Certainty, certain};
 use discretisation::Discretisation;
 pub use dual::Dual;
 pub use singular::{Cause, Singular, singular};

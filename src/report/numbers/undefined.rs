@@ -13,6 +13,7 @@ const REASONS: &[(&str, &str)] = &[
     ("scatter", "there is no order, or a line through two differences only"),
     ("errors", "there is no order of convergence"),
     ("estimates", "nothing moves, or a body has too few triangles"),
+    ("certainty", "the run failed, or the knob has no verdict"),
     ("departure", "there are fewer than three meshes, or nothing moves"),
     ("ladder", "the section is not that of meshes"),
     ("cycle", "the contact state is new"),

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
+use crate::answer::estimates::{Certainty, certain};
 use crate::answer::{BodySummary, Cycle, Distance, Solution, distance, summaries};
 use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
@@ -11,6 +12,8 @@ use crate::problem::modelling::Variant;
 #[derive(Clone, Debug, Serialize)]
 pub struct VariantRow {
     pub variant: Variant,
+    /// Whether rounding decides who is in contact; nothing of a failure.
+    pub certainty: Option<Certainty>,
     #[serde(flatten)]
     pub end: End,
 }
@@ -46,12 +49,16 @@ pub enum End {
 
 /// Every variant on a scene, in the order of `Variant::ALL`.
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
-    let row = |variant: &Variant| {
-        let end = match case.run(*variant) {
-            Ok(solution) => end(case, solution),
-            Err(why) => End::Failure { failure: why.to_string() },
-        };
-        VariantRow { variant: *variant, end }
+    let row = |variant: &Variant| match case.run(*variant) {
+        Ok(solution) => {
+            let (solution, certainty) = certain(solution.clone());
+            let end = end(case, &solution);
+            VariantRow { variant: *variant, certainty: Some(certainty), end }
+        }
+        Err(why) => {
+            let end = End::Failure { failure: why.to_string() };
+            VariantRow { variant: *variant, certainty: None, end }
+        }
     };
     Variant::ALL.par_iter().map(row).collect()
 }

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::Knob;
 use super::errors::Errors;
 use super::order::Order;
+use crate::answer::estimates::Certainty;
 use crate::numbers::solve::Arithmetic;
 use crate::problem::modelling::Variant;
 
@@ -68,6 +69,9 @@ pub struct Row {
     /// How far it is from the same variant where the scene has the knob; nothing where the scene
     /// has none of the places.
     pub change: Option<Errors>,
+    /// Whether rounding decides who is in contact; nothing of a failure and of a knob that has no
+    /// verdict.
+    pub certainty: Option<Certainty>,
     pub own: bool,
     /// Whether no other row of the section is quicker and nearer.
     pub pareto: bool,

@@ -6,6 +6,7 @@ use super::order::Order;
 use super::rows::{Ladder, Row};
 use super::trials::{cg, exact_seconds, sparse};
 use crate::answer::Request;
+use crate::answer::estimates::Certainty;
 use crate::numbers::solve::{ScalarName, Solver};
 use crate::problem::modelling::Variant;
 use crate::problem::scene::{Scene, symmetry};
@@ -44,9 +45,31 @@ fn by_variant(
 ) -> Vec<String> {
     let of = |variant: &Variant| {
         let rows: Vec<&Row> = rows.iter().filter(|row| row.variant == *variant).collect();
-        sentence(scene, *variant, &rows)
+        let said = sentence(scene, *variant, &rows)?;
+        Some(said + &by_rounding(&rows))
     };
     Variant::ALL.iter().filter_map(of).collect()
+}
+
+/// Says at which settings rounding decides who is in contact, and in which numbers it does not.
+fn by_rounding(rows: &[&Row]) -> String {
+    let at = |certainty: Certainty| {
+        let rows = rows.iter().filter(|row| row.certainty == Some(certainty));
+        rows.map(|row| row.label.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let (repeated, unknown) = (at(Certainty::InDoubleDouble), at(Certainty::Unknown));
+    let mut text = String::new();
+    if !repeated.is_empty() {
+        text += &format!(
+            " At {repeated} rounding in f64 may decide who is in contact: what is said of these is of \
+             the same run in double-doubles, where it decides nothing."
+        );
+    }
+    if !unknown.is_empty() {
+        text +=
+            &format!(" At {unknown} it is not known whether rounding decides who is in contact.");
+    }
+    text
 }
 
 /// A share in percent: `0.12 %`, or a power of ten where that is shorter; in words where it is a

@@ -1,6 +1,7 @@
 //! How claims are measured.
 
 use super::{Measured, Outcome, Verdict};
+use crate::answer::estimates::{Certainty, certain};
 use crate::answer::{Request, distance, solve};
 use crate::problem::modelling::Variant;
 use crate::studies::audit::Case;
@@ -97,9 +98,15 @@ pub(super) fn tolerance(case: &Case) -> Outcome<'_> {
     let trials: Vec<Trial> =
         trials(&request, Knob::Tolerance).into_iter().filter(of_variant).collect();
     let own = trials.iter().find(|trial| trial.own).ok_or("the scene has no contact")?;
-    let run = |trial: &Trial| solve(&trial.request(&request)?, &mut |_| ());
-    let change = distance(&run(&trials[0])?, &run(own)?).displacement_relative;
-    let detail = format!("{variant}, from {} to {}", own.label, trials[0].label);
+    let run = |trial: &Trial| solve(&trial.request(&request)?, &mut |_| ()).map(certain);
+    let [(least, of_least), (own_run, of_own)] = [run(&trials[0])?, run(own)?];
+    let change = distance(&least, &own_run).displacement_relative;
+    let numbers = match [of_least, of_own] {
+        [Certainty::Certain, Certainty::Certain] => "",
+        both if both.contains(&Certainty::Unknown) => "; rounding may decide who is in contact",
+        _ => ", in double-doubles where rounding decides in f64",
+    };
+    let detail = format!("{variant}, from {} to {}{numbers}", own.label, trials[0].label);
     measured(holds_if(change < NOTICEABLE), change, detail)
 }
 

@@ -1,0 +1,47 @@
+//! A run in numbers in which rounding does not decide who is in contact.
+
+use serde::Serialize;
+
+use super::arithmetic::rounding;
+use crate::answer::{Request, Solution, solve};
+use crate::numbers::solve::{Arithmetic, ScalarName};
+use crate::problem::modelling::Variant;
+
+/// Whether rounding decides who is in contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Certainty {
+    /// It decides nothing.
+    Certain,
+    /// It may decide in the numbers asked for, and decides nothing in the double-doubles in which
+    /// the run was repeated.
+    InDoubleDouble,
+    /// It may decide, or whether it does is not known.
+    Unknown,
+}
+
+/// Returns the solution itself where rounding decides nothing in it, else that of the same request in
+/// double-doubles where it decides nothing there, and which of the two it is. Under `unilateral`,
+/// which has no other numbers, the solution stays as it is.
+pub fn certain(solution: Solution) -> (Solution, Certainty) {
+    // There is no bound where rounding may have decided.
+    if rounding(&solution).displacement.is_finite() {
+        return (solution, Certainty::Certain);
+    }
+    if solution.request.variant == Variant::Unilateral {
+        return (solution, Certainty::Unknown);
+    }
+    let arithmetic = Arithmetic {
+        scalar: ScalarName::BoundedDouble,
+        solver: None,
+        tol: None,
+        ..solution.request.arithmetic
+    };
+    let request = Request { arithmetic, ..solution.request.clone() };
+    match solve(&request, &mut |_| ()) {
+        Ok(again) if again.error_bound.is_some_and(f64::is_finite) => {
+            (again, Certainty::InDoubleDouble)
+        }
+        _ => (solution, Certainty::Unknown),
+    }
+}
