@@ -8,7 +8,8 @@ use crate::error::{InputError, Result};
 /// Writes `content` to `path`, and creates its folder where it is missing. A link is followed; a
 /// target that is no ordinary file (a pipe, a device) is written directly.
 /// Errors: the folder or the file cannot be written; an existing file keeps its content.
-pub fn write(path: &Path, content: &str) -> Result<()> {
+pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
+    let content = content.as_ref();
     let written = match std::fs::canonicalize(path) {
         Ok(there) if !there.is_file() && !there.is_dir() => std::fs::write(there, content),
         Ok(there) => replace(&there, content),
@@ -21,14 +22,14 @@ pub fn write(path: &Path, content: &str) -> Result<()> {
 }
 
 /// Writes a file beside `path` and renames it.
-fn replace(path: &Path, content: &str) -> std::io::Result<()> {
+fn replace(path: &Path, content: &[u8]) -> std::io::Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
     std::fs::create_dir_all(folder)?;
     let mut file = temporary(folder)?;
-    file.write_all(content.as_bytes())?;
+    file.write_all(content)?;
     file.persist(path).map_err(|failed| failed.error)?;
     Ok(())
 }

@@ -19,13 +19,13 @@ use crate::problem::modelling::ContactModel;
 pub struct Assessment<'a> {
     /// The largest values of each body.
     pub bodies: Vec<BodySummary>,
-    /// The estimated errors from rounding and from the mesh.
-    pub estimates: ErrorEstimates,
+    /// The estimated errors from rounding and from the mesh; None where they are left out.
+    pub estimates: Option<ErrorEstimates>,
     /// What the run says of the points that were asked for: [`Assessment::probe`].
     pub probes: Vec<Probe>,
     /// The change of the largest displacement component against a path of half as many steps of the
-    /// load, length: what is left of the size of the steps. None without a path, and where there is
-    /// none such to compare with.
+    /// load, length: what is left of the size of the steps. None without a path, where there is none
+    /// such to compare with, and where estimates are left out.
     pub path_change: Option<f64>,
     /// Hertz's contact for the load of the solution; None where his theory does not apply.
     pub hertz: Option<Hertz>,
@@ -50,6 +50,12 @@ impl<'a> Assessment<'a> {
     /// Assesses a solution, and solves for the reference solution and for the equilibrium under the
     /// scene's own friction and geometry, unless it is one of them.
     pub fn new(solution: &'a Solution) -> Self {
+        Self::without_estimates(solution).estimated(solution)
+    }
+
+    /// Does the same without the estimates: neither their fields nor `path_change`, which takes
+    /// another run, are computed.
+    pub fn without_estimates(solution: &'a Solution) -> Self {
         let request = &solution.request;
         let (reference, equilibrium) = (request.reference(), request.equilibrium());
         let own = (!equilibrium.is_same_equilibrium(&reference)).then_some(equilibrium);
@@ -69,7 +75,7 @@ impl<'a> Assessment<'a> {
         [reference, equilibrium]: [Option<&'a Solution>; 2],
     ) -> Self {
         let known = |other: Option<&'a Solution>| other.map(|other| Ok(Cow::Borrowed(other)));
-        Assessment::measured(solution, known(reference), known(equilibrium))
+        Assessment::measured(solution, known(reference), known(equilibrium)).estimated(solution)
     }
 
     fn measured(
@@ -82,13 +88,18 @@ impl<'a> Assessment<'a> {
         };
         Assessment {
             bodies: summaries(solution),
-            estimates: ErrorEstimates::new(solution),
+            estimates: None,
             probes: Vec::new(),
-            path_change: path_change(solution),
+            path_change: None,
             hertz: Hertz::of(solution),
             reference: measured(reference),
             equilibrium: measured(equilibrium),
         }
+    }
+
+    fn estimated(self, solution: &Solution) -> Self {
+        let estimates = Some(ErrorEstimates::new(solution));
+        Assessment { estimates, path_change: path_change(solution), ..self }
     }
 
     /// Adds what `solution`, which is assessed, says of `points` of the undeformed shape.
@@ -96,7 +107,12 @@ impl<'a> Assessment<'a> {
     /// # Errors
     /// A point lies outside every body.
     pub fn probe(&mut self, solution: &Solution, points: &[[f64; 2]]) -> Result<(), InputError> {
-        self.probes = probes(solution, &self.estimates, points)?;
+        if points.is_empty() {
+            return Ok(());
+        }
+        let own = self.estimates.is_none().then(|| ErrorEstimates::new(solution));
+        let estimates = self.estimates.as_ref().or(own.as_ref()).expect("one of the two");
+        self.probes = probes(solution, estimates, points)?;
         Ok(())
     }
 

@@ -8,6 +8,7 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
+use plane_contact::report::folder::Wanted;
 use plane_contact::report::{audit as report, folder, pressure};
 use plane_contact::studies::audit::claims::DUCTS;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
@@ -109,7 +110,8 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     for variant in Variant::ALL {
         if let Ok(solution) = case.run(*variant) {
             let assessment = Assessment::against(solution, others);
-            folder::write(&out.join(variant.name()), solution, &assessment, None)?;
+            let folder = out.join(variant.name());
+            folder::write(&folder, solution, &assessment, None, Wanted::default())?;
         }
     }
     let own = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());

@@ -7,6 +7,7 @@ use plane_contact::answer::{self, Assessment, Request, Solution, Step};
 use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
+use plane_contact::report::folder::Wanted;
 use plane_contact::report::{self, tables};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::solve_to;
@@ -19,7 +20,8 @@ use super::{ModelArgs, ReadingArg, folder, folder_name, print, progress};
 Prints a table of the iterations, one of the bodies, one of the contact nodes, the error
 estimates, and how far this is from the reference solution. Writes to --out: mesh.svg (the paper's
 fig. 4), von_mises_stress.svg and von_mises_strain.svg (fig. 5), pressure.svg, fields.vtu
-(ParaView), result.json.
+(ParaView), result.json. Beyond 20,000 triangles result.json leaves the values of nodes and
+triangles to fields.vtu unless --fields asks for them, and pictures show the triangles as pixels.
 
 Examples:
   plane-contact solve
@@ -58,6 +60,18 @@ pub struct Args {
     /// from the scene's own].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Leave out the pictures; fields.vtu and result.json are written.
+    #[arg(long)]
+    no_pictures: bool,
+    /// Leave out what rounding and the mesh may do to the numbers: the table, error_estimates in
+    /// result.json, mesh_error in fields.vtu, and the second run that tells what the size of the
+    /// load's steps does.
+    #[arg(long)]
+    no_error_estimate: bool,
+    /// Have the displacements of all nodes and the stresses of all triangles in result.json,
+    /// however many there are.
+    #[arg(long)]
+    fields: bool,
     /// Print result.json in place of the tables.
     #[arg(long)]
     json: bool,
@@ -71,9 +85,13 @@ pub fn run(args: &Args) -> Result<()> {
     let plan = Plan::new(&solution.request)?;
     let asked: Vec<String> = args.accuracy.iter().map(|a| format!("accuracy-{a:e}")).collect();
     let out = folder(&args.out, folder_name(&request, &asked));
-    let mut assessment = Assessment::new(&solution);
+    let mut assessment = match args.no_error_estimate {
+        true => Assessment::without_estimates(&solution),
+        false => Assessment::new(&solution),
+    };
     assessment.probe(&solution, &args.probe)?;
-    let result = report::folder::write(&out, &solution, &assessment, Some(&plan))?;
+    let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
+    let result = report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?;
     if args.json {
         eprint!("{accuracy}");
         print(&result)?;

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::output::write_all;
+use rayon::prelude::*;
+
 use super::picture::{self, Drawing, Field};
 use super::result_file::ResultFile;
 use super::{pressure, vtu};
@@ -13,38 +14,68 @@ use crate::problem::element::State;
 use crate::problem::scene::Scene;
 use crate::studies::plan::Plan;
 
-/// Writes `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg`, `fields.vtu`, `result.json`
-/// and, with contact, `pressure.svg` to `folder`; returns the content of `result.json`. `plan` is
-/// the plan that the run followed.
+/// What a folder holds beside `fields.vtu` and `result.json`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// Whether there are pictures.
+    pub pictures: bool,
+    /// Whether `result.json` has the values of all nodes and triangles however many there are.
+    pub fields: bool,
+}
+
+impl Default for Wanted {
+    fn default() -> Self {
+        Wanted { pictures: true, fields: false }
+    }
+}
+
+/// Writes `fields.vtu`, `result.json` and, where pictures are wanted, `mesh.svg`,
+/// `von_mises_stress.svg`, `von_mises_strain.svg` and, with contact, `pressure.svg` to `folder`;
+/// returns the content of `result.json`. `plan` is the plan that the run followed.
 pub fn write(
     folder: &Path,
     solution: &Solution,
     assessment: &Assessment,
     plan: Option<&Plan>,
+    wanted: Wanted,
 ) -> Result<String> {
     let scene = &solution.request.scene;
     let drawing = Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
+    if wanted.pictures {
+        pictures(folder, &drawing, solution, assessment)?;
+    }
+    files::write(&folder.join("fields.vtu"), &vtu::vtu(&drawing, solution, assessment))?;
+    let result = ResultFile::new(solution, assessment, plan);
+    let result = if wanted.fields { result.with_fields(solution) } else { result };
+    let result = result.to_json();
+    files::write(&folder.join("result.json"), &result)?;
+    Ok(result)
+}
+
+fn pictures(
+    folder: &Path,
+    drawing: &Drawing,
+    solution: &Solution,
+    assessment: &Assessment,
+) -> Result<()> {
+    let scene = &solution.request.scene;
     let displacement = &solution.displacements()[..];
     let field = |quantity, unit, of: fn(&State) -> f64| {
         let values: Vec<f64> = solution.elements.iter().map(of).collect();
         picture::field(
-            &drawing,
+            drawing,
             &Field { quantity, unit, values: &values, displacement, largest_at: None },
         )
     };
-    let stress = field("von Mises stress", &scene.units.stress, |state| state.von_mises_stress);
-    let strain = field("von Mises strain", "1", |state| state.von_mises_strain);
-    let result = ResultFile::new(solution, assessment, plan).to_json();
-    write_all(
-        folder,
-        &[
-            ("mesh.svg", &picture::mesh(&drawing)),
-            ("von_mises_stress.svg", &stress),
-            ("von_mises_strain.svg", &strain),
-            ("fields.vtu", &vtu::vtu(&drawing, solution, assessment)),
-            ("result.json", &result),
-        ],
-    )?;
+    let stress = || field("von Mises stress", &scene.units.stress, |state| state.von_mises_stress);
+    let strain = || field("von Mises strain", "1", |state| state.von_mises_strain);
+    let mesh = || picture::mesh(drawing);
+    let pictures: [(&str, &(dyn Fn() -> String + Sync)); 3] =
+        [("mesh.svg", &mesh), ("von_mises_stress.svg", &stress), ("von_mises_strain.svg", &strain)];
+    let drawn: Vec<String> = pictures.par_iter().map(|(_, draw)| draw()).collect();
+    for ((name, _), picture) in pictures.iter().zip(drawn) {
+        files::write(&folder.join(name), &picture)?;
+    }
     if !solution.contact.is_empty() {
         let measured = assessment.own();
         let others = [assessment.measure(), measured].into_iter().flatten();
@@ -57,7 +88,7 @@ pub fn write(
         let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
         files::write(&folder.join("pressure.svg"), &pressure::picture(scene, &runs, hertz))?;
     }
-    Ok(result)
+    Ok(())
 }
 
 pub fn mesh_picture(scene: &Scene) -> String {

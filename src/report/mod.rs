@@ -34,4 +34,6 @@ pub mod trade;
 pub mod vtu;
 pub mod xml;
 
-pub use result_file::{BodyEstimates, ElementRow, IterationRow, KnownEstimates, ResultFile, known};
+pub use result_file::{
+    BodyEstimates, ElementRow, IterationRow, KnownEstimates, MOST_TRIANGLES, ResultFile, known,
+};

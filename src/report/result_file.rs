@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{json, plan};
 use crate::answer::contact::{ContactNode, Status};
-use crate::answer::estimates::NoLimit;
+use crate::answer::estimates::{ErrorEstimates, NoLimit};
 use crate::answer::{
     Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Probe, Solution, Step,
 };
@@ -16,6 +16,9 @@ use crate::paper::mirror::Reading;
 use crate::problem::modelling::{ContactModel, Variant};
 use crate::problem::scene::Units;
 use crate::studies::plan::Plan;
+
+/// The most triangles whose mesh has its `u` and `elements` in `result.json` without being asked.
+pub const MOST_TRIANGLES: usize = 20_000;
 
 /// The content of `result.json`. Lengths, stresses and forces are in the units of the scene. Every
 /// float reads back to the same bits; one that is not finite is null, and reads back as NaN.
@@ -56,8 +59,9 @@ pub struct ResultFile {
     pub contact: Vec<ContactNode>,
     /// Hertz's contact, where his theory applies.
     pub hertz: Option<Hertz>,
-    /// How far the numbers may be from the truth.
-    pub error_estimates: KnownEstimates,
+    /// How far the numbers may be from the truth; absent where that was left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_estimates: Option<KnownEstimates>,
     /// What the run says of the points that `--probe` asks for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<Probe>,
@@ -75,13 +79,18 @@ pub struct ResultFile {
     /// How far the run is from the equilibrium under the scene's own friction and geometry; nothing
     /// where that is the reference solution, or there is none.
     pub distance_from_equilibrium: Option<Distance>,
+    /// The file beside this one that has `u` and `elements`, where they are absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fields_in: Option<String>,
     /// The displacement of each node along x and y, length.
-    pub u: Vec<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub u: Option<Vec<[f64; 2]>>,
     /// The same in decimal with all digits, where the scalar has more than an `f64`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub u_digits: Option<Vec<[String; 2]>>,
     /// The stresses and strains of each triangle.
-    pub elements: Vec<ElementRow>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements: Option<Vec<ElementRow>>,
 }
 
 /// What an iteration came to.
@@ -165,11 +174,12 @@ pub struct ElementRow {
 }
 
 impl ResultFile {
-    /// Gathers what there is to say of a run that followed `plan`.
+    /// Gathers what there is to say of a run that followed `plan`. The fields of a mesh of more than
+    /// [`MOST_TRIANGLES`] are left to `fields.vtu`.
     pub fn new(solution: &Solution, assessment: &Assessment, plan: Option<&Plan>) -> Self {
         let request = &solution.request;
         let scene = &request.scene;
-        ResultFile {
+        let result = ResultFile {
             scene: scene.name.clone(),
             title: scene.title.clone(),
             variant: request.variant,
@@ -189,7 +199,7 @@ impl ResultFile {
             bodies: assessment.bodies.clone(),
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
-            error_estimates: KnownEstimates::new(assessment),
+            error_estimates: assessment.estimates.as_ref().map(KnownEstimates::new),
             probes: assessment.probes.clone(),
             equilibrium: solution.equilibrium.clone(),
             path_change: assessment.path_change,
@@ -198,10 +208,33 @@ impl ResultFile {
                 Some(Ok(measured)) => Some(measured.distance.clone()),
                 _ => None,
             },
-            u: solution.displacements(),
+            fields_in: Some("fields.vtu".into()),
+            u: None,
             u_digits: digits(solution),
-            elements: elements(solution),
+            elements: None,
+        };
+        let is_small = solution.elements.len() <= MOST_TRIANGLES;
+        if is_small { result.with_fields(solution) } else { result }
+    }
+
+    /// Adds the displacements of the nodes and the stresses and strains of the triangles.
+    #[must_use]
+    pub fn with_fields(self, solution: &Solution) -> Self {
+        let (u, elements) = (Some(solution.displacements()), Some(elements(solution)));
+        ResultFile { fields_in: None, u, elements, ..self }
+    }
+
+    /// Returns the displacement of each node, length, and the stresses and strains of each triangle.
+    ///
+    /// # Errors
+    /// The file does not have them: says which one does.
+    pub fn fields(&self) -> Result<(&[[f64; 2]], &[ElementRow])> {
+        if let (Some(u), Some(elements)) = (&self.u, &self.elements) {
+            return Ok((u, elements));
         }
+        let elsewhere = self.fields_in.as_deref().unwrap_or("no file");
+        let what = format!("they are not in the result but in {elsewhere} beside it");
+        Err(InputError::new("u and elements of the result", what, "solve again with --fields"))
     }
 
     /// Writes the content of the file.
@@ -212,15 +245,19 @@ impl ResultFile {
     /// Reads the content of a file.
     ///
     /// # Errors
-    /// Names the field that is wrong or that lacks one, or what follows the result.
+    /// Names the field that is wrong or that lacks one, or what follows the result; or neither the
+    /// fields nor where they are is in it.
     pub fn from_json(text: &str) -> Result<Self> {
         let fault = |place: String, why: &serde_json::Error| {
             InputError::new(place, why.to_string(), "give a result.json as solve writes it")
         };
         let mut deserializer = serde_json::Deserializer::from_str(text);
-        let result = serde_path_to_error::deserialize(&mut deserializer)
+        let result: Self = serde_path_to_error::deserialize(&mut deserializer)
             .map_err(|e| fault(format!("field {} of the result", e.path()), e.inner()))?;
         deserializer.end().map_err(|e| fault("the end of the result".into(), &e))?;
+        if result.fields_in.is_none() {
+            result.fields()?;
+        }
         Ok(result)
     }
 }
@@ -248,8 +285,7 @@ impl IterationRow {
 }
 
 impl KnownEstimates {
-    fn new(assessment: &Assessment) -> Self {
-        let estimates = &assessment.estimates;
+    fn new(estimates: &ErrorEstimates) -> Self {
         let bodies = estimates.bodies.iter().map(|body| BodyEstimates {
             name: body.name.clone(),
             von_mises_stress: body.value,

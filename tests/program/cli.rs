@@ -50,8 +50,8 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         let svg = std::fs::read_to_string(out.join(picture)).expect("the picture is there");
         roxmltree::Document::parse(&svg).expect("the picture is XML");
     }
-    let vtu = std::fs::read_to_string(out.join("fields.vtu")).unwrap();
-    let vtu = roxmltree::Document::parse(&vtu).expect("the VTU file is XML");
+    let vtu = head_of_vtu(&out);
+    let vtu = roxmltree::Document::parse(&vtu).expect("the VTU file is XML before its arrays");
     let piece = vtu.descendants().find(|n| n.has_tag_name("Piece")).unwrap();
     assert_eq!(
         (piece.attribute("NumberOfPoints"), piece.attribute("NumberOfCells")),
@@ -59,6 +59,44 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
     );
     let count = std::fs::read_dir(&out).unwrap().count();
     assert_eq!(count, 6, "and no temporary file is left");
+}
+
+/// Returns `fields.vtu` of a run's folder without its arrays.
+fn head_of_vtu(out: &Path) -> String {
+    let vtu = std::fs::read(out.join("fields.vtu")).unwrap();
+    let text = String::from_utf8_lossy(&vtu);
+    let (head, _) = text.split_once("<AppendedData").expect("arrays follow the XML");
+    format!("{head}</VTKFile>")
+}
+
+#[test]
+fn solve_leaves_out_pictures_and_estimates() {
+    let folder = TempDir::new().unwrap();
+    let solve = |more: &[&str]| succeeds(folder.path(), &[&["solve", "fig1"], more].concat());
+    let all = solve(&["--out", "all"]);
+    let [pictures, estimates] = ["no-pictures", "no-error-estimate"].map(|option| {
+        let tables = solve(&["--out", option, &format!("--{option}")]);
+        let out = folder.path().join(option);
+        let result = std::fs::read_to_string(out.join("result.json")).unwrap();
+        let result: Value = serde_json::from_str(&result).unwrap();
+        (tables, out, result)
+    });
+    let files = |out: &Path| {
+        let entries = std::fs::read_dir(out).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(files(&pictures.1), ["fields.vtu", "result.json"]);
+    assert_eq!(files(&estimates.1).len(), 6);
+    assert_eq!(pictures.0.replace("no-pictures", "all"), all);
+    assert!(head_of_vtu(&pictures.1).contains("\"mesh_error\""));
+    assert!(!head_of_vtu(&estimates.1).contains("\"mesh_error\""));
+    assert!(all.contains("Error estimates") && !estimates.0.contains("Error estimates"));
+    assert!(estimates.0.contains("Distance from the reference solution"));
+    assert_eq!(estimates.2.get("error_estimates"), None);
+    assert_eq!(estimates.2["u"], pictures.2["u"]);
 }
 
 #[test]

@@ -1,12 +1,14 @@
 //! Pictures of meshes, fields and series, and what they are drawn with.
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use plane_contact::report::picture::colour::ColourScale;
 use plane_contact::report::picture::deformation::{boundary_edges, magnification};
 use plane_contact::report::picture::page::{Page, text_width, wrap};
 use plane_contact::report::picture::svg::path;
 use plane_contact::report::picture::view::{Bounds, Frame, View};
 use plane_contact::report::picture::{
-    Axis, Contact, Drawing, Field, Series, Style, chart, field, mesh,
+    Axis, Contact, Drawing, Field, MOST_SHAPES, Series, Style, chart, field, mesh,
 };
 use roxmltree::Document;
 
@@ -309,4 +311,101 @@ fn a_curve_has_its_name_at_its_end() {
         .collect();
     assert_eq!(names.len(), 8);
     assert!(names.windows(2).all(|pair| pair[1] - pair[0] >= 14.0), "{names:?}");
+}
+
+/// A square of `side` by `side` squares of two triangles each; the block below, the stamp above.
+fn grid(side: usize) -> Drawing {
+    let at = |k: usize| 10.0 * k as f64 / side as f64;
+    let squares = (0..side * side).map(|k| k + k / side);
+    let triangles = squares.flat_map(|a| {
+        let c = a + side + 2;
+        [[a, a + 1, c], [a, c, c - 1]]
+    });
+    let triangles: Vec<_> = triangles.collect();
+    Drawing {
+        points: (0..=side).flat_map(|y| (0..=side).map(move |x| [at(x), at(y)])).collect(),
+        region: (0..triangles.len()).map(|k| usize::from(2 * k >= triangles.len())).collect(),
+        triangles,
+        ..square()
+    }
+}
+
+/// Reads the images of a picture: the width of each, and the colour of each pixel, None where clear.
+fn images(picture: &str) -> Vec<(usize, Vec<Option<[u8; 3]>>)> {
+    let read = |source: String| {
+        let text = source.strip_prefix("data:image/png;base64,").unwrap();
+        let bytes = std::io::Cursor::new(BASE64_STANDARD.decode(text).unwrap());
+        let mut decoder = png::Decoder::new(bytes);
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut pixels).unwrap();
+        let colour = |&[r, g, b, alpha]: &[u8; 4]| (alpha > 0).then_some([r, g, b]);
+        (info.width as usize, pixels.as_chunks().0.iter().map(colour).collect())
+    };
+    attributes(picture, "image", "href").into_iter().map(read).collect()
+}
+
+/// The middle of the lower and of the upper half.
+fn halves((width, pixels): &(usize, Vec<Option<[u8; 3]>>)) -> [Option<[u8; 3]>; 2] {
+    let height = pixels.len() / width;
+    [3, 1].map(|quarter| pixels[height * quarter / 4 * width + width / 2])
+}
+
+#[test]
+fn up_to_the_limit_each_triangle_is_a_shape() {
+    let drawing = grid(100);
+    assert_eq!(drawing.triangles.len(), MOST_SHAPES);
+    let picture = mesh(&drawing);
+    assert_eq!(attributes(&picture, "polygon", "points").len(), MOST_SHAPES);
+    assert!(images(&picture).is_empty());
+}
+
+#[test]
+fn a_fine_mesh_is_an_image_with_a_vector_outline() {
+    let picture = mesh(&grid(400));
+    assert!(attributes(&picture, "polygon", "points").is_empty());
+    let images = images(&picture);
+    assert_eq!(images.len(), 1);
+    assert_eq!(halves(&images[0]), [Some([0x9c, 0xcb, 0x9a]), Some([0xf4, 0xd3, 0x5e])]);
+    assert!(images[0].1.iter().all(Option::is_some), "no pixel between triangles is left out");
+    let outline = attributes(&picture, "path", "d").concat();
+    assert_eq!(outline.matches('M').count(), 4 * 400);
+    assert!(texts(&picture).contains("block (160000 triangles)"));
+    assert_eq!(picture, mesh(&grid(400)), "the same bytes each time");
+}
+
+#[test]
+fn pixels_of_a_field_have_the_colours_of_the_bar() {
+    let drawing = grid(150);
+    let values: Vec<f64> = drawing.region.iter().map(|&region| region as f64).collect();
+    let still = vec![[0.0; 2]; drawing.points.len()];
+    let picture = field(&drawing, &stress(&values, &still));
+    let near = |at: Option<[u8; 3]>, expected: [u8; 3]| {
+        at.unwrap().into_iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 3)
+    };
+    let [low, high] = halves(&images(&picture)[0]);
+    assert!(near(low, [0x44, 0x01, 0x54]) && near(high, [0xfd, 0xe7, 0x25]), "{low:?} {high:?}");
+    assert!(texts(&picture).contains("A fine mesh: each pixel has the colour"));
+}
+
+#[test]
+fn an_enlargement_of_a_fine_mesh_has_its_lines() {
+    let nodes = [20_100, 20_101];
+    let drawing = Drawing { contact: touching(&nodes, nodes).contact, ..grid(200) };
+    let images = images(&mesh(&drawing));
+    let lines = |k: usize| images[k].1.iter().filter(|&&at| at == Some([0x4a; 3])).count();
+    assert_eq!([images.len(), lines(0)], [2, 0]);
+    assert!(lines(1) > images[1].0, "{}", lines(1));
+}
+
+#[test]
+fn a_picture_of_noise_is_below_two_megabytes() {
+    let drawing = Drawing { contact: touching(&[5], [5, 6]).contact, ..grid(700) };
+    let values: Vec<f64> = (0..drawing.triangles.len() as u64)
+        .map(|k| (k * k * 2_654_435_761 % 1009) as f64)
+        .collect();
+    let still = vec![[0.0; 2]; drawing.points.len()];
+    let size = field(&drawing, &stress(&values, &still)).len();
+    assert!(size < 2_000_000, "{size}");
 }

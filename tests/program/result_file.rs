@@ -4,7 +4,7 @@ use plane_contact::answer::{Assessment, Request, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::{ResultFile, known};
+use plane_contact::report::{MOST_TRIANGLES, ResultFile, known};
 use plane_contact::studies::plan::Plan;
 
 fn result(scene: &str, changed: impl Fn(Request) -> Request) -> ResultFile {
@@ -33,7 +33,8 @@ fn results_read_back() {
 #[test]
 fn what_is_not_finite_is_null() {
     let mut result = result("fig1", |request| request);
-    result.error_estimates.mesh_energy_relative = known(f64::INFINITY);
+    let estimates = result.error_estimates.as_mut().expect("they were asked for");
+    estimates.mesh_energy_relative = known(f64::INFINITY);
     let distance = result.distance.as_mut().expect("fig1 has a reference solution");
     distance.displacement_relative = f64::INFINITY;
     result.contact[0].force = None;
@@ -50,4 +51,37 @@ fn a_wrong_field_is_named() {
     let wrong = text.replace("\"k\":2,", "\"k\":\"second\",");
     let error = ResultFile::from_json(&wrong).expect_err("a number is asked for");
     assert_eq!(error.place, "field iterations[1].k of the result");
+}
+
+#[test]
+fn fields_of_a_large_mesh_are_elsewhere_unless_asked_for() {
+    let mut scene = Scene::open("two-blocks").expect("an embedded scene");
+    while scene.model.triangles.len() <= MOST_TRIANGLES {
+        scene = scene.refined().expect("a finer mesh").expect("it was built from a mesh").scene;
+    }
+    let solution = solve(&Request::new(&scene), &mut |_| ()).expect("it is solved");
+    assert!(solution.elements.len() > MOST_TRIANGLES);
+    let assessment = Assessment::without_estimates(&solution);
+    assert!(assessment.estimates.is_none());
+    let written = ResultFile::new(&solution, &assessment, None);
+    let text = written.to_json();
+    assert!(text.len() < 100_000 && text.contains("\"fields_in\":\"fields.vtu\""), "{text}");
+    assert!(!text.contains("\"error_estimates\""));
+    let read = ResultFile::from_json(&text).expect("it was written by the same type");
+    assert_eq!(read, written);
+    let missing = read.fields().expect_err("the fields are elsewhere").to_string();
+    assert!(missing.contains("fields.vtu") && missing.contains("--fields"), "{missing}");
+    let asked = ResultFile::from_json(&read.with_fields(&solution).to_json()).expect("as above");
+    let (u, elements) = asked.fields().expect("they were asked for");
+    assert_eq!(u, solution.displacements());
+    assert_eq!(elements.len(), solution.elements.len());
+    assert_eq!(asked.fields_in, None);
+}
+
+#[test]
+fn a_result_says_where_its_fields_are() {
+    let text = result("fig1", |request| request).to_json();
+    let end = text.find(",\"elements\":").expect("the fields come last");
+    let error = ResultFile::from_json(&(text[..end].to_owned() + "}")).expect_err("half of it");
+    assert_eq!(error.place, "u and elements of the result");
 }

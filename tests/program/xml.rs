@@ -1,5 +1,8 @@
 //! XML files read back: texts, and the arrays of a VTU file.
 
+use std::io::Read;
+
+use flate2::read::ZlibDecoder;
 use plane_contact::report::vtu::document;
 use plane_contact::report::xml::Element;
 use roxmltree::Document;
@@ -24,22 +27,59 @@ const TRIANGLES: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 const DISPLACEMENT: [f64; 8] =
     [0.1 + 0.2, -1e-300, 5e-324, 0.0, -0.0, f64::MAX, f64::EPSILON, -2.5];
 
-fn written() -> String {
+fn written() -> Vec<u8> {
     let of_triangles = [("a < b", 1, &[6.3, f64::MIN_POSITIVE][..])];
     document(&POINTS, &TRIANGLES, &[("displacement", 2, &DISPLACEMENT)], &of_triangles)
 }
 
-/// Returns the components and the numbers of an array, as a reader finds them.
-fn read(file: &str, name: &str) -> (Option<String>, Vec<String>) {
-    let document = Document::parse(file).unwrap();
-    let mut arrays = document.descendants().filter(|n| n.attribute("Name") == Some(name));
-    let array = arrays.next().unwrap();
-    let numbers = array.text().unwrap().split_whitespace().map(String::from).collect();
-    (array.attribute("NumberOfComponents").map(String::from), numbers)
+/// Returns the type, the components and the bytes of an array, as a reader finds them: the XML ends
+/// where the arrays begin, each as counts and compressed blocks.
+fn read(file: &[u8], name: &str) -> (String, Option<String>, Vec<u8>) {
+    let mark = b"<AppendedData encoding=\"raw\">_";
+    let start = file.windows(mark.len()).position(|bytes| bytes == mark).unwrap() + mark.len();
+    let end = b"\n</AppendedData>\n</VTKFile>\n";
+    assert!(file.ends_with(end));
+    let text =
+        std::str::from_utf8(&file[..start]).unwrap().to_owned() + "</AppendedData></VTKFile>";
+    let document = Document::parse(&text).unwrap();
+    let root = document.root_element();
+    assert_eq!(root.attribute("compressor"), Some("vtkZLibDataCompressor"));
+    assert_eq!(root.attribute("header_type"), Some("UInt64"));
+    let array = document.descendants().find(|n| n.attribute("Name") == Some(name)).unwrap();
+    assert_eq!(array.attribute("format"), Some("appended"));
+    let offset: usize = array.attribute("offset").unwrap().parse().unwrap();
+    let mut rest = &file[start + offset..file.len() - end.len()];
+    let mut number = || {
+        let (number, after) = rest.split_first_chunk().unwrap();
+        rest = after;
+        u64::from_le_bytes(*number) as usize
+    };
+    let [blocks, full, last] = [number(), number(), number()];
+    let sizes: Vec<usize> = (0..blocks).map(|_| number()).collect();
+    let mut content = Vec::new();
+    for (k, size) in sizes.into_iter().enumerate() {
+        let (block, after) = rest.split_at(size);
+        rest = after;
+        let before = content.len();
+        ZlibDecoder::new(block).read_to_end(&mut content).unwrap();
+        let expected = if k + 1 == blocks && last > 0 { last } else { full };
+        assert_eq!(content.len() - before, expected, "block {k} of {name}");
+    }
+    let attribute = |name| array.attribute(name).map(String::from);
+    (attribute("type").unwrap(), attribute("NumberOfComponents"), content)
 }
 
-fn bits(numbers: &[String]) -> Vec<u64> {
-    numbers.iter().map(|number| number.parse::<f64>().unwrap().to_bits()).collect()
+/// Returns the bits of the floats of an array.
+fn bits(file: &[u8], name: &str) -> Vec<u64> {
+    let (kind, _, content) = read(file, name);
+    assert_eq!(kind, "Float64");
+    content.as_chunks().0.iter().map(|bytes| u64::from_le_bytes(*bytes)).collect()
+}
+
+fn whole(file: &[u8], name: &str) -> Vec<i64> {
+    let (kind, _, content) = read(file, name);
+    assert_eq!(kind, "Int64");
+    content.as_chunks().0.iter().map(|bytes| i64::from_le_bytes(*bytes)).collect()
 }
 
 #[test]
@@ -48,19 +88,33 @@ fn floats_read_back_to_the_same_bits() {
         vectors.iter().flat_map(|&[x, y]| [x, y, 0.0]).map(f64::to_bits).collect()
     };
     let file = written();
-    assert_eq!(bits(&read(&file, "Points").1), with_zero(&POINTS));
-    let (components, displacement) = read(&file, "displacement");
-    assert_eq!(components.as_deref(), Some("3"));
-    assert_eq!(bits(&displacement), with_zero(DISPLACEMENT.as_chunks().0));
-    assert_eq!(bits(&read(&file, "a < b").1), [6.3, f64::MIN_POSITIVE].map(f64::to_bits));
+    assert_eq!(bits(&file, "Points"), with_zero(&POINTS));
+    assert_eq!(read(&file, "displacement").1.as_deref(), Some("3"));
+    assert_eq!(bits(&file, "displacement"), with_zero(DISPLACEMENT.as_chunks().0));
+    assert_eq!(bits(&file, "a < b"), [6.3, f64::MIN_POSITIVE].map(f64::to_bits));
 }
 
 #[test]
 fn cells_are_triangles() {
     let file = written();
-    assert_eq!(read(&file, "connectivity").1, ["0", "1", "2", "0", "2", "3"]);
-    assert_eq!(read(&file, "offsets").1, ["3", "6"]);
-    assert_eq!(read(&file, "types").1, ["5", "5"]);
+    assert_eq!(whole(&file, "connectivity"), [0, 1, 2, 0, 2, 3]);
+    assert_eq!(whole(&file, "offsets"), [3, 6]);
+    let (kind, _, types) = read(&file, "types");
+    assert_eq!((kind.as_str(), types.as_slice()), ("UInt8", &[5, 5][..]));
+}
+
+/// Arrays of many blocks, the last one full or not.
+#[test]
+fn long_arrays_read_back() {
+    let seeded = |k: usize| f64::from_bits((k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 2);
+    for count in [1 << 16, 100_003] {
+        let values: Vec<f64> = (0..count).map(seeded).collect();
+        let triangles = vec![[0, 1, 2]; count];
+        let file = document(&POINTS, &triangles, &[], &[("v", 1, &values)]);
+        assert_eq!(bits(&file, "v"), values.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
+        assert_eq!(whole(&file, "connectivity"), [0, 1, 2].repeat(count));
+        assert_eq!(document(&POINTS, &triangles, &[], &[("v", 1, &values)]), file);
+    }
 }
 
 #[test]

@@ -2,15 +2,14 @@
 
 use super::drawing::{Contact, Drawing};
 use super::page::Sign;
+use super::raster::{Raster, rgb};
 use super::svg::{Pixel, circle, group, polygon, segments};
 use super::view::View;
 use crate::report::xml::Element;
 
-/// The colours of the block, green, and of the stamp, yellow, as in fig. 4.
-const BLOCK_AND_STAMP: [&str; 2] = ["#9ccb9a", "#f4d35e"];
-
-/// The muted colours of further bodies, in turn.
-const FURTHER_BODIES: [&str; 4] = ["#a9c1dc", "#dcb1ab", "#c3b3d9", "#cdc5b0"];
+/// The colours of the block, green, and of the stamp, yellow, as in fig. 4; then muted ones of
+/// further bodies, in turn.
+const BODIES: [&str; 6] = ["#9ccb9a", "#f4d35e", "#a9c1dc", "#dcb1ab", "#c3b3d9", "#cdc5b0"];
 
 const TRIANGLE_EDGE: &str = "#4a4a4a";
 
@@ -18,15 +17,22 @@ const CONTACT_NODE: &str = "#1a1a1a";
 
 const TARGET_EDGE: &str = "#c1272d";
 
-/// Draws the triangles in the colours of their bodies, and the contact pair over them.
-pub fn draw_bodies(drawing: &Drawing, view: &View) -> Element {
+/// Draws the triangles in the colours of their bodies, and the contact pair over them. Those of a
+/// fine mesh are pixels, and its `outline` is drawn with them.
+pub fn draw_bodies(drawing: &Drawing, outline: &[[usize; 2]], view: &View) -> Element {
     let pixels = view.all(&drawing.points);
     let width = if view.enlarged { 0.9 } else { 0.5 };
     let regions = 0..drawing.region_names.len();
-    let bodies = regions.map(|region| draw_body(drawing, region, view, &pixels));
     let contact = drawing.contact.as_ref().map(|contact| contact_pair(contact, view, &pixels));
-    let triangles = group().stroke(TRIANGLE_EDGE, width).set("stroke-linejoin", "round");
-    group().with(triangles.with_all(bodies)).with_all(contact)
+    let triangles = if drawing.is_fine() {
+        let outline = segments(outline, &pixels).stroke(TRIANGLE_EDGE, width);
+        group().with(raster(drawing, view, &pixels)).with(outline)
+    } else {
+        let bodies = regions.map(|region| draw_body(drawing, region, view, &pixels));
+        let triangles = group().stroke(TRIANGLE_EDGE, width).set("stroke-linejoin", "round");
+        triangles.with_all(bodies)
+    };
+    group().with(triangles).with_all(contact)
 }
 
 pub fn legend(drawing: &Drawing) -> Vec<(Sign, String)> {
@@ -45,10 +51,34 @@ pub fn legend(drawing: &Drawing) -> Vec<(Sign, String)> {
 }
 
 fn draw_body(drawing: &Drawing, region: usize, view: &View, pixels: &[Pixel]) -> Element {
-    let triangles = drawing.triangles.iter().zip(&drawing.region).filter(|&(_, &of)| of == region);
-    let corners = triangles.map(|(triangle, _)| triangle.map(|point| pixels[point]));
-    let seen = corners.filter(|corners| view.shows(corners));
-    group().fill(body_colour(region)).with_all(seen.map(|corners| polygon(&corners)))
+    let shapes = seen(drawing, region, view, pixels).map(|corners| polygon(&corners));
+    group().fill(body_colour(region)).with_all(shapes)
+}
+
+/// Draws the bodies one over the other as pixels, each with its lines.
+fn raster(drawing: &Drawing, view: &View, pixels: &[Pixel]) -> Element {
+    let colours = [&BODIES[..], &[TRIANGLE_EDGE]].concat();
+    let mut raster = Raster::new(view.frame);
+    for region in 0..drawing.region_names.len() {
+        let colour = colour_of(region) as u8;
+        seen(drawing, region, view, pixels).for_each(|corners| raster.triangle(corners, colour));
+        let edge = BODIES.len() as u8;
+        seen(drawing, region, view, pixels).for_each(|corners| raster.ring(corners, |_| edge));
+    }
+    raster.image(&colours.into_iter().map(rgb).collect::<Vec<_>>())
+}
+
+/// Returns the corners of the triangles of a region that can be seen.
+fn seen<'a>(
+    drawing: &'a Drawing,
+    region: usize,
+    view: &'a View,
+    pixels: &'a [Pixel],
+) -> impl Iterator<Item = [Pixel; 3]> + 'a {
+    let own = drawing.triangles.iter().zip(&drawing.region);
+    let own = own.filter(move |&(_, &of)| of == region);
+    let corners = own.map(|(triangle, _)| triangle.map(|point| pixels[point]));
+    corners.filter(|corners| view.shows(corners))
 }
 
 fn contact_pair(contact: &Contact, view: &View, pixels: &[Pixel]) -> Element {
@@ -58,8 +88,10 @@ fn contact_pair(contact: &Contact, view: &View, pixels: &[Pixel]) -> Element {
 }
 
 fn body_colour(region: usize) -> &'static str {
-    match BLOCK_AND_STAMP.get(region) {
-        Some(colour) => colour,
-        None => FURTHER_BODIES[(region - BLOCK_AND_STAMP.len()) % FURTHER_BODIES.len()],
-    }
+    BODIES[colour_of(region)]
+}
+
+/// Returns which of the colours of bodies a region has: the first two stand for one body each.
+fn colour_of(region: usize) -> usize {
+    if region < 2 { region } else { 2 + (region - 2) % (BODIES.len() - 2) }
 }

@@ -45,6 +45,11 @@ impl ColourScale {
         shade(self.fraction(value))
     }
 
+    /// Returns in which of `count` equal parts of the range a value lies, from 0.
+    pub fn part(&self, value: f64, count: u8) -> u8 {
+        ((self.fraction(value) * f64::from(count)) as u8).min(count - 1)
+    }
+
     /// Writes quantity and unit over the bar, with the power of ten that its numbers leave out.
     pub fn heading(&self, quantity: &str, unit: &str) -> String {
         let power = match self.exponent() {
@@ -106,6 +111,13 @@ impl ColourScale {
     fn largest(&self) -> f64 {
         self.low.abs().max(self.high.abs())
     }
+}
+
+/// Returns the colour in the middle of each of `count` equal parts of any range.
+pub fn parts(count: u8) -> Vec<[u8; 3]> {
+    let middle = |part| (f64::from(part) + 0.5) / f64::from(count);
+    let colour = |part| colorous::VIRIDIS.eval_continuous(middle(part)).as_array();
+    (0..count).map(colour).collect()
 }
 
 /// Writes a number with its unit, which may be `""` or `"1"`: then the number alone.

@@ -1,7 +1,5 @@
 //! The deformed mesh: how much its deformation is enlarged, and which edges bound it.
 
-use std::collections::BTreeMap;
-
 use super::view::Bounds;
 use crate::report::numbers::Decimal;
 
@@ -33,11 +31,9 @@ pub fn largest_displacement(displacement: &[[f64; 2]]) -> f64 {
 
 /// Returns the edges that belong to one triangle only, rims of holes too, as indices of points.
 pub fn boundary_edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
-    let mut owners = BTreeMap::new();
-    for &[a, b, c] in triangles {
-        for [from, to] in [[a, b], [b, c], [c, a]] {
-            *owners.entry([from.min(to), from.max(to)]).or_insert(0) += 1;
-        }
-    }
-    owners.into_iter().filter(|&(_, count)| count == 1).map(|(edge, _)| edge).collect()
+    let ring = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
+    let mut edges: Vec<_> =
+        triangles.iter().flat_map(ring).map(|[from, to]| [from.min(to), from.max(to)]).collect();
+    edges.sort_unstable();
+    edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).map(|same| same[0]).collect()
 }

@@ -3,6 +3,9 @@
 use crate::problem::model::{Model, NodeId};
 use crate::problem::scene::Scene;
 
+/// A mesh of more triangles is drawn as pixels, not as a shape per triangle.
+pub const MOST_SHAPES: usize = 20_000;
+
 /// A mesh with its bodies and its contact surfaces. Points, triangles and regions count from 0; all
 /// coordinates are finite.
 pub struct Drawing {
@@ -59,6 +62,11 @@ impl Drawing {
                 edges: model.target_edges().map(|e| e.nodes.map(NodeId::index)).collect(),
             }),
         }
+    }
+
+    /// Returns whether the triangles are drawn as pixels.
+    pub fn is_fine(&self) -> bool {
+        self.triangles.len() > MOST_SHAPES
     }
 }
 

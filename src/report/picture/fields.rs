@@ -1,8 +1,9 @@
 //! A field on the deformed mesh, and what is said under it.
 
-use super::colour::{ColourScale, with_unit};
+use super::colour::{ColourScale, parts, with_unit};
 use super::deformation::{boundary_edges, deformed, largest_displacement, magnification};
 use super::drawing::{Drawing, Field};
+use super::raster::{CAPTION, Raster};
 use super::svg::{Pixel, circle, group, path, polygon, segments};
 use super::view::{Bounds, View};
 use crate::report::numbers::{Decimal, significant};
@@ -11,6 +12,10 @@ use crate::report::xml::Element;
 const OUTLINE: &str = "#111111";
 
 const UNDEFORMED_OUTLINE: &str = "#b5b5b5";
+
+/// How many colours the pixels of a fine mesh have, each also darkened by a line over it: as many as
+/// a PNG with 256 entries takes beside the transparent one.
+const COLOURS: u8 = 127;
 
 pub struct FieldPicture<'a> {
     pub scale: ColourScale,
@@ -40,9 +45,11 @@ impl<'a> FieldPicture<'a> {
         let [before, after] = [&self.drawing.points, &self.deformed].map(|points| view.all(points));
         let width = if view.enlarged { 1.6 } else { 1.1 };
         let largest = self.largest_of(&after);
+        let fine = self.drawing.is_fine();
+        let triangles = if fine { Self::raster } else { Self::triangles };
         group()
-            .with(self.triangles(view, &after))
-            .with_all(view.enlarged.then(|| self.grid(view, &after)))
+            .with(triangles(self, view, &after))
+            .with_all((view.enlarged && !fine).then(|| self.grid(view, &after)))
             .with(segments(&self.boundary, &before).stroke(UNDEFORMED_OUTLINE, 0.8))
             .with(segments(&self.boundary, &after).stroke(OUTLINE, width))
             .with_all((!self.scale.is_uniform()).then(|| marker(largest)))
@@ -58,22 +65,43 @@ impl<'a> FieldPicture<'a> {
             .into_iter()
             .chain(touching.then(|| overlap.into()))
             .chain([flat.into()])
+            .chain(self.drawing.is_fine().then(|| CAPTION.into()))
             .collect()
     }
 
-    /// Draws each triangle in its colour, also along its edges so that no white shows between two;
-    /// the stamp is drawn over the block.
+    /// Draws each triangle in its colour, also along its edges so that no white shows between two.
     fn triangles(&self, view: &View, pixels: &[Pixel]) -> Element {
+        let shape = |(triangle, corners): (usize, [Pixel; 3])| {
+            let colour = self.scale.colour(self.field.values[triangle]);
+            polygon(&corners).fill(&colour).set("stroke", colour)
+        };
+        let group = group().set("stroke-width", "0.8").set("stroke-linejoin", "round");
+        group.with_all(self.seen(view, pixels).map(shape))
+    }
+
+    /// Draws the triangles as pixels, in an enlargement with their edges.
+    fn raster(&self, view: &View, pixels: &[Pixel]) -> Element {
+        let mut raster = Raster::new(view.frame);
+        for (triangle, corners) in self.seen(view, pixels) {
+            raster.triangle(corners, self.scale.part(self.field.values[triangle], COLOURS));
+        }
+        if view.enlarged {
+            let darkened = |colour: u8| if colour < COLOURS { colour + COLOURS } else { colour };
+            self.seen(view, pixels).for_each(|(_, corners)| raster.ring(corners, darkened));
+        }
+        let plain = parts(COLOURS);
+        let dark = plain.iter().map(|colour| colour.map(|part| part - part / 4));
+        raster.image(&plain.iter().copied().chain(dark).collect::<Vec<_>>())
+    }
+
+    /// Returns the triangles that can be seen, with their corners; the stamp's after the block's.
+    fn seen(&self, view: &View, pixels: &[Pixel]) -> impl Iterator<Item = (usize, [Pixel; 3])> {
         let mut order: Vec<_> = (0..self.drawing.triangles.len()).collect();
         order.sort_by_key(|&triangle| self.drawing.region[triangle]);
-        let corners = |triangle: usize| self.drawing.triangles[triangle].map(|point| pixels[point]);
-        let shape = |triangle: usize| {
-            let colour = self.scale.colour(self.field.values[triangle]);
-            polygon(&corners(triangle)).fill(&colour).set("stroke", colour)
+        let corners = |triangle: usize| {
+            (triangle, self.drawing.triangles[triangle].map(|point| pixels[point]))
         };
-        let seen = order.into_iter().filter(|&triangle| view.shows(&corners(triangle)));
-        let group = group().set("stroke-width", "0.8").set("stroke-linejoin", "round");
-        group.with_all(seen.map(shape))
+        order.into_iter().map(corners).filter(|(_, corners)| view.shows(corners))
     }
 
     /// Draws the edges of the triangles, faint.

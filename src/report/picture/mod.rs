@@ -9,6 +9,7 @@
 //! | `chart`       | curves over one axis                               |
 //! | `page`        | layout: title, panels, legend, captions            |
 //! | `colour`      | values to colours, and the colour bar              |
+//! | `raster`      | triangles of a fine mesh as pixels                 |
 //! | `view`        | the mesh's coordinates to pixels                   |
 //! | `svg`         | shapes, on top of the XML writer                   |
 
@@ -19,13 +20,15 @@ pub mod deformation;
 mod drawing;
 mod fields;
 pub mod page;
+mod raster;
 pub mod svg;
 pub mod view;
 
 pub use self::chart::{Axis, SERIES, Series, Style, chart};
-pub use self::drawing::{Contact, Drawing, Field};
+pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES};
 
 use self::bodies::{draw_bodies, legend};
+use self::deformation::boundary_edges;
 use self::fields::FieldPicture;
 use self::page::Page;
 use self::view::{Bounds, View};
@@ -37,8 +40,12 @@ const ENLARGED_UP_TO: f64 = 0.8;
 /// Draws the mesh: its bodies, the contact nodes and the target edges.
 pub fn mesh(drawing: &Drawing) -> String {
     let mut page = Page::new(&drawing.title);
-    put_panels(&mut page, drawing, &drawing.points, |view| draw_bodies(drawing, view));
+    let outline = if drawing.is_fine() { boundary_edges(&drawing.triangles) } else { Vec::new() };
+    put_panels(&mut page, drawing, &drawing.points, |view| draw_bodies(drawing, &outline, view));
     page.legend(&legend(drawing));
+    if drawing.is_fine() {
+        page.paragraph(raster::CAPTION);
+    }
     page.finish()
 }
 

@@ -56,6 +56,13 @@ pub fn circle([x, y]: Pixel, radius: f64) -> Element {
     shape("circle", [("cx", x), ("cy", y), ("r", radius)])
 }
 
+/// Makes an image from its upper left corner; `source` is where it is found.
+pub fn image([x, y]: Pixel, [width, height]: [f64; 2], source: &str) -> Element {
+    shape("image", [("x", x), ("y", y), ("width", width), ("height", height)])
+        .set("preserveAspectRatio", "none")
+        .set("href", source)
+}
+
 fn shape<const N: usize>(name: &'static str, lengths: [(&str, f64); N]) -> Element {
     let set = |shape: Element, (name, length)| shape.set(name, number(length));
     lengths.into_iter().fold(Element::new(name), set)

@@ -1,0 +1,136 @@
+//! Triangles as pixels: a mesh too fine for a shape per triangle, as an image inside the SVG.
+//!
+//! Two panels of bytes fill at most 1.4 million pixels, so that a picture stays below two megabytes
+//! however little they can be compressed.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use png::{BitDepth, ColorType, Encoder, Filter};
+
+use super::svg::{Pixel, image};
+use super::view::Frame;
+use crate::report::xml::Element;
+
+/// Pixels of the image for each of the page, along either axis.
+const FINENESS: f64 = 1.5;
+
+/// A triangle has its edges drawn where its longest side is at least this long, pixels of the image;
+/// the edges of smaller ones would hide the colours.
+const LEAST_SIDE: f64 = 6.0;
+
+/// What is to be said of an image.
+pub const CAPTION: &str = "A fine mesh: each pixel has the colour of the triangle at its middle, and \
+                           edges of triangles too small for them are left out.";
+
+/// Colours by number, the first at the upper left corner, row by row.
+pub struct Raster {
+    frame: Frame,
+    size: [usize; 2],
+    colours: Vec<u8>,
+}
+
+/// The number of no colour: the page shows.
+const CLEAR: u8 = u8::MAX;
+
+impl Raster {
+    /// Makes a clear image that fills `frame`.
+    pub fn new(frame: Frame) -> Self {
+        let size = frame.size.map(|side| (side * FINENESS).ceil().max(1.0) as usize);
+        Self { frame, size, colours: vec![CLEAR; size[0] * size[1]] }
+    }
+
+    /// Fills the pixels whose middle lies in the triangle with a colour, by its number. Triangles
+    /// that share an edge leave no pixel between them.
+    pub fn triangle(&mut self, corners: [Pixel; 3], colour: u8) {
+        let [a, b, c] = corners.map(|corner| self.place(corner));
+        let low = a[1].min(b[1]).min(c[1]);
+        let high = a[1].max(b[1]).max(c[1]);
+        for row in middles(low, high, self.size[1]) {
+            let y = row as f64 + 0.5;
+            let [mut from, mut to] = [f64::INFINITY, f64::NEG_INFINITY];
+            for x in [[a, b], [b, c], [c, a]].into_iter().filter_map(|side| crossing(side, y)) {
+                (from, to) = (from.min(x), to.max(x));
+            }
+            let start = row * self.size[0];
+            let columns = middles(from, to, self.size[0]);
+            self.colours[start + columns.start..start + columns.end].fill(colour);
+        }
+    }
+
+    /// Changes the colours under the edges of a triangle, unless it is too small for them.
+    pub fn ring(&mut self, corners: [Pixel; 3], change: impl Fn(u8) -> u8) {
+        let [a, b, c] = corners.map(|corner| self.place(corner));
+        let sides = [[a, b], [b, c], [c, a]];
+        let length = |[from, to]: [Pixel; 2]| (to[0] - from[0]).hypot(to[1] - from[1]);
+        if sides.into_iter().map(length).fold(0.0, f64::max) >= LEAST_SIDE {
+            sides.into_iter().for_each(|side| self.line(side, &change));
+        }
+    }
+
+    /// Changes the colours under a line one pixel wide.
+    fn line(&mut self, [a, b]: [Pixel; 2], change: impl Fn(u8) -> u8) {
+        let along = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
+        let across = 1 - along;
+        let [a, b] = if a[along] <= b[along] { [a, b] } else { [b, a] };
+        let slope = (b[across] - a[across]) / (b[along] - a[along]);
+        for step in middles(a[along], b[along], self.size[along]) {
+            let beside = a[across] + (step as f64 + 0.5 - a[along]) * slope;
+            if (0.0..self.size[across] as f64).contains(&beside) {
+                let mut at = [step; 2];
+                at[across] = beside as usize;
+                let colour = &mut self.colours[at[1] * self.size[0] + at[0]];
+                *colour = change(*colour);
+            }
+        }
+    }
+
+    /// Returns the image; colour number k is `palette[k]`, red, green and blue.
+    ///
+    /// # Panics
+    ///
+    /// If the palette has 256 colours or more, or lacks one that was drawn.
+    pub fn image(&self, palette: &[[u8; 3]]) -> Element {
+        let clear = u8::try_from(palette.len()).expect("at most 255 colours");
+        // The clear one comes last, and is the only one that is not opaque.
+        let number = |&colour: &u8| if colour == CLEAR { clear } else { colour };
+        let numbers: Vec<u8> = self.colours.iter().map(number).collect();
+        let [width, height] = self.size.map(|side| side as u32);
+        let mut file = Vec::new();
+        let mut encoder = Encoder::new(&mut file, width, height);
+        encoder.set_color(ColorType::Indexed);
+        encoder.set_depth(BitDepth::Eight);
+        encoder.set_palette([palette.as_flattened(), &[255; 3]].concat());
+        encoder.set_trns([vec![255; palette.len()], vec![0]].concat());
+        encoder.set_filter(Filter::NoFilter);
+        let mut writer = encoder.write_header().expect("memory takes any bytes");
+        writer.write_image_data(&numbers).expect("a byte for each pixel");
+        writer.finish().expect("memory takes any bytes");
+        let source = format!("data:image/png;base64,{}", BASE64_STANDARD.encode(file));
+        image(self.frame.corner, self.frame.size, &source)
+    }
+
+    /// Returns a place of the page in pixels of the image.
+    fn place(&self, at: Pixel) -> Pixel {
+        let scale = |axis: usize| self.size[axis] as f64 / self.frame.size[axis];
+        [0, 1].map(|axis| (at[axis] - self.frame.corner[axis]) * scale(axis))
+    }
+}
+
+/// Returns the pixels whose middles lie between two places, of those that there are.
+fn middles(from: f64, to: f64, count: usize) -> std::ops::Range<usize> {
+    let first = |place: f64| ((place - 0.5).ceil() as usize).min(count);
+    first(from)..first(to).max(first(from))
+}
+
+/// Returns where a side crosses a row; its direction makes no difference.
+fn crossing([a, b]: [Pixel; 2], y: f64) -> Option<f64> {
+    let [low, high] = if a[1] <= b[1] { [a, b] } else { [b, a] };
+    let within = low[1] <= y && y < high[1];
+    within.then(|| low[0] + (y - low[1]) * ((high[0] - low[0]) / (high[1] - low[1])))
+}
+
+/// Returns red, green and blue of a colour written as `#rrggbb`.
+pub fn rgb(colour: &str) -> [u8; 3] {
+    let part = |at| u8::from_str_radix(&colour[at..at + 2], 16).expect("a colour as #rrggbb");
+    [1, 3, 5].map(part)
+}
