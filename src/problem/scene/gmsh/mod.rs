@@ -19,6 +19,7 @@ mod error;
 mod kinds;
 mod msh2;
 mod msh4;
+mod numbered;
 mod reader;
 mod tokens;
 mod write;

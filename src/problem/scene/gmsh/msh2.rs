@@ -49,17 +49,22 @@ impl Reader<'_> {
     /// Reads an element's tags, the first physical (0: none), the second geometric, and nodes.
     fn element_2(&mut self, number: usize, kind_number: i32, tags: usize) -> Result<()> {
         let kind = kind(&self.tokens, number, kind_number)?;
-        let tags: Result<Vec<usize>> =
-            (0..tags).map(|_| self.tokens.int("an element's tag").map(magnitude)).collect();
-        let tags = tags?;
+        let mut first = [0; 2];
+        for k in 0..tags {
+            let tag = self.tokens.int("an element's tag").map(magnitude)?;
+            if let Some(kept) = first.get_mut(k) {
+                *kept = tag;
+            }
+        }
+        let [physical, geometric] = first;
         let nodes: Result<Vec<usize>> = (0..kind.nodes)
             .map(|_| self.tokens.int_from(1, "a node's number, 1 or more"))
             .collect();
         self.keep(Element {
             number,
             kind: kind.number,
-            physical: tags.iter().copied().take(1).filter(|&tag| tag != 0).collect(),
-            geometric: tags.get(1).copied().unwrap_or(0),
+            physical: if physical == 0 { vec![] } else { vec![physical] },
+            geometric,
             nodes: nodes?,
         })
     }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::error::{Fault, GmshError, Result};
 use super::kinds::{ENTITIES, magnitude};
+use super::numbered::Numbered;
 use super::tokens::Tokens;
 use crate::problem::scene::mesh::{Element, Mesh, Node, PhysicalName};
 
@@ -65,8 +66,8 @@ pub struct Reader<'a> {
     pub sections: BTreeSet<String>,
     names: BTreeMap<(usize, usize), String>,
     pub entities: BTreeMap<(usize, i32), Vec<usize>>,
-    pub nodes: BTreeMap<usize, Node>,
-    pub elements: BTreeMap<usize, Element>,
+    pub nodes: Numbered<Node>,
+    pub elements: Numbered<Element>,
 }
 
 impl Reader<'_> {
@@ -106,8 +107,8 @@ impl Reader<'_> {
         }
         let named = |((dim, tag), name)| PhysicalName { dim, tag, name };
         Ok(Mesh {
-            nodes: self.nodes.into_values().collect(),
-            elements: self.elements.into_values().collect(),
+            nodes: self.nodes.into_values(),
+            elements: self.elements.into_values(),
             names: self.names.into_iter().map(named).collect(),
         })
     }
@@ -131,7 +132,7 @@ impl Reader<'_> {
 
     /// Reads the coordinates of the node `number`, and keeps it.
     pub fn node(&mut self, number: usize) -> Result<()> {
-        if self.nodes.contains_key(&number) {
+        if self.nodes.contains(number) {
             return self.repeated(format!("node {number}"));
         }
         let mut xyz = [0.0; 3];
@@ -148,10 +149,10 @@ impl Reader<'_> {
     /// Keeps an element, unless it has a node that the file does not have, or its number is taken.
     pub fn keep(&mut self, element: Element) -> Result<()> {
         let number = element.number;
-        if let Some(&node) = element.nodes.iter().find(|node| !self.nodes.contains_key(node)) {
+        if let Some(&node) = element.nodes.iter().find(|&&node| !self.nodes.contains(node)) {
             return Err(self.tokens.error(Fault::NoNode { element: number, node }));
         }
-        if self.elements.insert(number, element).is_some() {
+        if !self.elements.insert(number, element) {
             return self.repeated(format!("element {number}"));
         }
         Ok(())

@@ -57,14 +57,17 @@ impl<'a> Tokens<'a> {
     }
 
     /// Reads the next number, which takes `N` bytes in a binary file.
-    fn number<T: FromStr, const N: usize>(
+    fn number<T: FromStr + TryFrom<u32>, const N: usize>(
         &mut self,
         expected: &str,
         little: fn([u8; N]) -> T,
         big: fn([u8; N]) -> T,
     ) -> Result<T> {
         match self.encoding {
-            Encoding::Text => self.parse(expected),
+            Encoding::Text => match self.digits().and_then(|number| T::try_from(number).ok()) {
+                Some(number) => Ok(number),
+                None => self.parse(expected),
+            },
             Encoding::LittleEndian => self.raw(expected).map(little),
             Encoding::BigEndian => self.raw(expected).map(big),
         }
@@ -88,6 +91,20 @@ impl<'a> Tokens<'a> {
             .filter(|word| !word.is_empty())
             .and_then(|word| word.parse().ok());
         parsed.ok_or_else(|| self.unexpected(shown(word), expected))
+    }
+
+    /// Reads the next word if it is up to nine digits, as most are; any number type holds them.
+    fn digits(&mut self) -> Option<u32> {
+        let blanks = run(&self.bytes[self.at..], |byte| byte.is_ascii_whitespace());
+        let rest = &self.bytes[self.at + blanks..];
+        let length = run(rest, u8::is_ascii_digit);
+        let ends = rest.get(length).is_none_or(u8::is_ascii_whitespace);
+        if !(ends && (1..=9).contains(&length)) {
+            return None;
+        }
+        self.last = self.at + blanks;
+        self.at = self.last + length;
+        Some(rest[..length].iter().fold(0, |number, digit| 10 * number + u32::from(digit - b'0')))
     }
 
     /// Reads the next word, which ends at white space; empty at the end of the file.
