@@ -6,6 +6,7 @@ use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{Friction, Geometry, LOAD_STEPS};
 use plane_contact::problem::scene::SceneBuilder;
+use plane_contact::report::MOST_TRIANGLES;
 use plane_contact::studies::benchmark::{
     Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Punch, PunchPatch, Strand,
 };
@@ -101,7 +102,13 @@ fn commands() -> Vec<String> {
         format!("keeps fewer than {} digits", extremes::LEAST),
         format!("what takes over {} s is run once", trade::PATIENCE),
         format!("coordinate format, {figures} significant digits"),
+        format!("Beyond {} triangles result.json leaves", thousands(MOST_TRIANGLES)),
     ]
+}
+
+/// A number below a million with a comma before its last three digits.
+fn thousands(number: usize) -> String {
+    format!("{},{:03}", number / 1000, number % 1000)
 }
 
 /// Where cg stops unless it is told: at so many units of the scalar's last place.
