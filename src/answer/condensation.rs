@@ -26,6 +26,10 @@ use crate::problem::model::{Dof, Model, NodeId};
 /// The number of nodes of both surfaces up to which all are kept.
 const SMALL: usize = 64;
 
+/// The number of kept nodes beyond which a dense matrix of them takes longer, and more memory, than
+/// the whole sparse matrix of a state.
+const MOST: usize = 600;
+
 /// The number of neighbours that are kept on either side of a bound node of a larger surface, and
 /// the part of the number of bound nodes that comes on top.
 const MARGIN: (usize, f64) = (8, 0.5);
@@ -158,8 +162,9 @@ impl Bodies {
         let condensation = match current {
             Some(condensation) => condensation,
             None => {
-                let nodes = self.nodes(constraints);
-                let made = self.shared.condensed(stiffness, &self.model, nodes);
+                let nodes = Some(self.nodes(constraints)).filter(|nodes| nodes.len() <= MOST);
+                let made =
+                    nodes.and_then(|nodes| self.shared.condensed(stiffness, &self.model, nodes));
                 self.impossible.set(made.is_none());
                 self.current.replace(made.clone());
                 made?
