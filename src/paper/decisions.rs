@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::mathcad;
 use super::mathcad::array::{Table, rows};
 use super::mirror::{Pairs, Reading, Worksheet};
+use super::near::Boxes;
 use crate::numbers::scalar::Scalar;
 use crate::problem::model::NodeId;
 
@@ -96,8 +97,12 @@ pub fn decisions<T: Scalar>(
     pairs: &Pairs<T>,
     iteration: usize,
 ) -> Vec<Decision> {
+    let boxes = Boxes::new(sheet, node_n);
     let of_node = |i1: usize| {
-        let left = edge(sheet, node_n, i1).into_iter().chain(status(sheet, reading, pairs, i1));
+        let near = boxes.as_ref().map(|boxes| boxes.near(i1));
+        let near = near.unwrap_or_else(|| (1..=rows(&sheet.trg)).collect());
+        let left = edge(sheet, node_n, i1, &near);
+        let left = left.into_iter().chain(status(sheet, reading, pairs, i1));
         left.map(move |left| Decision {
             iteration,
             node: NodeId::from_number(sheet.cnt[i1]),
@@ -109,11 +114,17 @@ pub fn decisions<T: Scalar>(
     (1..=rows(&sheet.cnt)).flat_map(of_node).collect()
 }
 
-/// Returns what leaves the target edge of contact node `i1` to rounding, lines 4 to 7.
-fn edge<T: Scalar>(sheet: &Worksheet<T>, node_n: &Table<T>, i1: usize) -> Vec<Comparison> {
+/// Returns what leaves the target edge of contact node `i1` to rounding, lines 4 to 7; the boxes of
+/// all rows of `trg` but those `near` it surely do not have it.
+fn edge<T: Scalar>(
+    sheet: &Worksheet<T>,
+    node_n: &Table<T>,
+    i1: usize,
+    near: &[usize],
+) -> Vec<Comparison> {
     let mut left = Vec::new();
     // The last edge whose box has the node is its edge: those before a sure one do not count.
-    for i2 in (1..=rows(&sheet.trg)).rev() {
+    for &i2 in near.iter().rev() {
         let place = |node: usize, column: usize| node_n[(node, column)];
         let side = |column: usize, texts: [&'static str; 2]| {
             let [from, to] = [6, 7].map(|j| place(sheet.elem[(sheet.trg[i2], j)], column));

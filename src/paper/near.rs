@@ -5,7 +5,14 @@
 use super::mathcad::array::{Table, rows};
 use super::mirror::{Failure, Pairs, Reading, Worksheet, c_cnt_near};
 use crate::numbers::scalar::Scalar;
-use crate::problem::tree::Tree;
+use crate::problem::tree::{Bounds, Tree};
+
+/// The boxes of the target edges in a shape.
+pub(super) struct Boxes<'a, T: Scalar> {
+    sheet: &'a Worksheet<T>,
+    node_n: &'a Table<T>,
+    tree: Tree,
+}
 
 /// Finds the pairs of `c_cnt` in the current shape `node_n` (R x 4).
 ///
@@ -16,30 +23,50 @@ pub fn c_cnt<T: Scalar>(
     reading: &Reading,
     node_n: &Table<T>,
 ) -> Result<Pairs<T>, Failure> {
-    let boxes: Vec<_> = (1..=rows(&sheet.trg)).map(|i2| (i2, corners(sheet, node_n, i2))).collect();
-    if boxes.iter().any(|(_, corners)| corners.as_flattened().iter().any(|x| !x.is_finite())) {
+    match Boxes::new(sheet, node_n) {
+        Some(boxes) => c_cnt_near(sheet, reading, node_n, &|i1| boxes.near(i1)),
         // A box that overflows fails the listing where it meets it first.
-        return super::mirror::c_cnt(sheet, reading, node_n);
+        None => super::mirror::c_cnt(sheet, reading, node_n),
     }
-    let tree = Tree::new(boxes);
-    c_cnt_near(sheet, reading, node_n, &|i1| {
-        let p = [2, 3].map(|column| node_n[(sheet.cnt[i1], column)].to_f64());
-        let mut found = Vec::new();
-        tree.visit(&|bounds| (bounds.distance(p) == 0.0).then_some(0.0), &mut |i2| found.push(i2));
-        found.sort_unstable();
-        found
-    })
 }
 
-/// Returns two corners of a box around that of row `i2` of `trg`: in numbers of more digits, with
-/// room for their rounding.
+impl<'a, T: Scalar> Boxes<'a, T> {
+    /// Makes the boxes in the shape `node_n` (R x 4); None where one overflows.
+    pub(super) fn new(sheet: &'a Worksheet<T>, node_n: &'a Table<T>) -> Option<Self> {
+        let of_row = |i2| (i2, corners(sheet, node_n, i2));
+        let boxes: Vec<_> = (1..=rows(&sheet.trg)).map(of_row).collect();
+        let is_finite = boxes.iter().flat_map(|b| b.1.as_flattened()).all(|x| x.is_finite());
+        is_finite.then(|| Boxes { sheet, node_n, tree: Tree::new(boxes) })
+    }
+
+    /// Returns the rows of `trg`, ascending, whose boxes have contact node `i1`, among them all of
+    /// which rounding leaves that open.
+    pub(super) fn near(&self, i1: usize) -> Vec<usize> {
+        let at = [2, 3].map(|column| self.node_n[(self.sheet.cnt[i1], column)]);
+        let (p, reach) = (at.map(Scalar::to_f64), at.map(room)[0].max(at.map(room)[1]));
+        let mut found = Vec::new();
+        let key = |bounds: Bounds| (bounds.distance(p) <= reach).then_some(0.0);
+        self.tree.visit(&key, &mut |i2| found.push(i2));
+        found.sort_unstable();
+        found
+    }
+}
+
+/// Returns two corners of a box around that of row `i2` of `trg`: in numbers of more digits, or with
+/// a bound on their error, with room for their rounding.
 fn corners<T: Scalar>(sheet: &Worksheet<T>, node_n: &Table<T>, i2: usize) -> [[f64; 2]; 2] {
     let Worksheet { elem, trg, c_tll, .. } = sheet;
     let at = |end: usize, column: usize| node_n[(elem[(trg[i2], end)], column)];
     let ends = [2, 3].map(|column| {
         let [a, b] = [at(6, column) - *c_tll, at(7, column) + *c_tll];
         let [low, high] = if a < b { [a, b] } else { [b, a] };
-        [low.to_f64().next_down(), high.to_f64().next_up()]
+        [(low.to_f64() - room(low)).next_down(), (high.to_f64() + room(high)).next_up()]
     });
     [0, 1].map(|end| ends.map(|span| span[end]))
+}
+
+/// Returns the room that a number's error needs beside it where it is compared: more than its bound,
+/// as a difference adds its own rounding to the bounds of both sides.
+fn room<T: Scalar>(x: T) -> f64 {
+    4.0 * x.error_bound().unwrap_or(0.0)
 }
