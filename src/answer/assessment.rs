@@ -6,6 +6,7 @@ use std::borrow::Cow;
 use super::distance::{Distance, distance};
 use super::error::Error;
 use super::estimates::ErrorEstimates;
+use super::factors::LastFactors;
 use super::hertz::Hertz;
 use super::probe::{Probe, probes};
 use super::request::Request;
@@ -61,7 +62,7 @@ impl<'a> Assessment<'a> {
         let own = (!equilibrium.is_same_equilibrium(&reference)).then_some(equilibrium);
         let solved = |wanted: Request| match request.is_same_equilibrium(&wanted) {
             true => Ok(Cow::Borrowed(solution)),
-            false => solve(&wanted, &mut |_| ()).map(Cow::Owned),
+            false => solve(&wanted, &mut |_| ()).map(|other| Cow::Owned(without_factors(other))),
         };
         let target = solution.model.target();
         let reference = target.map(|_| solved(reference));
@@ -129,6 +130,11 @@ impl<'a> Assessment<'a> {
     pub fn measure(&self) -> Option<&Measured<'a>> {
         self.reference.as_ref()?.as_ref().ok()
     }
+}
+
+/// Returns a solution without what only its own estimates need: large factors.
+fn without_factors(solution: Solution) -> Solution {
+    Solution { factors: LastFactors::Unknown, ..solution }
 }
 
 /// Follows the path of the load in half as many steps.

@@ -16,6 +16,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{DMatrix, DVector};
 
+use super::contact::Pairing;
 use super::elimination::{Constraint, Elimination};
 use super::stiffness::Stiffness;
 use crate::numbers::solve::{
@@ -27,12 +28,18 @@ use crate::problem::model::{Dof, Model, NodeId};
 const SMALL: usize = 64;
 
 /// The number of kept nodes beyond which a dense matrix of them takes longer, and more memory, than
-/// the whole sparse matrix of a state.
-const MOST: usize = 600;
+/// the whole sparse matrix of a state: this many, or on fine meshes so much of the square root of the
+/// number of equations, which is what a line across the mesh has.
+const MOST: (f64, f64) = (600.0, 2.0);
+
+/// The number of contact nodes of larger surfaces that are expected to come into contact, over the
+/// square root of the number of equations; of fewer equations than these, nothing is expected, as the
+/// first contact state costs little.
+const EXPECTED: (f64, usize) = (0.85, 10_000);
 
 /// The number of neighbours that are kept on either side of a bound node of a larger surface, and
 /// the part of the number of bound nodes that comes on top.
-const MARGIN: (usize, f64) = (8, 0.5);
+const MARGIN: (usize, f64) = (8, 0.1);
 
 /// The motion under loads of 1, both scaled to a unit diagonal, beyond which a state is left to the
 /// factors of its whole matrix, which tell a singular one.
@@ -66,10 +73,12 @@ impl Shared {
         nodes: BTreeSet<NodeId>,
     ) -> Option<Arc<Condensation>> {
         let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = made.iter().find(|known| known.is_of(model, &nodes)) {
+        if let Some(known) = made.iter().find(|known| known.nodes == nodes && known.is_of(model)) {
             return Some(Arc::clone(known));
         }
         let condensation = Arc::new(Condensation::new(stiffness, model, nodes)?);
+        // Those of large bodies take much memory: of each model the last ones are kept.
+        made.retain(|known| !known.is_of(model));
         made.push(Arc::clone(&condensation));
         Some(condensation)
     }
@@ -82,6 +91,9 @@ pub(super) struct Bodies {
     /// The contact surface and the nodes of the target surface, each in its order.
     surfaces: [Vec<NodeId>; 2],
     current: RefCell<Option<Arc<Condensation>>>,
+    /// The nodes to keep for the first contact state of large surfaces; none where only that state
+    /// shows which are bound.
+    expected: Vec<NodeId>,
     /// Whether a contact state was asked for.
     begun: Cell<bool>,
     /// Whether they cannot be, or need not, as there is no contact.
@@ -89,7 +101,7 @@ pub(super) struct Bodies {
 }
 
 /// The stiffness condensed to some nodes.
-struct Condensation {
+pub struct Condensation {
     model: Arc<Model>,
     nodes: BTreeSet<NodeId>,
     condensed: Condensed,
@@ -141,13 +153,33 @@ impl Bodies {
             shared: shared.clone(),
             surfaces: surfaces(model),
             current: RefCell::default(),
+            expected: Vec::new(),
             begun: Cell::new(false),
             impossible: Cell::new(!model.has_contact()),
         }
     }
 
+    /// Expects that the entries of the contact surface with the least gaps come into contact.
+    pub(super) fn expecting(mut self, pairings: &[Option<Pairing>]) -> Self {
+        let (part, least) = EXPECTED;
+        let equations = self.model.free_dofs();
+        if equations < least {
+            return self;
+        }
+        let mut nearest: Vec<&Pairing> = pairings.iter().flatten().collect();
+        nearest.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+        let most = part * (equations as f64).sqrt();
+        let nodes = |p: &&Pairing| {
+            let masters = p.masters.iter().map(|(master, _)| *master);
+            std::iter::once(p.node).chain(masters).collect::<Vec<_>>()
+        };
+        self.expected = nearest.iter().take(most as usize).flat_map(nodes).collect();
+        self
+    }
+
     /// Returns the factors of Tᵀ K T under `constraints`; None where the whole matrix is to be
-    /// factored. On large surfaces the first state only shows which nodes are bound.
+    /// factored. On large surfaces of which nothing is expected the first state only shows which nodes
+    /// are bound.
     pub(super) fn factors(
         &self,
         stiffness: &Stiffness,
@@ -155,14 +187,17 @@ impl Bodies {
         constraints: &[Constraint],
     ) -> Option<Bound> {
         let first = !self.begun.replace(true);
-        if self.impossible.get() || (first && !self.is_small()) {
+        let unforeseen = first && !self.is_small() && self.expected.is_empty();
+        if self.impossible.get() || unforeseen {
             return None;
         }
         let current = self.current.borrow().clone().filter(|c| c.has(constraints));
         let condensation = match current {
             Some(condensation) => condensation,
             None => {
-                let nodes = Some(self.nodes(constraints)).filter(|nodes| nodes.len() <= MOST);
+                let expected: &[NodeId] = if first { &self.expected } else { &[] };
+                let nodes = Some(self.nodes(constraints, expected));
+                let nodes = nodes.filter(|nodes| nodes.len() <= self.most());
                 let made =
                     nodes.and_then(|nodes| self.shared.condensed(stiffness, &self.model, nodes));
                 self.impossible.set(made.is_none());
@@ -173,17 +208,30 @@ impl Bodies {
         Bound::new(condensation, t)
     }
 
+    /// Returns the condensed bodies that served last; None where there are none.
+    pub(super) fn last(&self) -> Option<Arc<Condensation>> {
+        self.current.borrow().clone()
+    }
+
     fn is_small(&self) -> bool {
         self.surfaces.iter().map(Vec::len).sum::<usize>() <= SMALL
     }
 
-    /// Returns the nodes to be kept for `constraints`.
-    fn nodes(&self, constraints: &[Constraint]) -> BTreeSet<NodeId> {
+    fn most(&self) -> usize {
+        MOST.0.max(MOST.1 * (self.model.free_dofs() as f64).sqrt()) as usize
+    }
+
+    /// Returns the nodes to be kept for `constraints` and for what is expected.
+    fn nodes(&self, constraints: &[Constraint], expected: &[NodeId]) -> BTreeSet<NodeId> {
         let all = self.surfaces.iter().flatten().copied();
         if self.is_small() {
             return all.collect();
         }
-        let bound: BTreeSet<NodeId> = constraints.iter().flat_map(Constraint::nodes).collect();
+        let bound: BTreeSet<NodeId> = constraints
+            .iter()
+            .flat_map(Constraint::nodes)
+            .chain(expected.iter().copied())
+            .collect();
         let mut nodes = bound.clone();
         for surface in &self.surfaces {
             let at: Vec<usize> =
@@ -214,11 +262,10 @@ impl Condensation {
         Some(Condensation { model, nodes, condensed, dofs, kept, is_kept, norm })
     }
 
-    /// Returns whether it is that of the bodies of `model`, and keeps just `nodes`.
-    fn is_of(&self, model: &Arc<Model>, nodes: &BTreeSet<NodeId>) -> bool {
-        let (own, other) = (&*self.model, &**model);
-        self.nodes == *nodes
-            && own.plane == other.plane
+    /// Returns whether it is that of the bodies of `model`.
+    fn is_of(&self, model: &Model) -> bool {
+        let (own, other) = (&*self.model, model);
+        own.plane == other.plane
             && own.thickness == other.thickness
             && own.restrained == other.restrained
             && own.nodes == other.nodes
@@ -226,7 +273,7 @@ impl Condensation {
     }
 
     /// Returns whether it keeps every node that `constraints` name.
-    fn has(&self, constraints: &[Constraint]) -> bool {
+    pub(super) fn has(&self, constraints: &[Constraint]) -> bool {
         let mut nodes = constraints.iter().flat_map(Constraint::nodes);
         nodes.all(|node| self.is_kept[node.dofs()[0].index()])
     }
@@ -234,7 +281,7 @@ impl Condensation {
 
 impl Bound {
     /// Factors Tᵀ S T; None where that is singular or nearly so.
-    fn new(condensation: Arc<Condensation>, all: &Elimination) -> Option<Self> {
+    pub(super) fn new(condensation: Arc<Condensation>, all: &Elimination) -> Option<Self> {
         let mut column_of = vec![usize::MAX; all.size()];
         let mut columns = Vec::new();
         for (column, _) in condensation.kept.iter().flat_map(|dof| all.row(*dof)) {
@@ -343,8 +390,7 @@ impl Rows {
 pub(super) fn refined(
     stiffness: &Stiffness,
     t: &Elimination,
-    factors: &dyn Factors<f64>,
-    norm: f64,
+    (factors, norm): (&dyn Factors<f64>, f64),
     f: &DVector<f64>,
 ) -> Result<(DVector<f64>, f64), (DVector<f64>, f64)> {
     let times = |q: &DVector<f64>| t.load(&stiffness.times(&(t.expand(q) - t.shift())));
@@ -354,7 +400,7 @@ pub(super) fn refined(
         let rest = f - times(&q);
         let error = backward_error(&rest, norm, &q, f);
         if error <= REFINED || (error <= ENOUGH && error > CONTRACTION * before) {
-            return Ok((q + factors.solve(&rest), error));
+            return Ok((q, error));
         }
         if error.is_nan() || error > CONTRACTION * before {
             return Err((q, error));

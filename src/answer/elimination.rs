@@ -14,6 +14,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
+use smallvec::{SmallVec, smallvec};
 
 use crate::numbers::scalar::Scalar;
 use crate::paper::door::NodeToSegment;
@@ -76,9 +77,12 @@ impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {
     }
 }
 
+/// Weights on the remaining equations: one of 1 in most rows.
+type Row<T> = SmallVec<[(usize, T); 1]>;
+
 /// The matrix T, as rows of weights on the remaining equations, and the shift s, length.
 pub struct Elimination<T = f64> {
-    rows: Vec<Vec<(usize, T)>>,
+    rows: Vec<Row<T>>,
     shift: DVector<T>,
     /// The degree of freedom of each equation that remains.
     free: Vec<Dof>,
@@ -119,13 +123,13 @@ impl<T: Scalar> Elimination<T> {
         let mut constrained = vec![false; size / 2];
         bound.for_each(|constraint| constrained[constraint.node.index()] = true);
         let mut t = Elimination {
-            rows: vec![Vec::new(); size],
+            rows: vec![Row::new(); size],
             shift: DVector::from_element(size, T::zero()),
             free: Vec::new(),
         };
         let free = |dof: &Dof| !restrained[dof.index()] && !constrained[dof.node().index()];
         for dof in Dof::all(size).filter(free) {
-            t.rows[dof.index()] = vec![(t.add(dof), T::one())];
+            t.rows[dof.index()] = smallvec![(t.add(dof), T::one())];
         }
         t
     }
@@ -218,13 +222,8 @@ impl<T: Scalar> Elimination<T> {
     }
 
     /// Returns `factor` · Σ w n·u_t as weights on the equations that remain.
-    fn target_motion(
-        &self,
-        constraint: &Constraint<T>,
-        normal: [T; 2],
-        factor: T,
-    ) -> Vec<(usize, T)> {
-        let mut row = Vec::new();
+    fn target_motion(&self, constraint: &Constraint<T>, normal: [T; 2], factor: T) -> Row<T> {
+        let mut row = Row::new();
         for &(master, weight) in &constraint.masters {
             for dof in master.dofs() {
                 let along = normal[dof.direction()];
@@ -288,7 +287,7 @@ impl<T: Scalar> Elimination<T> {
 
     /// Returns T q + s, the displacements of all degrees of freedom, length.
     pub fn expand(&self, q: &DVector<T>) -> DVector<T> {
-        let of_row = |row: &Vec<(usize, T)>| sum(row.iter().map(|&(p, w)| w * q[p]));
+        let of_row = |row: &Row<T>| sum(row.iter().map(|&(p, w)| w * q[p]));
         DVector::from_fn(self.rows.len(), |e, _| of_row(&self.rows[e]) + self.shift[e])
     }
 

@@ -7,6 +7,7 @@ use nalgebra::DVector;
 use super::contact::Surfaces;
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
+use super::factors::LastFactors;
 use super::request::Request;
 use super::sparse::{MakeSparse, Sparse, State};
 use super::stiffness::Stiffness;
@@ -155,6 +156,14 @@ impl<'a, T: Precision> Equations<'a, T> {
             door::free_stiffness(self.sheet, &self.request.reading)?;
         }
         Ok(())
+    }
+
+    /// Returns the factors that were made last.
+    pub fn last_factors(&self) -> LastFactors {
+        match &self.assembly {
+            Assembly::Sparse(sparse) => sparse.last_factors(),
+            Assembly::Printed | Assembly::Dense(_) => LastFactors::Unknown,
+        }
     }
 
     /// Returns K u − F of the whole load: the forces of contact and restraints, force.

@@ -5,13 +5,13 @@ use nalgebra::{DVector, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::contact::search::Segment;
-use super::estimates::arithmetic::stress_bounds;
+use super::estimates::arithmetic::{bounded, stress_bounds};
 use super::estimates::discretisation::{SAFETY, compliance, von_mises};
 use super::estimates::{Cause, Dual, ErrorEstimates, Singular, singular};
+use super::held::Held;
 use super::solution::Solution;
-use super::stiffness::Stiffness;
 use crate::error::InputError;
-use crate::numbers::scalar::{Bounded, Scalar};
+use crate::numbers::scalar::Bounded;
 use crate::problem::element::{self, Corners, Plane};
 use crate::problem::model::{Body, Model, TriangleId};
 
@@ -66,16 +66,14 @@ pub fn probes(
         return Ok(Vec::new());
     }
     let model = &*solution.model;
+    let stiffness = bounded(model);
     let bench = Bench {
         solution,
         estimates,
-        dual: Dual::new(solution, &estimates.mesh),
+        dual: Held::new(solution).map(|held| Dual::new(solution, held, &estimates.mesh)),
         singular: singular(solution),
-        of_stress: stress_bounds(solution, estimates.displacement),
-        bounded: {
-            let u = solution.u.map(|u| Bounded::new(u, estimates.displacement));
-            Stiffness::new(model, Bounded::from_f64).stresses(&u)
-        },
+        of_stress: stress_bounds(solution, &stiffness, estimates.displacement),
+        bounded: stiffness.stresses(&solution.u.map(|u| Bounded::new(u, estimates.displacement))),
     };
     let mut found = Vec::new();
     for point in points {

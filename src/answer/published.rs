@@ -64,6 +64,7 @@ pub(super) fn published<T: Precision>(
         equilibrium: None,
         error_bound: error_bound(&run.u, &steps),
         u: run.u.map(T::to_f64),
+        factors: run.equations.last_factors(),
         request: request.clone(),
         model: Arc::clone(&model),
         steps,

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::{ContactNode, Pairing, Status};
 use super::elimination::Constraint;
+use super::factors::LastFactors;
 use super::request::Request;
 use crate::numbers::scalar::Scalar;
 use crate::paper::decisions::Decision;
@@ -211,6 +212,8 @@ pub struct Solution {
     pub error_bound: Option<f64>,
     /// What `unilateral` knows beside its solution; None under the other variants.
     pub equilibrium: Option<Equilibrium>,
+    /// The factors with which the run ended, for the estimates of its errors.
+    pub factors: LastFactors,
 }
 
 /// What `unilateral` knows of the equilibrium that it found.

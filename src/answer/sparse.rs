@@ -6,6 +6,7 @@ use nalgebra::DVector;
 
 use super::condensation::{Bodies, Bound, refined};
 use super::elimination::{Constraint, Elimination};
+use super::factors::LastFactors;
 use super::request::Request;
 use super::stiffness::Stiffness;
 use crate::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar, WithBound};
@@ -32,6 +33,11 @@ pub(super) trait Sparse<T> {
     /// # Errors
     /// The matrix is singular.
     fn solve(&self, state: &State<T>) -> Result<Solved<T>, Unsolved>;
+
+    /// Returns the factors that were made last.
+    fn last_factors(&self) -> LastFactors {
+        LastFactors::Unknown
+    }
 }
 
 /// Makes the solver of a run on a model.
@@ -76,10 +82,14 @@ impl Sparse<f64> for Condensing {
         let (t, bound) = self.factors(state);
         let refined = |bound: Bound| {
             let norm = bound.norm();
-            let (x, residual) = refined(&self.stiffness, &t, &bound, norm, state.f).ok()?;
+            let (x, residual) = refined(&self.stiffness, &t, (&bound, norm), state.f).ok()?;
             Some(Solved { x, residual })
         };
         bound.and_then(refined).map_or_else(|| Whole.solve(state), Ok)
+    }
+
+    fn last_factors(&self) -> LastFactors {
+        self.bodies.last().map_or(LastFactors::Unknown, LastFactors::Condensed)
     }
 }
 
@@ -89,7 +99,7 @@ impl Sparse<Bounded> for Condensing {
         let f = state.f.map(Scalar::to_f64);
         let (t, bound) = self.factors(state);
         let refined = |bound: Bound| {
-            let (x, residual) = refined(&self.stiffness, &t, &bound, bound.norm(), &f).ok()?;
+            let (x, residual) = refined(&self.stiffness, &t, (&bound, bound.norm()), &f).ok()?;
             Some((bound, x, residual))
         };
         let entries = state.stiffness.reduced(state.t);

@@ -41,7 +41,7 @@ impl<T: Scalar> Stiffness<T> {
             let nodes = model.triangle(id).nodes;
             Element {
                 dofs: std::array::from_fn(|k| nodes[k / 2].dofs()[k % 2]),
-                k: b.transpose() * D(model.plane, e, nu) * b * volume,
+                k: element::stiffness(&b, &D(model.plane, e, nu)) * volume,
                 e,
                 nu,
                 b,

@@ -79,6 +79,21 @@ pub fn D<T: Scalar>(plane: Plane, E: T, nu: T) -> SMatrix<T, 3, 3> {
     SMatrix::from([[diagonal, other, zero], [other, diagonal, zero], [zero, zero, factor * shear]])
 }
 
+/// Returns Bᵀ·D·B, 6 x 6: the stiffness of a volume of 1, from left to right, without the products
+/// with what is 0 in B and D.
+pub fn stiffness<T: Scalar>(B: &SMatrix<T, 3, 6>, D: &SMatrix<T, 3, 3>) -> SMatrix<T, 6, 6> {
+    let mut k = SMatrix::zeros();
+    for p in 0..6 {
+        // Displacements along x strain e_xx, along y e_yy; both shear.
+        let strain = B[(p % 2, p)];
+        let stress = [strain * D[(p % 2, 0)], strain * D[(p % 2, 1)], B[(2, p)] * D[(2, 2)]];
+        for q in 0..6 {
+            k[(p, q)] = stress[q % 2] * B[(q % 2, q)] + stress[2] * B[(2, q)];
+        }
+    }
+    k
+}
+
 /// The strains and stresses of an element, each constant over the element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {

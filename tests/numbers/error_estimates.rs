@@ -4,7 +4,7 @@
 use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{ROUNDING_BOUND_WIDTH, Tolerance};
 use nalgebra::DVector;
-use plane_contact::answer::estimates::arithmetic::{self, stress_bounds};
+use plane_contact::answer::estimates::arithmetic::{self, bounded, stress_bounds};
 use plane_contact::answer::{Constraint, Detail, Elimination, Request, Solution, Stiffness, solve};
 use plane_contact::numbers::scalar::{Exact, Scalar, scope};
 use plane_contact::numbers::solve::{Arithmetic, Ldlt, ScalarName, Solver};
@@ -130,7 +130,7 @@ fn the_bar_of_a_stress_holds_what_a_moved_node_does_to_it() {
     let scene = Scene::open("fig1").unwrap();
     let solution = solve(&Request::new(&scene).variant(Variant::Tied), &mut |_| ()).unwrap();
     let moved = 1e-6 * solution.u.amax();
-    let bounds = stress_bounds(&solution, moved);
+    let bounds = stress_bounds(&solution, &bounded(&solution.model), moved);
     let model = &*solution.model;
     for n in model.triangle_ids() {
         let (Triangle { nodes, material }, b) = (model.triangle(n), B(&model.corners(n)));

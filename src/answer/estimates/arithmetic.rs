@@ -10,9 +10,10 @@
 use nalgebra::{DVector, SVector};
 
 use super::ties::ties;
+use crate::answer::held::Held;
 use crate::answer::{Detail, Elimination, Request, Solution, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
-use crate::numbers::solve::{Arithmetic, ScalarName, SparseCholesky, error_bound};
+use crate::numbers::solve::{Arithmetic, ScalarName, error_bound};
 use crate::paper::decisions::{Decision, first_difference};
 use crate::problem::element::Plane;
 use crate::problem::model::Model;
@@ -33,8 +34,24 @@ pub struct Rounding {
 
 /// Returns what rounding may do to a solution.
 pub fn rounding(solution: &Solution) -> Rounding {
+    let is_equilibrium = solution.request.variant == Variant::Unilateral;
+    let held = if is_equilibrium { Held::new(solution) } else { None };
+    rounding_of(solution, held.as_ref(), &bounded(&solution.model))
+}
+
+/// Returns the stiffness of each triangle with a bound on its rounding.
+pub fn bounded(model: &Model) -> Stiffness<Bounded> {
+    Stiffness::new(model, Bounded::from_f64)
+}
+
+/// Does the same with the bodies as they are held at the end; None where they are not.
+pub(super) fn rounding_of(
+    solution: &Solution,
+    held: Option<&Held>,
+    stiffness: &Stiffness<Bounded>,
+) -> Rounding {
     match (solution.request.variant, solution.request.arithmetic.scalar) {
-        (Variant::Unilateral, _) => of_equilibrium(solution),
+        (Variant::Unilateral, _) => of_equilibrium(solution, held, stiffness),
         // What is rounded is the displacements themselves, to be written as f64.
         (_, ScalarName::Exact) => Rounding {
             displacement: solution.u.amax() * f64::EPSILON / 2.0,
@@ -44,8 +61,12 @@ pub fn rounding(solution: &Solution) -> Rounding {
     }
 }
 
-fn of_equilibrium(solution: &Solution) -> Rounding {
-    let Some(u) = last_state(solution) else {
+fn of_equilibrium(
+    solution: &Solution,
+    held: Option<&Held>,
+    stiffness: &Stiffness<Bounded>,
+) -> Rounding {
+    let Some(u) = held.and_then(|held| last_state(solution, held, stiffness)) else {
         return Rounding { displacement: f64::INFINITY, decisions: None };
     };
     let (decisions, only_ties) = ties(solution, &u);
@@ -110,28 +131,34 @@ fn bounded_run(solution: &Solution) -> Option<Solution> {
 
 /// Solves the last contact state of `unilateral` again, under its friction, with a bound on each
 /// displacement.
-fn last_state(solution: &Solution) -> Option<DVector<Bounded>> {
+fn last_state(
+    solution: &Solution,
+    held: &Held,
+    stiffness: &Stiffness<Bounded>,
+) -> Option<DVector<Bounded>> {
     let model = &*solution.model;
     let constraints = solution.last().constraints.iter().map(|c| c.map(Bounded::from_f64));
     let constraints: Vec<_> = constraints.collect();
     let t = Elimination::closing(&model.restrained, &constraints);
-    let stiffness = Stiffness::new(model, Bounded::from_f64);
     let Detail::Unilateral(detail) = &solution.last().detail else { return None };
     let friction = detail.friction.map(Bounded::from_f64);
     let load = model.free_part(&(model.load_in(Bounded::from_f64) + friction));
     let (matrix, b) = (stiffness.reduced(&t), t.load(&(load - stiffness.times(t.shift()))));
-    let factors = SparseCholesky::new(matrix.map(|a| a.to_f64())).ok()?;
-    let x = factors.solve(&b.map(Scalar::to_f64));
-    let bound = error_bound(&factors, matrix.both_triangles(), &b, &x);
+    let x = held.refined(&b.map(Scalar::to_f64));
+    let bound = error_bound(held.factors(), matrix.both_triangles(), &b, &x);
     Some(t.expand(&x.map(|x| Bounded::new(x, bound))))
 }
 
 /// Returns, for each triangle, a bound on the error of its von Mises stress where displacements are
 /// known to `displacement`, stress.
-pub fn stress_bounds(solution: &Solution, displacement: f64) -> Vec<f64> {
+pub fn stress_bounds(
+    solution: &Solution,
+    stiffness: &Stiffness<Bounded>,
+    displacement: f64,
+) -> Vec<f64> {
     let model = &*solution.model;
     let u = solution.u.map(|u| Bounded::new(u, displacement));
-    let stresses = Stiffness::new(model, Bounded::from_f64).stresses(&u);
+    let stresses = stiffness.stresses(&u);
     let triangles = model.triangles.iter().zip(&stresses).zip(&solution.elements);
     triangles
         .map(|((triangle, stress), state)| {

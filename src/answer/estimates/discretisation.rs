@@ -29,6 +29,8 @@
 //! error that such a place causes far away.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
+use std::sync::Arc;
+
 use nalgebra::Matrix3;
 
 use super::patches::Patches;
@@ -57,6 +59,7 @@ pub struct Discretisation {
     pub energy_norm: f64,
     /// The triangles of parts that are too small to estimate their error.
     pub unrecovered: Vec<TriangleId>,
+    patches: Arc<Patches>,
 }
 
 /// The largest von Mises stress of a body, and an estimate of its error.
@@ -76,7 +79,15 @@ pub struct LargestVonMises {
 impl Discretisation {
     /// Estimates the error of a solution from the state of each triangle.
     pub fn new(model: &Model, elements: &[State]) -> Self {
-        let patches = Patches::new(model);
+        Self::on(Arc::new(Patches::new(model)), model, elements)
+    }
+
+    /// Estimates the error of another solution on the same mesh.
+    pub(super) fn of_other(&self, model: &Model, elements: &[State]) -> Self {
+        Self::on(Arc::clone(&self.patches), model, elements)
+    }
+
+    fn on(patches: Arc<Patches>, model: &Model, elements: &[State]) -> Self {
         let stresses: Vec<Stress> = elements.iter().map(|state| state.sigma).collect();
         let at_sites = recover(&patches, &stresses);
         let known = |k: usize| patches.corners[k].iter().all(|&s| at_sites[s].is_some());
@@ -98,6 +109,7 @@ impl Discretisation {
             energy_norm: root_of_squares(triangles().map(|(k, t)| norm(k, t, &[stresses[k]; 3]))),
             unrecovered: model.triangle_ids().filter(|id| !known(id.index())).collect(),
             recovered,
+            patches,
         }
     }
 

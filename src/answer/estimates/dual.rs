@@ -19,46 +19,33 @@ use nalgebra::DVector;
 
 use super::discretisation::{Discretisation, SAFETY, compliance};
 use super::recovery::Stress;
-use crate::answer::{Elimination, Solution, Stiffness};
-use crate::numbers::solve::SparseCholesky;
+use crate::answer::Solution;
+use crate::answer::held::Held;
 use crate::problem::element::{self, State};
 use crate::problem::model::{Model, TriangleId};
-use crate::problem::modelling::Variant;
 
 /// The bodies as they are held at the end of a run, ready to be pushed by one more force.
 pub struct Dual<'a> {
     model: &'a Model,
     /// σ* − σ_h at the corners of each triangle, stress; None where a triangle's is unknown.
     errors: Option<Vec<[Stress; 3]>>,
-    stiffness: Stiffness,
-    t: Elimination,
-    factors: SparseCholesky,
+    mesh: &'a Discretisation,
+    held: Held,
 }
 
 impl<'a> Dual<'a> {
-    /// Factors the stiffness of the last contact state; `errors` is the estimate of the run. None
-    /// where that state does not hold the bodies, and of `Km` as printed, which is the stiffness of
-    /// no bodies in contact.
-    pub fn new(solution: &'a Solution, errors: &Discretisation) -> Option<Self> {
-        let (model, constraints) = (&*solution.model, &solution.last().constraints);
-        let t = match solution.request.variant {
-            Variant::Printed if model.has_contact() => return None,
-            Variant::Unilateral => Elimination::closing(&model.restrained, constraints),
-            _ => Elimination::new(&model.restrained, constraints),
-        };
-        let stiffness = Stiffness::new(model, |x| x);
-        let factors = SparseCholesky::new(stiffness.reduced(&t)).ok()?;
-        let errors = stress_errors(errors, &solution.elements);
-        Some(Dual { model, errors, stiffness, t, factors })
+    /// Takes the bodies at the end of a run; `mesh` is its estimate.
+    pub fn new(solution: &'a Solution, held: Held, mesh: &'a Discretisation) -> Self {
+        let errors = stress_errors(mesh, &solution.elements);
+        Dual { model: &solution.model, errors, mesh, held }
     }
 
     /// Returns the estimated error of the displacement in whose place and direction `force`, by
     /// degree of freedom, is a unit force, length; infinite where the error of a triangle is
     /// unknown.
     pub fn error(&self, force: &DVector<f64>) -> f64 {
-        let q = self.factors.solve(&self.t.load(&self.model.free_part(force)));
-        let z = self.stiffness.states(&(self.t.expand(&q) - self.t.shift()));
-        let of_z = stress_errors(&Discretisation::new(self.model, &z), &z);
+        let z = self.held.stiffness.states(&self.held.under(self.model, force));
+        let of_z = stress_errors(&self.mesh.of_other(self.model, &z), &z);
         let Some((of_u, of_z)) = self.errors.as_ref().zip(of_z) else { return f64::INFINITY };
         let pairs = self.model.triangle_ids().zip(of_u.iter().zip(&of_z));
         let error = SAFETY * pairs.map(|(id, (u, z))| self.work(id, u, z)).sum::<f64>().abs();

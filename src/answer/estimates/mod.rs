@@ -19,12 +19,13 @@ mod ties;
 
 use serde::{Deserialize, Serialize};
 
+use super::held::Held;
 use super::solution::Solution;
 use crate::paper::decisions::Decision;
 use crate::problem::model::{Body, NodeId, TriangleId};
 pub use certain::{Certainty, certain};
 use discretisation::Discretisation;
-pub use dual::Dual;
+pub(super) use dual::Dual;
 pub use singular::{Cause, Singular, singular};
 
 /// The error estimates of a run.
@@ -78,8 +79,11 @@ impl ErrorEstimates {
     /// Estimates the errors of a run.
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
-        let arithmetic::Rounding { displacement, decisions } = arithmetic::rounding(solution);
-        let stress = arithmetic::stress_bounds(solution, displacement);
+        let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
+        let arithmetic::Rounding { displacement, decisions } =
+            arithmetic::rounding_of(solution, held.as_ref(), &bounded);
+        let stress = arithmetic::stress_bounds(solution, &bounded, displacement);
+        drop(bounded);
         let mesh = Discretisation::new(model, &solution.elements);
         let points = singular(solution);
         let bodies = model.bodies.iter().map(|body| {
@@ -106,7 +110,8 @@ impl ErrorEstimates {
         });
         let bodies = bodies.collect();
         let of_largest = |dual: Dual| dual.error_of_largest(&solution.u);
-        let displacement_mesh = Dual::new(solution, &mesh).map_or(f64::INFINITY, of_largest);
+        let displacement_mesh =
+            held.map_or(f64::INFINITY, |held| of_largest(Dual::new(solution, held, &mesh)));
         ErrorEstimates { displacement, decisions, displacement_mesh, bodies, mesh }
     }
 }

@@ -12,6 +12,7 @@ use std::collections::HashMap;
 use crate::problem::model::{Model, TriangleId};
 
 /// The triangles around each site, a node as one material sees it. All numbers count from 0.
+#[derive(Debug)]
 pub struct Patches {
     /// The coordinates of each site, length.
     pub points: Vec<[f64; 2]>,

@@ -217,6 +217,7 @@ fn solution(
         u: last.moved.u,
         digits: None,
         error_bound: None,
+        factors: problem.last_factors(),
         equilibrium: Some(solution::Equilibrium { path, uniqueness, unseen, shape_change }),
     }
 }

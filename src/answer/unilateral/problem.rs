@@ -12,6 +12,7 @@ use crate::answer::condensation::Bodies;
 use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
 use crate::answer::elimination::{Constraint, Elimination, Motion};
 use crate::answer::error::{Error, NoEquilibrium};
+use crate::answer::factors::LastFactors;
 use crate::answer::request::Request;
 use crate::answer::solution::Cycle;
 use crate::answer::stiffness::Stiffness;
@@ -149,6 +150,7 @@ impl<'a> Problem<'a> {
     pub(super) fn new(request: &'a Request, model: &'a Arc<Model>) -> Result<Self, InputError> {
         let surfaces = Surfaces::new(model)?;
         surfaces.check_initial_penetration(model)?;
+        let initial = surfaces.pairings(request.contact.coupling, &model.nodes);
         Ok(Problem {
             request,
             model,
@@ -156,7 +158,7 @@ impl<'a> Problem<'a> {
             surfaces,
             closed: CLOSED * size(model),
             friction: request.contact.friction.coefficient(),
-            bodies: Bodies::new(model, &request.shared),
+            bodies: Bodies::new(model, &request.shared).expecting(&initial),
             last: Last::default(),
         })
     }
@@ -437,6 +439,15 @@ impl<'a> Problem<'a> {
         let mut moved = Moved { u, forces, friction, reaction, residual };
         self.slide(place, statuses, &mut moved, &reduced)?;
         Ok(Solved::Moved(moved))
+    }
+
+    /// Returns the factors that were made last.
+    pub(super) fn last_factors(&self) -> LastFactors {
+        match (self.last.made(), self.bodies.last()) {
+            (Some(whole), _) => LastFactors::Whole(whole),
+            (None, Some(condensed)) => LastFactors::Condensed(condensed),
+            (None, None) => LastFactors::Unknown,
+        }
     }
 
     fn elastic(&self) -> Elastic<'_> {

@@ -2,15 +2,16 @@
 //! their own, or by those of nearly the same equations, with refinement.
 
 use std::cell::RefCell;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
 use crate::answer::condensation::{Bodies, Bound, refined};
 use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
+use crate::answer::factors::Whole;
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::{Factors, Singular, SparseCholesky};
+use crate::numbers::solve::{Factors, Singular};
 use crate::problem::model::Model;
 
 /// What a status holds of a node's motion: nothing, the one along the normal, or both.
@@ -24,7 +25,14 @@ enum Held {
 /// The factors that were made last, and the statuses under which they were made. Other shapes and
 /// loads under statuses that hold the same motions have equations that are the same or nearly so.
 #[derive(Default)]
-pub(super) struct Last(RefCell<Option<(Vec<Held>, Rc<Factored>)>>);
+pub(super) struct Last(RefCell<Option<(Vec<Held>, Arc<Whole>)>>);
+
+impl Last {
+    /// Returns the factors that were made last; None where they were of the condensed bodies.
+    pub(super) fn made(&self) -> Option<Arc<Whole>> {
+        self.0.borrow().as_ref().map(|(_, made)| Arc::clone(made))
+    }
+}
 
 /// The bodies, and what was factored of them.
 #[derive(Clone, Copy)]
@@ -39,6 +47,7 @@ pub(super) struct Elastic<'a> {
 pub(super) struct Reduced<'a> {
     elastic: Elastic<'a>,
     t: &'a Elimination,
+    constraints: &'a [Constraint],
     made: Made,
 }
 
@@ -48,14 +57,8 @@ enum Made {
     /// Those of the whole matrix, or of nearly the same one.
     Whole {
         held: Vec<Held>,
-        factors: RefCell<Rc<Factored>>,
+        factors: RefCell<Arc<Whole>>,
     },
-}
-
-/// Factors of a whole matrix, and its norm, force/length.
-struct Factored {
-    factors: SparseCholesky,
-    norm: f64,
 }
 
 impl<'a> Reduced<'a> {
@@ -67,13 +70,13 @@ impl<'a> Reduced<'a> {
     pub(super) fn new(
         elastic: Elastic<'a>,
         t: &'a Elimination,
-        constraints: &[Constraint],
+        constraints: &'a [Constraint],
         statuses: &[Status],
     ) -> Result<Self, Singular> {
         if let Some(bound) = elastic.bodies.factors(elastic.stiffness, t, constraints) {
             // Those of a whole matrix are large, and not needed any more.
             elastic.last.0.take();
-            return Ok(Reduced { elastic, t, made: Made::Condensed(bound) });
+            return Ok(Reduced { elastic, t, constraints, made: Made::Condensed(bound) });
         }
         let held = |status: &Status| match status {
             Status::Open => Held::Nothing,
@@ -86,10 +89,16 @@ impl<'a> Reduced<'a> {
         drop(last);
         let factors = match same {
             Some(factors) => factors,
-            None => Rc::new(factored(elastic.stiffness, t)?),
+            None => Arc::new(Whole::new(elastic.stiffness, t, constraints)?),
         };
-        elastic.last.0.replace(Some((held.clone(), Rc::clone(&factors))));
-        Ok(Reduced { elastic, t, made: Made::Whole { held, factors: RefCell::new(factors) } })
+        elastic.last.0.replace(Some((held.clone(), Arc::clone(&factors))));
+        Ok(Reduced {
+            elastic,
+            t,
+            constraints,
+
+            made: Made::Whole { held, factors: RefCell::new(factors) },
+        })
     }
 
     /// Returns q, and its relative residual.
@@ -98,21 +107,22 @@ impl<'a> Reduced<'a> {
     /// The matrix is singular.
     pub(super) fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
         let stiffness = self.elastic.stiffness;
-        let by = |factors: &dyn Factors<f64>, norm| refined(stiffness, self.t, factors, norm, f);
-        let by_whole = |made: &Factored| by(&made.factors, made.norm);
+        let by = |factors: &dyn Factors<f64>, norm| refined(stiffness, self.t, (factors, norm), f);
+        let by_whole = |made: &Whole| by(made, made.norm());
+        let whole = || Whole::new(stiffness, self.t, self.constraints);
         match &self.made {
             Made::Condensed(bound) => match by(bound, bound.norm()) {
                 Ok(solved) => Ok(solved),
-                Err(_) => by_whole(&factored(stiffness, self.t)?).or_else(Ok),
+                Err(_) => by_whole(&whole()?).or_else(Ok),
             },
             Made::Whole { held, factors } => {
-                let first = Rc::clone(&factors.borrow());
+                let first = Arc::clone(&factors.borrow());
                 if let Ok(solved) = by_whole(&first) {
                     return Ok(solved);
                 }
-                let made = Rc::new(factored(stiffness, self.t)?);
-                factors.replace(Rc::clone(&made));
-                self.elastic.last.0.replace(Some((held.clone(), Rc::clone(&made))));
+                let made = Arc::new(whole()?);
+                factors.replace(Arc::clone(&made));
+                self.elastic.last.0.replace(Some((held.clone(), Arc::clone(&made))));
                 by_whole(&made).or_else(Ok)
             }
         }
@@ -138,11 +148,4 @@ impl<'a> Reduced<'a> {
         let (q, _) = self.solve(&self.t.load(&self.elastic.model.free_part(load)))?;
         Ok(self.t.expand(&q) - self.t.shift())
     }
-}
-
-/// Factors the whole matrix.
-fn factored(stiffness: &Stiffness, t: &Elimination) -> Result<Factored, Singular> {
-    let matrix = stiffness.reduced(t);
-    let norm = matrix.norm();
-    Ok(Factored { factors: SparseCholesky::new(matrix)?, norm })
 }

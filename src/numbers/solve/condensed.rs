@@ -15,24 +15,18 @@
 //! 4 (a partial factor holds the Schur complement).
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::perm::PermRef;
-use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::linalg::{SupernodalThreshold, amd};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side};
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 
-use super::sparse::SparseSymmetric;
+use super::cholesky::{Cholesky, is_large};
+use super::symmetric::SparseSymmetric;
 
 /// A symmetric matrix condensed to the equations that are kept.
 pub struct Condensed {
-    symbolic: SymbolicCholesky<usize>,
-    values: Vec<f64>,
+    factor: Cholesky<f64>,
     /// The equation at each place of the order: those inside, then those kept, as they were given.
     order: Vec<usize>,
     /// The last block of the factor, k x k.
@@ -49,23 +43,26 @@ pub struct Eliminated {
 }
 
 impl Condensed {
-    /// Condenses `matrix` to the equations `kept`; None where A_ii is not positive definite, or the
-    /// diagonal of A_kk not positive.
+    /// Condenses `matrix` to the equations `kept`; None where A_ii is not far from a singular matrix,
+    /// or S has lost its digits against A_kk.
     pub fn new(matrix: &SparseSymmetric, kept: &[usize]) -> Option<Self> {
         let order = order(matrix, kept);
         let inside = order.len() - kept.len();
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(k, e)| place[*e] = k);
         let raised = matrix.map_diagonal(|e, a| if place[e] >= inside { a + a } else { a });
-        let symbolic = symbolic(raised.pattern(), &order, &place)?;
-        let values = numeric(&symbolic, &raised)?;
-        let last = last_block(&symbolic, &values, inside);
-        let mut schur = &last * last.transpose();
+        let factor = Cholesky::ordered(&raised, &order, &place)?;
+        let factor = Some(factor).filter(|factor| factor.has_large_pivots(&raised.diagonal()))?;
+        let last = factor.last_block(inside);
+        let mut schur = square(&last);
         let diagonal = matrix.diagonal();
         for (k, e) in kept.iter().enumerate() {
             schur[(k, k)] -= diagonal[*e];
+            if !is_large(schur[(k, k)], diagonal[*e]) {
+                return None;
+            }
         }
-        Some(Condensed { symbolic, values, order, last, schur })
+        Some(Condensed { factor, order, last, schur })
     }
 
     /// Returns S, in the order in which the kept equations were given.
@@ -76,9 +73,7 @@ impl Condensed {
     /// Eliminates the equations inside from a right-hand side.
     pub fn eliminate(&self, b: &DVector<f64>) -> Eliminated {
         let mut z: Vec<f64> = self.order.iter().map(|e| b[*e]).collect();
-        self.triangular(&mut z, |factor, z, stack| {
-            factor.l_solve_with_conj(Conj::No, z, Par::Seq, stack);
-        });
+        self.factor.solve_lower(&mut z);
         let kept = &self.last * DVector::from_column_slice(&z[self.inside()..]);
         Eliminated { z, kept }
     }
@@ -87,9 +82,7 @@ impl Condensed {
     pub fn expand(&self, eliminated: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
         let mut x = eliminated.z.clone();
         x[self.inside()..].copy_from_slice(self.last.tr_mul(kept).as_slice());
-        self.triangular(&mut x, |factor, x, stack| {
-            factor.l_transpose_solve_with_conj(Conj::No, x, Par::Seq, stack);
-        });
+        self.factor.solve_lower_transposed(&mut x);
         let mut solution = DVector::zeros(x.len());
         self.order.iter().zip(&x).for_each(|(e, x)| solution[*e] = *x);
         // What was given is returned to the bit.
@@ -100,22 +93,6 @@ impl Condensed {
     /// Returns the number of equations inside.
     fn inside(&self) -> usize {
         self.order.len() - self.last.nrows()
-    }
-
-    /// Solves with the factor or its transpose in place.
-    fn triangular(
-        &self,
-        x: &mut [f64],
-        solve: impl Fn(&SupernodalLltRef<'_, usize, f64>, MatMut<'_, f64>, &mut MemStack),
-    ) {
-        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
-            unreachable!("the factor was asked for by supernodes")
-        };
-        let n = x.len();
-        let mut memory = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
-        let factor = SupernodalLltRef::new(symbolic, &self.values);
-        let stack = MemStack::new(&mut memory);
-        solve(&factor, MatMut::from_column_major_slice_mut(x, n, 1), stack);
     }
 }
 
@@ -141,62 +118,22 @@ fn order(matrix: &SparseSymmetric, kept: &[usize]) -> Vec<usize> {
     order.iter().map(|k| inside[*k]).chain(kept.iter().copied()).collect()
 }
 
-/// Returns the pattern of the factor in a given order; None without equations.
-fn symbolic(
-    pattern: SymbolicSparseColMatRef<usize>,
-    order: &[usize],
-    place: &[usize],
-) -> Option<SymbolicCholesky<usize>> {
-    let params = CholeskySymbolicParams {
-        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-        ..CholeskySymbolicParams::default()
-    };
-    let order = SymmetricOrdering::Custom(PermRef::new_checked(order, place, order.len()));
-    let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, order, params).ok()?;
-    matches!(symbolic.raw(), SymbolicCholeskyRaw::Supernodal(_)).then_some(symbolic)
-}
-
-/// Returns the values of the factor; None where a pivot is not positive.
-fn numeric(symbolic: &SymbolicCholesky<usize>, matrix: &SparseSymmetric) -> Option<Vec<f64>> {
-    let mut values = vec![0.0; symbolic.len_val()];
-    let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-    let mut memory = MemBuffer::new(scratch);
-    let matrix = SparseColMatRef::new(matrix.pattern(), matrix.values());
-    let (regularization, stack) = (LltRegularization::default(), MemStack::new(&mut memory));
-    symbolic
-        .factorize_numeric_llt(
-            &mut values,
-            matrix,
-            Side::Lower,
-            regularization,
-            Par::Seq,
-            stack,
-            Default::default(),
-        )
-        .ok()?;
-    Some(values)
-}
-
-/// Returns the block of the factor from the row and column `from` on.
-fn last_block(symbolic: &SymbolicCholesky<usize>, values: &[f64], from: usize) -> DMatrix<f64> {
-    let SymbolicCholeskyRaw::Supernodal(symbolic) = symbolic.raw() else {
-        unreachable!("the factor was asked for by supernodes")
-    };
-    let size = symbolic.nrows() - from;
-    let mut block = DMatrix::zeros(size, size);
-    let factor = SupernodalLltRef::new(symbolic, values);
-    for s in 0..symbolic.n_supernodes() {
-        let supernode = factor.supernode(s);
-        let (start, matrix) = (supernode.start(), supernode.val());
-        let row = |i: usize| match i.checked_sub(matrix.ncols()) {
-            None => start + i,
-            Some(below) => supernode.pattern()[below],
-        };
-        for column in (0..matrix.ncols()).filter(|j| start + j >= from) {
-            for i in column..matrix.nrows() {
-                block[(row(i) - from, start + column - from)] = matrix[(i, column)];
-            }
-        }
-    }
-    block
+/// Returns L Lᵀ of a lower triangle L.
+fn square(l: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = l.nrows();
+    let mut square = DMatrix::zeros(n, n);
+    let view = MatRef::from_column_major_slice(l.as_slice(), n, n);
+    matmul(
+        MatMut::from_column_major_slice_mut(square.as_mut_slice(), n, n),
+        BlockStructure::TriangularLower,
+        Accum::Replace,
+        view,
+        BlockStructure::TriangularLower,
+        view.transpose(),
+        BlockStructure::TriangularUpper,
+        1.0,
+        Par::Seq,
+    );
+    square.fill_upper_triangle_with_lower_triangle();
+    square
 }

@@ -4,7 +4,7 @@
 use nalgebra::DVector;
 
 use super::factors::{Factors, backward_error, largest};
-use super::sparse::SparseSymmetric;
+use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::Scalar;
 
 /// An iteration that stopped short of its tolerance.

@@ -10,7 +10,7 @@ use faer::sparse::{SparseColMat, Triplet};
 
 use super::factors::Singular;
 use super::field::Field;
-use super::sparse::SparseSymmetric;
+use super::symmetric::SparseSymmetric;
 
 /// A symmetric matrix as L D Lᵀ, in an order of its equations that keeps L sparse.
 pub struct Ldlt<F> {

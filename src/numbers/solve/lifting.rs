@@ -12,7 +12,7 @@ use dashu_ratio::RBig;
 
 use super::field::Field;
 use super::ldlt::Ldlt;
-use super::sparse::SparseSymmetric;
+use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::rational::lcm;
 
 /// The prime p, 2^61 − 1.

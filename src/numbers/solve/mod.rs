@@ -6,12 +6,14 @@
 //! | [`memory`], [`cost`], `symbolic` | what a solution needs: memory, time, entries of factors |
 //! | `factors`, `dense` | what factorisations share; faer's of dense matrices |
 //! | `error_bound` | how far a solution may be from the true one |
-//! | `sparse`, `condensed`, `iterative` | faer's factors of sparse matrices; those that leave a few
+//! | `symmetric`, `cholesky` | sparse symmetric matrices; faer's factor of one |
+//! | `sparse`, `condensed`, `iterative` | factors that tell a singular matrix; those that leave a few
 //!   equations over; solutions to a tolerance |
 //! | `field`, `lu`, `ldlt`, `lifting` | elimination in numbers that no library factors |
 //! | `precision` | the solution in each scalar by each solver |
 
 mod arithmetic;
+mod cholesky;
 mod condensed;
 pub mod cost;
 mod dense;
@@ -26,6 +28,7 @@ pub mod memory;
 mod precision;
 mod sparse;
 mod symbolic;
+mod symmetric;
 
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
 pub use condensed::{Condensed, Eliminated};
@@ -38,5 +41,6 @@ pub use ldlt::Ldlt;
 pub use lifting::lift;
 pub use lu::solve_dense;
 pub use precision::{Precision, Solved, Unsolved};
-pub use sparse::{SparseCholesky, SparseSymmetric, largest_motion};
+pub use sparse::{SparseCholesky, largest_motion};
 pub use symbolic::FactorSize;
+pub use symmetric::SparseSymmetric;

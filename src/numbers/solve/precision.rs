@@ -21,7 +21,8 @@ use super::iterative::{NotConverged, conjugate_gradients, refine};
 use super::ldlt::Ldlt;
 use super::lifting::lift;
 use super::lu::solve_dense;
-use super::sparse::{SparseCholesky, SparseSymmetric};
+use super::sparse::SparseCholesky;
+use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::{
     Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope,
 };

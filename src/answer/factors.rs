@@ -1,0 +1,92 @@
+//! The factors with which a run ended, which the estimates of its errors go on with.
+
+use std::fmt;
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use super::condensation::Condensation;
+use super::elimination::{Constraint, Elimination, Motion};
+use super::stiffness::Stiffness;
+use crate::numbers::solve::{Factors, Singular, SparseCholesky};
+
+/// The change of a weight, a normal or, over the largest displacement, a shift below which factors
+/// of one contact state serve for the other.
+const ALIKE: f64 = 1e-9;
+
+/// The factors with which a run ended.
+#[derive(Clone, Default)]
+pub enum LastFactors {
+    /// None are known.
+    #[default]
+    Unknown,
+    /// Those of the condensed bodies.
+    Condensed(Arc<Condensation>),
+    /// Those of the whole matrix.
+    Whole(Arc<Whole>),
+}
+
+impl fmt::Debug for LastFactors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            LastFactors::Unknown => "unknown",
+            LastFactors::Condensed(_) => "condensed",
+            LastFactors::Whole(_) => "whole",
+        })
+    }
+}
+
+/// The factors of the whole matrix under some constraints.
+pub struct Whole {
+    constraints: Vec<Constraint>,
+    factors: SparseCholesky,
+    /// The norm of the matrix, force/length.
+    norm: f64,
+}
+
+impl Whole {
+    /// Factors Tᵀ K T of a T that was built from `constraints`.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    pub(super) fn new(
+        stiffness: &Stiffness,
+        t: &Elimination,
+        constraints: &[Constraint],
+    ) -> Result<Self, Singular> {
+        let matrix = stiffness.reduced(t);
+        let norm = matrix.norm();
+        let factors = SparseCholesky::new(matrix)?;
+        Ok(Whole { constraints: constraints.to_vec(), factors, norm })
+    }
+
+    /// Returns the norm of the matrix, force/length.
+    pub(super) fn norm(&self) -> f64 {
+        self.norm
+    }
+
+    /// Returns whether its constraints bind the same motions in nearly the same directions.
+    pub(super) fn is_nearly_of(&self, constraints: &[Constraint]) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= ALIKE;
+        let same_motion = |a: &Motion, b: &Motion| match (a, b) {
+            (Motion::Both(_), Motion::Both(_)) => true,
+            (Motion::Along(n, _), Motion::Along(m, _)) => near(n[0], m[0]) && near(n[1], m[1]),
+            _ => false,
+        };
+        let same = |(a, b): (&Constraint, &Constraint)| {
+            let mut masters = a.masters.iter().zip(&b.masters);
+            a.node == b.node
+                && a.masters.len() == b.masters.len()
+                && masters.all(|(a, b)| a.0 == b.0 && near(a.1, b.1))
+                && same_motion(&a.motion, &b.motion)
+        };
+        self.constraints.len() == constraints.len()
+            && self.constraints.iter().zip(constraints).all(same)
+    }
+}
+
+impl Factors<f64> for Whole {
+    fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
+        self.factors.solve(b)
+    }
+}

@@ -1,0 +1,80 @@
+//! The bodies as contact holds them at the end of a run, ready for one more load: with the factors
+//! that the run ended with, or with new ones.
+
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use super::condensation::{Bound, refined};
+use super::elimination::Elimination;
+use super::factors::{LastFactors, Whole};
+use super::solution::Solution;
+use super::stiffness::Stiffness;
+use crate::numbers::solve::Factors;
+use crate::problem::model::Model;
+use crate::problem::modelling::Variant;
+
+/// The bodies at the end of a run.
+pub(super) struct Held {
+    pub(super) stiffness: Stiffness,
+    /// T of the last contact state.
+    pub(super) t: Elimination,
+    factors: Made,
+}
+
+/// The factors of the last contact state, or of nearly the same one.
+enum Made {
+    Condensed(Bound),
+    Whole(Arc<Whole>),
+}
+
+impl Held {
+    /// Takes the last contact state of a solution; None where it does not hold the bodies, and of
+    /// `Km` as printed, which is the stiffness of no bodies in contact.
+    pub(super) fn new(solution: &Solution) -> Option<Self> {
+        let (model, constraints) = (&*solution.model, &solution.last().constraints);
+        let t = match solution.request.variant {
+            Variant::Printed if model.has_contact() => return None,
+            Variant::Unilateral => Elimination::closing(&model.restrained, constraints),
+            _ => Elimination::new(&model.restrained, constraints),
+        };
+        let stiffness = Stiffness::new(model, |x| x);
+        let known = match &solution.factors {
+            LastFactors::Condensed(bodies) if bodies.has(constraints) => {
+                Bound::new(Arc::clone(bodies), &t).map(Made::Condensed)
+            }
+            LastFactors::Whole(whole) if whole.is_nearly_of(constraints) => {
+                Some(Made::Whole(Arc::clone(whole)))
+            }
+            _ => None,
+        };
+        let new = || Whole::new(&stiffness, &t, constraints).map(Arc::new).ok();
+        let factors = known.or_else(|| new().map(Made::Whole))?;
+        Some(Held { stiffness, t, factors })
+    }
+
+    /// Returns the factors of Tᵀ K T, or of nearly that matrix.
+    pub(super) fn factors(&self) -> &dyn Factors<f64> {
+        match &self.factors {
+            Made::Condensed(bound) => bound,
+            Made::Whole(whole) => &**whole,
+        }
+    }
+
+    /// Returns q of Tᵀ K T q = `f`, refined as far as its factors allow.
+    pub(super) fn refined(&self, f: &DVector<f64>) -> DVector<f64> {
+        let norm = match &self.factors {
+            Made::Condensed(bound) => bound.norm(),
+            Made::Whole(whole) => whole.norm(),
+        };
+        let factors = (self.factors(), norm);
+        let (Ok((q, _)) | Err((q, _))) = refined(&self.stiffness, &self.t, factors, f);
+        q
+    }
+
+    /// Returns the displacements under one more load by degree of freedom, length.
+    pub(super) fn under(&self, model: &Model, load: &DVector<f64>) -> DVector<f64> {
+        let q = self.factors().solve(&self.t.load(&model.free_part(load)));
+        self.t.expand(&q) - self.t.shift()
+    }
+}
