@@ -150,8 +150,7 @@ struct Found<T> {
     constraints: Vec<Constraint<T>>,
     /// The position of each node in contact on its target edge, to measure eq. (1).
     places: Vec<NodeToSegment<T>>,
-    /// The decisions that rounding may have taken; None where T keeps no bound, or under a rule whose
-    /// decisions are not looked at.
+    /// The decisions that rounding may have taken; None where T keeps no bound.
     undecided: Option<Vec<Decision>>,
 }
 
@@ -217,8 +216,14 @@ impl<'a, T: Precision> Run<'a, T> {
             let found = status::statuses(rule, self.model, self.sheet, reading, &node_n)?;
             door::pairs(self.model, self.sheet, reading, &node_n, &found)?
         };
-        let undecided =
-            (keeps_bound && by_listing).then(|| decisions(self.sheet, reading, &node_n, &pairs, k));
+        let undecided = match (keeps_bound, by_listing) {
+            (false, _) => None,
+            (true, true) => Some(decisions(self.sheet, reading, &node_n, &pairs, k)),
+            (true, false) => {
+                let (model, sheet) = (self.model, self.sheet);
+                Some(status::decisions(rule, model, sheet, reading, &node_n, k)?)
+            }
+        };
         let places = door::on_edges(self.sheet, &pairs, reading, &node_n);
         let constraints = self.constraints(door::linked(self.sheet, &pairs), &node_n);
         Ok(Found { node_n, pairs, constraints, places, undecided })

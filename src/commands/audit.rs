@@ -6,12 +6,13 @@ use plane_contact::answer::error::Result;
 use plane_contact::answer::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::Wanted;
 use plane_contact::report::{audit as report, folder, pressure};
-use plane_contact::studies::audit::claims::DUCTS;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
+use plane_contact::studies::audit::range::range;
 use plane_contact::studies::audit::{Audit, Case, audit};
 
 use super::{print, waiting};
@@ -40,8 +41,8 @@ pub struct Args {
     /// Explain one finding.
     #[arg(long, value_name = "ID")]
     finding: Option<String>,
-    /// Judge the claims on the paper's example with ducts of other radii too; takes several times
-    /// as long.
+    /// Judge the claims over the range of what the paper leaves open too (trade --only geometry
+    /// says which); takes several times as long.
     #[arg(long, conflicts_with_all = ["scene", "finding"])]
     range: bool,
     /// Print JSON.
@@ -88,8 +89,8 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
 
 fn whole(args: &Args) -> Result<()> {
     let case = Case::new(Scene::open(args.scene.as_deref().unwrap_or("strand"))?);
-    let ducts = if args.range { &DUCTS[..] } else { &[] };
-    let found = waiting("auditing", || audit(&case, ducts));
+    let places = if args.range { range(Reading::default())? } else { Vec::new() };
+    let found = waiting("auditing", || audit(&case, &places));
     let (text, json) = (report::text(&found, &case.scene), report::json(&found, &case.scene));
     if let Some(out) = &args.out {
         write(out, &case, &found, &text, &json)?;

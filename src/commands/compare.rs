@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use plane_contact::answer::error::Result;
+use plane_contact::answer::estimates::certain;
 use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
@@ -16,6 +17,7 @@ Exports the scene to a temporary folder, runs ccx there and reads its results. W
 compare.json, nodes.csv, elements.csv, von_mises_stress.svg (this program),
 von_mises_stress_calculix.svg, difference.svg.
 
+Where rounding in f64 may decide who is in contact, the run in double-doubles is compared.
 --contact equation: the same linear systems solved by both; where the load is stepped, a deck for
 each contact state, summed.
 --contact pair: CalculiX's own contact; the two differ by the penalty and by what each takes for
@@ -47,13 +49,16 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let Code::Calculix = args.with;
     let solution = args.deck.solve()?;
+    let request = solution.request.clone();
+    let (solution, certainty) = certain(solution);
     let parts = args.deck.parts(&solution)?;
     let (scene, model) = (&solution.request.scene, &solution.model);
     let ran = waiting("running ccx", || calculix::run(&args.ccx, scene, model, &parts))?;
     let compared = Compared {
         scene,
         model,
-        variant: solution.request.variant,
+        variant: request.variant,
+        certainty,
         contact: &parts.last().expect("a run has an iteration").contact,
         decks: parts.len(),
         version: &ran.version,
@@ -61,7 +66,8 @@ pub fn run(args: &Args) -> Result<()> {
     };
     let mut asked = vec![format!("calculix-{}", args.deck.contact)];
     asked.extend(args.deck.penalty.map(|penalty| format!("penalty-{penalty:e}")));
-    let out = folder(&args.out, folder_name(&solution.request, &asked));
+    let start = format!("{}-{}", scene.name, request.variant);
+    let out = folder(&args.out, folder_name(start, &request, &asked));
     let json = report::write(&out, &compared)?;
     if args.json {
         return print(&json);

@@ -90,12 +90,12 @@ impl ModelArgs {
     }
 }
 
-/// Returns the name of the default folder of a run: `<scene>-<variant>`, and every option that differs from
-/// what the scene and the program do by themselves, so that no two results share one.
-pub fn folder_name(request: &Request, more: &[String]) -> String {
+/// Returns the name of the default folder of a run: `start`, and every option that differs from what
+/// the scene and the program do by themselves, so that no two results share one.
+pub fn folder_name(start: String, request: &Request, more: &[String]) -> String {
     let Request { scene, contact, arithmetic, reading, .. } = request;
     let (own, plain) = (scene.contact, Arithmetic::default());
-    let mut name = format!("{}-{}", scene.name, request.variant);
+    let mut name = start;
     let mut add = |differs: bool, option: String| {
         if differs {
             name += &format!("-{option}");

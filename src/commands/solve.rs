@@ -84,7 +84,8 @@ pub fn run(args: &Args) -> Result<()> {
     let (solution, accuracy) = solve(args, &request)?;
     let plan = Plan::new(&solution.request)?;
     let asked: Vec<String> = args.accuracy.iter().map(|a| format!("accuracy-{a:e}")).collect();
-    let out = folder(&args.out, folder_name(&request, &asked));
+    let start = format!("{}-{}", scene.name, request.variant);
+    let out = folder(&args.out, folder_name(start, &request, &asked));
     let mut assessment = match args.no_error_estimate {
         true => Assessment::without_estimates(&solution),
         false => Assessment::new(&solution),

@@ -10,30 +10,36 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
 use plane_contact::studies::trade::{self, Knob, Options, Trial, peak};
 
-use super::{ReadingArg, folder, print, progress};
+use super::{ReadingArg, folder, folder_name, print, progress};
+
+/// The runs of each trial unless told otherwise.
+const RUNS: u16 = 3;
 
 /// Measure speed against accuracy: precisions, solvers and the paper's own knobs.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Times are medians of several runs in one process, in turn (A B C A B C ...); what takes over 4 s
 is run once. Peak memory is that of a process of its own, program included. Settings of contact
-are varied in f64 by sparse-cholesky, meshes under unilateral. Writes trade.json, trade.csv and
-trade.svg to --out.
+are varied in f64 by sparse-cholesky, meshes under unilateral. Geometry is what the paper leaves
+open of its example: clearance, radius, mesh, shape of the stamp's top, unit of c_tol, each with
+the claims' verdicts; its runs are not timed, and take about a minute. Writes trade.json,
+trade.csv, trade.svg and, of geometry, a picture a parameter to --out.
 
 Examples:
   plane-contact trade
   plane-contact trade fig1 --only arithmetic,solver
-  plane-contact trade strand --only c_tll --runs 1 --json")]
+  plane-contact trade strand --only c_tll --runs 1 --json
+  plane-contact trade strand --only geometry")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
     scene: String,
     /// Runs of each trial.
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = RUNS)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
-    /// What to vary: arithmetic, solver, mesh, c_tll, iterations, status, coupling, symmetry
-    /// [default: all].
+    /// What to vary: arithmetic, solver, mesh, c_tll, iterations, status, coupling, symmetry,
+    /// geometry [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     only: Vec<Knob>,
     #[command(flatten)]
@@ -41,7 +47,7 @@ pub struct Args {
     /// Print trade.json in place of the tables.
     #[arg(long)]
     json: bool,
-    /// Folder for the files [default: out/trade-<scene>].
+    /// Folder for the files [default: out/trade-<scene>, and every option that is given].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Run this trial alone and print the peak memory of the process, bytes.
@@ -57,16 +63,17 @@ pub fn run(args: &Args) -> Result<()> {
     }
     let only = if args.only.is_empty() { Knob::ALL.to_vec() } else { args.only.clone() };
     let options = Options { runs: usize::from(args.runs), only };
-    let trials = |knob: &Knob| trade::trials(&request, *knob).len();
-    let steps = options.only.iter().map(trials).sum::<usize>() * (options.runs + 1);
-    let bar = progress(steps, "{pos} of {len} {wide_bar} {eta} {msg}");
+    let bar = progress(trade::steps(&request, &options)?, "{pos} of {len} {wide_bar} {eta} {msg}");
     let watch = |trial: &str| {
         bar.set_message(trial.to_string());
         bar.inc(1);
     };
     let measured = trade::measure(&request, &options, in_a_process, watch)?;
     bar.finish_and_clear();
-    let out = folder(&args.out, format!("trade-{}", scene.name));
+    let differs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
+    let asked: Vec<String> = args.only.iter().map(Knob::to_string).chain(differs).collect();
+    let start = format!("trade-{}", scene.name);
+    let out = folder(&args.out, folder_name(start, &request, &asked));
     let json = report::write(&out, &measured)?;
     if args.json {
         return print(&json);

@@ -8,7 +8,7 @@ use super::claims;
 use super::json::line;
 use super::layout::{Table, aligned, listed};
 use super::numbers::{or_dash, percent, short};
-use crate::answer::estimates::Certainty;
+use super::tables::certainty;
 use crate::answer::{BodySummary, Cycle, Distance};
 use crate::paper::listings::Which;
 use crate::problem::model::NodeId;
@@ -94,17 +94,9 @@ fn findings(findings: &[(&Finding, Measured)]) -> String {
 fn variants(rows: &[VariantRow]) -> String {
     let head = "variant;in contact;contact state;force on target;eq. (1), total u;\
                 von Mises stress;error in |u|;error in energy;friction needed;pulling";
-    let notes = rows.iter().filter_map(|row| {
-        let numbers = match row.certainty? {
-            Certainty::Certain => return None,
-            Certainty::InDoubleDouble => {
-                "the row is that of double-doubles, where it decides nothing"
-            }
-            Certainty::Unknown => "in no other numbers is it known not to",
-        };
-        let variant = row.variant;
-        Some(format!("  {variant}: rounding in f64 may decide who is in contact; {numbers}\n"))
-    });
+    let notes = rows
+        .iter()
+        .filter_map(|row| Some(format!("  {}: {}\n", row.variant, certainty(row.certainty?)?)));
     aligned(head.split(';'), rows.iter().map(variant)) + &notes.collect::<String>()
 }
 

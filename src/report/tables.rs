@@ -5,7 +5,7 @@ use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, 
 use super::pressure;
 use crate::answer::contact::{ContactNode, Status};
 use crate::answer::error::Error;
-use crate::answer::estimates::NoLimit;
+use crate::answer::estimates::{Certainty, NoLimit};
 use crate::answer::{
     Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Probe, Quantity, Solution,
     Step, Uniqueness, max_displacement,
@@ -19,6 +19,17 @@ use crate::problem::scene::{Scene, Units};
 /// The relative error of the mesh in the energy norm beyond which the estimates that rest on it
 /// missed the truth now and then (`answer::estimates::discretisation`).
 const FAIR: f64 = 0.2;
+
+/// Says in which numbers a run was made where rounding in f64 may decide; nothing where it decides
+/// nothing.
+pub fn certainty(certainty: Certainty) -> Option<String> {
+    let numbers = match certainty {
+        Certainty::Certain => return None,
+        Certainty::InDoubleDouble => "this is the run in double-doubles, where it decides nothing",
+        Certainty::Unknown => "in no other numbers is it known not to",
+    };
+    Some(format!("rounding in f64 may decide who is in contact; {numbers}"))
+}
 
 /// Lays out what a run came to: its iterations, its bodies and its contact surface.
 pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
@@ -269,18 +280,29 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
         [(estimates.displacement_mesh, "mesh"), (estimates.displacement, "arithmetic")];
     let mut text = format!(
         "\nError estimates\n  largest |u|: {}\n",
-        uncertain(moved, &units.length, &of_displacement)
+        match estimates.unlimited {
+            Some((node, cause)) => format!(
+                "{} on this mesh; in the plane it has no limit on finer ones: at node {node}, {cause}",
+                with_unit(&short(moved), &units.length)
+            ),
+            None => uncertain(moved, &units.length, &of_displacement),
+        }
     );
+    if solution.model.has_contact() && estimates.displacement_mesh.is_finite() {
+        text += "    with contact an estimate and no bound: a finer mesh touches otherwise\n";
+    }
     for body in &estimates.bodies {
         let of_stress = [(body.mesh, "mesh"), (body.arithmetic, "arithmetic")];
         let stress = match &body.no_limit {
             Some(NoLimit { node, cause, is_largest: true }) => format!(
-                "{} on this mesh; it has no limit on finer ones: at node {node}, {cause}",
-                with_unit(&short(body.value), &units.stress)
+                "{} on this mesh; it {} no limit on finer ones: at node {node}, {cause}",
+                with_unit(&short(body.value), &units.stress),
+                cause.has()
             ),
             Some(NoLimit { node, cause, .. }) => format!(
-                "{}, away from node {node}, {cause}, where it has no limit",
-                uncertain(body.value, &units.stress, &of_stress)
+                "{}, away from node {node}, {cause}, where it {} no limit",
+                uncertain(body.value, &units.stress, &of_stress),
+                cause.has()
             ),
             None => uncertain(body.value, &units.stress, &of_stress),
         };
@@ -296,7 +318,13 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
     } else if estimates.bodies.iter().any(|body| body.no_limit.is_some()) {
         text += ": too low where the stress has no limit; trade --only mesh measures it";
     }
-    text + "\n" + &by_rounding(solution, estimates.decisions.as_deref())
+    text += "\n";
+    text += &by_rounding(solution, estimates.decisions.as_deref());
+    if solution.request.variant == Variant::Unilateral && solution.model.has_contact() {
+        text += "  who is in contact: looked at in the last state; on the way to it, and between the \
+                 faces of a corner, whether rounding decides is not known\n";
+    }
+    text
 }
 
 /// Tells what rounding may have decided, its first decision and how many there are; nothing where it
@@ -355,7 +383,8 @@ fn probe(units: &Units, probe: &Probe) -> String {
         .column("+- arithmetic", |q| error(q.arithmetic))
         .text();
     let no_limit = probe.no_limit.map_or(String::new(), |cause| {
-        format!("  beside {cause}, where the stress has no limit: no mesh bounds it\n")
+        let has = cause.has();
+        format!("  beside {cause}, where the stress {has} no limit: no mesh bounds it\n")
     });
     let head = format!("\nAt {x}, {y}: body {}, triangle {}{shared}\n", probe.body, probe.triangle);
     head + &no_limit + &table

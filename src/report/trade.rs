@@ -2,13 +2,17 @@
 
 use std::path::Path;
 
-use super::layout::Table;
+use super::claims::{over, over_the_range};
+use super::layout::{Table, listed};
 use super::numbers::{note, or_dash};
 use super::output::{csv as csv_of, write_all};
 use super::picture::{Axis, Series, Style, chart};
+use crate::answer::estimates::Certainty;
 use crate::error::Result;
 use crate::problem::modelling::Variant;
-use crate::studies::trade::{Came, Errors, Order, Reached, Row, Section, Trade};
+use crate::studies::audit::claims::{Claim, Elsewhere};
+use crate::studies::audit::range::{Parameter, Place};
+use crate::studies::trade::{Came, Errors, Knob, Order, Reached, Row, Section, Trade};
 
 pub use super::json::line as json;
 
@@ -21,7 +25,10 @@ pub const COLUMNS: &str = "knob,variant,setting,own,equations,in_contact,cycle,s
 pub fn write(folder: &Path, trade: &Trade) -> Result<String> {
     let json = json(trade);
     let (csv, picture) = (csv(trade), picture(trade));
-    write_all(folder, &[("trade.json", &json), ("trade.csv", &csv), ("trade.svg", &picture)])?;
+    let geometry: Vec<_> = trade.sections.iter().flat_map(geometry).collect();
+    let of_range = geometry.iter().map(|(name, picture)| (&**name, &**picture));
+    let files = [("trade.json", &*json), ("trade.csv", &csv), ("trade.svg", &picture)];
+    write_all(folder, &files.into_iter().chain(of_range).collect::<Vec<_>>())?;
     Ok(json)
 }
 
@@ -75,6 +82,7 @@ pub fn text(trade: &Trade) -> String {
         if !section.orders.is_empty() {
             text += &orders(&section.orders);
         }
+        text += &over_the_range(&section.claims);
         for answer in &section.answers {
             text += &format!("  {answer}\n");
         }
@@ -138,13 +146,67 @@ pub fn picture(trade: &Trade) -> String {
         points: front.collect(),
         style: Style::Rings,
     };
-    let series: Vec<Series> = trade.sections.iter().map(of_section).chain([front]).collect();
+    let timed = trade.sections.iter().filter(|section| section.knob != Knob::Geometry);
+    let series: Vec<Series> = timed.clone().map(of_section).chain([front]).collect();
     let axes = ["time, s", "relative error of the displacements"]
         .map(|label| Axis { label, logarithmic: true });
-    let references = trade.sections.iter().map(|s| format!("{}: against {}.", s.knob, s.against));
+    let references = timed.map(|s| format!("{}: against {}.", s.knob, s.against));
     let captions: Vec<String> =
         references.chain(["What has no error, the best itself, is not shown.".into()]).collect();
     chart(&format!("Speed against accuracy: {}", trade.scene), axes, &series, &captions)
+}
+
+/// Draws what each parameter of the range does, a picture each with its name: the errors of the
+/// variants, what c_tol does, and under them the verdicts.
+pub fn geometry(section: &Section) -> Vec<(String, String)> {
+    let picture = |p: &Parameter| (format!("geometry-{p}.svg"), over_parameter(section, *p));
+    let parameters = Parameter::ALL.iter().filter(|_| !section.claims.is_empty());
+    parameters.map(picture).collect()
+}
+
+/// The claim whose number is drawn: what c_tol changes.
+const DRAWN: &str = "P10";
+
+fn over_parameter(section: &Section, parameter: Parameter) -> String {
+    let here = |place: Place| Some(place.value).filter(|_| place.parameter == parameter);
+    let error = |row: &Row| Some([here(row.place?)?, row.error?.energy]);
+    let of_variant = |variant: &Variant| Series {
+        name: variant.to_string(),
+        points: section.rows.iter().filter(|r| r.variant == *variant).filter_map(error).collect(),
+        style: Style::Dotted,
+    };
+    let variants = Variant::ALL.iter().map(of_variant).filter(|series| !series.points.is_empty());
+    let changes = section.claims.iter().filter(|judged| judged.claim.id == DRAWN).map(|judged| {
+        let change = |other: &Elsewhere| Some([here(other.place)?, other.measured.number?]);
+        Series {
+            name: "change by c_tol".into(),
+            points: judged.elsewhere.iter().filter_map(change).collect(),
+            style: Style::Dotted,
+        }
+    });
+    let series: Vec<Series> = variants.chain(changes).collect();
+    let verdicts = section.claims.iter().map(|judged| {
+        let Claim { id, says, .. } = judged.claim;
+        format!("{id}, {says}: {}.", over(judged, parameter))
+    });
+    let meaning = "Of a variant: error in the energy norm against the equilibrium under stick on \
+                   the same mesh. Change by c_tol: of the largest displacement, from c_tol to a \
+                   thousandth of it.";
+    let unknown = section.rows.iter().filter(|row| {
+        row.certainty == Some(Certainty::Unknown) && row.place.and_then(here).is_some()
+    });
+    let unknown = listed(unknown.map(|row| format!("{} under {}", row.label, row.variant)));
+    let rounding = match unknown.is_empty() {
+        true => "Rounding decides nothing in these numbers.".into(),
+        false => format!("Rounding may decide who is in contact at {unknown}."),
+    };
+    let captions: Vec<String> =
+        [format!("{meaning} {rounding}")].into_iter().chain(verdicts).collect();
+    let spread = parameter.values().iter().fold(0.0, |most: f64, x| most.max(*x))
+        / parameter.values().iter().fold(f64::INFINITY, |least: f64, x| least.min(*x));
+    let x = Axis { label: parameter.meaning(), logarithmic: spread > 100.0 };
+    let y = Axis { label: "relative error or change", logarithmic: false };
+    chart(&format!("What the paper leaves open: {parameter}"), [x, y], &series, &captions)
 }
 
 /// Tells what `solve --accuracy` did to reach `accuracy`, a part of the largest displacement.

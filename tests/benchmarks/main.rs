@@ -3,6 +3,7 @@
 #[path = "../common"]
 mod common {
     pub mod fitted_hertz;
+    pub mod json;
     pub mod program;
     pub mod recovery;
     pub mod tolerances;

@@ -10,14 +10,19 @@
 //!
 //! MESH, BOUNDARY CONDITIONS: those of `mesh annulus`, `mesh hole`, `mesh cook`.
 
+use std::f64::consts::PI;
+
+use crate::common::json::build;
 use crate::common::recovery::solved;
-use crate::common::tolerances::{MESH_BOUND_WIDTH, RECOVERED, assert_near};
+use crate::common::tolerances::{FLAMANT, MESH_BOUND_WIDTH, RECOVERED, assert_near};
 use plane_contact::answer::estimates::{Cause, ErrorEstimates, NoLimit};
-use plane_contact::answer::{Assessment, Probe, Solution};
+use plane_contact::answer::{Assessment, Probe, Solution, max_displacement};
 use plane_contact::error::InputError;
 use plane_contact::problem::scene::Scene;
+use plane_contact::report::tables::error_estimates;
 use plane_contact::studies::benchmark::{Annulus, Cook, Hole};
 use plane_contact::{Request, solve};
+use serde_json::json;
 
 fn probed(solution: &Solution, at: [f64; 2]) -> Vec<Probe> {
     let mut assessment = Assessment::new(solution);
@@ -138,4 +143,78 @@ fn sticking_contact_has_none_where_it_ends() {
         assert_eq!(body.expect("no limit").cause, Cause::Sticking);
     }
     assert_eq!(run(&request.reference()), [None, None]);
+}
+
+/// A block of unit width on rollers, six by six squares, with a force on the middle of its top; the
+/// upper half is of another material.
+fn pushed(upper: f64) -> Scene {
+    let n = 6;
+    let number = |i: usize, j: usize| j * (n + 1) + i + 1;
+    let place = |k: usize| k as f64 / n as f64;
+    let nodes = (0..=n).flat_map(|j| (0..=n).map(move |i| (i, j)));
+    let node: Vec<_> = nodes.map(|(i, j)| json!([number(i, j), place(i), place(j), 0.0])).collect();
+    let mut elem = Vec::new();
+    for k in 0..n {
+        elem.push(json!([elem.len() + 1, 1, 2, 10, 10, number(k, 0), number(k + 1, 0)]));
+    }
+    for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
+        let body = if j < n / 2 { 1 } else { 2 };
+        let [a, b] = [number(i, j), number(i + 1, j)];
+        let [d, c] = [number(i, j + 1), number(i + 1, j + 1)];
+        elem.push(json!([elem.len() + 1, 2, 2, body, body, a, b, c]));
+        elem.push(json!([elem.len() + 1, 2, 2, body, body, a, c, d]));
+    }
+    build(&json!({
+        "plane": "strain",
+        "node": node,
+        "elem": elem,
+        "materials": { "1": { "E": E, "nu": NU }, "2": { "E": upper, "nu": NU } },
+        "restraints": [{ "on": 10, "fix": ["x", "y"] }],
+        "loads": [{ "node": number(n / 2, n), "force": [0.0, -P] }],
+        "variant": "tied",
+        "iterations": 1
+    }))
+    .expect("a sound scene")
+}
+
+const E: f64 = 1000.0;
+const NU: f64 = 0.25;
+const P: f64 = 3.0;
+
+/// Flamant: each mesh of half the element size adds 2 (1 − ν²) P ln 2 / (π E) under the force.
+#[test]
+fn under_a_force_on_a_node_neither_stress_nor_displacement_has_a_limit() {
+    let mut scene = pushed(E);
+    let mut largest = Vec::new();
+    for _ in 0..4 {
+        let solution = solve(&Request::new(&scene), &mut |_| ()).expect("it is held");
+        largest.push(max_displacement(&solution.u));
+        let estimates = ErrorEstimates::new(&solution);
+        let limits = estimates.bodies.iter().map(|body| body.no_limit.clone());
+        let loaded = limits.flatten().find(|limit| limit.cause == Cause::Load).expect("the force");
+        assert_eq!(solution.model.at(loaded.node), [0.5, 1.0]);
+        assert_eq!(estimates.unlimited, Some((loaded.node, Cause::Load)));
+        assert!(estimates.displacement_mesh.is_infinite());
+        let words = error_estimates(&solution, &Assessment::new(&solution));
+        assert!(words.contains("in the plane it has no limit on finer ones: at node"), "{words}");
+        scene = scene.refined().expect("a sound scene").expect("a whole scene").scene;
+    }
+    let expected = 2.0 * (1.0 - NU * NU) * P * 2f64.ln() / (PI * E);
+    let grows = largest[3] - largest[2];
+    assert_near("growth", grows, expected, expected, &FLAMANT);
+}
+
+/// Where the interface of two materials ends at the outline the stress may have no limit; along it
+/// and in one material it has.
+#[test]
+fn corners_of_two_materials_may_have_none() {
+    let at = |upper: f64, place: [f64; 2]| {
+        let solution = solve(&Request::new(&pushed(upper)), &mut |_| ()).expect("it is held");
+        probed(&solution, place)[0].no_limit
+    };
+    assert_eq!(at(10.0 * E, [0.0, 0.5]), Some(Cause::Interface));
+    assert_eq!(at(10.0 * E, [1.0, 0.5]), Some(Cause::Interface));
+    assert_eq!(at(10.0 * E, [0.5, 0.5]), None);
+    assert_eq!(at(E, [0.0, 0.5]), None);
+    assert_eq!((Cause::Interface.has(), Cause::Load.has()), ("may have", "has"));
 }

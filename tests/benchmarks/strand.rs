@@ -40,7 +40,7 @@ fn meshes() -> impl Iterator<Item = (f64, f64, Mesh)> {
 }
 
 fn mesh(duct: f64, size: f64) -> Mesh {
-    Strand { duct, strand: RADIUS, size }.generate().expect("in range").mesh
+    Strand { duct, size, ..Strand::default() }.generate().expect("in range").mesh
 }
 
 /// The elements of a group, in their order.
@@ -80,10 +80,46 @@ fn parameters_at_their_limits_make_well_shaped_triangles() {
     for (duct, strand, size) in
         [(7.6, 7.6, 0.45), (22.0, 7.4, 1.1), (22.0, 22.0, 1.2), (1.0, 0.35, 0.05), (1.0, 1.0, 0.16)]
     {
-        let made = Strand { duct, strand, size }.generate().expect("in range");
+        let made = Strand { duct, strand, size, ..Strand::default() }.generate().expect("in range");
         assert!(made.build().is_ok(), "duct {duct}, strand {strand}, size {size}");
         let angle = least_angle(&made.mesh);
         assert!(angle >= 20.0, "duct {duct}, strand {strand}, size {size}: {angle} degrees");
+    }
+}
+
+/// A disc cut anywhere lies in the duct, and its top is where it was asked for: to an edge below the
+/// centre, where it ends at a node of the arc.
+#[test]
+fn stamps_of_all_heights_are_well_shaped() {
+    for (duct, size, top) in DUCTS.into_iter().flat_map(|duct| {
+        [0.3, 0.5, 0.9, 1.1, 1.5, 1.7]
+            .into_iter()
+            .flat_map(move |top| [(duct, 0.9, top), (duct, 0.45, top)])
+    }) {
+        let made = Strand { duct, size, top, ..Strand::default() };
+        let what = format!("duct {duct}, size {size}, top {top}");
+        let mesh = match made.generate() {
+            Ok(made) => made.mesh,
+            // The wall's chords would cut into the disc.
+            Err(why) => {
+                assert!(top > 1.0 && duct < 7.7 && why.place == "--top", "{what}: {why}");
+                continue;
+            }
+        };
+        assert!(least_angle(&mesh) >= 20.0, "{what}: {} degrees", least_angle(&mesh));
+        let flat = places(&mesh, "stamp_top");
+        let (height, ends) = (flat[0][1] + duct, flat[flat.len() - 1]);
+        assert!(flat.iter().all(|p| p[1] == flat[0][1]) && ends[0] == -flat[0][0], "{what}");
+        let edge = if top < 1.0 { size } else { STRAIGHT.limit };
+        assert!((height - top * RADIUS).abs() <= edge, "{what}: {height}");
+        let wall = places(&mesh, "duct_wall");
+        for node in group(&mesh, "stamp").into_iter().flatten() {
+            let p = mesh.xy(*node);
+            let depth = wall.windows(2).map(|w| cross(w[0], w[1], p)).fold(f64::INFINITY, f64::min);
+            assert!(depth > -STRAIGHT.limit * duct, "{what}: {p:?} is {depth} inside");
+        }
+        let arc = places(&mesh, "stamp_arc");
+        assert!(arc.iter().all(|p| p[1] <= RADIUS - duct + STRAIGHT.limit), "{what}");
     }
 }
 

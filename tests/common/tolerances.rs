@@ -96,6 +96,10 @@ tolerances! {
     /// Displacements in 16 steps of the load beside those in 32.
     LOAD_STEP = 1e-5, "a node that slips and then sticks within a step; 3e-6 measured";
 
+    /// The growth of the displacement under a force on a node, from mesh to mesh.
+    FLAMANT = 0.01,
+        "on the third of four meshes the force is 24 edges from the nearest side";
+
     /// The number of a claim beside the one that its command prints, relative to that.
     CLAIM = 1e-9,
         "1e-13 of the largest displacement by either solver, over a change of a thousandth of it";

@@ -10,7 +10,7 @@ use plane_contact::answer::error::Error;
 use plane_contact::answer::{Request, Solution, max_displacement, solve};
 use plane_contact::numbers::scalar::rational;
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName};
-use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::trade::{Came, Reached, solve_to};
 use proptest::prelude::*;
@@ -271,4 +271,64 @@ fn decimal_loads_are_multiplied_exactly() {
         json!([{ "node": 3, "force": [0.0, -2.205] }, { "node": 4, "force": [0.0, -2.205] }]);
     let nodal = Request::new(&build(&scene).unwrap()).variant(Variant::Tied);
     assert_eq!(run(&request).digits, run(&nodal).digits);
+}
+
+/// What is asked, of which scene, and the words of the refusal: no precision suffices, each for its own
+/// reason, and none is passed over in silence.
+#[test]
+fn what_no_precision_reaches_is_refused_with_every_reason() {
+    let open = |name: &str| Request::new(&Scene::open(name).expect("an embedded scene"));
+    let large = open("strand");
+    let mortar = ContactModel { coupling: Coupling::Mortar, ..large.contact };
+    // The stamp's lowest node stands on a corner of the target: both of its edges are as near.
+    let projection = ContactModel { status: StatusRule::Projection, ..large.contact };
+    let tie = large.clone().contact(projection).variant(Variant::Tied);
+    let cases: [(&str, Request, f64, &[&str]); 6] = [
+        (
+            "exact numbers would take too long",
+            large.clone().variant(Variant::Tied),
+            1e-33,
+            &["f64x2-bounded: its digits are too few", "exact: it may take", "ask for less"],
+        ),
+        (
+            "stepped too, where double-doubles have the digits and rounding takes them",
+            large.clone().variant(Variant::Stepped),
+            1e-31,
+            &["f64x2-bounded: within", "exact: it may take"],
+        ),
+        (
+            "no precision decides a tie",
+            tie,
+            1e-3,
+            &["f64-bounded: no bound", "f64x2-bounded: no bound", "exact: it may take"],
+        ),
+        (
+            "unilateral runs in one precision",
+            large.clone().variant(Variant::Unilateral),
+            1e-20,
+            &["f64: its digits are too few", "unilateral and mortar run in f64 only"],
+        ),
+        (
+            "mortar's weights have no bound",
+            large.clone().contact(mortar).variant(Variant::Tied),
+            1e-3,
+            &["f64: no bound", "unilateral and mortar run in f64 only"],
+        ),
+        (
+            "of exact displacements 40 digits are written",
+            open("two-blocks").variant(Variant::Tied),
+            1e-45,
+            &["f32: its digits are too few", "exact: its digits are too few"],
+        ),
+    ];
+    for (what, request, accuracy, words) in cases {
+        let refused = solve_to(&request, accuracy).expect_err(what);
+        assert_eq!(refused.exit_status(), 2, "{what}: {refused}");
+        let said = refused.to_string();
+        assert!(
+            said.contains(&format!("no precision meets an accuracy of {accuracy:e}")),
+            "{said}"
+        );
+        words.iter().for_each(|word| assert!(said.contains(word), "{what}, {word:?}: {said}"));
+    }
 }

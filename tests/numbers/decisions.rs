@@ -8,7 +8,7 @@ use crate::common::random::fixed;
 use plane_contact::answer::estimates::arithmetic::rounding;
 use plane_contact::answer::{Detail, Request, Solution, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
-use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::modelling::{ContactModel, StatusRule, Variant};
 use plane_contact::problem::scene::Scene;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -30,6 +30,7 @@ struct Drawn {
     held: bool,
     iterations: usize,
     variant: Variant,
+    rule: StatusRule,
 }
 
 fn drawn() -> impl Strategy<Value = Drawn> {
@@ -45,9 +46,10 @@ fn drawn() -> impl Strategy<Value = Drawn> {
         prop::sample::select(vec![true, true, true, false]),
         1..9_usize,
         prop::sample::select(variants.to_vec()),
+        prop::sample::select(StatusRule::ALL),
     );
     (geometry, rest).prop_map(
-        |((moves, near, tolerance, gap), (offset, held, iterations, variant))| Drawn {
+        |((moves, near, tolerance, gap), (offset, held, iterations, variant, rule))| Drawn {
             moves,
             near: -near,
             tolerance: -tolerance,
@@ -56,6 +58,7 @@ fn drawn() -> impl Strategy<Value = Drawn> {
             held,
             iterations,
             variant,
+            rule,
         },
     )
 }
@@ -104,7 +107,9 @@ fn what_rounding_decides_is_said() {
         let scene = scene(&drawn);
         let run = |scalar| {
             let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
-            let request = Request::new(&scene).variant(drawn.variant).arithmetic(arithmetic);
+            let contact = ContactModel { status: drawn.rule, ..scene.contact };
+            let request = Request::new(&scene).variant(drawn.variant).contact(contact);
+            let request = request.arithmetic(arithmetic);
             solve(&request, &mut |_| ()).ok()
         };
         let Some(exact) = run(ScalarName::Exact) else { return Ok(()) };
@@ -114,6 +119,7 @@ fn what_rounding_decides_is_said() {
             let is_sure = found.decisions.as_ref().is_some_and(Vec::is_empty);
             let differs = history(&solution) != history(&exact);
             prop_assert!(!(differs && is_sure), "{scalar}: another history, and not a word of it");
+            prop_assert!(found.decisions.is_some(), "{scalar}: {}: not known", drawn.rule);
             if is_sure {
                 let written = f64::EPSILON / 2.0 * exact.u.amax();
                 let error = (&solution.u - &exact.u).amax() - written;

@@ -8,16 +8,32 @@ use tempfile::TempDir;
 
 use crate::common::program::run;
 use crate::common::tolerances::{CLAIM, assert_near};
+use plane_contact::Request;
 use plane_contact::Scene;
+use plane_contact::paper::mirror::Reading;
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::claims::{CLAIMS, DUCTS, Judged, Scope, Verdict, judge};
+use plane_contact::studies::audit::claims::{CLAIMS, Judged, Scope, Verdict, judge};
+use plane_contact::studies::audit::range::{Range, range};
+use plane_contact::studies::trade::{Section, geometry};
 
 fn open(name: &str) -> Case {
     Case::new(Scene::open(name).expect("an embedded scene"))
 }
 
-/// The claims on the paper's example over the range of ducts.
-pub static JUDGED: LazyLock<Vec<Judged>> = LazyLock::new(|| judge(&open("strand"), &DUCTS));
+/// The range of what the paper leaves open, whose runs are made once for all tests.
+pub static RANGE: LazyLock<Range> =
+    LazyLock::new(|| range(Reading::default()).expect("its values are allowed"));
+
+/// The claims on the paper's example over the range.
+pub static JUDGED: LazyLock<Vec<Judged>> = LazyLock::new(|| judge(CLAIMS, &open("strand"), &RANGE));
+
+/// What `trade` says of the range.
+pub static GEOMETRY: LazyLock<Section> = LazyLock::new(|| {
+    // Its runs are made once, by one test: see `Case::prepare`.
+    LazyLock::force(&JUDGED);
+    let strand = Scene::open("strand").expect("an embedded scene");
+    geometry(&Request::new(&strand), &RANGE, &mut |_| ())
+});
 
 #[test]
 fn a_claims_number_is_the_one_that_its_command_prints() {
@@ -57,7 +73,7 @@ fn claims_stand_in_the_order_of_the_text_each_once() {
     assert!(CLAIMS.windows(2).all(|pair| pair[0].line <= pair[1].line));
 }
 
-/// A verdict is said to hold over the range only where every duct was tried and has the same.
+/// A verdict is said to hold over the range only where every place was tried and has the same.
 #[test]
 fn a_scope_is_what_was_tried() {
     for judged in &*JUDGED {
@@ -67,11 +83,11 @@ fn a_scope_is_what_was_tried() {
             Scope::AnyScene | Scope::Drawn | Scope::Nowhere => {
                 assert!(judged.elsewhere.is_empty(), "{}", judged.claim.id)
             }
-            Scope::Range => assert!(same && judged.elsewhere.len() == DUCTS.len()),
+            Scope::Range => assert!(same && judged.elsewhere.len() == RANGE.len()),
             Scope::OneScene => assert!(!same, "{}", judged.claim.id),
         }
     }
-    for judged in judge(&open("fig1"), &[]) {
+    for judged in judge(CLAIMS, &open("fig1"), &Range::new()) {
         assert!(judged.elsewhere.is_empty() && judged.scope != Scope::Range);
         let known = judged.measured.number.is_some() || judged.measured.verdict == Verdict::Unknown;
         assert!(known, "{}", judged.claim.id);

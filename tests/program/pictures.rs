@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
+use crate::claims::GEOMETRY;
 use crate::common::program::run;
 
 /// A tenth of a pixel: pictures are for the eye.
@@ -59,7 +60,7 @@ fn pictures_differ_by_words_and_by_more_than_a_tenth_of_a_pixel() {
     assert!(!same_picture("<p d=\"M1.50,2\"/>", "<q d=\"M1.50,2\"/>"));
 }
 
-/// Every `.svg` of the repository is drawn by `audit strand --out` or by `solve` on its scene.
+/// Every `.svg` of the repository is drawn by `audit strand --out` or by `trade strand`.
 #[test]
 fn shipped_pictures_are_drawn_anew() {
     let folder = TempDir::new().expect("a temporary folder");
@@ -69,6 +70,10 @@ fn shipped_pictures_are_drawn_anew() {
         (golden().join("strand/von_mises_stress.svg"), drawn.join("stepped/von_mises_stress.svg")),
         (golden().join("strand/pressure.svg"), drawn.join("pressure.svg")),
     ];
+    for (name, picture) in plane_contact::report::trade::geometry(&GEOMETRY) {
+        std::fs::write(drawn.join(&name), picture).expect("it is written");
+        expected.push((golden().join("strand").join(&name), drawn.join(&name)));
+    }
     for entry in std::fs::read_dir(golden().join("findings")).expect("the findings") {
         let shipped = entry.expect("a folder").path();
         if shipped.is_dir() {

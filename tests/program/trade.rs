@@ -1,21 +1,26 @@
 //! Speed against accuracy: what is measured, and what it says. No test asserts a time.
 
+use crate::claims::{GEOMETRY, JUDGED, RANGE};
 use crate::common::json::build;
 use crate::common::tolerances::{
-    CONSTANT_FIELD, EFFECTIVITY_HIGH, EFFECTIVITY_LOW, HALF, LAME_ENERGY_ORDER, assert_near,
+    CLAIM, CONSTANT_FIELD, EFFECTIVITY_HIGH, EFFECTIVITY_LOW, HALF, LAME_ENERGY_ORDER, assert_near,
 };
 use plane_contact::answer::error::Error;
-use plane_contact::answer::{Request, Solution, max_displacement, solve};
+use plane_contact::answer::estimates::Certainty;
+use plane_contact::answer::{Request, Solution, distance, equilibrium, max_displacement, solve};
 use plane_contact::error::InputError;
-use plane_contact::numbers::solve::ScalarName;
+use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::element;
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::problem::scene::symmetry::half;
 use plane_contact::report::trade as report;
-use plane_contact::studies::benchmark::Annulus;
-use plane_contact::studies::trade::{self, Came, Knob, Options, Order, Trade, pareto, solve_to};
+use plane_contact::studies::audit::range::{Parameter, Place};
+use plane_contact::studies::benchmark::{Annulus, Strand};
+use plane_contact::studies::trade::{
+    self, Came, Knob, Options, Order, Row, Trade, pareto, solve_to,
+};
 use serde_json::{Value, json};
 
 fn measured(scene: &Scene, only: &[Knob]) -> Trade {
@@ -108,7 +113,7 @@ fn every_knob_has_its_rows_and_every_row_its_columns() {
     let trade = measured(&open("fig1"), Knob::ALL);
     assert_eq!(trade.sections.len(), Knob::ALL.len());
     for section in &trade.sections {
-        let none = section.knob == Knob::Symmetry;
+        let none = matches!(section.knob, Knob::Symmetry | Knob::Geometry);
         assert_eq!(section.rows.is_empty(), none, "{}", section.knob);
         assert!(!section.answers.is_empty(), "{}", section.knob);
         for row in &section.rows {
@@ -124,6 +129,70 @@ fn every_knob_has_its_rows_and_every_row_its_columns() {
     for words in ["c_tll", "von Mises", "exact", "equilibrium"] {
         assert!(text.contains(words), "{words:?}: {text}");
     }
+}
+
+/// Each place of the range has a row for every variant, none is dropped, and rounding decides no
+/// number of them; the verdicts are those of `audit`.
+#[test]
+fn geometry_is_a_knob_of_the_example() {
+    let section = &*GEOMETRY;
+    assert_eq!(section.rows.len(), 3 * RANGE.len());
+    for parameter in Parameter::ALL {
+        let of = || section.rows.iter().filter(|row| row.place.unwrap().parameter == *parameter);
+        assert_eq!(of().count(), 3 * parameter.values().len(), "{parameter}");
+        assert_eq!(of().filter(|row| row.own).count(), 3, "{parameter}");
+    }
+    for row in &section.rows {
+        assert!(row.failure.is_some() != row.error.is_some(), "{}", row.label);
+        assert_ne!(row.certainty, Some(Certainty::Unknown), "{}", row.label);
+    }
+    let decided = |row: &&Row| row.certainty == Some(Certainty::InDoubleDouble);
+    assert!(section.rows.iter().any(|row| decided(&row)), "rounding decides nowhere");
+    for judged in &section.claims {
+        let other = JUDGED.iter().find(|other| other.claim.id == judged.claim.id).expect("it is");
+        assert_eq!(judged.measured, other.measured);
+        let both = judged.elsewhere.iter().zip(&other.elsewhere);
+        assert!(both.clone().all(|(a, b)| (a.place, &a.measured) == (b.place, &b.measured)));
+        assert_eq!(both.count(), RANGE.len(), "{}", judged.claim.id);
+    }
+    assert!(report::geometry(section).iter().all(|(_, svg)| svg.contains("P10")));
+}
+
+/// A place of the range is the scene that `mesh strand` makes: run alone, in double-doubles.
+#[test]
+fn a_place_of_the_range_is_a_run_of_its_scene() {
+    let scene = Strand { duct: 8.0, ..Strand::default() }.generate().and_then(|b| b.build());
+    let arithmetic = Arithmetic { scalar: ScalarName::F64x2, ..Arithmetic::default() };
+    let request =
+        Request::new(&scene.expect("in range")).variant(Variant::Stepped).arithmetic(arithmetic);
+    let run = |tolerance| {
+        let mut request = request.clone();
+        request.tolerance = Some(tolerance);
+        solve(&request, &mut |_| ()).expect("it runs")
+    };
+    let here = |place: Place| place.parameter == Parameter::Clearance && place.value == 0.4;
+    let number = |id: &str| {
+        let judged = GEOMETRY.claims.iter().find(|judged| judged.claim.id == id).expect("a claim");
+        let at = judged.elsewhere.iter().find(|other| here(other.place)).expect("a place");
+        at.measured.number.expect("a number")
+    };
+    let [own, least] = [1e-3, 1e-6].map(run);
+    let change = max_displacement(&(&least.u - &own.u)) / max_displacement(&own.u);
+    assert_near("P10", number("P10"), change, change, &CLAIM);
+    let truth = equilibrium(&request).expect("there is one");
+    let error = distance(&own, &truth).energy_relative;
+    assert_near("P12", number("P12"), error, error, &CLAIM);
+}
+
+#[test]
+fn geometry_is_no_knob_of_other_scenes() {
+    let mut other = Strand::default().generate().and_then(|b| b.build()).expect("in range");
+    other.name = "strand".into();
+    let trade = measured(&other, &[Knob::Geometry]);
+    let section = &trade.sections[0];
+    assert!(section.rows.is_empty() && section.claims.is_empty());
+    assert!(section.answers[0].contains("knob of the embedded scene strand only"));
+    assert!(report::geometry(section).is_empty());
 }
 
 #[test]

@@ -86,7 +86,7 @@ impl<T: Scalar> Closest<T> {
     /// Returns the distance, rounded, length; < 0 inside the body.
     pub fn distance(&self) -> f64 {
         let distance = T::scaled_root(T::one(), T::one(), self.distance_square);
-        if self.side > T::zero() { -distance } else { distance }
+        if self.side.to_f64() > 0.0 { -distance } else { distance }
     }
 
     /// Returns the square of the distance to the segment's line, length².

@@ -31,7 +31,8 @@ use std::collections::BTreeSet;
 use super::search::{Closest, Segment, closest};
 use std::collections::HashMap;
 
-use crate::numbers::scalar::Scalar;
+use crate::numbers::scalar::{Scalar, Unsure, compared};
+use crate::paper::decisions::{self, Decision};
 use crate::paper::door::{self, ContactStatus};
 use crate::paper::mathcad::Conjunction;
 use crate::paper::mathcad::array::Table;
@@ -60,12 +61,63 @@ pub fn statuses<T: Scalar>(
     match rule {
         StatusRule::Signs => printed(reading),
         StatusRule::Intersection => {
-            // The sign rule is not used: a false operand keeps its lines from failing.
-            let printed = printed(&Reading { r4: Conjunction::Guarded, ..*reading })?;
-            Ok(by_intersection(model, &target(), sheet.c_tll, node_n, printed))
+            let printed = printed(&guarded(reading))?;
+            let target = target();
+            let by_rule = |status| by_intersection(model, &target, sheet.c_tll, node_n, status);
+            Ok(printed.into_iter().map(by_rule).collect())
         }
-        StatusRule::Projection => Ok(by_projection(model, &target(), sheet.c_tll, node_n)),
+        StatusRule::Projection => {
+            let target = target();
+            let by_rule = |node: &NodeId| by_projection(&target, sheet.c_tll, node_n, *node);
+            Ok(model.contact.nodes.iter().map(by_rule).collect())
+        }
     }
+}
+
+/// The reading under which *intersection* calls `c_cnt`: it does not use the sign rule, and a false
+/// operand keeps its lines from failing.
+fn guarded(reading: &Reading) -> Reading {
+    Reading { r4: Conjunction::Guarded, ..*reading }
+}
+
+/// Returns the decisions of a rule other than *signs* in iteration `k` that rounding may have taken,
+/// in numbers that carry a bound.
+/// Errors: those of [`statuses`].
+pub fn decisions<T: Scalar>(
+    rule: StatusRule,
+    model: &Model,
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    node_n: &Table<T>,
+    k: usize,
+) -> Result<Vec<Decision>, Failure> {
+    let (target, of_target) = compared(|| Target::new(model, node_n));
+    let nodes = &model.contact.nodes;
+    let mut left = Vec::new();
+    let mut leave = |node: NodeId, unsure: Vec<Unsure>| {
+        left.extend(unsure.into_iter().map(|Unsure { margin, bound }| Decision {
+            iteration: k,
+            node,
+            condition: format!("a comparison of the rule {rule}"),
+            margin: Some(margin),
+            bound: Some(bound).filter(|bound| bound.is_finite()),
+        }));
+    };
+    leave(nodes[0], of_target);
+    if rule == StatusRule::Intersection {
+        let reading = guarded(reading);
+        let pairs = c_cnt(sheet, &reading, node_n)?;
+        for status in door::statuses(model, &pairs) {
+            let work = || by_intersection(model, &target, sheet.c_tll, node_n, status);
+            leave(status.node, compared(work).1);
+        }
+        left.extend(decisions::decisions(sheet, &reading, node_n, &pairs, k));
+    } else {
+        for node in nodes {
+            leave(*node, compared(|| by_projection(&target, sheet.c_tll, node_n, *node)).1);
+        }
+    }
+    Ok(left)
 }
 
 /// The target edges in a shape.
@@ -127,17 +179,15 @@ fn by_intersection<T: Scalar>(
     target: &Target<T>,
     c_tll: T,
     node_n: &Table<T>,
-    mut statuses: Vec<ContactStatus<T>>,
-) -> Vec<ContactStatus<T>> {
-    for status in &mut statuses {
-        let near = status.edge.is_some() && Scalar::abs(status.distance) < c_tll;
-        status.in_contact = near || intersects(model, target, node_n, status.node);
-        if status.in_contact && status.edge.is_none() {
-            let nearest = target.nearest(door::place(node_n, status.node));
-            status.edge = Some(nearest.expect("a surface that is crossed has an edge").0.id);
-        }
+    mut status: ContactStatus<T>,
+) -> ContactStatus<T> {
+    let near = status.edge.is_some() && Scalar::abs(status.distance) < c_tll;
+    status.in_contact = near || intersects(model, target, node_n, status.node);
+    if status.in_contact && status.edge.is_none() {
+        let nearest = target.nearest(door::place(node_n, status.node));
+        status.edge = Some(nearest.expect("a surface that is crossed has an edge").0.id);
     }
-    statuses
+    status
 }
 
 /// Returns whether a side at contact node `n` leads out of the target.
@@ -185,27 +235,20 @@ fn apart<T: Scalar>(one: [[T; 2]; 2], other: [[T; 2]; 2]) -> bool {
 }
 
 fn by_projection<T: Scalar>(
-    model: &Model,
     target: &Target<T>,
     c_tll: T,
     node_n: &Table<T>,
-) -> Vec<ContactStatus<T>> {
-    let status = |&node: &NodeId| {
-        let apart = ContactStatus { node, edge: None, distance: T::zero(), in_contact: false };
-        let Some((edge, closest)) = target.nearest(door::place(node_n, node)) else {
-            return apart;
-        };
-        let distance = T::from_f64(0.0 - closest.distance());
-        if edge.past_square(&closest) > c_tll * c_tll {
-            return ContactStatus { distance, ..apart };
-        }
-        let inside = closest.side > T::zero();
-        ContactStatus {
-            node,
-            edge: Some(edge.id),
-            distance,
-            in_contact: inside || closest.distance_square <= c_tll * c_tll,
-        }
+    node: NodeId,
+) -> ContactStatus<T> {
+    let apart = ContactStatus { node, edge: None, distance: T::zero(), in_contact: false };
+    let Some((edge, closest)) = target.nearest(door::place(node_n, node)) else {
+        return apart;
     };
-    model.contact.nodes.iter().map(status).collect()
+    let distance = T::from_f64(0.0 - closest.distance());
+    if edge.past_square(&closest) > c_tll * c_tll {
+        return ContactStatus { distance, ..apart };
+    }
+    // Where a node is near, it does not count on which side it is.
+    let in_contact = closest.distance_square <= c_tll * c_tll || closest.side > T::zero();
+    ContactStatus { node, edge: Some(edge.id), distance, in_contact }
 }

@@ -17,10 +17,11 @@ mod recovery;
 mod singular;
 mod ties;
 
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::held::Held;
-use super::solution::Solution;
+use super::solution::{Solution, max_displacement};
 use crate::paper::decisions::Decision;
 use crate::problem::model::{Body, NodeId, TriangleId};
 pub use certain::{Certainty, certain};
@@ -39,6 +40,9 @@ pub struct ErrorEstimates {
     /// The estimated error of the largest displacement |u| of a node that the mesh causes, length;
     /// infinite where unknown.
     pub displacement_mesh: f64,
+    /// The node at which the largest displacement has no limit as the mesh is refined, and why; None
+    /// where it has one.
+    pub unlimited: Option<(NodeId, Cause)>,
     /// The error that the mesh causes in the stresses.
     pub mesh: Discretisation,
     /// The error estimates of each body's largest stress, in the model's order.
@@ -110,10 +114,24 @@ impl ErrorEstimates {
         });
         let bodies = bodies.collect();
         let of_largest = |dual: Dual| dual.error_of_largest(&solution.u);
-        let displacement_mesh =
-            held.map_or(f64::INFINITY, |held| of_largest(Dual::new(solution, held, &mesh)));
-        ErrorEstimates { displacement, decisions, displacement_mesh, bodies, mesh }
+        let unlimited = unlimited(solution, &points);
+        let displacement_mesh = match held {
+            Some(held) if unlimited.is_none() => of_largest(Dual::new(solution, held, &mesh)),
+            _ => f64::INFINITY,
+        };
+        ErrorEstimates { displacement, decisions, displacement_mesh, unlimited, bodies, mesh }
     }
+}
+
+/// Returns the point that leaves the largest displacement without a limit: a node that is held alone,
+/// from which all are measured, or the node under a force where it moves most.
+fn unlimited(solution: &Solution, points: &[Singular]) -> Option<(NodeId, Cause)> {
+    let size = |node: NodeId| max_displacement(&DVector::from_row_slice(&node.of(&solution.u)));
+    let largest = max_displacement(&solution.u);
+    let counts = |point: &&Singular| {
+        point.cause.moves() && (point.cause == Cause::Support || size(point.node) == largest)
+    };
+    points.iter().find(counts).map(|point| (point.node, point.cause))
 }
 
 /// Returns the point of a body where the stress has no limit, that where its largest stress was

@@ -22,6 +22,11 @@
 //! ends at the edge of a body, the traction goes like r^(−1/2) or nearly so; where it ends
 //! without friction between smooth surfaces, it goes to 0.
 //!
+//! Under a force on a single node the stress goes like r^(−1) and the displacement like log r; so it
+//! does where a single node is held by a force. Where two materials meet at the outline, or their
+//! interface turns, the exponent depends on both (D. B. Bogy, J. Appl. Mech. 35 (1968) 460-466): such
+//! points are named as ones where the stress may have no limit.
+//!
 //! Source: M. L. Williams, "Stress singularities resulting from various boundary conditions in
 //! angular corners of plates in extension", J. Appl. Mech. 19 (1952) 526-528.
 
@@ -32,7 +37,7 @@ use crate::answer::contact::Status;
 use crate::answer::{Detail, Solution, Stiffness};
 use crate::choices;
 use crate::problem::element::Plane;
-use crate::problem::model::{Beside, Model, NodeId, TriangleId};
+use crate::problem::model::{Beside, Force, Model, NodeId, TriangleId};
 
 /// The turn of an outline below which it is taken for a chord of a curve and not for a corner, rad.
 const CHORD: f64 = PI / 6.0;
@@ -53,10 +58,27 @@ choices! {
         Restraint = "the end of a restrained edge",
         /// One node is held by a force.
         Support = "a restraint of a single node",
+        /// One node is loaded by a force.
+        Load = "a force on a single node",
+        /// Two materials meet at the outline, or their interface turns or branches.
+        Interface = "a corner of two materials",
         /// Nodes that stick end where nodes are open.
         Sticking = "the end of sticking contact",
         /// Contact ends at the edge of a body.
         Edge = "contact at the edge of a body",
+    }
+}
+
+impl Cause {
+    /// Says of a quantity at the point whether it "has" or "may have" no limit.
+    pub fn has(self) -> &'static str {
+        if self == Cause::Interface { "may have" } else { "has" }
+    }
+
+    /// Returns whether displacements have no limit either: those of the node under a load, and all
+    /// that are measured from a node that is held.
+    pub fn moves(self) -> bool {
+        matches!(self, Cause::Load | Cause::Support)
     }
 }
 
@@ -79,8 +101,15 @@ pub fn singular(solution: &Solution) -> Vec<Singular> {
     for (node, cause) in outline.corners(model) {
         found.entry(node).or_insert((cause, vec![node]));
     }
-    for node in outline.supports(solution) {
+    let around = Around::new(model);
+    for node in around.supports(solution) {
         found.entry(node).or_insert((Cause::Support, vec![node]));
+    }
+    for node in around.loaded(model) {
+        found.entry(node).or_insert((Cause::Load, vec![node]));
+    }
+    for node in outline.material_corners(model) {
+        found.entry(node).or_insert((Cause::Interface, vec![node]));
     }
     for (node, cause) in outline.contact_ends(solution) {
         let masters = solution.last().constraints.iter().find(|c| c.node == node);
@@ -90,7 +119,6 @@ pub fn singular(solution: &Solution) -> Vec<Singular> {
         let nodes = [node].into_iter().chain(opposite.map(|master| master.0));
         found.entry(node).or_insert((cause, nodes.collect()));
     }
-    let around = Around::new(model);
     let point = |(node, (cause, nodes)): (NodeId, (Cause, Vec<NodeId>))| Singular {
         node,
         cause,
@@ -119,6 +147,48 @@ impl Around {
             .flat_map(|id| model.triangle(*id).nodes)
             .flat_map(|n| self.0[n.index()].clone())
             .collect()
+    }
+
+    /// Returns the nodes that share a triangle with a node, itself among them.
+    fn beside(&self, model: &Model, node: NodeId) -> impl Iterator<Item = NodeId> {
+        self.0[node.index()].iter().flat_map(|id| model.triangle(*id).nodes)
+    }
+
+    /// Returns the nodes that are held by a force where no node beside them is.
+    fn supports(&self, solution: &Solution) -> Vec<NodeId> {
+        let model = &*solution.model;
+        let reaction = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
+        let idle = IDLE * reaction.amax().max(model.load.amax());
+        let alone = |node: &NodeId| {
+            node.dofs().into_iter().enumerate().any(|(d, dof)| {
+                let holds = |other: NodeId| other != *node && model.restraints_of(other)[d];
+                model.is_restrained(dof)
+                    && !self.beside(model, *node).any(holds)
+                    && reaction[dof.index()].abs() > idle
+            })
+        };
+        model.node_ids().filter(alone).collect()
+    }
+
+    /// Returns the nodes that a force moves where none moves a node beside them: forces on all nodes
+    /// of an edge are a traction.
+    fn loaded(&self, model: &Model) -> Vec<NodeId> {
+        let mut forces: BTreeMap<NodeId, [f64; 2]> = BTreeMap::new();
+        for force in &model.forces {
+            if let Force::Node(node, [fx, fy]) = force {
+                let sum = forces.entry(*node).or_default();
+                *sum = [sum[0] + fx, sum[1] + fy];
+            }
+        }
+        forces.retain(|node, force| {
+            let held = model.restraints_of(*node);
+            (0..2).any(|d| force[d] != 0.0 && !held[d])
+        });
+        let is_loaded = |node: NodeId| forces.contains_key(&node);
+        let alone = |node: &NodeId| {
+            !self.beside(model, *node).any(|other| other != *node && is_loaded(other))
+        };
+        forces.keys().copied().filter(alone).collect()
     }
 }
 
@@ -191,25 +261,34 @@ impl Outline {
         self.0.iter().filter_map(corner).collect()
     }
 
-    /// Returns the nodes that are held by a force where no side of theirs is.
-    fn supports(&self, solution: &Solution) -> Vec<NodeId> {
-        let model = &*solution.model;
-        let reaction = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
-        let idle = IDLE * reaction.amax().max(model.load.amax());
-        let side_holds = |node: NodeId, d: usize| {
-            let sides = self.0.get(&node).into_iter().flatten();
-            sides
-                .flat_map(|side| side.nodes)
-                .any(|other| other != node && model.restraints_of(other)[d])
+    /// Returns the nodes at which an interface of two materials ends, turns or branches.
+    fn material_corners(&self, model: &Model) -> Vec<NodeId> {
+        let mut across: BTreeMap<NodeId, Vec<NodeId>> = BTreeMap::new();
+        for triangle in &model.triangles {
+            for k in 0..3 {
+                let [a, b] = [k, (k + 1) % 3].map(|k| triangle.nodes[k]);
+                let [one, other] = model.sides.beside([a, b]) else { continue };
+                let materials = [one, other].map(|beside| model.triangle(beside.triangle).material);
+                // Both triangles have the edge: it is taken from the one that runs along it so.
+                if a < b && materials[0] != materials[1] {
+                    across.entry(a).or_default().push(b);
+                    across.entry(b).or_default().push(a);
+                }
+            }
+        }
+        let turns = |node: NodeId, ends: &[NodeId]| {
+            let [x, y] = model.at(node);
+            let [[ax, ay], [bx, by]] = [ends[0], ends[1]].map(|end| {
+                let [ex, ey] = model.at(end);
+                [ex - x, ey - y]
+            });
+            PI - (ax * by - ay * bx).abs().atan2(ax * bx + ay * by) > CHORD
         };
-        let alone = |node: &NodeId| {
-            node.dofs().into_iter().enumerate().any(|(d, dof)| {
-                model.is_restrained(dof)
-                    && !side_holds(*node, d)
-                    && reaction[dof.index()].abs() > idle
-            })
+        let corner = |(node, ends): (NodeId, Vec<NodeId>)| {
+            let smooth = ends.len() == 2 && !self.0.contains_key(&node) && !turns(node, &ends);
+            (!smooth).then_some(node)
         };
-        model.node_ids().filter(alone).collect()
+        across.into_iter().filter_map(corner).collect()
     }
 
     /// Returns the nodes of the contact surface at which contact ends and does not fade away.

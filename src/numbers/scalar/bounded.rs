@@ -7,6 +7,7 @@
 //! Source: J. H. Wilkinson's running error analysis, as in N. J. Higham, *Accuracy and Stability of
 //! Numerical Algorithms*, 2nd ed., section 3.3.
 
+use std::cell::RefCell;
 use std::fmt;
 
 use dashu_ratio::RBig;
@@ -22,6 +23,26 @@ use super::operators::operators;
 pub struct WithBound<V> {
     value: V,
     error: f64,
+}
+
+/// A comparison of two numbers that rounding may have decided: the size of their difference and the
+/// bound on its error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unsure {
+    pub margin: f64,
+    pub bound: f64,
+}
+
+thread_local! {
+    static UNSURE: RefCell<Option<Vec<Unsure>>> = const { RefCell::new(None) };
+}
+
+/// Does `work`; returns its result and, of numbers with a bound, every comparison that rounding may
+/// have decided in it.
+pub fn compared<R>(work: impl FnOnce() -> R) -> (R, Vec<Unsure>) {
+    let before = UNSURE.replace(Some(Vec::new()));
+    let result = work();
+    (result, UNSURE.replace(before).unwrap_or_default())
 }
 
 /// An `f64` with a bound on its error.
@@ -144,6 +165,19 @@ impl<V: Rounded> WithBound<V> {
         self.value.to_f64().abs()
     }
 
+    /// Notes the comparison with `y` where it is watched ([`compared`]) and not sure.
+    fn note(self, y: Self) {
+        UNSURE.with_borrow_mut(|unsure| {
+            let Some(unsure) = unsure else { return };
+            let difference = Self::difference(self, y);
+            let (margin, bound) = (difference.size(), difference.error);
+            // Where both are exact, so is the comparison, also of equal ones.
+            if bound > 0.0 && margin <= bound {
+                unsure.push(Unsure { margin, bound });
+            }
+        });
+    }
+
     fn sum(x: Self, y: Self) -> Self {
         let value = x.value + y.value;
         Self::new(value, x.error + y.error + V::of_sum(x.value, y.value, value))
@@ -189,12 +223,14 @@ operators!(<V: Rounded> WithBound<V>);
 
 impl<V: Rounded> PartialEq for WithBound<V> {
     fn eq(&self, y: &Self) -> bool {
+        self.note(*y);
         self.value == y.value
     }
 }
 
 impl<V: Rounded> PartialOrd for WithBound<V> {
     fn partial_cmp(&self, y: &Self) -> Option<std::cmp::Ordering> {
+        self.note(*y);
         self.value.partial_cmp(&y.value)
     }
 }
@@ -227,6 +263,19 @@ impl<V: Rounded> Scalar for WithBound<V> {
     }
     fn error_bound(self) -> Option<f64> {
         Some(self.error)
+    }
+    // |x|, the smaller and the larger of two numbers pass through a tie without a jump: these are no
+    // decisions.
+    fn abs(self) -> Self {
+        if self.value > V::ZERO { self } else { Self::ZERO - self }
+    }
+    fn min(self, other: Self) -> Self {
+        let value = Scalar::min(self.value, other.value);
+        WithBound { value, error: self.error.max(other.error) }
+    }
+    fn max(self, other: Self) -> Self {
+        let value = Scalar::max(self.value, other.value);
+        WithBound { value, error: self.error.max(other.error) }
     }
     /// The root passes on the errors of x and y at most, and adds some roundings of its own.
     fn length(x: Self, y: Self) -> Self {

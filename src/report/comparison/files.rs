@@ -77,6 +77,7 @@ fn json(compared: &Compared, nodes: &[Value], elements: &[Value]) -> String {
         "scene": scene.name,
         "title": scene.title,
         "variant": compared.variant,
+        "certainty": compared.certainty,
         "calculix": compared.version,
         "plane": model.plane,
         "contact": contact_value(compared.contact),

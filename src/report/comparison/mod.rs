@@ -6,6 +6,8 @@ use std::fmt::Display;
 
 use super::layout::{Table, aligned};
 use super::numbers::{or_dash, percent, place, quantity, short, with_unit};
+use super::tables::certainty;
+use crate::answer::estimates::Certainty;
 use crate::problem::element::Plane;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Variant;
@@ -22,6 +24,8 @@ pub struct Compared<'a> {
     pub scene: &'a Scene,
     pub model: &'a Model,
     pub variant: Variant,
+    /// Whether rounding decides who is in contact in the run that is compared.
+    pub certainty: Certainty,
     /// How the deck has the bodies touch; the last of several decks.
     pub contact: &'a Contact,
     pub decks: usize,
@@ -55,12 +59,13 @@ fn heading(compared: &Compared) -> String {
     };
     format!(
         "scene {}, variant {variant}, beside CalculiX {version}; plane {}; \
-         {} nodes, {} triangles\n{}{plane_stress}",
+         {} nodes, {} triangles\n{}{plane_stress}{}",
         scene.name,
         model.plane,
         model.nodes.len(),
         model.triangles.len(),
-        contact(compared)
+        contact(compared),
+        certainty(compared.certainty).map_or(String::new(), |words| format!("\n{words}"))
     )
 }
 

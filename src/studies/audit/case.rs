@@ -1,8 +1,11 @@
-//! What an audit looks at: a scene, and a run of each variant under the default reading.
+//! What an audit looks at: a scene, and a run of each variant.
 
 use std::sync::OnceLock;
 
+use rayon::prelude::*;
+
 use crate::answer::error::Error;
+use crate::answer::estimates::{Certainty, certain};
 use crate::answer::{Request, Solution, equilibrium, solve};
 use crate::paper::door::Call;
 use crate::paper::mirror::{Failure, Reading};
@@ -13,17 +16,26 @@ use crate::problem::scene::Scene;
 /// A scene under audit. Runs are made when they are first asked for, once.
 pub struct Case {
     pub scene: Scene,
+    base: Request,
     runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
+    certain: [OnceLock<(Solution, Certainty)>; Variant::ALL.len()],
     reference: OnceLock<Option<Solution>>,
     equilibrium: OnceLock<Option<Solution>>,
 }
 
 impl Case {
-    /// The case of a scene, of which nothing has run yet.
+    /// The case of a scene under the default reading, of which nothing has run yet.
     pub fn new(scene: Scene) -> Self {
+        Case::of(Request::new(&scene))
+    }
+
+    /// The case of a request's scene, its variant aside.
+    pub fn of(base: Request) -> Self {
         Case {
-            scene,
+            scene: base.scene.clone(),
+            base,
             runs: Default::default(),
+            certain: Default::default(),
             reference: OnceLock::new(),
             equilibrium: OnceLock::new(),
         }
@@ -34,29 +46,46 @@ impl Case {
         &self.scene.model
     }
 
-    /// What is asked for under the default reading.
+    /// What is asked for.
     pub fn request(&self, variant: Variant) -> Request {
-        Request::new(&self.scene).variant(variant)
+        self.base.clone().variant(variant)
     }
 
-    /// The run of a variant under the default reading, or why there is none.
+    /// The run of a variant, or why there is none.
     pub fn run(&self, variant: Variant) -> Result<&Solution, &Error> {
-        let at = Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant");
-        self.runs[at].get_or_init(|| solve(&self.request(variant), &mut |_| ())).as_ref()
+        let run = || solve(&self.request(variant), &mut |_| ());
+        self.runs[place(variant)].get_or_init(run).as_ref()
+    }
+
+    /// The run of a variant, in double-doubles where rounding decides nothing but in those
+    /// ([`certain`]); or why there is none.
+    pub fn certain(&self, variant: Variant) -> Result<&(Solution, Certainty), &Error> {
+        let run = self.run(variant)?;
+        Ok(self.certain[place(variant)].get_or_init(|| certain(run.clone())))
+    }
+
+    /// Makes the runs that claims, findings and variants ask for, each in a job of its own. A thread
+    /// that waits for a parallel computation takes up other jobs; if one of these asked for the very
+    /// run that it is making, neither would end. Where jobs share a case they find its runs made.
+    pub fn prepare(&self) {
+        let run = |variant: &Variant| match variant {
+            Variant::Printed => drop(self.run(*variant)),
+            _ => drop(self.certain(*variant)),
+        };
+        rayon::join(|| self.equilibrium(), || Variant::ALL.par_iter().for_each(run));
     }
 
     /// The reference solution; nothing without contact, and where it does not run.
     pub fn reference(&self) -> Option<&Solution> {
         self.model().target()?;
-        let request = Request::new(&self.scene).reference();
-        self.reference.get_or_init(|| solve(&request, &mut |_| ()).ok()).as_ref()
+        self.reference.get_or_init(|| solve(&self.base.reference(), &mut |_| ()).ok()).as_ref()
     }
 
     /// The equilibrium under the scene's own friction, which variants are measured against; nothing
     /// without contact, and where it does not run.
     pub fn equilibrium(&self) -> Option<&Solution> {
         self.model().target()?;
-        self.equilibrium.get_or_init(|| equilibrium(&Request::new(&self.scene)).ok()).as_ref()
+        self.equilibrium.get_or_init(|| equilibrium(&self.base).ok()).as_ref()
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.
@@ -69,4 +98,9 @@ impl Case {
     pub fn initial(&self) -> Result<Call, Failure> {
         Call::c_cnt(self.model(), &Reading::default(), &self.model().nodes)
     }
+}
+
+/// Returns where the run of a variant stands.
+fn place(variant: Variant) -> usize {
+    Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant")
 }

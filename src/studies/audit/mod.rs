@@ -4,6 +4,7 @@ mod assumptions;
 mod case;
 pub mod claims;
 pub mod findings;
+pub mod range;
 pub mod readings;
 pub mod statuses;
 pub mod trace;
@@ -18,8 +19,9 @@ pub use case::Case;
 use crate::answer::contact::ContactNode;
 use crate::answer::{BodySummary, Request, Solution, solve, summaries};
 use crate::problem::modelling::{ContactModel, Friction};
-use claims::Judged;
+use claims::{CLAIMS, Judged};
 use findings::{FINDINGS, Finding, Measured};
+use range::Range;
 use readings::Effect;
 use variants::VariantRow;
 
@@ -67,13 +69,14 @@ pub struct Compared {
 }
 
 /// Audits a scene: claims, readings, findings and variants, each against the default; claims also
-/// on the paper's example with `ducts` of other radii, mm.
-pub fn audit(case: &Case, ducts: &[f64]) -> Audit {
+/// at the `places` of the range of what the paper leaves open.
+pub fn audit(case: &Case, places: &Range) -> Audit {
+    case.prepare();
     let variants = variants::side_by_side(case);
     let readings = readings::effects(case);
     let findings = FINDINGS.par_iter().map(|finding| (finding, finding.measure(case))).collect();
     Audit {
-        claims: claims::judge(case, ducts),
+        claims: claims::judge(CLAIMS, case, places),
         assumptions: assumptions(&case.scene),
         readings,
         findings,

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use crate::answer::estimates::{Certainty, certain};
+use crate::answer::estimates::Certainty;
 use crate::answer::{BodySummary, Cycle, Distance, Solution, distance, summaries};
 use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
@@ -49,11 +49,10 @@ pub enum End {
 
 /// Every variant on a scene, in the order of `Variant::ALL`.
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
-    let row = |variant: &Variant| match case.run(*variant) {
-        Ok(solution) => {
-            let (solution, certainty) = certain(solution.clone());
-            let end = end(case, &solution);
-            VariantRow { variant: *variant, certainty: Some(certainty), end }
+    let row = |variant: &Variant| match case.certain(*variant) {
+        Ok((solution, certainty)) => {
+            let end = end(case, solution);
+            VariantRow { variant: *variant, certainty: Some(*certainty), end }
         }
         Err(why) => {
             let end = End::Failure { failure: why.to_string() };

@@ -18,7 +18,7 @@ use super::line::{cos_sin, graded, quarter};
 use super::mirrored::Mirrored;
 use super::parameters::parameters;
 use super::{check, scene};
-use crate::error::Result;
+use crate::error::{InputError, Result};
 use crate::problem::element::Plane;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
@@ -43,7 +43,8 @@ parameters! {
 Examples:
   plane-contact mesh strand                              some 1,100 nodes
   plane-contact mesh strand --duct 7.61 --size 0.25      nearly conforming
-  plane-contact mesh strand --duct 20 --strand 7.6       a wide duct")]
+  plane-contact mesh strand --duct 20 --strand 7.6       a wide duct
+  plane-contact mesh strand --top 0.5                    a stamp a quarter of the disc high")]
     Strand {
         /// Radius of the duct, mm.
         duct: f64 = 7.7,
@@ -52,6 +53,9 @@ Examples:
         /// Length of the edges on the lower half of the duct's wall, mm; those on the stamp's arc
         /// are shorter by strand / duct, those far away up to 9 times longer.
         size: f64 = 0.45,
+        /// Height of the stamp's flat top above its lowest point over the strand's radius, 1 being
+        /// half a disc; lower ones end at the nearest node of the arc.
+        top: f64 = 1.0,
     }
 }
 
@@ -68,6 +72,9 @@ const FINEST: f64 = 0.05;
 const COARSEST: f64 = 0.16;
 const ACROSS: f64 = 0.4;
 
+/// The lowest and the highest top over the strand's radius: five edges on half of the lowest arc.
+const TOP: [f64; 2] = [0.3, 1.7];
+
 /// Edge lengths over `size`: at the duct's highest point, and the longest anywhere.
 const ROOF: f64 = 10.0 / 3.0;
 const FAR: f64 = 9.0;
@@ -78,12 +85,15 @@ impl Strand {
     /// Generates the scene.
     /// Errors: the duct's radius is outside 1 to 22 mm; the strand's is outside a third of it to the
     /// whole; the size is outside 0.05 mm to 0.16 of the strand's radius, or beyond 0.4 of the width
-    /// of the block beside the duct.
+    /// of the block beside the duct; the top is outside 0.3 to 1.7, or above 1 where the chords of the
+    /// wall would cut into the disc.
     pub fn generate(&self) -> Result<SceneBuilder> {
         check::between("--duct", self.duct, DUCT)?;
         check::between("--strand", self.strand, [self.duct / WIDEST, self.duct])?;
         let coarsest = (COARSEST * self.strand).min(ACROSS * (SIDE - self.duct));
         check::between("--size", self.size, [FINEST, coarsest])?;
+        check::between("--top", self.top, TOP)?;
+        self.check_above_the_centre()?;
         let mut mesh = MeshBuilder::default();
         self.add_block(&mut mesh);
         self.add_stamp(&mut mesh);
@@ -102,6 +112,21 @@ impl Strand {
             .pressure("stamp_top", 6.3)
             .contact(Contact::new("stamp_arc", "duct_wall", 0.001))
             .variant(Variant::Stepped))
+    }
+
+    /// Checks that the chords of the upper wall leave the disc room where it rises above its centre:
+    /// there the two are as far apart as their radii at least.
+    fn check_above_the_centre(&self) -> Result<()> {
+        let Strand { duct, strand, size, top } = *self;
+        let height = ((strand * top - duct) / duct).max(0.0);
+        let chord = size * (1.0 + (ROOF - 1.0) * height);
+        let sagitta = chord * chord / (8.0 * duct);
+        if top <= 1.0 || sagitta <= duct - strand {
+            return Ok(());
+        }
+        let what = format!("chords of the wall cut {sagitta:.2e} mm into the duct beside the disc");
+        let fix = "give 1 at most, a shorter --size or a wider --duct";
+        Err(InputError::new("--top", what, fix))
     }
 
     /// Edges on a quarter of the lower wall, and on a quarter of the stamp's arc.
@@ -146,19 +171,28 @@ impl Strand {
         (at_wall + GROWTH * (distance - self.duct).max(0.0)).min(FAR * self.size)
     }
 
-    /// Adds the stamp, its arc and its top counter-clockwise, its axis upwards.
+    /// Adds the stamp, its arc, what the disc has above its centre, and its top counter-clockwise, its
+    /// axis upwards. The contact surface is the arc below the centre.
     fn add_stamp(&self, mesh: &mut MeshBuilder) {
         let (r, n, lowest) = (self.strand, self.edges(), -self.duct);
-        let flat = lowest + r;
         let size = |p| self.size_in_stamp(p);
-        let arc = |[cos, sin]: [f64; 2]| [r * sin, lowest + r * (1.0 - cos)];
-        let curves = [
-            (0..=n).map(|k| arc(quarter(k, n))).collect(),
-            graded(straight([r, flat], [0.0, flat]), size),
-            graded(straight([0.0, flat], [0.0, lowest]), size),
-        ];
+        let at = |[cos, sin]: [f64; 2]| [r * sin, lowest + r * (1.0 - cos)];
+        // The angle from the lowest point to the end of the top, in right angles.
+        let end = (1.0 - self.top).acos() / FRAC_PI_2;
+        let edges = ((n as f64 * end).round() as usize).min(n);
+        let side = |s: f64| {
+            let [cos, sin] = cos_sin((end - 1.0) * s);
+            at([-sin, cos])
+        };
+        let mut curves = vec![(0..=edges).map(|k| at(quarter(k, n))).collect()];
+        if self.top > 1.0 {
+            curves.push(graded(side, size));
+        }
+        let [x, flat] = *curves.iter().flatten().next_back().expect("the arc has nodes");
+        let (arc, top, axis) = (0, curves.len(), curves.len() + 1);
+        curves.push(graded(straight([x, flat], [0.0, flat]), size));
+        curves.push(graded(straight([0.0, flat], [0.0, lowest]), size));
         let stamp = Mirrored::add(mesh, "stamp", &curves, size);
-        let (arc, top, axis) = (0, 1, 2);
         mesh.edges("stamp_arc", &reversed(stamp.left(arc)));
         mesh.edges("stamp_arc", stamp.right(arc));
         mesh.edges("stamp_top", stamp.right(top));

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::errors::{Errors, meshes, prolonged};
+use super::geometry::{geometry, places};
 use super::order::{Order, departure};
 use super::rows::{Ladder, Row, Section, Trade};
 use super::trials::{Against, Trial, trials};
@@ -37,6 +38,10 @@ pub fn measure(
     let reference = model.target().and_then(|_| equilibrium(request).ok());
     let mut sections = Vec::new();
     for knob in Knob::ALL.iter().filter(|knob| options.only.contains(knob)) {
+        if *knob == Knob::Geometry {
+            sections.push(geometry(request, &places(request)?, &mut watch));
+            continue;
+        }
         let trials = trials(request, *knob);
         let runs = timed(request, &trials, options.runs, &mut watch)?;
         let reference = reference.as_ref();
@@ -50,8 +55,9 @@ pub fn measure(
         let (orders, ladder) =
             if *knob == Knob::Mesh { bench.ladder()? } else { Default::default() };
         let answers = words::answers(request, *knob, &rows, &orders, ladder.as_ref());
-        let against = against(*knob);
-        sections.push(Section { knob: *knob, against, rows, orders, ladder, answers });
+        let against = words::against(*knob);
+        let claims = Vec::new();
+        sections.push(Section { knob: *knob, against, rows, orders, ladder, claims, answers });
     }
     Ok(Trade {
         scene: request.scene.name.clone(),
@@ -62,15 +68,16 @@ pub fn measure(
     })
 }
 
-/// What errors are measured against, in words.
-fn against(knob: Knob) -> &'static str {
-    match knob {
-        Knob::Arithmetic => "the last row that ran",
-        Knob::Solver => "f64x2",
-        Knob::Mesh => "the reference solution on the finest mesh that ran",
-        Knob::Symmetry => "the whole scene under the same variant",
-        _ => "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)",
-    }
+/// How many times [`measure`] calls `watch`.
+/// Errors: those of the knob *geometry*.
+pub fn steps(request: &Request, options: &Options) -> Result<usize, Error> {
+    options.only.iter().try_fold(0, |steps, knob| {
+        Ok(steps
+            + match knob {
+                Knob::Geometry => places(request)?.len(),
+                knob => trials(request, *knob).len() * (options.runs + 1),
+            })
+    })
 }
 
 /// The runs of a trial: how long each took, and what all of them computed.
@@ -144,6 +151,7 @@ impl Bench<'_> {
         let last = solution.and_then(|solution| solution.steps.last());
         Ok(Row {
             label: trial.label.clone(),
+            place: None,
             variant: trial.variant,
             arithmetic: trial.arithmetic,
             equations: run.equations,

@@ -12,6 +12,7 @@
 
 mod accuracy;
 mod errors;
+mod geometry;
 mod measure;
 mod order;
 pub mod peak;
@@ -21,7 +22,8 @@ mod words;
 
 pub use accuracy::{Came, Reached, solve_to};
 pub use errors::Errors;
-pub use measure::{Options, PATIENCE, measure, pareto};
+pub use geometry::geometry;
+pub use measure::{Options, PATIENCE, measure, pareto, steps};
 pub use order::Order;
 pub use rows::{Ladder, Row, Section, Trade};
 pub use trials::{Trial, find, trials};
@@ -29,7 +31,8 @@ pub use trials::{Trial, find, trials};
 use crate::choices;
 
 choices! {
-    /// What is varied: number type, solver, mesh, a parameter of contact, or the half of a scene.
+    /// What is varied: number type, solver, mesh, a parameter of contact, half of a scene, or what the
+    /// paper leaves open.
     Knob {
         /// The number type in which a run computes.
         Arithmetic = "arithmetic",
@@ -47,5 +50,7 @@ choices! {
         Coupling = "coupling",
         /// Half of a symmetric scene.
         Symmetry = "symmetry",
+        /// What the paper leaves open of its example: radii, mesh, shape of the stamp, unit of c_tol.
+        Geometry = "geometry",
     }
 }

@@ -8,6 +8,8 @@ use super::order::Order;
 use crate::answer::estimates::Certainty;
 use crate::numbers::solve::Arithmetic;
 use crate::problem::modelling::Variant;
+use crate::studies::audit::claims::Judged;
+use crate::studies::audit::range::Place;
 
 /// Speed against accuracy on a scene.
 #[derive(Clone, Debug, Serialize)]
@@ -30,6 +32,9 @@ pub struct Section {
     pub orders: Vec<Order>,
     /// The meshes beside their limit, of the element size only; nothing where one of them failed.
     pub ladder: Option<Ladder>,
+    /// The verdicts that rest on runs, over the range; of geometry only.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub claims: Vec<Judged>,
     /// What the rows say, in words.
     pub answers: Vec<String>,
 }
@@ -50,6 +55,9 @@ pub struct Row {
     /// Where the knob stood, in words.
     #[serde(rename = "setting")]
     pub label: String,
+    /// The same in numbers; of geometry only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub place: Option<Place>,
     pub variant: Variant,
     /// In which numbers and by which solver; not in the files, where the label names it.
     #[serde(skip)]

@@ -19,7 +19,7 @@ const TOLERANCES: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 /// The numbers of iterations that are tried, beside the scene's own.
 const ITERATIONS: [usize; 9] = [1, 2, 5, 10, 20, 40, 80, 160, 320];
 /// The variants that carry load across; the last one is not the paper's.
-const CARRYING: [Variant; 3] = [Variant::Tied, Variant::Stepped, Variant::Unilateral];
+pub(super) const CARRYING: [Variant; 3] = [Variant::Tied, Variant::Stepped, Variant::Unilateral];
 
 /// How a trial's request differs from the one whose knobs are turned, beside variant and
 /// arithmetic.
@@ -114,7 +114,8 @@ pub fn find(request: &Request, name: &str) -> Option<Trial> {
     all.into_iter().find(|trial| trial.name() == name)
 }
 
-/// Everything to measure of a knob of `request`; nothing where its scene does not have the knob.
+/// Everything to measure of a knob of `request`, geometry aside, which has scenes of its own; nothing
+/// where its scene does not have the knob.
 pub fn trials(request: &Request, knob: Knob) -> Vec<Trial> {
     let contact = request.scene.model.target().is_some();
     match knob {
@@ -122,6 +123,7 @@ pub fn trials(request: &Request, knob: Knob) -> Vec<Trial> {
         Knob::Solver => solvers(request),
         Knob::Mesh => meshes(&request.scene),
         Knob::Symmetry => halves(request, contact),
+        Knob::Geometry => Vec::new(),
         _ if !contact => Vec::new(),
         Knob::Tolerance => {
             let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);

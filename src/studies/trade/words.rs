@@ -14,6 +14,17 @@ use crate::problem::scene::{Scene, symmetry};
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
 
+/// What errors are measured against, in words.
+pub fn against(knob: Knob) -> &'static str {
+    match knob {
+        Knob::Arithmetic => "the last row that ran",
+        Knob::Solver => "f64x2",
+        Knob::Mesh => "the reference solution on the finest mesh that ran",
+        Knob::Symmetry => "the whole scene under the same variant",
+        _ => "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)",
+    }
+}
+
 /// What the rows of a knob say, a sentence for each question.
 pub fn answers(
     request: &Request,
@@ -35,6 +46,7 @@ pub fn answers(
         Knob::Iterations => by_variant(scene, rows, iterations),
         Knob::Status | Knob::Coupling => by_variant(scene, rows, nearest),
         Knob::Symmetry => halves(scene, rows),
+        Knob::Geometry => unreachable!("its section has words of its own"),
     }
 }
 
@@ -52,7 +64,7 @@ fn by_variant(
 }
 
 /// Says at which settings rounding decides who is in contact, and in which numbers it does not.
-fn by_rounding(rows: &[&Row]) -> String {
+pub fn by_rounding(rows: &[&Row]) -> String {
     let at = |certainty: Certainty| {
         let rows = rows.iter().filter(|row| row.certainty == Some(certainty));
         rows.map(|row| row.label.as_str()).collect::<Vec<_>>().join(", ")

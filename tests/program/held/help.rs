@@ -48,6 +48,7 @@ pub const PASSAGES: Passages = Passages {
         ("sigma_y = 92.7 MPa at (2, 0)", "as above"),
         ("a strand 15K7 is 15.2 mm thick", "the name of a strand and its thickness"),
         ("symmetric about x = 0", "a line"),
+        ("strand's radius, 1 being half a disc", "the meaning of a value, its definition"),
         ("(48, 52) is a node where it is even", "a place"),
     ],
 };

@@ -155,10 +155,11 @@ fn contact(solution: &Solution) -> String {
     }
 }
 
-/// The table of claims, as the program writes it: line by line, so that a number that changed is
+/// The tables of claims, as the program writes it: line by line, so that a number that changed is
 /// seen.
 fn claims() -> Vec<String> {
-    report::claims::markdown(&JUDGED).lines().skip(2).map(String::from).collect()
+    let tables = [report::claims::markdown(&JUDGED), report::claims::range_markdown(&JUDGED)];
+    tables.iter().flat_map(|table| table.lines().skip(2)).map(String::from).collect()
 }
 
 /// The table beside CalculiX; where `ccx` is not installed its rows are taken as they stand.

@@ -2,12 +2,11 @@
 
 use super::{Measured, Outcome, Verdict};
 use crate::answer::estimates::{Certainty, certain};
-use crate::answer::{Request, distance, solve};
+use crate::answer::{distance, solve};
 use crate::problem::modelling::Variant;
 use crate::studies::audit::Case;
 use crate::studies::audit::findings::{self, FINDINGS};
 use crate::studies::audit::statuses::{self, Score};
-use crate::studies::trade::{Knob, Trial, trials};
 
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
@@ -91,34 +90,42 @@ pub(super) fn fewer_operations(_: &Case) -> Outcome<'_> {
 }
 
 /// What a tolerance of a thousandth changes of the largest displacement, under the scene's variant
-/// of the paper, as `trade` runs it.
+/// of the paper.
 pub(super) fn tolerance(case: &Case) -> Outcome<'_> {
-    let (request, variant) = (Request::new(&case.scene), case.published_variant());
-    let of_variant = |trial: &Trial| trial.variant == variant;
-    let trials: Vec<Trial> =
-        trials(&request, Knob::Tolerance).into_iter().filter(of_variant).collect();
-    let own = trials.iter().find(|trial| trial.own).ok_or("the scene has no contact")?;
-    let run = |trial: &Trial| solve(&trial.request(&request)?, &mut |_| ()).map(certain);
-    let [(least, of_least), (own_run, of_own)] = [run(&trials[0])?, run(own)?];
-    let change = distance(&least, &own_run).displacement_relative;
-    let numbers = match [of_least, of_own] {
-        [Certainty::Certain, Certainty::Certain] => "",
-        both if both.contains(&Certainty::Unknown) => "; rounding may decide who is in contact",
-        _ => ", in double-doubles where rounding decides in f64",
-    };
-    let detail = format!("{variant}, from {} to {}{numbers}", own.label, trials[0].label);
+    case.model().target().ok_or("the scene has no contact")?;
+    let variant = case.published_variant();
+    let (own, of_own) = case.certain(variant)?;
+    let tolerance = own.request.scene.model.contact.tolerance;
+    let mut request = case.request(variant);
+    request.tolerance = Some(tolerance / 1000.0);
+    let (least, of_least) = certain(solve(&request, &mut |_| ())?);
+    let change = distance(&least, own).displacement_relative;
+    let numbers = numbers(&[*of_own, of_least]);
+    let detail = format!("{variant}, from {tolerance:e} to {:e}{numbers}", tolerance / 1000.0);
     measured(holds_if(change < NOTICEABLE), change, detail)
+}
+
+/// Says in which numbers runs were made where rounding counts.
+fn numbers(runs: &[Certainty]) -> &'static str {
+    if runs.contains(&Certainty::Unknown) {
+        "; rounding may decide who is in contact"
+    } else if runs.contains(&Certainty::InDoubleDouble) {
+        ", in double-doubles where rounding decides in f64"
+    } else {
+        ""
+    }
 }
 
 /// After how many iterations the contact state returns at the end of `tied`; 1 = settled.
 pub(super) fn settles(case: &Case) -> Outcome<'_> {
-    let last = case.run(Variant::Tied)?.last();
-    let length = last.cycle.as_ref().map_or(0, |cycle| cycle.length);
-    let detail = match length {
+    let (tied, certainty) = case.certain(Variant::Tied)?;
+    let length = tied.last().cycle.as_ref().map_or(0, |cycle| cycle.length);
+    let state = match length {
         0 => "the contact state is new in the last iteration",
         1 => "the contact state has settled",
         _ => "the contact state repeats in a cycle",
     };
+    let detail = format!("{state}{}", numbers(&[*certainty]));
     measured(holds_if(length == 1), length as f64, detail)
 }
 
@@ -126,14 +133,19 @@ pub(super) fn settles(case: &Case) -> Outcome<'_> {
 /// stick on the same mesh.
 pub(super) fn error_of_the_reading(case: &Case) -> Outcome<'_> {
     let equilibrium = case.equilibrium().ok_or("there is no equilibrium to compare with")?;
-    let (mut least, mut nearest) = (f64::INFINITY, "none");
-    for variant in Variant::OF_THE_PAPER {
-        if let Ok(solution) = case.run(*variant) {
-            let error = distance(solution, equilibrium).energy_relative;
-            if error < least {
-                (least, nearest) = (error, variant.name());
-            }
+    let (mut least, mut nearest) = (f64::INFINITY, "none is the nearest reading".into());
+    // `printed` passes no load on, whoever is in contact: rounding makes it no nearer.
+    let printed = case.run(Variant::Printed).map(|solution| (solution, Certainty::Certain));
+    let certain =
+        |variant| case.certain(variant).map(|(solution, certainty)| (solution, *certainty));
+    for (solution, certainty) in
+        [certain(Variant::Stepped), certain(Variant::Tied), printed].into_iter().flatten()
+    {
+        let error = distance(solution, equilibrium).energy_relative;
+        if error < least {
+            let (variant, numbers) = (solution.request.variant, numbers(&[certainty]));
+            (least, nearest) = (error, format!("{variant} is the nearest reading{numbers}"));
         }
     }
-    measured(holds_if(least < NOTICEABLE), least, format!("{nearest} is the nearest reading"))
+    measured(holds_if(least < NOTICEABLE), least, nearest)
 }

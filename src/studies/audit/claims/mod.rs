@@ -2,11 +2,13 @@
 //!
 //! A claim is data (the paper's words, what they claim, what the verdict rests on, the command that
 //! reproduces its number) and a measure that runs on any scene. Where the verdict rests on the
-//! listings it is true of any scene. Where it rests on a scene it is measured on ducts of other
-//! radii too, for the paper gives none.
+//! listings it is true of any scene. Where it rests on a scene it is measured over the range of what
+//! the paper leaves open too.
 
 mod measures;
 mod register;
+
+use std::sync::Arc;
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -14,9 +16,8 @@ use serde::Serialize;
 pub use register::CLAIMS;
 
 use super::Case;
+use super::range::{Place, Range};
 use crate::choices;
-use crate::problem::scene::Scene;
-use crate::studies::benchmark::Strand;
 
 /// Something that the paper says.
 #[derive(Clone, Debug, Serialize)]
@@ -71,9 +72,9 @@ choices! {
     Scope {
         /// It does not depend on the scene.
         AnyScene = "any scene",
-        /// It is the same on every duct of the range.
+        /// It is the same at every place of the range.
         Range = "over the assumed range",
-        /// It is another one on another duct, or no other was asked for.
+        /// It is another one elsewhere in the range, or that was not asked for.
         OneScene = "this scene only",
         /// It was measured on scenes drawn at random.
         Drawn = "random scenes",
@@ -93,7 +94,7 @@ pub struct Measured {
     pub detail: String,
 }
 
-/// A claim with its verdict on a scene and on the other ducts of the range.
+/// A claim with its verdict on a scene and over the range.
 #[derive(Clone, Debug, Serialize)]
 pub struct Judged {
     #[serde(flatten)]
@@ -101,34 +102,23 @@ pub struct Judged {
     #[serde(flatten)]
     pub measured: Measured,
     pub scope: Scope,
-    /// The verdicts on ducts of other radii; empty where the scene has no part in the verdict.
+    /// The verdicts over the range; empty where the scene has no part in the verdict.
     pub elsewhere: Vec<Elsewhere>,
 }
 
-/// A verdict on the paper's example with a duct of another radius.
+/// A verdict at a place of the range.
 #[derive(Clone, Debug, Serialize)]
 pub struct Elsewhere {
-    /// The radius of the duct, mm; that of the strand is 7.6 mm.
-    pub duct: f64,
+    #[serde(flatten)]
+    pub place: Place,
     #[serde(flatten)]
     pub measured: Measured,
 }
 
-/// The radii of the ducts of the range, mm, from nearly conforming to wide.
-pub const DUCTS: [f64; 5] = [7.62, 7.65, 7.9, 8.0, 8.5];
-
-/// Judges every claim on a scene, and on the paper's example with each of the ducts of these radii,
-/// mm.
-pub fn judge(case: &Case, ducts: &[f64]) -> Vec<Judged> {
-    let ducts: Vec<(f64, Case)> =
-        ducts.iter().map(|duct| (*duct, Case::new(other(*duct)))).collect();
-    CLAIMS.par_iter().map(|claim| claim.judge(case, &ducts)).collect()
-}
-
-/// The paper's example with a duct of another radius, mm.
-fn other(duct: f64) -> Scene {
-    let strand = Strand { duct, ..Strand::default() };
-    strand.generate().and_then(|scene| scene.build()).expect("the radii are in range")
+/// Judges claims on a scene and at places of the range.
+pub fn judge(claims: &[Claim], case: &Case, places: &Range) -> Vec<Judged> {
+    std::iter::once(case).chain(places.iter().map(|(_, case)| &**case)).for_each(Case::prepare);
+    claims.par_iter().map(|claim| claim.judge(case, places)).collect()
 }
 
 impl Claim {
@@ -140,12 +130,14 @@ impl Claim {
         })
     }
 
-    fn judge(&self, case: &Case, ducts: &[(f64, Case)]) -> Judged {
+    fn judge(&self, case: &Case, places: &Range) -> Judged {
         let measured = self.measure(case);
-        let ducts = if self.basis == Basis::Runs { ducts } else { &[] };
-        let elsewhere =
-            |(duct, case): &(f64, Case)| Elsewhere { duct: *duct, measured: self.measure(case) };
-        let elsewhere: Vec<Elsewhere> = ducts.par_iter().map(elsewhere).collect();
+        let places = if self.basis == Basis::Runs { &places[..] } else { &[] };
+        let elsewhere = |(place, case): &(Place, Arc<Case>)| Elsewhere {
+            place: *place,
+            measured: self.measure(case),
+        };
+        let elsewhere: Vec<Elsewhere> = places.par_iter().map(elsewhere).collect();
         let same = elsewhere.iter().all(|other| other.measured.verdict == measured.verdict);
         let scope = match self.basis {
             Basis::Listing => Scope::AnyScene,

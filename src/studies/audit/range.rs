@@ -1,0 +1,118 @@
+//! The range of what the paper leaves open: its example with one thing at a time set otherwise.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use super::Case;
+use crate::answer::Request;
+use crate::choices;
+use crate::error::Result;
+use crate::numbers::solve::{Arithmetic, Solver};
+use crate::paper::mirror::{Reading, ToleranceUnit};
+use crate::problem::scene::Scene;
+use crate::studies::benchmark::Strand;
+
+choices! {
+    /// What the paper leaves open of its example.
+    Parameter {
+        /// The radius of the duct less that of the strand, mm.
+        Clearance = "clearance",
+        /// The radius of the strand under the same clearance, mm.
+        Radius = "radius",
+        /// The length of the edges on the lower half of the duct's wall, mm.
+        Mesh = "mesh",
+        /// The height of the stamp's flat top over the strand's radius.
+        Top = "top",
+        /// c_tol, mm: the paper's number in millimetres or in metres.
+        Unit = "unit",
+    }
+}
+
+impl Parameter {
+    /// What its values are, with their unit.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Parameter::Clearance => "clearance, mm",
+            Parameter::Radius => "radius of the strand at the same clearance, mm",
+            Parameter::Mesh => "edges on the duct's lower wall, mm",
+            Parameter::Top => "height of the stamp's top over the strand's radius",
+            Parameter::Unit => "c_tol, mm",
+        }
+    }
+
+    /// The values that are tried, that of the paper's example as we assume it among them.
+    pub fn values(self) -> &'static [f64] {
+        match self {
+            Parameter::Clearance => &[0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.9, 2.0, 5.0, 12.0],
+            Parameter::Radius => &[3.0, 5.0, 7.6, 12.0, 20.0],
+            Parameter::Mesh => &[0.9, 0.6, 0.45, 0.3, 0.2],
+            Parameter::Top => &[0.3, 0.5, 1.0, 1.5, 1.7],
+            Parameter::Unit => &[0.001, 1.0],
+        }
+    }
+
+    /// The paper's example with the parameter at `value`, and how its c_tol is read.
+    fn at(self, value: f64) -> (Strand, ToleranceUnit) {
+        let own = Strand::default();
+        let clearance = own.duct - own.strand;
+        let (mut strand, mut unit) = (own, ToleranceUnit::Millimetre);
+        match self {
+            Parameter::Clearance => strand.duct = decimal(strand.strand + value),
+            Parameter::Radius => {
+                (strand.strand, strand.duct) = (value, decimal(value + clearance));
+            }
+            Parameter::Mesh => strand.size = value,
+            Parameter::Top => strand.top = value,
+            Parameter::Unit if value == 1.0 => unit = ToleranceUnit::Metre,
+            Parameter::Unit => (),
+        }
+        (strand, unit)
+    }
+}
+
+/// A length as it is written, mm: without what rounding adds to a sum.
+fn decimal(length: f64) -> f64 {
+    (1e6 * length).round() / 1e6
+}
+
+/// A parameter at one of its values.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Place {
+    pub parameter: Parameter,
+    pub value: f64,
+    /// Whether it is the paper's example as we assume it.
+    pub own: bool,
+}
+
+/// The places that are tried, each with its scene.
+pub type Range = Vec<(Place, Arc<Case>)>;
+
+/// The places of the range, each with its scene under `reading` but for R8; the runs of the one
+/// that is in the range of every parameter are made once.
+/// Errors: a value is outside what the generator allows.
+pub fn range(reading: Reading) -> Result<Range> {
+    // `printed` by dense LU, its own solver, would take most of the time.
+    let arithmetic = Arithmetic { solver: Some(Solver::SparseCholesky), ..Arithmetic::default() };
+    let case = |(strand, r8): &(Strand, ToleranceUnit)| {
+        let scene = strand.generate().and_then(|scene| scene.build())?;
+        let request = Request::new(&scene).arithmetic(arithmetic);
+        Ok(Arc::new(Case::of(request.reading(Reading { r8: *r8, ..reading }))))
+    };
+    let own = (Strand::default(), ToleranceUnit::default());
+    let own_case = case(&own)?;
+    let places = Parameter::ALL.iter().flat_map(|p| p.values().iter().map(|value| (*p, *value)));
+    let placed = places.map(|(parameter, value)| {
+        let at = parameter.at(value);
+        let is_own = at == own;
+        let case = if is_own { own_case.clone() } else { case(&at)? };
+        Ok((Place { parameter, value, own: is_own }, case))
+    });
+    placed.collect()
+}
+
+/// Whether a scene is the paper's example, whose parameters are known: the embedded `strand`.
+pub fn is_example(scene: &Scene) -> bool {
+    let example = Scene::open("strand").expect("it is embedded");
+    scene.name == example.name && scene.model.nodes == example.model.nodes
+}

@@ -1,0 +1,89 @@
+//! The knob *geometry*: what the paper leaves open of its example, one thing at a time.
+
+use std::sync::Arc;
+
+use super::Knob;
+use super::errors::Errors;
+use super::rows::{Row, Section};
+use super::trials::CARRYING;
+use super::words::{against, by_rounding};
+use crate::answer::Request;
+use crate::error::Result;
+use crate::problem::modelling::Variant;
+use crate::studies::audit::Case;
+use crate::studies::audit::claims::{Basis, CLAIMS, Claim, judge};
+use crate::studies::audit::range::{Place, Range, is_example, range};
+
+/// Returns the places that are measured on the scene of `request`: none where it is not the paper's
+/// example.
+/// Errors: those of [`range`].
+pub fn places(request: &Request) -> Result<Range> {
+    if is_example(&request.scene) { range(request.reading) } else { Ok(Vec::new()) }
+}
+
+/// Measures every variant that carries load across, and judges every claim that rests on runs, at
+/// each of `places`; `watch` is called after each.
+pub fn geometry(request: &Request, places: &Range, watch: &mut impl FnMut(&str)) -> Section {
+    let mut rows = Vec::new();
+    let on_runs = |claim: &&Claim| claim.basis == Basis::Runs && !places.is_empty();
+    let on_runs: Vec<Claim> = CLAIMS.iter().filter(on_runs).cloned().collect();
+    for (place, case) in places {
+        case.prepare();
+        rows.extend(CARRYING.iter().map(|variant| row(*place, case, *variant)));
+        watch(&label(*place));
+    }
+    let claims = judge(&on_runs, &Case::of(request.clone()), places);
+    let answers = match rows.is_empty() {
+        true => vec![
+            "Geometry is a knob of the embedded scene strand only: of another scene nothing says \
+             from which radii, mesh and shape of the stamp it was made."
+                .into(),
+        ],
+        false => {
+            let places = "The places are those of mesh strand, one option at a time; the mesh of \
+                          the scene itself is none of them.";
+            let by_rounding = |variant: &Variant| {
+                let rows: Vec<&Row> = rows.iter().filter(|row| row.variant == *variant).collect();
+                Some(by_rounding(&rows)).filter(|words| !words.is_empty())
+            };
+            let of = |variant: &Variant| Some(format!("{variant}:{}", by_rounding(variant)?));
+            [places.into()].into_iter().chain(CARRYING.iter().filter_map(of)).collect()
+        }
+    };
+    let (knob, against) = (Knob::Geometry, against(Knob::Geometry));
+    Section { knob, against, rows, orders: Vec::new(), ladder: None, claims, answers }
+}
+
+fn label(Place { parameter, value, .. }: Place) -> String {
+    format!("{parameter} {value}")
+}
+
+fn row(place: Place, case: &Arc<Case>, variant: Variant) -> Row {
+    let run = case.certain(variant);
+    let solution = run.as_ref().ok().map(|(solution, _)| solution);
+    let last = solution.map(|solution| solution.last());
+    let truth = case.equilibrium();
+    let failure = match (run, truth) {
+        (Err(why), _) => Some(why.to_string()),
+        (Ok(_), None) => Some("there is no equilibrium to measure it against".into()),
+        _ => None,
+    };
+    Row {
+        label: label(place),
+        place: Some(place),
+        variant,
+        arithmetic: case.request(variant).arithmetic,
+        equations: case.model().dofs(),
+        in_contact: last.map(|last| last.in_contact),
+        cycle: last.and_then(|last| last.cycle.as_ref()).map(|cycle| cycle.length),
+        seconds: None,
+        runs: 1,
+        peak_bytes: None,
+        error: solution.zip(truth).map(|(own, truth)| Errors::new(own, truth)),
+        change: None,
+        certainty: run.ok().map(|(_, certainty)| *certainty),
+        own: place.own,
+        pareto: false,
+        failure,
+    }
+}
