@@ -17,7 +17,7 @@ use clap::{Parser, Subcommand};
 #[command(
     version,
     after_help = "\
-Exit status: 0 done; 2 the input is at fault; 3 the published algorithm fails as printed (an audit
+Exit status: 0 done; 1 what was compared differs; 2 the input is at fault; 3 the published algorithm fails as printed (an audit
 result); 4 no equilibrium was found, or more than one.
 
 Examples:
@@ -35,6 +35,11 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Solve(commands::solve::Args),
+    Record(commands::record::Args),
+    Verify(commands::verify::Args),
+    Explain(commands::verify::ExplainArgs),
+    Diff(commands::diff::Args),
+    Accept(commands::accept::Args),
     Audit(commands::audit::Args),
     CCnt(commands::c_cnt::Args),
     Km(commands::km::Args),
@@ -49,22 +54,28 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    let done = |()| 0;
     let result = match Cli::parse().command {
-        Command::Solve(args) => commands::solve::run(&args),
-        Command::Audit(args) => commands::audit::run(&args),
-        Command::CCnt(args) => commands::c_cnt::run(&args),
-        Command::Km(args) => commands::km::run(&args),
-        Command::Mesh(args) => commands::mesh::run(&args),
-        Command::Plan(args) => commands::plan::run(&args),
-        Command::Statuses(args) => commands::statuses::run(&args),
-        Command::Trace(args) => commands::trace::run(&args),
-        Command::Trade(args) => commands::trade::run(&args),
-        Command::Export(args) => commands::export::run(&args),
-        Command::Compare(args) => commands::compare::run(&args),
-        Command::Extremes(args) => commands::extremes::run(&args),
+        Command::Record(args) => commands::record::run(&args).map(done),
+        Command::Verify(args) => commands::verify::run(&args),
+        Command::Explain(args) => commands::verify::run_explain(&args),
+        Command::Diff(args) => commands::diff::run(&args),
+        Command::Accept(args) => commands::accept::run(&args).map(done),
+        Command::Solve(args) => commands::solve::run(&args).map(done),
+        Command::Audit(args) => commands::audit::run(&args).map(done),
+        Command::CCnt(args) => commands::c_cnt::run(&args).map(done),
+        Command::Km(args) => commands::km::run(&args).map(done),
+        Command::Mesh(args) => commands::mesh::run(&args).map(done),
+        Command::Plan(args) => commands::plan::run(&args).map(done),
+        Command::Statuses(args) => commands::statuses::run(&args).map(done),
+        Command::Trace(args) => commands::trace::run(&args).map(done),
+        Command::Trade(args) => commands::trade::run(&args).map(done),
+        Command::Export(args) => commands::export::run(&args).map(done),
+        Command::Compare(args) => commands::compare::run(&args).map(done),
+        Command::Extremes(args) => commands::extremes::run(&args).map(done),
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => ExitCode::from(status),
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::from(error.exit_status())

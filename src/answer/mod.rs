@@ -32,8 +32,8 @@ pub use hertz::Hertz;
 pub use probe::{Probe, Quantity};
 pub use request::Request;
 pub use solution::{
-    Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, Unilateral, Uniqueness,
-    max_displacement,
+    Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, StepBounds, Unilateral,
+    Uniqueness, max_displacement,
 };
 pub use solve::{equilibrium, solve};
 pub use sparse::dense_matrices;

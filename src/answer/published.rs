@@ -15,7 +15,7 @@ use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Solved};
 use super::error::Error;
 use super::request::Request;
-use super::solution::{Cycle, Detail, Published, Solution, Step, max_displacement};
+use super::solution::{Cycle, Detail, Published, Solution, Step, StepBounds, max_displacement};
 use super::sparse::{MakeSparse, dense_matrices};
 use super::support::against_load;
 use crate::error::InputError;
@@ -278,10 +278,23 @@ impl<'a, T: Precision> Run<'a, T> {
             detail: Detail::Published(Published {
                 pairs: pairs.map(T::to_f64),
                 undecided: undecided.clone(),
+                bounds: self.bounds(pairs),
                 eq1_residual: residual(&self.u),
                 eq1_residual_step: residual(&solved.u),
             }),
         }
+    }
+
+    /// Returns the bounds on the errors of `pairs` and of the displacements; None where T keeps none.
+    fn bounds(&self, pairs: &Pairs<T>) -> Option<StepBounds> {
+        T::zero().error_bound()?;
+        let largest =
+            |numbers: &[T]| numbers.iter().filter_map(|x| x.error_bound()).fold(0.0, f64::max);
+        Some(StepBounds {
+            yt: largest(pairs.yt.as_slice()),
+            weights: largest(pairs.k_cnt.as_matrix().as_slice()),
+            u: largest(self.u.as_slice()),
+        })
     }
 
     /// Returns the contact surface at the end.

@@ -57,11 +57,24 @@ pub struct Published {
     /// The decisions on who is in contact that rounding may have taken; None where the numbers keep
     /// no bound on their error, or under a status rule whose decisions are not looked at.
     pub undecided: Option<Vec<Decision>>,
+    /// Bounds on the rounding errors of the iteration; None where the numbers keep none.
+    pub bounds: Option<StepBounds>,
     /// The residual of eq. (1): the largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in
     /// contact, in total displacements, length.
     pub eq1_residual: f64,
     /// The same in the displacements solved for: the increment where the load is stepped.
     pub eq1_residual_step: f64,
+}
+
+/// Bounds on the rounding errors of an iteration, each of the largest error in an array.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepBounds {
+    /// The bound on the entries of `yt`, length.
+    pub yt: f64,
+    /// The bound on the entries of `k_cnt`.
+    pub weights: f64,
+    /// The bound on the total displacements after the iteration, length.
+    pub u: f64,
 }
 
 /// An iteration of the active set.

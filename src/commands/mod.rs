@@ -1,17 +1,21 @@
 //! One module a command.
 
+pub mod accept;
 pub mod audit;
 pub mod c_cnt;
 pub mod compare;
+pub mod diff;
 pub mod export;
 pub mod extremes;
 pub mod km;
 pub mod mesh;
 pub mod plan;
+pub mod record;
 pub mod solve;
 pub mod statuses;
 pub mod trace;
 pub mod trade;
+pub mod verify;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -19,7 +23,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use plane_contact::answer::Request;
-use plane_contact::answer::error::Result;
+use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::numbers::solve::Arithmetic;
@@ -124,6 +128,24 @@ pub fn print(text: &str) -> Result<()> {
             Err(InputError::new("standard output", what, fix).into())
         }
         _ => Ok(()),
+    }
+}
+
+/// Says where an error of the input stands.
+pub fn within(error: Error, place: &str) -> Error {
+    match error {
+        Error::Input(error) => error.within(place).into(),
+        other => other,
+    }
+}
+
+/// Says on standard error that files were written to `folder`, or why not.
+pub fn say_written(folder: &Path, written: bool) {
+    match written {
+        true => eprintln!("Written to {}", folder.display()),
+        false => {
+            eprintln!("No field is written: the two runs have no displacements of the same nodes")
+        }
     }
 }
 

@@ -25,6 +25,36 @@ pub fn line(document: &impl Serialize) -> String {
     document.to_string() + "\n"
 }
 
+/// Writes a document over several lines, so that a comparison of two shows what changed: a line for
+/// each field and for each item of a list of lists or objects. A list of scalars stands on one line.
+pub fn pretty(document: &impl Serialize) -> String {
+    let mut text = String::new();
+    indented(&serde_json::to_value(document).expect("a document has string keys"), 0, &mut text);
+    text + "\n"
+}
+
+fn indented(value: &Value, depth: usize, text: &mut String) {
+    let is_scalar = |value: &Value| !(value.is_array() || value.is_object());
+    let (items, [open, close]): (Vec<(String, &Value)>, _) = match value {
+        Value::Object(fields) if !fields.is_empty() => {
+            let named = |(name, value)| (format!("{}: ", Value::from(name)), value);
+            (fields.iter().map(|(name, value)| named((name.as_str(), value))).collect(), ["{", "}"])
+        }
+        // A row of a table has lists in it at most.
+        Value::Array(items) if !items.iter().all(is_scalar) && !is_scalar(&items[0]) => {
+            (items.iter().map(|item| (String::new(), item)).collect(), ["[", "]"])
+        }
+        _ => return text.push_str(&value.to_string()),
+    };
+    text.push_str(open);
+    for (k, (name, item)) in items.iter().enumerate() {
+        let comma = if k == 0 { "" } else { "," };
+        text.extend([comma, "\n", &"  ".repeat(depth + 1), name]);
+        indented(item, depth + 1, text);
+    }
+    text.extend(["\n", &"  ".repeat(depth), close]);
+}
+
 /// Collects the names of the fields that are null in `value`, which stands in `field`, each with its
 /// reason.
 fn explain(value: &Value, field: &str, nulls: &mut Map<String, Value>) {

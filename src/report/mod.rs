@@ -8,7 +8,7 @@
 //! |----------------------------------------------------|----------------------------------------|
 //! | `tables`, `folder`, `result_file`, `pressure`      | a run: tables, folder, `result.json`   |
 //! | `audit`, `comparison`, `extremes`, `plan`, `trace` | a study each                           |
-//! | `statuses`, `trade`                                | a study each                           |
+//! | `snapshot`, `statuses`, `trade`                    | a study each                           |
 //! | `picture`, `vtu`, `xml`                            | pictures and files for viewers         |
 //! | `json`, `matrix_market`, `output`                  | other files                            |
 //! | `layout`, `numbers`                                | columns of words, numbers as text      |
@@ -27,6 +27,7 @@ pub mod picture;
 pub mod plan;
 pub mod pressure;
 mod result_file;
+pub mod snapshot;
 pub mod statuses;
 pub mod tables;
 pub mod trace;

@@ -5,4 +5,5 @@ pub mod benchmark;
 pub mod calculix;
 pub mod extremes;
 pub mod plan;
+pub mod snapshot;
 pub mod trade;

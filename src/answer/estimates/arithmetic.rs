@@ -11,7 +11,7 @@ use nalgebra::{DVector, SVector};
 
 use super::ties::ties;
 use crate::answer::held::Held;
-use crate::answer::{Detail, Elimination, Request, Solution, Stiffness, solve};
+use crate::answer::{Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::numbers::solve::{Arithmetic, ScalarName, error_bound};
 use crate::paper::decisions::{Decision, first_difference};
@@ -30,6 +30,9 @@ pub struct Rounding {
     pub displacement: f64,
     /// The decisions on who is in contact that rounding may have taken; None where that is not known.
     pub decisions: Option<Vec<Decision>>,
+    /// The bounds of each step; None where there is none, as under `unilateral`, and from the first
+    /// decision on that rounding may have taken.
+    pub steps: Vec<Option<StepBounds>>,
 }
 
 /// Returns what rounding may do to a solution.
@@ -56,6 +59,7 @@ pub(super) fn rounding_of(
         (_, ScalarName::Exact) => Rounding {
             displacement: solution.u.amax() * f64::EPSILON / 2.0,
             decisions: Some(Vec::new()),
+            steps: solution.steps.iter().map(written).collect(),
         },
         _ => of_run(solution),
     }
@@ -67,19 +71,19 @@ fn of_equilibrium(
     stiffness: &Stiffness<Bounded>,
 ) -> Rounding {
     let Some(u) = held.and_then(|held| last_state(solution, held, stiffness)) else {
-        return Rounding { displacement: f64::INFINITY, decisions: None };
+        return Rounding::unknown(solution);
     };
     let (decisions, only_ties) = ties(solution, &u);
     // What is left of the change of shape is no rounding, but no less an error of the displacements.
     let shape_change = solution.equilibrium.as_ref().map_or(0.0, |found| found.shape_change);
     let displacement =
         if only_ties { error(solution, &u).max(shape_change) } else { f64::INFINITY };
-    Rounding { displacement, decisions: Some(decisions) }
+    Rounding { displacement, decisions: Some(decisions), steps: vec![None; solution.steps.len()] }
 }
 
 fn of_run(solution: &Solution) -> Rounding {
     let Some(again) = bounded_run(solution) else {
-        return Rounding { displacement: f64::INFINITY, decisions: None };
+        return Rounding::unknown(solution);
     };
     let undecided = again.steps.iter().map(|step| step.undecided().map(<[Decision]>::to_vec));
     let undecided: Option<Vec<Vec<Decision>>> = undecided.collect();
@@ -91,7 +95,51 @@ fn of_run(solution: &Solution) -> Rounding {
     // Digits beyond those of an f64 are rounded away in `u`.
     let written = if again.digits.is_some() { f64::EPSILON / 2.0 } else { 0.0 };
     let u = again.u.map(|u| Bounded::new(u, bound + written * u.abs()));
-    Rounding { displacement: error(solution, &u), decisions }
+    let first = decisions.iter().flatten().map(|decision| decision.iteration).min();
+    let is_sure = |k: usize| decisions.is_some() && first.is_none_or(|first| k < first);
+    let pairs = solution.steps.iter().zip(&again.steps);
+    let steps = pairs.map(|(own, other)| step_bounds(own, other).filter(|_| is_sure(own.k)));
+    let steps = steps.collect();
+    Rounding { displacement: error(solution, &u), decisions, steps }
+}
+
+/// Returns the bounds of a step whose numbers only their writing as `f64` rounds.
+fn written(step: &Step) -> Option<StepBounds> {
+    let Detail::Published(own) = &step.detail else { return None };
+    let half = |largest: f64| largest * f64::EPSILON / 2.0;
+    let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    Some(StepBounds {
+        yt: half(largest(own.pairs.yt.as_slice())),
+        weights: half(own.pairs.k_cnt.as_matrix().amax()),
+        u: half(step.max_displacement),
+    })
+}
+
+/// Returns the bounds of a step from the same step in numbers that keep them: theirs, and how far
+/// those numbers are from its own.
+fn step_bounds(own: &Step, other: &Step) -> Option<StepBounds> {
+    let (Detail::Published(a), Detail::Published(b)) = (&own.detail, &other.detail) else {
+        return None;
+    };
+    let far = |a: &[f64], b: &[f64]| {
+        a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs() + f64::EPSILON * b.abs()))
+    };
+    let bounds = b.bounds?;
+    let steps = [own, other].map(|step| step.max_displacement);
+    Some(StepBounds {
+        yt: bounds.yt + far(a.pairs.yt.as_slice(), b.pairs.yt.as_slice()),
+        weights: bounds.weights
+            + far(a.pairs.k_cnt.as_matrix().as_slice(), b.pairs.k_cnt.as_matrix().as_slice()),
+        // |u| of a node moves by at most sqrt(2) of a component.
+        u: 1.5 * bounds.u + far(&steps[..1], &steps[1..]),
+    })
+}
+
+impl Rounding {
+    fn unknown(solution: &Solution) -> Self {
+        let steps = vec![None; solution.steps.len()];
+        Rounding { displacement: f64::INFINITY, decisions: None, steps }
+    }
 }
 
 /// Returns the first iteration and node whose edge or status differs from that of the same run in

@@ -84,7 +84,7 @@ impl ErrorEstimates {
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
         let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
-        let arithmetic::Rounding { displacement, decisions } =
+        let arithmetic::Rounding { displacement, decisions, .. } =
             arithmetic::rounding_of(solution, held.as_ref(), &bounded);
         let stress = arithmetic::stress_bounds(solution, &bounded, displacement);
         drop(bounded);

@@ -101,6 +101,11 @@ impl Scene {
         SceneBuilder::read(name, text, beside)?.build()
     }
 
+    /// Returns the description and the mesh from which the scene was built; None for half a scene.
+    pub fn source(&self) -> Option<(&Description, &Mesh)> {
+        self.source.as_deref().map(|(description, mesh)| (description, mesh))
+    }
+
     fn assemble(name: &str, file: Description, mesh: &Mesh, dropped: Vec<usize>) -> Result<Self> {
         check::numbers(&file)?;
         let (materials, names) = check::materials(mesh, &file)?;

@@ -1,0 +1,53 @@
+//! `plane-contact accept`.
+
+use std::path::PathBuf;
+
+use plane_contact::answer::error::Result;
+use plane_contact::files;
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::snapshot as report;
+use plane_contact::studies::snapshot::{Chosen, accept, verify};
+
+use super::verify::read;
+use super::{print, waiting};
+
+/// Take new values into a snapshot, with a reason.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Runs the snapshot again, takes what differs, and adds to the log in the snapshot: what, from, to, by
+how much in units of its bound, the reason, the version of the program. Nothing is taken where a run
+fails that did not, unless --failing says that it should.
+
+Examples:
+  plane-contact accept out/fig1.snapshot.json --reason \"the load was doubled\"
+  plane-contact accept tests/my.json --entry stepped/u --reason \"a finer solver\"
+  plane-contact accept tests/my.json --scene my/scene.json --reason \"a stiffer block\"")]
+pub struct Args {
+    /// A snapshot.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// The run, or the run and the entry, that is taken: stepped, stepped/u [default: all].
+    #[arg(long, value_name = "E")]
+    entry: Option<String>,
+    /// Why the new values are right.
+    #[arg(long, value_name = "TEXT")]
+    reason: String,
+    /// Take a run that fails where it did not, or fails otherwise.
+    #[arg(long)]
+    failing: bool,
+    /// Run this scene in place of the one in the snapshot, and take it too.
+    #[arg(long, value_name = "SCENE")]
+    scene: Option<String>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    let scene = args.scene.as_deref().map(Scene::open).transpose()?;
+    let mut snapshot = read(&args.file)?;
+    let place = args.file.display().to_string();
+    let verified = waiting("verifying", || verify(&snapshot, scene.as_ref()));
+    let verified = verified.map_err(|error| super::within(error, &place))?;
+    let (entry, reason, failing) = (args.entry.as_deref(), &args.reason[..], args.failing);
+    let accepted = accept(&mut snapshot, &verified, Chosen { entry, reason, failing })?;
+    files::write(&args.file, &report::file(&snapshot))?;
+    print(&report::accepted(&accepted))
+}

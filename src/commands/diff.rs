@@ -1,0 +1,110 @@
+//! `plane-contact diff`.
+
+use std::path::{Path, PathBuf};
+
+use plane_contact::answer::error::Result;
+use plane_contact::error::InputError;
+use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::snapshot::{self as report, Checked};
+use plane_contact::studies::snapshot::{Bounds, Snapshot, difference};
+
+use super::verify::{DIFFERS, read};
+use super::{print, waiting};
+
+/// Compare two snapshots, or a scene under two sets of options.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Each side is a snapshot or a scene; a scene is run. With one side alone, some option names two
+values, one for each run. A difference is explained as verify does it.
+
+Examples:
+  plane-contact diff strand --variant stepped,tied
+  plane-contact diff old.json new.json
+  plane-contact diff tests/my.json my/scene.json --out why
+  plane-contact diff fig1 --reading R5=node --reading R5=node_n")]
+pub struct Args {
+    /// A snapshot or a scene, and another one.
+    #[arg(value_name = "A [B]", num_args = 1..=2, required = true)]
+    sides: Vec<String>,
+    /// The variants of both sides, or one for both [default: the scene's].
+    #[arg(long, value_name = "V,...", value_delimiter = ',')]
+    variant: Vec<Variant>,
+    /// The solvers of both sides, or one for both.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    solver: Vec<Solver>,
+    /// The scalars of both sides, or one for both.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    scalar: Vec<ScalarName>,
+    /// The readings of a side, as elsewhere; twice for both sides.
+    #[arg(long, value_name = "LIST")]
+    reading: Vec<Reading>,
+    /// Print JSON in place of text.
+    #[arg(long)]
+    json: bool,
+    /// Folder for the difference of the displacements: difference.vtu and difference.svg.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// The value of a side: that of two, or the one of both.
+fn of<T: Copy>(values: &[T], side: usize, option: &str) -> Result<Option<T>> {
+    match values.len() {
+        0 => Ok(None),
+        1 => Ok(Some(values[0])),
+        2 => Ok(Some(values[side])),
+        _ => Err(InputError::new(option, "there are two sides", "give one value, or two").into()),
+    }
+}
+
+pub fn run(args: &Args) -> Result<u8> {
+    let names = [&args.sides[0], args.sides.last().expect("one is required")];
+    let varied = [args.variant.len(), args.solver.len(), args.scalar.len(), args.reading.len()];
+    if args.sides.len() == 1 && !varied.contains(&2) {
+        let what = "one side and no option with two values: there is nothing to compare";
+        let fix = "give another snapshot or scene, or two values, as --variant stepped,tied";
+        return Err(InputError::new("diff", what, fix).into());
+    }
+    let sides = waiting("running", || -> Result<_> {
+        Ok([side(args, 0, names[0])?, side(args, 1, names[1])?])
+    })?;
+    let file = format!("{} and {}", names[0], names[1]);
+    let checked = [Checked { file, verified: difference(&sides[0], &sides[1]) }];
+    print(&if args.json { report::json(&checked) } else { report::text(&checked) })?;
+    let verified = &checked[0].verified;
+    if let (Some(folder), Some((old, run))) = (&args.out, first_pair(&sides[0], verified)) {
+        let written = report::difference_files(folder, &verified.input.build()?, [old, run])?;
+        super::say_written(folder, written);
+    }
+    Ok(if verified.is_same() { 0 } else { DIFFERS })
+}
+
+use plane_contact::studies::snapshot::{Run, Verified};
+
+/// The first two runs that differ.
+fn first_pair<'a>(old: &'a Snapshot, verified: &'a Verified) -> Option<(&'a Run, &'a Run)> {
+    let mut pairs = old.runs.iter().zip(&verified.runs);
+    let ((_, old), new) = pairs.find(|(_, new)| !new.differences.is_empty())?;
+    Some((old, &new.run))
+}
+
+/// Reads a snapshot, or runs a scene.
+fn side(args: &Args, side: usize, name: &str) -> Result<Snapshot> {
+    let is_snapshot = std::fs::read(Path::new(name)).is_ok_and(|text| {
+        let document: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
+        document.is_some_and(|document| document.get("runs").is_some())
+    });
+    if is_snapshot {
+        return read(Path::new(name));
+    }
+    let scene = Scene::open(name)?;
+    let mut request = plane_contact::answer::Request::new(&scene);
+    request.variant = of(&args.variant, side, "--variant")?.unwrap_or(scene.variant);
+    request.reading = of(&args.reading, side, "--reading")?.unwrap_or_default();
+    let scalar = of(&args.scalar, side, "--scalar")?.unwrap_or_default();
+    let solver = of(&args.solver, side, "--solver")?;
+    let request = request.arithmetic(Arithmetic { scalar, solver, ..Arithmetic::default() });
+    Snapshot::record(&scene, &[request], Bounds::Computed)
+}

@@ -1,0 +1,85 @@
+//! `plane-contact record`.
+
+use std::path::{Path, PathBuf};
+
+use plane_contact::answer::error::Result;
+use plane_contact::error::InputError;
+use plane_contact::files;
+use plane_contact::numbers::solve::Arithmetic;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::snapshot as report;
+use plane_contact::studies::snapshot::{Bounds, Snapshot};
+
+use super::{ModelArgs, ReadingArg, print, waiting};
+
+/// Record what a scene gives, to be verified later: a regression snapshot.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Writes a file of JSON for each scene: the scene and its mesh, whole; for each run its options, its
+discrete facts (who is in contact, target edges, iterations, a failure and its listing line) and its
+numbers, each array with the bound on its rounding errors. A snapshot of a scene that fails as
+printed is a snapshot like any other. An existing snapshot is not replaced: see accept.
+
+Examples:
+  plane-contact record fig1 --variant printed,tied,stepped,unilateral
+  plane-contact record my/scene.json --out tests/my.json
+  plane-contact record fig1 --reading R4=left-to-right    an expected failure")]
+pub struct Args {
+    /// Paths of scenes, or names of embedded ones.
+    #[arg(value_name = "SCENE", required = true)]
+    scenes: Vec<String>,
+    /// Variants, each of which is run: printed, tied, stepped, unilateral [default: the scene's].
+    #[arg(long, value_name = "V,...", value_delimiter = ',')]
+    variant: Vec<Variant>,
+    #[command(flatten)]
+    model: ModelArgs,
+    #[command(flatten)]
+    arithmetic: Arithmetic,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// File of the snapshot, of one scene alone [default: <scene>.snapshot.json in the folder out].
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    if args.out.is_some() && args.scenes.len() > 1 {
+        let what = "one file cannot hold the snapshots of several scenes";
+        return Err(InputError::new("--out", what, "leave it out, or record one by one").into());
+    }
+    for name in &args.scenes {
+        let scene = Scene::open(name)?;
+        let variants: Vec<Option<Variant>> = match args.variant.is_empty() {
+            true => vec![None],
+            false => args.variant.iter().copied().map(Some).collect(),
+        };
+        let requests = variants.into_iter().map(|variant| {
+            args.model.request(&scene, variant, &args.reading).arithmetic(args.arithmetic)
+        });
+        let requests: Vec<_> = requests.collect();
+        let snapshot =
+            waiting("recording", || Snapshot::record(&scene, &requests, Bounds::Computed))?;
+        let file = args
+            .out
+            .clone()
+            .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
+        write_new(&file, &report::file(&snapshot))?;
+        print(&(report::recorded(&snapshot) + &format!("Written to {}\n", file.display())))?;
+    }
+    Ok(())
+}
+
+/// Writes a snapshot; an existing file with another content is kept.
+fn write_new(file: &Path, text: &str) -> Result<()> {
+    match std::fs::read(file) {
+        Ok(there) if there != text.as_bytes() => {
+            let what = "there is another snapshot";
+            let fix = "see what differs by `plane-contact verify`, take new values by `accept`, or \
+                       delete the file";
+            Err(InputError::new(file.display().to_string(), what, fix).into())
+        }
+        Ok(_) => Ok(()),
+        Err(_) => Ok(files::write(file, text)?),
+    }
+}

@@ -1,0 +1,120 @@
+//! `plane-contact verify` and `plane-contact explain`.
+
+use std::path::{Path, PathBuf};
+
+use plane_contact::answer::error::Result;
+use plane_contact::error::InputError;
+use plane_contact::files;
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::snapshot::{self as report, Checked};
+use plane_contact::studies::snapshot::{self, Snapshot};
+
+use super::{print, waiting};
+
+/// The exit status where what was compared differs, or nothing was compared.
+pub const DIFFERS: u8 = 1;
+
+/// Run what snapshots recorded again and compare.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Facts are the same or not; numbers agree within the bounds on both runs' rounding errors, or within
+the tolerance that the snapshot gives. What is missing or added, other lengths and what is no number
+are differences. A difference is explained: its first cause, and how that is known. The exit status
+also tells a difference, and that nothing was compared.
+
+Examples:
+  plane-contact verify out/fig1.snapshot.json
+  plane-contact verify tests/*.json --junit verify.xml --report verify.md
+  plane-contact verify tests/my.json --scene my/scene.json    the scene as it is today")]
+pub struct Args {
+    /// Snapshots.
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Run this scene in place of the one in the snapshot.
+    #[arg(long, value_name = "SCENE")]
+    scene: Option<String>,
+    /// Print JSON in place of text.
+    #[arg(long)]
+    json: bool,
+    /// Write a file of JUnit XML.
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Write a page of Markdown.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<u8> {
+    let scene = args.scene.as_deref().map(Scene::open).transpose()?;
+    let check = |file: &PathBuf| check(file, scene.as_ref());
+    let checked = args.files.iter().map(check).collect::<Result<Vec<Checked>>>()?;
+    if let Some(file) = &args.junit {
+        files::write(file, &report::junit(&checked))?;
+    }
+    if let Some(file) = &args.report {
+        files::write(file, &report::markdown(&checked))?;
+    }
+    print(&if args.json { report::json(&checked) } else { report::text(&checked) })?;
+    let is_same = checked.iter().all(|checked| checked.verified.is_same());
+    Ok(if is_same { 0 } else { DIFFERS })
+}
+
+/// Reads a snapshot.
+pub fn read(file: &Path) -> Result<Snapshot> {
+    let place = file.display().to_string();
+    let text = std::fs::read(file).map_err(|why| {
+        let what = format!("the snapshot cannot be read: {why}");
+        InputError::new(&place, what, "give a file as `plane-contact record` writes it")
+    })?;
+    Ok(Snapshot::read(&text).map_err(|error| error.within(&place))?)
+}
+
+fn check(file: &PathBuf, scene: Option<&Scene>) -> Result<Checked> {
+    let snapshot = read(file)?;
+    let name = file.display().to_string();
+    let verified = waiting("verifying", || snapshot::verify(&snapshot, scene));
+    let verified = verified.map_err(|error| super::within(error, &name))?;
+    Ok(Checked { file: name, verified })
+}
+
+/// Explain why a scene no longer gives what its snapshot recorded.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Follows both runs in the order of computation (scene, mesh, worksheet; then in each iteration target
+edges, distances, statuses, pairs, matrix, displacements) and names the first difference, with the
+line of the listing that decides it, its cause, and how that is known.
+
+Examples:
+  plane-contact explain out/fig1.snapshot.json
+  plane-contact explain tests/my.json --scene my/scene.json --out why")]
+pub struct ExplainArgs {
+    /// A snapshot.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Run this scene in place of the one in the snapshot.
+    #[arg(long, value_name = "SCENE")]
+    scene: Option<String>,
+    /// Print JSON in place of text.
+    #[arg(long)]
+    json: bool,
+    /// Folder for the difference of the displacements of the first run that differs:
+    /// difference.vtu and difference.svg.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub fn run_explain(args: &ExplainArgs) -> Result<u8> {
+    let scene = args.scene.as_deref().map(Scene::open).transpose()?;
+    let checked = [check(&args.file, scene.as_ref())?];
+    let snapshot = read(&args.file)?;
+    let verified = &checked[0].verified;
+    print(&if args.json { report::json(&checked) } else { report::text(&checked) })?;
+    let differing = verified.runs.iter().find(|run| !run.differences.is_empty());
+    if let (Some(folder), Some(run)) = (&args.out, differing) {
+        let old = snapshot.runs.get(&run.name).expect("the run was read from there");
+        let scene = verified.input.build()?;
+        let written = report::difference_files(folder, &scene, [old, &run.run])?;
+        super::say_written(folder, written);
+    }
+    Ok(if verified.is_same() { 0 } else { DIFFERS })
+}

@@ -1,0 +1,134 @@
+//! Differences and their causes in words.
+
+use serde_json::Value;
+
+use crate::studies::snapshot::{Difference, Explanation, Kind, VerifiedRun};
+
+/// The most characters of a fact that is printed whole.
+const WIDTH: usize = 70;
+
+/// Returns a fact in words, shortened where it is long.
+pub fn short(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(WIDTH) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text,
+    }
+}
+
+/// Returns why a run differs.
+pub fn explanation(explanation: &Explanation) -> String {
+    let mut text = format!("cause: {} ({})\n", explanation.cause, explanation.class);
+    text += &format!("  known by: {}\n", explanation.known_by);
+    for other in explanation.causes.iter().skip(1) {
+        text += &format!("  also: {}: {}, was {}\n", other.place, other.is, other.was);
+    }
+    match (&explanation.first, &explanation.flip) {
+        (None, _) => text += "nothing that was recorded differs\n",
+        (Some(first), None) => text += &format!("first difference: {first}\n"),
+        (Some(first), Some(flip)) => {
+            text += &format!("first difference: {first}\n");
+            text += &format!("first other turn: {}; everything later follows\n", turn(flip));
+            text.extend(flip.line.iter().map(|line| format!("  {line}\n")));
+        }
+    }
+    text
+}
+
+fn turn(flip: &crate::studies::snapshot::Flip) -> String {
+    let node = flip.node.map_or(String::new(), |node| format!(", node {node}"));
+    let line = flip.line.as_deref().and_then(|line| line.split_once(':'));
+    let line = line.map_or(String::new(), |(place, _)| format!(", {place}"));
+    format!("iteration {}{node}{line}: {}", flip.iteration, flip.words)
+}
+
+/// Returns the cause of a run's differences, or the first of them, in a line.
+pub fn headline(run: &VerifiedRun) -> String {
+    match (&run.explanation, run.differences.first()) {
+        (Some(explanation), _) => format!("{} ({})", explanation.cause, explanation.class),
+        (None, Some(first)) => difference(first),
+        (None, None) => "nothing was compared".into(),
+    }
+}
+
+/// Returns a difference in a line.
+pub fn difference(difference: &Difference) -> String {
+    let entry = &difference.entry;
+    match &difference.kind {
+        Kind::Missing => format!("{entry}: missing, was there"),
+        Kind::Extra => format!("{entry}: there, was missing"),
+        Kind::Fact { was, is } => format!("{entry}: {}", fact(was, is)),
+        Kind::Shape { was, is, at } => {
+            let at = at.map_or(String::new(), |at| format!(", first at row {at}"));
+            format!("{entry}: {is} numbers, were {was}{at}")
+        }
+        Kind::Numbers(w) => {
+            let limit = if w.bounded { "limit" } else { "no bound is known, limit" };
+            let by = (w.is - w.was).abs();
+            format!(
+                "{entry}: {} of {} numbers differ, most at {} component {}: {:e}, was {:e}; by \
+                 {by:.3e}, {limit} {:.3e}",
+                w.differing, w.of, w.at, w.component, w.is, w.was, w.limit
+            )
+        }
+        Kind::Expected { was, is, limit, reason } => {
+            let is = is.map_or("nothing".into(), |is| format!("{is:e}"));
+            format!("{entry}: {is}, expected {was:e} within {limit:.3e} ({reason})")
+        }
+    }
+}
+
+/// Returns what a fact is and was; of lists of the same length that are long, the first place where
+/// they differ.
+fn fact(was: &Value, is: &Value) -> String {
+    if let (Value::Array(old), Value::Array(new)) = (was, is)
+        && old.len() == new.len()
+        && was.to_string().len().max(is.to_string().len()) > WIDTH
+    {
+        let pairs = || old.iter().zip(new).enumerate().filter(|(_, (was, is))| was != is);
+        let first = pairs().next().map_or(String::new(), |(k, (was, is))| {
+            format!("entry {}: {}, was {}", k + 1, short(is), short(was))
+        });
+        return format!("{} of {} entries differ; {first}", pairs().count(), old.len());
+    }
+    format!("{}, was {}", short(is), short(was))
+}
+
+/// Returns the differences, discrete facts first, those of several iterations in one line.
+pub fn summary(differences: &[Difference]) -> String {
+    let (facts, numbers): (Vec<&Difference>, Vec<&Difference>) =
+        differences.iter().partition(|difference| difference.is_discrete());
+    let mut text = String::new();
+    for (title, group) in [("facts", facts), ("numbers", numbers)] {
+        if group.is_empty() {
+            continue;
+        }
+        text += &format!("{title}:\n");
+        for (quantity, of_quantity) in by_quantity(&group) {
+            let more = match of_quantity.len() - 1 {
+                0 => String::new(),
+                more => format!("; and {quantity} of {more} later iterations"),
+            };
+            text += &format!("  {}{more}\n", difference(of_quantity[0]));
+        }
+    }
+    text
+}
+
+/// Groups differences by what differs, whatever the iteration, in their order.
+fn by_quantity<'a>(differences: &[&'a Difference]) -> Vec<(&'a str, Vec<&'a Difference>)> {
+    let mut groups: Vec<(&str, Vec<&Difference>)> = Vec::new();
+    for difference in differences {
+        let words: Vec<&str> = difference.entry.splitn(3, ' ').collect();
+        let in_iteration = words.len() == 3 && words[0] == "iteration";
+        let quantity = if in_iteration { words[2] } else { &difference.entry };
+        let same = |(other, group): &&mut (&str, Vec<&Difference>)| {
+            in_iteration && *other == quantity && group[0].entry.starts_with("iteration ")
+        };
+        match groups.iter_mut().find(same) {
+            Some((_, group)) => group.push(difference),
+            None => groups.push((quantity, vec![difference])),
+        }
+    }
+    groups
+}

@@ -1,0 +1,158 @@
+//! Two runs compared entry by entry: facts are the same or not, numbers agree within a limit.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::Run;
+use super::entries::Entries;
+use super::numbers::{Numbers, WITHOUT_BOUND};
+use super::place::place;
+
+/// A difference between two runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// The name of the entry.
+    pub entry: String,
+    #[serde(flatten)]
+    pub kind: Kind,
+}
+
+/// What differs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Kind {
+    /// The entry is in the old run alone.
+    Missing,
+    /// The entry is in the new run alone.
+    Extra,
+    /// A discrete fact is another one.
+    Fact { was: Value, is: Value },
+    /// The arrays have other lengths or other rows.
+    Shape { was: usize, is: usize, at: Option<f64> },
+    /// Numbers differ by more than the limit.
+    Numbers(Worst),
+    /// A number that the user expects is not reached.
+    Expected { was: f64, is: Option<f64>, limit: f64, reason: String },
+}
+
+/// The number that differs most, in units of what it may.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Worst {
+    /// The number of the node or triangle, or the place in the list, from 1.
+    pub at: f64,
+    /// The component of the row, from 1.
+    pub component: usize,
+    pub was: f64,
+    pub is: f64,
+    /// The largest difference that is none.
+    pub limit: f64,
+    /// How many numbers of the array differ.
+    pub differing: usize,
+    /// How many numbers the array has.
+    pub of: usize,
+    /// Whether `limit` comes from bounds on rounding errors, or from the user's own tolerance.
+    pub bounded: bool,
+}
+
+impl Difference {
+    /// Returns whether it is one of discrete facts, or of what there is at all.
+    pub fn is_discrete(&self) -> bool {
+        !matches!(self.kind, Kind::Numbers(_) | Kind::Expected { .. })
+    }
+}
+
+/// Returns the differences of two runs in the order of computation, discrete facts of an iteration in
+/// their place among its numbers, and how many facts and numbers were compared.
+pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
+    let mut found = Vec::new();
+    let mut compared = 0;
+    unmatched(&mut found, &old.facts, &new.facts);
+    unmatched(&mut found, &old.numbers, &new.numbers);
+    for (name, was) in old.facts.iter() {
+        let Some(is) = new.facts.get(name) else { continue };
+        compared += 1;
+        if was != is {
+            found.push(difference(name, Kind::Fact { was: was.clone(), is: is.clone() }));
+        }
+    }
+    for (name, was) in old.numbers.iter() {
+        let Some(is) = new.numbers.get(name) else { continue };
+        compared += was.places().len();
+        found.extend(numbers(was, is).map(|kind| difference(name, kind)));
+    }
+    for expected in &old.expected {
+        compared += 1;
+        if let Some(missed) = expected.missed(new) {
+            let kind = Kind::Expected {
+                was: expected.value,
+                is: missed.found,
+                limit: missed.limit,
+                reason: expected.reason.clone(),
+            };
+            found.push(difference(&expected.entry, kind));
+        }
+    }
+    found.sort_by_key(|difference| place(&difference.entry));
+    (found, compared)
+}
+
+fn difference(entry: &str, kind: Kind) -> Difference {
+    Difference { entry: entry.into(), kind }
+}
+
+fn unmatched<T>(found: &mut Vec<Difference>, old: &Entries<T>, new: &Entries<T>) {
+    let lost = old.names().filter(|name| new.get(name).is_none());
+    found.extend(lost.map(|name| difference(name, Kind::Missing)));
+    let added = new.names().filter(|name| old.get(name).is_none());
+    found.extend(added.map(|name| difference(name, Kind::Extra)));
+}
+
+/// Returns how two arrays differ; None where they do not. NaN is equal to nothing.
+fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
+    if was.values == is.values {
+        return None;
+    }
+    let (old, new) = (was.places(), is.places());
+    let elsewhere = old.iter().zip(&new).find(|(a, b)| a.0 != b.0).map(|(a, _)| a.0.0);
+    if old.len() != new.len() || elsewhere.is_some() {
+        return Some(Kind::Shape { was: old.len(), is: new.len(), at: elsewhere });
+    }
+    let largest = was.largest();
+    let bounds = was.bound.zip(is.bound).map(|(a, b)| a + b);
+    let limit = |value: f64| match (was.tolerance, bounds) {
+        (Some(tolerance), _) => tolerance.limit(value, largest),
+        (None, Some(bounds)) => bounds,
+        (None, None) => WITHOUT_BOUND * largest,
+    };
+    let given = was.tolerance.is_some();
+    let mut worst: Option<(f64, Worst)> = None;
+    let mut differing = 0;
+    for ((at, was), (_, is)) in old.iter().zip(&new) {
+        let (error, limit) = ((was - is).abs(), limit(*was));
+        // NaN is no number: its error is not within any limit.
+        if error <= limit {
+            continue;
+        }
+        differing += 1;
+        let size = if error.is_nan() { f64::INFINITY } else { error };
+        if worst.as_ref().is_none_or(|(other, _)| size > *other) {
+            let (label, component) = *at;
+            let (was, is, component) = (*was, *is, component + 1);
+            let bounded = given || bounds.is_some();
+            worst = Some((
+                size,
+                Worst {
+                    at: label,
+                    component,
+                    was,
+                    is,
+                    limit,
+                    differing: 0,
+                    of: old.len(),
+                    bounded,
+                },
+            ));
+        }
+    }
+    worst.map(|(_, worst)| Kind::Numbers(Worst { differing, ..worst }))
+}

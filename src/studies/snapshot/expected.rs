@@ -1,0 +1,87 @@
+//! Numbers that a user expects of a run, each with its origin.
+
+use serde::{Deserialize, Serialize};
+
+use super::Run;
+use super::numbers::Tolerance;
+use crate::error::{InputError, Result};
+
+/// A number that a user expects.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expected {
+    /// The entry of `numbers` in which it stands.
+    pub entry: String,
+    /// The number of the node or triangle of its row; in a list its place, from 1.
+    pub row: usize,
+    /// The component of the row, from 1.
+    #[serde(default = "first")]
+    pub component: usize,
+    /// The number that is expected.
+    pub value: f64,
+    /// How far the run may be from it.
+    pub tolerance: Tolerance,
+    /// Where the number comes from.
+    pub origin: Origin,
+    /// Why it is expected.
+    pub reason: String,
+}
+
+fn first() -> usize {
+    1
+}
+
+/// The origin of a number.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Origin {
+    /// A formula.
+    ClosedForm(String),
+    /// Another code.
+    OtherCode {
+        /// Its name.
+        name: String,
+        /// Its version.
+        version: String,
+    },
+    /// A value of this program or of the user's own code, of an earlier version.
+    EarlierValue {
+        /// That version.
+        version: String,
+    },
+}
+
+/// The verdict on a number that is expected.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Missed {
+    /// What the run has in its place; None where it has nothing there.
+    pub found: Option<f64>,
+    /// The largest difference that would do.
+    pub limit: f64,
+}
+
+impl Expected {
+    /// Checks that the reason is given.
+    ///
+    /// # Errors
+    /// It is empty.
+    pub fn check(&self) -> Result<()> {
+        if self.reason.trim().is_empty() {
+            let place = format!("expected number of {:?}", self.entry);
+            return Err(InputError::new(place, "the reason is empty", "say why it is expected"));
+        }
+        Ok(())
+    }
+
+    /// Returns how far `run` misses the number; None where it does not.
+    pub fn missed(&self, run: &Run) -> Option<Missed> {
+        let numbers = run.numbers.get(&self.entry);
+        let places = numbers.map(|numbers| numbers.places()).unwrap_or_default();
+        let wanted = (self.row as f64, self.component.wrapping_sub(1));
+        let found = places.iter().find(|(place, _)| *place == wanted).map(|(_, x)| *x);
+        let largest = numbers.map_or(0.0, |numbers| numbers.largest());
+        let limit = self.tolerance.limit(self.value, largest);
+        let is_near = found.is_some_and(|x| (x - self.value).abs() <= limit);
+        (!is_near).then_some(Missed { found, limit })
+    }
+}

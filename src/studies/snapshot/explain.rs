@@ -1,0 +1,316 @@
+//! Why two runs differ: the first difference along the order of computation, and its cause.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::compare::{Difference, Kind, compare};
+use super::flip::{Flip, flip};
+use super::input::{Input, Rows};
+use super::options::Options;
+use super::place::{iteration, place};
+use super::record::{Bounds, record};
+use super::{Run, VERSION};
+use crate::choices;
+use crate::numbers::solve::{ScalarName, cost};
+use crate::paper::mirror::NodeTable;
+use crate::problem::modelling::Variant;
+
+choices! {
+    /// A kind of cause.
+    Class {
+        /// The scene or its mesh is another one.
+        Input = "input",
+        /// The reading of the print is another one.
+        Reading = "reading",
+        /// Another option is another one.
+        Option = "option",
+        /// The numbers or the solver are others.
+        Solver = "solver or precision",
+        /// The version of the program is another one.
+        Version = "version of the program",
+        /// Rounding decided who is in contact.
+        Rounding = "decided by rounding",
+        /// None of these: the program or the snapshot is at fault.
+        Defect = "defect",
+    }
+}
+
+/// One side of a comparison.
+#[derive(Clone, Copy)]
+pub struct Side<'a> {
+    /// The version of the program that recorded it.
+    pub version: &'a str,
+    pub input: &'a Input,
+    pub run: &'a Run,
+}
+
+/// A difference of what went into two runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cause {
+    pub class: Class,
+    /// The field: `scene materials.block.E`, `mesh node 7 x`, `reading R2`.
+    pub place: String,
+    pub was: String,
+    pub is: String,
+}
+
+/// The reason why two runs differ.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Explanation {
+    pub class: Class,
+    /// The first cause.
+    pub cause: String,
+    /// How that is known.
+    pub known_by: String,
+    /// All that differs in what went in, in the order of computation.
+    pub causes: Vec<Cause>,
+    /// The first entry of the runs that differs; None where the runs agree.
+    pub first: Option<String>,
+    /// Where the two first go different ways; None where they do not.
+    pub flip: Option<Flip>,
+}
+
+/// Explains why two runs differ, whose `differences` are known; None where neither these nor what
+/// went into them differ.
+pub fn explain(old: Side, new: Side, differences: &[Difference]) -> Option<Explanation> {
+    let causes = causes(old, new);
+    if causes.is_empty() && differences.is_empty() {
+        return None;
+    }
+    let flip = flip(old.run, new.run, differences);
+    let first = differences.first().map(|difference| difference.entry.clone());
+    let (class, cause, known_by) = match causes.first() {
+        Some(cause) => {
+            let words = format!("{}: {}, was {}", cause.place, cause.is, cause.was);
+            (cause.class, words, replayed(old, differences))
+        }
+        None => without_change(old, new, differences, flip.as_ref()),
+    };
+    Some(Explanation { class, cause, known_by, causes, first, flip })
+}
+
+/// Returns what differs in what went into two runs, in the order of computation.
+fn causes(old: Side, new: Side) -> Vec<Cause> {
+    let mut causes = Vec::new();
+    if old.input.scene_sha256 != new.input.scene_sha256 {
+        values(&mut causes, "scene", &old.input.scene, &new.input.scene);
+    }
+    if old.input.mesh_sha256 != new.input.mesh_sha256 {
+        mesh(&mut causes, &old.input.mesh, &new.input.mesh);
+    }
+    options(&mut causes, &old.run.options, &new.run.options);
+    causes
+}
+
+/// Collects the fields in which two documents differ.
+fn values(causes: &mut Vec<Cause>, path: &str, was: &Value, is: &Value) {
+    if was == is {
+        return;
+    }
+    let below = |name: &str| match path {
+        "scene" => format!("scene {name}"),
+        _ => format!("{path}.{name}"),
+    };
+    match (was, is) {
+        (Value::Object(old), Value::Object(new)) => {
+            let added = new.keys().filter(|name| !old.contains_key(*name));
+            for name in old.keys().chain(added) {
+                let [was, is] = [old, new].map(|side| side.get(name).unwrap_or(&Value::Null));
+                values(causes, &below(name), was, is);
+            }
+        }
+        (Value::Array(old), Value::Array(new)) if is_of_parts(old) && old.len() == new.len() => {
+            for (k, (was, is)) in old.iter().zip(new).enumerate() {
+                values(causes, &format!("{path}[{k}]"), was, is);
+            }
+        }
+        _ => push(causes, Class::Input, path.into(), text(was), text(is)),
+    }
+}
+
+/// Returns whether a list is one of objects, which are compared one by one.
+fn is_of_parts(list: &[Value]) -> bool {
+    list.iter().any(Value::is_object)
+}
+
+fn text(value: &Value) -> String {
+    if value.is_null() { "the default".into() } else { value.to_string() }
+}
+
+fn push(causes: &mut Vec<Cause>, class: Class, place: String, was: String, is: String) {
+    causes.push(Cause { class, place, was, is });
+}
+
+/// Collects the differences of two meshes: groups, then nodes, then elements.
+fn mesh(causes: &mut Vec<Cause>, old: &Rows, new: &Rows) {
+    let mut add =
+        |place: String, was: String, is: String| push(causes, Class::Input, place, was, is);
+    if old.groups != new.groups {
+        add("mesh groups".into(), format!("{:?}", old.groups), format!("{:?}", new.groups));
+    }
+    if old.nodes.len() != new.nodes.len() {
+        add("mesh nodes".into(), old.nodes.len().to_string(), new.nodes.len().to_string());
+    }
+    for (was, is) in old.nodes.iter().zip(&new.nodes).filter(|(was, is)| was != is) {
+        let axes = [
+            ("number", was.0 as f64, is.0 as f64),
+            ("x", was.1, is.1),
+            ("y", was.2, is.2),
+            ("z", was.3, is.3),
+        ];
+        for (axis, a, b) in axes.into_iter().filter(|(_, a, b)| a != b) {
+            add(format!("mesh node {} {axis}", was.0), a.to_string(), b.to_string());
+        }
+    }
+    if old.elements.len() != new.elements.len() {
+        add("mesh elements".into(), old.elements.len().to_string(), new.elements.len().to_string());
+    }
+    for (was, is) in old.elements.iter().zip(&new.elements).filter(|(was, is)| was != is) {
+        let turned = was.4.iter().rev().eq(&is.4) && was.4.len() == 2;
+        let row = |element: &(usize, usize, Vec<usize>, usize, Vec<usize>)| {
+            format!("{:?} of type {}, groups {:?}", element.4, element.1, element.2)
+        };
+        let word = if turned { " (turned round)" } else { "" };
+        add(format!("mesh elem {}", was.0), row(was), row(is) + word);
+    }
+}
+
+/// Collects the differences of two sets of options: the variant, the reading, the other options, and
+/// last what only changes how numbers are computed.
+fn options(causes: &mut Vec<Cause>, old: &Options, new: &Options) {
+    let [was, is] = [old, new].map(|options| {
+        let value = serde_json::to_value(options).expect("options have string keys");
+        value.as_object().cloned().expect("options are an object")
+    });
+    let numeric = ["scalar", "solver", "tol", "inputs"];
+    let of = |side: &serde_json::Map<String, Value>, name: &str| {
+        side.get(name).cloned().unwrap_or(Value::Null)
+    };
+    let names: Vec<&String> =
+        was.keys().chain(is.keys().filter(|name| !was.contains_key(*name))).collect();
+    let (late, early): (Vec<&String>, Vec<&String>) =
+        names.into_iter().partition(|name| numeric.contains(&name.as_str()));
+    for name in early.into_iter().chain(late) {
+        let (a, b) = (of(&was, name), of(&is, name));
+        if a == b {
+            continue;
+        }
+        match name.as_str() {
+            "reading" => readings(causes, old, new),
+            name => {
+                let class = if numeric.contains(&name) { Class::Solver } else { Class::Option };
+                push(causes, class, format!("option {name}"), text(&a), text(&b));
+            }
+        }
+    }
+}
+
+/// Collects the readings in which two sets differ.
+fn readings(causes: &mut Vec<Cause>, old: &Options, new: &Options) {
+    let [was, is] = [old, new]
+        .map(|options| serde_json::to_value(options.reading).expect("a reading has string keys"));
+    let (was, is) = (was.as_object(), is.as_object());
+    for (id, a) in was.into_iter().flatten() {
+        let b = is.and_then(|is| is.get(id)).cloned().unwrap_or(Value::Null);
+        if *a != b {
+            push(causes, Class::Reading, format!("reading {id}"), text(a), text(&b));
+        }
+    }
+}
+
+/// Runs what was recorded again and says what that shows.
+fn replayed(old: Side, differences: &[Difference]) -> String {
+    let effect = if differences.is_empty() { "; the two runs agree all the same" } else { "" };
+    let again = old
+        .input
+        .build()
+        .ok()
+        .and_then(|scene| record(&old.run.options.request(&scene), Bounds::Computed).ok());
+    match again {
+        None => format!("what went in differs, and the old input does not run any more{effect}"),
+        Some(again) if compare(old.run, &again).0.is_empty() => {
+            format!("from the old input this program gives the old run{effect}")
+        }
+        Some(_) => format!(
+            "what went in differs; from the old input, too, this program (version {VERSION}) gives \
+             another run than version {}{effect}",
+            old.version
+        ),
+    }
+}
+
+/// Returns class, cause and how they are known of two runs of the same input and options.
+fn without_change(
+    old: Side,
+    new: Side,
+    differences: &[Difference],
+    flip: Option<&Flip>,
+) -> (Class, String, String) {
+    let same = "scene, mesh, reading, options and solver are the same";
+    let decisions = || old.run.decided_by_rounding.iter().chain(&new.run.decided_by_rounding);
+    let left = flip.and_then(|flip| {
+        decisions()
+            .filter(|decision| decision.iteration <= flip.iteration)
+            .min_by_key(|d| d.iteration)
+    });
+    if let Some(decision) = left {
+        let margin = match (decision.margin, decision.bound) {
+            (Some(margin), Some(bound)) => {
+                format!(
+                    ": its sides differ by {margin:.1e}, and rounding may change that by {bound:.1e}"
+                )
+            }
+            _ => String::new(),
+        };
+        let cause = format!(
+            "rounding decided at iteration {}, node {}: {}",
+            decision.iteration, decision.node, decision.condition
+        );
+        return (Class::Rounding, cause, format!("{same}{margin}"));
+    }
+    let exact =
+        arbitrated(old, new, differences).map_or(String::new(), |words| format!("; {words}"));
+    if old.version != new.version {
+        let cause = format!("version {} of the program, was {}", new.version, old.version);
+        return (Class::Version, cause, format!("{same}{exact}"));
+    }
+    let cause = match differences.iter().any(|d| !matches!(d.kind, Kind::Expected { .. })) {
+        true => "the program, the machine or the snapshot is at fault",
+        false => "the run misses a number that is expected of it",
+    };
+    let known = format!(
+        "{same}, and so is the version ({}); the differences are beyond what rounding may do{exact}",
+        old.version
+    );
+    (Class::Defect, cause.into(), known)
+}
+
+/// Says which side exact numbers agree with at the first difference, where the scene is small.
+fn arbitrated(old: Side, new: Side, differences: &[Difference]) -> Option<String> {
+    /// The seconds that exact numbers may take.
+    const MOMENT: f64 = 2.0;
+    let first = differences.first()?;
+    let request = new.run.options.request(&new.input.build().ok()?);
+    let growing = request.reading.r5 == NodeTable::NodeN;
+    let equations = request.scene.model.free_dofs();
+    let seconds = cost::seconds(equations, growing, request.iterations);
+    (request.variant != Variant::Unilateral && seconds <= MOMENT).then_some(())?;
+    let mut options = new.run.options.clone();
+    (options.scalar, options.solver, options.tol) = (Some(ScalarName::Exact), None, None);
+    let exact = record(&options.request(&request.scene), Bounds::Computed).ok()?;
+    let agrees = |run: &Run| {
+        let (found, _) = compare(&exact, run);
+        !found.iter().any(|difference| place(&difference.entry) <= place(&first.entry))
+    };
+    let words = match (agrees(old.run), agrees(new.run)) {
+        (true, false) => "the old one is right",
+        (false, true) => "the new one is right",
+        (true, true) => "both are within their bounds of it",
+        (false, false) => "neither is right",
+    };
+    let place = match iteration(&first.entry) {
+        Some((k, quantity)) => format!("{quantity} of iteration {k}"),
+        None => first.entry.clone(),
+    };
+    Some(format!("in exact numbers, {place}: {words}"))
+}

@@ -1,0 +1,126 @@
+//! The options of a run: what is asked for in place of what the scene says.
+
+use serde::{Deserialize, Serialize};
+
+use crate::answer::Request;
+use crate::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
+use crate::paper::mirror::Reading;
+use crate::problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};
+use crate::problem::scene::Scene;
+
+/// The options of a run, each absent where the scene or the program decides.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Options {
+    /// The variant that is run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub variant: Option<Variant>,
+    /// The number of iterations of the variants that the paper describes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub iterations: Option<usize>,
+    /// The tolerance of the contact search, length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub c_tll: Option<f64>,
+    /// The readings that differ from the default, as on the command line.
+    #[serde(skip_serializing_if = "is_default", with = "as_text")]
+    pub reading: Reading,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<Coupling>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub geometry: Option<Geometry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_steps: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub status: Option<StatusRule>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scalar: Option<ScalarName>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solver: Option<Solver>,
+    /// The largest relative residual at which an iterative solver stops.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tol: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inputs: Option<Inputs>,
+}
+
+fn is_default(reading: &Reading) -> bool {
+    *reading == Reading::default()
+}
+
+/// Writes and reads readings as on the command line: `R2=printed,R5=node_n`.
+mod as_text {
+    use serde::de::{Deserialize, Deserializer, Error};
+    use serde::ser::Serializer;
+
+    use crate::paper::mirror::Reading;
+
+    pub fn serialize<S: Serializer>(reading: &Reading, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(reading)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Reading, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
+    }
+}
+
+impl Options {
+    /// Returns the options of a request: its variant, and all else that differs from what its scene
+    /// and the program do by themselves.
+    pub fn of(request: &Request) -> Self {
+        let own = Request::new(&request.scene);
+        let (contact, arithmetic, plain) =
+            (request.contact, request.arithmetic, Arithmetic::default());
+        fn other<T: PartialEq>(value: T, own: T) -> Option<T> {
+            (value != own).then_some(value)
+        }
+        Options {
+            variant: Some(request.variant),
+            iterations: other(request.iterations, own.iterations),
+            c_tll: request.tolerance,
+            reading: request.reading,
+            coupling: other(contact.coupling, own.contact.coupling),
+            friction: other(contact.friction, own.contact.friction),
+            geometry: other(contact.geometry, own.contact.geometry),
+            load_steps: other(contact.load_steps, own.contact.load_steps),
+            status: other(contact.status, own.contact.status),
+            scalar: other(arithmetic.scalar, plain.scalar),
+            solver: arithmetic.solver,
+            tol: arithmetic.tol,
+            inputs: other(arithmetic.inputs, plain.inputs),
+        }
+    }
+
+    /// Returns the request for these options of a scene.
+    pub fn request(&self, scene: &Scene) -> Request {
+        let mut request = Request::new(scene);
+        let own = request.contact;
+        request.variant = self.variant.unwrap_or(request.variant);
+        request.iterations = self.iterations.unwrap_or(request.iterations);
+        request.tolerance = self.c_tll;
+        request.reading = self.reading;
+        request.contact = ContactModel {
+            coupling: self.coupling.unwrap_or(own.coupling),
+            friction: self.friction.unwrap_or(own.friction),
+            geometry: self.geometry.unwrap_or(own.geometry),
+            load_steps: self.load_steps.unwrap_or(own.load_steps),
+            status: self.status.unwrap_or(own.status),
+        };
+        let (solver, tol) = (self.solver, self.tol);
+        let (scalar, inputs) = (self.scalar.unwrap_or_default(), self.inputs.unwrap_or_default());
+        request.arithmetic(Arithmetic { scalar, solver, tol, inputs })
+    }
+
+    /// Returns a name for a run with these options: its variant, then every other option.
+    pub fn name(&self) -> String {
+        let options = serde_json::to_value(self).expect("options have string keys");
+        let options = options.as_object().expect("options are an object");
+        let word = |(name, value): (&String, &serde_json::Value)| {
+            let text = value.as_str().map_or(value.to_string(), String::from);
+            if name == "variant" || name == "reading" { text } else { format!("{name}={text}") }
+        };
+        let words: Vec<String> = options.iter().map(word).collect();
+        if words.is_empty() { "scene".into() } else { words.join(" ") }
+    }
+}
