@@ -17,8 +17,8 @@ use clap::{Parser, Subcommand};
 #[command(
     version,
     after_help = "\
-Exit status: 0 done; 1 what was compared differs; 2 the input is at fault; 3 the published algorithm fails as printed (an audit
-result); 4 no equilibrium was found, or more than one.
+Exit status: 0 done; 1 what was compared differs; 2 the input is at fault; 3 the published
+algorithm fails as printed (an audit result); 4 no equilibrium was found, or more than one.
 
 Examples:
   plane-contact solve                        the paper's example

@@ -20,8 +20,8 @@ fails that did not, unless --failing says that it should.
 
 Examples:
   plane-contact accept out/fig1.snapshot.json --reason \"the load was doubled\"
-  plane-contact accept tests/my.json --entry stepped/u --reason \"a finer solver\"
-  plane-contact accept tests/my.json --scene my/scene.json --reason \"a stiffer block\"")]
+  plane-contact accept my/snapshot.json --entry stepped/u --reason \"a finer solver\"
+  plane-contact accept my/snapshot.json --scene my/scene.json --reason \"a stiffer block\"")]
 pub struct Args {
     /// A snapshot.
     #[arg(value_name = "FILE")]

@@ -23,7 +23,7 @@ values, one for each run. A difference is explained as verify does it.
 Examples:
   plane-contact diff strand --variant stepped,tied
   plane-contact diff old.json new.json
-  plane-contact diff tests/my.json my/scene.json --out why
+  plane-contact diff my/snapshot.json my/scene.json --out why
   plane-contact diff fig1 --reading R5=node --reading R5=node_n")]
 pub struct Args {
     /// A snapshot or a scene, and another one.

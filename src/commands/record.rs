@@ -23,7 +23,7 @@ printed is a snapshot like any other. An existing snapshot is not replaced: see 
 
 Examples:
   plane-contact record fig1 --variant printed,tied,stepped,unilateral
-  plane-contact record my/scene.json --out tests/my.json
+  plane-contact record my/scene.json --out my/snapshot.json
   plane-contact record fig1 --reading R4=left-to-right    an expected failure")]
 pub struct Args {
     /// Paths of scenes, or names of embedded ones.

@@ -24,8 +24,8 @@ also tells a difference, and that nothing was compared.
 
 Examples:
   plane-contact verify out/fig1.snapshot.json
-  plane-contact verify tests/*.json --junit verify.xml --report verify.md
-  plane-contact verify tests/my.json --scene my/scene.json    the scene as it is today")]
+  plane-contact verify my/*.json --junit verify.xml --report verify.md
+  plane-contact verify my/snapshot.json --scene my/scene.json    the scene as it is today")]
 pub struct Args {
     /// Snapshots.
     #[arg(value_name = "FILE", required = true)]
@@ -86,7 +86,7 @@ line of the listing that decides it, its cause, and how that is known.
 
 Examples:
   plane-contact explain out/fig1.snapshot.json
-  plane-contact explain tests/my.json --scene my/scene.json --out why")]
+  plane-contact explain my/snapshot.json --scene my/scene.json --out why")]
 pub struct ExplainArgs {
     /// A snapshot.
     #[arg(value_name = "FILE")]

@@ -3,16 +3,14 @@
 use std::fmt::Write as _;
 
 use crate::common::golden_floats::{assert_golden, same_text};
-use crate::common::outcome::solve;
-use plane_contact::answer::contact::{Pairing, Status};
-use plane_contact::answer::{Detail, Request, Solution, Step};
+use plane_contact::answer::Request;
 use plane_contact::paper::door;
-use plane_contact::paper::mathcad::array::{Column, Table};
-use plane_contact::paper::mirror::{Km, Pairs, Reading, c_cnt};
-use plane_contact::problem::element::State;
-use plane_contact::problem::model::{Model, TriangleId};
+use plane_contact::paper::mathcad::array::Table;
+use plane_contact::paper::mirror::{Km, Reading, c_cnt};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{SCENES, Scene};
+use plane_contact::report::snapshot::{self as report, Checked};
+use plane_contact::studies::snapshot::{Snapshot, verify};
 
 /// A float for a golden file: 12 significant digits, 0 as `0`.
 pub fn number(x: f64) -> String {
@@ -28,67 +26,25 @@ fn integers_are_exact_and_floats_within_the_tolerance_of_their_line() {
     assert!(!same_text("yes", "no"));
 }
 
-/// What c_cnt finds at every iteration: ct, yt and dy by contact node, then the rows of k_cnt that
-/// are not zero.
+/// `golden/<scene>/snapshot.json` of every shipped scene: facts of every iteration, displacements,
+/// stresses, reactions and the contact surface of every variant. A golden snapshot changes by
+/// `plane-contact accept` only, with its reason.
 #[test]
-fn pairs_at_every_iteration() {
+fn snapshots_of_every_scene_and_variant() {
     for scene in SCENES {
-        for variant in Variant::ALL {
-            let (_, solution) = solve(scene.name, *variant);
-            assert_golden(scene.name, &format!("c_cnt-{variant}"), &steps(&solution));
-        }
+        let file = format!("{}/golden/{}/snapshot.json", env!("CARGO_MANIFEST_DIR"), scene.name);
+        let text = std::fs::read(&file).expect("the scene has a snapshot");
+        let snapshot = Snapshot::read(&text).expect("a snapshot");
+        let variants: Vec<_> =
+            snapshot.runs.iter().filter_map(|(_, run)| run.options.variant).collect();
+        assert!(Variant::ALL.iter().all(|variant| variants.contains(variant)), "{variants:?}");
+        // The scene as it is today, so that a change of scene.json is a difference too.
+        let today = Scene::open(scene.name).expect("embedded scenes are sound");
+        let verified = verify(&snapshot, Some(&today)).expect("it runs");
+        let same = verified.is_same();
+        assert_eq!(verified.input, snapshot.input, "{file} is not of the scene beside it");
+        assert!(same, "{}", report::text(&[Checked { file, verified }]));
     }
-}
-
-fn steps(solution: &Solution) -> String {
-    let mut text = String::new();
-    let mut last = None;
-    for step in &solution.steps {
-        writeln!(text, "iteration {}", step.k).unwrap();
-        let found = found(&solution.model, step);
-        if last.as_ref() == Some(&found) {
-            writeln!(text, "  as before").unwrap();
-        } else {
-            text += &pairs(&solution.model, &found);
-        }
-        last = Some(found);
-    }
-    text
-}
-
-/// What c_cnt found; under `unilateral` the same in its terms: ct the edge that a node faces, yt
-/// the gap along the normal, dy 1 where it is closed.
-fn found(model: &Model, step: &Step) -> Pairs<f64> {
-    let step = match &step.detail {
-        Detail::Published(step) => return step.pairs.clone(),
-        Detail::Unilateral(step) => step,
-    };
-    let edge = |p: &Option<Pairing>| p.as_ref().map_or(0, |p| model.edge(p.edge).number);
-    let gap = |p: &Option<Pairing>| p.as_ref().map_or(0.0, |p| p.gap);
-    Pairs {
-        ct: Column::from_vec(step.pairings.iter().map(edge).collect()),
-        yt: Column::from_vec(step.pairings.iter().map(gap).collect()),
-        dy: Column::from_vec(
-            step.statuses.iter().map(|s| usize::from(*s != Status::Open)).collect(),
-        ),
-        ..Pairs::none(model.nodes.len())
-    }
-}
-
-fn pairs(model: &Model, pairs: &Pairs<f64>) -> String {
-    let mut text = String::new();
-    for (i1, cnt) in (1..).zip(&model.contact.nodes).filter(|(i1, _)| pairs.ct[*i1] > 0) {
-        let (ct, dy, yt) = (pairs.ct[i1], pairs.dy[i1], number(pairs.yt[i1]));
-        writeln!(text, "  i1 {i1}: cnt {cnt} ct {ct} dy {dy} yt {yt}").unwrap();
-    }
-    for node in model.node_ids() {
-        let row: Vec<f64> = pairs.k_cnt.row(node.number()).copied().collect();
-        if row.iter().any(|x| *x != 0.0) {
-            let (k1, k2) = (number(row[1]), number(row[3]));
-            writeln!(text, "  k_cnt {node}: {} {k1} {} {k2}", row[0], row[2]).unwrap();
-        }
-    }
-    text
 }
 
 /// MJS of `fig1` whole, a matrix row a line with its number.
@@ -112,53 +68,14 @@ fn rows(matrix: &Table<f64>) -> String {
     text
 }
 
-/// The summary of every variant: iterations, then bodies. A float a line, for the tolerance is
-/// relative to the line.
-#[test]
-fn summary_of_every_variant() {
-    for scene in SCENES {
-        let mut text = String::new();
-        for variant in Variant::ALL {
-            let (_, solution) = solve(scene.name, *variant);
-            text += &summary(&solution);
-        }
-        assert_golden(scene.name, "summary", &text);
-    }
-}
-
-fn summary(solution: &Solution) -> String {
-    let mut text = format!("variant {}\n", solution.request.variant);
-    for it in &solution.steps {
-        let cycle =
-            it.cycle.as_ref().map_or("new".to_string(), |c| format!("cycle {:?}", c.members));
-        let (u, force) = (number(it.max_displacement), number(it.target_force));
-        writeln!(text, "  {}: in contact {} u {u} force {force} {cycle}", it.k, it.in_contact)
-            .unwrap();
-    }
-    for body in &solution.model.bodies {
-        let state = |id: &TriangleId| &solution.elements[id.index()];
-        let of = |f: &dyn Fn(&State) -> f64| {
-            body.triangles.iter().map(|id| f(state(id))).fold(0.0, f64::max)
-        };
-        let stress = number(of(&|state| state.von_mises_stress));
-        let strain = number(of(&|state| state.von_mises_strain));
-        writeln!(text, "  body {}:", body.name).unwrap();
-        writeln!(text, "     von Mises stress {stress}\n     von Mises strain {strain}").unwrap();
-    }
-    text
-}
-
 /// No golden file is left that no test compares with.
 #[test]
 fn every_golden_file_is_used() {
     for scene in SCENES {
         // By this program, and by `tests/program/texts.rs`.
-        let by_variant = |variant: &Variant| {
-            ["c_cnt", "fields", "solve"].map(|what| format!("{what}-{variant}.snap"))
-        };
-        let once = ["summary", "audit", "plan", "c-cnt"].map(|name| format!("{name}.snap"));
-        let mut expected: Vec<String> =
-            Variant::ALL.iter().flat_map(by_variant).chain(once).collect();
+        let by_variant = |variant: &Variant| format!("solve-{variant}.snap");
+        let once = ["audit", "plan", "c-cnt"].map(|name| format!("{name}.snap"));
+        let mut expected: Vec<String> = Variant::ALL.iter().map(by_variant).chain(once).collect();
         if scene.name == "fig1" {
             let decks = ["tied", "unilateral", "pair"].map(|deck| format!("calculix-{deck}"));
             let own = ["MJS", "MJS-coupled-by-none", "trace-c_cnt", "trace-Km"].map(String::from);

@@ -17,7 +17,6 @@ mod architecture;
 mod bitwise;
 mod citations;
 mod coverage;
-mod fields;
 mod findings;
 mod golden;
 mod listing_quotes;

@@ -28,7 +28,8 @@ pub fn explanation(explanation: &Explanation) -> String {
         (Some(first), None) => text += &format!("first difference: {first}\n"),
         (Some(first), Some(flip)) => {
             text += &format!("first difference: {first}\n");
-            text += &format!("first other turn: {}; everything later follows\n", turn(flip));
+            let later = if explanation.later > 0 { "; everything later follows" } else { "" };
+            text += &format!("first other turn: {}{later}\n", turn(flip));
             text.extend(flip.line.iter().map(|line| format!("  {line}\n")));
         }
     }

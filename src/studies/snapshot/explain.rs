@@ -5,13 +5,14 @@ use serde_json::Value;
 
 use super::compare::{Difference, Kind, compare};
 use super::flip::{Flip, flip};
-use super::input::{Input, Rows};
+use super::input::{ElementRow, Input, Rows};
 use super::options::Options;
 use super::place::{iteration, place};
 use super::record::{Bounds, record};
 use super::{Run, VERSION};
 use crate::choices;
 use crate::numbers::solve::{ScalarName, cost};
+use crate::paper::decisions::Decision;
 use crate::paper::mirror::NodeTable;
 use crate::problem::modelling::Variant;
 
@@ -68,6 +69,8 @@ pub struct Explanation {
     pub first: Option<String>,
     /// Where the two first go different ways; None where they do not.
     pub flip: Option<Flip>,
+    /// The number of entries of later iterations and of the end that differ.
+    pub later: usize,
 }
 
 /// Explains why two runs differ, whose `differences` are known; None where neither these nor what
@@ -82,11 +85,18 @@ pub fn explain(old: Side, new: Side, differences: &[Difference]) -> Option<Expla
     let (class, cause, known_by) = match causes.first() {
         Some(cause) => {
             let words = format!("{}: {}, was {}", cause.place, cause.is, cause.was);
-            (cause.class, words, replayed(old, differences))
+            let rounding = match cause.class == Class::Solver {
+                true => left_to_rounding(old, new, flip.as_ref()),
+                false => None,
+            };
+            let rounding = rounding.map_or(String::new(), |(what, why)| format!("; {what}{why}"));
+            (cause.class, words, replayed(old, differences) + &rounding)
         }
         None => without_change(old, new, differences, flip.as_ref()),
     };
-    Some(Explanation { class, cause, known_by, causes, first, flip })
+    let after = flip.as_ref().map_or(0, |flip| flip.iteration);
+    let later = differences.iter().filter(|d| place(&d.entry).iteration > after).count();
+    Some(Explanation { class, cause, known_by, causes, first, flip, later })
 }
 
 /// Returns what differs in what went into two runs, in the order of computation.
@@ -167,7 +177,7 @@ fn mesh(causes: &mut Vec<Cause>, old: &Rows, new: &Rows) {
     }
     for (was, is) in old.elements.iter().zip(&new.elements).filter(|(was, is)| was != is) {
         let turned = was.4.iter().rev().eq(&is.4) && was.4.len() == 2;
-        let row = |element: &(usize, usize, Vec<usize>, usize, Vec<usize>)| {
+        let row = |element: &ElementRow| {
             format!("{:?} of type {}, groups {:?}", element.4, element.1, element.2)
         };
         let word = if turned { " (turned round)" } else { "" };
@@ -247,25 +257,7 @@ fn without_change(
     flip: Option<&Flip>,
 ) -> (Class, String, String) {
     let same = "scene, mesh, reading, options and solver are the same";
-    let decisions = || old.run.decided_by_rounding.iter().chain(&new.run.decided_by_rounding);
-    let left = flip.and_then(|flip| {
-        decisions()
-            .filter(|decision| decision.iteration <= flip.iteration)
-            .min_by_key(|d| d.iteration)
-    });
-    if let Some(decision) = left {
-        let margin = match (decision.margin, decision.bound) {
-            (Some(margin), Some(bound)) => {
-                format!(
-                    ": its sides differ by {margin:.1e}, and rounding may change that by {bound:.1e}"
-                )
-            }
-            _ => String::new(),
-        };
-        let cause = format!(
-            "rounding decided at iteration {}, node {}: {}",
-            decision.iteration, decision.node, decision.condition
-        );
+    if let Some((cause, margin)) = left_to_rounding(old, new, flip) {
         return (Class::Rounding, cause, format!("{same}{margin}"));
     }
     let exact =
@@ -283,6 +275,25 @@ fn without_change(
         old.version
     );
     (Class::Defect, cause.into(), known)
+}
+
+/// Returns the first decision up to a flip that rounding may have taken in either run, and its margin.
+fn left_to_rounding(old: Side, new: Side, flip: Option<&Flip>) -> Option<(String, String)> {
+    let decisions = old.run.decided_by_rounding.iter().chain(&new.run.decided_by_rounding);
+    let before =
+        |decision: &&Decision| flip.is_some_and(|flip| decision.iteration <= flip.iteration);
+    let decision = decisions.filter(before).min_by_key(|decision| decision.iteration)?;
+    let margin = match (decision.margin, decision.bound) {
+        (Some(margin), Some(bound)) => format!(
+            ": its sides differ by {margin:.1e}, and rounding may change that by {bound:.1e}"
+        ),
+        _ => String::new(),
+    };
+    let what = format!(
+        "rounding decided at iteration {}, node {}: {}",
+        decision.iteration, decision.node, decision.condition
+    );
+    Some((what, margin))
 }
 
 /// Says which side exact numbers agree with at the first difference, where the scene is small.

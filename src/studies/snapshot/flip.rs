@@ -35,7 +35,7 @@ struct Found {
 /// Returns the flip in the first of the differences that is one of facts of an iteration.
 pub fn flip(old: &Run, new: &Run, differences: &[Difference]) -> Option<Flip> {
     let difference = differences.iter().find(|difference| {
-        let decides = |name| ["ct", "dy", "statuses", "in contact", "mates"].contains(&name);
+        let decides = |name| ["ct", "dy", "statuses"].contains(&name);
         matches!(difference.kind, Kind::Fact { .. })
             && iteration(&difference.entry).is_some_and(|(_, quantity)| decides(quantity))
     })?;
@@ -57,7 +57,7 @@ pub fn flip(old: &Run, new: &Run, differences: &[Difference]) -> Option<Flip> {
     let node = list(old, "cnt")[i].as_u64();
     let (Some(was), Some(is)) = (of(old, i), of(new, i)) else { return Some(unknown()) };
     let (words, line) = words(&was, &is, [old, new].iter().all(|run| follows_listing(run)));
-    let line = line.map(|line| printed(line));
+    let line = line.map(printed);
     Some(Flip { iteration: k, node, words, line })
 }
 

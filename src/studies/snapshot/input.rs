@@ -23,6 +23,9 @@ pub struct Input {
     pub mesh: Rows,
 }
 
+/// A row of an element: number, type, physical tags, geometric tag, nodes.
+pub type ElementRow = (usize, usize, Vec<usize>, usize, Vec<usize>);
+
 /// A mesh as rows of numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -31,8 +34,8 @@ pub struct Rows {
     pub groups: Vec<(usize, usize, String)>,
     /// The nodes: number, x, y, z.
     pub nodes: Vec<(usize, f64, f64, f64)>,
-    /// The elements: number, type, physical tags, geometric tag, nodes.
-    pub elements: Vec<(usize, usize, Vec<usize>, usize, Vec<usize>)>,
+    /// The points, edges and triangles.
+    pub elements: Vec<ElementRow>,
 }
 
 impl From<&Mesh> for Rows {

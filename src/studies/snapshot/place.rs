@@ -13,8 +13,18 @@ const ITERATION: &[&str] =
     &["load", "ct", "yt", "dy", "statuses", "in contact", "mates", "weights", "MJS", "u", "cycle"];
 
 /// What is recorded at the end.
-const END: &[&str] =
-    &["exit status", "failure", "iterations", "u", "stress", "reactions", "gap", "pressure"];
+const END: &[&str] = &[
+    "exit status",
+    "failure",
+    "iterations",
+    "u",
+    "stress",
+    "largest von Mises stress",
+    "largest von Mises strain",
+    "reactions",
+    "gap",
+    "pressure",
+];
 
 /// A place in the order of computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

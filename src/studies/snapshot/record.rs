@@ -9,12 +9,13 @@ use super::options::Options;
 use super::place::{of_iteration, place};
 use crate::answer::contact::{ContactNode, Pairing};
 use crate::answer::error::{Error, Result};
-use crate::answer::estimates::arithmetic::{Rounding, rounding};
+use crate::answer::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
 use crate::answer::{Detail, Elimination, Request, Solution, Step, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::paper::door;
 use crate::paper::mirror::{Km, Pairs};
-use crate::problem::model::{EdgeId, Model, NodeId};
+use crate::problem::element;
+use crate::problem::model::{Body, EdgeId, Model, NodeId, TriangleId};
 use crate::problem::modelling::Variant;
 
 /// The roundings of a pressure and of an entry of a triangle's matrix, in units of 2^-53.
@@ -241,17 +242,17 @@ fn end(run: &mut Run, solution: &Solution, rounding: Option<&Rounding>) {
     let bound = rounding.map(|rounding| rounding.displacement).filter(|bound| bound.is_finite());
     let u = solution.displacements();
     run.numbers.set("u", Numbers::rows(&units.length, (1..).zip(u), bound));
-    let bounded = bound.map(|bound| solution.u.map(|u| Bounded::new(u, bound)));
-    let stress_bound = bounded.as_ref().map(|u| {
-        let stresses = Stiffness::new(model, Bounded::from_f64).stresses(u);
+    let within = bound.map(|bound| (bounded(model), solution.u.map(|u| Bounded::new(u, bound))));
+    let stress_bound = within.as_ref().map(|(stiffness, u)| {
+        let stresses = stiffness.stresses(u);
         stresses.iter().flat_map(|s| s.iter().map(|s| s.error())).fold(0.0, f64::max)
     });
     let stresses = solution.elements.iter().map(|state| <[f64; 3]>::from(state.sigma));
     run.numbers.set("stress", Numbers::rows(&units.stress, (1..).zip(stresses), stress_bound));
+    largest(run, solution, bound);
     let force = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
-    let force_bound = bounded.as_ref().map(|u| {
-        let force =
-            Stiffness::new(model, Bounded::from_f64).times(u) - model.load_in(Bounded::from_f64);
+    let force_bound = within.as_ref().map(|(stiffness, u)| {
+        let force = stiffness.times(u) - model.load_in(Bounded::from_f64);
         force.iter().map(|f| f.error()).fold(0.0, f64::max)
     });
     let restrained = model.node_ids().filter(|node| model.restraints_of(*node) != [false; 2]);
@@ -262,6 +263,31 @@ fn end(run: &mut Run, solution: &Solution, rounding: Option<&Rounding>) {
     run.numbers
         .set("reactions", Numbers::rows(&units.force, restrained.map(reaction), force_bound));
     surface(run, solution, bound, force_bound);
+}
+
+/// Records the largest von Mises stress and strain of each body; displacements are known to `bound`.
+fn largest(run: &mut Run, solution: &Solution, bound: Option<f64>) {
+    let (model, unit) = (&*solution.model, &solution.request.scene.units.stress);
+    let most = |of: &dyn Fn(TriangleId) -> f64| {
+        let of_body = |body: &Body| body.triangles.iter().map(|id| of(*id)).fold(0.0, f64::max);
+        model.bodies.iter().map(of_body).collect::<Vec<_>>()
+    };
+    let state = |id: TriangleId| &solution.elements[id.index()];
+    let stress_bound = bound.map(|bound| {
+        stress_bounds(solution, &bounded(model), bound).into_iter().fold(0.0, f64::max)
+    });
+    let stresses = most(&|id| state(id).von_mises_stress);
+    run.numbers.set("largest von Mises stress", Numbers::list(unit, stresses, stress_bound));
+    // The value of a strain is at most the sum of the sizes of its components.
+    let strain_bound = bound.map(|bound| {
+        let of_triangle = |id: TriangleId| {
+            let b = element::B(&model.corners(id)).abs().sum();
+            b * (bound + ROUNDINGS * f64::EPSILON * solution.u.amax())
+        };
+        model.triangle_ids().map(of_triangle).fold(0.0, f64::max)
+    });
+    let strains = most(&|id| state(id).von_mises_strain);
+    run.numbers.set("largest von Mises strain", Numbers::list("", strains, strain_bound));
 }
 
 /// Records gap and pressure of the contact nodes. Displacements are known to `bound`, forces to

@@ -27,7 +27,7 @@ pub const PASSAGES: Passages = Passages {
         ("fig. 4", "the number of a figure of the paper"),
         ("fig. 5", "as above"),
         (
-            "Exit status: 0 done; 2 the input is at fault; 3 the published algorithm",
+            "Exit status: 0 done; 1 what was compared differs; 2 the input is at fault; 3 the published",
             "exit statuses are held by tests/program/cli.rs",
         ),
         ("4 no equilibrium was found", "as above"),

@@ -36,7 +36,7 @@ pub const PASSAGES: Passages = Passages {
         ("NAFEMS CGS-1", "the name of a benchmark"),
         ("with exit status 3", "exit statuses are held by tests/program/cli.rs"),
         ("the exit status is 4", "as above"),
-        ("Exit status: 0 done, 2 the input is at fault", "as above"),
+        ("Exit status: 0 done, 1 what was compared differs, 2 the input is at fault", "as above"),
         ("3 the published algorithm fails as printed, 4 no equilibrium", "as above"),
         ("friction 0.2 both |", "which runs are compared"),
         ("MSH 2.2 or 4.1", "versions of a file format"),
