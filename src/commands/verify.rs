@@ -24,7 +24,7 @@ also tells a difference, and that nothing was compared.
 
 Examples:
   plane-contact verify out/fig1.snapshot.json
-  plane-contact verify my/*.json --junit verify.xml --report verify.md
+  plane-contact verify my/*.json --junit verify.xml --report summary.markdown
   plane-contact verify my/snapshot.json --scene my/scene.json    the scene as it is today")]
 pub struct Args {
     /// Snapshots.

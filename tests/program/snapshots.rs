@@ -281,7 +281,7 @@ fn reports_are_json_junit_and_markdown() {
     let mut snapshot = document(at);
     snapshot["runs"]["tied"]["numbers"]["u"]["values"][4][1] = json!(0.5);
     std::fs::write(at.join("t.json"), snapshot.to_string()).expect("written");
-    let args = ["verify", "s.json", "t.json", "--json", "--junit", "v.xml", "--report", "v.md"];
+    let args = ["verify", "s.json", "t.json", "--json", "--junit", "v.xml", "--report", "v.markdown"];
     let (status, printed, _) = ran(at, &args);
     assert_eq!(status, 1);
     let report: Value = serde_json::from_str(&printed).expect("JSON");
@@ -293,7 +293,7 @@ fn reports_are_json_junit_and_markdown() {
     let xml = roxmltree::Document::parse(&xml).expect("XML");
     let count = |name: &str| xml.descendants().filter(|node| node.has_tag_name(name)).count();
     assert_eq!((count("testsuite"), count("testcase"), count("failure")), (2, 4, 1));
-    let page = std::fs::read_to_string(at.join("v.md")).expect("a report");
+    let page = std::fs::read_to_string(at.join("v.markdown")).expect("a report");
     assert!(page.contains("| t.json | tied | differs |") && page.contains("## t.json: tied"));
 }
 

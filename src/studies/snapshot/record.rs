@@ -130,7 +130,8 @@ impl Recorded<'_> {
                 (own.pairs.ct.as_slice().to_vec(), own.pairs.yt.as_slice().to_vec())
             }
             Detail::Unilateral(own) => {
-                run.facts.set(name("load"), json!(own.load));
+                // Where a node closes divides a step, so that this is a number like others.
+                run.numbers.set(name("load"), Numbers::list("", [own.load], None));
                 let statuses: Vec<String> = own.statuses.iter().map(ToString::to_string).collect();
                 run.facts.set(name("statuses"), json!(statuses));
                 let pairings = || own.pairings.iter();
