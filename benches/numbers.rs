@@ -1,142 +1,158 @@
-//! The numbers to reach: whole processes from the outside, time and peak memory beside their
-//! limits; then the interpreter against the mirror, in turn in one run. Prints tables; asserts no
-//! time, for machines differ.
+//! The numbers to reach: whole processes from the outside beside their goals and their peers; then
+//! parts of a run. Answers are compared before anything is timed. Prints tables, writes
+//! `target/numbers.json`, and with `--page` `benches/README.md`; asserts no time, for machines
+//! differ.
+//!
+//! `cargo bench --bench numbers -- --largest 116 --page`
 
+use std::fmt::Write as _;
+use std::hint::black_box;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use plane_contact::paper::door;
+use clap::Parser;
+use nalgebra::DVector;
+use plane_contact::answer::{Elimination, Stiffness};
+use plane_contact::numbers::solve::SparseCholesky;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{Reading, c_cnt};
-use plane_contact::problem::scene::Scene;
+use plane_contact::paper::{door, near};
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use plane_contact::{Request, solve};
+use serde_json::{Value, json};
 
-/// A command, how often it runs, and what it should keep to.
-struct Case {
-    name: &'static str,
-    args: &'static [&'static str],
-    runs: usize,
+#[derive(Parser)]
+struct Args {
+    /// The largest Hertz mesh, in elements on the contact half width: 59, 116, 340.
+    #[arg(long, default_value_t = 340)]
+    largest: usize,
+    /// Write benches/README.md.
+    #[arg(long)]
+    page: bool,
+    /// What `cargo bench` itself hands over.
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+/// What was measured: a table of its own.
+struct Table {
+    title: &'static str,
+    columns: Vec<&'static str>,
+    rows: Vec<(String, Vec<Option<f64>>)>,
+}
+
+/// A run of the program from the outside.
+#[derive(Clone, Copy)]
+struct Taken {
     seconds: f64,
     megabytes: f64,
 }
 
-const CASES: [Case; 8] = [
-    Case {
-        name: "solve strand",
-        args: &["solve", "strand"],
-        runs: 5,
-        seconds: 2.0,
-        megabytes: 300.0,
-    },
-    Case {
-        name: "solve strand --variant tied",
-        args: &["solve", "strand", "--variant", "tied"],
-        runs: 5,
-        seconds: 2.0,
-        megabytes: 300.0,
-    },
-    Case {
-        name: "solve strand --variant printed",
-        args: &["solve", "strand", "--variant", "printed"],
-        runs: 5,
-        seconds: 2.0,
-        megabytes: 300.0,
-    },
-    Case {
-        name: "solve fig1 --scalar exact",
-        args: &["solve", "fig1", "--scalar", "exact"],
-        runs: 3,
-        seconds: 1.0,
-        megabytes: 300.0,
-    },
-    Case {
-        name: "solve strand --scalar f64x2",
-        args: &["solve", "strand", "--scalar", "f64x2"],
-        runs: 3,
-        seconds: 2.0,
-        megabytes: 600.0,
-    },
-    Case { name: "audit strand", args: &["audit"], runs: 3, seconds: 10.0, megabytes: 1000.0 },
-    Case {
-        name: "trace strand",
-        args: &["trace", "strand"],
-        runs: 3,
-        seconds: 10.0,
-        megabytes: 1000.0,
-    },
-    Case {
-        name: "c-cnt fig1",
-        args: &["c-cnt", "fig1"],
-        runs: 20,
-        seconds: 0.020,
-        megabytes: 300.0,
-    },
-];
-
 fn main() {
-    whole_processes();
-    interpreter_against_mirror();
-}
-
-/// c_cnt of the paper's example, listing and mirror in turn, after a check that both give the same.
-fn interpreter_against_mirror() {
-    let reading = Reading::default();
-    let sheet = door::worksheet(&Scene::open("strand").expect("embedded").model, |x| x);
-    let (listing, settings) = (Which::CCnt.under(&reading), settings(&reading));
-    let interpreted = || listings::c_cnt(&listing, &settings, &sheet, &sheet.node, &mut ());
-    let mirrored = || c_cnt(&sheet, &reading, &sheet.node);
-    assert_eq!(interpreted().expect("it runs").0, mirrored().expect("it runs"));
-    let mut times = [Vec::new(), Vec::new()];
-    for _ in 0..200 {
-        let start = Instant::now();
-        std::hint::black_box(interpreted().is_ok());
-        times[0].push(start.elapsed().as_secs_f64());
-        let start = Instant::now();
-        std::hint::black_box(mirrored().is_ok());
-        times[1].push(start.elapsed().as_secs_f64());
-    }
-    let [listing, mirror] = times.map(|mut t| {
-        t.sort_by(f64::total_cmp);
-        t[t.len() / 2]
-    });
-    println!(
-        "\nc_cnt of strand, median: listing {:.3} ms, mirror {:.3} ms, ratio {:.0} (limit 200)",
-        listing * 1e3,
-        mirror * 1e3,
-        listing / mirror
-    );
-}
-
-fn whole_processes() {
+    let args = Args::parse();
     let folder = tempfile::tempdir().expect("a temporary folder");
-    println!(
-        "{:32} {:>10} {:>10} {:>10} {:>10}",
-        "whole process", "median s", "limit s", "peak MB", "limit MB"
-    );
-    for case in CASES {
-        let mut seconds: Vec<f64> = Vec::new();
-        let mut peak = 0.0_f64;
-        for _ in 0..case.runs {
-            let (time, megabytes) = measure(case.args, folder.path());
-            seconds.push(time.as_secs_f64());
-            peak = peak.max(megabytes);
-        }
-        seconds.sort_by(f64::total_cmp);
-        let median = seconds[seconds.len() / 2];
-        println!(
-            "{:32} {median:>10.4} {:>10.3} {peak:>10.1} {:>10.0}",
-            case.name, case.seconds, case.megabytes
-        );
+    let sizes: Vec<usize> =
+        [59, 116, 340].into_iter().filter(|size| *size <= args.largest).collect();
+    let tables: [&dyn Fn() -> Table; 8] = [
+        &interpreter,
+        &search,
+        &iteration,
+        &long_surfaces,
+        &|| processes(folder.path()),
+        &|| hertz(folder.path(), &sizes),
+        &|| factors_alone(folder.path(), &sizes),
+        &|| calculix(folder.path()),
+    ];
+    let mut text = String::new();
+    let tables = tables.map(|measure| {
+        let table = measure();
+        print!("{}", table.text());
+        text += &table.text();
+        table
+    });
+    let json: Vec<Value> = tables.iter().map(Table::json).collect();
+    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/numbers.json");
+    std::fs::create_dir_all(target.parent().expect("a folder")).expect("the folder is made");
+    std::fs::write(&target, format!("{:#}\n", Value::from(json))).expect("it is written");
+    if args.page {
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/README.md");
+        std::fs::write(page, page_of(&text)).expect("it is written");
     }
 }
 
-/// Wall time and peak resident memory of one run.
-fn measure(args: &[&str], folder: &Path) -> (Duration, f64) {
+impl Table {
+    fn new(title: &'static str, columns: &[&'static str]) -> Self {
+        Table { title, columns: columns.to_vec(), rows: Vec::new() }
+    }
+
+    fn row(&mut self, name: impl Into<String>, values: &[Option<f64>]) {
+        self.rows.push((name.into(), values.to_vec()));
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("\n## {}\n\n| |", self.title);
+        self.columns.iter().for_each(|c| write!(text, " {c} |").expect("a string"));
+        text += "\n|---|";
+        self.columns.iter().for_each(|_| text += "---|");
+        for (name, values) in &self.rows {
+            write!(text, "\n| {name} |").expect("a string");
+            for value in values {
+                let value = value.map_or("-".into(), digits);
+                write!(text, " {value} |").expect("a string");
+            }
+        }
+        text + "\n"
+    }
+
+    fn json(&self) -> Value {
+        let row = |(name, values): &(String, Vec<Option<f64>>)| {
+            let named = self.columns.iter().zip(values).map(|(c, v)| ((*c).to_string(), json!(v)));
+            json!({ "what": name, "values": named.collect::<serde_json::Map<_, _>>() })
+        };
+        json!({ "table": self.title, "rows": self.rows.iter().map(row).collect::<Vec<_>>() })
+    }
+}
+
+/// Returns a number in three digits.
+fn digits(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return x.to_string();
+    }
+    let decimals = (2 - x.abs().log10().floor() as i32).max(0) as usize;
+    format!("{x:.decimals$}")
+}
+
+fn page_of(text: &str) -> String {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    format!(
+        "# What things take\n\nMade by `cargo bench --bench numbers -- --page` on {cores} cores, by \
+         version {}; machines differ, so compare what stands in one table. Seconds are wall time and \
+         the least of several runs, megabytes the peak of the whole process.\n{text}",
+        env!("CARGO_PKG_VERSION")
+    )
+}
+
+/// Runs the program in `folder` and returns the least time and the largest peak of `runs`.
+fn process(args: &[&str], folder: &Path, runs: usize) -> Taken {
+    let program = Path::new(env!("CARGO_BIN_EXE_plane-contact"));
+    let all = (0..runs).map(|_| measured(program, args, folder));
+    all.reduce(|a, b| Taken {
+        seconds: a.seconds.min(b.seconds),
+        megabytes: a.megabytes.max(b.megabytes),
+    })
+    .expect("at least one run")
+}
+
+fn measured(program: &Path, args: &[&str], folder: &Path) -> Taken {
     let start = Instant::now();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
+    let mut child = Command::new(program)
         .args(args)
         .current_dir(folder)
         .stdout(Stdio::null())
+        .stderr(Stdio::null())
         .spawn()
         .expect("the program starts");
     // VmHWM is the peak so far: read it until the process is gone.
@@ -147,7 +163,248 @@ fn measure(args: &[&str], folder: &Path) -> (Duration, f64) {
         let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
         let value = line.and_then(|line| line.trim().trim_end_matches("kB").trim().parse().ok());
         kilobytes = kilobytes.max(value.unwrap_or(0.0));
-        std::thread::sleep(Duration::from_micros(500));
+        std::thread::sleep(std::time::Duration::from_micros(500));
     }
-    (start.elapsed(), kilobytes / 1024.0)
+    Taken { seconds: start.elapsed().as_secs_f64(), megabytes: kilobytes / 1024.0 }
+}
+
+/// Returns the least time of several runs of `work`, s.
+fn least(runs: usize, mut work: impl FnMut()) -> f64 {
+    let once = |_| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_secs_f64()
+    };
+    (0..runs).map(once).fold(f64::INFINITY, f64::min)
+}
+
+fn processes(folder: &Path) -> Table {
+    let mut table =
+        Table::new("Whole processes, all files written", &["s", "goal s", "MB", "goal MB"]);
+    let mut add = |words: &str, runs: usize, goal: f64, megabytes: Option<f64>| {
+        let taken = process(&words.split(' ').collect::<Vec<_>>(), folder, runs);
+        table.row(
+            format!("`{words}`"),
+            &[Some(taken.seconds), Some(goal), Some(taken.megabytes), megabytes],
+        );
+    };
+    add("solve strand --variant printed", 3, 0.06, Some(60.0));
+    add("solve strand --variant tied", 5, 0.06, Some(60.0));
+    add("solve strand --variant stepped", 5, 0.06, Some(60.0));
+    add("solve strand --variant unilateral", 5, 0.04, Some(60.0));
+    add("audit", 3, 1.5, None);
+    add("extremes", 1, 2.0, None);
+    add("trade strand", 1, 10.0, None);
+    table
+}
+
+/// The path of Hertz's scene of a size, written to `folder`.
+fn hertz_scene(size: usize, folder: &Path) -> String {
+    let place = folder.join(format!("hertz-{size}"));
+    if !place.exists() {
+        let size = size.to_string();
+        process(
+            &["mesh", "hertz", "--size", &size, "--out", place.to_str().expect("a path")],
+            folder,
+            1,
+        );
+    }
+    place.join("scene.json").to_str().expect("a path").into()
+}
+
+fn equations(scene: &str) -> f64 {
+    Scene::open(scene).expect("the scene is sound").model.free_dofs() as f64
+}
+
+fn hertz(folder: &Path, sizes: &[usize]) -> Table {
+    let mut table = Table::new(
+        "Hertz, unilateral",
+        &["equations", "s", "MB", "s without pictures and error estimates", "growth exponent"],
+    );
+    let mut before: Option<(f64, f64)> = None;
+    for size in sizes {
+        let scene = hertz_scene(*size, folder);
+        let runs = if *size < 200 { 3 } else { 1 };
+        let all = process(&["solve", &scene], folder, runs);
+        let bare = ["solve", &scene, "--no-pictures", "--no-error-estimate"];
+        let bare = process(&bare, folder, runs);
+        let n = equations(&scene);
+        let growth = before.map(|(m, s)| (all.seconds / s).ln() / (n / m).ln());
+        before = Some((n, all.seconds));
+        let values = [Some(n), Some(all.seconds), Some(all.megabytes), Some(bare.seconds), growth];
+        table.row(format!("{size} elements on the half width"), &values);
+    }
+    table
+}
+
+/// The library's order, factor and one solution of the matrix of the held bodies.
+fn factors_alone(folder: &Path, sizes: &[usize]) -> Table {
+    let mut table = Table::new(
+        "faer alone: order, factor and a solution of the same matrix",
+        &["equations", "s", "solution, s"],
+    );
+    for size in sizes {
+        let model = Scene::open(&hertz_scene(*size, folder)).expect("it is sound").model;
+        // The cylinder is held by its contact nodes, all of them.
+        let mut restrained = model.restrained.clone();
+        let dofs = model.contact.nodes.iter().flat_map(|node| node.dofs());
+        dofs.for_each(|dof| restrained[dof.index()] = true);
+        let stiffness = Stiffness::new(&model, |x| x);
+        let matrix = stiffness.reduced(&Elimination::new(&restrained, &[]));
+        let n = matrix.size();
+        let start = Instant::now();
+        let factors = SparseCholesky::new(matrix).expect("the bodies are held");
+        let factored = start.elapsed().as_secs_f64();
+        let b = DVector::from_element(n, 1.0);
+        let solution = least(3, || drop(black_box(factors.solve(&b))));
+        table.row(
+            format!("{size} elements on the half width"),
+            &[Some(n as f64), Some(factored + solution), Some(solution)],
+        );
+    }
+    table
+}
+
+/// CalculiX's own contact on the same meshes, where `ccx` is installed.
+fn calculix(folder: &Path) -> Table {
+    /// Its pairs take minutes on finer meshes.
+    const SIZES: [usize; 2] = [10, 20];
+    let mut table = Table::new(
+        "CalculiX (`ccx`), its contact pair by penalty, on the same scene",
+        &["ours, s", "ccx, s", "ratio", "|u| differs by, %"],
+    );
+    if Command::new("ccx").arg("-v").stdout(Stdio::null()).status().is_err() {
+        return table;
+    }
+    let scenes = SIZES.map(|size| (format!("Hertz {size}"), hertz_scene(size, folder)));
+    for (name, scene) in std::iter::once(("strand".into(), "strand".to_string())).chain(scenes) {
+        let pair = ["--variant", "unilateral", "--contact", "pair", "--friction", "0"];
+        let compared = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
+            .args(["compare", &scene, "--with", "calculix", "--json"])
+            .args(pair)
+            .current_dir(folder)
+            .output()
+            .expect("the program starts");
+        let compared: Value = serde_json::from_slice(&compared.stdout).unwrap_or_default();
+        let Some(differs) = compared["displacement"]["largest"]["relative"].as_f64() else {
+            table.row(format!("{name}: ccx found no answer"), &[None; 4]);
+            continue;
+        };
+        let deck = ["export", &scene, "--to", "calculix", "--out", "deck.inp"];
+        process(&[&deck[..], &pair[..]].concat(), folder, 1);
+        let peer = measured(Path::new("ccx"), &["-i", "deck"], folder).seconds;
+        let ours =
+            process(&["solve", &scene, "--variant", "unilateral", "--friction", "0"], folder, 3);
+        let values = [ours.seconds, peer, peer / ours.seconds, 100.0 * differs];
+        table.row(name, &values.map(Some));
+    }
+    table
+}
+
+/// Two thin strips on each other, with `n` edges along the target.
+fn strips(n: usize) -> Scene {
+    let mut mesh = MeshBuilder::default();
+    let mut line = |from: f64, to: f64, pieces: usize, y: f64| {
+        let at = |k: usize| [from + (to - from) * k as f64 / pieces as f64, y];
+        mesh.row((0..=pieces).map(at))
+    };
+    let length = n as f64 / 10.0;
+    let (bottom, target) = (line(0.0, length, n, 0.0), line(0.0, length, n, 0.1));
+    let (contact, top) =
+        (line(0.03, length - 0.03, n - 1, 0.1), line(0.03, length - 0.03, n - 1, 0.2));
+    mesh.join("lower", &bottom, &target);
+    mesh.join("upper", &contact, &top);
+    mesh.edges("bottom", &bottom);
+    mesh.edges("target", &target);
+    mesh.edges("contact", &contact);
+    mesh.edges("top", &top);
+    SceneBuilder::new("strips", mesh.finish(), Plane::Strain)
+        .material("lower", 30_000.0, 0.2)
+        .material("upper", 210_000.0, 0.3)
+        .restrain("bottom", &[Axis::X, Axis::Y])
+        .restrain("top", &[Axis::X])
+        .pressure("top", 6.3)
+        .contact(Contact::new("contact", "target", 0.001))
+        .build()
+        .expect("the scene is sound")
+}
+
+fn long_surfaces() -> Table {
+    let mut table = Table::new(
+        "Long surfaces: two strips of one row of triangles each",
+        &["unilateral, s", "tied, s", "growth exponent of both"],
+    );
+    let mut before: Option<f64> = None;
+    for n in [2_500, 5_000, 10_000] {
+        let scene = strips(n);
+        let run = |variant| {
+            let request = Request::new(&scene).variant(variant);
+            least(1, || drop(black_box(solve(&request, &mut |_| ()).expect("it is sound"))))
+        };
+        let [unilateral, tied] = [Variant::Unilateral, Variant::Tied].map(run);
+        let growth = before.map(|s| ((unilateral + tied) / s).log2());
+        before = Some(unilateral + tied);
+        table.row(format!("{n} contact nodes"), &[Some(unilateral), Some(tied), growth]);
+    }
+    table
+}
+
+/// What an iteration takes beyond the first.
+fn iteration() -> Table {
+    let mut table =
+        Table::new("An iteration of `strand` beyond the first", &["ms", "20 over 1", "goal ms"]);
+    let scene = Scene::open("strand").expect("embedded");
+    for variant in [Variant::Tied, Variant::Stepped] {
+        let time = |iterations| {
+            // A new request each: clones of one share its factors.
+            least(5, || {
+                let mut request = Request::new(&scene).variant(variant);
+                request.iterations = iterations;
+                drop(black_box(solve(&request, &mut |_| ()).expect("it runs")));
+            })
+        };
+        let [one, twenty] = [1, 20].map(time);
+        let each = 1e3 * (twenty - one) / 19.0;
+        table.row(variant.to_string(), &[Some(each), Some(twenty / one), Some(0.3)]);
+    }
+    table
+}
+
+/// `c_cnt` by the mirror and by the tree.
+fn search() -> Table {
+    let mut table =
+        Table::new("One call of `c_cnt`", &["mirror, ms", "tree, ms", "ratio", "goal ms"]);
+    let reading = Reading::default();
+    for n in [1_000, 10_000] {
+        let sheet = door::worksheet(&strips(n).model, |x| x);
+        let mirror = || c_cnt(&sheet, &reading, &sheet.node).expect("it runs");
+        let tree = || near::c_cnt(&sheet, &reading, &sheet.node).expect("it runs");
+        assert_eq!(mirror(), tree());
+        let mirror = 1e3 * least(2, || drop(black_box(mirror())));
+        let tree = 1e3 * least(5, || drop(black_box(tree())));
+        let goal = (n == 10_000).then_some(20.0);
+        table.row(
+            format!("{n} contact nodes, {n} edges"),
+            &[Some(mirror), Some(tree), Some(mirror / tree), goal],
+        );
+    }
+    table
+}
+
+/// `c_cnt` of the paper's example, listing and mirror in turn.
+fn interpreter() -> Table {
+    let reading = Reading::default();
+    let sheet = door::worksheet(&Scene::open("strand").expect("embedded").model, |x| x);
+    let (listing, settings) = (Which::CCnt.under(&reading), settings(&reading));
+    let interpreted = || listings::c_cnt(&listing, &settings, &sheet, &sheet.node, &mut ());
+    let mirrored = || c_cnt(&sheet, &reading, &sheet.node);
+    assert_eq!(interpreted().expect("it runs").0, mirrored().expect("it runs"));
+    let listing = 1e3 * least(200, || drop(black_box(interpreted())));
+    let mirror = 1e3 * least(200, || drop(black_box(mirrored())));
+    let mut table = Table::new(
+        "`c_cnt` of `strand`, interpreted and mirrored",
+        &["listing, ms", "mirror, ms", "ratio", "limit"],
+    );
+    table.row("one call", &[Some(listing), Some(mirror), Some(listing / mirror), Some(200.0)]);
+    table
 }

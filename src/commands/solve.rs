@@ -82,14 +82,15 @@ pub fn run(args: &Args) -> Result<()> {
     let request = args.model.request(&scene, args.variant, &args.reading);
     let request = request.arithmetic(args.arithmetic);
     let (solution, accuracy) = solve(args, &request)?;
-    let plan = Plan::new(&solution.request)?;
     let asked: Vec<String> = args.accuracy.iter().map(|a| format!("accuracy-{a:e}")).collect();
     let start = format!("{}-{}", scene.name, request.variant);
     let out = folder(&args.out, folder_name(start, &request, &asked));
-    let mut assessment = match args.no_error_estimate {
+    let assess = || match args.no_error_estimate {
         true => Assessment::without_estimates(&solution),
         false => Assessment::new(&solution),
     };
+    let (mut assessment, plan) = rayon::join(assess, || Plan::new(&solution.request));
+    let plan = plan?;
     assessment.probe(&solution, &args.probe)?;
     let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
     let result = report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?;

@@ -83,13 +83,15 @@ impl ErrorEstimates {
     /// Estimates the errors of a run.
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
-        let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
-        let arithmetic::Rounding { displacement, decisions, .. } =
-            arithmetic::rounding_of(solution, held.as_ref(), &bounded);
-        let stress = arithmetic::stress_bounds(solution, &bounded, displacement);
-        drop(bounded);
-        let mesh = Discretisation::new(model, &solution.elements);
-        let points = singular(solution);
+        let of_rounding = || {
+            let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
+            let rounding = arithmetic::rounding_of(solution, held.as_ref(), &bounded);
+            let stress = arithmetic::stress_bounds(solution, &bounded, rounding.displacement);
+            (held, rounding, stress)
+        };
+        let of_mesh = || (Discretisation::new(model, &solution.elements), singular(solution));
+        let ((held, rounding, stress), (mesh, points)) = rayon::join(of_rounding, of_mesh);
+        let arithmetic::Rounding { displacement, decisions, .. } = rounding;
         let bodies = model.bodies.iter().map(|body| {
             let states = &solution.elements;
             let largest = mesh.largest_von_mises(model, states, &body.triangles);

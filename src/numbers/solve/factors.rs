@@ -22,7 +22,7 @@ impl Native for f32 {
 }
 
 /// The factors of a square matrix A.
-pub trait Factors<T> {
+pub trait Factors<T>: Sync {
     /// Returns the solution x of A x = `b`.
     fn solve(&self, b: &DVector<T>) -> DVector<T>;
 }
