@@ -196,10 +196,11 @@ impl Bodies {
             Some(condensation) => condensation,
             None => {
                 let expected: &[NodeId] = if first { &self.expected } else { &[] };
-                let nodes = Some(self.nodes(constraints, expected));
-                let nodes = nodes.filter(|nodes| nodes.len() <= self.most());
-                let made =
-                    nodes.and_then(|nodes| self.shared.condensed(stiffness, &self.model, nodes));
+                let nodes = self.nodes(constraints, expected);
+                if nodes.len() > self.most() {
+                    return None;
+                }
+                let made = self.shared.condensed(stiffness, &self.model, nodes);
                 self.impossible.set(made.is_none());
                 self.current.replace(made.clone());
                 made?
