@@ -271,7 +271,7 @@ fn calculix(folder: &Path) -> Table {
     const SIZES: [usize; 2] = [10, 20];
     let mut table = Table::new(
         "CalculiX (`ccx`), its contact pair by penalty, on the same scene",
-        &["ours, s", "ccx, s", "ratio", "|u| differs by, %"],
+        &["ours, s", "ccx, s", "ratio", "displacements differ by, %"],
     );
     if Command::new("ccx").arg("-v").stdout(Stdio::null()).status().is_err() {
         return table;

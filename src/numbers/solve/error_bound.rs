@@ -30,9 +30,8 @@ pub fn error_bound<V: Rounded>(
         spread[i] += a.error() + rounding.to_f64().abs();
     }
     let w = r.map(|r| r.to_f64().abs() + r.error());
-    let norm = |w: &DVector<f64>| inverse_norm(factors, w);
-    let (rho, bound) = rayon::join(|| norm(&spread), || norm(&w));
-    if rho < 1.0 { bound / (1.0 - rho) } else { f64::INFINITY }
+    let rho = inverse_norm(factors, &spread);
+    if rho < 1.0 { inverse_norm(factors, &w) / (1.0 - rho) } else { f64::INFINITY }
 }
 
 /// Returns the largest entry of |A⁻¹| w, A symmetric and w >= 0: the 1-norm of diag(w) A⁻¹.
