@@ -69,7 +69,7 @@ pub fn read(file: &Path) -> Result<Snapshot> {
     Ok(Snapshot::read(&text).map_err(|error| error.within(&place))?)
 }
 
-fn check(file: &PathBuf, scene: Option<&Scene>) -> Result<Checked> {
+fn check(file: &Path, scene: Option<&Scene>) -> Result<Checked> {
     let snapshot = read(file)?;
     let name = file.display().to_string();
     let verified = waiting("verifying", || snapshot::verify(&snapshot, scene));

@@ -281,7 +281,8 @@ fn reports_are_json_junit_and_markdown() {
     let mut snapshot = document(at);
     snapshot["runs"]["tied"]["numbers"]["u"]["values"][4][1] = json!(0.5);
     std::fs::write(at.join("t.json"), snapshot.to_string()).expect("written");
-    let args = ["verify", "s.json", "t.json", "--json", "--junit", "v.xml", "--report", "v.markdown"];
+    let args =
+        ["verify", "s.json", "t.json", "--json", "--junit", "v.xml", "--report", "v.markdown"];
     let (status, printed, _) = ran(at, &args);
     assert_eq!(status, 1);
     let report: Value = serde_json::from_str(&printed).expect("JSON");
