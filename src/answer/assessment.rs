@@ -14,6 +14,7 @@ use super::solution::Solution;
 use super::solve::solve;
 use super::summary::{BodySummary, summaries};
 use crate::error::InputError;
+use crate::problem::model::Model;
 use crate::problem::modelling::ContactModel;
 
 /// The values and estimates that reports print beside a solution.
@@ -51,7 +52,11 @@ impl<'a> Assessment<'a> {
     /// Assesses a solution, and solves for the reference solution and for the equilibrium under the
     /// scene's own friction and geometry, unless it is one of them.
     pub fn new(solution: &'a Solution) -> Self {
-        Self::without_estimates(solution).estimated(solution)
+        let estimates = || (ErrorEstimates::new(solution), path_change(solution));
+        let assessment = || Self::without_estimates(solution);
+        let (assessment, (estimates, path_change)) =
+            side_by_side(&solution.model, assessment, estimates);
+        Assessment { estimates: Some(estimates), path_change, ..assessment }
     }
 
     /// Does the same without the estimates: neither their fields nor `path_change`, which takes
@@ -65,8 +70,12 @@ impl<'a> Assessment<'a> {
             false => solve(&wanted, &mut |_| ()).map(|other| Cow::Owned(without_factors(other))),
         };
         let target = solution.model.target();
-        let reference = target.map(|_| solved(reference));
-        Assessment::measured(solution, reference, target.and(own).map(solved))
+        let (reference, equilibrium) = side_by_side(
+            &solution.model,
+            || target.map(|_| solved(reference)),
+            || target.and(own).map(solved),
+        );
+        Assessment::measured(solution, reference, equilibrium)
     }
 
     /// Assesses a solution against solutions that are already known: the reference solution, and
@@ -76,7 +85,9 @@ impl<'a> Assessment<'a> {
         [reference, equilibrium]: [Option<&'a Solution>; 2],
     ) -> Self {
         let known = |other: Option<&'a Solution>| other.map(|other| Ok(Cow::Borrowed(other)));
-        Assessment::measured(solution, known(reference), known(equilibrium)).estimated(solution)
+        let (estimates, path_change) = (ErrorEstimates::new(solution), path_change(solution));
+        let assessment = Assessment::measured(solution, known(reference), known(equilibrium));
+        Assessment { estimates: Some(estimates), path_change, ..assessment }
     }
 
     fn measured(
@@ -96,11 +107,6 @@ impl<'a> Assessment<'a> {
             reference: measured(reference),
             equilibrium: measured(equilibrium),
         }
-    }
-
-    fn estimated(self, solution: &Solution) -> Self {
-        let estimates = Some(ErrorEstimates::new(solution));
-        Assessment { estimates, path_change: path_change(solution), ..self }
     }
 
     /// Adds what `solution`, which is assessed, says of `points` of the undeformed shape.
@@ -130,6 +136,17 @@ impl<'a> Assessment<'a> {
     pub fn measure(&self) -> Option<&Measured<'a>> {
         self.reference.as_ref()?.as_ref().ok()
     }
+}
+
+/// Does both at once; one after the other of large bodies, as two factors take twice the memory.
+fn side_by_side<A: Send, B: Send>(
+    model: &Model,
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    /// The number of equations of large bodies.
+    const LARGE: usize = 50_000;
+    if model.free_dofs() < LARGE { rayon::join(a, b) } else { (a(), b()) }
 }
 
 /// Returns a solution without what only its own estimates need: large factors.
