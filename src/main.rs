@@ -40,6 +40,8 @@ enum Command {
     Explain(commands::verify::ExplainArgs),
     Diff(commands::diff::Args),
     Accept(commands::accept::Args),
+    Sweep(commands::sweep::Args),
+    Key(commands::sweep::KeyArgs),
     Audit(commands::audit::Args),
     CCnt(commands::c_cnt::Args),
     Km(commands::km::Args),
@@ -61,6 +63,8 @@ fn main() -> ExitCode {
         Command::Explain(args) => commands::verify::run_explain(&args),
         Command::Diff(args) => commands::diff::run(&args),
         Command::Accept(args) => commands::accept::run(&args).map(done),
+        Command::Sweep(args) => commands::sweep::run(&args),
+        Command::Key(args) => commands::sweep::run_key(&args).map(done),
         Command::Solve(args) => commands::solve::run(&args).map(done),
         Command::Audit(args) => commands::audit::run(&args).map(done),
         Command::CCnt(args) => commands::c_cnt::run(&args).map(done),
@@ -77,6 +81,10 @@ fn main() -> ExitCode {
     match result {
         Ok(status) => ExitCode::from(status),
         Err(error) => {
+            // Every command that prints JSON has this option.
+            if std::env::args_os().any(|arg| arg == "--json") {
+                let _ = commands::print(&plane_contact::report::failure::failure(&error));
+            }
             eprintln!("error: {error}");
             ExitCode::from(error.exit_status())
         }

@@ -35,5 +35,9 @@ pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
     let call = Call::c_cnt(&model, &reading, &model.nodes)?;
-    print(&if args.json { json::pairs(&call.pairs) } else { tables::pairs(&scene, &model, &call) })
+    print(&if args.json {
+        json::pairs(&scene, &call.pairs)
+    } else {
+        tables::pairs(&scene, &model, &call)
+    })
 }

@@ -41,7 +41,8 @@ pub struct Args {
     /// option that differs from the scene's own].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Print compare.json in place of the tables.
+    /// Print compare.json in place of the tables; files are written only to a folder that --out
+    /// names.
     #[arg(long)]
     json: bool,
 }
@@ -68,6 +69,9 @@ pub fn run(args: &Args) -> Result<()> {
     asked.extend(args.deck.penalty.map(|penalty| format!("penalty-{penalty:e}")));
     let start = format!("{}-{}", scene.name, request.variant);
     let out = folder(&args.out, folder_name(start, &request, &asked));
+    if args.json && args.out.is_none() {
+        return print(&report::json(&compared));
+    }
     let json = report::write(&out, &compared)?;
     if args.json {
         return print(&json);

@@ -8,7 +8,7 @@ use plane_contact::files;
 use plane_contact::report::extremes as report;
 use plane_contact::studies::extremes::{Generator, generators, measure};
 
-use super::{print, waiting};
+use super::{folder, print, waiting};
 
 /// Sweep magnitudes until something breaks down, every answer compared with exact numbers.
 #[derive(clap::Args)]
@@ -33,9 +33,9 @@ pub struct Args {
     #[arg(long)]
     json: bool,
     /// Folder for extremes.txt, extremes.json and a picture for each generator, or more where
-    /// its curves are too many for one.
-    #[arg(long, value_name = "DIR", default_value = "out/extremes")]
-    out: PathBuf,
+    /// its curves are too many for one [default: out/extremes, with --json none].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
@@ -45,12 +45,16 @@ pub fn run(args: &Args) -> Result<()> {
     }
     let measured = waiting("sweeping", || measure(&chosen));
     let (text, json) = (report::text(&measured), report::json(&measured));
-    files::write(&args.out.join("extremes.txt"), &text)?;
-    files::write(&args.out.join("extremes.json"), &json)?;
+    if args.json && args.out.is_none() {
+        return print(&json);
+    }
+    let out = folder(&args.out, "extremes".into());
+    files::write(&out.join("extremes.txt"), &text)?;
+    files::write(&out.join("extremes.json"), &json)?;
     for of in &measured {
         for (picture, k) in report::pictures(of).iter().zip(1..) {
             let more = if k == 1 { String::new() } else { format!("-{k}") };
-            files::write(&args.out.join(format!("{}{more}.svg", of.name)), picture)?;
+            files::write(&out.join(format!("{}{more}.svg", of.name)), picture)?;
         }
     }
     print(if args.json { &json } else { &text })

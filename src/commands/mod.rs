@@ -13,6 +13,7 @@ pub mod plan;
 pub mod record;
 pub mod solve;
 pub mod statuses;
+pub mod sweep;
 pub mod trace;
 pub mod trade;
 pub mod verify;

@@ -44,7 +44,7 @@ pub fn run(args: &Args) -> Result<()> {
     let request = args.model.request(&scene, args.variant, &args.reading);
     let plan = Plan::new(&request.arithmetic(args.arithmetic))?;
     if args.json {
-        return print(&report::json(&plan));
+        return print(&report::json(&scene, &plan));
     }
     print(&report::text(&plan, memory::free()))
 }

@@ -72,7 +72,8 @@ pub struct Args {
     /// however many there are.
     #[arg(long)]
     fields: bool,
-    /// Print result.json in place of the tables.
+    /// Print result.json in place of the tables; files are written only to a folder that --out
+    /// names.
     #[arg(long)]
     json: bool,
 }
@@ -93,12 +94,16 @@ pub fn run(args: &Args) -> Result<()> {
     let plan = plan?;
     assessment.probe(&solution, &args.probe)?;
     let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
-    let result = report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?;
     if args.json {
+        let result = match args.out {
+            Some(_) => report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?,
+            None => report::folder::result(&solution, &assessment, Some(&plan), wanted),
+        };
         eprint!("{accuracy}");
         print(&result)?;
         return several(&solution);
     }
+    report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?;
     let tables = tables::solution(&solution, &assessment)
         + &tables::error_estimates(&solution, &assessment)
         + &tables::probes(&solution, &assessment)

@@ -66,7 +66,7 @@ pub fn run(args: &Args) -> Result<()> {
     let settings = settings(&reading);
     let trace = trace::trace(chosen.which, &chosen.listing, &settings, &call, wanted);
     if args.json {
-        print(&report::json(&trace, &chosen.listing, &scene.name))?;
+        print(&report::json(&trace, &chosen.listing, &scene))?;
     } else {
         print(&report::text(&trace, &chosen.listing, &model))?;
     }

@@ -44,7 +44,7 @@ pub struct Args {
     only: Vec<Knob>,
     #[command(flatten)]
     reading: ReadingArg,
-    /// Print trade.json in place of the tables.
+    /// Print trade.json in place of the tables; files are written only to a folder that --out names.
     #[arg(long)]
     json: bool,
     /// Folder for the files [default: out/trade-<scene>, and every option that is given].
@@ -74,6 +74,9 @@ pub fn run(args: &Args) -> Result<()> {
     let asked: Vec<String> = args.only.iter().map(Knob::to_string).chain(differs).collect();
     let start = format!("trade-{}", scene.name);
     let out = folder(&args.out, folder_name(start, &request, &asked));
+    if args.json && args.out.is_none() {
+        return print(&report::json(&measured));
+    }
     let json = report::write(&out, &measured)?;
     if args.json {
         return print(&json);

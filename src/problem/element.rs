@@ -126,10 +126,7 @@ impl State {
         let (u, common) = T::over_common(u.as_slice().to_vec());
         let epsilon = B * SVector::<T, 6>::from_vec(u);
         let sigma = D(plane, E, nu) * epsilon;
-        let sigma_z = match plane {
-            Plane::Strain => nu * (sigma[0] + sigma[1]),
-            Plane::Stress => T::zero(),
-        };
+        let sigma_z = out_of_plane_stress(plane, nu, &sigma);
         let epsilon_z = out_of_plane_strain(plane, nu, &epsilon);
         let stress = [sigma[0], sigma[1], sigma_z, sigma[2]];
         let strain = [epsilon[0], epsilon[1], epsilon_z, epsilon[2] / two];
@@ -149,8 +146,16 @@ pub fn von_mises_strain_by_stress_formula(plane: Plane, nu: f64, e: &SVector<f64
     deviator_norm(1.5, [e[0], e[1], e_zz, e[2] / 2.0], 1.0) / (1.0 + nu)
 }
 
+/// Returns sigma_z: nu (sigma_x + sigma_y) in plane strain, 0 in plane stress.
+pub fn out_of_plane_stress<T: Scalar>(plane: Plane, nu: T, sigma: &SVector<T, 3>) -> T {
+    match plane {
+        Plane::Strain => nu * (sigma[0] + sigma[1]),
+        Plane::Stress => T::zero(),
+    }
+}
+
 /// Returns e_zz: 0 in plane strain, −nu/(1 − nu) (e_xx + e_yy) in plane stress.
-fn out_of_plane_strain<T: Scalar>(plane: Plane, nu: T, e: &SVector<T, 3>) -> T {
+pub fn out_of_plane_strain<T: Scalar>(plane: Plane, nu: T, e: &SVector<T, 3>) -> T {
     match plane {
         Plane::Strain => T::zero(),
         Plane::Stress => -nu / (T::one() - nu) * (e[0] + e[1]),

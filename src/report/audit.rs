@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use serde_json::json;
 
 use super::claims;
-use super::json::line;
+use super::json::headed;
 use super::layout::{Table, aligned, listed};
 use super::numbers::{or_dash, percent, short};
 use super::tables::certainty;
@@ -212,17 +212,20 @@ fn tenth(x: f64) -> String {
 pub fn json(audit: &Audit, scene: &Scene) -> String {
     let findings = audit.findings.iter();
     let findings: Vec<serde_json::Value> = findings.map(|(f, m)| f.row(m)).collect();
-    line(&json!({
-        "scene": scene.name,
-        "claims": audit.claims,
-        "assumptions": audit.assumptions,
-        "readings": audit.readings,
-        "findings": findings,
-        "variants": audit.variants,
-        "equilibrium": audit.equilibrium,
-        "reference": audit.reference,
-        "friction": audit.friction,
-    }))
+    headed(
+        Some(scene),
+        &json!({
+            "scene": scene.name,
+            "claims": audit.claims,
+            "assumptions": audit.assumptions,
+            "readings": audit.readings,
+            "findings": findings,
+            "variants": audit.variants,
+            "equilibrium": audit.equilibrium,
+            "reference": audit.reference,
+            "friction": audit.friction,
+        }),
+    )
 }
 
 /// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.

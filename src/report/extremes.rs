@@ -1,10 +1,14 @@
 //! Stability at the extremes, for people, for machines and as a picture.
 
+use super::json::headed;
 use super::layout::{Table, aligned};
 use super::picture::{Axis, SERIES, Series, Style, chart};
 use crate::studies::extremes::{Break, Column, Generator, Measured, Verdict};
 
-pub use super::json::line as json;
+/// Returns the content of `extremes.json`.
+pub fn json(measured: &[Measured]) -> String {
+    headed(None, &measured)
+}
 
 pub fn list(generators: &[Generator]) -> String {
     Table::of(generators)

@@ -45,11 +45,20 @@ pub fn write(
         pictures(folder, &drawing, solution, assessment)?;
     }
     files::write(&folder.join("fields.vtu"), &vtu::vtu(&drawing, solution, assessment))?;
-    let result = ResultFile::new(solution, assessment, plan);
-    let result = if wanted.fields { result.with_fields(solution) } else { result };
-    let result = result.to_json();
+    let result = result(solution, assessment, plan, wanted);
     files::write(&folder.join("result.json"), &result)?;
     Ok(result)
+}
+
+/// Returns the content of `result.json`, and writes nothing.
+pub fn result(
+    solution: &Solution,
+    assessment: &Assessment,
+    plan: Option<&Plan>,
+    wanted: Wanted,
+) -> String {
+    let result = ResultFile::new(solution, assessment, plan);
+    if wanted.fields { result.with_fields(solution).to_json() } else { result.to_json() }
 }
 
 fn pictures(

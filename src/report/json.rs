@@ -5,11 +5,45 @@ use serde_json::{Map, Value, json};
 
 use super::numbers::reason;
 use crate::paper::mirror::Pairs;
+use crate::problem::scene::Scene;
+use crate::studies::snapshot::{FORMAT, Input, VERSION};
 
 /// Writes a document on one line. Floats read back to the same bits; what is not finite is null. The
 /// field `nulls`, which an object with nulls has at its end, says of each field that is null
 /// anywhere in it why.
 pub fn line(document: &impl Serialize) -> String {
+    explained(document).to_string() + "\n"
+}
+
+/// Writes a document on one line behind what every document says of itself: its format, the version
+/// of the program, and of its scene the units and the hashes.
+pub fn headed(scene: Option<&Scene>, document: &impl Serialize) -> String {
+    let mut fields = head(scene);
+    let document = serde_json::to_value(document).expect("a document has string keys only");
+    match document {
+        Value::Object(own) => fields.extend(own),
+        list => drop(fields.insert("rows".into(), list)),
+    }
+    line(&fields)
+}
+
+/// Returns what every document says of itself.
+pub fn head(scene: Option<&Scene>) -> Map<String, Value> {
+    let mut fields = Map::new();
+    fields.insert("format".into(), FORMAT.into());
+    fields.insert("version".into(), VERSION.into());
+    if let Some(scene) = scene {
+        fields.insert("units".into(), json!(scene.units));
+        if let Ok(input) = Input::of(scene) {
+            fields.insert("scene_sha256".into(), input.scene_sha256.into());
+            fields.insert("mesh_sha256".into(), input.mesh_sha256.into());
+        }
+    }
+    fields
+}
+
+/// Returns a document with the reasons of its nulls.
+fn explained(document: &impl Serialize) -> Value {
     let mut document = serde_json::to_value(document).expect("a document has string keys only");
     let documents = match &mut document {
         Value::Array(documents) => documents.as_mut_slice(),
@@ -22,11 +56,16 @@ pub fn line(document: &impl Serialize) -> String {
             fields.insert("nulls".into(), nulls.into());
         }
     }
-    document.to_string() + "\n"
+    document
+}
+
+/// Writes a document of a run over several lines, with the reasons of its nulls.
+pub fn pretty_explained(document: &impl Serialize) -> String {
+    pretty(&explained(document))
 }
 
 /// Writes a document over several lines, so that a comparison of two shows what changed: a line for
-/// each field and for each item of a list of lists or objects. A list of scalars stands on one line.
+/// each field and for each item of a list of lists or shallow objects. A list of scalars stands on one line.
 pub fn pretty(document: &impl Serialize) -> String {
     let mut text = String::new();
     indented(&serde_json::to_value(document).expect("a document has string keys"), 0, &mut text);
@@ -34,14 +73,13 @@ pub fn pretty(document: &impl Serialize) -> String {
 }
 
 fn indented(value: &Value, depth: usize, text: &mut String) {
-    let is_scalar = |value: &Value| !(value.is_array() || value.is_object());
+    let is_scalar = |value: &Value| depth_of(value) == 0;
     let (items, [open, close]): (Vec<(String, &Value)>, _) = match value {
         Value::Object(fields) if !fields.is_empty() => {
             let named = |(name, value)| (format!("{}: ", Value::from(name)), value);
             (fields.iter().map(|(name, value)| named((name.as_str(), value))).collect(), ["{", "}"])
         }
-        // A row of a table has lists in it at most.
-        Value::Array(items) if !items.iter().all(is_scalar) && !is_scalar(&items[0]) => {
+        Value::Array(items) if !items.iter().all(is_scalar) => {
             (items.iter().map(|item| (String::new(), item)).collect(), ["[", "]"])
         }
         _ => return text.push_str(&value.to_string()),
@@ -50,9 +88,21 @@ fn indented(value: &Value, depth: usize, text: &mut String) {
     for (k, (name, item)) in items.iter().enumerate() {
         let comma = if k == 0 { "" } else { "," };
         text.extend([comma, "\n", &"  ".repeat(depth + 1), name]);
-        indented(item, depth + 1, text);
+        match value.is_array() && depth_of(item) <= 2 {
+            true => text.push_str(&item.to_string()),
+            false => indented(item, depth + 1, text),
+        }
     }
     text.extend(["\n", &"  ".repeat(depth), close]);
+}
+
+/// Returns how deep lists and objects stand in each other: 0 for a scalar.
+fn depth_of(value: &Value) -> usize {
+    match value {
+        Value::Array(items) => 1 + items.iter().map(depth_of).max().unwrap_or(0),
+        Value::Object(fields) => 1 + fields.values().map(depth_of).max().unwrap_or(0),
+        _ => 0,
+    }
 }
 
 /// Collects the names of the fields that are null in `value`, which stands in `field`, each with its
@@ -68,9 +118,9 @@ fn explain(value: &Value, field: &str, nulls: &mut Map<String, Value>) {
     }
 }
 
-/// Writes what one call of `c_cnt` found.
-pub fn pairs(pairs: &Pairs<f64>) -> String {
-    line(&pairs_value(pairs))
+/// Writes what one call of `c_cnt` found on a scene.
+pub fn pairs(scene: &Scene, pairs: &Pairs<f64>) -> String {
+    headed(Some(scene), &pairs_value(pairs))
 }
 
 /// Returns `ct`, `yt`, `dy` by contact node and `k_cnt` by node.

@@ -10,13 +10,15 @@
 //! | `audit`, `comparison`, `extremes`, `plan`, `trace` | a study each                           |
 //! | `snapshot`, `statuses`, `trade`                    | a study each                           |
 //! | `picture`, `vtu`, `xml`                            | pictures and files for viewers         |
-//! | `json`, `matrix_market`, `output`                  | other files                            |
+//! | `failure`, `json`, `matrix_market`, `output`       | other files                            |
+//! | `sweep`                                            | job files of engines                   |
 //! | `layout`, `numbers`                                | columns of words, numbers as text      |
 
 pub mod audit;
 pub mod claims;
 pub mod comparison;
 pub mod extremes;
+pub mod failure;
 pub mod folder;
 pub mod json;
 mod layout;
@@ -29,6 +31,7 @@ pub mod pressure;
 mod result_file;
 pub mod snapshot;
 pub mod statuses;
+pub mod sweep;
 pub mod tables;
 pub mod trace;
 pub mod trade;

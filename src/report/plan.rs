@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::json;
 use super::layout::{Table, aligned};
 use super::numbers::short;
+use crate::problem::scene::Scene;
 use crate::studies::plan::{BodyPlan, ContactPlan, MARGIN, Plan};
 
 /// Writes the plan on one line, which is the same on every machine.
@@ -49,14 +50,14 @@ pub fn text(plan: &Plan, free: Option<u128>) -> String {
 }
 
 /// Writes the plan as JSON, with the sum of its bytes.
-pub fn json(plan: &Plan) -> String {
+pub fn json(scene: &Scene, plan: &Plan) -> String {
     #[derive(Serialize)]
     struct Document<'a> {
         #[serde(flatten)]
         plan: &'a Plan,
         bytes: f64,
     }
-    json::line(&Document { plan, bytes: plan.cost.bytes.total() })
+    json::headed(Some(scene), &Document { plan, bytes: plan.cost.bytes.total() })
 }
 
 fn row(name: &str, value: impl ToString, why: impl ToString) -> Vec<String> {

@@ -13,9 +13,11 @@ use crate::numbers::scalar::rational;
 use crate::numbers::solve::{Arithmetic, ScalarName};
 use crate::paper::decisions::Decision;
 use crate::paper::mirror::Reading;
+use crate::problem::model::{NodeId, Triangle};
 use crate::problem::modelling::{ContactModel, Variant};
-use crate::problem::scene::Units;
+use crate::problem::scene::{Material, Units};
 use crate::studies::plan::Plan;
+use crate::studies::snapshot::{FORMAT, Input, VERSION};
 
 /// The most triangles whose mesh has its `u` and `elements` in `result.json` without being asked.
 pub const MOST_TRIANGLES: usize = 20_000;
@@ -24,6 +26,15 @@ pub const MOST_TRIANGLES: usize = 20_000;
 /// float reads back to the same bits; one that is not finite is null, and reads back as NaN.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ResultFile {
+    /// The version of the format.
+    pub format: u32,
+    /// The version of the program.
+    pub version: String,
+    /// The SHA-256 of the scene and of its mesh, as a snapshot has them; absent for half a scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scene_sha256: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh_sha256: Option<String>,
     /// The name of the scene.
     pub scene: String,
     /// The scene's line for people, which may be empty.
@@ -38,9 +49,15 @@ pub struct ResultFile {
     pub modelled: ContactModel,
     /// The names of the scene's units, each empty where the scene names none.
     pub units: Units,
-    /// The scalar and the solver; absent where that is `f64` by the variant's own solver.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub arithmetic: Option<Arithmetic>,
+    /// The scalar and the solver that were used.
+    pub arithmetic: Arithmetic,
+    /// The thickness across the plane, length.
+    pub thickness: f64,
+    /// The tolerance of the contact search, length; absent without contact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub c_tll: Option<f64>,
+    /// The materials that triangles have, each once.
+    pub materials: Vec<Material>,
     /// A bound on the error of each entry of `u`, length, where the scalar keeps a finite one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_bound: Option<f64>,
@@ -82,6 +99,9 @@ pub struct ResultFile {
     /// The file beside this one that has `u` and `elements`, where they are absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields_in: Option<String>,
+    /// The coordinates of each node, length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nodes: Option<Vec<[f64; 2]>>,
     /// The displacement of each node along x and y, length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub u: Option<Vec<[f64; 2]>>,
@@ -163,6 +183,10 @@ pub struct BodyEstimates {
 pub struct ElementRow {
     /// Its number, from 1: its row of `EL`.
     pub n: usize,
+    /// The numbers of its nodes.
+    pub nodes: [NodeId; 3],
+    /// The place of its material in `materials`, from 1.
+    pub material: usize,
     /// The stresses sigma_x, sigma_y, tau_xy.
     pub sigma: [f64; 3],
     /// The strains e_xx, e_yy, g_xy.
@@ -179,7 +203,12 @@ impl ResultFile {
     pub fn new(solution: &Solution, assessment: &Assessment, plan: Option<&Plan>) -> Self {
         let request = &solution.request;
         let scene = &request.scene;
+        let input = Input::of(scene).ok();
         let result = ResultFile {
+            format: FORMAT,
+            version: VERSION.into(),
+            scene_sha256: input.as_ref().map(|input| input.scene_sha256.clone()),
+            mesh_sha256: input.map(|input| input.mesh_sha256),
             scene: scene.name.clone(),
             title: scene.title.clone(),
             variant: request.variant,
@@ -190,7 +219,10 @@ impl ResultFile {
             },
             modelled: request.contact,
             units: scene.units.clone(),
-            arithmetic: Some(request.arithmetic).filter(|a| !a.is_default()),
+            arithmetic: Arithmetic { solver: Some(request.solver()), ..request.arithmetic },
+            thickness: solution.model.thickness,
+            c_tll: solution.model.has_contact().then_some(solution.model.contact.tolerance),
+            materials: materials(solution),
             error_bound: solution.error_bound.and_then(known),
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
@@ -209,6 +241,7 @@ impl ResultFile {
                 _ => None,
             },
             fields_in: Some("fields.vtu".into()),
+            nodes: None,
             u: None,
             u_digits: digits(solution),
             elements: None,
@@ -221,7 +254,8 @@ impl ResultFile {
     #[must_use]
     pub fn with_fields(self, solution: &Solution) -> Self {
         let (u, elements) = (Some(solution.displacements()), Some(elements(solution)));
-        ResultFile { fields_in: None, u, elements, ..self }
+        let nodes = Some(solution.model.nodes.clone());
+        ResultFile { fields_in: None, nodes, u, elements, ..self }
     }
 
     /// Returns the displacement of each node, length, and the stresses and strains of each triangle.
@@ -237,9 +271,9 @@ impl ResultFile {
         Err(InputError::new("u and elements of the result", what, "solve again with --fields"))
     }
 
-    /// Writes the content of the file.
+    /// Writes the content of the file, over several lines.
     pub fn to_json(&self) -> String {
-        json::line(self)
+        json::pretty_explained(self)
     }
 
     /// Reads the content of a file.
@@ -318,10 +352,30 @@ fn digits(solution: &Solution) -> Option<Vec<[String; 2]>> {
     Some(pairs.iter().map(|[x, y]| [decimal(x), decimal(y)]).collect())
 }
 
+/// Returns the materials of a model, each once, in the order of its triangles.
+fn materials(solution: &Solution) -> Vec<Material> {
+    let mut materials: Vec<Material> = Vec::new();
+    for triangle in &solution.model.triangles {
+        let material = Material { e: triangle.material.e, nu: triangle.material.nu };
+        if !materials.contains(&material) {
+            materials.push(material);
+        }
+    }
+    materials
+}
+
 fn elements(solution: &Solution) -> Vec<ElementRow> {
-    let rows = solution.elements.iter().zip(1..);
-    rows.map(|(state, n)| ElementRow {
+    let materials = materials(solution);
+    let place = |triangle: &Triangle| {
+        let Triangle { material, .. } = triangle;
+        let is_same = |other: &Material| (other.e, other.nu) == (material.e, material.nu);
+        materials.iter().position(is_same).expect("every triangle has one of them") + 1
+    };
+    let rows = solution.elements.iter().zip(&solution.model.triangles).zip(1..);
+    rows.map(|((state, triangle), n)| ElementRow {
         n,
+        nodes: triangle.nodes,
+        material: place(triangle),
         sigma: state.sigma.into(),
         epsilon: state.epsilon.into(),
         von_mises_stress: state.von_mises_stress,

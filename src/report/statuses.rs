@@ -1,13 +1,16 @@
 //! The status rules measured, for people, for machines and as a picture.
 
+use super::json::headed;
 use super::layout::aligned;
 use super::picture::{Axis, Series, Style, chart};
 use crate::problem::modelling::StatusRule;
 use crate::studies::audit::statuses::{Measurement, Row};
 
-pub use super::json::line as json;
-
 /// Lays out two tables: the wrong statuses by depth, and the operations by size.
+pub fn json(measured: &Measurement) -> String {
+    headed(None, measured)
+}
+
 pub fn text(measured: &Measurement) -> String {
     format!(
         "Status rules on random scenes ({} a row, seed {})\n\n\

@@ -4,13 +4,14 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value as Json, json};
 
-use super::json::{line, pairs_value};
+use super::json::{headed, pairs_value};
 use super::layout::listed;
 use crate::paper::listings::Which;
 use crate::paper::mathcad::Listing;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::Pairs;
 use crate::problem::model::{Model, TriangleId};
+use crate::problem::scene::Scene;
 use crate::studies::audit::trace::{Access, MOST_STEPS, Product, Step, Trace, text_of};
 
 /// Changed entries of a matrix that are listed at most.
@@ -150,21 +151,24 @@ fn row(value: &Json) -> String {
     }
 }
 
-pub fn json(trace: &Trace, listing: &Listing, scene: &str) -> String {
+pub fn json(trace: &Trace, listing: &Listing, scene: &Scene) -> String {
     let step = |step: &Step| {
         json!({
             "turn": step.turn, "line": step.line, "text": text_of(listing, step.line),
             "reads": step.reads, "writes": step.writes,
         })
     };
-    line(&json!({
-        "scene": scene,
-        "listing": trace.which.name(),
-        "steps": trace.steps.iter().map(step).collect::<Vec<_>>(),
-        "trace": trace.output,
-        "result": trace.result.as_ref().ok().map(product_value),
-        "failure": trace.result.as_ref().err().map(ToString::to_string),
-    }))
+    headed(
+        Some(scene),
+        &json!({
+            "scene": scene.name,
+            "listing": trace.which.name(),
+            "steps": trace.steps.iter().map(step).collect::<Vec<_>>(),
+            "trace": trace.output,
+            "result": trace.result.as_ref().ok().map(product_value),
+            "failure": trace.result.as_ref().err().map(ToString::to_string),
+        }),
+    )
 }
 
 fn product_value(product: &Product) -> Json {

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::claims::{over, over_the_range};
+use super::json::headed;
 use super::layout::{Table, listed};
 use super::numbers::{note, or_dash};
 use super::output::{csv as csv_of, write_all};
@@ -14,12 +15,15 @@ use crate::studies::audit::claims::{Claim, Elsewhere};
 use crate::studies::audit::range::{Parameter, Place};
 use crate::studies::trade::{Came, Errors, Knob, Order, Reached, Row, Section, Trade};
 
-pub use super::json::line as json;
-
 /// The heading of `trade.csv`.
 pub const COLUMNS: &str = "knob,variant,setting,own,equations,in_contact,cycle,seconds,runs,\
     peak_bytes,error_displacement,error_energy,error_von_mises,\
     change_displacement,change_energy,change_von_mises,pareto,failure";
+
+/// Returns the content of `trade.json`.
+pub fn json(trade: &Trade) -> String {
+    headed(None, trade)
+}
 
 /// Writes `trade.json`, `trade.csv` and `trade.svg` to `folder`; gives back the first.
 pub fn write(folder: &Path, trade: &Trade) -> Result<String> {

@@ -16,8 +16,11 @@ use rayon::prelude::*;
 
 use super::picture::Drawing;
 use super::xml::Element;
+use crate::answer::contact::Status;
 use crate::answer::{Assessment, Solution};
-use crate::problem::element::State;
+use crate::problem::element::{self, State};
+use crate::problem::model::Triangle;
+use crate::studies::snapshot::{Input, Options, VERSION};
 
 /// VTK's number for a triangle of three nodes.
 const TRIANGLE: u8 = 5;
@@ -25,36 +28,90 @@ const TRIANGLE: u8 = 5;
 /// The bytes of a block before it is compressed.
 const BLOCK: usize = 1 << 18;
 
-/// A result: the name that the viewer lists, the number of its components, and all components of
-/// the first point or triangle, then of the second, and so on.
-type Data<'a> = (&'a str, usize, &'a [f64]);
+/// A result: the name that the viewer lists, its unit, the number of its components, and all
+/// components of the first point or triangle, then of the second, and so on. Nine are a tensor.
+type Data<'a> = (&'a str, &'a str, usize, &'a [f64]);
 
-/// Writes the mesh of `drawing`, the displacements of its points, and the stresses, the strains,
-/// the body and, where it was estimated, the error of its triangles. Every number reads back to the same bits.
+/// What the file says of itself: a name and a text each.
+type About<'a> = (&'a str, &'a str);
+
+/// Writes the mesh of `drawing`; of its points the displacements and, with contact, status, pressure
+/// and gap; of its triangles stress and strain as tensors, their von Mises values, the body and, where
+/// it was estimated, the error. Every number reads back to the same bits.
+///
+/// The status is -1 of a point that is none of the contact surface's, else 0 open, 1 in contact, 2
+/// sliding; pressure and gap are 0 where there is none.
 ///
 /// # Panics
 ///
 /// If a result is not finite.
 pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> Vec<u8> {
-    let elements = &solution.elements;
-    let three = |of: fn(&State) -> [f64; 3]| elements.iter().flat_map(of).collect::<Vec<_>>();
-    let one = |of: fn(&State) -> f64| elements.iter().map(of).collect::<Vec<_>>();
+    let (model, scene) = (&*solution.model, &solution.request.scene);
+    let states = || solution.elements.iter().zip(&model.triangles);
+    let tensor = |of: &dyn Fn(&State, &Triangle) -> [f64; 4]| {
+        let nine = |[xx, yy, zz, xy]: [f64; 4]| [xx, xy, 0.0, xy, yy, 0.0, 0.0, 0.0, zz];
+        states().flat_map(|(state, triangle)| nine(of(state, triangle))).collect::<Vec<_>>()
+    };
+    let one = |of: fn(&State) -> f64| solution.elements.iter().map(of).collect::<Vec<_>>();
+    let stress = tensor(&|state, triangle| {
+        let [x, y, xy]: [f64; 3] = state.sigma.into();
+        [x, y, element::out_of_plane_stress(model.plane, triangle.material.nu, &state.sigma), xy]
+    });
+    let strain = tensor(&|state, triangle| {
+        let [x, y, xy]: [f64; 3] = state.epsilon.into();
+        let z = element::out_of_plane_strain(model.plane, triangle.material.nu, &state.epsilon);
+        [x, y, z, xy / 2.0]
+    });
     let body: Vec<f64> = drawing.region.iter().map(|region| *region as f64).collect();
     let mesh_error = assessment.estimates.as_ref().map(|estimates| estimates.mesh.error_map());
+    let units = &scene.units;
     let triangles: [Data; 5] = [
-        ("sigma_x sigma_y tau_xy", 3, &three(|s| s.sigma.into())),
-        ("epsilon_x epsilon_y gamma_xy", 3, &three(|s| s.epsilon.into())),
-        ("von_mises_stress", 1, &one(|s| s.von_mises_stress)),
-        ("von_mises_strain", 1, &one(|s| s.von_mises_strain)),
-        ("body", 1, &body),
+        ("stress", &units.stress[..], 9, &stress),
+        ("strain", "1", 9, &strain),
+        ("von_mises_stress", &units.stress[..], 1, &one(|s| s.von_mises_stress)),
+        ("von_mises_strain", "1", 1, &one(|s| s.von_mises_strain)),
+        ("body", "", 1, &body),
     ];
-    let mesh_error = mesh_error.as_deref().map(|error| ("mesh_error", 1, error));
+    let mesh_error = mesh_error.as_deref().map(|error| ("mesh_error", &units.stress[..], 1, error));
     let triangles: Vec<Data> = triangles.into_iter().chain(mesh_error).collect();
-    let points: [Data; 1] = [("displacement", 2, solution.u.as_slice())];
-    document(&drawing.points, &drawing.triangles, &points, &triangles)
+    let [status, pressure, gap] = surface(solution);
+    let mut points: Vec<Data> = vec![("displacement", &units.length[..], 2, solution.u.as_slice())];
+    if model.has_contact() {
+        points.push(("contact_status", "", 1, &status));
+        points.push(("contact_pressure", &units.stress, 1, &pressure));
+        points.push(("contact_gap", &units.length, 1, &gap));
+    }
+    let hashes = Input::of(scene).map(|input| [input.scene_sha256, input.mesh_sha256]);
+    let [scene_sha256, mesh_sha256] = hashes.unwrap_or_default();
+    let program = format!("plane-contact {VERSION}");
+    let run = Options::of(&solution.request).name();
+    let about: [About; 5] = [
+        ("program", &program),
+        ("scene", &scene.name),
+        ("scene_sha256", &scene_sha256),
+        ("mesh_sha256", &mesh_sha256),
+        ("run", &run),
+    ];
+    document(&about, &drawing.points, &drawing.triangles, &points, &triangles)
+}
+
+/// Returns status, pressure and gap of every node, as [`vtu`] says.
+fn surface(solution: &Solution) -> [Vec<f64>; 3] {
+    let nodes = solution.model.nodes.len();
+    let [mut status, mut pressure, mut gap] = [-1.0, 0.0, 0.0].map(|value| vec![value; nodes]);
+    for contact in &solution.contact {
+        let k = contact.node.index();
+        status[k] = match (contact.in_contact, contact.status) {
+            (_, Some(Status::Slip(_))) => 2.0,
+            (in_contact, _) => f64::from(in_contact),
+        };
+        (pressure[k], gap[k]) = (contact.pressure.unwrap_or(0.0), contact.gap);
+    }
+    [status, pressure, gap]
 }
 
 pub fn document(
+    about: &[About],
     points: &[[f64; 2]],
     triangles: &[[usize; 3]],
     of_points: &[Data],
@@ -66,7 +123,7 @@ pub fn document(
         .set("NumberOfCells", triangles.len().to_string())
         .with(arrays.results("PointData", of_points, points.len()))
         .with(arrays.results("CellData", of_triangles, triangles.len()))
-        .with(Element::new("Points").with(arrays.floats(&("Points", 2, points.as_flattened()))))
+        .with(Element::new("Points").with(arrays.floats(&("Points", "", 2, points.as_flattened()))))
         .with(arrays.cells(triangles));
     let text = Element::new("VTKFile")
         .set("type", "UnstructuredGrid")
@@ -74,12 +131,25 @@ pub fn document(
         .set("byte_order", "LittleEndian")
         .set("header_type", "UInt64")
         .set("compressor", "vtkZLibDataCompressor")
-        .with(Element::new("UnstructuredGrid").with(piece))
+        .with(Element::new("UnstructuredGrid").with_all(field_data(about)).with(piece))
         .with(Element::with_text("AppendedData", "_").set("encoding", "raw"))
         .document();
     let (before, after) = text.rsplit_once('_').expect("the arrays follow it");
     // Readers that look for the end of the arrays expect a line of its own.
     [before.as_bytes(), b"_", &arrays.bytes, b"\n", after.as_bytes()].concat()
+}
+
+/// Returns texts as a viewer reads them: the codes of their bytes, and 0 at the end.
+fn field_data(about: &[About]) -> Option<Element> {
+    let array = |(name, text): &About| {
+        let codes = text.bytes().chain([0]).map(|byte| byte.to_string());
+        Element::with_text("DataArray", &codes.collect::<Vec<_>>().join(" "))
+            .set("type", "String")
+            .set("Name", name)
+            .set("NumberOfTuples", "1")
+            .set("format", "ascii")
+    };
+    (!about.is_empty()).then(|| Element::new("FieldData").with_all(about.iter().map(array)))
 }
 
 /// The arrays, one after the other.
@@ -90,14 +160,18 @@ struct Arrays {
 
 impl Arrays {
     fn results(&mut self, place: &'static str, data: &[Data], count: usize) -> Element {
-        for (name, components, values) in data {
+        for (name, _, components, values) in data {
             assert_eq!(
                 values.len(),
                 components * count,
                 "{name}: {components} values for each of {count}"
             );
         }
-        Element::new(place).with_all(data.iter().map(|data| self.floats(data)))
+        // The tensor that a viewer takes first.
+        let tensor = data.iter().find(|(_, _, components, _)| *components == 9);
+        let element = tensor
+            .map_or(Element::new(place), |(name, ..)| Element::new(place).set("Tensors", name));
+        element.with_all(data.iter().map(|data| self.floats(data)))
     }
 
     fn cells(&mut self, triangles: &[[usize; 3]]) -> Element {
@@ -112,7 +186,7 @@ impl Arrays {
 
     /// Adds floats with all their bits. A vector in the plane gets a third component, 0: viewers
     /// warp by three.
-    fn floats(&mut self, (name, components, values): &Data) -> Element {
+    fn floats(&mut self, (name, unit, components, values): &Data) -> Element {
         assert!(
             values.iter().all(|value| value.is_finite()),
             "{name}: a file for a viewer needs finite numbers"
@@ -120,8 +194,14 @@ impl Arrays {
         let third: &[f64] = if *components == 2 { &[0.0] } else { &[] };
         let rows = values.chunks(*components).flat_map(|row| row.iter().chain(third));
         let bytes = rows.flat_map(|value| value.to_le_bytes()).collect();
+        let key = |unit: &str| {
+            Element::with_text("InformationKey", unit)
+                .set("name", "UNITS_LABEL")
+                .set("location", "vtkDataArray")
+        };
         self.array("Float64", name, bytes)
             .set("NumberOfComponents", (components + third.len()).to_string())
+            .with_all((!unit.is_empty()).then(|| key(unit)))
     }
 
     /// Adds an array in compressed blocks.

@@ -6,4 +6,5 @@ pub mod calculix;
 pub mod extremes;
 pub mod plan;
 pub mod snapshot;
+pub mod sweep;
 pub mod trade;

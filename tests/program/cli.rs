@@ -131,6 +131,86 @@ fn json_is_result_json_and_nothing_else() {
 }
 
 #[test]
+fn json_alone_writes_no_file_and_a_failure_is_json() {
+    let folder = TempDir::new().unwrap();
+    let printed = succeeds(folder.path(), &["solve", "fig1", "--json"]);
+    let result: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!((&result["format"], &result["c_tll"]), (&1.into(), &0.001.into()));
+    assert_eq!(result["scene_sha256"].as_str().map(str::len), Some(64));
+    assert_eq!(result["materials"][1], serde_json::json!({"E": 210000.0, "nu": 0.3}));
+    assert_eq!(result["nodes"][1], serde_json::json!([1.0, 0.02]));
+    assert_eq!(result["elements"][0]["nodes"], serde_json::json!([1, 10, 2]));
+    assert_eq!(result["elements"][8]["material"], 2);
+    assert_eq!(result["arithmetic"]["solver"], "sparse-cholesky");
+    assert!(printed.lines().count() > 100, "a line a fact");
+    for args in [
+        &["solve", "fig1", "--reading", "R4=eager", "--json"][..],
+        &["c-cnt", "fig1", "--reading", "R4=eager", "--json"],
+    ] {
+        let output = run(folder.path(), args);
+        assert_eq!(output.status.code(), Some(3));
+        let failure: Value = serde_json::from_str(text(&output.stdout)).unwrap();
+        let failure = &failure["failure"];
+        assert_eq!((&failure["exit_status"], &failure["line"]), (&3.into(), &18.into()));
+    }
+    let output = run(folder.path(), &["plan", "nowhere", "--json"]);
+    let failure: Value = serde_json::from_str(text(&output.stdout)).unwrap();
+    assert_eq!(
+        (&failure["failure"]["kind"], &failure["failure"]["where"]),
+        (&"input".into(), &"nowhere".into())
+    );
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "no file is written");
+}
+
+#[test]
+fn a_scene_is_read_from_standard_input() {
+    let folder = TempDir::new().unwrap();
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/fig1/scene.json");
+    for (command, named) in [("c-cnt", "fig1"), ("solve", "fig1")] {
+        let output = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
+            .args([command, "-", "--json"])
+            .current_dir(folder.path())
+            .stdin(std::fs::File::open(&golden).unwrap())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let printed = text(&output.stdout).replace("\"stdin\"", "\"fig1\"");
+        assert_eq!(printed, succeeds(folder.path(), &[command, named, "--json"]));
+    }
+}
+
+#[test]
+fn fields_vtu_has_tensors_contact_units_and_where_it_is_from() {
+    let folder = TempDir::new().unwrap();
+    succeeds(folder.path(), &["solve", "fig1", "--out", "o", "--no-pictures"]);
+    let head = head_of_vtu(&folder.path().join("o"));
+    let vtu = roxmltree::Document::parse(&head).unwrap();
+    let array = |name: &str| vtu.descendants().find(|n| n.attribute("Name") == Some(name)).unwrap();
+    for (name, components, unit) in [
+        ("stress", "9", "MPa"),
+        ("strain", "9", "1"),
+        ("contact_pressure", "1", "MPa"),
+        ("contact_gap", "1", "mm"),
+        ("displacement", "3", "mm"),
+    ] {
+        let array = array(name);
+        assert_eq!(array.attribute("NumberOfComponents"), Some(components), "{name}");
+        let key = array.children().find(|n| n.has_tag_name("InformationKey")).unwrap();
+        assert_eq!((key.attribute("name"), key.text()), (Some("UNITS_LABEL"), Some(unit)));
+    }
+    assert_eq!(array("contact_status").attribute("NumberOfComponents"), Some("1"));
+    let data = vtu.descendants().find(|n| n.has_tag_name("CellData")).unwrap();
+    assert_eq!(data.attribute("Tensors"), Some("stress"));
+    let words = |name: &str| {
+        let codes = array(name).text().unwrap().split_whitespace();
+        let bytes: Vec<u8> = codes.map(|code| code.parse().unwrap()).collect();
+        String::from_utf8(bytes).unwrap().trim_end_matches('\0').to_string()
+    };
+    assert!(words("program").starts_with("plane-contact "));
+    assert_eq!((words("run"), words("scene_sha256").len()), ("stepped".to_string(), 64));
+}
+
+#[test]
 fn floats_read_back_to_the_same_bits() {
     let folder = TempDir::new().unwrap();
     let printed = succeeds(folder.path(), &["solve", "fig1", "--json"]);

@@ -27,6 +27,7 @@ mod result_file;
 mod scene_builder;
 mod scenes;
 mod snapshots;
+mod sweeps;
 mod texts;
 mod trade;
 mod undefined;

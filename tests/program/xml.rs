@@ -28,8 +28,9 @@ const DISPLACEMENT: [f64; 8] =
     [0.1 + 0.2, -1e-300, 5e-324, 0.0, -0.0, f64::MAX, f64::EPSILON, -2.5];
 
 fn written() -> Vec<u8> {
-    let of_triangles = [("a < b", 1, &[6.3, f64::MIN_POSITIVE][..])];
-    document(&POINTS, &TRIANGLES, &[("displacement", 2, &DISPLACEMENT)], &of_triangles)
+    let of_triangles = [("a < b", "MPa", 1, &[6.3, f64::MIN_POSITIVE][..])];
+    let points = [("displacement", "mm", 2, &DISPLACEMENT[..])];
+    document(&[("scene", "fig1 <&>")], &POINTS, &TRIANGLES, &points, &of_triangles)
 }
 
 /// Returns the type, the components and the bytes of an array, as a reader finds them: the XML ends
@@ -110,15 +111,15 @@ fn long_arrays_read_back() {
     for count in [1 << 16, 100_003] {
         let values: Vec<f64> = (0..count).map(seeded).collect();
         let triangles = vec![[0, 1, 2]; count];
-        let file = document(&POINTS, &triangles, &[], &[("v", 1, &values)]);
+        let file = document(&[], &POINTS, &triangles, &[], &[("v", "", 1, &values)]);
         assert_eq!(bits(&file, "v"), values.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
         assert_eq!(whole(&file, "connectivity"), [0, 1, 2].repeat(count));
-        assert_eq!(document(&POINTS, &triangles, &[], &[("v", 1, &values)]), file);
+        assert_eq!(document(&[], &POINTS, &triangles, &[], &[("v", "", 1, &values)]), file);
     }
 }
 
 #[test]
 #[should_panic(expected = "displacement: 2 values for each of 4")]
 fn missing_values_are_refused() {
-    document(&POINTS, &TRIANGLES, &[("displacement", 2, &DISPLACEMENT[..6])], &[]);
+    document(&[], &POINTS, &TRIANGLES, &[("displacement", "", 2, &DISPLACEMENT[..6])], &[]);
 }

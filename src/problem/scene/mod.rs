@@ -17,6 +17,7 @@ mod load;
 mod mesh;
 mod orphans;
 mod refine;
+mod scene_file;
 mod source;
 pub mod surface;
 pub mod symmetry;
@@ -32,11 +33,12 @@ pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use groups::GroupRef;
 pub use mesh::{Element, Mesh, MeshBuilder, Node, PhysicalName};
 pub use refine::Refined;
+pub use scene_file::SceneFile;
 pub use surface::Surface;
 
 use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Variant};
-use crate::error::{InputError, Result};
+use crate::error::Result;
 
 /// A scene that passed all checks.
 #[derive(Clone, Debug)]
@@ -62,31 +64,18 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Opens a scene by the name of an embedded scene, or by the path of its file or folder.
+    /// Opens a scene by the name of an embedded scene, by the path of its file or folder, or for `-`
+    /// from standard input.
     ///
     /// # Errors
     /// The scene file, the mesh file, or the two together are at fault.
     pub fn open(name_or_path: &str) -> Result<Self> {
-        let mut embedded = SCENES.iter().chain(FINDING_SCENES);
-        if let Some(embedded) = embedded.find(|s| s.name == name_or_path) {
-            let beside = |file: &str| {
-                let found = embedded.files.iter().find(|(name, _)| *name == file);
-                found.map(|(_, bytes)| bytes.to_vec()).ok_or_else(|| "not embedded".to_string())
-            };
-            return Scene::build(embedded.name, embedded.scene, beside);
-        }
-        let path = Path::new(name_or_path);
-        let path = if path.is_dir() { path.join("scene.json") } else { path.to_path_buf() };
-        let text = std::fs::read(&path).map_err(|why| {
-            let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
-            let what = format!("the scene file cannot be read: {why}");
-            let fix = format!("give a path, or one of the scenes {}", names.join(", "));
-            InputError::new(path.display().to_string(), what, fix)
-        })?;
-        let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-        let beside = |file: &str| read_beside(&folder.join(file));
-        Scene::build(&name_of(&path), &text, beside)
-            .map_err(|error| error.within(&path.display().to_string()))
+        let file = SceneFile::read(name_or_path, Path::new(""))?;
+        let built = Scene::build(&file.name, &file.text, |beside| file.beside(beside));
+        built.map_err(|error| match file.place() {
+            Some(place) => error.within(place),
+            None => error,
+        })
     }
 
     /// Builds a scene from the text of its file; `beside` reads a file in the scene file's folder.
@@ -178,20 +167,4 @@ fn rows(mesh: &Mesh) -> Vec<Row> {
         element: next(element),
     };
     mesh.elements.iter().map(row).collect()
-}
-
-/// Reads an ordinary file; a device would never end.
-fn read_beside(path: &Path) -> Result<Vec<u8>, String> {
-    let metadata = std::fs::metadata(path).map_err(|why| why.to_string())?;
-    if !metadata.is_file() {
-        return Err("it is no ordinary file".into());
-    }
-    std::fs::read(path).map_err(|why| why.to_string())
-}
-
-/// Returns a scene's name: `strand` for `golden/strand/scene.json`, `plate` for `my/plate.json`.
-fn name_of(path: &Path) -> String {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let folder = path.parent().and_then(Path::file_name).map(|f| f.to_string_lossy().into_owned());
-    if stem == "scene" { folder.unwrap_or(stem) } else { stem }
 }

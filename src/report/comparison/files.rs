@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::{Compared, WORST};
 use crate::error::Result;
 use crate::problem::model::{NodeId, Triangle, TriangleId};
-use crate::report::json::line;
+use crate::report::json::headed;
 use crate::report::output::{csv, write_all};
 use crate::report::picture::{self, Drawing, Field};
 use crate::studies::calculix::{Comparison, Contact, Difference, Pair};
@@ -50,7 +50,7 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
     };
     let stress = &scene.units.stress;
     let (nodes, elements) = (nodes(comparison), elements(comparison));
-    let json = json(compared, &nodes, &elements);
+    let json = document(compared, &nodes, &elements);
     write_all(
         folder,
         &[
@@ -71,25 +71,32 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
     Ok(json)
 }
 
-fn json(compared: &Compared, nodes: &[Value], elements: &[Value]) -> String {
+/// Returns the content of `compare.json`, and writes nothing.
+pub fn json(compared: &Compared) -> String {
+    document(compared, &nodes(compared.comparison), &elements(compared.comparison))
+}
+
+fn document(compared: &Compared, nodes: &[Value], elements: &[Value]) -> String {
     let Compared { scene, model, comparison, .. } = compared;
-    line(&json!({
-        "scene": scene.name,
-        "title": scene.title,
-        "variant": compared.variant,
-        "certainty": compared.certainty,
-        "calculix": compared.version,
-        "plane": model.plane,
-        "contact": contact_value(compared.contact),
-        "decks": compared.decks,
-        "units": scene.units,
-        "displacement": difference_value(&comparison.displacement),
-        "stress": difference_value(&comparison.stress),
-        "bodies": comparison.bodies,
-        "worst_nodes": comparison.displacement.worst(WORST),
-        "nodes": nodes,
-        "elements": elements,
-    }))
+    headed(
+        Some(scene),
+        &json!({
+            "scene": scene.name,
+            "title": scene.title,
+            "variant": compared.variant,
+            "certainty": compared.certainty,
+            "calculix": compared.version,
+            "plane": model.plane,
+            "contact": contact_value(compared.contact),
+            "decks": compared.decks,
+            "displacement": difference_value(&comparison.displacement),
+            "stress": difference_value(&comparison.stress),
+            "bodies": comparison.bodies,
+            "worst_nodes": comparison.displacement.worst(WORST),
+            "nodes": nodes,
+            "elements": elements,
+        }),
+    )
 }
 
 fn difference_value<Place: Serialize>(of: &Difference<Place>) -> Value {

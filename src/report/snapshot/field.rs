@@ -37,8 +37,9 @@ pub fn difference_files(folder: &Path, scene: &Scene, [old, new]: [&Run; 2]) -> 
         largest_at: None,
     };
     files::write(&folder.join("difference.svg"), &picture::field(&drawing, &field))?;
-    let points = [("difference", 2, &difference[..]), ("displacement", 2, &is[..])];
-    let vtu = vtu::document(&drawing.points, &drawing.triangles, &points, &[]);
+    let unit = &scene.units.length[..];
+    let points = [("difference", unit, 2, &difference[..]), ("displacement", unit, 2, &is[..])];
+    let vtu = vtu::document(&[], &drawing.points, &drawing.triangles, &points, &[]);
     files::write(&folder.join("difference.vtu"), &vtu)?;
     Ok(true)
 }

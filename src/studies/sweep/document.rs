@@ -1,0 +1,201 @@
+//! The document of a case: the scene's fields, a generator's parameters and options, in which JSON
+//! pointers set values; and its key.
+
+use std::path::Path;
+
+use clap::{Command, FromArgMatches, Subcommand};
+use serde_json::{Map, Value, json};
+
+use super::spec::Sweep;
+use crate::answer::Request;
+use crate::error::{InputError, Result};
+use crate::problem::scene::{SceneBuilder, SceneFile, file};
+use crate::studies::benchmark::Kind;
+use crate::studies::snapshot::{Options, VERSION, sha256};
+
+/// What a case runs.
+#[derive(Clone)]
+pub struct Document {
+    /// `scene` and `options`, or `generate`, `scene` and `options`.
+    fields: Value,
+    /// The scene file, and what is beside it; None of a generator.
+    source: Option<SceneFile>,
+    /// The SHA-256 of the mesh file, where the scene has one.
+    mesh_sha256: Option<String>,
+}
+
+impl Document {
+    /// Returns the document of which every case of `sweep` is a copy with other values.
+    ///
+    /// # Errors
+    /// Neither or both of a scene and a generator are named, or the scene cannot be read.
+    pub fn new(sweep: &Sweep, folder: &Path) -> Result<Self> {
+        let options = Value::Object(sweep.options.clone());
+        match (&sweep.scene, sweep.generate.is_empty()) {
+            (Some(scene), true) => {
+                let file = SceneFile::read(scene, folder)?;
+                let fields: Value = serde_json::from_slice(&file.text).map_err(|why| {
+                    let fix = "see the scene format in README.md";
+                    InputError::new(scene, why.to_string(), fix)
+                })?;
+                let mesh = fields.get("mesh").and_then(Value::as_str);
+                let bytes = mesh.map(|mesh| file.beside(mesh)).transpose();
+                let bytes = bytes.map_err(|why| {
+                    let what = format!("the mesh file cannot be read: {why}");
+                    InputError::new("field mesh", what, "the path is resolved beside the scene")
+                })?;
+                Ok(Document {
+                    fields: json!({"scene": fields, "options": options}),
+                    source: Some(file),
+                    mesh_sha256: bytes.map(|bytes| sha256(&bytes)),
+                })
+            }
+            (None, false) => {
+                let generate = Value::Object(sweep.generate.clone());
+                let fields = json!({"generate": generate, "scene": {}, "options": options});
+                Ok(Document { fields, source: None, mesh_sha256: None })
+            }
+            _ => {
+                let what = "the sweep needs either scene or generate";
+                let fix = "give \"scene\": \"fig1\", or \"generate\": {\"kind\": \"cook\"}";
+                Err(InputError::new("fields scene, generate", what, fix))
+            }
+        }
+    }
+
+    /// Returns the same document with other values, by pointer.
+    ///
+    /// # Errors
+    /// A pointer leads nowhere.
+    pub fn with(&self, values: &Map<String, Value>) -> Result<Self> {
+        let mut document = self.clone();
+        for (pointer, value) in values {
+            set(&mut document.fields, pointer, value).ok_or_else(|| {
+                let what = format!("the pointer {pointer:?} leads nowhere");
+                let fix = "point into /scene, /options or /generate, such as /scene/contact/c_tll";
+                InputError::new("grid and list", what, fix)
+            })?;
+        }
+        Ok(document)
+    }
+
+    /// Returns the request that the document stands for.
+    ///
+    /// # Errors
+    /// The scene, the generator's parameters or the options are at fault.
+    pub fn request(&self) -> Result<Request> {
+        let scene = self.fields["scene"].to_string();
+        let scene = match &self.source {
+            Some(file) => {
+                let beside = |name: &str| file.beside(name);
+                SceneBuilder::read(&file.name, scene.as_bytes(), beside)?.build()?
+            }
+            None => self.generated()?.build()?,
+        };
+        let options: Options =
+            serde_path_to_error::deserialize(&self.fields["options"]).map_err(|error| {
+                let place = format!("options.{}", error.path());
+                InputError::new(
+                    place,
+                    error.inner().to_string(),
+                    "see `plane-contact sweep --help`",
+                )
+            })?;
+        Ok(options.request(&scene))
+    }
+
+    /// Returns the scene of the generator, with the fields of `scene` over its own.
+    fn generated(&self) -> Result<SceneBuilder> {
+        let mut builder = kind(&self.fields["generate"])?.generate()?;
+        let own = serde_json::to_value(&builder.description).expect("a description is an object");
+        let merged = over(own, &self.fields["scene"]);
+        builder.description = file::parse(merged.to_string().as_bytes())?;
+        Ok(builder)
+    }
+
+    /// Returns the key of the case: the SHA-256 of all that it runs, and of the program's version.
+    pub fn key(&self) -> String {
+        let parts = json!({
+            "document": sorted(&self.fields),
+            "mesh_sha256": self.mesh_sha256,
+            "version": VERSION,
+        });
+        sha256(&parts)
+    }
+}
+
+/// Returns the key of a scene under options.
+///
+/// # Errors
+/// The scene cannot be read.
+pub fn key_of(scene: &str, options: &Options) -> Result<String> {
+    let options = serde_json::to_value(options).expect("options have string keys");
+    let options = options.as_object().cloned().expect("options are an object");
+    let (grid, list, generate) = (Map::new(), Vec::new(), Map::new());
+    let sweep = Sweep { format: 1, scene: Some(scene.into()), generate, options, grid, list };
+    Ok(Document::new(&sweep, Path::new(""))?.key())
+}
+
+/// Sets the value that a pointer names; of an object a new field too. None where it leads nowhere.
+fn set(fields: &mut Value, pointer: &str, value: &Value) -> Option<()> {
+    if let Some(there) = fields.pointer_mut(pointer) {
+        *there = value.clone();
+        return Some(());
+    }
+    let (parent, name) = pointer.rsplit_once('/')?;
+    // A field of a generated scene is known once it is generated.
+    if fields.get("generate").is_some() && fields.pointer(parent).is_none() {
+        set(fields, parent, &json!({}))?;
+    }
+    let parent = fields.pointer_mut(parent)?.as_object_mut()?;
+    parent.insert(name.replace("~1", "/").replace("~0", "~"), value.clone());
+    Some(())
+}
+
+/// Returns `value` with the fields of `other` over its own, those of objects one by one.
+fn over(value: Value, other: &Value) -> Value {
+    match (value, other) {
+        (Value::Object(mut fields), Value::Object(other)) => {
+            for (name, other) in other {
+                let own = fields.get(name).cloned().unwrap_or(Value::Null);
+                fields.insert(name.clone(), over(own, other));
+            }
+            Value::Object(fields)
+        }
+        (_, other) => other.clone(),
+    }
+}
+
+/// Returns a document with the fields of every object in the order of their names.
+fn sorted(value: &Value) -> Value {
+    match value {
+        Value::Object(fields) => {
+            let mut fields: Vec<_> = fields.iter().map(|(k, v)| (k.clone(), sorted(v))).collect();
+            fields.sort_by(|a, b| a.0.cmp(&b.0));
+            Value::Object(fields.into_iter().collect())
+        }
+        Value::Array(items) => items.iter().map(sorted).collect(),
+        scalar => scalar.clone(),
+    }
+}
+
+/// Returns the generator that `parameters` name: its `kind`, and its options of the command line.
+fn kind(parameters: &Value) -> Result<Kind> {
+    let fault = |what: String| InputError::new("generate", what, "see `plane-contact mesh --help`");
+    let fields = parameters.as_object().ok_or_else(|| fault("it is no object".into()))?;
+    let name = fields.get("kind").and_then(Value::as_str);
+    let name = name.ok_or_else(|| fault("it names no kind".into()))?;
+    let text = |value: &Value| value.as_str().map_or(value.to_string(), String::from);
+    let options = fields.iter().filter(|(option, _)| *option != "kind");
+    let options = options.map(|(option, value)| format!("--{option}={}", text(value)));
+    let arguments = ["mesh".to_string(), name.to_string()].into_iter().chain(options);
+    let command = Kind::augment_subcommands(Command::new("mesh"));
+    let matches = command.try_get_matches_from(arguments).map_err(|why| fault(words(&why)))?;
+    Kind::from_arg_matches(&matches).map_err(|why| fault(words(&why)))
+}
+
+/// Returns the first line of a fault of the command line.
+fn words(why: &clap::Error) -> String {
+    let text = why.render().to_string();
+    text.lines().next().unwrap_or_default().trim_start_matches("error: ").into()
+}

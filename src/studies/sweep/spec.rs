@@ -1,0 +1,166 @@
+//! The file of a sweep: what is run, and which values take turns.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::document::Document;
+use crate::error::{InputError, Result};
+
+/// The version of the format.
+const FORMAT: u32 = 1;
+
+/// The most cases of a sweep.
+const MOST_CASES: usize = 10_000_000;
+
+/// A sweep: a scene or a generator, options, and the values that take turns, by JSON pointer
+/// (RFC 6901) into the document of a case: `/scene/contact/c_tll`, `/options/variant`,
+/// `/generate/n`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sweep {
+    /// The version of the format.
+    pub format: u32,
+    /// The name of an embedded scene, or a path beside the file of the sweep.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<String>,
+    /// The generator in place of a scene: its `kind`, and its parameters by the names of their
+    /// options.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub generate: Map<String, Value>,
+    /// Options of every case, as a snapshot has them.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub options: Map<String, Value>,
+    /// Values by pointer; every combination is a case, the last pointer varying fastest.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub grid: Map<String, Value>,
+    /// Cases by their values; with a grid each of them takes every combination of the grid.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub list: Vec<Map<String, Value>>,
+}
+
+/// The values of a pointer in a grid: a list, or equal steps from one number to another.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Values {
+    List(Vec<Value>),
+    Steps(Steps),
+}
+
+/// Equal steps, or with `log` equal factors, from one number to another.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Steps {
+    from: f64,
+    to: f64,
+    count: usize,
+    #[serde(default)]
+    log: bool,
+}
+
+impl Values {
+    fn list(self) -> Vec<Value> {
+        let Steps { from, to, count, log } = match self {
+            Values::List(list) => return list,
+            Values::Steps(steps) => steps,
+        };
+        let place = |k: usize| if count < 2 { 0.0 } else { k as f64 / (count - 1) as f64 };
+        let value = |k: usize| match (log, place(k)) {
+            (_, 0.0) => from,
+            (_, 1.0) => to,
+            (false, t) => from + t * (to - from),
+            (true, t) => from * (to / from).powf(t),
+        };
+        (0..count).map(|k| Value::from(value(k))).collect()
+    }
+}
+
+/// The cases of a sweep, each made where it is asked for.
+pub struct Cases {
+    base: Document,
+    grid: Vec<(String, Vec<Value>)>,
+    list: Vec<Map<String, Value>>,
+}
+
+impl Sweep {
+    /// Reads the file of a sweep.
+    ///
+    /// # Errors
+    /// Names the field that is wrong.
+    pub fn read(text: &[u8]) -> Result<Self> {
+        let mut deserializer = serde_json::Deserializer::from_slice(text);
+        let sweep: Self = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
+            let place = format!("field {} of the sweep", error.path());
+            InputError::new(place, error.inner().to_string(), "see `plane-contact sweep --help`")
+        })?;
+        if sweep.format != FORMAT {
+            let what = format!("the sweep is of format {}", sweep.format);
+            return Err(InputError::new("field format", what, "this program reads format 1"));
+        }
+        Ok(sweep)
+    }
+
+    /// Returns the cases; files are beside `folder`.
+    ///
+    /// # Errors
+    /// The scene cannot be read, the values of a pointer are no values, or there are too many cases.
+    pub fn cases(&self, folder: &Path) -> Result<Cases> {
+        let base = Document::new(self, folder)?;
+        let mut grid = Vec::new();
+        for (pointer, values) in &self.grid {
+            let values: Values = serde_json::from_value(values.clone()).map_err(|_| {
+                let what = "the values are neither a list nor steps";
+                let fix = "give a list, or {\"from\": 1, \"to\": 2, \"count\": 5}";
+                InputError::new(format!("grid {pointer:?}"), what, fix)
+            })?;
+            grid.push((pointer.clone(), values.list()));
+        }
+        let list = if self.list.is_empty() { vec![Map::new()] } else { self.list.clone() };
+        let cases = Cases { base, grid, list };
+        match cases.count() {
+            Some(count) if count <= MOST_CASES => Ok(cases),
+            _ => {
+                let what = format!("there are more than {MOST_CASES} cases");
+                Err(InputError::new("grid and list", what, "divide the sweep"))
+            }
+        }
+    }
+}
+
+impl Cases {
+    fn count(&self) -> Option<usize> {
+        let sizes = self.grid.iter().map(|(_, values)| values.len());
+        sizes.chain([self.list.len()]).try_fold(1_usize, |product, size| product.checked_mul(size))
+    }
+
+    /// Returns the number of cases.
+    pub fn len(&self) -> usize {
+        self.count().unwrap_or(0)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Returns what takes turns in case `k`, from 0: values by pointer.
+    pub fn values(&self, k: usize) -> Map<String, Value> {
+        let mut rest = k;
+        let mut of_grid = Vec::new();
+        for (pointer, values) in self.grid.iter().rev() {
+            of_grid.push((pointer.clone(), values[rest % values.len()].clone()));
+            rest /= values.len();
+        }
+        let mut values = self.list[rest].clone();
+        values.extend(of_grid.into_iter().rev());
+        values
+    }
+
+    /// Returns the document of case `k`, from 0.
+    ///
+    /// # Errors
+    /// A pointer leads nowhere.
+    pub fn document(&self, k: usize) -> Result<Document> {
+        self.base.with(&self.values(k))
+    }
+}
