@@ -162,7 +162,7 @@ fn a_sweep_that_was_killed_twenty_times_ends_with_the_same_bytes() {
     let mut rng = fastrand::Rng::with_seed(20);
     assert!(start(folder.path(), "whole.jsonl").wait().expect("it ends").success());
     let mut killed = 0;
-    let mut pause = 20;
+    let mut pause = 150;
     while killed < 20 {
         let mut sweep = start(folder.path(), "killed.jsonl");
         std::thread::sleep(Duration::from_millis(rng.u64(1..=pause)));
