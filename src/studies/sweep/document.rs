@@ -6,7 +6,6 @@ use std::path::Path;
 use clap::{Command, FromArgMatches, Subcommand};
 use serde_json::{Map, Value, json};
 
-use super::spec::Sweep;
 use crate::answer::Request;
 use crate::error::{InputError, Result};
 use crate::problem::scene::{SceneBuilder, SceneFile, file};
@@ -25,13 +24,18 @@ pub struct Document {
 }
 
 impl Document {
-    /// Returns the document of which every case of `sweep` is a copy with other values.
+    /// Returns the document of which every case of a sweep is a copy with other values: of a scene,
+    /// by its name or its path from `folder`, or of what a generator makes of its parameters.
     ///
     /// # Errors
     /// Neither or both of a scene and a generator are named, or the scene cannot be read.
-    pub fn new(sweep: &Sweep, folder: &Path) -> Result<Self> {
-        let options = Value::Object(sweep.options.clone());
-        match (&sweep.scene, sweep.generate.is_empty()) {
+    pub fn new(
+        scene: Option<&str>,
+        generate: &Map<String, Value>,
+        options: &Map<String, Value>,
+        folder: &Path,
+    ) -> Result<Self> {
+        match (scene, generate.is_empty()) {
             (Some(scene), true) => {
                 let file = SceneFile::read(scene, folder)?;
                 let fields: Value = serde_json::from_slice(&file.text).map_err(|why| {
@@ -51,7 +55,6 @@ impl Document {
                 })
             }
             (None, false) => {
-                let generate = Value::Object(sweep.generate.clone());
                 let fields = json!({"generate": generate, "scene": {}, "options": options});
                 Ok(Document { fields, source: None, mesh_sha256: None })
             }
@@ -131,9 +134,7 @@ impl Document {
 pub fn key_of(scene: &str, options: &Options) -> Result<String> {
     let options = serde_json::to_value(options).expect("options have string keys");
     let options = options.as_object().cloned().expect("options are an object");
-    let (grid, list, generate) = (Map::new(), Vec::new(), Map::new());
-    let sweep = Sweep { format: 1, scene: Some(scene.into()), generate, options, grid, list };
-    Ok(Document::new(&sweep, Path::new(""))?.key())
+    Ok(Document::new(Some(scene), &Map::new(), &options, Path::new(""))?.key())
 }
 
 /// Sets the value that a pointer names; of an object a new field too. None where it leads nowhere.

@@ -106,7 +106,8 @@ impl Sweep {
     /// # Errors
     /// The scene cannot be read, the values of a pointer are no values, or there are too many cases.
     pub fn cases(&self, folder: &Path) -> Result<Cases> {
-        let base = Document::new(self, folder)?;
+        let scene = self.scene.as_deref();
+        let base = Document::new(scene, &self.generate, &self.options, folder)?;
         let mut grid = Vec::new();
         for (pointer, values) in &self.grid {
             let values: Values = serde_json::from_value(values.clone()).map_err(|_| {
