@@ -56,6 +56,8 @@ pub mod problem;
 pub mod report;
 #[doc(hidden)]
 pub mod studies;
+#[doc(hidden)]
+pub mod xml;
 
 #[doc(inline)]
 pub use answer::error::Error;

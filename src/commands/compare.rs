@@ -7,8 +7,16 @@ use plane_contact::answer::estimates::certain;
 use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
-use super::export::{Code, DeckArgs};
+use super::export::DeckArgs;
 use super::{folder, folder_name, print, waiting};
+
+plane_contact::choices! {
+    /// A code whose results are compared.
+    Code {
+        /// CalculiX.
+        Calculix = "calculix",
+    }
+}
 
 /// Run a scene here and in another code, and show the differences.
 #[derive(clap::Args)]
@@ -29,6 +37,9 @@ Examples:
   plane-contact compare strand --with calculix --variant unilateral --friction 0 \
                         --contact pair --penalty 1e7 --json")]
 pub struct Args {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    scene: String,
     /// The code.
     #[arg(long, value_name = "CODE")]
     with: Code,
@@ -49,7 +60,7 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     let Code::Calculix = args.with;
-    let solution = args.deck.solve()?;
+    let solution = args.deck.solve(&args.scene)?;
     let request = solution.request.clone();
     let (solution, certainty) = certain(solution);
     let parts = args.deck.parts(&solution)?;

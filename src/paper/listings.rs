@@ -156,24 +156,32 @@ fn unexpected(listing: &Listing, expected: &'static str, name: &str) -> Box<Fail
     })
 }
 
+/// Returns the tables and variables that are above the listings on the worksheet, by name.
+pub fn tables(sheet: &Worksheet<f64>) -> Vec<(&'static str, Value)> {
+    let gradients = sheet.B.iter().map(|b| Value::from(Array::from_fn(3, 6, |i, j| b[(i, j)])));
+    vec![
+        ("node", Value::from(&sheet.node)),
+        ("elem", Value::from(&sheet.elem)),
+        ("EL", Value::from(&sheet.EL)),
+        ("trg", Value::from(&sheet.trg)),
+        ("cnt", Value::from(&sheet.cnt)),
+        ("c_tll", sheet.c_tll.into()),
+        ("ind_1", sheet.ind_1.into()),
+        ("R", sheet.R().into()),
+        ("M", sheet.M().into()),
+        ("S", Value::from(&sheet.S)),
+        ("Ae", Value::from(&sheet.Ae)),
+        ("B", gradients.collect::<Value>()),
+        ("E", Value::from(&sheet.E)),
+        ("ν", Value::from(&sheet.nu)),
+    ]
+}
+
 /// Defines the names that are above the listings on the worksheet.
 fn define(runner: &mut Runner, sheet: &Worksheet<f64>) {
-    let gradients = sheet.B.iter().map(|b| Value::from(Array::from_fn(3, 6, |i, j| b[(i, j)])));
-    runner
-        .define("node", &sheet.node)
-        .define("elem", &sheet.elem)
-        .define("EL", &sheet.EL)
-        .define("trg", &sheet.trg)
-        .define("cnt", &sheet.cnt)
-        .define("c_tll", sheet.c_tll)
-        .define("ind_1", sheet.ind_1)
-        .define("R", sheet.R())
-        .define("M", sheet.M())
-        .define("S", &sheet.S)
-        .define("Ae", &sheet.Ae)
-        .define("B", gradients.collect::<Value>())
-        .define("E", &sheet.E)
-        .define("ν", &sheet.nu);
+    for (name, value) in tables(sheet) {
+        runner.define(name, value);
+    }
     let plane = sheet.plane;
     runner.define_function("D", move |arguments| match arguments {
         [Value::Number(e), Value::Number(nu)] => {

@@ -9,9 +9,10 @@
 //! | `tables`, `folder`, `result_file`, `pressure`      | a run: tables, folder, `result.json`   |
 //! | `audit`, `comparison`, `extremes`, `plan`, `trace` | a study each                           |
 //! | `snapshot`, `statuses`, `trade`                    | a study each                           |
-//! | `picture`, `vtu`, `xml`                            | pictures and files for viewers         |
+//! | `picture`, `vtu`                                   | pictures and files for viewers         |
 //! | `failure`, `json`, `matrix_market`, `output`       | other files                            |
 //! | `sweep`                                            | job files of engines                   |
+//! | `worksheet`                                        | a worksheet of Mathcad, compared       |
 //! | `layout`, `numbers`                                | columns of words, numbers as text      |
 
 pub mod audit;
@@ -36,7 +37,7 @@ pub mod tables;
 pub mod trace;
 pub mod trade;
 pub mod vtu;
-pub mod xml;
+pub mod worksheet;
 
 pub use result_file::{
     BodyEstimates, ElementRow, IterationRow, KnownEstimates, MOST_TRIANGLES, ResultFile, known,

@@ -15,7 +15,7 @@ use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
 
 use super::picture::Drawing;
-use super::xml::Element;
+use crate::xml::Element;
 use crate::answer::contact::Status;
 use crate::answer::{Assessment, Solution};
 use crate::problem::element::{self, State};

@@ -49,6 +49,9 @@ tolerances! {
         "yt is a difference of coordinates of order 10, each rounded at 2e-15: on the strand it \
          is 0 but for that where a stamp node lies on its target edge";
 
+    /// Displacements by Octave's solver against ours, relative to the largest.
+    OCTAVE = 1e-12, "two LU factorisations of some 30 equations of condition 1e3 in f64";
+
     /// `two-blocks` against its closed form, relative to the closed form.
     CLOSED_FORM = 1e-12, "some 40 equations of condition 1e2 in f64; the issue's own number";
 

@@ -9,10 +9,13 @@ use crate::common::random::fixed;
 use nalgebra::SMatrix;
 use plane_contact::answer::Request;
 use plane_contact::paper::door;
+use plane_contact::paper::exports::{self, Export};
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mathcad::array::{Column, Table};
+use plane_contact::paper::mathcad::worksheet::execute;
+use plane_contact::paper::mathcad::xmcd::document;
 use plane_contact::paper::mathcad::{
-    Cause as MathcadCause, Conjunction, Failure as MathcadFailure,
+    Cause as MathcadCause, Conjunction, Failure as MathcadFailure, Limits,
 };
 use plane_contact::paper::mirror::{
     Cause, Failure, Km, LoopPlace, NodeTable, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
@@ -54,7 +57,7 @@ enum Gap {
 
 /// What a random scene is drawn from.
 #[derive(Clone, Debug)]
-struct Draw {
+pub struct Draw {
     steps: Vec<Step>,
     turned: Vec<bool>,
     duplicated: Option<Index>,
@@ -105,7 +108,7 @@ fn spot() -> impl Strategy<Value = Spot> {
 }
 
 prop_compose! {
-    fn draw()(
+    pub fn draw()(
         steps in prop::collection::vec(step(), 1..6),
         turned in prop::collection::vec(any::<bool>(), 6),
         duplicated in prop::option::weighted(0.2, any::<Index>()),
@@ -134,7 +137,7 @@ prop_compose! {
 
 prop_compose! {
     /// Every combination of the readings that concern the listings.
-    fn reading()(
+    pub fn reading()(
         r1 in select(LoopPlace::ALL),
         r2 in select(RestraintIndex::ALL),
         r3 in select(Wedge::ALL),
@@ -146,7 +149,7 @@ prop_compose! {
 }
 
 /// Target polyline, contact nodes, then the arrays of the worksheet and the current shape.
-fn worksheet(draw: &Draw) -> (Worksheet<f64>, Table<f64>) {
+pub fn worksheet(draw: &Draw) -> (Worksheet<f64>, Table<f64>) {
     let mut points = polyline(&draw.steps);
     let edges = points.len() - 1;
     let targets = points.len();
@@ -267,7 +270,7 @@ fn triangles(draw: &Draw, points: &[[f64; 2]]) -> Vec<[usize; 3]> {
     kept.chain([[1, 2, points.len()]]).collect()
 }
 
-fn bits(values: impl IntoIterator<Item = f64>) -> Vec<u64> {
+pub fn bits(values: impl IntoIterator<Item = f64>) -> Vec<u64> {
     values.into_iter().map(f64::to_bits).collect()
 }
 
@@ -389,7 +392,7 @@ fn listing_and_mirror_agree_on_the_shipped_scenes() {
 }
 
 /// The worksheet of an embedded scene under the default reading.
-fn initial(scene: &str) -> Worksheet<f64> {
+pub fn initial(scene: &str) -> Worksheet<f64> {
     let request = Request::new(&Scene::open(scene).unwrap());
     door::worksheet(&request.model().unwrap(), |x| x)
 }
@@ -406,4 +409,49 @@ fn all_readings() -> Vec<Reading> {
     all = times(all, &|r| NodeTable::ALL.iter().map(|&r5| Reading { r5, ..r }).collect());
     assert_eq!(all.len(), 72);
     all
+}
+
+/// `export --to mathcad`, read back and executed by the interpreter, has the mirror's bits on random
+/// scenes; where the mirror fails, the worksheet fails too.
+#[test]
+fn an_exported_worksheet_has_the_mirror_s_bits() {
+    let mut runner = proptest::test_runner::TestRunner::new(fixed(1_100));
+    let seen = std::cell::Cell::new([0; 2]);
+    let result = runner.run(&(draw(), reading()), |(draw, reading)| {
+        let (sheet, node_n) = worksheet(&draw);
+        // The worksheet divides by the area where the mirror's gradients are infinite.
+        if sheet.B.iter().any(|b| b.iter().any(|x| !x.is_finite())) {
+            return Ok(());
+        }
+        let export = Export {
+            title: "random",
+            sheet: &sheet,
+            reading: &reading,
+            node_n: &node_n,
+            thickness: 1.0,
+            run: None,
+        };
+        let mut read = document::read(&exports::mathcad::worksheet(&export), "export")
+            .map_err(|error| TestCaseError::fail(error.to_string()))?;
+        read.settings.conjunction = reading.r4;
+        let limits = Limits { characters: 1 << 20, ..Limits::default() };
+        let checked = execute(&read, &limits);
+        let value = |tag: &str| {
+            let region = checked.iter().find(|region| region.tag == tag).expect("a region");
+            region.value.as_ref().map(|value| {
+                bits(Table::<f64>::try_from(value).expect("an array").as_matrix().iter().copied())
+            })
+        };
+        let pairs = c_cnt(&sheet, &reading, &node_n).ok();
+        let flat = |table: &Table<f64>| bits(table.as_matrix().iter().copied());
+        prop_assert_eq!(value("k_cnt"), pairs.as_ref().map(|pairs| flat(&pairs.k_cnt)));
+        let mjs = pairs.and_then(|pairs| Km(&sheet, &reading, &pairs.k_cnt).ok());
+        let [scenes, matrices] = seen.get();
+        seen.set([scenes + 1, matrices + usize::from(mjs.is_some())]);
+        prop_assert_eq!(value("MJS"), mjs.as_ref().map(flat));
+        Ok(())
+    });
+    result.unwrap_or_else(|error| panic!("{error}"));
+    let [scenes, matrices] = seen.get();
+    assert!(scenes >= 1_000 && matrices >= 300, "{scenes} scenes, {matrices} with a matrix");
 }

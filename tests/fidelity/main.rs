@@ -8,6 +8,7 @@ mod common {
     pub mod golden_floats;
     pub mod json;
     pub mod outcome;
+    pub mod program;
     pub mod random;
     pub mod shipped;
     pub mod tolerances;
@@ -21,4 +22,5 @@ mod findings;
 mod golden;
 mod listing_quotes;
 mod mathcad;
+mod octave;
 mod variants;

@@ -410,7 +410,7 @@ fn trace_runs_an_edited_listing() {
         folder.path(),
         &["trace", "fig1", "--listing", "stops.txt"],
         2,
-        "singularity",
+        "Division by zero",
     );
     fails_after_output(
         folder.path(),

@@ -15,11 +15,14 @@ mod common {
 mod claims;
 mod cli;
 mod drawing;
+#[path = "../fidelity/mathcad/evidence.rs"]
+mod evidence;
 mod examples;
 mod explained;
 mod factors;
 mod gmsh;
 mod held;
+mod mathcad;
 mod pictures;
 mod plan;
 mod printed_numbers;

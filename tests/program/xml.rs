@@ -4,7 +4,7 @@ use std::io::Read;
 
 use flate2::read::ZlibDecoder;
 use plane_contact::report::vtu::document;
-use plane_contact::report::xml::Element;
+use plane_contact::xml::Element;
 use roxmltree::Document;
 
 #[test]

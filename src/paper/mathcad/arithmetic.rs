@@ -12,7 +12,7 @@ use super::syntax::{Comparison, Operation};
 use super::value::{Array, Value};
 
 /// Returns a finite number, or the overflow that Mathcad reports.
-fn finite(result: f64) -> Result<f64, Cause> {
+pub fn finite(result: f64) -> Result<f64, Cause> {
     if result.is_finite() { Ok(result) } else { Err(Cause::Overflow { result }) }
 }
 
@@ -33,6 +33,15 @@ pub fn calculate(operation: Operation, x: f64, y: f64, settings: &Settings) -> R
         Operation::Subtract => finite(x - y),
         Operation::Multiply => finite(x * y),
         Operation::Divide => quotient(x, y, settings),
+    }
+}
+
+/// Returns `x^y`.
+pub fn power(x: f64, y: f64) -> Result<f64, Cause> {
+    match x.powf(y) {
+        _ if x == 0.0 && y < 0.0 => Err(Cause::Singularity { numerator: 1.0, denominator: 0.0 }),
+        result if result.is_nan() => Err(Cause::Complex { name: "a power".into() }),
+        result => finite(result),
     }
 }
 
@@ -123,7 +132,8 @@ fn zip(
     Ok(Value::Array(a))
 }
 
-/// Returns the matrix product; of two columns of one length, the scalar product, a number.
+/// Returns the matrix product; of two columns of one length, the scalar product. What has one entry
+/// is a number.
 fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
     let column = |a: &Array| a.cols() == 1 && a.rows() > 1;
     if column(a) && column(b) && a.rows() == b.rows() {
@@ -139,11 +149,14 @@ fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
     let product =
         Array::from_fn(a.rows(), b.cols(), |i, j| sum((0..a.cols()).map(|k| entry(i, j, k))));
     product.entries().iter().try_for_each(|&x| finite(x).map(drop))?;
-    Ok(product.into())
+    match product.entries() {
+        [x] => Ok(Value::Number(*x)),
+        _ => Ok(product.into()),
+    }
 }
 
 /// Adds the terms one after another, from the first; returns 0 if there is none.
-fn sum(terms: impl Iterator<Item = f64>) -> f64 {
+pub fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     terms.reduce(|sum, term| sum + term).unwrap_or(0.0)
 }
 
@@ -164,10 +177,8 @@ pub fn transpose(value: Value) -> Result<Value, Cause> {
             Rc::make_mut(&mut a).turn();
             Ok(Value::Array(a))
         }
-        Value::Array(a) => {
-            let entry = |i, j| a.entries()[j * a.cols() + i];
-            Ok(Array::from_fn(a.cols(), a.rows(), entry).into())
-        }
+        Value::Array(a) => Ok(a.transposed().into()),
+        Value::Nested(v) => Ok(Value::grid(v.grid().transposed())),
         other => Err(kind("a number or an array", &other)),
     }
 }

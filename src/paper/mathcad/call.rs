@@ -1,28 +1,106 @@
 //! Calling a function on the values of its arguments.
 
-use super::arithmetic::{fold, identity, kind};
+use super::arithmetic::{finite, fold, identity, kind, sum};
 use super::failure::{Cause, Fallible};
 use super::function::Function;
-use super::state::Run;
+use super::listing::Listing;
+use super::matrices;
+use super::observe::Observer;
+use super::state::{Cell, Run};
 use super::syntax::{Slot, Span};
 use super::value::Value;
 use crate::numbers::scalar::Scalar;
 
-impl<O> Run<'_, '_, O> {
+impl<O: Observer> Run<'_, '_, O> {
     /// Returns the value of the function that the name `slot` stands for.
     pub fn call(&mut self, slot: Slot, arguments: &[Value], span: &Span) -> Fallible<Value> {
-        match &mut self.functions[slot] {
-            None => Err(self.undefined(slot, span)),
-            Some(Function::Identity) => self.identity(arguments, span),
-            Some(Function::Rows) => rows(arguments).map_err(|cause| self.fail(span, cause)),
-            Some(Function::Min) => self.extreme(arguments, <f64 as Scalar>::min, span),
-            Some(Function::Max) => self.extreme(arguments, <f64 as Scalar>::max, span),
-            Some(Function::Trace) => self.write_trace(arguments),
-            Some(Function::Outside(function)) => function(arguments).map_err(|message| {
-                let name = self.listing.names.name(slot).into();
-                self.fail(span, Cause::Function { name, message })
-            }),
+        let name = || self.listing.names.name(slot).into();
+        let result = match &mut self.functions[slot] {
+            None => return Err(self.undefined(slot, span)),
+            Some(Function::Program(program)) => {
+                let program = program.clone();
+                return self.call_program(&program, arguments);
+            }
+            Some(Function::Identity) => return self.identity(arguments, span),
+            Some(Function::Rows) => one(arguments).map(|x| extent(x).0.into()),
+            Some(Function::Cols) => one(arguments).map(|x| extent(x).1.into()),
+            Some(Function::Length) => one(arguments).map(|x| extent(x).0.into()),
+            Some(Function::Min) => return self.extreme(arguments, <f64 as Scalar>::min, span),
+            Some(Function::Max) => return self.extreme(arguments, <f64 as Scalar>::max, span),
+            Some(Function::Trace) => return self.write_trace(arguments),
+            Some(Function::Elementary(function)) => {
+                let function = *function;
+                numbers(arguments).and_then(|[x]| real(function(x), x, &name))
+            }
+            Some(Function::Root) => root(arguments, &name),
+            Some(Function::Log) => log(arguments, &name),
+            Some(Function::Mod) => numbers(arguments).and_then(|[x, y]| real(x % y, y, &name)),
+            Some(Function::Factorial) => {
+                numbers(arguments).and_then(|[n]| factorial(n, &name)).map(Value::Number)
+            }
+            Some(Function::Outside(function)) => {
+                function(arguments).map_err(|message| Cause::Function { name: name(), message })
+            }
+            Some(_) => return self.matrices(slot, arguments, span),
+        };
+        result.map_err(|cause| self.fail(span, cause))
+    }
+
+    /// Calls one of the functions of matrices, once there is room and time for it.
+    fn matrices(&mut self, slot: Slot, arguments: &[Value], span: &Span) -> Fallible<Value> {
+        self.afford(size(arguments))?;
+        if let Some(matrix @ Value::Array(_)) = arguments.first() {
+            let cubic =
+                matches!(self.functions[slot], Some(Function::Lsolve | Function::Determinant));
+            self.spend(if cubic { matrices::steps(matrix) } else { 0 })?;
         }
+        let result = match &self.functions[slot] {
+            Some(Function::Augment) => matrices::join(arguments, false),
+            Some(Function::Stack) => matrices::join(arguments, true),
+            Some(Function::Lsolve) => two(arguments).and_then(|(a, b)| matrices::lsolve(a, b)),
+            Some(Function::Determinant) => one(arguments).and_then(matrices::determinant),
+            Some(Function::Submatrix) => submatrix(arguments, self.settings.origin),
+            Some(Function::Sum) => one(arguments).and_then(total),
+            _ => Err(Cause::Arguments { expected: 3, found: arguments.len() }),
+        };
+        result.map_err(|cause| self.fail(span, cause))
+    }
+
+    /// Runs a function of the worksheet; its steps and numbers count with those of the caller.
+    fn call_program(&mut self, program: &Listing, arguments: &[Value]) -> Fallible<Value> {
+        let depth = self.depth + program.depth;
+        if depth > self.limits.calls {
+            let limit = self.limits.calls as u64;
+            return Err(self.fail_line(Cause::Limit { limit, of: "levels of calls" }));
+        }
+        let names = || program.names.all();
+        let sheet = self.sheet;
+        let value = |name| sheet.and_then(|sheet| sheet.value(name));
+        let function = |name| match sheet {
+            Some(sheet) => sheet.function(name),
+            None => Function::builtin(name),
+        };
+        let cells = names().map(|name| Cell { value: value(name), local: false }).collect();
+        let mut functions: Vec<_> = names().map(function).collect();
+        let run = Run {
+            listing: program,
+            sheet,
+            settings: self.settings,
+            limits: self.limits,
+            cells,
+            functions: &mut functions,
+            observer: &mut (),
+            line: 0,
+            steps: self.steps,
+            stored: self.stored,
+            depth,
+            last: None,
+            trace: vec![],
+        };
+        let (value, steps, trace) = run.run(arguments)?.into_value()?;
+        self.steps = steps;
+        self.trace.extend(trace);
+        Ok(value)
     }
 
     fn identity(&mut self, arguments: &[Value], span: &Span) -> Fallible<Value> {
@@ -70,10 +148,88 @@ fn whole(value: &Value) -> Result<usize, Cause> {
     }
 }
 
-fn rows(arguments: &[Value]) -> Result<Value, Cause> {
-    match one(arguments)? {
-        Value::Array(a) => Ok(a.rows().into()),
-        Value::Nested(v) => Ok(v.len().into()),
-        other => Err(kind("an array", other)),
+fn two(arguments: &[Value]) -> Result<(&Value, &Value), Cause> {
+    match arguments {
+        [x, y] => Ok((x, y)),
+        _ => Err(Cause::Arguments { expected: 2, found: arguments.len() }),
+    }
+}
+
+/// Returns the arguments, which must be numbers.
+fn numbers<const N: usize>(arguments: &[Value]) -> Result<[f64; N], Cause> {
+    if arguments.len() != N {
+        return Err(Cause::Arguments { expected: N, found: arguments.len() });
+    }
+    let mut numbers = [0.0; N];
+    for (number, argument) in numbers.iter_mut().zip(arguments) {
+        *number = argument.number().ok_or_else(|| kind("a number", argument))?;
+    }
+    Ok(numbers)
+}
+
+/// Returns a function's result, if it is a number that is real.
+fn real(result: f64, argument: f64, name: &dyn Fn() -> String) -> Result<Value, Cause> {
+    if result.is_nan() {
+        Err(Cause::Complex { name: name() })
+    } else if result.is_infinite() && name() == "exp" {
+        Err(Cause::Overflow { result })
+    } else if result.is_infinite() {
+        Err(Cause::Domain { name: name(), argument })
+    } else {
+        Ok(Value::Number(result))
+    }
+}
+
+/// Returns the number of rows and columns: none of what is no array.
+fn extent(value: &Value) -> (usize, usize) {
+    match value {
+        Value::Array(_) | Value::Nested(_) => value.size(),
+        Value::Number(_) | Value::Text(_) => (0, 0),
+    }
+}
+
+fn root(arguments: &[Value], name: &dyn Fn() -> String) -> Result<Value, Cause> {
+    if arguments.len() == 1 {
+        return numbers(arguments).and_then(|[x]| real(x.sqrt(), x, name));
+    }
+    let [n, x] = numbers(arguments)?;
+    let root = match x < 0.0 && n % 2.0 != 0.0 && n.fract() == 0.0 {
+        true => -(-x).powf(1.0 / n),
+        false => x.powf(1.0 / n),
+    };
+    // The nearest whole number, where it is the root.
+    let whole = root.round();
+    real(if whole.powf(n) == x { whole } else { root }, x, name)
+}
+
+fn log(arguments: &[Value], name: &dyn Fn() -> String) -> Result<Value, Cause> {
+    if arguments.len() == 1 {
+        return numbers(arguments).and_then(|[x]| real(x.log10(), x, name));
+    }
+    let [x, base] = numbers(arguments)?;
+    let log = x.ln() / base.ln();
+    // The nearest whole number, where it is the logarithm.
+    let whole = log.round();
+    real(if base.powf(whole) == x { whole } else { log }, x, name)
+}
+
+fn factorial(n: f64, name: &dyn Fn() -> String) -> Result<f64, Cause> {
+    if n < 0.0 || n.fract() != 0.0 {
+        return Err(Cause::Domain { name: name(), argument: n });
+    }
+    finite((1..=n.min(200.0) as u32).fold(1.0, |product, k| product * f64::from(k)))
+}
+
+fn submatrix(arguments: &[Value], origin: i32) -> Result<Value, Cause> {
+    let Some((array, places)) = arguments.split_first() else {
+        return Err(Cause::Arguments { expected: 5, found: 0 });
+    };
+    matrices::part(array, numbers(places)?, origin)
+}
+
+fn total(value: &Value) -> Result<Value, Cause> {
+    match value {
+        Value::Array(a) => finite(sum(a.entries().iter().copied())).map(Value::Number),
+        other => Err(kind("an array of numbers", other)),
     }
 }

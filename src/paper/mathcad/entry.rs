@@ -8,7 +8,7 @@ use super::listing::Listing;
 use super::observe::{Access, Observer};
 use super::state::{Cell, Run};
 use super::syntax::{Reference, Slot};
-use super::value::{Array, Value};
+use super::value::{Array, Grid, Nested, Value};
 
 impl<'r, O: Observer> Run<'r, '_, O> {
     /// Returns the value of a name or, with `subscripts`, of its entry.
@@ -18,9 +18,14 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         subscripts: Option<Subscripts>,
     ) -> Fallible<Value> {
         let value = match (&self.cells[reference.name].value, subscripts) {
-            (None, _) => return Err(self.undefined(reference.name, &reference.span)),
             (Some(value), None) => Ok(value.clone()),
-            (Some(value), Some(subscripts)) => self.entry(reference, value, subscripts),
+            (Some(value), Some(subscripts)) => self.entry(reference.name, value, subscripts),
+            // A local name without a value is 0.
+            (None, None) if self.listing.assigned[reference.name] => Ok(Value::default()),
+            (None, Some(_)) if self.listing.assigned[reference.name] => {
+                Err(kind("an array", &Value::default()))
+            }
+            (None, _) => return Err(self.undefined(reference.name, &reference.span)),
         };
         let value = value.map_err(|cause| self.fail(&reference.span, cause))?;
         if O::ACTIVE {
@@ -30,52 +35,9 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         Ok(value)
     }
 
-    fn entry(
-        &self,
-        reference: &Reference,
-        value: &Value,
-        subscripts: Subscripts,
-    ) -> Result<Value, Cause> {
-        let (i, j) = self.offsets(reference, subscripts)?;
-        let entry = match value {
-            Value::Array(a) if a.cols() == 1 || subscripts.col.is_some() => {
-                a.get(i, j).map(Value::Number)
-            }
-            Value::Nested(v) if j == 0 => v.get(i).cloned(),
-            Value::Array(_) | Value::Nested(_) => None,
-            other => return Err(kind("an array", other)),
-        };
-        entry.ok_or_else(|| self.outside(reference, subscripts, value.size()))
-    }
-
-    fn outside(
-        &self,
-        reference: &Reference,
-        subscripts: Subscripts,
-        (rows, cols): (usize, usize),
-    ) -> Cause {
-        let name = self.listing.names.name(reference.name).into();
-        Cause::IndexOutside { name, subscripts, rows, cols }
-    }
-
-    /// Returns row and column from 0; the column of a lone subscript is the first.
-    fn offsets(
-        &self,
-        reference: &Reference,
-        subscripts: Subscripts,
-    ) -> Result<(usize, usize), Cause> {
-        let origin = self.settings.origin;
-        let offset = |x: f64| {
-            let name = || self.listing.names.name(reference.name).into();
-            if x.fract() != 0.0 {
-                Err(Cause::IndexNotWhole { name: name(), subscripts })
-            } else if x < f64::from(origin) {
-                Err(Cause::IndexBelowOrigin { name: name(), subscripts, origin })
-            } else {
-                Ok((x - f64::from(origin)) as usize)
-            }
-        };
-        Ok((offset(subscripts.row)?, subscripts.col.map_or(Ok(0), offset)?))
+    fn entry(&self, name: Slot, value: &Value, subscripts: Subscripts) -> Result<Value, Cause> {
+        let name = || self.listing.names.name(name).into();
+        entry_of(value, subscripts, self.settings.origin, &name)
     }
 
     /// Writes `value` to a name.
@@ -92,17 +54,23 @@ impl<'r, O: Observer> Run<'r, '_, O> {
 
     /// Writes `x` to an entry, and makes the array larger where it does not reach so far.
     pub fn write(&mut self, target: &Reference, subscripts: Subscripts, x: f64) -> Fallible<()> {
-        let (i, j) =
-            self.offsets(target, subscripts).map_err(|cause| self.fail(&target.span, cause))?;
-        self.prepare(target, subscripts, i, j)?;
+        let (i, j) = self.place_of(target, subscripts)?;
+        if !O::ACTIVE && self.overwrite(target.name, subscripts, (i, j), x) {
+            return Ok(());
+        }
+        self.prepare(target, subscripts, (i, j), 1)?;
         let cell = &mut self.cells[target.name];
         cell.local = true;
-        if let Some(Value::Array(array)) = &mut cell.value {
-            let array = Rc::make_mut(array);
-            if i >= array.rows() || j >= array.cols() {
-                array.grow(i, j);
+        match &mut cell.value {
+            Some(Value::Array(array)) => {
+                let array = Rc::make_mut(array);
+                if i >= array.rows() || j >= array.cols() {
+                    array.grow(i, j);
+                }
+                array.set(i, j, x);
             }
-            array.set(i, j, x);
+            Some(Value::Nested(_)) => self.write_nested(target.name, i, j, Value::Number(x)),
+            _ => unreachable!("an entry is prepared in an array"),
         }
         if O::ACTIVE {
             let (whole, count) = whole_subscripts(Some(subscripts));
@@ -111,28 +79,99 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         Ok(())
     }
 
-    /// Checks that the entry can be written: that there is an array, and that it may grow so far.
+    /// Writes a value that is no number to an entry: the array becomes one of arrays.
+    pub fn write_value(
+        &mut self,
+        target: &Reference,
+        subscripts: Subscripts,
+        value: Value,
+    ) -> Fallible<()> {
+        self.check_nesting(value.depth())?;
+        let (i, j) = self.place_of(target, subscripts)?;
+        self.prepare(target, subscripts, (i, j), value.count())?;
+        let cell = &mut self.cells[target.name];
+        cell.local = true;
+        if let Some(Value::Array(array)) = &cell.value {
+            let entry = |i, j| Value::Number(array.entries()[i * array.cols() + j]);
+            let grid = Grid::from_fn(array.rows(), array.cols(), entry);
+            cell.value = Some(Value::Nested(Rc::new(Nested::new(grid))));
+        }
+        self.write_nested(target.name, i, j, value.clone());
+        if O::ACTIVE {
+            let (whole, count) = whole_subscripts(Some(subscripts));
+            self.observer.write(self.access(target.name, &whole[..count], &value));
+        }
+        Ok(())
+    }
+
+    /// Writes to an entry that was prepared, of a name that holds an array of arrays.
+    fn write_nested(&mut self, slot: Slot, i: usize, j: usize, value: Value) {
+        if let Some(Value::Nested(nested)) = &mut self.cells[slot].value {
+            let nested = Rc::make_mut(nested);
+            self.stored -= nested.count() + nested.grid().missing(i, j);
+            nested.write(i, j, value);
+            self.stored += nested.count();
+        }
+    }
+
+    /// Returns the row and column, from 0, of the entry that is written to.
+    fn place_of(&self, target: &Reference, subscripts: Subscripts) -> Fallible<(usize, usize)> {
+        let name = || self.listing.names.name(target.name).into();
+        let place = offsets(subscripts, self.settings.origin, &name);
+        place.map_err(|cause| self.fail(&target.span, cause))
+    }
+
+    /// Writes a number over a number of an array of the program's own that nothing else shares: the
+    /// short way. Returns whether there was such an entry.
+    fn overwrite(
+        &mut self,
+        slot: Slot,
+        subscripts: Subscripts,
+        (i, j): (usize, usize),
+        x: f64,
+    ) -> bool {
+        let Cell { value: Some(Value::Array(array)), local: true } = &mut self.cells[slot] else {
+            return false;
+        };
+        match Rc::get_mut(array) {
+            Some(a) if a.get(i, j).is_some() && (subscripts.col.is_some() || a.cols() == 1) => {
+                a.set(i, j, x);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Checks that an entry can be written, of `count` numbers. A name that holds no array becomes an
+    /// empty one.
     fn prepare(
         &mut self,
         target: &Reference,
         subscripts: Subscripts,
-        i: usize,
-        j: usize,
+        (i, j): (usize, usize),
+        count: usize,
     ) -> Fallible<()> {
-        let value = self.cells[target.name].value.get_or_insert_with(|| Array::default().into());
-        let Value::Array(array) = value else {
-            let cause = kind("an array", value);
-            return Err(self.fail(&target.span, cause));
-        };
-        if subscripts.col.is_none() && array.cols() > 1 {
-            let size = (array.rows(), array.cols());
-            let cause = self.outside(target, subscripts, size);
+        let cell = &mut self.cells[target.name].value;
+        let value = cell.get_or_insert_with(|| Array::default().into());
+        if let Value::Number(_) | Value::Text(_) = value {
+            self.stored -= value.count();
+            *value = Array::default().into();
+        }
+        let (rows, cols) = value.size();
+        if subscripts.col.is_none() && cols > 1 {
+            let name = self.listing.names.name(target.name).into();
+            let cause = Cause::IndexOutside { name, subscripts, rows, cols };
             return Err(self.fail(&target.span, cause));
         }
-        let copied = if Rc::strong_count(array) > 1 { array.entries().len() } else { 0 };
-        let more = array.missing(i, j);
-        let moved = if more > 0 && j >= array.cols() { array.entries().len() } else { 0 };
-        self.room(more)?;
+        let (more, shared) = match value {
+            Value::Array(array) => (array.missing(i, j), Rc::strong_count(array) > 1),
+            Value::Nested(nested) => (nested.grid().missing(i, j), true),
+            _ => unreachable!("no array but these"),
+        };
+        let held = rows * cols;
+        let copied = if shared { held } else { 0 };
+        let moved = if more > 0 && j >= cols { held } else { 0 };
+        self.room(more.saturating_add(count - 1))?;
         self.stored += more;
         self.spend((copied + moved + more) as u64)
     }
@@ -152,4 +191,49 @@ fn whole_subscripts(subscripts: Option<Subscripts>) -> ([i64; 2], usize) {
         Some(Subscripts { row, col: None }) => ([row as i64, 0], 1),
         Some(Subscripts { row, col: Some(col) }) => ([row as i64, col as i64], 2),
     }
+}
+
+/// Returns the entry of a value, which messages call `name`.
+pub fn entry_of(
+    value: &Value,
+    subscripts: Subscripts,
+    origin: i32,
+    name: &dyn Fn() -> String,
+) -> Result<Value, Cause> {
+    let (i, j) = offsets(subscripts, origin, name)?;
+    let both = subscripts.col.is_some();
+    let entry = match value {
+        Value::Array(a) if both || a.cols() == 1 => a.get(i, j).map(|x| Value::Number(*x)),
+        Value::Nested(v) if both || v.grid().cols() == 1 => v.grid().get(i, j).cloned(),
+        Value::Array(_) | Value::Nested(_) => None,
+        other => return Err(kind("an array", other)),
+    };
+    let (rows, cols) = value.size();
+    entry.ok_or_else(|| Cause::IndexOutside { name: name(), subscripts, rows, cols })
+}
+
+/// Returns row and column from 0; the column of a lone subscript is the first.
+pub fn offsets(
+    subscripts: Subscripts,
+    origin: i32,
+    name: &dyn Fn() -> String,
+) -> Result<(usize, usize), Cause> {
+    let offset = |x: f64| {
+        let whole = x as i64;
+        if whole as f64 == x && whole >= i64::from(origin) {
+            Ok((whole - i64::from(origin)) as usize)
+        } else if x.fract() != 0.0 {
+            Err(Cause::IndexNotWhole { name: name(), subscripts })
+        } else if x < f64::from(origin) {
+            Err(Cause::IndexBelowOrigin { name: name(), subscripts, origin })
+        } else {
+            Ok((x - f64::from(origin)) as usize)
+        }
+    };
+    Ok((offset(subscripts.row)?, subscripts.col.map_or(Ok(0), offset)?))
+}
+
+/// Returns the place from 0 that a lone subscript names.
+pub fn offset(x: f64, origin: i32, name: &dyn Fn() -> String) -> Result<usize, Cause> {
+    offsets(Subscripts { row: x, col: None }, origin, name).map(|(i, _)| i)
 }

@@ -1,24 +1,47 @@
 //! The values of expressions.
 
-use super::arithmetic::{calculate, compare, cost, kind, negative, operate, transpose};
+use super::arithmetic::{calculate, compare, cost, kind, negative, operate, power, transpose};
+use super::entry::entry_of;
 use super::failure::{Cause, Fallible, Subscripts};
+use super::function::Function;
+use super::matrices;
 use super::observe::{Observer, Operand};
 use super::settings::Conjunction;
 use super::state::Run;
-use super::syntax::{Expr, Kind, Operation, Reference, Span};
-use super::value::{Array, Value};
+use super::syntax::{Expr, Kind, Operation, Reference, Slot, Span};
+use super::value::{Array, Grid, Value};
 
 impl<O: Observer> Run<'_, '_, O> {
     pub fn eval(&mut self, expr: &Expr) -> Fallible<Value> {
         match &expr.kind {
             Kind::Number(x) => Ok(Value::Number(*x)),
+            Kind::Text(text) => Ok(Value::Text(text.clone())),
             Kind::Read(reference) => {
                 let subscripts = self.subscripts(reference)?;
                 self.read(reference, subscripts)
             }
             Kind::Group(x) => self.eval(x),
-            Kind::Row(elements) => self.row(elements),
-            Kind::Magnitude(x) => Ok(Value::Number(self.number(x)?.abs())),
+            Kind::Entry { of, subscripts } => self.entry_of(of, subscripts, &expr.span),
+            Kind::Array { entries, cols } => self.array(entries, *cols),
+            Kind::Magnitude(x) => {
+                let x = self.eval(x)?;
+                self.spend(matrices::steps(&x))?;
+                matrices::magnitude(&x).map_err(|cause| self.fail(&expr.span, cause))
+            }
+            Kind::Not(x) => Ok(truth_value(!self.truth(x)?)),
+            Kind::Power(x, y) => {
+                let (x, y) = (self.number(x)?, self.number(y)?);
+                power(x, y).map(Value::Number).map_err(|cause| self.fail(&expr.span, cause))
+            }
+            Kind::Column(x, j) => {
+                let (x, j) = (self.eval(x)?, self.number(j)?);
+                self.afford(x.count())?;
+                let column = matrices::column(&x, j, self.settings.origin);
+                column.map_err(|cause| self.fail(&expr.span, cause))
+            }
+            Kind::Series { function, name, parts } => {
+                self.series(*function, *name, parts, &expr.span)
+            }
             Kind::Negative(x) => self.change(x, &expr.span, negative),
             Kind::Transpose(x) => self.change(x, &expr.span, transpose),
             Kind::Arithmetic(operation, x, y) => self.arithmetic(*operation, x, y, &expr.span),
@@ -27,6 +50,7 @@ impl<O: Observer> Run<'_, '_, O> {
                 Ok(truth_value(compare(*comparison, x, y, self.settings)))
             }
             Kind::All(operands) => Ok(truth_value(self.all(operands, &expr.span)?)),
+            Kind::Any(operands) => Ok(truth_value(self.any(operands)?)),
             Kind::Call(name, arguments) => {
                 let arguments = self.arguments(arguments)?;
                 self.call(*name, &arguments, &expr.span)
@@ -54,6 +78,15 @@ impl<O: Observer> Run<'_, '_, O> {
         let row = self.number(row)?;
         let col = reference.col.as_ref().map(|col| self.number(col)).transpose()?;
         Ok(Some(Subscripts { row, col }))
+    }
+
+    /// Checks that an array may hold what goes `depth` deep.
+    pub fn check_nesting(&self, depth: usize) -> Fallible<()> {
+        if depth < self.limits.depth {
+            return Ok(());
+        }
+        let limit = self.limits.depth as u64;
+        Err(self.fail_line(Cause::Limit { limit, of: "arrays within arrays" }))
     }
 
     /// Returns the values of arguments; each counts as stored while the next is evaluated.
@@ -105,10 +138,101 @@ impl<O: Observer> Run<'_, '_, O> {
         by(x).map_err(|cause| self.fail(span, cause))
     }
 
-    fn row(&mut self, elements: &[Expr]) -> Fallible<Value> {
-        let elements =
-            elements.iter().map(|element| self.number(element)).collect::<Fallible<_>>()?;
-        Ok(Array::row(elements).into())
+    fn array(&mut self, entries: &[Expr], cols: usize) -> Fallible<Value> {
+        let rows = entries.len() / cols;
+        let mut numbers = Vec::with_capacity(entries.len());
+        for (k, entry) in entries.iter().enumerate() {
+            match self.eval(entry)? {
+                Value::Number(x) => numbers.push(x),
+                other => {
+                    let mut values: Vec<_> = numbers.into_iter().map(Value::Number).collect();
+                    values.push(other);
+                    values.extend(self.arguments(&entries[k + 1..])?);
+                    self.afford(values.iter().map(Value::count).sum())?;
+                    let depth = values.iter().map(Value::depth).max().unwrap_or(0);
+                    self.check_nesting(depth)?;
+                    return Ok(Value::grid(Grid::from_fn(rows, cols, |i, j| {
+                        values[i * cols + j].clone()
+                    })));
+                }
+            }
+        }
+        Ok(Array::from_rows(cols, numbers).into())
+    }
+
+    fn entry_of(&mut self, of: &Expr, subscripts: &[Expr], span: &Span) -> Fallible<Value> {
+        let value = self.eval(of)?;
+        let row = self.number(&subscripts[0])?;
+        let col = subscripts.get(1).map(|col| self.number(col)).transpose()?;
+        let name = || self.place(&of.span).text.into();
+        let entry = entry_of(&value, Subscripts { row, col }, self.settings.origin, &name);
+        entry.map_err(|cause| self.fail(span, cause))
+    }
+
+    /// Returns a sum or product of terms, added or multiplied one after another from the first; the
+    /// variable is the series' own.
+    fn series(
+        &mut self,
+        function: Slot,
+        name: Slot,
+        parts: &[Expr; 3],
+        span: &Span,
+    ) -> Fallible<Value> {
+        let operation = match &self.functions[function] {
+            Some(Function::Sum) => Operation::Add,
+            Some(Function::Product) => Operation::Multiply,
+            _ => return Err(self.undefined(function, span)),
+        };
+        let [from, to, term] = parts;
+        let (from, to) = (self.number(from)?, self.number(to)?);
+        let outer = self.cells[name].value.take();
+        let series = self.terms(operation, name, (from, to), term, span);
+        self.cells[name].value = outer;
+        series.map(Value::Number)
+    }
+
+    fn terms(
+        &mut self,
+        operation: Operation,
+        name: Slot,
+        (from, to): (f64, f64),
+        term: &Expr,
+        span: &Span,
+    ) -> Fallible<f64> {
+        let mut result = None;
+        let mut turn = 0.0;
+        while from + turn <= to {
+            self.spend(1)?;
+            self.cells[name].value = Some(Value::Number(from + turn));
+            let term = self.number(term)?;
+            let next = match result {
+                None => Ok(term),
+                Some(result) => calculate(operation, result, term, self.settings),
+            };
+            result = Some(next.map_err(|cause| self.fail(span, cause))?);
+            turn += 1.0;
+        }
+        Ok(result.unwrap_or(if operation == Operation::Add { 0.0 } else { 1.0 }))
+    }
+
+    /// Returns whether an `∨` is true, by the worksheet's method of evaluating `∧`: one true operand
+    /// decides.
+    fn any(&mut self, operands: &[Expr]) -> Fallible<bool> {
+        let method = self.settings.conjunction;
+        let (mut any, mut failure) = (false, None);
+        for operand in operands {
+            if method == Conjunction::LeftToRight && any {
+                break;
+            }
+            match self.truth(operand) {
+                Ok(truth) => any |= truth,
+                Err(error) if method != Conjunction::Guarded || error.is_limit() => {
+                    return Err(error);
+                }
+                Err(error) => drop(failure.get_or_insert(error)),
+            }
+        }
+        failure.filter(|_| !any).map_or(Ok(any), Err)
     }
 
     /// Returns whether an `∧` is true, by the worksheet's method of evaluating it.

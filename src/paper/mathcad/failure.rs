@@ -70,12 +70,12 @@ pub enum Cause {
     IndexBelowOrigin { name: String, subscripts: Subscripts, origin: i32 },
     #[error("An array index must be an integer: {name}{subscripts}.")]
     IndexNotWhole { name: String, subscripts: Subscripts },
-    #[error(
-        "Found a singularity while evaluating this expression. You may be dividing by zero. \
-         {numerator}/{denominator}."
-    )]
+    #[error("Division by zero. («Деление на ноль.» in Mathcad 14.1.) {numerator}/{denominator}.")]
     Singularity { numerator: f64, denominator: f64 },
-    #[error("The result is {result}, no number that Mathcad can hold.")]
+    #[error(
+        "Found a number beyond 10^307. («Найдено число величиной более 10^307» in Mathcad 14.1.) \
+         The result is {result}."
+    )]
     Overflow {
         /// The result under IEEE 754.
         result: f64,
@@ -96,6 +96,16 @@ pub enum Cause {
     },
     #[error("The program has no value.")]
     NoValue,
+    #[error("A range must lead from its start to its end: {from}, {second} .. {to}.")]
+    Range { from: f64, second: f64, to: f64 },
+    #[error("`break` and `continue` belong in a loop.")]
+    OutsideLoop,
+    #[error("The matrix is singular.")]
+    Singular,
+    #[error("The function is not defined at this point: {name} of {argument}.")]
+    Domain { name: String, argument: f64 },
+    #[error("The result of {name} is a complex number, which this interpreter does not have.")]
+    Complex { name: String },
     /// The listing asks for more than [`Limits`](super::settings::Limits) allows.
     #[error("The limit of {limit} {of} is reached.")]
     Limit { limit: u64, of: &'static str },

@@ -1,34 +1,108 @@
-//! The functions that a listing may call: a few of Mathcad's own, and those that the caller
-//! defines.
+//! The functions that a listing may call: some of Mathcad's own, those of its worksheet, and those that
+//! the caller defines.
 
+use std::rc::Rc;
+
+use super::listing::Listing;
 use super::value::Value;
 
 pub enum Function<'l> {
     /// `identity(n)`, the n x n matrix.
     Identity,
-    /// `rows(v)`, a whole number.
+    /// `rows(v)`, a whole number; 0 for what is no array.
     Rows,
+    /// `cols(v)`, a whole number; 0 for what is no array.
+    Cols,
+    /// `length(v)`, the number of entries of a column.
+    Length,
     /// `min(x, y, ...)`, of all the numbers of all arguments.
     Min,
     /// `max(x, y, ...)`, of all the numbers of all arguments.
     Max,
     /// `trace(x, y, ...)`: a line of output, which is also its value.
     Trace,
+    /// `augment(x, y, ...)`, arrays side by side.
+    Augment,
+    /// `stack(x, y, ...)`, arrays one below the other.
+    Stack,
+    /// `submatrix(x, row, last row, column, last column)`.
+    Submatrix,
+    /// `lsolve(m, v)`, the solution of m·x = v.
+    Lsolve,
+    /// `determinant(m)`, which Mathcad writes as `|m|`.
+    Determinant,
+    /// `∑(v)`, the sum of a column, and the sum over a range.
+    Sum,
+    /// `∏`, the product over a range.
+    Product,
+    /// `√(x)`, or `√(n, x)`, the n-th root.
+    Root,
+    /// `log(x)` to the base of 10, or `log(x, b)`.
+    Log,
+    /// `mod(x, y)`, the remainder, with the sign of x.
+    Mod,
+    /// `factorial(n)`.
+    Factorial,
+    /// A function of one number.
+    Elementary(fn(f64) -> f64),
+    /// A function of the worksheet.
+    Program(Rc<Listing>),
     Outside(Outside<'l>),
 }
 
 /// A function from outside: it returns its value, or why there is none.
 pub type Outside<'l> = Box<dyn FnMut(&[Value]) -> Result<Value, String> + 'l>;
 
+/// The functions of one number. Their last bit need not be Mathcad's, whose sine and cosine are those
+/// of x87.
+const ELEMENTARY: [(&str, fn(f64) -> f64); 20] = [
+    ("sin", f64::sin),
+    ("cos", f64::cos),
+    ("tan", f64::tan),
+    ("cot", |x| 1.0 / x.tan()),
+    ("sec", |x| 1.0 / x.cos()),
+    ("csc", |x| 1.0 / x.sin()),
+    ("asin", f64::asin),
+    ("acos", f64::acos),
+    ("atan", f64::atan),
+    ("sinh", f64::sinh),
+    ("cosh", f64::cosh),
+    ("tanh", f64::tanh),
+    ("asinh", f64::asinh),
+    ("acosh", f64::acosh),
+    ("atanh", f64::atanh),
+    ("exp", f64::exp),
+    ("ln", f64::ln),
+    ("floor", f64::floor),
+    ("ceil", f64::ceil),
+    ("trunc", f64::trunc),
+];
+
 impl Function<'_> {
     pub fn builtin(name: &str) -> Option<Self> {
-        match name {
-            "identity" => Some(Function::Identity),
-            "rows" => Some(Function::Rows),
-            "min" => Some(Function::Min),
-            "max" => Some(Function::Max),
-            "trace" => Some(Function::Trace),
-            _ => None,
-        }
+        Some(match name {
+            "identity" => Function::Identity,
+            "rows" => Function::Rows,
+            "cols" => Function::Cols,
+            "length" => Function::Length,
+            "min" => Function::Min,
+            "max" => Function::Max,
+            "trace" => Function::Trace,
+            "augment" => Function::Augment,
+            "stack" => Function::Stack,
+            "submatrix" => Function::Submatrix,
+            "lsolve" => Function::Lsolve,
+            "determinant" => Function::Determinant,
+            "∑" => Function::Sum,
+            "∏" => Function::Product,
+            "√" => Function::Root,
+            "log" => Function::Log,
+            "mod" => Function::Mod,
+            "factorial" => Function::Factorial,
+            name => {
+                let (_, function) = ELEMENTARY.into_iter().find(|(known, _)| *known == name)?;
+                Function::Elementary(function)
+            }
+        })
     }
 }

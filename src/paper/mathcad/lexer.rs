@@ -3,7 +3,7 @@
 //! Spaces mean nothing, but for one place: within round brackets they separate the elements of a
 //! row. There a [`Token::Gap`] stands
 //!
-//! - for two or more spaces behind an operand, whatever follows, as in `(a − c   b + c)` and
+//! - for two or more spaces behind an operand, whatever follows but `;`, as in `(a − c   b + c)` and
 //!   `(a   −b)`,
 //! - for one space between two operands, as in `(0 0 0)` and `(|a| |b|)`.
 //!
@@ -11,15 +11,18 @@
 //! it opens.
 
 use std::fmt;
+use std::rc::Rc;
 
 use chumsky::span::SimpleSpan;
 
 use super::syntax::{Slot, Span};
 
 /// A word, number or sign of a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Token {
     Number(f64),
+    /// A string in quotation marks, which hold none themselves.
+    Text(Rc<str>),
     Name(Slot),
     /// A name that is followed by `(` without a space: a function.
     Function(Slot),
@@ -35,6 +38,7 @@ impl fmt::Display for Token {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Token::Number(x) => write!(f, "{x}"),
+            Token::Text(text) => write!(f, "\"{text}\""),
             Token::Name(_) | Token::Function(_) => f.write_str("a name"),
             Token::Sign(sign) => f.write_str(sign),
             Token::ClosingBar => f.write_str("|"),
@@ -44,10 +48,14 @@ impl fmt::Display for Token {
 }
 
 /// The signs, those of two characters first; `-` and `*` stand for `−` and `·`.
-const SIGNS: [&str; 24] = [
-    ":=", "..", "←", "∈", "∧", "≤", "≥", "≠", "<", ">", "=", "+", "−", "-", "·", "*", "/", "ᵀ",
-    "|", ",", "(", ")", "[", "]",
+const SIGNS: [&str; 30] = [
+    ":=", "..", "←", "∈", "∧", "∨", "¬", "≤", "≥", "≠", "<", ">", "=", "+", "−", "-", "·", "*",
+    "/", "^", "ᵀ", "|", ",", ";", "(", ")", "[", "]", "⟨", "⟩",
 ];
+
+/// The words that no name can be.
+pub const KEYWORDS: [&str; 8] =
+    ["for", "while", "if", "otherwise", "try", "return", "break", "continue"];
 
 /// The names of a listing in the order of their first appearance.
 #[derive(Clone, Debug, Default)]
@@ -126,6 +134,7 @@ impl Lexer<'_> {
             return Ok((Token::Sign(known), sign.len()));
         }
         match rest.chars().next() {
+            Some('"') => text(rest).map_err(|message| (at, message)),
             Some(c) if c.is_ascii_digit() => number(rest).map_err(|message| (at, message)),
             Some(c) if is_letter(c) => Ok(self.name(rest)),
             _ => Err((
@@ -136,10 +145,10 @@ impl Lexer<'_> {
     }
 
     fn name(&mut self, rest: &str) -> (Token, usize) {
-        let length = rest.find(|c: char| !is_letter(c) && !c.is_numeric()).unwrap_or(rest.len());
+        let length = name_length(rest);
+        let keyword = KEYWORDS.into_iter().find(|word| *word == &rest[..length]);
         let token = match &rest[..length] {
-            "for" => Token::Sign("for"),
-            "if" => Token::Sign("if"),
+            _ if keyword.is_some() => Token::Sign(keyword.unwrap_or_default()),
             name if rest[length..].starts_with('(') => Token::Function(self.names.intern(name)),
             name => Token::Name(self.names.intern(name)),
         };
@@ -155,12 +164,12 @@ impl Lexer<'_> {
 
     /// Adds the token, and a gap before it where there is one, and opens or closes a bracket.
     fn push(&mut self, token: Token, span: Span, spaces: usize) -> Result<(), Complaint> {
-        if self.gap(token, spaces) {
+        if self.gap(&token, spaces) {
             self.found.push((Token::Gap, (span.start - spaces..span.start).into()));
         }
         match token {
-            Token::Sign(bracket @ ("(" | "[" | "|")) => self.open.push(bracket),
-            Token::Sign(")" | "]") | Token::ClosingBar => drop(self.open.pop()),
+            Token::Sign(bracket @ ("(" | "[" | "⟨" | "|")) => self.open.push(bracket),
+            Token::Sign(")" | "]" | "⟩") | Token::ClosingBar => drop(self.open.pop()),
             _ => {}
         }
         if self.open.len() > self.depth {
@@ -170,19 +179,32 @@ impl Lexer<'_> {
         Ok(())
     }
 
-    fn gap(&self, token: Token, spaces: usize) -> bool {
-        let closing = matches!(token, Token::Sign(")" | ","));
+    fn gap(&self, token: &Token, spaces: usize) -> bool {
+        let closing = matches!(token, Token::Sign(")" | "," | ";"));
         let wanted = if starts_operand(token) { 1 } else { 2 };
         self.open.last() == Some(&"(") && self.behind_operand() && !closing && spaces >= wanted
     }
 
     fn behind_operand(&self) -> bool {
-        self.found.last().is_some_and(|(last, _)| ends_operand(*last))
+        self.found.last().is_some_and(|(last, _)| ends_operand(last))
     }
 }
 
+/// Returns how many bytes the name at the start of `rest` has. A full stop belongs to a name if a
+/// letter or a digit follows: Mathcad's literal subscript.
+pub fn name_length(rest: &str) -> usize {
+    let ordinary = |c: char| is_letter(c) || c.is_numeric() || c == '\'';
+    let next = rest.chars().skip(1).map(Some).chain([None]);
+    let inside = rest.chars().zip(next).take_while(|(c, next)| match c {
+        '.' => next.is_some_and(ordinary),
+        c => ordinary(*c),
+    });
+    inside.map(|(c, _)| c.len_utf8()).sum()
+}
+
+/// The roots, sums and products are functions with names of one sign.
 fn is_letter(c: char) -> bool {
-    (c.is_alphabetic() || c == '_') && c != 'ᵀ'
+    (c.is_alphabetic() || matches!(c, '_' | '√' | '∑' | '∏')) && c != 'ᵀ'
 }
 
 fn first(text: &str) -> usize {
@@ -195,19 +217,31 @@ fn number(rest: &str) -> Result<(Token, usize), String> {
     if let Some(fraction) = rest[length..].strip_prefix('.') {
         length += if digits(fraction) > 0 { 1 + digits(fraction) } else { 0 };
     }
-    match rest[..length].parse() {
+    if let Some(exponent) = rest[length..].strip_prefix(['e', 'E']) {
+        let behind = exponent.strip_prefix(['+', '-', '−']).unwrap_or(exponent);
+        let sign = exponent.len() - behind.len();
+        length += if digits(behind) > 0 { 1 + sign + digits(behind) } else { 0 };
+    }
+    match rest[..length].replace('−', "-").parse() {
         Ok(x) if f64::is_finite(x) => Ok((Token::Number(x), length)),
         _ => Err("found a number too large".into()),
     }
 }
 
-fn starts_operand(token: Token) -> bool {
-    matches!(token, Token::Number(_) | Token::Name(_) | Token::Function(_) | Token::Sign("(" | "|"))
+fn text(rest: &str) -> Result<(Token, usize), String> {
+    let inside = rest[1..].split('"').next().unwrap_or_default();
+    if inside.len() + 1 == rest.len() {
+        return Err("found a string without its second quotation mark".into());
+    }
+    Ok((Token::Text(inside.into()), inside.len() + 2))
 }
 
-fn ends_operand(token: Token) -> bool {
-    matches!(
-        token,
-        Token::Number(_) | Token::Name(_) | Token::ClosingBar | Token::Sign(")" | "]" | "ᵀ")
-    )
+fn starts_operand(token: &Token) -> bool {
+    let operand = matches!(token, Token::Number(_) | Token::Text(_) | Token::Name(_));
+    operand || matches!(token, Token::Function(_) | Token::Sign("(" | "|"))
+}
+
+fn ends_operand(token: &Token) -> bool {
+    let operand = matches!(token, Token::Number(_) | Token::Text(_) | Token::Name(_));
+    operand || matches!(token, Token::ClosingBar | Token::Sign(")" | "]" | "⟩" | "ᵀ"))
 }

@@ -6,7 +6,7 @@ use super::failure::ParseError;
 use super::lexer::{self, Complaint, Names, Spanned};
 use super::parser;
 use super::settings::Limits;
-use super::syntax::{Expr, Slot, Statement, Step};
+use super::syntax::{Expr, Kind, Slot, Statement, Step};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
@@ -29,6 +29,47 @@ pub struct Listing {
     pub names: Names,
     pub parameters: Vec<Slot>,
     pub program: Vec<Statement>,
+    /// Whether the program writes to the name of each slot.
+    pub(super) assigned: Vec<bool>,
+    /// How deep its blocks and expressions stand within each other.
+    pub(super) depth: usize,
+}
+
+/// The line between the two blocks of `try`.
+const ON_ERROR: &str = "on error";
+
+/// Marks the names that statements read or call; the variable of a series is its own.
+fn uses(block: &[Statement], used: &mut [bool]) {
+    fn expression(expr: &Expr, own: &mut Vec<Slot>, used: &mut [bool]) {
+        let depth = own.len();
+        match &expr.kind {
+            Kind::Read(reference) => used[reference.name] |= !own.contains(&reference.name),
+            Kind::Call(name, _) => used[*name] = true,
+            Kind::Series { function, name, .. } => {
+                used[*function] = true;
+                own.push(*name);
+            }
+            _ => {}
+        }
+        expr.parts().into_iter().for_each(|part| expression(part, own, used));
+        own.truncate(depth);
+    }
+    for Statement { step, .. } in block {
+        step.expressions().into_iter().for_each(|expr| expression(expr, &mut vec![], used));
+        step.blocks().into_iter().for_each(|block| uses(block, used));
+    }
+}
+
+/// Hands over the names that the statements write to; returns how deep they stand within each other.
+fn survey(block: &[Statement], written: &mut impl FnMut(Slot)) -> usize {
+    let mut depth = 0;
+    for Statement { step, .. } in block {
+        step.written().into_iter().for_each(&mut *written);
+        let own = step.expressions().into_iter().map(|expr| expr.depth(usize::MAX)).max();
+        let below = step.blocks().into_iter().map(|block| survey(block, written)).max();
+        depth = depth.max(1 + own.max(below).unwrap_or(0));
+    }
+    depth
 }
 
 impl Listing {
@@ -64,11 +105,28 @@ impl Listing {
             return reader.refuse(line, "found a line beside the header, expected it indented");
         }
         let names = reader.names;
-        Ok(Listing { name: name.into(), names, parameters, program, lines })
+        let mut assigned = vec![false; names.len()];
+        let depth = survey(&program, &mut |slot| assigned[slot] = true);
+        Ok(Listing { name: name.into(), names, parameters, program, lines, assigned, depth })
     }
 
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Returns the name of the function that the first line defines.
+    pub fn function(&self) -> &str {
+        self.names.name(0)
+    }
+
+    /// Returns the names that the program takes from its worksheet: those that it reads or calls, and
+    /// neither receives nor writes to.
+    pub fn free_names(&self) -> Vec<&str> {
+        let mut used = vec![false; self.names.len()];
+        uses(&self.program, &mut used);
+        let own = |slot: &Slot| self.assigned[*slot] || self.parameters.contains(slot);
+        let free = (0..self.names.len()).filter(|slot| used[*slot] && !own(slot));
+        free.map(|slot| self.names.name(slot)).collect()
     }
 
     /// Returns the lines, those that start with `#` left out.
@@ -155,10 +213,32 @@ impl<'a> Reader<'a> {
             .map_err(|complaint| self.error(line, complaint))?;
         self.check_depth(line, &statement.step)?;
         self.next += 1;
-        if let Step::For { body, .. } | Step::If { body, .. } = &mut statement.step {
-            *body = self.block(line.level + 1)?;
+        match &mut statement.step {
+            Step::For { body, .. }
+            | Step::While { body, .. }
+            | Step::If { body, .. }
+            | Step::Otherwise { body } => *body = self.block(line.level + 1)?,
+            Step::Try { body, fallback } => {
+                *body = self.block(line.level + 1)?;
+                self.on_error(line)?;
+                *fallback = self.block(line.level + 1)?;
+            }
+            _ => {}
         }
         Ok(statement)
+    }
+
+    /// Passes over the line `on error` that belongs to the `try` of the line `above`.
+    fn on_error(&mut self, above: &Line) -> Result<(), ParseError> {
+        match self.lines.get(self.next) {
+            Some(line) if line.level == above.level && line.text == ON_ERROR => self.next += 1,
+            _ => {
+                let last = &self.lines[self.next - 1];
+                let message = format!("expected a line `{ON_ERROR}` below, beside its `try`");
+                return Err(self.error(last, (last.text.len(), message)));
+            }
+        }
+        Ok(())
     }
 
     fn tokens(&mut self, line: &Line) -> Result<Vec<Spanned>, ParseError> {
@@ -176,7 +256,7 @@ impl<'a> Reader<'a> {
 
     fn check_depth(&self, line: &Line, step: &Step) -> Result<(), ParseError> {
         let limit = self.limits.depth;
-        let deep = |expr: &&Expr| expr.deeper_than(limit);
+        let deep = |expr: &&Expr| expr.depth(limit + 1) > limit;
         match step.expressions().into_iter().find(deep) {
             Some(expr) => {
                 let message = format!("found operators and brackets more than {limit} deep");

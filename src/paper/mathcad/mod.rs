@@ -19,21 +19,30 @@
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
 //! | [`failure`] | what can go wrong |
 //! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
-//! | [`edit`] | the alternative readings of a listing |
+//! | [`edit`], [`file`] | the alternative readings of a listing; files of several listings |
 //! | [`observe`] | watching a run: traces and coverage |
-//! | `arithmetic`, `function` | operations on values, and the functions a listing may call |
+//! | `arithmetic`, `matrices`, `function` | operations on values, and the functions a listing may call |
+//! | [`json`] | values as JSON |
+//! | [`sheet`] | what a worksheet defines above a program |
 //! | `state`, `entry`, `call`, `eval`, [`run`] | running a listing |
+//! | [`xmcd`] | the second notation: worksheets as Mathcad saves them |
+//! | [`worksheet`] | executing a worksheet beside its saved results |
 //!
 //! `README.md` in this directory lists Mathcad's semantics one by one, with the source of each.
 
 pub mod array;
 pub mod edit;
 pub mod failure;
+pub mod file;
+pub mod json;
 pub mod listing;
 pub mod observe;
 pub mod run;
 pub mod settings;
+pub mod sheet;
 pub mod value;
+pub mod worksheet;
+pub mod xmcd;
 
 mod arithmetic;
 mod call;
@@ -41,6 +50,7 @@ mod entry;
 mod eval;
 mod function;
 mod lexer;
+mod matrices;
 mod parser;
 mod state;
 pub mod syntax;
@@ -51,4 +61,5 @@ pub use listing::{Line, Listing};
 pub use observe::{Observer, Recorder};
 pub use run::{Outcome, Runner};
 pub use settings::{Conjunction, Limits, Settings};
+pub use sheet::Sheet;
 pub use value::{Array, Value};

@@ -1,17 +1,17 @@
 //! The grammar of one line.
 //!
-//! From the loosest to the tightest: `∧`, one comparison, `+ −`, `· /`, the sign `−x`, `xᵀ`.
-//! Operators of one level group from the left.
+//! From the loosest to the tightest: `∨`, `∧`, `¬`, one comparison, `+ −`, `· /`, the sign `−x`, one
+//! power, and behind an operand `xᵀ`, `x[i]`, `x⟨j⟩`. Operators of one level group from the left.
 
 use std::collections::BTreeSet;
 
-use chumsky::error::RichPattern;
+use chumsky::error::{RichPattern, RichReason};
 use chumsky::input::MappedInput;
 use chumsky::pratt::{infix, left, none};
 use chumsky::prelude::*;
 
 use super::lexer::{Complaint, Spanned, Token};
-use super::syntax::{Comparison, Expr, Kind, Operation, Reference, Slot, Statement, Step};
+use super::syntax::{Comparison, Expr, Kind, Operation, Range, Reference, Slot, Statement, Step};
 
 type Tokens<'t> = MappedInput<'t, Token, SimpleSpan, &'t [Spanned]>;
 type Extra<'t> = extra::Err<Rich<'t, Token>>;
@@ -22,8 +22,8 @@ pub fn header(tokens: &[Spanned]) -> Result<Vec<Slot>, Complaint> {
     parse(header_grammar(), tokens)
 }
 
-/// Reads a line of a program, `line` being its place in the listing from 0. The bodies of `for` and
-/// `if` are left empty.
+/// Reads a line of a program, `line` being its place in the listing from 0. Blocks below it are left
+/// empty.
 pub fn statement(tokens: &[Spanned], line: usize) -> Result<Statement, Complaint> {
     Ok(Statement { line, step: parse(step_grammar(), tokens)? })
 }
@@ -36,6 +36,9 @@ fn parse<'t, T>(grammar: Grammar<'t, T>, tokens: &'t [Spanned]) -> Result<T, Com
 
 fn complaint(errors: &[Rich<'_, Token>]) -> Complaint {
     let error = &errors[0];
+    if let RichReason::Custom(message) = error.reason() {
+        return (error.span().start, format!("found {message}"));
+    }
     let expected: BTreeSet<_> = error.expected().map(pattern).collect();
     let expected = expected.into_iter().collect::<Vec<_>>().join(" or ");
     (error.span().start, format!("found {}, expected {expected}", found(error.found())))
@@ -76,26 +79,53 @@ fn header_grammar<'t>() -> Grammar<'t, Vec<Slot>> {
 
 fn step_grammar<'t>() -> Grammar<'t, Step> {
     let guard = sign("if").ignore_then(expression()).or_not().boxed();
-    let range = expression().then_ignore(sign("..")).then(expression());
-    let every = sign("for")
-        .ignore_then(name())
-        .then_ignore(sign("∈"))
-        .then(range)
-        .then(guard.clone())
-        .map(|((name, (from, to)), guard)| Step::For { name, from, to, guard, body: vec![] });
+    let every = sign("for").ignore_then(name()).then_ignore(sign("∈")).then(range());
+    let every = every.then(guard.clone()).map(|((name, range), guard)| Step::For {
+        name,
+        range,
+        guard,
+        body: vec![],
+    });
     let when =
         sign("if").ignore_then(expression()).map(|condition| Step::If { condition, body: vec![] });
+    let while_ = sign("while").ignore_then(expression());
+    let while_ = while_.map(|condition| Step::While { condition, body: vec![] });
+    let otherwise = sign("otherwise").map(|()| Step::Otherwise { body: vec![] });
+    let attempt = sign("try").map(|()| Step::Try { body: vec![], fallback: vec![] });
+    let result = sign("return").ignore_then(expression()).then(guard.clone());
+    let result = result.map(|(value, guard)| Step::Return { value, guard });
+    let leave = sign("break").ignore_then(guard.clone()).map(|guard| Step::Break { guard });
+    let next = sign("continue").ignore_then(guard.clone()).map(|guard| Step::Continue { guard });
     let assign =
         reference(expression()).then_ignore(sign("←")).then(expression()).then(guard.clone());
     let assign = assign.map(|((target, value), guard)| Step::Assign { target, value, guard });
     let evaluate = expression().then(guard).map(|(value, guard)| Step::Evaluate { value, guard });
-    choice((every, when, assign, evaluate)).boxed()
+    let words = choice((while_, otherwise, attempt, result, leave, next));
+    choice((every, when, words, assign, evaluate)).boxed()
+}
+
+/// Reads `from .. to`, `from, second .. to`, or an array.
+fn range<'t>() -> Grammar<'t, Range> {
+    let second = sign(",").ignore_then(expression()).or_not();
+    let end = second.then_ignore(sign("..")).then(expression()).or_not();
+    let range = expression().then(end).map(|(from, end)| match end {
+        Some((second, to)) => Range::Span { from, second, to },
+        None => Range::Over(from),
+    });
+    range.boxed()
 }
 
 fn expression<'t>() -> Grammar<'t, Expr> {
     let expression = recursive(|expression| {
         let comparison = comparison(operand(expression.boxed()));
-        comparison.separated_by(sign("∧")).at_least(1).collect().map(all)
+        let opposite = sign("¬").repeated().count().then(comparison);
+        let opposite = opposite.map_with(|(times, x), e| {
+            (0..times).fold(x, |x, _| node(Kind::Not(Box::new(x)), e.span()))
+        });
+        let all = opposite.separated_by(sign("∧")).at_least(1).collect();
+        let all = all.map(|operands| joined(operands, Kind::All));
+        let any = all.separated_by(sign("∨")).at_least(1).collect();
+        any.map(|operands| joined(operands, Kind::Any))
     });
     expression.boxed()
 }
@@ -123,27 +153,73 @@ fn comparison<'t>(operand: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
 }
 
 fn operand<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
-    let transposed = atom(expression).then(sign("ᵀ").repeated().count());
-    let transposed = transposed.map_with(|(x, times), e| {
-        (0..times).fold(x, |x, _| node(Kind::Transpose(Box::new(x)), e.span()))
+    let tight = behind(atom(expression.clone()), expression);
+    let negative = |x: Grammar<'t, Expr>| {
+        let negative = sign("−").ignore_then(x.clone());
+        negative.map_with(|x, e| node(Kind::Negative(Box::new(x)), e.span())).or(x).boxed()
+    };
+    let power = tight.clone().then(sign("^").ignore_then(negative(tight)).or_not());
+    let power = power.map_with(|(x, exponent), e| match exponent {
+        Some(y) => node(Kind::Power(Box::new(x), Box::new(y)), e.span()),
+        None => x,
     });
-    let negative = sign("−").ignore_then(transposed.clone());
-    let negative = negative.map_with(|x, e| node(Kind::Negative(Box::new(x)), e.span()));
-    negative.or(transposed).labelled("an operand").boxed()
+    negative(power.boxed()).labelled("an operand").boxed()
+}
+
+/// What may stand behind an operand.
+enum Behind {
+    Transpose,
+    Subscripts(Vec<Expr>),
+    Column(Expr),
+}
+
+fn behind<'t>(atom: Grammar<'t, Expr>, expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
+    let subscripts = expression.clone().separated_by(sign(",")).at_least(1).at_most(2).collect();
+    let behind = choice((
+        sign("ᵀ").map(|()| Behind::Transpose),
+        subscripts.delimited_by(sign("["), sign("]")).map(Behind::Subscripts),
+        expression.delimited_by(sign("⟨"), sign("⟩")).map(Behind::Column),
+    ));
+    let whole = atom.foldl_with(behind.repeated(), |x, behind, e| {
+        let of = Box::new(x);
+        let kind = match behind {
+            Behind::Transpose => Kind::Transpose(of),
+            Behind::Subscripts(subscripts) => Kind::Entry { of, subscripts },
+            Behind::Column(column) => Kind::Column(of, Box::new(column)),
+        };
+        node(kind, e.span())
+    });
+    whole.boxed()
 }
 
 fn atom<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
-    let number = select! { Token::Number(x) => Kind::Number(x) };
+    let plain = select! {
+        Token::Number(x) => Kind::Number(x),
+        Token::Text(text) => Kind::Text(text),
+    };
+    let range = name().then_ignore(sign("∈")).then(expression.clone()).then_ignore(sign(".."));
+    let series = range.then(expression.clone()).then_ignore(sign(",")).then(expression.clone());
+    let series = function().then(series.delimited_by(sign("("), sign(")")));
+    let series = series.map(|(function, (((name, from), to), term))| Kind::Series {
+        function,
+        name,
+        parts: Box::new([from, to, term]),
+    });
     let arguments =
         expression.clone().separated_by(sign(",")).collect().delimited_by(sign("("), sign(")"));
     let call = function().then(arguments).map(|(name, arguments)| Kind::Call(name, arguments));
     let read = reference(expression.clone()).map(Kind::Read);
-    let elements = expression.clone().separated_by(just(Token::Gap)).at_least(1).collect();
-    let row = elements.delimited_by(sign("("), sign(")")).map(bracketed);
+    let row = expression.clone().separated_by(just(Token::Gap)).at_least(1).collect::<Vec<_>>();
+    let rows = row.separated_by(sign(";")).at_least(1).collect::<Vec<_>>();
+    let rows = rows.delimited_by(sign("("), sign(")")).try_map(|rows, span| {
+        bracketed(rows).ok_or_else(|| Rich::custom(span, "rows of different lengths"))
+    });
     let magnitude = expression
         .delimited_by(sign("|"), just(Token::ClosingBar))
         .map(|x| Kind::Magnitude(Box::new(x)));
-    choice((number, call, read, row, magnitude)).map_with(|kind, e| node(kind, e.span())).boxed()
+    choice((plain, series, call, read, rows, magnitude))
+        .map_with(|kind, e| node(kind, e.span()))
+        .boxed()
 }
 
 fn reference<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Reference> {
@@ -171,20 +247,22 @@ fn comparing(comparison: Comparison, l: Expr, r: Expr) -> Expr {
     Expr { kind: Kind::Compare(comparison, Box::new(l), Box::new(r)), span }
 }
 
-/// Joins operands by `∧`, at least one; one alone is itself.
-fn all(mut operands: Vec<Expr>) -> Expr {
+/// Joins operands, at least one; one alone is itself.
+fn joined(mut operands: Vec<Expr>, by: fn(Vec<Expr>) -> Kind) -> Expr {
     if operands.len() == 1 {
         return operands.remove(0);
     }
     let span = operands[0].span.start..operands[operands.len() - 1].span.end;
-    Expr { kind: Kind::All(operands), span }
+    Expr { kind: by(operands), span }
 }
 
-/// Makes what stands between round brackets: one expression is that expression, several are a row.
-fn bracketed(mut elements: Vec<Expr>) -> Kind {
-    if elements.len() == 1 {
-        Kind::Group(Box::new(elements.remove(0)))
-    } else {
-        Kind::Row(elements)
+/// Makes what stands between round brackets: one expression is that expression, several are an
+/// array, if its rows are of one length.
+fn bracketed(mut rows: Vec<Vec<Expr>>) -> Option<Kind> {
+    let cols = rows[0].len();
+    if rows.len() == 1 && cols == 1 {
+        return Some(Kind::Group(Box::new(rows.remove(0).remove(0))));
     }
+    let even = rows.iter().all(|row| row.len() == cols);
+    even.then(|| Kind::Array { entries: rows.into_iter().flatten().collect(), cols })
 }

@@ -2,19 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use super::arithmetic::kind;
 use super::failure::{Cause, Fallible};
 use super::function::Function;
 use super::listing::Listing;
 use super::observe::Observer;
 use super::settings::{Limits, Settings};
+use super::sheet::Sheet;
 use super::state::{Cell, Run};
-use super::syntax::{Expr, Reference, Slot, Statement, Step};
+use super::syntax::{Expr, Range, Reference, Slot, Statement, Step};
 use super::value::Value;
 
 /// A listing in a worksheet: what is defined above it, and the settings.
 pub struct Runner<'l> {
     listing: &'l Listing,
+    sheet: Option<&'l Sheet>,
     settings: Settings,
     limits: Limits,
     values: Vec<Option<Value>>,
@@ -37,10 +38,28 @@ impl Listing {
     pub fn runner(&self, settings: &Settings, limits: &Limits) -> Runner<'_> {
         Runner {
             listing: self,
+            sheet: None,
             settings: settings.clone(),
             limits: limits.clone(),
             values: vec![None; self.names.len()],
             functions: self.names.all().map(Function::builtin).collect(),
+        }
+    }
+
+    /// Returns a runner of the listing in the worksheet `sheet`.
+    pub fn runner_in<'l>(
+        &'l self,
+        sheet: &'l Sheet,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Runner<'l> {
+        Runner {
+            listing: self,
+            sheet: Some(sheet),
+            settings: settings.clone(),
+            limits: limits.clone(),
+            values: self.names.all().map(|name| sheet.value(name)).collect(),
+            functions: self.names.all().map(|name| sheet.function(name)).collect(),
         }
     }
 }
@@ -79,10 +98,11 @@ impl<'l> Runner<'l> {
         arguments: &[Value],
         observer: &mut O,
     ) -> Fallible<Outcome> {
-        let Runner { listing, settings, limits, values, functions } = self;
+        let Runner { listing, sheet, settings, limits, values, functions } = self;
         let cell = |value: &Option<Value>| Cell { value: value.clone(), local: false };
-        let mut run = Run {
+        let run = Run {
             listing,
+            sheet: *sheet,
             settings,
             limits,
             cells: values.iter().map(cell).collect(),
@@ -91,16 +111,73 @@ impl<'l> Runner<'l> {
             line: 0,
             steps: 0,
             stored: 0,
+            depth: listing.depth,
             last: None,
             trace: vec![],
         };
-        run.bind(arguments)?;
-        run.block(&listing.program)?;
-        run.outcome()
+        run.run(arguments)?.outcome()
+    }
+}
+
+/// Where a program goes on after a statement.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Flow {
+    Next,
+    Break,
+    Continue,
+    Return,
+}
+
+/// The values that a loop gives its variable.
+enum Turns {
+    /// From the first number by the step, up or down to the last.
+    Span {
+        from: f64,
+        step: f64,
+        to: f64,
+    },
+    Over(Value),
+}
+
+/// Returns the numbers of a range, if its step leads from its start to its end.
+fn span(from: f64, second: Option<f64>, to: f64, descending_is_empty: bool) -> Option<Turns> {
+    let step = match second {
+        Some(second) => second - from,
+        None if from <= to || descending_is_empty => 1.0,
+        None => -1.0,
+    };
+    let leads = second.is_none() || (to - from) * step > 0.0 || to == from && step != 0.0;
+    leads.then_some(Turns::Span { from, step, to })
+}
+
+impl Turns {
+    fn value(&self, turn: usize) -> Option<Value> {
+        match self {
+            Turns::Span { from, step, to } => {
+                let x = from + step * turn as f64;
+                (if *step > 0.0 { x <= *to } else { x >= *to }).then_some(Value::Number(x))
+            }
+            Turns::Over(value @ (Value::Number(_) | Value::Text(_))) => {
+                (turn == 0).then(|| value.clone())
+            }
+            Turns::Over(array) => {
+                let rows = array.size().0.max(1);
+                array.entry(turn % rows, turn / rows)
+            }
+        }
     }
 }
 
 impl<O: Observer> Run<'_, '_, O> {
+    /// Runs the program to its end.
+    pub fn run(mut self, arguments: &[Value]) -> Fallible<Self> {
+        self.bind(arguments)?;
+        match self.block(&self.listing.program)? {
+            Flow::Next | Flow::Return => Ok(self),
+            Flow::Break | Flow::Continue => Err(self.fail_line(Cause::OutsideLoop)),
+        }
+    }
+
     fn bind(&mut self, arguments: &[Value]) -> Fallible<()> {
         let (expected, found) = (self.listing.parameters.len(), arguments.len());
         if expected != found {
@@ -109,13 +186,21 @@ impl<O: Observer> Run<'_, '_, O> {
         for (&slot, argument) in self.listing.parameters.iter().zip(arguments) {
             self.cells[slot].value = Some(argument.clone());
         }
-        self.stored =
-            self.cells.iter().filter_map(|cell| cell.value.as_ref()).map(Value::count).sum();
+        let values = self.cells.iter().filter_map(|cell| cell.value.as_ref());
+        self.stored += values.map(Value::count).sum::<usize>();
         self.room(0)
     }
 
-    fn outcome(self) -> Fallible<Outcome> {
-        let Some(value) = self.last else {
+    /// Returns the value of a program that has run, its steps and what it traced.
+    pub fn into_value(mut self) -> Fallible<(Value, u64, Vec<String>)> {
+        match self.last.take() {
+            Some(value) => Ok((value, self.steps, self.trace)),
+            None => Err(self.fail_line(Cause::NoValue)),
+        }
+    }
+
+    fn outcome(mut self) -> Fallible<Outcome> {
+        let Some(value) = self.last.take() else {
             return Err(self.fail_line(Cause::NoValue));
         };
         let names = self.listing.names.all().zip(self.cells);
@@ -124,64 +209,126 @@ impl<O: Observer> Run<'_, '_, O> {
         Ok(Outcome { value, locals, trace_output: self.trace })
     }
 
-    fn block(&mut self, block: &[Statement]) -> Fallible<()> {
-        block.iter().try_for_each(|statement| self.statement(statement))
+    fn block(&mut self, block: &[Statement]) -> Fallible<Flow> {
+        // Whether an `if` was true since the block's last `otherwise`.
+        let mut held = false;
+        for statement in block {
+            let flow = self.statement(statement, &mut held)?;
+            if flow != Flow::Next {
+                return Ok(flow);
+            }
+        }
+        Ok(Flow::Next)
     }
 
-    fn statement(&mut self, statement: &Statement) -> Fallible<()> {
+    fn statement(&mut self, statement: &Statement, held: &mut bool) -> Fallible<Flow> {
         self.line = statement.line;
         if O::ACTIVE {
             self.observer.statement(&self.listing.lines[self.line]);
         }
         self.spend(1)?;
-        if !self.admits(&statement.step)? {
-            return Ok(());
-        }
         match &statement.step {
-            Step::For { name, from, to, body, .. } => self.repeat(*name, from, to, body),
-            Step::If { body, .. } => self.block(body),
+            Step::While { condition, body } => return self.repeat_while(condition, body),
+            Step::Otherwise { body } => {
+                return if std::mem::take(held) { Ok(Flow::Next) } else { self.block(body) };
+            }
+            Step::Try { body, fallback } => return self.attempt(body, fallback),
+            step if !self.admits(step, held)? => return Ok(Flow::Next),
+            Step::For { name, range, body, .. } => return self.repeat(*name, range, body),
+            Step::If { body, .. } => return self.block(body),
+            Step::Break { .. } => return Ok(Flow::Break),
+            Step::Continue { .. } => return Ok(Flow::Continue),
             Step::Assign { target, value, .. } => {
                 let value = self.eval(value)?;
-                self.assign(target, value)
+                self.assign(target, value)?;
             }
-            Step::Evaluate { value, .. } => {
+            Step::Evaluate { value, .. } => self.last = Some(self.eval(value)?),
+            Step::Return { value, .. } => {
                 self.last = Some(self.eval(value)?);
-                Ok(())
+                return Ok(Flow::Return);
             }
         }
+        Ok(Flow::Next)
     }
 
     /// Returns whether the statement's condition is true; one without a condition always runs.
-    fn admits(&mut self, step: &Step) -> Fallible<bool> {
+    fn admits(&mut self, step: &Step, held: &mut bool) -> Fallible<bool> {
         let Some(condition) = step.condition() else {
             return Ok(true);
         };
-        let truth = self.truth(condition)?;
-        if O::ACTIVE {
-            let place = self.place(&condition.span);
-            self.observer.condition(place, truth);
-        }
+        let truth = self.condition(condition)?;
+        *held |= truth;
         if !truth && self.settings.last_if_is_zero {
             self.last = Some(Value::Number(0.0));
         }
         Ok(truth)
     }
 
-    /// Runs the body for each number of the range, which is fixed on entry.
-    fn repeat(&mut self, name: Slot, from: &Expr, to: &Expr, body: &[Statement]) -> Fallible<()> {
-        let line = self.line;
-        let (from, to) = (self.number(from)?, self.number(to)?);
-        if from > to && self.settings.descending_is_empty {
-            return Ok(());
+    fn condition(&mut self, condition: &Expr) -> Fallible<bool> {
+        let truth = self.truth(condition)?;
+        if O::ACTIVE {
+            let place = self.place(&condition.span);
+            self.observer.condition(place, truth);
         }
-        let step = if from > to { -1.0 } else { 1.0 };
-        for turn in 0..=(to - from).abs().floor() as u64 {
+        Ok(truth)
+    }
+
+    fn attempt(&mut self, body: &[Statement], fallback: &[Statement]) -> Fallible<Flow> {
+        match self.block(body) {
+            Err(failure) if !failure.is_limit() => self.block(fallback),
+            outcome => outcome,
+        }
+    }
+
+    fn repeat_while(&mut self, condition: &Expr, body: &[Statement]) -> Fallible<Flow> {
+        let line = self.line;
+        while self.condition(condition)? {
+            match self.block(body)? {
+                Flow::Next | Flow::Continue => {}
+                Flow::Break => break,
+                Flow::Return => return Ok(Flow::Return),
+            }
             self.line = line;
             self.spend(1)?;
-            self.store(name, Value::Number(from + step * turn as f64))?;
-            self.block(body)?;
         }
-        Ok(())
+        Ok(Flow::Next)
+    }
+
+    /// Runs the body for each number of the range, which is fixed on entry.
+    fn repeat(&mut self, name: Slot, range: &Range, body: &[Statement]) -> Fallible<Flow> {
+        let line = self.line;
+        let turns = self.turns(range)?;
+        let mut turn = 0;
+        while let Some(value) = turns.value(turn) {
+            self.line = line;
+            self.spend(1)?;
+            self.store(name, value)?;
+            match self.block(body)? {
+                Flow::Next | Flow::Continue => {}
+                Flow::Break => break,
+                Flow::Return => return Ok(Flow::Return),
+            }
+            turn += 1;
+        }
+        Ok(Flow::Next)
+    }
+
+    fn turns(&mut self, range: &Range) -> Fallible<Turns> {
+        let (from, second, to) = match range {
+            Range::Over(expr) => {
+                let value = self.eval(expr)?;
+                self.afford(value.count())?;
+                return Ok(Turns::Over(value));
+            }
+            Range::Span { from, second, to } => (from, second, to),
+        };
+        let from = self.number(from)?;
+        let second = second.as_ref().map(|second| self.number(second)).transpose()?;
+        let to = self.number(to)?;
+        let turns = span(from, second, to, self.settings.descending_is_empty);
+        turns.ok_or_else(|| {
+            self.fail_line(Cause::Range { from, second: second.unwrap_or(from), to })
+        })
     }
 
     /// Writes a value to a name or entry. The value of the statement is what was written.
@@ -192,9 +339,7 @@ impl<O: Observer> Run<'_, '_, O> {
         match (self.subscripts(target)?, &value) {
             (None, _) => self.store(target.name, value.clone())?,
             (Some(subscripts), Value::Number(x)) => self.write(target, subscripts, *x)?,
-            (Some(_), other) => {
-                return Err(self.fail(&target.span, kind("a number for an entry", other)));
-            }
+            (Some(subscripts), _) => self.write_value(target, subscripts, value.clone())?,
         }
         self.last = Some(value);
         Ok(())

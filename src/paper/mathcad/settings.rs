@@ -1,5 +1,7 @@
 //! The worksheet's settings, and the limits of a run.
 
+use std::str::FromStr;
+
 use crate::choices;
 
 choices! {
@@ -53,6 +55,40 @@ impl Default for Settings {
     }
 }
 
+impl FromStr for Settings {
+    type Err = String;
+
+    /// Reads a list such as `origin=0,zero-over-zero=error`; other settings keep their default.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut settings = Settings::default();
+        for item in text.split(',').map(str::trim).filter(|item| !item.is_empty()) {
+            let (name, value) = item
+                .split_once('=')
+                .ok_or_else(|| format!("{item:?} is not of the form origin=0"))?;
+            let choice = |no, yes| match value {
+                v if v == no => Ok(false),
+                v if v == yes => Ok(true),
+                _ => Err(format!("{name}: {value:?} is neither {no} nor {yes}")),
+            };
+            match name {
+                "origin" => {
+                    settings.origin = value.parse().map_err(|_| {
+                        format!("origin: {value:?} is no whole number of at most nine digits")
+                    })?;
+                }
+                "zero-over-zero" => settings.zero_over_zero_is_zero = choice("error", "0")?,
+                "exact-boolean" => settings.exact_boolean = choice("false", "true")?,
+                "tiny" => settings.tiny_is_zero = choice("itself", "0")?,
+                "conjunction" => settings.conjunction = value.parse()?,
+                "descending" => settings.descending_is_empty = choice("counts-down", "empty")?,
+                "last-if" => settings.last_if_is_zero = choice("previous", "0")?,
+                _ => return Err(format!("{name:?} is no setting")),
+            }
+        }
+        Ok(settings)
+    }
+}
+
 /// How much a listing may ask for before it is refused. Beyond a limit stands an error, never a
 /// hang, an overflowing stack or an exhausted memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,6 +99,8 @@ pub struct Limits {
     pub characters: usize,
     /// The levels of an expression's operators and brackets, and of blocks within blocks.
     pub depth: usize,
+    /// The levels of blocks and expressions of all functions that call one another.
+    pub calls: usize,
     /// The numbers that all arrays and trace lines of a run may store together, eight bytes each.
     pub entries: usize,
     /// The statements executed, plus the numbers that array operations work through.
@@ -71,6 +109,13 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { lines: 1_000, characters: 2_000, depth: 64, entries: 1 << 26, steps: 1 << 30 }
+        Limits {
+            lines: 1_000,
+            characters: 2_000,
+            depth: 64,
+            calls: 600,
+            entries: 1 << 26,
+            steps: 1 << 30,
+        }
     }
 }

@@ -6,6 +6,7 @@ use super::function::Function;
 use super::listing::Listing;
 use super::observe::Place;
 use super::settings::{Limits, Settings};
+use super::sheet::Sheet;
 use super::syntax::{Slot, Span};
 use super::value::Value;
 
@@ -17,6 +18,8 @@ pub struct Cell {
 
 pub struct Run<'r, 'l, O> {
     pub listing: &'r Listing,
+    /// The worksheet in which the functions that are called stand, if it defines any.
+    pub sheet: Option<&'r Sheet>,
     pub settings: &'r Settings,
     pub limits: &'r Limits,
     pub cells: Vec<Cell>,
@@ -28,6 +31,9 @@ pub struct Run<'r, 'l, O> {
     pub steps: u64,
     /// Numbers stored by all names and trace lines, which `limits.entries` bounds.
     pub stored: usize,
+    /// How deep blocks and expressions stand within each other, the calls that led here included;
+    /// `limits.calls` bounds it.
+    pub depth: usize,
     pub last: Option<Value>,
     /// What `trace` wrote, a line for each call.
     pub trace: Vec<String>,

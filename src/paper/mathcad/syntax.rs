@@ -1,9 +1,9 @@
-//! The syntax tree of a listing.
+//! The syntax tree of a listing, whichever notation it was written in.
 //!
 //! Names are numbered as they are read: a [`Slot`] indexes the listing's names, and a run keeps
 //! each name's value at that place.
 
-use std::ops::Range;
+use std::rc::Rc;
 
 /// The number of a name, counted from 0 in the order of first appearance.
 pub type Slot = usize;
@@ -15,25 +15,39 @@ pub struct Statement {
     pub step: Step,
 }
 
-/// The kinds of statements, and what each is made of.
+/// The kinds of statements, and what each is made of. A `guard` is the condition behind `if` on the
+/// statement's own line.
 #[derive(Clone, Debug)]
 pub enum Step {
-    /// `for name ∈ from .. to`, and `if guard` for the whole loop.
-    For {
-        /// The loop variable, which keeps its last value.
-        name: Slot,
-        from: Expr,
-        to: Expr,
-        /// The condition under which the loop runs at all.
-        guard: Option<Expr>,
-        body: Vec<Statement>,
-    },
+    /// `for name ∈ range`; the guard stands for the whole loop, and the variable keeps its last value.
+    For { name: Slot, range: Range, guard: Option<Expr>, body: Vec<Statement> },
+    /// `while condition` and a block.
+    While { condition: Expr, body: Vec<Statement> },
     /// `if condition` and a block.
     If { condition: Expr, body: Vec<Statement> },
-    /// `target ← value if guard`.
+    /// `otherwise` and a block, which runs if no `if` above it in its block was true.
+    Otherwise { body: Vec<Statement> },
+    /// `try` and a block, then `on error` and a block, which runs if the first one fails.
+    Try { body: Vec<Statement>, fallback: Vec<Statement> },
+    /// `target ← value`.
     Assign { target: Reference, value: Expr, guard: Option<Expr> },
-    /// An expression alone, `if guard`.
+    /// An expression alone.
     Evaluate { value: Expr, guard: Option<Expr> },
+    /// `return value`, which ends the program.
+    Return { value: Expr, guard: Option<Expr> },
+    /// `break`, which ends the loop.
+    Break { guard: Option<Expr> },
+    /// `continue`, which ends the turn of the loop.
+    Continue { guard: Option<Expr> },
+}
+
+/// What a loop runs over.
+#[derive(Clone, Debug)]
+pub enum Range {
+    /// `from .. to`, or `from, second .. to`.
+    Span { from: Expr, second: Option<Expr>, to: Expr },
+    /// The entries of an array, column by column.
+    Over(Expr),
 }
 
 /// A name, or an entry of the array of that name.
@@ -48,7 +62,7 @@ pub struct Reference {
 }
 
 /// A part of a line, in bytes of its text.
-pub type Span = Range<usize>;
+pub type Span = std::ops::Range<usize>;
 
 /// An expression and its place in its line.
 #[derive(Clone, Debug)]
@@ -61,25 +75,50 @@ pub struct Expr {
 #[derive(Clone, Debug)]
 pub enum Kind {
     Number(f64),
+    /// A string, `"x"`.
+    Text(Rc<str>),
     Read(Reference),
+    /// An entry of a value that is more than a name, `(xᵀ)[i,j]`.
+    Entry {
+        of: Box<Expr>,
+        subscripts: Vec<Expr>,
+    },
     /// An expression in round brackets, `(x)`.
     Group(Box<Expr>),
-    /// A row of numbers, `(x   y   z)`.
-    Row(Vec<Expr>),
-    /// The magnitude of a number, `|x|`.
+    /// An array, `(x   y; z   w)`: its entries row by row, and how many columns it has.
+    Array {
+        entries: Vec<Expr>,
+        cols: usize,
+    },
+    /// The magnitude of a number, the length of a column, the determinant of a matrix, `|x|`.
     Magnitude(Box<Expr>),
     /// The opposite of a value, `−x`.
     Negative(Box<Expr>),
+    /// Whether a number is 0, `¬x`.
+    Not(Box<Expr>),
     /// The transpose of a value, `xᵀ`.
     Transpose(Box<Expr>),
+    /// A column of an array, `x⟨j⟩`.
+    Column(Box<Expr>, Box<Expr>),
+    /// A power, `x^y`.
+    Power(Box<Expr>, Box<Expr>),
     /// A sum `x + y`, or its kin.
     Arithmetic(Operation, Box<Expr>, Box<Expr>),
     /// A comparison `x < y`, or its kin.
     Compare(Comparison, Box<Expr>, Box<Expr>),
     /// A conjunction `x ∧ y ∧ z` of two operands or more.
     All(Vec<Expr>),
+    /// A disjunction `x ∨ y ∨ z` of two operands or more.
+    Any(Vec<Expr>),
     /// A call of a function, `name(x, y)`.
     Call(Slot, Vec<Expr>),
+    /// A sum or product over a range, `∑(i ∈ from .. to, term)`: the function, the variable, and the
+    /// expressions from, to and term.
+    Series {
+        function: Slot,
+        name: Slot,
+        parts: Box<[Expr; 3]>,
+    },
 }
 
 /// The four operations of arithmetic.
@@ -105,23 +144,50 @@ pub enum Comparison {
 impl Step {
     /// Returns the expressions on the statement's own line, in the order of the text.
     pub fn expressions(&self) -> Vec<&Expr> {
-        match self {
-            Step::For { from, to, guard, .. } => [from, to].into_iter().chain(guard).collect(),
-            Step::If { condition, .. } => vec![condition],
-            Step::Assign { target, value, guard } => {
-                target.subscripts().chain([value]).chain(guard).collect()
+        let own: Vec<&Expr> = match self {
+            Step::For { range: Range::Span { from, second, to }, .. } => {
+                [from].into_iter().chain(second).chain([to]).collect()
             }
-            Step::Evaluate { value, guard } => [value].into_iter().chain(guard).collect(),
-        }
+            Step::For { range: Range::Over(value), .. } => vec![value],
+            Step::Assign { target, value, .. } => target.subscripts().chain([value]).collect(),
+            Step::Evaluate { value, .. } | Step::Return { value, .. } => vec![value],
+            _ => vec![],
+        };
+        own.into_iter().chain(self.condition()).collect()
     }
 
     /// Returns the condition of the statement, if it has one.
     pub fn condition(&self) -> Option<&Expr> {
         match self {
-            Step::If { condition, .. } => Some(condition),
-            Step::For { guard, .. } | Step::Assign { guard, .. } | Step::Evaluate { guard, .. } => {
-                guard.as_ref()
-            }
+            Step::If { condition, .. } | Step::While { condition, .. } => Some(condition),
+            Step::For { guard, .. }
+            | Step::Assign { guard, .. }
+            | Step::Evaluate { guard, .. }
+            | Step::Return { guard, .. }
+            | Step::Break { guard }
+            | Step::Continue { guard } => guard.as_ref(),
+            Step::Otherwise { .. } | Step::Try { .. } => None,
+        }
+    }
+
+    /// Returns the blocks below the statement.
+    pub fn blocks(&self) -> Vec<&[Statement]> {
+        match self {
+            Step::For { body, .. }
+            | Step::While { body, .. }
+            | Step::If { body, .. }
+            | Step::Otherwise { body } => vec![body],
+            Step::Try { body, fallback } => vec![body, fallback],
+            _ => vec![],
+        }
+    }
+
+    /// Returns the name that the statement writes to, if it writes to one.
+    pub fn written(&self) -> Option<Slot> {
+        match self {
+            Step::For { name, .. } => Some(*name),
+            Step::Assign { target, .. } => Some(target.name),
+            _ => None,
         }
     }
 }
@@ -172,16 +238,30 @@ impl Expr {
     /// Returns the expressions directly inside.
     pub fn parts(&self) -> Vec<&Expr> {
         match &self.kind {
-            Kind::Number(_) => vec![],
+            Kind::Number(_) | Kind::Text(_) => vec![],
             Kind::Read(r) => r.subscripts().collect(),
-            Kind::Group(x) | Kind::Magnitude(x) | Kind::Negative(x) | Kind::Transpose(x) => vec![x],
-            Kind::Arithmetic(_, x, y) | Kind::Compare(_, x, y) => vec![x, y],
-            Kind::Row(xs) | Kind::All(xs) | Kind::Call(_, xs) => xs.iter().collect(),
+            Kind::Entry { of, subscripts } => [&**of].into_iter().chain(subscripts).collect(),
+            Kind::Group(x)
+            | Kind::Magnitude(x)
+            | Kind::Negative(x)
+            | Kind::Not(x)
+            | Kind::Transpose(x) => vec![x],
+            Kind::Arithmetic(_, x, y)
+            | Kind::Compare(_, x, y)
+            | Kind::Power(x, y)
+            | Kind::Column(x, y) => vec![x, y],
+            Kind::Array { entries: xs, .. } | Kind::All(xs) | Kind::Any(xs) | Kind::Call(_, xs) => {
+                xs.iter().collect()
+            }
+            Kind::Series { parts, .. } => parts.iter().collect(),
         }
     }
 
-    /// Returns whether expressions stand within each other more than `limit` deep.
-    pub fn deeper_than(&self, limit: usize) -> bool {
-        limit == 0 || self.parts().into_iter().any(|part| part.deeper_than(limit - 1))
+    /// Returns how deep expressions stand within each other, at most `limit`.
+    pub fn depth(&self, limit: usize) -> usize {
+        if limit == 0 {
+            return 0;
+        }
+        1 + self.parts().into_iter().map(|part| part.depth(limit - 1)).max().unwrap_or(0)
     }
 }

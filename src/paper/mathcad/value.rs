@@ -13,35 +13,42 @@ use crate::numbers::scalar::Scalar;
 pub enum Value {
     Number(f64),
     Array(Rc<Array>),
-    /// A column of values, such as the element matrices `B`. It comes from outside; a listing can
-    /// read it only.
-    Nested(Rc<[Value]>),
+    /// An array with entries that are arrays or strings, such as the element matrices `B`.
+    Nested(Rc<Nested>),
     /// A string, such as `trace` returns.
     Text(Rc<str>),
 }
 
-/// A matrix of numbers, a column when `cols` is 1. It is stored by rows, so that a new row does not
-/// move the others.
+/// A matrix, a column when `cols` is 1. It is stored by rows, so that a new row does not move the
+/// others.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Array {
+pub struct Grid<T> {
     rows: usize,
     cols: usize,
-    entries: Vec<f64>,
+    entries: Vec<T>,
 }
 
-impl Array {
+/// A matrix of numbers.
+pub type Array = Grid<f64>;
+
+impl<T: Clone + Default> Grid<T> {
     /// Makes the array whose entry in row `i` and column `j`, from 0, is `entry(i, j)`.
-    pub fn from_fn(rows: usize, cols: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Self {
+    pub fn from_fn(rows: usize, cols: usize, mut entry: impl FnMut(usize, usize) -> T) -> Self {
         let entries = (0..rows * cols).map(|k| entry(k / cols, k % cols)).collect();
-        Array { rows, cols, entries }
+        Grid { rows, cols, entries }
     }
 
-    pub fn column(entries: Vec<f64>) -> Self {
-        Array { rows: entries.len(), cols: 1, entries }
+    pub fn column(entries: Vec<T>) -> Self {
+        Grid { rows: entries.len(), cols: 1, entries }
     }
 
-    pub fn row(entries: Vec<f64>) -> Self {
-        Array { rows: 1, cols: entries.len(), entries }
+    pub fn row(entries: Vec<T>) -> Self {
+        Grid { rows: 1, cols: entries.len(), entries }
+    }
+
+    /// Makes an array of `cols` columns, at least one, from its entries row by row.
+    pub fn from_rows(cols: usize, entries: Vec<T>) -> Self {
+        Grid { rows: entries.len() / cols, cols, entries }
     }
 
     pub fn rows(&self) -> usize {
@@ -52,27 +59,27 @@ impl Array {
         self.cols
     }
 
-    /// Returns the numbers row by row.
-    pub fn entries(&self) -> &[f64] {
+    /// Returns the entries row by row.
+    pub fn entries(&self) -> &[T] {
         &self.entries
     }
 
-    /// Returns the numbers row by row, to be changed in place.
-    pub fn entries_mut(&mut self) -> &mut [f64] {
+    /// Returns the entries row by row, to be changed in place.
+    pub fn entries_mut(&mut self) -> &mut [T] {
         &mut self.entries
     }
 
     /// Returns the entry in row `i` and column `j`, from 0, if there is one.
-    pub fn get(&self, i: usize, j: usize) -> Option<f64> {
-        (i < self.rows && j < self.cols).then(|| self.entries[i * self.cols + j])
+    pub fn get(&self, i: usize, j: usize) -> Option<&T> {
+        (i < self.rows && j < self.cols).then(|| &self.entries[i * self.cols + j])
     }
 
-    /// Writes an entry that [`Array::get`] finds.
-    pub fn set(&mut self, i: usize, j: usize, value: f64) {
-        self.entries[i * self.cols + j] = value;
+    /// Writes an entry that [`Grid::get`] finds, and returns the old one.
+    pub fn set(&mut self, i: usize, j: usize, value: T) -> T {
+        std::mem::replace(&mut self.entries[i * self.cols + j], value)
     }
 
-    /// Returns how many entries [`Array::grow`] would add.
+    /// Returns how many entries [`Grid::grow`] would add.
     pub fn missing(&self, i: usize, j: usize) -> usize {
         if i < self.rows && j < self.cols {
             return 0;
@@ -87,7 +94,7 @@ impl Array {
         if cols != self.cols {
             self.widen(cols);
         }
-        self.entries.resize(rows * cols, 0.0);
+        self.entries.resize(rows * cols, T::default());
         self.rows = rows;
     }
 
@@ -96,13 +103,67 @@ impl Array {
         std::mem::swap(&mut self.rows, &mut self.cols);
     }
 
+    /// Returns the array with rows and columns exchanged.
+    pub fn transposed(&self) -> Self {
+        Grid::from_fn(self.cols, self.rows, |i, j| self.entries[j * self.cols + i].clone())
+    }
+
+    /// Returns `rows` rows and `cols` columns from row `i` and column `j`, from 0, on.
+    pub fn part(&self, i: usize, rows: usize, j: usize, cols: usize) -> Self {
+        Grid::from_fn(rows, cols, |k, l| self.entries[(i + k) * self.cols + j + l].clone())
+    }
+
     fn widen(&mut self, cols: usize) {
         let old = std::mem::take(&mut self.entries);
-        self.entries = vec![0.0; self.rows * cols];
+        self.entries = vec![T::default(); self.rows * cols];
         for (i, row) in old.chunks_exact(self.cols.max(1)).enumerate() {
-            self.entries[i * cols..i * cols + self.cols].copy_from_slice(row);
+            self.entries[i * cols..i * cols + self.cols].clone_from_slice(row);
         }
         self.cols = cols;
+    }
+}
+
+/// An array of values, with what it stores and how deep it goes, counted as it is written to: arrays
+/// that hold one another many times over would take too long to count.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Nested {
+    grid: Grid<Value>,
+    count: usize,
+    depth: usize,
+}
+
+impl Nested {
+    pub fn new(grid: Grid<Value>) -> Self {
+        let count = grid.entries.iter().map(Value::count).sum();
+        let depth = 1 + grid.entries.iter().map(Value::depth).max().unwrap_or(0);
+        Nested { grid, count, depth }
+    }
+
+    pub fn grid(&self) -> &Grid<Value> {
+        &self.grid
+    }
+
+    /// Returns how many numbers all its entries store.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Writes an entry, and makes the array larger where it does not reach so far.
+    pub fn write(&mut self, i: usize, j: usize, value: Value) {
+        self.count += self.grid.missing(i, j);
+        if self.grid.get(i, j).is_none() {
+            self.grid.grow(i, j);
+        }
+        self.depth = self.depth.max(1 + value.depth());
+        let new = value.count();
+        let old = self.grid.set(i, j, value);
+        self.count = self.count + new - old.count();
+    }
+}
+
+impl Default for Value {
+    fn default() -> Self {
+        Value::Number(0.0)
     }
 }
 
@@ -112,16 +173,33 @@ impl Value {
         match self {
             Value::Number(_) => 1,
             Value::Array(a) => a.entries.len(),
-            Value::Nested(v) => v.iter().map(Value::count).sum(),
+            Value::Nested(v) => v.count,
             Value::Text(t) => t.len() / size_of::<f64>() + 1,
+        }
+    }
+
+    /// Returns how deep arrays stand within each other.
+    pub fn depth(&self) -> usize {
+        match self {
+            Value::Nested(v) => v.depth,
+            _ => 0,
         }
     }
 
     pub fn size(&self) -> (usize, usize) {
         match self {
             Value::Array(a) => (a.rows, a.cols),
-            Value::Nested(v) => (v.len(), 1),
+            Value::Nested(v) => (v.grid.rows, v.grid.cols),
             Value::Number(_) | Value::Text(_) => (1, 1),
+        }
+    }
+
+    /// Returns the entry in row `i` and column `j`, from 0, of an array that has it.
+    pub fn entry(&self, i: usize, j: usize) -> Option<Value> {
+        match self {
+            Value::Array(a) => a.get(i, j).copied().map(Value::Number),
+            Value::Nested(v) => v.grid.get(i, j).cloned(),
+            Value::Number(_) | Value::Text(_) => None,
         }
     }
 
@@ -136,8 +214,17 @@ impl Value {
         match self {
             Value::Number(x) => format!("the number {x}"),
             Value::Array(a) => format!("a {} x {} array", a.rows, a.cols),
-            Value::Nested(v) => format!("a column of {} arrays", v.len()),
+            Value::Nested(v) if v.grid.cols == 1 => format!("a column of {} arrays", v.grid.rows),
+            Value::Nested(v) => format!("a {} x {} array of arrays", v.grid.rows, v.grid.cols),
             Value::Text(_) => "a string".into(),
+        }
+    }
+
+    /// Makes an array of entries: of numbers, if all are numbers.
+    pub fn grid(grid: Grid<Value>) -> Self {
+        match grid.entries.iter().map(Value::number).collect() {
+            Some(entries) => Array { rows: grid.rows, cols: grid.cols, entries }.into(),
+            None => Value::Nested(Rc::new(Nested::new(grid))),
         }
     }
 }
@@ -204,7 +291,8 @@ impl From<&Column<usize>> for Value {
 
 impl FromIterator<Value> for Value {
     fn from_iter<I: IntoIterator<Item = Value>>(values: I) -> Self {
-        Value::Nested(values.into_iter().collect())
+        let column = Grid::column(values.into_iter().collect());
+        Value::Nested(Rc::new(Nested::new(column)))
     }
 }
 

@@ -14,14 +14,12 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// Returns the message of Mathcad.
+    /// Returns the message of Mathcad 14.1, in English.
     pub fn words(self) -> &'static str {
         match self {
-            Cause::Singularity => {
-                "Found a singularity while evaluating this expression. You may be dividing by zero."
-            }
+            Cause::Singularity => "Division by zero.",
             Cause::InvalidIndex => "This array index is invalid for this array.",
-            Cause::Overflow => "The result of this expression is too large to represent.",
+            Cause::Overflow => "Found a number beyond 10^307.",
         }
     }
 }

@@ -5,7 +5,7 @@ use super::page::Sign;
 use super::raster::{Raster, rgb};
 use super::svg::{Pixel, circle, group, polygon, segments};
 use super::view::View;
-use crate::report::xml::Element;
+use crate::xml::Element;
 
 /// The colours of the block, green, and of the stamp, yellow, as in fig. 4; then muted ones of
 /// further bodies, in turn.

@@ -3,7 +3,7 @@
 use super::page::{INNER, MARGIN, Page, Sign, text_width};
 use super::svg::{Anchor, DARK, Pixel, TEXT_SIZE, circle, group, line, path, text};
 use crate::report::numbers::{power_of_ten, ticks};
-use crate::report::xml::Element;
+use crate::xml::Element;
 
 /// The height of the area inside the axes, pixels.
 const HEIGHT: f64 = 440.0;

@@ -7,7 +7,7 @@
 
 use super::svg::{Anchor, DARK, Pixel, group, line, rect, text};
 use crate::report::numbers::{self, common_exponent, power_of_ten, shifted, significant, ticks};
-use crate::report::xml::Element;
+use crate::xml::Element;
 
 /// A range below this part of the largest magnitude is round-off, not a difference.
 const UNIFORM: f64 = 1e-9;

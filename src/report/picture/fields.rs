@@ -7,7 +7,7 @@ use super::raster::{CAPTION, Raster};
 use super::svg::{Pixel, circle, group, path, polygon, segments};
 use super::view::{Bounds, View};
 use crate::report::numbers::{Decimal, significant};
-use crate::report::xml::Element;
+use crate::xml::Element;
 
 const OUTLINE: &str = "#111111";
 

@@ -32,7 +32,7 @@ use self::deformation::boundary_edges;
 use self::fields::FieldPicture;
 use self::page::Page;
 use self::view::{Bounds, View};
-use super::xml::Element;
+use crate::xml::Element;
 
 /// A contact zone that fills this part of the picture is not enlarged beside it.
 const ENLARGED_UP_TO: f64 = 0.8;

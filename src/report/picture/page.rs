@@ -7,7 +7,7 @@ use super::svg::{
 };
 use super::view::{Bounds, Frame, View};
 use crate::report::numbers::{Decimal, significant};
-use crate::report::xml::Element;
+use crate::xml::Element;
 
 /// The width of every picture, pixels.
 const WIDTH: f64 = 1100.0;

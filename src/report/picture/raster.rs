@@ -9,7 +9,7 @@ use png::{BitDepth, ColorType, Encoder, Filter};
 
 use super::svg::{Pixel, image};
 use super::view::Frame;
-use crate::report::xml::Element;
+use crate::xml::Element;
 
 /// Pixels of the image for each of the page, along either axis.
 const FINENESS: f64 = 1.5;

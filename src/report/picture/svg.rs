@@ -1,6 +1,6 @@
 //! The shapes of SVG that the pictures use, as XML elements. Lengths are in pixels, y downwards.
 
-use crate::report::xml::Element;
+use crate::xml::Element;
 
 /// The fonts to look for, in this order.
 const FONTS: &str = "Arial, Helvetica, Liberation Sans, DejaVu Sans, sans-serif";

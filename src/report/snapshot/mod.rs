@@ -9,7 +9,7 @@ pub use field::difference_files;
 pub use words::{difference, explanation};
 
 use super::json::{line, pretty};
-use super::xml::Element;
+use crate::xml::Element;
 use crate::studies::snapshot::{Acceptance, FORMAT, Run, Snapshot, VERSION, Verified, VerifiedRun};
 
 /// A snapshot's file and what verifying it found.

@@ -112,7 +112,7 @@ fn endless_output() {
 }
 
 /// Words of the notation, some of them in listings that make sense.
-const WORDS: [&str; 40] = [
+const WORDS: [&str; 66] = [
     "x",
     "v",
     "m",
@@ -153,14 +153,50 @@ const WORDS: [&str; 40] = [
     "identity(",
     "trace(",
     "v[i]",
+    "w",
+    ";",
+    "^",
+    "⟨",
+    "⟩",
+    " ∨ ",
+    "¬",
+    "\"s\"",
+    "√(",
+    "∑(",
+    "∑(i ∈ 1 .. 3, ",
+    "while ",
+    "return ",
+    "break",
+    "continue",
+    "otherwise",
+    "try",
+    "on error",
+    "lsolve(",
+    "stack(",
+    "submatrix(",
+    "|m|",
+    "v⟨1⟩",
+    "w[i] ← v",
+    "w[1] ← w",
+    "1e300",
 ];
+
+/// Some words, by their numbers.
+pub fn words() -> impl Strategy<Value = Vec<usize>> {
+    proptest::collection::vec(0..WORDS.len(), 0..40)
+}
+
+/// Spells words as the body of a program.
+pub fn spell(words: &[usize]) -> String {
+    words.iter().map(|k| WORDS[*k]).collect()
+}
 
 proptest! {
     #![proptest_config(fixed(2_000))]
 
     #[test]
-    fn any_text_ends(words in proptest::collection::vec(0..WORDS.len(), 0..40)) {
-        let body: String = words.into_iter().map(|k| WORDS[k]).collect();
+    fn any_text_ends(words in words()) {
+        let body = spell(&words);
         let limits = Limits { steps: 10_000, entries: 10_000, ..Limits::default() };
         if let Ok(listing) = Listing::parse("f", &format!("f(x) :=\n  {body}")) {
             let mut worksheet = listing.runner(&Settings::default(), &limits);

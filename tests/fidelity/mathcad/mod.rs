@@ -1,14 +1,26 @@
 //! Tests of the interpreter, a file per subject.
 
+pub mod evidence;
 mod limits;
 mod notation;
 mod observers;
+mod package;
 mod paper;
 mod semantics;
 mod spelled;
+mod xmcd;
 
 use plane_contact::paper::mathcad::failure::Fallible;
 use plane_contact::paper::mathcad::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
+
+/// An embedded scene as a worksheet, as `export --to mathcad` writes it.
+pub fn exported(scene: &str) -> String {
+    let out = crate::common::program::run(
+        std::path::Path::new("."),
+        &["export", scene, "--to", "mathcad"],
+    );
+    String::from_utf8(out.stdout).expect("UTF-8")
+}
 
 /// Makes a listing `f(x)` of the given lines.
 fn program(lines: &str) -> Listing {

@@ -78,8 +78,8 @@ fn errors_point_at_line_and_column() {
     assert_eq!((error.line, error.file_line, error.column), (3, 4, 10));
     assert_eq!(
         error.message,
-        "found the end of the line, expected `,` or `]` or `ᵀ` or `∧` or a comparison or an \
-         operator"
+        "found the end of the line, expected `,` or `[` or `]` or `^` or `ᵀ` or `∧` or `∨` or `⟨` \
+         or a comparison or an operator"
     );
     let shown = error.to_string();
     assert!(shown.starts_with("f, line 3 (line 4 of the file), column 10: found"), "{shown}");
@@ -89,7 +89,7 @@ fn errors_point_at_line_and_column() {
 #[test]
 fn errors_say_what_was_expected() {
     let message = |text| refused(&format!("f(x) :=\n{text}")).message;
-    assert_eq!(message("  x ← )"), "found `)`, expected an operand");
+    assert_eq!(message("  x ← )"), "found `)`, expected `¬` or an operand");
     assert_eq!(message("  for 1 ∈ 1 .. 2\n    x"), "found `1`, expected a name");
     assert_eq!(message("  for i ∈ 1 .. 2"), "expected an indented line below");
     assert_eq!(message("  x ← 1\n      x"), "found 6 spaces of indentation, expected 2");
@@ -99,7 +99,7 @@ fn errors_say_what_was_expected() {
     assert_eq!(message("  \tx"), "found \"\\t\", which is no part of the notation");
     assert_eq!(
         message("  x < 1 < 2"),
-        "found `<`, expected `ᵀ` or an operator",
+        "found `<`, expected `[` or `^` or `ᵀ` or `⟨` or an operator",
         "comparisons do not chain"
     );
     assert_eq!(message(&format!("  {}", "9".repeat(400))), "found a number too large");

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use plane_contact::paper::mathcad::Listing;
-use plane_contact::paper::mathcad::syntax::{Expr, Kind, Reference, Slot, Statement, Step};
+use plane_contact::paper::mathcad::syntax::{Expr, Kind, Range, Reference, Slot, Statement, Step};
 
 /// Returns the listing as its syntax tree spells it: what was understood, for comparison with what
 /// was printed.
@@ -19,8 +19,11 @@ pub fn spelled(listing: &Listing) -> String {
 fn block(listing: &Listing, statements: &[Statement], level: usize, text: &mut String) {
     for Statement { step, .. } in statements {
         text.push_str(&format!("{:1$}{2}\n", "", 2 * level, spell(listing, step)));
-        if let Step::For { body, .. } | Step::If { body, .. } = step {
-            block(listing, body, level + 1, text);
+        for (k, below) in step.blocks().into_iter().enumerate() {
+            if k > 0 {
+                text.push_str(&format!("{:1$}on error\n", "", 2 * level));
+            }
+            block(listing, below, level + 1, text);
         }
     }
 }
@@ -41,21 +44,31 @@ struct Spelled<'a, T> {
 impl Display for Spelled<'_, Step> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let show = |expr| spell(self.listing, expr);
-        let guard = match self.item {
-            Step::For { name, from, to, guard, .. } => {
-                write!(f, "for {} ∈ {} .. {}", spell(self.listing, name), show(from), show(to))?;
-                guard
+        match self.item {
+            Step::For { name, range, .. } => {
+                write!(f, "for {} ∈ ", spell(self.listing, name))?;
+                match range {
+                    Range::Span { from, second, to } => {
+                        let second = second.iter().map(|x| format!(", {}", show(x)));
+                        let second: String = second.collect();
+                        write!(f, "{}{second} .. {}", show(from), show(to))?;
+                    }
+                    Range::Over(value) => write!(f, "{}", show(value))?,
+                }
             }
             Step::If { condition, .. } => return write!(f, "if {}", show(condition)),
-            Step::Assign { target, value, guard } => {
+            Step::While { condition, .. } => return write!(f, "while {}", show(condition)),
+            Step::Otherwise { .. } => f.write_str("otherwise")?,
+            Step::Try { .. } => f.write_str("try")?,
+            Step::Assign { target, value, .. } => {
                 write!(f, "{} ← {}", spell(self.listing, target), show(value))?;
-                guard
             }
-            Step::Evaluate { value, guard } => {
-                write!(f, "{}", show(value))?;
-                guard
-            }
-        };
+            Step::Evaluate { value, .. } => write!(f, "{}", show(value))?,
+            Step::Return { value, .. } => write!(f, "return {}", show(value))?,
+            Step::Break { .. } => f.write_str("break")?,
+            Step::Continue { .. } => f.write_str("continue")?,
+        }
+        let guard = self.item.condition();
         guard.iter().try_for_each(|guard| write!(f, " if {}", show(guard)))
     }
 }
@@ -86,17 +99,31 @@ impl Display for Spelled<'_, Expr> {
         let join = |items, between| join(self.listing, items, between);
         match &self.item.kind {
             Kind::Number(x) => write!(f, "{x}"),
+            Kind::Text(text) => write!(f, "\"{text}\""),
             Kind::Read(reference) => write!(f, "{}", spell(self.listing, reference)),
+            Kind::Entry { of, subscripts } => write!(f, "{}[{}]", show(of), join(subscripts, ",")),
             Kind::Group(x) => write!(f, "({})", show(x)),
-            Kind::Row(elements) => write!(f, "({})", join(elements, "   ")),
+            Kind::Array { entries, cols } => {
+                let rows: Vec<_> = entries.chunks(*cols).map(|row| join(row, "   ")).collect();
+                write!(f, "({})", rows.join("; "))
+            }
             Kind::Magnitude(x) => write!(f, "|{}|", show(x)),
             Kind::Negative(x) => write!(f, "−{}", show(x)),
+            Kind::Not(x) => write!(f, "¬{}", show(x)),
             Kind::Transpose(x) => write!(f, "{}ᵀ", show(x)),
+            Kind::Column(x, j) => write!(f, "{}⟨{}⟩", show(x), show(j)),
+            Kind::Power(x, y) => write!(f, "{}^{}", show(x), show(y)),
             Kind::Arithmetic(o, x, y) => write!(f, "{} {} {}", show(x), o.sign(), show(y)),
             Kind::Compare(c, x, y) => write!(f, "{} {} {}", show(x), c.sign(), show(y)),
             Kind::All(operands) => f.write_str(&join(operands, " ∧ ")),
+            Kind::Any(operands) => f.write_str(&join(operands, " ∨ ")),
             Kind::Call(name, arguments) => {
                 write!(f, "{}({})", spell(self.listing, name), join(arguments, ", "))
+            }
+            Kind::Series { function, name, parts } => {
+                let [from, to, term] = &**parts;
+                let (function, name) = (spell(self.listing, function), spell(self.listing, name));
+                write!(f, "{function}({name} ∈ {} .. {}, {})", show(from), show(to), show(term))
             }
         }
     }

@@ -24,6 +24,13 @@ pub const PASSAGES: Passages = Passages {
     computed: &[commands, patches, hertz, punch, plates, strand],
     given: &[
         ("eq. (1)", "the number of an equation of the paper"),
+        (
+            "such as origin=0,zero-over-zero=0,exact-boolean=false. origin N (default 1), zero-over-zero error|0,",
+            "the names of a worksheet's settings",
+        ),
+        ("last-if previous|0, tiny itself|0", "as above"),
+        ("Mathcad 13 to 15", "versions of Mathcad"),
+        ("Mathcad 14 and 15", "as above"),
         ("fig. 4", "the number of a figure of the paper"),
         ("fig. 5", "as above"),
         (

@@ -1,0 +1,123 @@
+//! `plane-contact evaluate`.
+
+use std::path::PathBuf;
+use std::rc::Rc;
+
+use plane_contact::answer::error::Result;
+use plane_contact::error::InputError;
+use plane_contact::paper::mathcad::{
+    Failure, Limits, Listing, Outcome, Settings, Sheet, Value, file, json,
+};
+use serde_json::json;
+
+use super::print;
+
+/// Run a program in the notation of the listings.
+#[derive(clap::Args)]
+#[command(after_help = "\
+The file holds one function or several, in the notation of listings/README.md. Rules, and where each
+was measured: src/paper/mathcad/README.md.
+
+Examples:
+  plane-contact evaluate gauss.txt --call \"gauss(A, 2)\" --inputs '{\"A\": [[2, 1, 5], [1, 3, 10]]}'
+  plane-contact evaluate sum.txt --call \"sum(10)\" --settings origin=0 --json")]
+pub struct Args {
+    /// The file of the program.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// The call [default: the first function, its arguments taken from --inputs by name].
+    #[arg(long, value_name = "CALL")]
+    call: Option<String>,
+    /// The worksheet's names, as a JSON object: numbers, strings, lists (columns), lists of rows.
+    #[arg(long, value_name = "JSON", default_value = "{}")]
+    inputs: String,
+    /// Settings of the worksheet that differ from the default, such as
+    /// origin=0,zero-over-zero=0,exact-boolean=false.
+    ///
+    /// origin N (default 1), zero-over-zero error|0, exact-boolean true|false, conjunction
+    /// guarded|left-to-right|eager, descending counts-down|empty, last-if previous|0, tiny itself|0.
+    #[arg(long, value_name = "LIST", default_value = "")]
+    settings: Settings,
+    /// Print JSON: {\"value\": ..., \"trace\": [...]}, or {\"error\": {...}}.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    let place = args.file.display().to_string();
+    let text = std::fs::read_to_string(&args.file).map_err(|why| {
+        let what = format!("the file cannot be read: {why}");
+        InputError::new(&place, what, "give the path of a text file")
+    })?;
+    let notation = "see the notation in listings/README.md";
+    let programs = file::listings(&place, &text, &Limits::default())
+        .map_err(|error| InputError::new(&place, error.to_string(), notation))?;
+    let mut sheet = inputs(&args.inputs)?;
+    let call = match &args.call {
+        Some(call) => call.clone(),
+        None => call_of(&programs[0]),
+    };
+    for program in programs {
+        sheet.define_program(Rc::new(program));
+    }
+    let call = Listing::parse("--call", &format!("_() :=\n  {call}"))
+        .map_err(|error| InputError::new("--call", error.to_string(), notation))?;
+    let outcome = call.runner_in(&sheet, &args.settings, &Limits::default()).call(&[]);
+    match outcome {
+        Ok(outcome) if args.json => print(&format!("{}\n", result(&outcome))),
+        Ok(outcome) => print(&shown(&outcome)),
+        Err(failure) => {
+            if args.json {
+                print(&format!("{}\n", error(&failure)))?;
+            }
+            Err(InputError::new(&place, failure.to_string(), "correct the program or its inputs")
+                .into())
+        }
+    }
+}
+
+/// The call of a function on names of the worksheet.
+fn call_of(program: &Listing) -> String {
+    let parameters = program.parameters.iter().map(|slot| program.names.name(*slot));
+    format!("{}({})", program.function(), parameters.collect::<Vec<_>>().join(", "))
+}
+
+/// The worksheet that `--inputs` spells.
+fn inputs(text: &str) -> Result<Sheet, InputError> {
+    let fix = "give an object such as {\"x\": 1, \"A\": [[1, 2], [3, 4]]}";
+    let names: serde_json::Map<String, serde_json::Value> = serde_json::from_str(text)
+        .map_err(|why| InputError::new("--inputs", why.to_string(), fix))?;
+    let mut sheet = Sheet::default();
+    for (name, value) in names {
+        let value = json::read(&value)
+            .map_err(|why| InputError::new(format!("--inputs {name}"), why, fix))?;
+        sheet.define(&name, value);
+    }
+    Ok(sheet)
+}
+
+fn result(outcome: &Outcome) -> serde_json::Value {
+    json!({ "value": json::write(&outcome.value), "trace": outcome.trace_output })
+}
+
+fn error(failure: &Failure) -> serde_json::Value {
+    json!({ "error": {
+        "cause": failure.cause.to_string(),
+        "listing": failure.listing,
+        "line": failure.line,
+        "column": failure.column,
+        "text": failure.text,
+        "statement": failure.statement,
+    } })
+}
+
+/// What `trace` was given, then the value, a row on each line.
+fn shown(outcome: &Outcome) -> String {
+    let mut text: String =
+        outcome.trace_output.iter().map(|line| format!("trace: {line}\n")).collect();
+    match &outcome.value {
+        nested @ Value::Nested(_) => text += &json::write(nested).to_string(),
+        value => text += &value.to_string().replace("; ", "\n"),
+    }
+    text + "\n"
+}

@@ -1,0 +1,85 @@
+//! `plane-contact listing`.
+
+use std::path::PathBuf;
+
+use plane_contact::answer::error::Result;
+use plane_contact::error::InputError;
+use plane_contact::paper::listings::Which;
+use plane_contact::paper::mathcad::xmcd::document::{self, Content};
+use plane_contact::paper::mathcad::xmcd::page;
+use plane_contact::paper::mathcad::{Limits, Listing, file};
+
+use super::{mathcad, write_or_print};
+
+plane_contact::choices! {
+    /// A notation of listings.
+    Notation {
+        /// The notation of listings/README.md.
+        Text = "text",
+        /// A worksheet of Mathcad 14 and 15.
+        Xmcd = "xmcd",
+    }
+}
+
+/// Write a listing in the other notation: as text, or as a worksheet of Mathcad.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  plane-contact listing c_cnt --to xmcd --out c_cnt.xmcd
+  plane-contact listing worksheet.xmcd --to text
+  plane-contact listing my-program.txt --to xmcd")]
+pub struct Args {
+    /// c_cnt, Km, a file of listings, or a worksheet, whose functions and programs are taken.
+    #[arg(value_name = "LISTING")]
+    listing: String,
+    /// The notation.
+    #[arg(long, value_name = "NOTATION")]
+    to: Notation,
+    /// Write to a file in place of standard output.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    let listings = read(&args.listing)?;
+    let text = match args.to {
+        Notation::Text => listings.iter().map(Listing::to_string).collect::<Vec<_>>().join("\n"),
+        Notation::Xmcd => page::listings(&listings),
+    };
+    write_or_print(&args.out, &text)
+}
+
+fn read(name: &str) -> Result<Vec<Listing>> {
+    if let Ok(which) = name.parse::<Which>() {
+        return Ok(vec![which.under(&Default::default())]);
+    }
+    let wrong = |what: String| {
+        InputError::new(name, what, "give c_cnt, Km, a file of listings or a worksheet")
+    };
+    let text = std::fs::read_to_string(name)
+        .map_err(|why| wrong(format!("the listing cannot be read: {why}")))?;
+    if !text.trim_start_matches('\u{feff}').starts_with('<') {
+        let listings = file::listings(name, &text, &Limits::default());
+        return Ok(listings.map_err(|error| wrong(error.to_string()))?);
+    }
+    let mut listings = Vec::new();
+    for region in document::read(&text, name)?.regions {
+        let text = match region.content {
+            Content::Function { text, .. } => text,
+            Content::Definition { name, entry: None, lines, .. } if lines.len() > 1 => {
+                format!("{name}() :=\n  {}\n", lines.join("\n  "))
+            }
+            Content::Beyond { names, construct } if !names.is_empty() => {
+                let names = names.join(", ");
+                return Err(wrong(format!("region {}, {names}: {construct}", region.id)).into());
+            }
+            _ => continue,
+        };
+        let listing = Listing::parse_within(&region.id, &text, &mathcad::limits());
+        listings.push(listing.map_err(|error| wrong(error.to_string()))?);
+    }
+    match listings.is_empty() {
+        true => Err(wrong("the worksheet has no function and no program".into()).into()),
+        false => Ok(listings),
+    }
+}

@@ -1,0 +1,146 @@
+//! What functions make of matrices: parts, joins, lengths, determinants, systems of equations.
+
+use super::arithmetic::{finite, kind, sum};
+use super::entry::offset;
+use super::failure::Cause;
+use super::value::{Array, Grid, Value};
+
+/// Returns the steps that a determinant or the solution of equations takes.
+pub fn steps(matrix: &Value) -> u64 {
+    let n = matrix.size().0 as u64;
+    n.saturating_mul(n).saturating_mul(n)
+}
+
+/// Returns the magnitude of a number, the length of a column or the determinant of a square matrix.
+pub fn magnitude(value: &Value) -> Result<Value, Cause> {
+    match value {
+        Value::Number(x) => Ok(Value::Number(x.abs())),
+        Value::Array(a) if a.cols() == 1 => {
+            finite(sum(a.entries().iter().map(|x| x * x)).sqrt()).map(Value::Number)
+        }
+        Value::Array(_) => determinant(value),
+        other => Err(kind("a number or an array", other)),
+    }
+}
+
+/// Returns the determinant of a square matrix.
+pub fn determinant(value: &Value) -> Result<Value, Cause> {
+    let Value::Array(a) = value else {
+        return Err(kind("a square matrix", value));
+    };
+    if a.rows() != a.cols() || a.rows() == 0 {
+        return Err(kind("a square matrix", value));
+    }
+    let determinant = match a.entries() {
+        [a, b, c, d] => a * d - b * c,
+        _ => {
+            let (factors, order, sign) = factor(a);
+            order.iter().enumerate().map(|(k, &i)| factors[i][k]).fold(sign, |d, x| d * x)
+        }
+    };
+    finite(determinant).map(Value::Number)
+}
+
+/// Returns the solution of `a`·x = `b` by elimination with row pivots.
+/// Errors: the sizes do not match, or the matrix is singular.
+pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
+    let (Value::Array(a), Value::Array(b)) = (a, b) else {
+        return Err(kind("a square matrix and a column", if a.number().is_some() { a } else { b }));
+    };
+    let n = a.rows();
+    if n != a.cols() || n != b.rows() || b.cols() != 1 {
+        let size = |a: &Array| format!("{} x {}", a.rows(), a.cols());
+        return Err(Cause::Sizes { operation: "lsolve", left: size(a), right: size(b) });
+    }
+    let (factors, order, _) = factor(a);
+    let mut x: Vec<f64> = order.iter().map(|&i| b.entries()[i]).collect();
+    for k in 0..n {
+        let known = (0..k).fold(x[k], |y, j| y - factors[order[k]][j] * x[j]);
+        x[k] = known;
+    }
+    for k in (0..n).rev() {
+        let row = &factors[order[k]];
+        if row[k] == 0.0 {
+            return Err(Cause::Singular);
+        }
+        x[k] = (k + 1..n).fold(x[k], |y, j| y - row[j] * x[j]) / row[k];
+        finite(x[k])?;
+    }
+    Ok(Array::column(x).into())
+}
+
+/// Factors a square matrix by elimination. Returns its rows, each with the factors left of its pivot;
+/// the order in which they are pivots, each the largest of its column; and the sign of that order.
+fn factor(a: &Array) -> (Vec<Vec<f64>>, Vec<usize>, f64) {
+    let n = a.rows();
+    let mut rows: Vec<Vec<f64>> = a.entries().chunks(n.max(1)).map(<[f64]>::to_vec).collect();
+    let (mut order, mut sign): (Vec<usize>, _) = ((0..n).collect(), 1.0);
+    for k in 0..n {
+        let size = |at: usize| rows[order[at]][k].abs();
+        let largest = (k + 1..n).fold(k, |best, at| if size(at) > size(best) { at } else { best });
+        if largest != k {
+            order.swap(k, largest);
+            sign = -sign;
+        }
+        let pivot = rows[order[k]].clone();
+        for &i in order[k + 1..].iter().filter(|_| pivot[k] != 0.0) {
+            let row = &mut rows[i];
+            let factor = row[k] / pivot[k];
+            row[k] = factor;
+            for (x, p) in row[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
+                *x -= factor * p;
+            }
+        }
+    }
+    (rows, order, sign)
+}
+
+/// Returns the column `j` of an array, counted from `origin`.
+pub fn column(array: &Value, j: f64, origin: i32) -> Result<Value, Cause> {
+    let rows = array.size().0;
+    part(array, [origin.into(), f64::from(origin) + rows as f64 - 1.0, j, j], origin)
+}
+
+/// Returns rows and columns of an array, from the first and third of `at` to the second and fourth,
+/// counted from `origin`.
+pub fn part(array: &Value, at: [f64; 4], origin: i32) -> Result<Value, Cause> {
+    if let Value::Number(_) | Value::Text(_) = array {
+        return Err(kind("an array", array));
+    }
+    let name = || "the array".into();
+    let mut places = [0; 4];
+    for (place, x) in places.iter_mut().zip(at) {
+        *place = offset(x, origin, &name)?;
+    }
+    let ([i, last_i, j, last_j], (rows, cols)) = (places, array.size());
+    if last_i < i || last_j < j || last_i >= rows || last_j >= cols {
+        let subscripts = super::failure::Subscripts { row: at[1], col: Some(at[3]) };
+        return Err(Cause::IndexOutside { name: name(), subscripts, rows, cols });
+    }
+    let entry = |k, l| array.entry(i + k, j + l).unwrap_or_default();
+    Ok(Value::grid(Grid::from_fn(last_i - i + 1, last_j - j + 1, entry)))
+}
+
+/// Puts arrays side by side, or one below the other.
+pub fn join(arrays: &[Value], below: bool) -> Result<Value, Cause> {
+    let along = |a: &Value| if below { a.size().1 } else { a.size().0 };
+    let across = |a: &Value| if below { a.size().0 } else { a.size().1 };
+    let Some(first) = arrays.first() else {
+        return Err(Cause::Arguments { expected: 2, found: 0 });
+    };
+    if let Some(other) = arrays.iter().find(|a| along(a) != along(first)) {
+        let size = |a: &Value| format!("{} x {}", a.size().0, a.size().1);
+        let operation = if below { "stack" } else { "augment" };
+        return Err(Cause::Sizes { operation, left: size(first), right: size(other) });
+    }
+    let lines = arrays.iter().flat_map(|a| (0..across(a)).map(move |k| (a, k)));
+    let lines: Vec<(&Value, usize)> = lines.collect();
+    let entry = |a: &Value, i, j| match a {
+        Value::Number(_) | Value::Text(_) => a.clone(),
+        a => a.entry(i, j).unwrap_or_default(),
+    };
+    Ok(Value::grid(match below {
+        true => Grid::from_fn(lines.len(), along(first), |i, j| entry(lines[i].0, lines[i].1, j)),
+        false => Grid::from_fn(along(first), lines.len(), |i, j| entry(lines[j].0, i, lines[j].1)),
+    }))
+}

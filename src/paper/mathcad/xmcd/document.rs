@@ -1,0 +1,267 @@
+//! A worksheet's file: its settings and regions, with the results that Mathcad saved.
+
+use roxmltree::{Document as Xml, Node, ParsingOptions};
+
+use super::Beyond;
+use super::read::{self, Math};
+use crate::error::{InputError, Result};
+use crate::paper::mathcad::settings::Settings;
+use crate::paper::mathcad::value::{Grid, Value};
+
+/// The most bytes of a file that is read: its regions become text and then trees.
+pub const LARGEST: usize = 1 << 26;
+
+/// A worksheet as its file has it.
+#[derive(Clone, Debug)]
+pub struct Worksheet {
+    pub settings: Settings,
+    /// The regions in the order in which Mathcad evaluates them.
+    pub regions: Vec<Region>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Region {
+    pub id: String,
+    pub tag: String,
+    pub content: Content,
+    /// What Mathcad saved of the region's evaluation.
+    pub saved: Option<Saved>,
+}
+
+/// What a region says, in the text notation.
+#[derive(Clone, Debug)]
+pub enum Content {
+    /// Nothing to execute: words, a page break, a region that is switched off.
+    Silent,
+    /// `name(parameters) :=` and a program.
+    Function { name: String, text: String },
+    /// `target := value`: the name, the target if it has subscripts, and the program's lines.
+    Definition { name: String, entry: Option<String>, lines: Vec<String>, global: bool },
+    /// `name :=` an array of numbers.
+    Table { name: String, value: Value },
+    /// `name := from, second .. to`.
+    Range { name: String, range: String },
+    /// `expression =`.
+    Evaluation(String),
+    /// A construct that the interpreter does not have; the names that the region would define.
+    Beyond { names: Vec<String>, construct: String },
+}
+
+/// A result that Mathcad saved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Saved {
+    Value(Value),
+    /// The words of the error.
+    Error(String),
+    /// A result that is no real number, array or string.
+    Beyond(String),
+}
+
+/// Reads a worksheet.
+/// Errors: the text is no XML, or no worksheet of Mathcad 13 to 15.
+pub fn read(text: &str, place: &str) -> Result<Worksheet> {
+    let wrong = |what: String| {
+        let fix = "give an .xmcd file that Mathcad 13, 14 or 15 saved (an .xmcdz unpacked, a Prime \
+                   worksheet saved anew)";
+        InputError::new(place, what, fix)
+    };
+    if text.len() > LARGEST {
+        return Err(wrong(format!(
+            "the file has {} bytes, at most {LARGEST} are read",
+            text.len()
+        )));
+    }
+    let options = ParsingOptions { nodes_limit: 1 << 24, ..ParsingOptions::default() };
+    let xml = Xml::parse_with_options(text.trim_start_matches('\u{feff}'), options)
+        .map_err(|why| wrong(format!("the file is no XML: {why}")))?;
+    let root = xml.root_element();
+    if root.tag_name().name() != "worksheet" {
+        return Err(wrong(format!("the file is no worksheet but <{}>", root.tag_name().name())));
+    }
+    let mut regions = Vec::new();
+    if let Some(list) = child(root, "regions") {
+        collect(list, &mut regions);
+    }
+    Ok(Worksheet { settings: settings(root), regions })
+}
+
+fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|child| child.tag_name().name() == name)
+}
+
+fn settings(root: Node<'_, '_>) -> Settings {
+    let find = |name: &str, attribute: &str| {
+        let node = root.descendants().find(|node| node.tag_name().name() == name)?;
+        node.attribute(attribute)
+    };
+    let plain = Settings::default();
+    let origin = find("builtInVariables", "array-origin").and_then(|origin| origin.parse().ok());
+    Settings {
+        origin: origin.unwrap_or(0),
+        zero_over_zero_is_zero: find("calculationBehavior", "zero-over-zero") == Some("0"),
+        exact_boolean: find("calculationBehavior", "exact-boolean") != Some("false"),
+        ..plain
+    }
+}
+
+/// Collects the regions below a node, those of areas in the area's place, from top to bottom and from
+/// left to right.
+fn collect(list: Node<'_, '_>, found: &mut Vec<Region>) {
+    let regions = list.children().filter(|node| node.tag_name().name() == "region");
+    let mut placed: Vec<_> = regions.map(|node| (place(node), node)).collect();
+    placed.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    for (_, node) in placed {
+        match child(node, "area") {
+            Some(area) if area.ancestors().count() < 64 => collect(area, found),
+            _ => found.push(region(node)),
+        }
+    }
+}
+
+fn place(node: Node<'_, '_>) -> (f64, f64) {
+    let number = |name| node.attribute(name).and_then(|x| x.parse::<f64>().ok());
+    (number("align-y").or(number("top")).unwrap_or(0.0), number("left").unwrap_or(0.0))
+}
+
+fn region(node: Node<'_, '_>) -> Region {
+    let attribute = |name| node.attribute(name).unwrap_or_default().to_string();
+    let (id, tag) = (attribute("region-id"), attribute("tag"));
+    let Some(math) = child(node, "math") else {
+        let construct = ["plot", "component", "picture", "ole"];
+        let other = construct.into_iter().find(|name| child(node, name).is_some());
+        let content = match other {
+            Some("plot") => beyond(vec![], "a plot"),
+            Some(name) => beyond(vec![], name),
+            None => Content::Silent,
+        };
+        return Region { id, tag, content, saved: None };
+    };
+    let inside = math.children().find(Node::is_element).map(Math::new);
+    let content = match inside {
+        Some(_) if math.attribute("disable-calc") == Some("true") => Content::Silent,
+        Some(inside) => match read::check_depth(math) {
+            Ok(()) => content(inside),
+            Err(Beyond(construct)) => beyond(names(inside), &construct),
+        },
+        None => Content::Silent,
+    };
+    let error = math.descendants().find_map(|node| node.attribute("error"));
+    let result = math.descendants().find(|node| node.tag_name().name() == "result");
+    let saved = match (error, result) {
+        (Some(error), _) => Some(Saved::Error(error.into())),
+        (None, Some(result)) => result.children().find(Node::is_element).map(saved),
+        (None, None) => None,
+    };
+    Region { id, tag, content, saved }
+}
+
+fn beyond(names: Vec<String>, construct: &str) -> Content {
+    Content::Beyond { names, construct: construct.into() }
+}
+
+/// The names that a region defines, whatever it says of them.
+fn names(node: Math<'_, '_>) -> Vec<String> {
+    let defines = matches!(node.tag(), "define" | "globalDefine");
+    let left = node.part(0).ok().filter(|_| defines);
+    let ids = left.into_iter().flat_map(|left| match left.tag() {
+        "id" => vec![left],
+        "matrix" => left.parts().collect(),
+        // The name of a function or of an array.
+        "function" => left.parts().take(1).collect(),
+        _ => left.parts().skip(1).take(1).collect(),
+    });
+    ids.filter_map(|id| read::name(id).ok()).collect()
+}
+
+fn content(node: Math<'_, '_>) -> Content {
+    let content = match node.tag() {
+        "define" | "globalDefine" => definition(node),
+        "eval" => node.part(0).and_then(evaluation),
+        "id" if node.text() == "Given" => Err(Beyond("a solve block".into())),
+        "symEval" => Err(read::beyond(node)),
+        // An equation that nothing evaluates, such as a condition of a solve block.
+        _ => Ok(Content::Silent),
+    };
+    content.unwrap_or_else(|Beyond(construct)| beyond(names(node), &construct))
+}
+
+fn evaluation(node: Math<'_, '_>) -> Result<Content, Beyond> {
+    read::expression(node).map(Content::Evaluation)
+}
+
+fn definition(node: Math<'_, '_>) -> Result<Content, Beyond> {
+    let (left, mut right) = (node.part(0)?, node.part(1)?);
+    let global = node.tag() == "globalDefine";
+    if right.tag() == "eval" {
+        right = right.part(0)?;
+    }
+    let lines = |level| read::lines(right, level);
+    match left.tag() {
+        "function" => {
+            let name = read::name(left.part(0)?)?;
+            let parameters = left.part(1)?.parts().map(read::name);
+            let parameters = parameters.collect::<Result<Vec<_>, _>>()?.join(", ");
+            let text = format!("{name}({parameters}) :=\n{}\n", lines(1)?.join("\n"));
+            Ok(Content::Function { name, text })
+        }
+        "id" => {
+            let name = read::name(left)?;
+            if right.tag() == "range" {
+                return Ok(Content::Range { name, range: read::range(right)? });
+            }
+            if let Some(value) = table(right).filter(|_| !global) {
+                return Ok(Content::Table { name, value });
+            }
+            Ok(Content::Definition { name, entry: None, lines: lines(0)?, global })
+        }
+        "apply" => {
+            if right.tag() == "program" {
+                return Err(Beyond("a program that defines entries of an array".into()));
+            }
+            let name = read::name(left.part(1)?)?;
+            let entry = Some(read::expression(left)?);
+            Ok(Content::Definition { name, entry, lines: lines(0)?, global })
+        }
+        "matrix" => Err(Beyond("a definition of several names at once".into())),
+        _ => Err(read::beyond(left)),
+    }
+}
+
+/// Reads an array of numbers that are spelled out.
+fn table(node: Math<'_, '_>) -> Option<Value> {
+    let numbers = node.tag() == "matrix" && node.parts().all(|entry| entry.tag() == "real");
+    match saved_value(node) {
+        Ok(value @ Value::Array(_)) if numbers => Some(value),
+        _ => None,
+    }
+}
+
+fn saved(node: Node<'_, '_>) -> Saved {
+    let depth = read::check_depth(node);
+    match depth.and_then(|()| saved_value(Math::new(node))) {
+        Ok(value) => Saved::Value(value),
+        Err(Beyond(construct)) => Saved::Beyond(construct),
+    }
+}
+
+fn saved_value(node: Math<'_, '_>) -> Result<Value, Beyond> {
+    match node.tag() {
+        "real" => {
+            let x = node.text().parse().ok().filter(|x: &f64| x.is_finite());
+            x.map(Value::Number).ok_or_else(|| Beyond(format!("the number {:?}", node.text())))
+        }
+        "str" => Ok(Value::Text(node.text().into())),
+        "matrix" => {
+            let size = |name| node.attribute(name).and_then(|n| n.parse::<usize>().ok());
+            let entries = node.parts().map(saved_value).collect::<Result<Vec<Value>, Beyond>>()?;
+            match (size("rows"), size("cols")) {
+                (Some(rows), Some(cols)) if rows.checked_mul(cols) == Some(entries.len()) => {
+                    let entry = |i: usize, j: usize| -> Value { entries[j * rows + i].clone() };
+                    Ok(Value::grid(Grid::from_fn(rows, cols, entry)))
+                }
+                _ => Err(Beyond("a matrix that is not full".into())),
+            }
+        }
+        _ => Err(read::beyond(node)),
+    }
+}

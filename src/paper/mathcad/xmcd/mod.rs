@@ -1,0 +1,31 @@
+//! The second notation: XMCD, the XML of a worksheet that Mathcad 13 to 15 open and save.
+//!
+//! What is read becomes the text notation of `listings/README.md`, and with it the one syntax tree;
+//! what is written comes from that tree. Parentheses differ: a fraction's bar and an exponent's place
+//! need none in Mathcad, and a transposed entry needs some. Both directions follow [`places`], so that
+//! a listing comes back byte for byte.
+
+pub mod document;
+pub mod page;
+mod places;
+pub mod read;
+pub mod write;
+
+/// A construct that the interpreter does not have, in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Beyond(pub String);
+
+/// The operators of one operand or two that are functions in the text: the operator's element, the
+/// function, and the number of operands.
+const FUNCTIONS: [(&str, &str, usize); 6] = [
+    ("sqrt", "√", 1),
+    ("nthRoot", "√", 2),
+    ("log", "log", 2),
+    ("vectorSum", "∑", 1),
+    ("determinant", "determinant", 1),
+    ("factorial", "factorial", 1),
+];
+
+/// The comparisons' elements, in the order of [`Comparison::ALL`](super::syntax::Comparison::ALL).
+const COMPARISONS: [&str; 6] =
+    ["equal", "notEqual", "lessThan", "lessOrEqual", "greaterThan", "greaterOrEqual"];

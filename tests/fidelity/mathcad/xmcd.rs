@@ -1,0 +1,265 @@
+//! The second notation: listings to XMCD and back, worksheets executed, hostile files.
+
+use super::spelled::spelled;
+use crate::common::random::fixed;
+use plane_contact::paper::exports::probe;
+use plane_contact::paper::listings::Which;
+use plane_contact::paper::mathcad::worksheet::{Checked, Verdict, execute};
+use plane_contact::paper::mathcad::xmcd::document::{self, Content, Saved};
+use plane_contact::paper::mathcad::xmcd::page::{self, Page};
+use plane_contact::paper::mathcad::xmcd::write;
+use plane_contact::paper::mathcad::{Array, Limits, Listing, Settings, Value};
+use plane_contact::paper::mirror::Reading;
+use proptest::prelude::*;
+
+/// Writes a listing as a worksheet, and reads it back as text.
+fn there_and_back(listing: &Listing) -> Result<String, String> {
+    let sheet = page::listings(std::slice::from_ref(listing));
+    let sheet = document::read(&sheet, "sheet").map_err(|error| error.to_string())?;
+    match &sheet.regions[0].content {
+        Content::Function { text, .. } => Ok(text.clone()),
+        Content::Definition { name, entry: None, lines, .. } => {
+            Ok(format!("{name}() :=\n  {}\n", lines.join("\n  ")))
+        }
+        other => Err(format!("{other:?}")),
+    }
+}
+
+#[test]
+fn the_paper_s_listings_come_back_byte_for_byte() {
+    for reading in ["", "R1=inside", "R2=printed", "R3=per-node", "R3=nested", "R5=node_n"] {
+        let reading: Reading = reading.parse().unwrap();
+        for which in Which::ALL {
+            let listing = which.under(&reading);
+            assert_eq!(there_and_back(&listing).unwrap(), listing.to_string(), "{which} {reading}");
+        }
+    }
+}
+
+#[test]
+fn parentheses_stand_where_each_notation_needs_them() {
+    for body in [
+        "(a + b) / (c − d)",
+        "(a·b) / c",
+        "((a + b)) / (x)",
+        "((a / b)) · (c + 1)",
+        "a^(b + 1) + a^−1 + a^b + (a + b)^2 + (−2)^2",
+        "a^((b + 1))",
+        "(A[1])ᵀ + A[1,2]ᵀ + (Aᵀ)[1,2] + (Aᵀ)⟨1⟩",
+        "−(a + b)·c − −2",
+        "¬(a > 0) ∧ (b = 1 ∨ c ≠ 2) ∨ a ≤ b",
+        "(1 2; 3 4)·(a   −b)ᵀ",
+        "∑(i ∈ 1 .. 3, i^2) + ∏(i ∈ 1 .. 2, A[i]) + √(a) + √(3,a)",
+        "trace(\"{0}\",a·b) + φ.12",
+        "1E-09 + 0.1 + 123456789012345680000",
+    ] {
+        let listing = Listing::parse("f", &format!("f(a,A) :=\n  {body}\n")).unwrap();
+        let again = there_and_back(&listing).unwrap();
+        let again = Listing::parse("f", &again).unwrap();
+        assert_eq!(spelled(&again), spelled(&listing), "{body}");
+    }
+}
+
+#[test]
+fn numbers_are_spelled_as_mathcad_saves_them() {
+    let pairs = [
+        (1.2246063538223773e-16, "1.2246063538223773E-16"),
+        (-6.608847361681053e-7, "-6.6088473616810534E-07"),
+        (0.00005, "5E-05"),
+        (0.0125, "0.0125"),
+        (300.0, "300"),
+        (0.1 + 0.2, "0.30000000000000004"),
+        (1.0115481183896306e100, "1.0115481183896306E+100"),
+        (0.0, "0"),
+    ];
+    for (x, text) in pairs {
+        assert_eq!(write::number(x), text);
+        assert_eq!(text.parse(), Ok(x));
+    }
+}
+
+/// A worksheet of one evaluation, with `saved` in it as Mathcad writes results.
+fn saved(expression: &str, saved: &str) -> Vec<Checked> {
+    let listing = Listing::parse("f", &format!("_() :=\n  {expression}")).unwrap();
+    let mut page = Page::default();
+    page.define("t", write::real(0.5), 1).evaluate(write::expression(&listing), 1, "asked");
+    let result =
+        format!("<result xmlns=\"http://schemas.mathsoft.com/math30\">{saved}</result></ml:eval>");
+    let text = page.finish("", &Settings::default()).replace("</ml:eval>", &result);
+    execute(&document::read(&text, "sheet").unwrap(), &Limits::default())
+}
+
+#[test]
+fn results_are_compared_number_by_number() {
+    let verdict = |e: &str, s: &str| saved(e, s).pop().unwrap().verdict;
+    assert_eq!(verdict("1 / 3", "<ml:real>0.33333333333333331</ml:real>"), Verdict::Same);
+    assert_eq!(verdict("1 / 3", "<ml:real>0.33333333333</ml:real>"), Verdict::Digits(10));
+    assert!(matches!(verdict("1 / 3", "<ml:real>0.3</ml:real>"), Verdict::Differs { .. }));
+    assert!(matches!(verdict("1 / 0", "<ml:real>0.3</ml:real>"), Verdict::Differs { .. }));
+    let matrix =
+        "<ml:matrix rows=\"2\" cols=\"1\"><ml:real>1</ml:real><ml:real>2</ml:real></ml:matrix>";
+    assert_eq!(verdict("(1; 2)", matrix), Verdict::Same);
+    assert!(matches!(verdict("(1 2)", matrix), Verdict::Differs { .. }), "another shape");
+    assert_eq!(
+        verdict("linterp(t,t,1)", "<ml:real>1</ml:real>"),
+        Verdict::Beyond("`linterp`".into())
+    );
+    assert_eq!(
+        verdict("t", "<ml:complex><ml:real>1</ml:real></ml:complex>"),
+        Verdict::Beyond("complex numbers".into())
+    );
+}
+
+/// Where a construct is beyond the interpreter, its saved value goes on as input, and is marked.
+#[test]
+fn saved_values_go_on_as_input() {
+    let math = |inside: &str| format!("<region region-id=\"ID\"><math>{inside}</math></region>");
+    let id = |name: &str| format!("<ml:id>{name}</ml:id>");
+    let integral = format!("<ml:apply><ml:integral/>{}</ml:apply>", id("t"));
+    let twice = format!("<ml:apply><ml:mult/><ml:real>2</ml:real>{}</ml:apply>", id("y"));
+    let result = |x: &str| format!("<result><ml:real>{x}</ml:real></result>");
+    let regions = [
+        format!("<ml:define>{}{integral}</ml:define>", id("y")),
+        format!("<ml:eval>{twice}{}</ml:eval>", result("8")),
+        format!("<ml:eval>{}{}</ml:eval>", id("y"), result("4")),
+        format!("<ml:eval>{twice}{}</ml:eval>", result("8")),
+    ];
+    let regions = regions.iter().enumerate().map(|(k, r)| math(r).replace("ID", &k.to_string()));
+    let text = format!(
+        "<worksheet xmlns:ml=\"ml\"><regions>{}</regions></worksheet>",
+        regions.collect::<String>()
+    );
+    let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
+    let verdicts: Vec<_> = checked.iter().map(|c| c.verdict.clone()).collect();
+    let beyond = |words: &str| Verdict::Beyond(words.into());
+    let rests = "it rests on y: an integral";
+    assert_eq!(verdicts, [beyond("an integral"), beyond(rests), beyond(rests), Verdict::Same]);
+    assert_eq!(checked[3].inputs.iter().collect::<Vec<_>>(), ["2"]);
+}
+
+/// Every candidate that is said to be ours is, and a recalculated worksheet of probes decides each.
+#[test]
+fn probes_know_their_own_answers() {
+    let text = probe::worksheet();
+    let mut sheet = document::read(&text, "probe").unwrap();
+    let checked = execute(&sheet, &Limits::default());
+    let asked = |c: &&Checked| c.tag.starts_with("probe ");
+    for region in sheet.regions.iter_mut().filter(|region| region.tag.starts_with("probe ")) {
+        let ours = checked.iter().find(|c| c.tag == region.tag).unwrap();
+        region.saved = Some(match &ours.value {
+            Some(value) => Saved::Value(value.clone()),
+            None => Saved::Error("an error".into()),
+        });
+    }
+    let decided = probe::decided(&sheet, &checked);
+    assert_eq!(decided.len(), checked.iter().filter(asked).count());
+    assert_eq!(decided.len(), 20);
+    for (question, answer) in &decided {
+        let default = ["as here", "guarded", "runs as printed", "another", "stops or is guarded"];
+        assert!(default.iter().any(|words| answer.contains(words)), "{question}: {answer}");
+    }
+    let unsaved = probe::decided(&document::read(&text, "probe").unwrap(), &checked);
+    assert!(unsaved.iter().all(|(_, answer)| answer.starts_with("nothing is saved")));
+}
+
+/// Every element and attribute that is written occurs in a file that Mathcad saved.
+#[test]
+fn nothing_is_written_that_mathcad_does_not_write() {
+    let known: Vec<Vec<&str>> = include_str!("saved_by_mathcad.txt")
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| line.split_whitespace().collect())
+        .collect();
+    let listings: Vec<_> = Which::ALL.iter().map(|w| w.under(&Reading::default())).collect();
+    for text in [probe::worksheet(), page::listings(&listings), super::exported("fig1")] {
+        let xml = roxmltree::Document::parse(&text).unwrap();
+        for node in xml.descendants().filter(roxmltree::Node::is_element) {
+            let math = node.tag_name().namespace() == Some("http://schemas.mathsoft.com/math30");
+            let name = format!("{}{}", if math { "ml:" } else { "" }, node.tag_name().name());
+            let line = known.iter().find(|line| line[0] == name);
+            let line = line.unwrap_or_else(|| panic!("Mathcad writes no <{name}>"));
+            for attribute in node.attributes() {
+                let prefix = if attribute.namespace().is_some() { "xml:" } else { "" };
+                let attribute = format!("{prefix}{}", attribute.name());
+                assert!(line.contains(&attribute.as_str()), "{attribute} of <{name}>");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(fixed(1_000))]
+
+    /// Any program that the text notation reads means the same once it has been a worksheet; what comes
+    /// back is as short as it gets.
+    #[test]
+    fn any_program_comes_back(words in super::limits::words()) {
+        let body = super::limits::spell(&words);
+        if let Ok(listing) = Listing::parse("f", &format!("f(x) :=\n  {body}")) {
+            let once = there_and_back(&listing).map_err(TestCaseError::fail)?;
+            let again = Listing::parse("f", &once);
+            // Parentheses that Mathcad needs may lead beyond the depth that is read.
+            let Ok(again) = again else { return Ok(()) };
+            prop_assert_eq!(there_and_back(&again), Ok(once));
+            prop_assert_eq!(run(&again), run(&listing));
+        }
+    }
+
+    /// A worksheet with bytes changed, parts left out or repeated is read or refused; what is read is
+    /// executed within its limits.
+    #[test]
+    fn damaged_worksheets_end(
+        cuts in prop::collection::vec((any::<prop::sample::Index>(), 0..60usize, 0..4usize), 1..6),
+        words in super::limits::words(),
+    ) {
+        let body = super::limits::spell(&words);
+        let listing = Listing::parse("f", &format!("f(x) :=\n  {body}"));
+        let mut text = match listing {
+            Ok(listing) => page::listings(&[listing]),
+            Err(_) => probe::worksheet(),
+        };
+        for (at, length, kind) in cuts {
+            let places: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();
+            let start = places[at.index(places.len())];
+            let end = places.iter().copied().find(|p| *p >= start + length).unwrap_or(start);
+            let part = text[start..end].to_string();
+            match kind {
+                0 => text.replace_range(start..end, ""),
+                1 => text.insert_str(start, &part),
+                2 => text = text.replacen("<ml:id", "<ml:program", 1 + length % 3),
+                _ => text = text.replacen("1", "999999999", 1 + length % 3),
+            }
+        }
+        if let Ok(sheet) = document::read(&text, "sheet") {
+            execute(&sheet, &Limits { steps: 10_000, entries: 10_000, ..Limits::default() });
+        }
+    }
+}
+
+/// The value of a program, or the cause of its failure, with little to spend.
+fn run(listing: &Listing) -> Result<String, String> {
+    let limits = Limits { steps: 10_000, entries: 10_000, ..Limits::default() };
+    let mut worksheet = listing.runner(&Settings::default(), &limits);
+    worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
+    let outcome = worksheet.call(&[Value::Number(5.0)]);
+    outcome.map(|outcome| outcome.value.to_string()).map_err(|failure| {
+        // Subscripts of an expression are named by its text, which may have more parentheses.
+        failure.cause.to_string().replace(['(', ')'], "")
+    })
+}
+
+#[test]
+fn what_is_no_worksheet_is_refused() {
+    for text in ["", "<", "<html/>", "<!DOCTYPE a [<!ENTITY b \"c\">]><worksheet>&b;</worksheet>"] {
+        assert!(document::read(text, "sheet").is_err(), "{text}");
+    }
+    let deep = format!(
+        "<worksheet><regions><region><math><define><id>a</id>{}1{}</define></math></region></regions>\
+         </worksheet>",
+        "<parens>".repeat(5_000),
+        "</parens>".repeat(5_000)
+    );
+    let checked = document::read(&deep, "deep").map(|s| execute(&s, &Limits::default()));
+    let refused = |c: &[Checked]| c.iter().all(|c| matches!(c.verdict, Verdict::Beyond(_)));
+    assert!(checked.is_err() || checked.is_ok_and(|checked| refused(&checked)));
+}

@@ -1,0 +1,132 @@
+//! Octave, an interpreter that is not ours, on the exported listings.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+
+use plane_contact::answer::{self, Request};
+use plane_contact::paper::exports::{Export, octave};
+use plane_contact::paper::mathcad::array::Table;
+use plane_contact::paper::mirror::{Km, Pairs, Reading, Worksheet, c_cnt};
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use proptest::prelude::*;
+use tempfile::TempDir;
+
+use super::bitwise::{draw, initial, reading, worksheet};
+use crate::common::program::run;
+use crate::common::random::fixed;
+use crate::common::tolerances::{OCTAVE, assert_near};
+
+/// What Octave printed of a program: by name, the numbers column by column; nothing if it failed.
+type Printed = BTreeMap<String, Vec<f64>>;
+
+/// Whether Octave is there, as it must be where `REQUIRE_OCTAVE` is set.
+fn octave_is_there() -> bool {
+    let there = Command::new("octave-cli").arg("--version").output().is_ok();
+    assert!(there || std::env::var_os("REQUIRE_OCTAVE").is_none(), "Octave is required");
+    if !there {
+        eprintln!("Octave is not installed: the exported listings are not executed by it");
+    }
+    there
+}
+
+/// Runs the functions of the files in `folder`, each in turn.
+fn execute(folder: &Path, names: &[String]) -> Vec<Option<Printed>> {
+    let each =
+        |name: &String| format!("disp('BEGIN'); try; {name}; catch e; disp('FAILED'); end\n");
+    let driver: String = names.iter().map(each).collect();
+    std::fs::write(folder.join("driver.m"), driver).expect("a file");
+    let output = Command::new("octave-cli")
+        .args(["--no-init-file", "--eval", "driver"])
+        .current_dir(folder)
+        .output()
+        .expect("Octave starts");
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let runs: Vec<_> = text.split("BEGIN\n").skip(1).map(printed).collect();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(runs.len(), names.len(), "Octave stopped: {errors}");
+    runs
+}
+
+fn printed(text: &str) -> Option<Printed> {
+    let line = |line: &str| {
+        let mut words = line.split(' ');
+        let name = words.next().expect("a name").to_string();
+        (name, words.skip(2).map(|word| word.parse().expect("a number")).collect())
+    };
+    (!text.contains("FAILED")).then(|| text.lines().map(line).collect())
+}
+
+/// Checks that Octave's pairs and matrix have the mirror's bits.
+fn assert_same(printed: &Printed, pairs: &Pairs<f64>, mjs: &Table<f64>, what: &str) {
+    let whole = |column: &[usize]| column.iter().map(|n| *n as f64).collect::<Vec<_>>();
+    assert_eq!(printed["ct"], whole(pairs.ct.as_slice()), "ct of {what}");
+    assert_eq!(printed["dy"], whole(pairs.dy.as_slice()), "dy of {what}");
+    assert_eq!(printed["yt"], pairs.yt.as_slice(), "yt of {what}");
+    assert_eq!(printed["k_cnt"], pairs.k_cnt.as_matrix().as_slice(), "k_cnt of {what}");
+    assert_eq!(printed["MJS"], mjs.as_matrix().as_slice(), "MJS of {what}");
+}
+
+#[test]
+fn octave_has_the_mirror_s_bits_on_random_scenes() {
+    if !octave_is_there() {
+        return;
+    }
+    let folder = TempDir::new().expect("a folder");
+    let mut runner = proptest::test_runner::TestRunner::new(fixed(1));
+    let (mut names, mut expected) = (vec![], vec![]);
+    while expected.len() < 200 {
+        let draw = draw().new_tree(&mut runner).expect("a scene").current();
+        let reading = reading().new_tree(&mut runner).expect("a reading").current();
+        let (sheet, node_n): (Worksheet<f64>, _) = worksheet(&draw);
+        // Octave knows no overflow: scenes on which the listings run.
+        let Ok(pairs) = c_cnt(&sheet, &reading, &node_n) else { continue };
+        let Ok(mjs) = Km(&sheet, &reading, &pairs.k_cnt) else { continue };
+        if sheet.B.iter().any(|b| b.iter().any(|x| !x.is_finite())) {
+            continue;
+        }
+        let name = format!("scene_{}", expected.len());
+        let export = Export {
+            title: "random",
+            sheet: &sheet,
+            reading: &reading,
+            node_n: &node_n,
+            thickness: 1.0,
+            run: None,
+        };
+        let text = octave::program(&export, &name);
+        std::fs::write(folder.path().join(format!("{name}.m")), text).expect("a file");
+        names.push(name);
+        expected.push((pairs, mjs));
+    }
+    for (k, printed) in execute(folder.path(), &names).iter().enumerate() {
+        let printed = printed.as_ref().unwrap_or_else(|| panic!("Octave failed on scene {k}"));
+        assert_same(printed, &expected[k].0, &expected[k].1, &names[k]);
+    }
+}
+
+#[test]
+fn octave_has_our_displacements_on_shipped_scenes() {
+    if !octave_is_there() {
+        return;
+    }
+    let folder = TempDir::new().expect("a folder");
+    for (scene, name) in [("fig1", "fig1"), ("two-blocks", "two_blocks")] {
+        let file = format!("{name}.m");
+        let written =
+            run(folder.path(), &["export", scene, "--to", "octave", "--out", file.as_str()]);
+        assert!(written.status.success(), "{}", String::from_utf8_lossy(&written.stderr));
+        let printed = execute(folder.path(), &[name.to_string()]).remove(0).expect("it runs");
+        let sheet = initial(scene);
+        let reading = Reading::default();
+        let pairs = c_cnt(&sheet, &reading, &sheet.node).unwrap();
+        assert_same(&printed, &pairs, &Km(&sheet, &reading, &pairs.k_cnt).unwrap(), scene);
+        let request = Request::new(&Scene::open(scene).unwrap()).variant(Variant::Printed);
+        let u = answer::solve(&request, &mut |_| ()).unwrap().u;
+        let largest = u.amax();
+        for (ours, theirs) in u.iter().zip(&printed["U"]) {
+            assert_near(scene, *theirs, *ours, largest, &OCTAVE);
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The commands of Mathcad's users: `evaluate`, `mathcad`, `listing`, `export --to mathcad|octave`.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use crate::common::program::run;
+
+/// Runs the program in `folder`; returns its exit status, its output and its messages.
+fn ran(folder: &Path, args: &[&str]) -> (i32, String, String) {
+    let output = run(folder, args);
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code().expect("a status"), text(output.stdout), text(output.stderr))
+}
+
+const FACTORIAL: &str = "# two functions, one of which calls itself
+fact(n) :=
+  trace(n)
+  return 1 if n ≤ 1
+  n·fact(n − 1)
+both(v) :=
+  for k ∈ 1 .. rows(v)
+    w[k] ← fact(v[k])
+  w
+";
+
+#[test]
+fn evaluate_runs_any_program() {
+    let folder = TempDir::new().expect("a folder");
+    let at = folder.path();
+    std::fs::write(at.join("fact.txt"), FACTORIAL).expect("a file");
+    let evaluate = |args: &[&str]| ran(at, &[&["evaluate", "fact.txt"], args].concat());
+    let (status, text, _) =
+        evaluate(&["--call", "both(v)", "--inputs", "{\"v\": [3, 4]}", "--json"]);
+    assert_eq!(status, 0);
+    let value: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(
+        value,
+        json!({ "value": [[6.0], [24.0]], "trace": ["3", "2", "1", "4", "3", "2", "1"] })
+    );
+    assert_eq!(
+        evaluate(&["--inputs", "{\"n\": 2}"]).1,
+        "trace: 2\ntrace: 1\n2\n",
+        "the first by name"
+    );
+    let (status, text, why) = evaluate(&["--call", "both(3)", "--json"]);
+    assert_eq!((status, why.is_empty()), (2, false));
+    let error: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!((&error["error"]["line"], &error["error"]["text"]), (&json!(3), &json!("v[k]")));
+    assert!(evaluate(&["--call", "fact(1000)"]).2.contains("levels of calls"));
+    assert_eq!(evaluate(&["--call", "fact(0)", "--settings", "origin=0"]).0, 0);
+    for wrong in [
+        &["--call", "fact("][..],
+        &["--inputs", "[1]"],
+        &["--inputs", "{\"n\": {}}"],
+        &["--settings", "origin=x"],
+        &["--settings", "colour=1"],
+    ] {
+        assert_eq!(evaluate(wrong).0, 2, "{wrong:?}");
+    }
+    std::fs::write(at.join("fact.txt"), "f(x) :=\n  x\n\ng(x) :=\n  x +\n").expect("a file");
+    let (status, _, why) = evaluate(&["--call", "f(1)"]);
+    assert_eq!(status, 2);
+    assert!(why.contains("line 5 of the file"), "{why}");
+}
+
+#[test]
+fn listings_change_notation() {
+    let folder = TempDir::new().expect("a folder");
+    let at = folder.path();
+    assert_eq!(ran(at, &["listing", "Km", "--to", "xmcd", "--out", "km.xmcd"]).0, 0);
+    let (_, text, _) = ran(at, &["listing", "km.xmcd", "--to", "text"]);
+    assert_eq!(text, ran(at, &["listing", "Km", "--to", "text"]).1);
+    let (status, text, _) = ran(at, &["mathcad", "km.xmcd"]);
+    assert_eq!(status, 0);
+    assert!(text.contains("Km(c_cnt) :="), "{text}");
+    std::fs::write(at.join("no.xmcd"), "<html/>").expect("a file");
+    for command in [&["mathcad", "no.xmcd"][..], &["listing", "no.xmcd", "--to", "text"]] {
+        let (status, _, why) = ran(at, command);
+        assert_eq!(status, 2);
+        assert!(why.contains("no worksheet but <html>"), "{why}");
+    }
+}
+
+#[test]
+fn scenes_become_worksheets() {
+    let folder = TempDir::new().expect("a folder");
+    let at = folder.path();
+    assert_eq!(ran(at, &["export", "fig1", "--to", "mathcad", "--out", "fig1.xmcd"]).0, 0);
+    let (_, text, _) = ran(at, &["mathcad", "fig1.xmcd", "--json"]);
+    let sheet: Value = serde_json::from_str(&text).expect("JSON");
+    let differences: Vec<f64> = sheet["regions"]
+        .as_array()
+        .expect("regions")
+        .iter()
+        .filter(|region| region["tag"].as_str().is_some_and(|tag| tag.starts_with("difference")))
+        .map(|region| region["value"].as_f64().expect("a number"))
+        .collect();
+    let [pairs, matrix, displacements, stresses] = differences[..] else {
+        panic!("{differences:?}")
+    };
+    assert_eq!([pairs, matrix], [0.0, 0.0], "bit for bit");
+    // Two solvers and two formulas, in mm and MPa.
+    assert!(displacements < 1e-15 && stresses < 1e-9, "{differences:?}");
+    let (status, _, why) = ran(at, &["export", "strand", "--to", "mathcad"]);
+    assert_eq!(status, 2);
+    assert!(why.contains("at most 300 are written"), "{why}");
+    let (status, _, _) = ran(at, &["export", "fig1", "--to", "mathcad", "--variant", "tied"]);
+    assert_eq!(status, 2);
+    assert_eq!(ran(at, &["export", "--to", "octave", "--probe"]).0, 2);
+    assert_eq!(ran(at, &["export", "--to", "mathcad"]).0, 2, "no scene");
+    let (_, probe, _) = ran(at, &["export", "--to", "mathcad", "--probe"]);
+    std::fs::write(at.join("probe.xmcd"), probe).expect("a file");
+    let (_, text, _) = ran(at, &["mathcad", "probe.xmcd"]);
+    assert!(text.contains("nothing is saved: open it in Mathcad, and save it"), "{text}");
+}
