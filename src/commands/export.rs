@@ -25,8 +25,8 @@ plane_contact::choices! {
     }
 }
 
-/// Write a scene for another program: a worksheet of Mathcad, a program for Octave and MATLAB, or an
-/// input deck of CalculiX.
+/// Write a scene for another program: a worksheet of Mathcad, a program for Octave and MATLAB, or
+/// an input deck of CalculiX.
 #[derive(clap::Args)]
 #[command(after_help = "\
 mathcad and octave write the listings as printed with the scene's tables, and the iterations of the

@@ -411,8 +411,8 @@ fn all_readings() -> Vec<Reading> {
     all
 }
 
-/// `export --to mathcad`, read back and executed by the interpreter, has the mirror's bits on random
-/// scenes; where the mirror fails, the worksheet fails too.
+/// `export --to mathcad`, read back and executed by the interpreter, has the mirror's bits on
+/// random scenes; where the mirror fails, the worksheet fails too.
 #[test]
 fn an_exported_worksheet_has_the_mirror_s_bits() {
     let mut runner = proptest::test_runner::TestRunner::new(fixed(1_100));

@@ -11,6 +11,7 @@ use plane_contact::paper::mirror::{Km, Pairs, Reading, Worksheet, c_cnt};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
 use tempfile::TempDir;
 
 use super::bitwise::{draw, initial, reading, worksheet};

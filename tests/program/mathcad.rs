@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::program::run;
+use crate::common::tolerances::{OCTAVE, assert_near};
 
 /// Runs the program in `folder`; returns its exit status, its output and its messages.
 fn ran(folder: &Path, args: &[&str]) -> (i32, String, String) {
@@ -101,8 +102,9 @@ fn scenes_become_worksheets() {
         panic!("{differences:?}")
     };
     assert_eq!([pairs, matrix], [0.0, 0.0], "bit for bit");
-    // Two solvers and two formulas, in mm and MPa.
-    assert!(displacements < 1e-15 && stresses < 1e-9, "{differences:?}");
+    // fig1's largest displacement and stress are of these sizes, in mm and MPa.
+    assert_near("displacements", displacements, 0.0, 1e-4, &OCTAVE);
+    assert_near("stresses", stresses, 0.0, 8.0, &OCTAVE);
     let (status, _, why) = ran(at, &["export", "strand", "--to", "mathcad"]);
     assert_eq!(status, 2);
     assert!(why.contains("at most 300 are written"), "{why}");

@@ -16,7 +16,9 @@ const AREAS: &str = "Ae() :=
     p ← EL[n,ind_1]
     q ← EL[n,ind_1+1]
     r ← EL[n,ind_1+2]
-    a[n] ← ((node[q,2] − node[p,2])·(node[r,3] − node[p,3]) − (node[r,2] − node[p,2])·(node[q,3] − node[p,3])) / 2·thickness
+    x ← (node[q,2] − node[p,2])·(node[r,3] − node[p,3])
+    y ← (node[r,2] − node[p,2])·(node[q,3] − node[p,3])
+    a[n] ← (x − y) / 2·thickness
   a
 ";
 
@@ -26,7 +28,9 @@ const GRADIENTS: &str = "B() :=
     p ← c[1]
     q ← c[2]
     r ← c[3]
-    a ← ((node[q,2] − node[p,2])·(node[r,3] − node[p,3]) − (node[r,2] − node[p,2])·(node[q,3] − node[p,3])) / 2
+    x ← (node[q,2] − node[p,2])·(node[r,3] − node[p,3])
+    y ← (node[r,2] − node[p,2])·(node[q,3] − node[p,3])
+    a ← (x − y) / 2
     for k ∈ 1 .. 3
       p ← c[k+1]
       q ← c[k+2]
@@ -64,8 +68,8 @@ const ITERATED: &str = "iterated(steps) :=
   u
 ";
 
-/// Strains, stresses and the von Mises stress of each element, by rows: e_xx, e_yy, g_xy, s_xx, s_yy,
-/// s_xy, s_zz, von Mises.
+/// Strains, stresses and the von Mises stress of each element, by rows: e_xx, e_yy, g_xy, s_xx,
+/// s_yy, s_xy, s_zz, von Mises.
 const STATES: &str = "states(u) :=
   for n ∈ 1 .. M
     for k ∈ 1 .. 3

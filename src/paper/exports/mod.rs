@@ -1,5 +1,5 @@
-//! A scene as a worksheet of Mathcad and as a program for Octave and MATLAB: the listings with the tables
-//! that they need, and the run around them.
+//! A scene as a worksheet of Mathcad and as a program for Octave and MATLAB: the listings with the
+//! tables that they need, and the run around them.
 
 pub mod mathcad;
 pub mod octave;

@@ -1,8 +1,9 @@
-//! The program for Octave and MATLAB: one function file, its listings translated from the syntax tree.
+//! The program for Octave and MATLAB: one function file, its listings translated from the syntax
+//! tree.
 //!
-//! Operations keep their order. Matrix products are sums of outer products, k = 1, 2, ..., so that no
-//! library reorders them. Where a false operand of `∧` is to decide though another fails (R4), operands
-//! that cannot fail come first.
+//! Operations keep their order. Matrix products are sums of outer products, k = 1, 2, ..., so that
+//! no library reorders them. Where a false operand of `∧` is to decide though another fails (R4),
+//! operands that cannot fail come first.
 
 use std::collections::BTreeSet;
 

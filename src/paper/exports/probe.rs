@@ -256,7 +256,8 @@ fn shown(answer: &Answer) -> String {
     }
 }
 
-/// Returns, for a worksheet of probes, what each saved result decides; nothing for another worksheet.
+/// Returns, for a worksheet of probes, what each saved result decides; nothing for another
+/// worksheet.
 pub fn decided(worksheet: &Worksheet, checked: &[Checked]) -> Vec<(String, String)> {
     let mut decided = Vec::new();
     for probe in &PROBES {

@@ -142,8 +142,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         }
     }
 
-    /// Checks that an entry can be written, of `count` numbers. A name that holds no array becomes an
-    /// empty one.
+    /// Checks that an entry can be written, of `count` numbers. A name that holds no array becomes
+    /// an empty one.
     fn prepare(
         &mut self,
         target: &Reference,

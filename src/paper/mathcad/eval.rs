@@ -215,8 +215,8 @@ impl<O: Observer> Run<'_, '_, O> {
         Ok(result.unwrap_or(if operation == Operation::Add { 0.0 } else { 1.0 }))
     }
 
-    /// Returns whether an `∨` is true, by the worksheet's method of evaluating `∧`: one true operand
-    /// decides.
+    /// Returns whether an `∨` is true, by the worksheet's method of evaluating `∧`: one true
+    /// operand decides.
     fn any(&mut self, operands: &[Expr]) -> Fallible<bool> {
         let method = self.settings.conjunction;
         let (mut any, mut failure) = (false, None);

@@ -1,4 +1,5 @@
-//! A file of listings: one after another, each from its first line to the next line that is not indented.
+//! A file of listings: one after another, each from its first line to the next line that is not
+//! indented.
 
 use super::failure::ParseError;
 use super::listing::Listing;

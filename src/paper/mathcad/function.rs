@@ -1,5 +1,5 @@
-//! The functions that a listing may call: some of Mathcad's own, those of its worksheet, and those that
-//! the caller defines.
+//! The functions that a listing may call: some of Mathcad's own, those of its worksheet, and those
+//! that the caller defines.
 
 use std::rc::Rc;
 
@@ -53,8 +53,8 @@ pub enum Function<'l> {
 /// A function from outside: it returns its value, or why there is none.
 pub type Outside<'l> = Box<dyn FnMut(&[Value]) -> Result<Value, String> + 'l>;
 
-/// The functions of one number. Their last bit need not be Mathcad's, whose sine and cosine are those
-/// of x87.
+/// The functions of one number. Their last bit need not be Mathcad's, whose sine and cosine are
+/// those of x87.
 const ELEMENTARY: [(&str, fn(f64) -> f64); 20] = [
     ("sin", f64::sin),
     ("cos", f64::cos),

@@ -4,8 +4,8 @@ use serde_json::Value as Json;
 
 use super::value::{Array, Grid, Value};
 
-/// Returns the value that a JSON document spells: a list of lists is an array by rows, and any other
-/// list a column.
+/// Returns the value that a JSON document spells: a list of lists is an array by rows, and any
+/// other list a column.
 /// Errors: what cannot be a value of a worksheet.
 pub fn read(json: &Json) -> Result<Value, String> {
     match json {

@@ -3,7 +3,8 @@
 //! Spaces mean nothing, but for one place: within round brackets they separate the elements of a
 //! row. There a [`Token::Gap`] stands
 //!
-//! - for two or more spaces behind an operand, whatever follows but `;`, as in `(a − c   b + c)` and
+//! - for two or more spaces behind an operand, whatever follows but `;`, as in `(a − c   b + c)`
+//! and
 //!   `(a   −b)`,
 //! - for one space between two operands, as in `(0 0 0)` and `(|a| |b|)`.
 //!

@@ -60,7 +60,8 @@ fn uses(block: &[Statement], used: &mut [bool]) {
     }
 }
 
-/// Hands over the names that the statements write to; returns how deep they stand within each other.
+/// Hands over the names that the statements write to; returns how deep they stand within each
+/// other.
 fn survey(block: &[Statement], written: &mut impl FnMut(Slot)) -> usize {
     let mut depth = 0;
     for Statement { step, .. } in block {
@@ -119,8 +120,8 @@ impl Listing {
         self.names.name(0)
     }
 
-    /// Returns the names that the program takes from its worksheet: those that it reads or calls, and
-    /// neither receives nor writes to.
+    /// Returns the names that the program takes from its worksheet: those that it reads or calls,
+    /// and neither receives nor writes to.
     pub fn free_names(&self) -> Vec<&str> {
         let mut used = vec![false; self.names.len()];
         uses(&self.program, &mut used);

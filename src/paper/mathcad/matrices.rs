@@ -69,8 +69,9 @@ pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     Ok(Array::column(x).into())
 }
 
-/// Factors a square matrix by elimination. Returns its rows, each with the factors left of its pivot;
-/// the order in which they are pivots, each the largest of its column; and the sign of that order.
+/// Factors a square matrix by elimination. Returns its rows, each with the factors left of its
+/// pivot; the order in which they are pivots, each the largest of its column; and the sign of that
+/// order.
 fn factor(a: &Array) -> (Vec<Vec<f64>>, Vec<usize>, f64) {
     let n = a.rows();
     let mut rows: Vec<Vec<f64>> = a.entries().chunks(n.max(1)).map(<[f64]>::to_vec).collect();

@@ -1,7 +1,8 @@
 //! The grammar of one line.
 //!
-//! From the loosest to the tightest: `∨`, `∧`, `¬`, one comparison, `+ −`, `· /`, the sign `−x`, one
-//! power, and behind an operand `xᵀ`, `x[i]`, `x⟨j⟩`. Operators of one level group from the left.
+//! From the loosest to the tightest: `∨`, `∧`, `¬`, one comparison, `+ −`, `· /`, the sign `−x`,
+//! one power, and behind an operand `xᵀ`, `x[i]`, `x⟨j⟩`. Operators of one level group from the
+//! left.
 
 use std::collections::BTreeSet;
 
@@ -22,8 +23,8 @@ pub fn header(tokens: &[Spanned]) -> Result<Vec<Slot>, Complaint> {
     parse(header_grammar(), tokens)
 }
 
-/// Reads a line of a program, `line` being its place in the listing from 0. Blocks below it are left
-/// empty.
+/// Reads a line of a program, `line` being its place in the listing from 0. Blocks below it are
+/// left empty.
 pub fn statement(tokens: &[Spanned], line: usize) -> Result<Statement, Complaint> {
     Ok(Statement { line, step: parse(step_grammar(), tokens)? })
 }

@@ -19,7 +19,8 @@ pub struct Statement {
 /// statement's own line.
 #[derive(Clone, Debug)]
 pub enum Step {
-    /// `for name ∈ range`; the guard stands for the whole loop, and the variable keeps its last value.
+    /// `for name ∈ range`; the guard stands for the whole loop, and the variable keeps its last
+    /// value.
     For { name: Slot, range: Range, guard: Option<Expr>, body: Vec<Statement> },
     /// `while condition` and a block.
     While { condition: Expr, body: Vec<Statement> },
@@ -112,8 +113,8 @@ pub enum Kind {
     Any(Vec<Expr>),
     /// A call of a function, `name(x, y)`.
     Call(Slot, Vec<Expr>),
-    /// A sum or product over a range, `∑(i ∈ from .. to, term)`: the function, the variable, and the
-    /// expressions from, to and term.
+    /// A sum or product over a range, `∑(i ∈ from .. to, term)`: the function, the variable, and
+    /// the expressions from, to and term.
     Series {
         function: Slot,
         name: Slot,

@@ -123,8 +123,8 @@ impl<T: Clone + Default> Grid<T> {
     }
 }
 
-/// An array of values, with what it stores and how deep it goes, counted as it is written to: arrays
-/// that hold one another many times over would take too long to count.
+/// An array of values, with what it stores and how deep it goes, counted as it is written to:
+/// arrays that hold one another many times over would take too long to count.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Nested {
     grid: Grid<Value>,

@@ -235,7 +235,7 @@ impl Execution<'_> {
             1 => self.run(&[format!("  {expression}")], inputs),
             2 => {
                 let origin = self.settings.origin;
-                program.insert(0, format!("  _k ← {}", origin - 1).replace('-', "−"));
+                program.insert(0, format!("  _k ← {}", origin.saturating_sub(1)).replace('-', "−"));
                 program.push("    _k ← _k + 1".into());
                 program.push(format!("    _values[_k] ← {expression}"));
                 program.push("  _values".into());
@@ -278,8 +278,8 @@ impl Execution<'_> {
         }
     }
 
-    /// Collects the saved results that a program rests on, its functions' included. Returns why it is
-    /// beyond the interpreter, if a name that it reads is.
+    /// Collects the saved results that a program rests on, its functions' included. Returns why it
+    /// is beyond the interpreter, if a name that it reads is.
     fn trace_names(
         &self,
         program: &Listing,
@@ -352,8 +352,8 @@ fn compare(saved: &Value, ours: &Value) -> Verdict {
     }
 }
 
-/// Returns how many digits the values have in common, `u32::MAX` for the same bits; none if they are
-/// no values of one kind.
+/// Returns how many digits the values have in common, `u32::MAX` for the same bits; none if they
+/// are no values of one kind.
 fn digits(saved: &Value, ours: &Value) -> Option<u32> {
     match (saved, ours) {
         (Value::Number(x), Value::Number(y)) if x == y => Some(u32::MAX),

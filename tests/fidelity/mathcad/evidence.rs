@@ -1,5 +1,5 @@
-//! What Mathcad itself saved: expressions of public worksheets with their results (`evidence.json`, each
-//! with its source), evaluated here, bit for bit.
+//! What Mathcad itself saved: expressions of public worksheets with their results (`evidence.json`,
+//! each with its source), evaluated here, bit for bit.
 
 use plane_contact::paper::mathcad::{Limits, Listing, Sheet, Value, json};
 use serde_json::Value as Json;
@@ -21,8 +21,8 @@ fn flat(value: &Value) -> Vec<f64> {
     }
 }
 
-/// How many expressions are evaluated, how many numbers Mathcad saved of them, and how many of those
-/// have the same bits here.
+/// How many expressions are evaluated, how many numbers Mathcad saved of them, and how many of
+/// those have the same bits here.
 pub fn counts() -> [usize; 3] {
     let cases: Vec<Json> =
         serde_json::from_str(include_str!("evidence.json")).expect("the figures are JSON");

@@ -1,7 +1,8 @@
-//! The source distribution of PyPI `xmcd` 0.4.0 (MIT): twenty worksheets that Mathcad 14.1.5 calculated
-//! and saved, and the package itself, which reads and checks what we write.
+//! The source distribution of PyPI `xmcd` 0.4.0 (MIT): twenty worksheets that Mathcad 14.1.5
+//! calculated and saved, and the package itself, which reads and checks what we write.
 //!
-//! `XMCD_SOURCE` names the folder of the distribution; `.ci/run` gets it. Without it nothing is compared.
+//! `XMCD_SOURCE` names the folder of the distribution; `.ci/run` gets it. Without it nothing is
+//! compared.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -60,8 +61,8 @@ fn mathcad_s_own_worksheets() {
     assert_eq!([counts["same"], counts["digits"], counts["failure"]], [82, 6, 7]);
 }
 
-/// The package reads what is written, writes it back byte for byte, and finds no error but names that
-/// a program writes entry by entry, which it does not follow out of loops.
+/// The package reads what is written, writes it back byte for byte, and finds no error but names
+/// that a program writes entry by entry, which it does not follow out of loops.
 #[test]
 fn the_package_reads_and_checks_what_is_written() {
     let Some(source) = source() else { return };

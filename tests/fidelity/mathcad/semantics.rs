@@ -61,8 +61,8 @@ fn subscripts_are_whole() {
     assert!(matches!(failure("x[1]"), Cause::Kind { .. }), "a number has no entries");
 }
 
-/// DBosiy/iSET, example 498 to 502, result 875: a table that begins as the number 1 has six entries,
-/// each an array, and no trace of the 1.
+/// DBosiy/iSET, example 498 to 502, result 875: a table that begins as the number 1 has six
+/// entries, each an array, and no trace of the 1.
 #[test]
 fn an_entry_assigned_to_a_number_makes_it_an_array() {
     assert_eq!(value("x[2] ← 7\nx"), "0; 7", "the number is gone");
@@ -222,8 +222,9 @@ fn names() {
     );
 }
 
-/// evelinalevina/mathcad, program 108, result 179: a sum whose name has no value before its first turn
-/// is 6; SunGrow/Num_Methods, Lab8_Var5 184 and 235: two names assigned on ways not taken are equal.
+/// evelinalevina/mathcad, program 108, result 179: a sum whose name has no value before its first
+/// turn is 6; SunGrow/Num_Methods, Lab8_Var5 184 and 235: two names assigned on ways not taken are
+/// equal.
 #[test]
 fn a_local_name_without_a_value_is_0() {
     assert_eq!(value("for k ∈ 1 .. 3\n  if v[k] > 0\n    y ← y + v[k]"), "6");
@@ -245,8 +246,8 @@ fn functions() {
     assert!(matches!(failure("min()"), Cause::Kind { .. }));
 }
 
-/// What worksheets of others use beyond the paper's listings; values saved by Mathcad 14.1.5 are those
-/// of the worksheets of xmcd 0.4.0.
+/// What worksheets of others use beyond the paper's listings; values saved by Mathcad 14.1.5 are
+/// those of the worksheets of xmcd 0.4.0.
 #[test]
 fn functions_of_matrices() {
     assert_eq!(
@@ -289,8 +290,8 @@ fn powers_roots_and_elementary_functions() {
     assert!(matches!(failure("sin(1, 2)"), Cause::Arguments { expected: 1, found: 2 }), "errors 5");
 }
 
-/// The programs of xmcd's programs-mathcad14.xmcd ask for a sum that stops, one that skips, an early
-/// return and a caught division; these are our own of the same kinds.
+/// The programs of xmcd's programs-mathcad14.xmcd ask for a sum that stops, one that skips, an
+/// early return and a caught division; these are our own of the same kinds.
 #[test]
 fn the_words_of_programs() {
     assert_eq!(value("y ← 1\nwhile y < 100\n  y ← 3·y\ny"), "243");

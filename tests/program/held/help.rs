@@ -30,7 +30,6 @@ pub const PASSAGES: Passages = Passages {
         ),
         ("last-if previous|0, tiny itself|0", "as above"),
         ("Mathcad 13 to 15", "versions of Mathcad"),
-        ("Mathcad 14 and 15", "as above"),
         ("fig. 4", "the number of a figure of the paper"),
         ("fig. 5", "as above"),
         (

@@ -104,8 +104,8 @@ fn settings(root: Node<'_, '_>) -> Settings {
     }
 }
 
-/// Collects the regions below a node, those of areas in the area's place, from top to bottom and from
-/// left to right.
+/// Collects the regions below a node, those of areas in the area's place, from top to bottom and
+/// from left to right.
 fn collect(list: Node<'_, '_>, found: &mut Vec<Region>) {
     let regions = list.children().filter(|node| node.tag_name().name() == "region");
     let mut placed: Vec<_> = regions.map(|node| (place(node), node)).collect();

@@ -10,7 +10,7 @@ use crate::paper::mathcad::syntax::Comparison;
 type Read<T> = Result<T, Beyond>;
 
 /// How deep the elements of a region may stand within each other.
-const DEPTH: usize = 150;
+const DEPTH: usize = 300;
 
 /// An element without Mathcad's notes on where it came from.
 #[derive(Clone, Copy)]
