@@ -415,7 +415,7 @@ fn all_readings() -> Vec<Reading> {
 /// random scenes; where the mirror fails, the worksheet fails too.
 #[test]
 fn an_exported_worksheet_has_the_mirror_s_bits() {
-    let mut runner = proptest::test_runner::TestRunner::new(fixed(1_100));
+    let mut runner = proptest::test_runner::TestRunner::new(fixed(1_400));
     let seen = std::cell::Cell::new([0; 2]);
     let result = runner.run(&(draw(), reading()), |(draw, reading)| {
         let (sheet, node_n) = worksheet(&draw);

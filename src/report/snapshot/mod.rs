@@ -9,8 +9,8 @@ pub use field::difference_files;
 pub use words::{difference, explanation};
 
 use super::json::{line, pretty};
-use crate::xml::Element;
 use crate::studies::snapshot::{Acceptance, FORMAT, Run, Snapshot, VERSION, Verified, VerifiedRun};
+use crate::xml::Element;
 
 /// A snapshot's file and what verifying it found.
 pub struct Checked {

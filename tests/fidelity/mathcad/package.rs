@@ -37,7 +37,7 @@ fn worksheets(folder: &Path, found: &mut Vec<PathBuf>) {
 fn mathcad_s_own_worksheets() {
     let Some(source) = source() else { return };
     let mut files = vec![];
-    worksheets(&source.join("tests/fixtures"), &mut files);
+    worksheets(&source.join("tests").join("fixtures"), &mut files);
     assert_eq!(files.len(), 20);
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for file in files {

@@ -74,7 +74,7 @@ pub fn number(x: f64) -> String {
     };
     match exponent {
         0..15 => format!("{sign}{}", point(exponent as usize + 1)),
-        -5..0 => format!("{sign}0.{:0>1$}{digits}", "", (-exponent - 1) as usize),
+        -4..0 => format!("{sign}0.{:0>1$}{digits}", "", (-exponent - 1) as usize),
         _ => {
             let side = if exponent < 0 { '-' } else { '+' };
             format!("{sign}{}E{side}{:02}", point(1), exponent.abs())
