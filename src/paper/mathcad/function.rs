@@ -44,18 +44,21 @@ pub enum Function<'l> {
     /// `factorial(n)`.
     Factorial,
     /// A function of one number.
-    Elementary(fn(f64) -> f64),
+    Elementary(Elementary),
     /// A function of the worksheet.
     Program(Rc<Listing>),
     Outside(Outside<'l>),
 }
+
+/// A function of one number.
+pub type Elementary = fn(f64) -> f64;
 
 /// A function from outside: it returns its value, or why there is none.
 pub type Outside<'l> = Box<dyn FnMut(&[Value]) -> Result<Value, String> + 'l>;
 
 /// The functions of one number. Their last bit need not be Mathcad's, whose sine and cosine are
 /// those of x87.
-const ELEMENTARY: [(&str, fn(f64) -> f64); 20] = [
+const ELEMENTARY: [(&str, Elementary); 20] = [
     ("sin", f64::sin),
     ("cos", f64::cos),
     ("tan", f64::tan),

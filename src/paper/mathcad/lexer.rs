@@ -4,8 +4,7 @@
 //! row. There a [`Token::Gap`] stands
 //!
 //! - for two or more spaces behind an operand, whatever follows but `;`, as in `(a − c   b + c)`
-//! and
-//!   `(a   −b)`,
+//!   and `(a   −b)`,
 //! - for one space between two operands, as in `(0 0 0)` and `(|a| |b|)`.
 //!
 //! A bar closes what the last open bracket is a bar for, if an operand stands before it; otherwise

@@ -19,7 +19,7 @@ pub struct Math<'a, 'i>(Node<'a, 'i>);
 impl<'a, 'i> Math<'a, 'i> {
     pub fn new(mut node: Node<'a, 'i>) -> Self {
         while node.tag_name().name() == "provenance"
-            && let Some(last) = node.children().filter(Node::is_element).last()
+            && let Some(last) = node.children().rfind(Node::is_element)
         {
             node = last;
         }
