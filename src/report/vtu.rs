@@ -15,12 +15,12 @@ use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
 
 use super::picture::Drawing;
-use crate::xml::Element;
 use crate::answer::contact::Status;
 use crate::answer::{Assessment, Solution};
 use crate::problem::element::{self, State};
 use crate::problem::model::Triangle;
 use crate::studies::snapshot::{Input, Options, VERSION};
+use crate::xml::Element;
 
 /// VTK's number for a triangle of three nodes.
 const TRIANGLE: u8 = 5;
