@@ -76,7 +76,7 @@ fn main() -> ExitCode {
         Command::Plan(args) => commands::plan::run(&args).map(done),
         Command::Statuses(args) => commands::statuses::run(&args).map(done),
         Command::Trace(args) => commands::trace::run(&args).map(done),
-        Command::Evaluate(args) => commands::evaluate::run(&args).map(done),
+        Command::Evaluate(args) => commands::evaluate::run(&args),
         Command::Mathcad(args) => commands::mathcad::run(&args).map(done),
         Command::Listing(args) => commands::listing::run(&args).map(done),
         Command::Trade(args) => commands::trade::run(&args).map(done),

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::rc::Rc;
 
-use plane_contact::answer::error::Result;
+use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::paper::mathcad::{
     Failure, Limits, Listing, Outcome, Settings, Sheet, Value, file, json,
@@ -43,7 +43,8 @@ pub struct Args {
     json: bool,
 }
 
-pub fn run(args: &Args) -> Result<()> {
+/// Runs the call; returns the exit status.
+pub fn run(args: &Args) -> Result<u8> {
     let place = args.file.display().to_string();
     let text = std::fs::read_to_string(&args.file).map_err(|why| {
         let what = format!("the file cannot be read: {why}");
@@ -63,17 +64,22 @@ pub fn run(args: &Args) -> Result<()> {
     let call = Listing::parse("--call", &format!("_() :=\n  {call}"))
         .map_err(|error| InputError::new("--call", error.to_string(), notation))?;
     let outcome = call.runner_in(&sheet, &args.settings, &Limits::default()).call(&[]);
-    match outcome {
-        Ok(outcome) if args.json => print(&format!("{}\n", result(&outcome))),
-        Ok(outcome) => print(&shown(&outcome)),
-        Err(failure) => {
-            if args.json {
-                print(&format!("{}\n", error(&failure)))?;
-            }
-            Err(InputError::new(&place, failure.to_string(), "correct the program or its inputs")
-                .into())
+    let failure = match outcome {
+        Ok(outcome) if args.json => {
+            return print(&format!("{}\n", result(&outcome))).map(|()| 0);
         }
+        Ok(outcome) => return print(&shown(&outcome)).map(|()| 0),
+        Err(failure) => failure,
+    };
+    let fix = "correct the program or its inputs";
+    let wrong = Error::from(InputError::new(&place, failure.to_string(), fix));
+    if !args.json {
+        return Err(wrong);
     }
+    // The failure of the program is what was asked for: no other document follows it.
+    print(&format!("{}\n", error(&failure)))?;
+    eprintln!("error: {wrong}");
+    Ok(wrong.exit_status())
 }
 
 /// The call of a function on names of the worksheet.
