@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::contact::{ContactNode, Surfaces, Traction, reactions, status};
+use super::contact::{ContactNode, Mortar, Surfaces, Traction, reactions, status};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Solved};
 use super::error::Error;
@@ -225,24 +225,34 @@ impl<'a, T: Precision> Run<'a, T> {
             }
         };
         let places = door::on_edges(self.sheet, &pairs, reading, &node_n);
-        let constraints = self.constraints(door::linked(self.sheet, &pairs), &node_n);
+        let linked = door::linked(self.sheet, &pairs);
+        let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
+        let of_mortar = self.bind_by_mortar(&mut constraints, &node_n, k);
+        let undecided =
+            undecided.map(|own: Vec<Decision>| own.into_iter().chain(of_mortar).collect());
         Ok(Found { node_n, pairs, constraints, places, undecided })
     }
 
-    /// Returns eq. (1) for the nodes in contact, with the weights that were found, or with mortar's
-    /// for the nodes whose edges cover the target.
-    fn constraints(&self, linked: Vec<NodeToSegment<T>>, node_n: &Table<T>) -> Vec<Constraint<T>> {
-        let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
-        let Some(surfaces) = &self.surfaces else { return constraints };
+    /// Gives eq. (1) the weights of mortar, where that is the coupling, for the nodes in contact whose
+    /// edges cover the target in iteration `k`. Returns the decisions on them that rounding may have
+    /// taken.
+    fn bind_by_mortar(
+        &self,
+        constraints: &mut [Constraint<T>],
+        node_n: &Table<T>,
+        k: usize,
+    ) -> Vec<Decision> {
+        let Some(surfaces) = &self.surfaces else { return Vec::new() };
         let shape = door::shape(door::weights_from(self.sheet, &self.request.reading, node_n));
-        let pairings = surfaces.pairings(Coupling::Mortar, &shape);
+        let Mortar { pairings, mut unsure } = surfaces.mortar(&shape);
         for pairing in pairings.into_iter().flatten() {
             for bound in constraints.iter_mut().filter(|bound| bound.node == pairing.node) {
-                let masters = pairing.masters.iter().map(|(master, w)| (*master, T::from_f64(*w)));
-                bound.masters = masters.collect();
+                bound.masters.clone_from(&pairing.masters);
             }
         }
-        constraints
+        unsure.retain(|(node, _)| constraints.iter().any(|bound| bound.node == *node));
+        let condition = || "a comparison of mortar's integrals".into();
+        unsure.into_iter().map(|(node, by)| Decision::unsure(k, node, condition(), by)).collect()
     }
 
     /// Advances from one shape to the next.
@@ -268,7 +278,7 @@ impl<'a, T: Precision> Run<'a, T> {
         };
         Step {
             k,
-            shape: door::shape(node_n),
+            shape: numbers(&door::shape(node_n)),
             constraints: bound.iter().map(|bound| bound.map(T::to_f64)).collect(),
             in_contact: pairs.dy.iter().sum(),
             max_displacement: max_displacement(&self.u),
@@ -303,7 +313,7 @@ impl<'a, T: Precision> Run<'a, T> {
             return Ok(Vec::new());
         }
         let surfaces = Surfaces::new(self.model)?;
-        let shape = door::shape(&door::moved(self.sheet, &self.u));
+        let shape = numbers(&door::shape(&door::moved(self.sheet, &self.u)));
         let pairings = surfaces.pairings(Coupling::Nts, &shape);
         let reaction = self.equations.reaction(&self.u).map(T::to_f64);
         let eliminated = self.request.variant != Variant::Printed;
@@ -338,13 +348,20 @@ impl<T: Scalar> Visited<T> {
     }
 }
 
-/// Returns the surfaces for mortar, whose integrals are computed in `f64` only.
+/// Returns the coordinates of each node as `f64`, length.
+fn numbers<T: Scalar>(shape: &[[T; 2]]) -> Vec<[f64; 2]> {
+    shape.iter().map(|place| place.map(T::to_f64)).collect()
+}
+
+/// Returns the surfaces for mortar, whose integrals need square roots and more digits than `f32` has.
 fn mortar_surfaces(request: &Request, model: &Model) -> Result<Surfaces, InputError> {
-    if request.arithmetic.scalar == ScalarName::F64 {
-        return Surfaces::new(model);
-    }
-    let what = format!("mortar coupling does not run in {}", request.arithmetic.scalar);
-    Err(InputError::new("--scalar", what, "use f64, or --coupling nts"))
+    let why = match request.arithmetic.scalar {
+        ScalarName::Exact => "its integrals take square roots",
+        ScalarName::F32 => "its integrals lose too many digits",
+        _ => return Surfaces::new(model),
+    };
+    let what = format!("mortar coupling does not run in {}: {why}", request.arithmetic.scalar);
+    Err(InputError::new("--scalar", what, "use f64 or f64x2, or --coupling nts"))
 }
 
 /// Returns the largest component of u_cont − u_targ over contact nodes, length; u_targ is

@@ -13,7 +13,7 @@ use super::mathcad;
 use super::mathcad::array::{Table, rows};
 use super::mirror::{Pairs, Reading, Worksheet};
 use super::near::Boxes;
-use crate::numbers::scalar::Scalar;
+use crate::numbers::scalar::{Scalar, Unsure};
 use crate::problem::model::NodeId;
 
 /// A decision on who is in contact that rounding may have taken.
@@ -29,6 +29,15 @@ pub struct Decision {
     pub margin: Option<f64>,
     /// The bound on the rounding error of a − b, length; None where none is known.
     pub bound: Option<f64>,
+}
+
+impl Decision {
+    /// A comparison in iteration `iteration` that counts for `node` and that rounding may have
+    /// decided.
+    pub fn unsure(iteration: usize, node: NodeId, condition: String, by: Unsure) -> Self {
+        let bound = Some(by.bound).filter(|bound| bound.is_finite());
+        Decision { iteration, node, condition, margin: Some(by.margin), bound }
+    }
 }
 
 /// A comparison of two numbers: what it says, and how sure that is.
@@ -103,12 +112,10 @@ pub fn decisions<T: Scalar>(
         let near = near.unwrap_or_else(|| (1..=rows(&sheet.trg)).collect());
         let left = edge(sheet, node_n, i1, &near);
         let left = left.into_iter().chain(status(sheet, reading, pairs, i1));
-        left.map(move |left| Decision {
-            iteration,
-            node: NodeId::from_number(sheet.cnt[i1]),
-            condition: format!("c_cnt {}: {}", left.line, left.text),
-            margin: Some(left.margin),
-            bound: Some(left.bound).filter(|bound| bound.is_finite()),
+        left.map(move |Comparison { line, text, margin, bound, .. }| {
+            let node = NodeId::from_number(sheet.cnt[i1]);
+            let condition = format!("c_cnt {line}: {text}");
+            Decision::unsure(iteration, node, condition, Unsure { margin, bound })
         })
     };
     (1..=rows(&sheet.cnt)).flat_map(of_node).collect()

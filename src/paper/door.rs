@@ -117,8 +117,8 @@ pub fn place<T: Scalar>(node_n: &Table<T>, node: NodeId) -> [T; 2] {
 }
 
 /// Returns the coordinates of each node in the shape of a node table, length.
-pub fn shape<T: Scalar>(node_n: &Table<T>) -> Vec<[f64; 2]> {
-    NodeId::all(node_n.rows()).map(|node| place(node_n, node).map(T::to_f64)).collect()
+pub fn shape<T: Scalar>(node_n: &Table<T>) -> Vec<[T; 2]> {
+    NodeId::all(node_n.rows()).map(|node| place(node_n, node)).collect()
 }
 
 /// Returns `Km` without contact and without restraints, 2R x 2R, force/length.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::numbers::reason;
+use super::numbers::{NO_LIMIT, reason};
 use crate::paper::mirror::Pairs;
 use crate::problem::scene::Scene;
 use crate::studies::snapshot::{FORMAT, Input, VERSION};
@@ -105,6 +105,15 @@ fn depth_of(value: &Value) -> usize {
     }
 }
 
+/// Returns whether a field of an object is null because what it bounds has no limit.
+fn has_no_limit(fields: &Map<String, Value>, field: &str) -> bool {
+    match field {
+        "displacement_mesh" => fields.contains_key("displacement_no_limit"),
+        "mesh" => fields.get("no_limit").is_some_and(|point| point["is_largest"] == true),
+        _ => false,
+    }
+}
+
 /// Collects the names of the fields that are null in `value`, which stands in `field`, each with its
 /// reason.
 fn explain(value: &Value, field: &str, nulls: &mut Map<String, Value>) {
@@ -112,7 +121,14 @@ fn explain(value: &Value, field: &str, nulls: &mut Map<String, Value>) {
         Value::Null => drop(nulls.insert(field.into(), reason(field).into())),
         Value::Array(values) => values.iter().for_each(|value| explain(value, field, nulls)),
         Value::Object(fields) => {
-            fields.iter().for_each(|(field, value)| explain(value, field, nulls));
+            for (field, value) in fields {
+                match value {
+                    Value::Null if has_no_limit(fields, field) => {
+                        nulls.insert(field.into(), NO_LIMIT.into());
+                    }
+                    value => explain(value, field, nulls),
+                }
+            }
         }
         _ => (),
     }

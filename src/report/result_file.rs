@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{json, plan};
 use crate::answer::contact::{ContactNode, Status};
-use crate::answer::estimates::{ErrorEstimates, NoLimit};
+use crate::answer::estimates::{Cause, ErrorEstimates, NoLimit};
 use crate::answer::{
     Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Probe, Solution, Step,
 };
@@ -152,6 +152,9 @@ pub struct KnownEstimates {
     pub decided_by_rounding: Option<Vec<Decision>>,
     /// What the mesh may do to the largest displacement of a node, length.
     pub displacement_mesh: Option<f64>,
+    /// The node at which the largest displacement has no limit as the mesh is refined, and why.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub displacement_no_limit: Option<(NodeId, Cause)>,
     /// The error of the mesh in the energy norm, relative to the norm of the solution.
     pub mesh_energy_relative: Option<f64>,
     /// The estimates for each body.
@@ -332,6 +335,7 @@ impl KnownEstimates {
             displacement_arithmetic: known(estimates.displacement),
             decided_by_rounding: estimates.decisions.clone(),
             displacement_mesh: known(estimates.displacement_mesh),
+            displacement_no_limit: estimates.unlimited,
             mesh_energy_relative: known(estimates.mesh.relative()),
             bodies: bodies.collect(),
         }

@@ -321,8 +321,8 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
     text += "\n";
     text += &by_rounding(solution, estimates.decisions.as_deref());
     if solution.request.variant == Variant::Unilateral && solution.model.has_contact() {
-        text += "  who is in contact: looked at in the last state; on the way to it, and between the \
-                 faces of a corner, whether rounding decides is not known\n";
+        text += "  who is in contact: looked at in the last state, between the faces of a corner too; on \
+                 the way to it, whether rounding decides is not known\n";
     }
     text
 }

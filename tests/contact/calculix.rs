@@ -3,6 +3,7 @@
 
 use std::process::Command;
 
+use crate::common::embedded::scene_json;
 use crate::common::golden_floats::assert_golden;
 use crate::common::json::build;
 use crate::common::outcome::solve;
@@ -338,4 +339,24 @@ fn compare_prints_tables_and_writes_data_and_pictures() {
     let document: Value = serde_json::from_str(&read("compare.json")).unwrap();
     assert_eq!(document["nodes"].as_array().unwrap().len(), 13);
     assert_eq!(document["worst_nodes"].as_array().unwrap().len(), 10);
+}
+
+/// Bodies that lie flush at c_tll = 1e-17: who is in contact is decided by rounding in f64, and not in
+/// the double-doubles that are compared.
+#[test]
+fn compare_repeats_in_double_doubles_where_rounding_decides() {
+    if !ccx_is_there() {
+        return;
+    }
+    let mut scene = scene_json("two-blocks");
+    scene["contact"]["c_tll"] = 1e-17.into();
+    let folder = TempDir::new().unwrap();
+    std::fs::write(folder.path().join("flush.json"), scene.to_string()).unwrap();
+    let compare = ["compare", "flush.json", "--with", "calculix", "--variant", "tied"];
+    let tables = String::from_utf8(program::run(folder.path(), &compare).stdout).unwrap();
+    let words = "rounding in f64 may decide who is in contact; this is the run in double-doubles";
+    assert!(tables.contains(words), "{tables}");
+    let out = folder.path().join("out/flush-tied-calculix-equation/compare.json");
+    let document: Value = serde_json::from_str(&std::fs::read_to_string(out).unwrap()).unwrap();
+    assert_eq!(document["certainty"], "in-double-double");
 }

@@ -145,6 +145,43 @@ fn every_option_that_changes_the_result_is_in_the_folder() {
     assert_eq!(folders, options.len());
 }
 
+/// A force on a single node moves it without limit: that is why the mesh has no error there.
+#[test]
+fn a_displacement_without_limit_is_the_reason() {
+    let folder = TempDir::new().unwrap();
+    let args = ["solve", "scene.json", "--variant", "tied", "--json"];
+    let (status, text) = output(folder.path(), &scene(-0.2, 0.0), &args);
+    assert_eq!(status, Some(0), "{text}");
+    let document: Value = serde_json::from_str(&text).expect("JSON");
+    let estimates = &document["error_estimates"];
+    assert!(estimates["displacement_mesh"].is_null());
+    assert_eq!(estimates["displacement_no_limit"], json!([5, "a force on a single node"]));
+    let reason = document["nulls"]["displacement_mesh"].as_str().expect("a reason");
+    assert!(reason.contains("has no limit"), "{reason}");
+}
+
+/// What `trade` is asked stands in the name of its folder.
+#[test]
+fn the_folder_of_trade_names_its_options() {
+    let folder = TempDir::new().unwrap();
+    for (options, name) in [
+        ("--only symmetry", "trade-fig1-symmetry"),
+        ("--only symmetry,geometry", "trade-fig1-symmetry-geometry"),
+        ("--only symmetry --runs 1", "trade-fig1-symmetry-runs-1"),
+        ("--only symmetry --reading R3=nested", "trade-fig1-R3-nested-symmetry"),
+    ] {
+        let args: Vec<&str> =
+            ["trade", "fig1"].into_iter().chain(options.split_whitespace()).collect();
+        assert_eq!(run(folder.path(), &args).status.code(), Some(0), "{options}");
+        let out = folder.path().join("out").join(name);
+        assert!(
+            out.join("trade.json").exists(),
+            "{options}: {:?}",
+            std::fs::read_dir(out.parent().unwrap()).unwrap().collect::<Vec<_>>()
+        );
+    }
+}
+
 #[test]
 fn printed_says_what_its_pressures_are() {
     let folder = TempDir::new().unwrap();

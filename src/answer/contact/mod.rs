@@ -10,6 +10,7 @@ pub mod search;
 mod sliding;
 pub mod status;
 mod surface;
+pub use mortar::Mortar;
 pub use order::along;
 pub use pairing::Pairing;
 pub(super) use pressure::arcs;
@@ -17,6 +18,7 @@ pub use pressure::{ContactNode, Traction, reactions};
 pub use sliding::{Sense, Status};
 pub use surface::Surfaces;
 
+use crate::numbers::scalar::Scalar;
 use crate::problem::modelling::Coupling;
 
 impl Surfaces {
@@ -25,7 +27,12 @@ impl Surfaces {
     pub fn pairings(&self, coupling: Coupling, shape: &[[f64; 2]]) -> Vec<Option<Pairing>> {
         match coupling {
             Coupling::Nts => nts::pairings(self, shape),
-            Coupling::Mortar => mortar::pairings(self, shape),
+            Coupling::Mortar => self.mortar(shape).pairings,
         }
+    }
+
+    /// Returns what mortar finds in a shape, in its numbers.
+    pub fn mortar<T: Scalar>(&self, shape: &[[T; 2]]) -> Mortar<T> {
+        mortar::mortar(self, shape)
     }
 }

@@ -14,14 +14,20 @@
 //! Source: B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012 (dual multipliers); A. Popp, A.
 //! Seitz, M. W. Gee, W. A. Wall, Comput. Methods Appl. Mech. Engrg. 264 (2013) 67-80 (edges covered
 //! in part).
+//!
+//! The integrals are computed in any scalar. A target edge that covers less than [`ROUNDING`] of a
+//! contact edge does not count, so that no sliver hangs on rounding; what may hang on it is whether two
+//! edges face each other, which of two overlapping target edges is nearer, and whether a node is covered
+//! at all. In numbers with a bound each such comparison is told with the nodes whose weights it counts
+//! for.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
 
-use nalgebra::{Matrix2, Vector2};
-
-use super::pairing::{Pairing, Vector, unit};
+use super::pairing::{Pairing, unit};
 use super::search::dot;
 use super::surface::{Edge, FACING, Placed, Surfaces};
+use crate::numbers::scalar::{Scalar, Unsure, compared};
 use crate::problem::model::{EdgeId, NodeId};
 use crate::problem::tree::{Bounds, Tree};
 
@@ -31,163 +37,244 @@ const ROUNDING: f64 = 1e-12;
 /// The share of what its edges could cover below which a contact node does not face the target.
 const COVERED: f64 = 0.05;
 
-/// Returns, for each contact surface entry, the average of the target that its edges cover.
-pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
-    let target: Vec<Placed> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
-    let mut gathered: HashMap<NodeId, Gathered> = HashMap::new();
-    let ends = |(k, edge): (usize, &Edge)| (k, edge.nodes.map(|n| shape[n.index()]));
-    let tree = Tree::new(surfaces.target.iter().enumerate().map(ends));
+/// What mortar finds in a shape.
+pub struct Mortar<T> {
+    /// For each contact surface entry, the average of the target that its edges cover.
+    pub pairings: Vec<Option<Pairing<T>>>,
+    /// The comparisons that rounding may have decided, each with a node for whose weights it counts;
+    /// none in numbers without a bound.
+    pub unsure: Vec<(NodeId, Unsure)>,
+}
+
+/// Averages the target over what the edges of each contact node cover in a shape, given as the
+/// coordinates of each node, length.
+pub(super) fn mortar<T: Scalar>(surfaces: &Surfaces, shape: &[[T; 2]]) -> Mortar<T> {
+    let target: Vec<Placed<T>> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
+    let mut gathered: HashMap<NodeId, Gathered<T>> = HashMap::new();
+    let at = |n: NodeId| shape[n.index()].map(T::to_f64);
+    let tree = Tree::new(surfaces.target.iter().map(|edge| edge.nodes.map(at)).enumerate());
+    let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
+    let search = Search { surfaces, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
+    let mut unsure = Vec::new();
     for edge in &surfaces.contact {
-        let covered = cover(&edge.place(shape), &target, &tree);
+        let (covered, left) = compared(|| search.cover(&edge.place(shape)));
+        unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
         let Some(integrals) = Integrals::over(&covered) else { continue };
         for (k, node) in edge.nodes.into_iter().enumerate() {
-            gathered.entry(node).or_default().add(k, &integrals, &covered, surfaces, &target);
+            let gathered = gathered.entry(node).or_insert_with(Gathered::new);
+            gathered.add(k, &integrals, &covered, &search);
         }
     }
-    let pairing = |(node, tributary): (&NodeId, f64)| {
-        let gathered = gathered.remove(node).filter(|g| g.length >= COVERED * tributary)?;
-        Some(gathered.pairing(*node, shape))
+    let pairing = |(node, tributary): (&NodeId, T)| {
+        let least = T::from_f64(COVERED) * tributary;
+        let gathered = gathered.remove(node)?;
+        let (is_covered, left) = compared(|| gathered.length >= least);
+        unsure.extend(left.into_iter().map(|one| (*node, one)));
+        is_covered.then(|| gathered.pairing(*node, shape))
     };
-    surfaces.nodes.iter().zip(surfaces.tributary(shape)).map(pairing).collect()
+    let tributary = surfaces.tributary(shape);
+    let pairings = surfaces.nodes.iter().zip(tributary).map(pairing).collect();
+    Mortar { pairings, unsure }
 }
 
 /// A stretch of a contact edge and the target edge that it covers.
-struct Stretch {
+#[derive(Clone, Copy)]
+struct Stretch<T> {
     /// The index of the target edge in the list of target edges.
     edge: usize,
     /// Where the stretch begins and ends on the contact edge, over the edge's length.
-    from: f64,
-    to: f64,
+    from: T,
+    to: T,
     /// The projections of the target edge's two nodes, over the contact edge's length.
-    ends: [f64; 2],
+    ends: [T; 2],
     /// The length of the contact edge, length.
-    length: f64,
+    length: T,
 }
 
-/// Returns the stretches of a contact edge that face a target edge. Where several target edges face
-/// the same stretch, the nearest one counts.
-///
-/// Which edges face each other is decided in the shape itself, other than under node to segment: by
-/// the normals of the undeformed shape, a contact edge that an iteration has turned over would still
-/// cover the target, and a folded shape would pass for an equilibrium.
-fn cover(contact: &Placed, target: &[Placed], tree: &Tree) -> Vec<Stretch> {
-    let mut facing: Vec<(f64, Stretch)> = Vec::new();
-    let across = |b: Bounds| {
-        let [least, most] = b.along(contact.start, contact.tangent);
-        (most >= 0.0 && least <= contact.length).then_some(0.0)
-    };
-    let mut beside = Vec::new();
-    tree.visit(&across, &mut |edge| beside.push(edge));
-    for edge in beside {
-        let placed = &target[edge];
-        if dot(placed.normal, contact.normal) > -FACING {
-            continue;
+/// The target in a shape, for the search of what contact edges cover.
+struct Search<'a, T> {
+    surfaces: &'a Surfaces,
+    target: &'a [Placed<T>],
+    tree: Tree,
+    /// A bound on the error of a coordinate of the shape, length; 0 in numbers without one.
+    margin: f64,
+}
+
+impl<T: Scalar> Search<'_, T> {
+    /// Returns the stretches of a contact edge that face a target edge. Where several target edges
+    /// face the same stretch, the nearest one counts.
+    ///
+    /// Which edges face each other is decided in the shape itself, other than under node to segment:
+    /// by the normals of the undeformed shape, a contact edge that an iteration has turned over would
+    /// still cover the target, and a folded shape would pass for an equilibrium.
+    fn cover(&self, contact: &Placed<T>) -> Vec<Stretch<T>> {
+        let mut facing: Vec<(T, Stretch<T>)> = Vec::new();
+        let (start, tangent) = (contact.start.map(T::to_f64), contact.tangent.map(T::to_f64));
+        let across = |b: Bounds| {
+            let [least, most] = b.along(start, tangent);
+            let length = contact.length.to_f64() + self.margin;
+            (most >= -self.margin && least <= length).then_some(0.0)
+        };
+        let mut beside = Vec::new();
+        self.tree.visit(&across, &mut |edge| beside.push(edge));
+        let (one, two) = (T::one(), T::from_f64(2.0));
+        for edge in beside {
+            let placed = &self.target[edge];
+            if dot(placed.normal, contact.normal) > T::from_f64(-FACING) {
+                continue;
+            }
+            let end = [0, 1].map(|d| placed.start[d] + placed.length * placed.tangent[d]);
+            let ends = [contact.along(placed.start), contact.along(end)];
+            let from = Scalar::max(Scalar::min(ends[0], ends[1]), T::zero());
+            let to = Scalar::min(Scalar::max(ends[0], ends[1]), one);
+            if to - from > T::from_f64(ROUNDING) {
+                let distance = distance(contact, placed, (from + to) / two);
+                facing.push((distance, Stretch { edge, from, to, ends, length: contact.length }));
+            }
         }
-        let end = [0, 1].map(|d| placed.start[d] + placed.length * placed.tangent[d]);
-        let ends = [contact.along(placed.start), contact.along(end)];
-        let (from, to) = (ends[0].min(ends[1]).max(0.0), ends[0].max(ends[1]).min(1.0));
-        if to - from > ROUNDING {
-            let distance = distance(contact, placed, (from + to) / 2.0);
-            facing.push((distance, Stretch { edge, from, to, ends, length: contact.length }));
+        facing.sort_by(|a, b| in_order(a.0, b.0).then(a.1.edge.cmp(&b.1.edge)));
+        self.look_at_order(&facing);
+        let mut covered: Vec<Stretch<T>> = Vec::new();
+        for (_, stretch) in facing {
+            for (from, to) in uncovered(&covered, stretch.from, stretch.to) {
+                covered.push(Stretch { from, to, ..stretch });
+            }
+        }
+        covered
+    }
+
+    /// Compares the distances of target edges that may face the same stretch, for `compared` to see;
+    /// two that share a node lie on either side of it.
+    fn look_at_order(&self, facing: &[(T, Stretch<T>)]) {
+        for (k, (distance, stretch)) in facing.iter().enumerate() {
+            let nodes = self.surfaces.target[stretch.edge].nodes;
+            for (other_distance, other) in &facing[k + 1..] {
+                let (from, to) =
+                    (Scalar::max(stretch.from, other.from), Scalar::min(stretch.to, other.to));
+                let shared =
+                    self.surfaces.target[other.edge].nodes.iter().any(|n| nodes.contains(n));
+                if !shared && to - from > T::from_f64(ROUNDING) {
+                    let _ = distance < other_distance;
+                }
+            }
         }
     }
-    facing.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.edge.cmp(&b.1.edge)));
-    let mut covered: Vec<Stretch> = Vec::new();
-    for (_, stretch) in facing {
-        for (from, to) in uncovered(&covered, stretch.from, stretch.to) {
-            covered.push(Stretch { from, to, ..stretch });
-        }
-    }
-    covered
+}
+
+/// Returns the order of two distances, which no comparison of the scalar's own tells of.
+fn in_order<T: Scalar>(a: T, b: T) -> Ordering {
+    let beyond = || (a - b).to_f64().partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+    a.to_f64().total_cmp(&b.to_f64()).then_with(beyond)
 }
 
 /// Returns the distance from the contact edge's point `xi` to the target edge's line along the
 /// contact edge's normal, length.
-fn distance(contact: &Placed, target: &Placed, xi: f64) -> f64 {
+fn distance<T: Scalar>(contact: &Placed<T>, target: &Placed<T>, xi: T) -> T {
     let p = [0, 1].map(|d| contact.start[d] + xi * contact.length * contact.tangent[d]);
-    (target.outside(p) / dot(target.normal, contact.normal)).abs()
+    Scalar::abs(target.outside(p) / dot(target.normal, contact.normal))
 }
 
 /// Returns the parts of `from` .. `to` outside the stretches that are already covered.
-fn uncovered(covered: &[Stretch], from: f64, to: f64) -> Vec<(f64, f64)> {
+fn uncovered<T: Scalar>(covered: &[Stretch<T>], from: T, to: T) -> Vec<(T, T)> {
     let mut left = vec![(from, to)];
     for stretch in covered {
         left = left
             .into_iter()
-            .flat_map(|(a, b)| [(a, b.min(stretch.from)), (a.max(stretch.to), b)])
-            .filter(|(a, b)| b - a > ROUNDING)
+            .flat_map(|(a, b)| [(a, Scalar::min(b, stretch.from)), (Scalar::max(a, stretch.to), b)])
+            .filter(|(a, b)| *b - *a > T::from_f64(ROUNDING))
             .collect();
     }
     left
 }
 
 /// Returns the linear shape functions of the contact edge's two nodes at `xi`.
-fn phi(xi: f64) -> Vector2<f64> {
-    Vector2::new(1.0 - xi, xi)
+fn phi<T: Scalar>(xi: T) -> [T; 2] {
+    [T::one() - xi, xi]
 }
 
 /// Returns the two Gauss points of a stretch and their weight, length: exact up to degree three.
-fn gauss(stretch: &Stretch) -> [(f64, f64); 2] {
-    let (middle, half) = ((stretch.from + stretch.to) / 2.0, (stretch.to - stretch.from) / 2.0);
-    let offset = half / 3.0_f64.sqrt();
+fn gauss<T: Scalar>(stretch: &Stretch<T>) -> [(T, T); 2] {
+    let two = T::from_f64(2.0);
+    let (middle, half) = ((stretch.from + stretch.to) / two, (stretch.to - stretch.from) / two);
+    let offset = half / T::from_f64(3.0).root();
     [middle - offset, middle + offset].map(|xi| (xi, half * stretch.length))
 }
 
 /// The integrals over the covered part of a contact edge.
-struct Integrals {
+struct Integrals<T> {
     /// The integral ∫ φ_k of each shape function, length.
-    phi: Vector2<f64>,
+    phi: [T; 2],
     /// The matrix of the dual shape functions: ψ = dual · φ.
-    dual: Matrix2<f64>,
+    dual: [[T; 2]; 2],
 }
 
-impl Integrals {
+impl<T: Scalar> Integrals<T> {
     /// Integrates over `covered`. Returns None where nothing is covered.
-    fn over(covered: &[Stretch]) -> Option<Self> {
-        let (mut mass, mut sum) = (Matrix2::zeros(), Vector2::zeros());
+    fn over(covered: &[Stretch<T>]) -> Option<Self> {
+        let (mut mass, mut sum) = ([[T::zero(); 2]; 2], [T::zero(); 2]);
         for (xi, weight) in covered.iter().flat_map(gauss) {
-            mass += weight * phi(xi) * phi(xi).transpose();
-            sum += weight * phi(xi);
+            let phi = phi(xi);
+            for i in 0..2 {
+                let weighted = weight * phi[i];
+                (0..2).for_each(|j| mass[i][j] += weighted * phi[j]);
+                sum[i] += weighted;
+            }
         }
-        let inverse = mass.try_inverse()?;
-        Some(Integrals { phi: sum, dual: Matrix2::from_diagonal(&sum) * inverse })
+        let [[a, b], [c, d]] = mass;
+        let determinant = a * d - c * b;
+        // A matrix that is 0 within its bound has a quotient without one.
+        if determinant.to_f64() == 0.0 {
+            return None;
+        }
+        let inverse = [[d, T::zero() - b], [T::zero() - c, a]];
+        let dual = [0, 1].map(|i: usize| inverse[i].map(|x| sum[i] * (x / determinant)));
+        Some(Integrals { phi: sum, dual })
     }
 }
 
 /// The sums of a contact node over its edges.
-#[derive(Default)]
-struct Gathered {
+struct Gathered<T> {
     /// The integral M_ij by target node, length.
-    masters: BTreeMap<NodeId, f64>,
+    masters: BTreeMap<NodeId, T>,
     /// The integral D_i, length.
-    length: f64,
+    length: T,
     /// The integral ∫ φ_i n, length.
-    normal: Vector,
+    normal: [T; 2],
     /// The share of the node's contact edges that each target edge covers.
     edges: BTreeMap<EdgeId, f64>,
 }
 
-impl Gathered {
+impl<T: Scalar> Gathered<T> {
+    fn new() -> Self {
+        let zero = T::zero();
+        Gathered {
+            masters: BTreeMap::new(),
+            length: zero,
+            normal: [zero; 2],
+            edges: BTreeMap::new(),
+        }
+    }
+
     /// Adds the integrals of node `k` (0 or 1) of a contact edge over `covered`.
     fn add(
         &mut self,
         k: usize,
-        integrals: &Integrals,
-        covered: &[Stretch],
-        surfaces: &Surfaces,
-        target: &[Placed],
+        integrals: &Integrals<T>,
+        covered: &[Stretch<T>],
+        search: &Search<T>,
     ) {
         self.length += integrals.phi[k];
         for stretch in covered {
-            let edge = &surfaces.target[stretch.edge];
-            let normal = target[stretch.edge].normal;
+            let edge: &Edge = &search.surfaces.target[stretch.edge];
+            let normal = search.target[stretch.edge].normal;
             let id = edge.id.expect("a target edge is one of the model's");
-            *self.edges.entry(id).or_insert(0.0) += stretch.to - stretch.from;
+            *self.edges.entry(id).or_insert(0.0) += (stretch.to - stretch.from).to_f64();
             for (xi, weight) in gauss(stretch) {
-                let psi = weight * (integrals.dual * phi(xi))[k];
+                let psi = weight * dot(integrals.dual[k], phi(xi));
                 let eta = (xi - stretch.ends[0]) / (stretch.ends[1] - stretch.ends[0]);
-                *self.masters.entry(edge.nodes[0]).or_insert(0.0) += psi * (1.0 - eta);
-                *self.masters.entry(edge.nodes[1]).or_insert(0.0) += psi * eta;
+                for (master, n) in edge.nodes.into_iter().zip(phi(eta)) {
+                    *self.masters.entry(master).or_insert(T::zero()) += psi * n;
+                }
                 for d in [0, 1] {
                     self.normal[d] += weight * phi(xi)[k] * normal[d];
                 }
@@ -195,13 +282,14 @@ impl Gathered {
         }
     }
 
-    fn pairing(self, node: NodeId, shape: &[Vector]) -> Pairing {
+    fn pairing(self, node: NodeId, shape: &[[T; 2]]) -> Pairing<T> {
         let normal = unit(self.normal);
-        let masters: Vec<(NodeId, f64)> =
+        let masters: Vec<(NodeId, T)> =
             self.masters.into_iter().map(|(master, m)| (master, m / self.length)).collect();
         let most = self.edges.iter().reduce(|a, b| if b.1 > a.1 { b } else { a });
         let edge = *most.expect("a node that covers something covers an edge").0;
-        let mut pairing = Pairing { node, edge, masters, normal, gap: 0.0, length: self.length };
+        let mut pairing =
+            Pairing { node, edge, masters, normal, gap: T::zero(), length: self.length };
         pairing.gap = pairing.opening(|n| shape[n.index()]);
         pairing
     }

@@ -2,6 +2,7 @@
 //! `outline.rs`; and how deep nodes of either surface lie in the other body.
 
 use std::collections::{BTreeSet, HashSet};
+use std::f64::consts::FRAC_PI_4;
 
 use super::outline::{Faced, Outline};
 use super::pairing::{Pairing, Vector, unit};
@@ -18,18 +19,40 @@ const DEEP_EDGE: f64 = 0.5;
 /// times the interference of a press fit of 0.1 %.
 const DEEP_SCENE: f64 = 0.01;
 
+/// A change of a normal or of weights that no move of a node brings about which is small beside the
+/// neighbourhood of a vertex.
+const JUMP: f64 = 0.01;
+
 /// Returns, for each entry of the contact surface, its closest point on the target.
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
     let outline = target(surfaces, shape);
     let mut listed = HashSet::new();
     let pairing = |(&node, length): (&NodeId, f64)| {
         let faced = contact_node(surfaces, &outline, shape, node)?;
-        let Faced { edge, masters, normal, gap, .. } =
-            Some(faced).filter(|_| listed.insert(node))?;
-        let edge = surfaces.target[edge].id.expect("a target edge is one of the model's");
-        Some(Pairing { node, edge, masters, normal, gap, length })
+        let faced = Some(faced).filter(|_| listed.insert(node))?;
+        Some(faced.by(surfaces, node, length))
     };
     surfaces.nodes.iter().zip(surfaces.tributary(shape)).map(pairing).collect()
+}
+
+impl Faced {
+    /// Returns what contact node `node` faces, which stands for `length` of the contact surface.
+    fn by(self, surfaces: &Surfaces, node: NodeId, length: f64) -> Pairing {
+        let Faced { edge, masters, normal, gap, .. } = self;
+        let edge = surfaces.target[edge].id.expect("a target edge is one of the model's");
+        Pairing { node, edge, masters, normal, gap, length }
+    }
+}
+
+/// Returns whether two pairings of a node are of different parts of the target.
+fn jumps(one: Option<&Pairing>, other: Option<&Pairing>) -> bool {
+    let (Some(one), Some(other)) = (one, other) else { return one.is_some() != other.is_some() };
+    let weight = |of: &Pairing, node: NodeId| {
+        of.masters.iter().filter(|master| master.0 == node).map(|master| master.1).sum::<f64>()
+    };
+    let mut masters = one.masters.iter().chain(&other.masters);
+    masters.any(|(node, _)| (weight(one, *node) - weight(other, *node)).abs() > JUMP)
+        || (0..2).any(|d| (one.normal[d] - other.normal[d]).abs() > JUMP)
 }
 
 fn target<'a>(surfaces: &'a Surfaces, shape: &[Vector]) -> Outline<'a> {
@@ -47,6 +70,33 @@ fn contact_node(
 }
 
 impl Surfaces {
+    /// Returns the contact nodes that would face another part of the target, along another normal or
+    /// with other weights, if they stood `radius` away in one of eight directions, each with what
+    /// it would face there. Two edges that lead to the same vertex are the same part.
+    pub fn facing_otherwise(
+        &self,
+        shape: &[Vector],
+        radius: f64,
+    ) -> Vec<(NodeId, Option<Pairing>)> {
+        let outline = target(self, shape);
+        let nodes: BTreeSet<NodeId> = self.nodes.iter().copied().collect();
+        let faced = |node: NodeId, at: Vector| {
+            let own = self.undeformed.contact_nodes.get(&node).copied();
+            Some(outline.faced(at, own)?.by(self, node, 0.0))
+        };
+        let otherwise = |node: NodeId| {
+            let [x, y] = shape[node.index()];
+            let own = faced(node, [x, y]);
+            let around = (0..8).map(|k| {
+                let (sin, cos) = (FRAC_PI_4 * f64::from(k)).sin_cos();
+                faced(node, [x + radius * cos, y + radius * sin])
+            });
+            let other = around.filter(|other| jumps(own.as_ref(), other.as_ref()));
+            other.map(|other| (node, other)).collect::<Vec<_>>()
+        };
+        nodes.into_iter().flat_map(otherwise).collect()
+    }
+
     /// Returns the target node that lies deepest in the contact body, and its depth, length, in a
     /// shape given as the coordinates of each node; None where none lies in it.
     ///

@@ -11,36 +11,37 @@
 //! and constant pressure is transferred exactly.
 
 use super::search::{dot, minus};
+use crate::numbers::scalar::Scalar;
 use crate::problem::model::{EdgeId, NodeId};
 
 /// The part of the target that a contact node faces.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pairing {
+pub struct Pairing<T = f64> {
     /// The contact node that faces it.
     pub node: NodeId,
     /// The target edge that it faces; of several, the one that it covers most.
     pub edge: EdgeId,
     /// The master nodes, which are nodes of the target, and their weights, which sum to 1.
-    pub masters: Vec<(NodeId, f64)>,
+    pub masters: Vec<(NodeId, T)>,
     /// The unit normal that points out of the target.
-    pub normal: [f64; 2],
+    pub normal: [T; 2],
     /// The distance from the target along the normal, length; < 0 where the node penetrates.
-    pub gap: f64,
+    pub gap: T,
     /// The length of the contact surface that the node represents, length.
-    pub length: f64,
+    pub length: T,
 }
 
-impl Pairing {
+impl<T: Scalar> Pairing<T> {
     /// Returns n·(v_c − Σ w v_t) of a field: of coordinates the gap, of displacements its change.
-    pub fn opening(&self, of_node: impl Fn(NodeId) -> [f64; 2]) -> f64 {
+    pub fn opening(&self, of_node: impl Fn(NodeId) -> [T; 2]) -> T {
         dot(self.motion(of_node), self.normal)
     }
 
     /// Returns v_c − Σ w v_t of a field.
-    pub fn motion(&self, of_node: impl Fn(NodeId) -> [f64; 2]) -> [f64; 2] {
+    pub fn motion(&self, of_node: impl Fn(NodeId) -> [T; 2]) -> [T; 2] {
         let at = of_node(self.node);
         // Differences from the node lose no digits far from the origin.
-        self.masters.iter().fold([0.0; 2], |[x, y], &(master, w)| {
+        self.masters.iter().fold([T::zero(); 2], |[x, y], &(master, w)| {
             let [dx, dy] = minus(at, of_node(master));
             [x + w * dx, y + w * dy]
         })
@@ -51,7 +52,7 @@ impl Pairing {
 pub(super) type Vector = [f64; 2];
 
 /// Returns the unit vector along `v`.
-pub(super) fn unit(v: Vector) -> Vector {
-    let size = v[0].hypot(v[1]);
+pub(super) fn unit<T: Scalar>(v: [T; 2]) -> [T; 2] {
+    let size = T::length(v[0], v[1]);
     [v[0] / size, v[1] / size]
 }

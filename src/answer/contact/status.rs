@@ -95,13 +95,8 @@ pub fn decisions<T: Scalar>(
     let nodes = &model.contact.nodes;
     let mut left = Vec::new();
     let mut leave = |node: NodeId, unsure: Vec<Unsure>| {
-        left.extend(unsure.into_iter().map(|Unsure { margin, bound }| Decision {
-            iteration: k,
-            node,
-            condition: format!("a comparison of the rule {rule}"),
-            margin: Some(margin),
-            bound: Some(bound).filter(|bound| bound.is_finite()),
-        }));
+        let condition = || format!("a comparison of the rule {rule}");
+        left.extend(unsure.into_iter().map(|by| Decision::unsure(k, node, condition(), by)));
     };
     leave(nodes[0], of_target);
     if rule == StatusRule::Intersection {

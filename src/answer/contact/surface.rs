@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::pairing::Vector;
 use super::search::{dot, minus};
 use crate::error::InputError;
+use crate::numbers::scalar::Scalar;
 use crate::problem::model::{EdgeId, Model, NodeId, unordered};
 
 /// The cosine between a contact surface's normal and the reverse of a target edge's, below which
@@ -46,36 +47,36 @@ pub(super) struct Edge {
 }
 
 /// An edge in a given shape.
-pub(super) struct Placed {
+pub(super) struct Placed<T = f64> {
     /// The coordinates of its first node, length.
-    pub(super) start: Vector,
+    pub(super) start: [T; 2],
     /// The unit vector from its first node to its second.
-    pub(super) tangent: Vector,
+    pub(super) tangent: [T; 2],
     /// The unit normal that points out of the body.
-    pub(super) normal: Vector,
+    pub(super) normal: [T; 2],
     /// The length of the edge, length.
-    pub(super) length: f64,
+    pub(super) length: T,
 }
 
 impl Edge {
     /// Places the edge in a shape, given as the coordinates of each node, length.
-    pub(super) fn place(&self, shape: &[Vector]) -> Placed {
+    pub(super) fn place<T: Scalar>(&self, shape: &[[T; 2]]) -> Placed<T> {
         let [start, end] = self.nodes.map(|n| shape[n.index()]);
         let along = minus(end, start);
-        let length = along[0].hypot(along[1]);
+        let length = T::length(along[0], along[1]);
         let tangent = [along[0] / length, along[1] / length];
         Placed { start, tangent, normal: [tangent[1], -tangent[0]], length }
     }
 }
 
-impl Placed {
+impl<T: Scalar> Placed<T> {
     /// Returns where `p` projects on the edge's line: 0 at its first node, 1 at its second.
-    pub(super) fn along(&self, p: Vector) -> f64 {
+    pub(super) fn along(&self, p: [T; 2]) -> T {
         dot(minus(p, self.start), self.tangent) / self.length
     }
 
     /// Returns the distance of `p` from the edge's line, length; > 0 outside the body.
-    pub(super) fn outside(&self, p: Vector) -> f64 {
+    pub(super) fn outside(&self, p: [T; 2]) -> T {
         dot(minus(p, self.start), self.normal)
     }
 }
@@ -120,13 +121,13 @@ impl Surfaces {
 
     /// Returns, for each entry of the contact surface, half the length of the contact edges that it
     /// bounds in a shape, length; 0 for a node's second entry.
-    pub fn tributary(&self, shape: &[Vector]) -> Vec<f64> {
-        let mut of_node: HashMap<NodeId, f64> = HashMap::new();
+    pub fn tributary<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<T> {
+        let mut of_node: HashMap<NodeId, T> = HashMap::new();
         for edge in &self.contact {
-            let half = edge.place(shape).length / 2.0;
-            edge.nodes.iter().for_each(|n| *of_node.entry(*n).or_insert(0.0) += half);
+            let half = edge.place(shape).length / T::from_f64(2.0);
+            edge.nodes.iter().for_each(|n| *of_node.entry(*n).or_insert(T::zero()) += half);
         }
-        self.nodes.iter().map(|n| of_node.remove(n).unwrap_or(0.0)).collect()
+        self.nodes.iter().map(|n| of_node.remove(n).unwrap_or(T::zero())).collect()
     }
 }
 

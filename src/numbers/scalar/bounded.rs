@@ -277,6 +277,12 @@ impl<V: Rounded> Scalar for WithBound<V> {
         let value = Scalar::max(self.value, other.value);
         WithBound { value, error: self.error.max(other.error) }
     }
+    fn root(self) -> Self {
+        let value = V::root(self.value);
+        // |√a − √b| = |a − b| / (√a + √b)
+        let passed = if self.error == 0.0 { 0.0 } else { self.error / value.to_f64() };
+        Self::new(value, passed * ROUNDED_UP + 32.0 * value.of_decimal())
+    }
     /// The root passes on the errors of x and y at most, and adds some roundings of its own.
     fn length(x: Self, y: Self) -> Self {
         let value = V::length(x.value, y.value);

@@ -193,8 +193,11 @@ impl Scalar for Exact {
     fn digits(self) -> Option<String> {
         self.with(|x| rational::decimal(x, 40))
     }
+    fn root(self) -> Self {
+        self.with(rational::root).map_or(Exact::UNDEFINED, Exact::new)
+    }
     fn length(x: Self, y: Self) -> Self {
-        (x * x + y * y).with(rational::root).map_or(Exact::UNDEFINED, Exact::new)
+        (x * x + y * y).root()
     }
     fn scale(_: Self) -> Self {
         Exact::ONE

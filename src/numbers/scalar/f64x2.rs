@@ -137,6 +137,9 @@ impl Scalar for F64x2 {
     fn digits(self) -> Option<String> {
         Some(self.to_string())
     }
+    fn root(self) -> Self {
+        self.sqrt()
+    }
     fn length(x: Self, y: Self) -> Self {
         let largest = Scalar::max(Scalar::abs(x), Scalar::abs(y));
         let (x, y) = (x / largest, y / largest);

@@ -94,6 +94,12 @@ pub trait Scalar:
         Self::scaled_root(Self::one(), scale, a * a + b * b)
     }
 
+    /// Returns the square root in the scalar's own digits; of exact numbers, one that is not
+    /// rational to 100 digits.
+    fn root(self) -> Self {
+        Self::from_f64(self.to_f64().sqrt())
+    }
+
     /// Returns sqrt(x² + y²) in the scalar's own digits; of exact numbers, a root that is not
     /// rational to 100 digits.
     fn length(x: Self, y: Self) -> Self {

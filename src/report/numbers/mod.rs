@@ -9,7 +9,7 @@ mod undefined;
 pub use decimal::Decimal;
 pub use typeset::{common_exponent, power_of_ten, shifted, significant, ticks};
 pub use uncertain::uncertain;
-pub use undefined::{note, reason};
+pub use undefined::{NO_LIMIT, note, reason};
 
 /// Writes a whole number as it is, another one with five decimals, and one that is very large or
 /// very small in scientific notation; `-` stands for what is no number.

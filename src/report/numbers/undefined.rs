@@ -42,6 +42,10 @@ const REASONS: &[(&str, &str)] = &[
     ("tol", "the solver has no tolerance, or the scalar's own"),
 ];
 
+/// Why the error of a number that has no limit as the mesh is refined has no value; the object in
+/// which it stands names the point.
+pub const NO_LIMIT: &str = "the number has no limit as the mesh is refined";
+
 /// Returns why a field has no value.
 pub fn reason(field: &str) -> &'static str {
     REASONS.iter().find(|(name, _)| *name == field).map_or("there is none", |(_, reason)| reason)

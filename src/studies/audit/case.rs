@@ -19,6 +19,7 @@ pub struct Case {
     base: Request,
     runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
     certain: [OnceLock<(Solution, Certainty)>; Variant::ALL.len()],
+    finer: OnceLock<Result<(Solution, Certainty), Error>>,
     reference: OnceLock<Option<Solution>>,
     equilibrium: OnceLock<Option<Solution>>,
 }
@@ -36,6 +37,7 @@ impl Case {
             base,
             runs: Default::default(),
             certain: Default::default(),
+            finer: OnceLock::new(),
             reference: OnceLock::new(),
             equilibrium: OnceLock::new(),
         }
@@ -64,6 +66,17 @@ impl Case {
         Ok(self.certain[place(variant)].get_or_init(|| certain(run.clone())))
     }
 
+    /// The run of the scene's variant of the paper with a thousandth of its c_tll, as
+    /// [`certain`](Case::certain) is; or why there is none.
+    pub fn finer(&self) -> Result<&(Solution, Certainty), &Error> {
+        let run = || {
+            let mut request = self.request(self.published_variant());
+            request.tolerance = Some(self.model().contact.tolerance / 1000.0);
+            solve(&request, &mut |_| ()).map(certain)
+        };
+        self.finer.get_or_init(run).as_ref()
+    }
+
     /// Makes the runs that claims, findings and variants ask for, each in a job of its own. A thread
     /// that waits for a parallel computation takes up other jobs; if one of these asked for the very
     /// run that it is making, neither would end. Where jobs share a case they find its runs made.
@@ -72,7 +85,11 @@ impl Case {
             Variant::Printed => drop(self.run(*variant)),
             _ => drop(self.certain(*variant)),
         };
-        rayon::join(|| self.equilibrium(), || Variant::ALL.par_iter().for_each(run));
+        let finer = || {
+            let _ = self.model().target().map(|_| self.finer());
+        };
+        let others = || rayon::join(|| self.equilibrium(), finer);
+        rayon::join(others, || Variant::ALL.par_iter().for_each(run));
     }
 
     /// The reference solution; nothing without contact, and where it does not run.

@@ -78,14 +78,18 @@ pub fn solve_to(request: &Request, accuracy: f64) -> Result<Reached, Error> {
     Err(failure.filter(|_| !ran).unwrap_or_else(|| unmet(accuracy, &attempts).into()))
 }
 
-/// The precisions, the cheapest first. `unilateral` and mortar run in f64 only.
+/// The precisions, the cheapest first. `unilateral` runs in f64 only, mortar in those that have its
+/// digits and its roots.
 fn precisions(request: &Request) -> Vec<Arithmetic> {
     use ScalarName::{Bounded, BoundedDouble, Exact, F32};
     /// Degrees of freedom up to which `printed`, whose matrix may be indefinite, is solved by LU.
     const DENSE: usize = 600;
-    let mortar = request.contact.coupling == Coupling::Mortar;
-    if request.variant == Variant::Unilateral || mortar {
-        return vec![sparse(ScalarName::F64)];
+    match (request.variant, request.contact.coupling) {
+        (Variant::Unilateral, _) => return vec![sparse(ScalarName::F64)],
+        (Variant::Tied | Variant::Stepped, Coupling::Mortar) => {
+            return vec![sparse(Bounded), sparse(BoundedDouble)];
+        }
+        _ => (),
     }
     let small = request.scene.model.dofs() <= DENSE;
     let with = |scalar| match request.variant {
@@ -140,7 +144,7 @@ fn unmet(accuracy: f64, attempts: &[Attempt]) -> InputError {
     let tried: Vec<String> = tried.collect();
     let what = format!("no precision meets an accuracy of {accuracy:e} ({})", tried.join("; "));
     let fix = match attempts {
-        [_] => "ask for less: unilateral and mortar run in f64 only",
+        [_] => "ask for less: unilateral runs in f64 only",
         _ => "ask for less",
     };
     InputError::new("--accuracy", what, fix)

@@ -1,8 +1,8 @@
 //! How claims are measured.
 
 use super::{Measured, Outcome, Verdict};
-use crate::answer::estimates::{Certainty, certain};
-use crate::answer::{distance, solve};
+use crate::answer::distance;
+use crate::answer::estimates::Certainty;
 use crate::problem::modelling::Variant;
 use crate::studies::audit::Case;
 use crate::studies::audit::findings::{self, FINDINGS};
@@ -96,11 +96,9 @@ pub(super) fn tolerance(case: &Case) -> Outcome<'_> {
     let variant = case.published_variant();
     let (own, of_own) = case.certain(variant)?;
     let tolerance = own.request.scene.model.contact.tolerance;
-    let mut request = case.request(variant);
-    request.tolerance = Some(tolerance / 1000.0);
-    let (least, of_least) = certain(solve(&request, &mut |_| ())?);
-    let change = distance(&least, own).displacement_relative;
-    let numbers = numbers(&[*of_own, of_least]);
+    let (least, of_least) = case.finer()?;
+    let change = distance(least, own).displacement_relative;
+    let numbers = numbers(&[*of_own, *of_least]);
     let detail = format!("{variant}, from {tolerance:e} to {:e}{numbers}", tolerance / 1000.0);
     measured(holds_if(change < NOTICEABLE), change, detail)
 }
