@@ -49,6 +49,28 @@ pub struct ReadingArg {
     pub reading: Reading,
 }
 
+/// How a scene is run.
+#[derive(clap::Args)]
+pub struct RunArgs {
+    /// printed, tied, stepped, unilateral [default: the scene's].
+    #[arg(long)]
+    variant: Option<Variant>,
+    #[command(flatten)]
+    model: ModelArgs,
+    #[command(flatten)]
+    arithmetic: Arithmetic,
+    #[command(flatten)]
+    reading: ReadingArg,
+}
+
+impl RunArgs {
+    /// Returns what is asked of a scene.
+    pub fn request(&self, scene: &Scene) -> Request {
+        let request = self.model.request(scene, self.variant, &self.reading);
+        request.arithmetic(self.arithmetic)
+    }
+}
+
 /// How contact is modelled beyond what the paper prints, in place of what the scene says.
 #[derive(clap::Args)]
 pub struct ModelArgs {

@@ -1,13 +1,12 @@
 //! `plane-contact plan`.
 
 use plane_contact::answer::error::Result;
-use plane_contact::numbers::solve::{Arithmetic, memory};
-use plane_contact::problem::modelling::Variant;
+use plane_contact::numbers::solve::memory;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
 use plane_contact::studies::plan::Plan;
 
-use super::{ModelArgs, ReadingArg, print};
+use super::{RunArgs, print};
 
 /// What solve will build and what not, why, and what it will cost; nothing is solved.
 #[derive(clap::Args)]
@@ -25,15 +24,8 @@ pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
     scene: String,
-    /// printed, tied, stepped, unilateral [default: the scene's].
-    #[arg(long)]
-    variant: Option<Variant>,
     #[command(flatten)]
-    model: ModelArgs,
-    #[command(flatten)]
-    arithmetic: Arithmetic,
-    #[command(flatten)]
-    reading: ReadingArg,
+    run: RunArgs,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -41,8 +33,7 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
-    let request = args.model.request(&scene, args.variant, &args.reading);
-    let plan = Plan::new(&request.arithmetic(args.arithmetic))?;
+    let plan = Plan::new(&args.run.request(&scene))?;
     if args.json {
         return print(&report::json(&scene, &plan));
     }

@@ -37,14 +37,13 @@ pub struct Rounding {
 
 /// Returns what rounding may do to a solution.
 pub fn rounding(solution: &Solution) -> Rounding {
-    let is_equilibrium = solution.request.variant == Variant::Unilateral;
-    let held = if is_equilibrium { Held::new(solution) } else { None };
-    rounding_of(solution, held.as_ref(), &bounded(&solution.model))
-}
-
-/// Returns the stiffness of each triangle with a bound on its rounding.
-pub fn bounded(model: &Model) -> Stiffness<Bounded> {
-    Stiffness::new(model, Bounded::from_f64)
+    match solution.request.variant {
+        Variant::Unilateral => {
+            let held = Held::new(solution);
+            of_equilibrium(solution, held.as_ref(), &bounded(&solution.model))
+        }
+        _ => of_published(solution),
+    }
 }
 
 /// Does the same with the bodies as they are held at the end; None where they are not.
@@ -53,10 +52,21 @@ pub(super) fn rounding_of(
     held: Option<&Held>,
     stiffness: &Stiffness<Bounded>,
 ) -> Rounding {
-    match (solution.request.variant, solution.request.arithmetic.scalar) {
-        (Variant::Unilateral, _) => of_equilibrium(solution, held, stiffness),
+    match solution.request.variant {
+        Variant::Unilateral => of_equilibrium(solution, held, stiffness),
+        _ => of_published(solution),
+    }
+}
+
+/// Returns the stiffness of each triangle with a bound on its rounding.
+pub fn bounded(model: &Model) -> Stiffness<Bounded> {
+    Stiffness::new(model, Bounded::from_f64)
+}
+
+fn of_published(solution: &Solution) -> Rounding {
+    match solution.request.arithmetic.scalar {
         // What is rounded is the displacements themselves, to be written as f64.
-        (_, ScalarName::Exact) => Rounding {
+        ScalarName::Exact => Rounding {
             displacement: solution.u.amax() * f64::EPSILON / 2.0,
             decisions: Some(Vec::new()),
             steps: solution.steps.iter().map(written).collect(),

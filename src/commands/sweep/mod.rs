@@ -7,20 +7,18 @@ use std::collections::HashMap;
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 
+use plane_contact::Scene;
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::numbers::solve::Arithmetic;
-use plane_contact::problem::modelling::Variant;
 use plane_contact::report::sweep::{Engine, Jobs, TRY_AGAIN};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::snapshot::Options;
 use plane_contact::studies::sweep::{Cases, Row, Sweep, key_of, row};
-use plane_contact::{Request, Scene};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-use super::{ModelArgs, ReadingArg, print};
+use super::{RunArgs, print};
 use journal::Journal;
 
 /// Run a scene under many values of its fields and of options.
@@ -209,21 +207,13 @@ pub struct KeyArgs {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
     scene: String,
-    /// printed, tied, stepped, unilateral [default: the scene's].
-    #[arg(long)]
-    variant: Option<Variant>,
     #[command(flatten)]
-    model: ModelArgs,
-    #[command(flatten)]
-    arithmetic: Arithmetic,
-    #[command(flatten)]
-    reading: ReadingArg,
+    run: RunArgs,
 }
 
 pub fn run_key(args: &KeyArgs) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
-    let request: Request = args.model.request(&scene, args.variant, &args.reading);
-    let options = Options::of(&request.arithmetic(args.arithmetic));
-    let options = Options { variant: args.variant, ..options };
+    let options = Options::of(&args.run.request(&scene));
+    let options = Options { variant: args.run.variant, ..options };
     print(&(key_of(&args.scene, &options)? + "\n"))
 }
