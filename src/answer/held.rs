@@ -1,5 +1,5 @@
-//! The bodies as contact holds them at the end of a run, ready for one more load: with the factors
-//! that the run ended with, or with new ones.
+//! The bodies as contact holds them in a step of a run, ready for one more load: with the factors
+//! that the run ended with where they serve, or with new ones.
 
 use std::sync::Arc;
 
@@ -8,21 +8,21 @@ use nalgebra::DVector;
 use super::condensation::{Bound, refined};
 use super::elimination::Elimination;
 use super::factors::{LastFactors, Whole};
-use super::solution::Solution;
+use super::solution::{Solution, Step};
 use super::stiffness::Stiffness;
 use crate::numbers::solve::Factors;
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
 
-/// The bodies at the end of a run.
+/// The bodies as contact holds them in a step.
 pub(super) struct Held {
     pub(super) stiffness: Stiffness,
-    /// T of the last contact state.
+    /// T of the contact state.
     pub(super) t: Elimination,
     factors: Made,
 }
 
-/// The factors of the last contact state, or of nearly the same one.
+/// The factors of the contact state, or of nearly the same one.
 enum Made {
     Condensed(Bound),
     Whole(Arc<Whole>),
@@ -32,7 +32,12 @@ impl Held {
     /// Takes the last contact state of a solution; None where it does not hold the bodies, and of
     /// `Km` as printed, which is the stiffness of no bodies in contact.
     pub(super) fn new(solution: &Solution) -> Option<Self> {
-        let (model, constraints) = (&*solution.model, &solution.last().constraints);
+        Held::at(solution, solution.last())
+    }
+
+    /// Takes the contact state of one of the solution's steps.
+    pub(super) fn at(solution: &Solution, step: &Step) -> Option<Self> {
+        let (model, constraints) = (&*solution.model, &step.constraints);
         let t = match solution.request.variant {
             Variant::Printed if model.has_contact() => return None,
             Variant::Unilateral => Elimination::closing(&model.restrained, constraints),

@@ -89,6 +89,11 @@ pub struct Unilateral {
     pub pairings: Vec<Option<Pairing>>,
     /// The friction of sliding nodes by degree of freedom, force.
     pub friction: DVector<f64>,
+    /// The largest change of a sliding node's friction over that of μ times the normal forces which
+    /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
+    pub feedback: f64,
+    /// Whether restraints leave the force on each entry of the contact surface undetermined.
+    pub undetermined: Vec<bool>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub violation: f64,
 }
@@ -250,6 +255,13 @@ impl Solution {
     /// Returns the last step.
     pub fn last(&self) -> &Step {
         self.steps.last().expect("a run has a step")
+    }
+
+    /// Returns whether an equilibrium may depend on the way to it: under friction, which keeps the
+    /// path of the load, and where it is not known to be the only one.
+    pub fn way_counts(&self) -> bool {
+        let uniqueness = self.equilibrium.as_ref().map(|found| &found.uniqueness);
+        self.request.contact.friction.coefficient() > 0.0 || uniqueness != Some(&Uniqueness::Unique)
     }
 
     /// Returns the contact nodes in contact at the end.

@@ -321,8 +321,15 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
     text += "\n";
     text += &by_rounding(solution, estimates.decisions.as_deref());
     if solution.request.variant == Variant::Unilateral && solution.model.has_contact() {
-        text += "  who is in contact: looked at in the last state, between the faces of a corner too; on \
-                 the way to it, whether rounding decides is not known\n";
+        text += match solution.way_counts() {
+            true => {
+                "  who is in contact: looked at in every iteration, between the faces of a corner too\n"
+            }
+            false => {
+                "  who is in contact: looked at in the last state, between the faces of a corner too; \
+                 the way to it does not count, as there is no other equilibrium\n"
+            }
+        };
     }
     text
 }

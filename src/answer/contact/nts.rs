@@ -2,7 +2,7 @@
 //! `outline.rs`; and how deep nodes of either surface lie in the other body.
 
 use std::collections::{BTreeSet, HashSet};
-use std::f64::consts::FRAC_PI_4;
+use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
 
 use super::outline::{Faced, Outline};
 use super::pairing::{Pairing, Vector, unit};
@@ -71,8 +71,11 @@ fn contact_node(
 
 impl Surfaces {
     /// Returns the contact nodes that would face another part of the target, along another normal or
-    /// with other weights, if they stood `radius` away in one of eight directions, each with what
-    /// it would face there. Two edges that lead to the same vertex are the same part.
+    /// with other weights, if they stood up to `radius` away, each with what it would face there. Two
+    /// edges that lead to the same vertex are the same part.
+    ///
+    /// Tried are the corners of an octagon about the circle of that radius. A limit between two parts
+    /// is a straight line on this scale: one that crosses the circle cuts off a corner.
     pub fn facing_otherwise(
         &self,
         shape: &[Vector],
@@ -84,12 +87,13 @@ impl Surfaces {
             let own = self.undeformed.contact_nodes.get(&node).copied();
             Some(outline.faced(at, own)?.by(self, node, 0.0))
         };
+        let outside = radius / FRAC_PI_8.cos();
         let otherwise = |node: NodeId| {
             let [x, y] = shape[node.index()];
             let own = faced(node, [x, y]);
             let around = (0..8).map(|k| {
                 let (sin, cos) = (FRAC_PI_4 * f64::from(k)).sin_cos();
-                faced(node, [x + radius * cos, y + radius * sin])
+                faced(node, [x + outside * cos, y + outside * sin])
             });
             let other = around.filter(|other| jumps(own.as_ref(), other.as_ref()));
             other.map(|other| (node, other)).collect::<Vec<_>>()

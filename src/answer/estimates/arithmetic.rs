@@ -5,11 +5,11 @@
 //! its distance from the assessed run bound the error of the latter, whatever its numbers and its
 //! solver, where no decision on who is in contact is left to rounding and both runs decided alike.
 //! Under `unilateral` the equilibrium of the last contact state is solved again, with its normals and
-//! weights unchanged.
+//! weights unchanged; where the way to it counts, so is that of each iteration.
 
 use nalgebra::{DVector, SVector};
 
-use super::ties::ties;
+use super::ties::{Looking, State};
 use crate::answer::held::Held;
 use crate::answer::{Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
@@ -80,15 +80,50 @@ fn of_equilibrium(
     held: Option<&Held>,
     stiffness: &Stiffness<Bounded>,
 ) -> Rounding {
-    let Some(u) = held.and_then(|held| last_state(solution, held, stiffness)) else {
+    let looked = held.and_then(|held| looked_at(solution, held, stiffness));
+    let Some((u, Looking { decisions, only_ties, .. })) = looked else {
         return Rounding::unknown(solution);
     };
-    let (decisions, only_ties) = ties(solution, &u);
     // What is left of the change of shape is no rounding, but no less an error of the displacements.
     let shape_change = solution.equilibrium.as_ref().map_or(0.0, |found| found.shape_change);
     let displacement =
         if only_ties { error(solution, &u).max(shape_change) } else { f64::INFINITY };
     Rounding { displacement, decisions: Some(decisions), steps: vec![None; solution.steps.len()] }
+}
+
+/// Looks at the decisions of the last contact state, and where the way to it counts at those of each
+/// iteration; returns the last displacements within their bounds too. None where a state does not
+/// hold the bodies.
+fn looked_at<'a>(
+    solution: &'a Solution,
+    held: &Held,
+    stiffness: &'a Stiffness<Bounded>,
+) -> Option<(DVector<Bounded>, Looking<'a>)> {
+    let model = &*solution.model;
+    let mut looking = Looking::new(solution, stiffness);
+    let (last, way) = solution.steps.split_last()?;
+    // The displacements before the step of the load, and after the last iteration.
+    let mut before = DVector::zeros(model.dofs());
+    let mut reached: Option<(f64, DVector<Bounded>)> = None;
+    let mut look = |step: &Step, held: &Held, load: DVector<Bounded>| {
+        let Detail::Unilateral(detail) = &step.detail else { return None };
+        if let Some((at, u)) = reached.take()
+            && at < detail.load
+        {
+            before = u;
+        }
+        let u = state(model, step, held, &load, stiffness)?;
+        looking.at(&State { step, load, before: &before, u: &u });
+        reached = Some((detail.load, u));
+        Some(())
+    };
+    for step in way.iter().filter(|_| solution.way_counts()) {
+        let Detail::Unilateral(detail) = &step.detail else { return None };
+        let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
+        look(step, &Held::at(solution, step)?, load)?;
+    }
+    look(last, held, model.load_in(Bounded::from_f64))?;
+    Some((reached?.1, looking))
 }
 
 fn of_run(solution: &Solution) -> Rounding {
@@ -187,23 +222,26 @@ fn bounded_run(solution: &Solution) -> Option<Solution> {
     solve(&request, &mut |_| ()).ok()
 }
 
-/// Solves the last contact state of `unilateral` again, under its friction, with a bound on each
-/// displacement.
-fn last_state(
-    solution: &Solution,
+/// Solves a contact state of `unilateral` again, under its friction, with a bound on each
+/// displacement; where nodes slide, the bound rests on an estimate of how friction feeds back.
+fn state(
+    model: &Model,
+    step: &Step,
     held: &Held,
+    load: &DVector<Bounded>,
     stiffness: &Stiffness<Bounded>,
 ) -> Option<DVector<Bounded>> {
-    let model = &*solution.model;
-    let constraints = solution.last().constraints.iter().map(|c| c.map(Bounded::from_f64));
+    let constraints = step.constraints.iter().map(|c| c.map(Bounded::from_f64));
     let constraints: Vec<_> = constraints.collect();
     let t = Elimination::closing(&model.restrained, &constraints);
-    let Detail::Unilateral(detail) = &solution.last().detail else { return None };
+    let Detail::Unilateral(detail) = &step.detail else { return None };
     let friction = detail.friction.map(Bounded::from_f64);
-    let load = model.free_part(&(model.load_in(Bounded::from_f64) + friction));
+    let load = model.free_part(&(load + friction));
     let (matrix, b) = (stiffness.reduced(&t), t.load(&(load - stiffness.times(t.shift()))));
     let x = held.refined(&b.map(Scalar::to_f64));
     let bound = error_bound(held.factors(), matrix.both_triangles(), &b, &x);
+    // Friction follows the normal forces, whose errors are taken to be those of the displacements.
+    let bound = (1.0 + detail.feedback) * bound;
     Some(t.expand(&x.map(|x| Bounded::new(x, bound))))
 }
 

@@ -1,20 +1,23 @@
-//! What rounding may decide under `unilateral`: in the last contact state, whether an open node
-//! touches, a closed one is pressed, and one that sticks would slide; and which part of the target a
-//! node faces, where that counts.
+//! What rounding may decide under `unilateral` in a contact state: whether an open node touches, a
+//! closed one is pressed, one that sticks would slide, and one that slides would stick; and which part
+//! of the target a node faces, where that counts.
 //!
-//! Under node to segment the latter is tried: each node is moved by the bound of its place in eight
-//! directions. Under mortar its integrals are computed again with that bound. States before the last
-//! one are not looked at.
+//! Under node to segment the latter is tried: each node is moved by the bound of its place. Under
+//! mortar its integrals are computed again with that bound.
+//!
+//! Not looked at are forces on a node that its restraints share without leaving them open.
 //!
 //! Gaps and forces are computed from displacements that are known within a bound, along the normals
-//! of the last state, which count as exact. A node that touches without any force may as well be open
-//! or closed: either way the state is in equilibrium, so that such a tie leaves the displacements.
+//! of the state, which count as exact. A node that touches without any force may as well be open
+//! or closed, and one that neither slips nor reaches its friction may as well do either: such a tie
+//! leaves the displacements.
 
 use nalgebra::DVector;
 
 use crate::answer::contact::{Pairing, Status, Surfaces};
 use crate::answer::solution::Unilateral;
-use crate::answer::{Detail, Solution, Stiffness};
+use crate::answer::unilateral::FIRST_GROWTH;
+use crate::answer::{Detail, Solution, Step, Stiffness};
 use crate::numbers::scalar::{Bounded, Scalar, Unsure};
 use crate::paper::decisions::Decision;
 use crate::problem::model::NodeId;
@@ -23,101 +26,192 @@ use crate::problem::modelling::{Coupling, Geometry};
 /// The rounding of a coordinate and of what a search computes from it, in units of the coordinate.
 const COORDINATE: f64 = 8.0;
 
-/// Returns the decisions of the last state that rounding may have taken, from its displacements `u`
-/// within their bounds, and whether all of them are ties that leave the displacements.
-pub fn ties(solution: &Solution, u: &DVector<Bounded>) -> (Vec<Decision>, bool) {
-    let model = &*solution.model;
-    let Detail::Unilateral(last) = &solution.last().detail else { return (Vec::new(), true) };
-    let load = model.load_in(Bounded::from_f64) + last.friction.map(Bounded::from_f64);
-    let reaction = Stiffness::new(model, Bounded::from_f64).times(u) - load;
-    let coefficient = solution.request.contact.friction.coefficient();
-    let (mut decisions, mut only_ties) = (Vec::new(), true);
-    let mut leave = |pairing: &Pairing, condition: &str, x: Bounded| {
-        let by = Unsure { margin: x.to_f64().abs(), bound: x.error() };
-        decisions.push(Decision::unsure(solution.last().k, pairing.node, condition.into(), by));
-    };
-    for (status, pairing) in last.statuses.iter().zip(&last.pairings) {
-        let Some(pairing) = pairing else { continue };
-        if *status == Status::Open {
-            let from = |node: NodeId| model.at(node).map(Bounded::from_f64);
-            let gap = opening(pairing, |node| node.of(u)) + opening(pairing, from);
-            if is_left(gap) {
-                leave(pairing, "touches without force: gap > 0", gap);
-            }
-        } else if model.restraints_of(pairing.node) == [false, false] {
-            // Restraints of the node would hide its force.
-            let [nx, ny] = pairing.normal.map(Bounded::from_f64);
-            let [rx, ry] = pairing.node.of(&reaction);
-            let (pressed, shear) = (nx * rx + ny * ry, nx * ry - ny * rx);
-            if is_left(pressed) && is_left(shear) {
-                leave(pairing, "touches without force: force >= 0", pressed);
-                continue;
-            }
-            let limit = Bounded::from_f64(coefficient) * pressed - Scalar::abs(shear);
-            let sticks = *status == Status::Stick && coefficient.is_finite();
-            for (counts, condition, x) in
-                [(true, "force >= 0", pressed), (sticks, "friction * force >= |shear|", limit)]
-            {
-                if counts && is_left(x) {
-                    only_ties = false;
-                    leave(pairing, condition, x);
-                }
-            }
-        }
-    }
-    let parts = parts(solution, last, u);
-    only_ties &= parts.is_empty();
-    decisions.extend(parts);
-    (decisions, only_ties)
+/// A contact state, with displacements and loads within bounds on their errors.
+pub struct State<'a> {
+    pub step: &'a Step,
+    /// The load by degree of freedom, restrained ones included, without friction, force.
+    pub load: DVector<Bounded>,
+    /// The displacements before the step of the load, from which slips count, length.
+    pub before: &'a DVector<Bounded>,
+    /// The displacements by degree of freedom, length.
+    pub u: &'a DVector<Bounded>,
 }
 
-/// Returns the decisions on which part of the target a node faces in the last state that rounding may
-/// have taken and that count: of a node in contact, or of one that would touch the other part.
-fn parts(solution: &Solution, last: &Unilateral, u: &DVector<Bounded>) -> Vec<Decision> {
-    let (model, contact) = (&*solution.model, &solution.request.contact);
-    let Ok(surfaces) = Surfaces::new(model) else { return Vec::new() };
-    let is_current = contact.geometry == Geometry::Current;
-    let measured_in = if is_current { &solution.last().shape } else { &model.nodes };
-    let largest = measured_in.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let moved = (0..u.len()).map(|e| (u[e].to_f64() - solution.u[e]).abs() + u[e].error());
-    let of_u = if is_current { moved.fold(0.0, f64::max) } else { 0.0 };
-    let radius = of_u + COORDINATE * f64::EPSILON * largest;
-    if !radius.is_finite() {
-        // Nothing is known of the displacements.
-        return Vec::new();
+/// Looks at the contact states of a solution.
+pub struct Looking<'a> {
+    solution: &'a Solution,
+    stiffness: &'a Stiffness<Bounded>,
+    surfaces: Option<Surfaces>,
+    /// The decisions so far that rounding may have taken.
+    pub decisions: Vec<Decision>,
+    /// Whether all of them are ties that leave the displacements.
+    pub only_ties: bool,
+}
+
+impl<'a> Looking<'a> {
+    pub fn new(solution: &'a Solution, stiffness: &'a Stiffness<Bounded>) -> Self {
+        let surfaces = Surfaces::new(&solution.model).ok();
+        Looking { solution, stiffness, surfaces, decisions: Vec::new(), only_ties: true }
     }
-    let k = solution.last().k;
-    if contact.coupling == Coupling::Mortar {
-        let within = |x: f64| Bounded::new(x, radius);
-        let shape: Vec<_> = measured_in.iter().map(|place| place.map(within)).collect();
-        let unsure = surfaces.mortar(&shape).unsure.into_iter();
-        let condition = || "a comparison of mortar's integrals".into();
-        return unsure.map(|(node, by)| Decision::unsure(k, node, condition(), by)).collect();
+
+    /// Looks at a contact state.
+    pub fn at(&mut self, state: &State) {
+        let Detail::Unilateral(detail) = &state.step.detail else { return };
+        let friction = detail.friction.map(Bounded::from_f64);
+        let reaction = self.stiffness.times(state.u) - (&state.load + friction);
+        let coefficient = self.solution.request.contact.friction.coefficient();
+        let rubs = coefficient > 0.0 && coefficient.is_finite();
+        for (i, pairing) in detail.pairings.iter().enumerate() {
+            match (detail.statuses[i], pairing) {
+                (_, None) => (),
+                (Status::Open, Some(pairing)) => self.open(state, pairing, detail.violation),
+                (_, Some(pairing)) if detail.undetermined[i] && rubs => self.shared(state, pairing),
+                (status, Some(pairing)) => self.closed(state, status, pairing, &reaction),
+            }
+        }
+        self.parts(state, detail);
     }
-    let entry = |node: NodeId| model.contact.nodes.iter().position(|other| *other == node);
-    let counts = |(node, other): &(NodeId, Option<Pairing>)| {
-        entry(*node).is_some_and(|entry| last.statuses[entry].is_closed())
-            || other.as_ref().is_some_and(|other| {
-                let from = |node: NodeId| model.at(node).map(Bounded::from_f64);
-                let gap = opening(other, |node| node.of(u)) + opening(other, from);
-                gap.to_f64() <= gap.error()
-            })
-    };
-    let mut nodes: Vec<NodeId> = surfaces
-        .facing_otherwise(measured_in, radius)
-        .iter()
-        .filter(|it| counts(it))
-        .map(|it| it.0)
-        .collect();
-    nodes.dedup();
-    let decision = |node| Decision {
-        iteration: k,
-        node,
-        condition: "which part of the target it faces".into(),
-        margin: None,
-        bound: Some(radius),
-    };
-    nodes.into_iter().map(decision).collect()
+
+    /// Looks at a node that is open, where `violation` is the deepest penetration of one, length.
+    fn open(&mut self, state: &State, pairing: &Pairing, violation: f64) {
+        let gap = self.gap(pairing, state.u);
+        let deep = FIRST_GROWTH * violation;
+        if state.step.k == 1 && deep > gap.error() {
+            let beyond = gap + Bounded::from_f64(deep);
+            let condition = || format!("gap > -{FIRST_GROWTH} of the deepest penetration");
+            self.leave(state, pairing, condition, beyond, false);
+        } else {
+            self.leave(state, pairing, || "touches without force: gap > 0".into(), gap, true);
+        }
+    }
+
+    /// Keeps that the friction of a node rests on a force that its restraints share.
+    fn shared(&mut self, state: &State, pairing: &Pairing) {
+        self.only_ties = false;
+        self.decisions.push(Decision {
+            iteration: state.step.k,
+            node: pairing.node,
+            condition: "its friction rests on a force that its restraints share".into(),
+            margin: None,
+            bound: None,
+        });
+    }
+
+    /// Looks at a node in contact.
+    fn closed(
+        &mut self,
+        state: &State,
+        status: Status,
+        pairing: &Pairing,
+        reaction: &DVector<Bounded>,
+    ) {
+        let [nx, ny] = pairing.normal.map(Bounded::from_f64);
+        let [rx, ry] = pairing.node.of(reaction);
+        let zero = Bounded::from_f64(0.0);
+        let (pressed, shear) = match self.solution.model.restraints_of(pairing.node) {
+            [false, false] => (nx * rx + ny * ry, nx * ry - ny * rx),
+            // Across the restraint the node's force is its own; otherwise restraints hide it.
+            [true, false] if pairing.normal[0] == 0.0 => (ry / ny, zero),
+            [false, true] if pairing.normal[1] == 0.0 => (rx / nx, zero),
+            _ => return,
+        };
+        let no_shear = shear.to_f64().abs() <= shear.error();
+        if is_left(pressed) && no_shear {
+            let condition = || "touches without force: force >= 0".into();
+            return self.leave(state, pairing, condition, pressed, true);
+        }
+        self.leave(state, pairing, || "force >= 0".into(), pressed, false);
+        let coefficient = self.solution.request.contact.friction.coefficient();
+        match status {
+            Status::Stick if coefficient.is_finite() => {
+                let limit = Bounded::from_f64(coefficient) * pressed - Scalar::abs(shear);
+                let condition = || "friction * force >= |shear|".into();
+                self.leave(state, pairing, condition, limit, false);
+            }
+            Status::Slip(sense) if sense.sign() != 0.0 => {
+                let moved = |node: NodeId| {
+                    let [[ux, uy], [bx, by]] = [state.u, state.before].map(|u| node.of(u));
+                    [ux - bx, uy - by]
+                };
+                let [sx, sy] = motion(pairing, moved);
+                let condition = || "slips without slip: slip > 0".into();
+                self.leave(state, pairing, condition, nx * sy - ny * sx, true);
+            }
+            _ => (),
+        }
+    }
+
+    /// Keeps a decision of which rounding may have taken the sign of `x`.
+    fn leave(
+        &mut self,
+        state: &State,
+        pairing: &Pairing,
+        condition: impl Fn() -> String,
+        x: Bounded,
+        is_tie: bool,
+    ) {
+        // On the way such a tie changes nothing: a path is divided where a node closes, without force.
+        let counts = !is_tie || state.step.k == self.solution.last().k;
+        if counts && is_left(x) {
+            let by = Unsure { margin: x.to_f64().abs(), bound: x.error() };
+            self.only_ties &= is_tie;
+            self.decisions.push(Decision::unsure(state.step.k, pairing.node, condition(), by));
+        }
+    }
+
+    /// Returns the gap of a pairing under displacements, length.
+    fn gap(&self, pairing: &Pairing, u: &DVector<Bounded>) -> Bounded {
+        let from = |node: NodeId| self.solution.model.at(node).map(Bounded::from_f64);
+        opening(pairing, |node| node.of(u)) + opening(pairing, from)
+    }
+
+    /// Looks at which part of the target a node faces: of a node in contact, or of one that would touch
+    /// the other part.
+    fn parts(&mut self, state: &State, detail: &Unilateral) {
+        let Some(surfaces) = &self.surfaces else { return };
+        let (model, contact) = (&*self.solution.model, &self.solution.request.contact);
+        let is_current = contact.geometry == Geometry::Current;
+        let measured_in = if is_current { &state.step.shape } else { &model.nodes };
+        let largest = measured_in.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let of_u = state.u.iter().map(|u| 2.0 * u.error()).fold(0.0, f64::max);
+        let radius = if is_current { of_u } else { 0.0 } + COORDINATE * f64::EPSILON * largest;
+        if !radius.is_finite() {
+            // Nothing is known of the displacements.
+            return;
+        }
+        let k = state.step.k;
+        let found: Vec<Decision> = if contact.coupling == Coupling::Mortar {
+            let within = |x: f64| Bounded::new(x, radius);
+            let shape: Vec<_> = measured_in.iter().map(|place| place.map(within)).collect();
+            let condition = || "a comparison of mortar's integrals".into();
+            let unsure = surfaces.mortar(&shape).unsure.into_iter();
+            unsure.map(|(node, by)| Decision::unsure(k, node, condition(), by)).collect()
+        } else {
+            let entry = |node: NodeId| model.contact.nodes.iter().position(|other| *other == node);
+            let counts = |(node, other): &(NodeId, Option<Pairing>)| {
+                entry(*node).is_some_and(|entry| detail.statuses[entry].is_closed())
+                    || other.as_ref().is_some_and(|other| {
+                        let gap = self.gap(other, state.u);
+                        gap.to_f64() <= gap.error()
+                    })
+            };
+            let other = surfaces.facing_otherwise(measured_in, radius);
+            let mut nodes: Vec<NodeId> =
+                other.iter().filter(|it| counts(it)).map(|it| it.0).collect();
+            nodes.dedup();
+            let condition = || "which part of the target it faces".into();
+            let decision = |node| Decision {
+                iteration: k,
+                node,
+                condition: condition(),
+                margin: None,
+                bound: Some(radius),
+            };
+            nodes.into_iter().map(decision).collect()
+        };
+        self.only_ties &= found.is_empty();
+        self.decisions.extend(found);
+    }
 }
 
 /// Returns whether the sign of a number is left to rounding.
@@ -125,14 +219,19 @@ fn is_left(x: Bounded) -> bool {
     x.to_f64().abs() <= x.error() && x.error() > 0.0
 }
 
-/// Returns n·(v_c − Σ w v_t) of a field, as [`Pairing::opening`] does.
-fn opening(pairing: &Pairing, of_node: impl Fn(NodeId) -> [Bounded; 2]) -> Bounded {
+/// Returns v_c − Σ w v_t of a field, as [`Pairing::motion`] does.
+fn motion(pairing: &Pairing, of_node: impl Fn(NodeId) -> [Bounded; 2]) -> [Bounded; 2] {
     let at = of_node(pairing.node);
-    let component = |axis: usize| {
+    [0, 1].map(|axis| {
         pairing.masters.iter().fold(Bounded::from_f64(0.0), |sum, &(master, w)| {
             sum + Bounded::from_f64(w) * (at[axis] - of_node(master)[axis])
         })
-    };
+    })
+}
+
+/// Returns n·(v_c − Σ w v_t) of a field, as [`Pairing::opening`] does.
+fn opening(pairing: &Pairing, of_node: impl Fn(NodeId) -> [Bounded; 2]) -> Bounded {
+    let [x, y] = motion(pairing, of_node);
     let [nx, ny] = pairing.normal.map(Bounded::from_f64);
-    nx * component(0) + ny * component(1)
+    nx * x + ny * y
 }

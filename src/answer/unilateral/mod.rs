@@ -37,6 +37,8 @@ mod reduced;
 mod rigid;
 mod status;
 
+pub(super) use problem::FIRST_GROWTH;
+
 use super::error::{Error, NoEquilibrium};
 use super::request::Request;
 use super::solution::{Solution, Step, Uniqueness};

@@ -144,13 +144,17 @@ impl Walk<'_> {
         }
     }
 
+    /// Returns the load at a part of the path, restrained degrees of freedom included, force.
+    fn load(&self, part: f64) -> DVector<f64> {
+        let model = self.problem.model;
+        // Without friction the path is the whole load.
+        if self.problem.friction() > 0.0 { model.load_after(part) } else { &model.load * part }
+    }
+
     /// Goes to the load `to` in one step.
     fn step(&mut self, from: &Point, to: f64) -> Result<Equilibrium, Error> {
-        let setting = Setting {
-            load: load(self.problem, to),
-            before: &from.u,
-            statuses: from.statuses.as_deref(),
-        };
+        let setting =
+            Setting { load: self.load(to), before: &from.u, statuses: from.statuses.as_deref() };
         self.problem.equilibrium(&setting, &mut |place, iteration| {
             self.factored += 1;
             let step = step(self.problem, self.steps.len() + 1, to, place, iteration);
@@ -158,19 +162,6 @@ impl Walk<'_> {
             self.steps.push(step);
         })
     }
-}
-
-/// Returns the load at a part of the path, restrained degrees of freedom included, force.
-fn load(problem: &Problem, part: f64) -> DVector<f64> {
-    let model = problem.model;
-    if problem.friction() == 0.0 {
-        return &model.load * part;
-    }
-    let zero = DVector::zeros(model.dofs());
-    model.stages.iter().enumerate().fold(zero, |mut sum, (stage, load)| {
-        sum.axpy((part - stage as f64).clamp(0.0, 1.0), load, 1.0);
-        sum
-    })
 }
 
 /// Returns an iteration as a step of the solution.
@@ -193,6 +184,8 @@ fn step(problem: &Problem, k: usize, load: f64, place: &Place, iteration: &Itera
             statuses: statuses.clone(),
             pairings: place.pairings.clone(),
             friction: moved.friction.clone(),
+            feedback: moved.feedback,
+            undetermined: moved.forces.iter().map(|force| force.undetermined).collect(),
             violation: *violation,
         }),
     }

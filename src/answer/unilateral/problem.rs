@@ -30,7 +30,7 @@ const RESOLVED: f64 = 4.0 * f64::EPSILON / CLOSED;
 
 /// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
 /// second set takes those that penetrate by more than this part of the deepest penetration.
-const FIRST_GROWTH: f64 = 0.9;
+pub const FIRST_GROWTH: f64 = 0.9;
 
 /// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
 const SOFT: f64 = 1e-8;
@@ -116,6 +116,9 @@ pub(super) struct Moved {
     pub(super) forces: Vec<Force>,
     /// The friction of sliding nodes by degree of freedom, force.
     pub(super) friction: DVector<f64>,
+    /// The largest change of a sliding node's friction over that of μ times the normal forces which
+    /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
+    pub(super) feedback: f64,
     /// K u − F, force: the forces of contact and restraints.
     pub(super) reaction: DVector<f64>,
     /// The relative residual of the solution.
@@ -436,7 +439,7 @@ impl<'a> Problem<'a> {
         let reaction = self.stiffness.times(&u) - &setting.load;
         let forces = self.forces(place, statuses, &reaction);
         let friction = DVector::zeros(u.len());
-        let mut moved = Moved { u, forces, friction, reaction, residual };
+        let mut moved = Moved { u, forces, friction, feedback: 0.0, reaction, residual };
         self.slide(place, statuses, &mut moved, &reduced)?;
         Ok(Solved::Moved(moved))
     }
@@ -503,8 +506,11 @@ impl<'a> Problem<'a> {
             let (i, sign, _) = sliding[row];
             -sign * self.friction * moved.forces[i].normal
         });
-        let sizes = matrix.lu().solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
+        let matrix = matrix.lu();
+        let sizes = matrix.solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
         let sizes = sizes.ok_or_else(jammed)?;
+        let rows = matrix.try_inverse().ok_or_else(jammed)?;
+        moved.feedback = rows.row_iter().map(|row| row.lp_norm(1)).fold(0.0, f64::max);
         for ((load, _), size) in responses.iter().zip(&sizes) {
             moved.friction.axpy(*size, load, 1.0);
         }

@@ -169,6 +169,16 @@ impl Model {
         f
     }
 
+    /// Returns the load by degree of freedom after a part of the stages: 1.5 is the first stage and half
+    /// of the second; restrained degrees of freedom included, force.
+    pub fn load_after(&self, part: f64) -> DVector<f64> {
+        let zero = DVector::zeros(self.dofs());
+        self.stages.iter().enumerate().fold(zero, |mut sum, (stage, load)| {
+            sum.axpy((part - stage as f64).clamp(0.0, 1.0), load, 1.0);
+            sum
+        })
+    }
+
     /// Returns the load by degree of freedom, 0 at restrained ones, force.
     pub fn free_load(&self) -> DVector<f64> {
         self.free_part(&self.load)
