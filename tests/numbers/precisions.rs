@@ -56,10 +56,10 @@ fn small_scenes() -> Vec<Scene> {
 #[test]
 fn every_setting_leads_to_the_exact_answer() {
     use ScalarName::{F32, F64, F64x2 as Double};
-    use Solver::{Cg, DenseCholesky, DenseLu, Refined, SparseCholesky};
+    use Solver::{Cg, DenseCholesky, DenseLu, Refined, SparseCholesky, SparseLu};
     let settings: [(ScalarName, &[Solver], &Tolerance); 3] = [
-        (F32, &[DenseLu, DenseCholesky, SparseCholesky, Cg], &LADDER_SINGLE),
-        (F64, &[DenseLu, DenseCholesky, SparseCholesky, Cg, Refined], &LADDER_DOUBLE),
+        (F32, &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg], &LADDER_SINGLE),
+        (F64, &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg, Refined], &LADDER_DOUBLE),
         (Double, &[DenseLu, SparseCholesky, Cg, Refined], &LADDER_DOUBLE_DOUBLE),
     ];
     for name in ["fig1", "two-blocks"] {
@@ -393,9 +393,9 @@ fn a_singular_matrix_is_reported_on_every_setting() {
             assert!(T::solve(matrix.clone(), &b, *solver, None).is_err(), "{solver}");
         }
     }
-    use Solver::{Cg, DenseCholesky, DenseLu, Refined, SparseCholesky};
-    check::<f64>(&a, &[DenseLu, DenseCholesky, SparseCholesky, Cg, Refined]);
-    check::<f32>(&a, &[DenseLu, DenseCholesky, SparseCholesky, Cg]);
+    use Solver::{Cg, DenseCholesky, DenseLu, Refined, SparseCholesky, SparseLu};
+    check::<f64>(&a, &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg, Refined]);
+    check::<f32>(&a, &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg]);
     check::<F64x2>(&a, &[DenseLu, SparseCholesky, Cg, Refined]);
     scope(|| check::<Exact>(&a, &[DenseLu, SparseCholesky]));
 }

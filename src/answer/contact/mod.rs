@@ -14,7 +14,7 @@ pub use mortar::Mortar;
 pub use order::along;
 pub use pairing::Pairing;
 pub(super) use pressure::arcs;
-pub use pressure::{ContactNode, Traction, reactions};
+pub use pressure::{ContactNode, Traction, pulling, reactions};
 pub use sliding::{Sense, Status};
 pub use surface::Surfaces;
 

@@ -35,8 +35,24 @@ pub struct ContactNode {
     pub pressure: Option<f64>,
     /// The traction along the tangent, which is the normal turned left, stress.
     pub shear: Option<f64>,
-    /// |shear| / pressure, the friction that keeps the node from sliding; None without pressure.
+    /// |shear| / pressure, the friction that keeps the node from sliding; None where the force
+    /// does not press by more than rounding.
     pub friction_needed: Option<f64>,
+}
+
+/// The force over the largest of a surface below which it is rounding.
+const ROUNDING: f64 = 1e-11;
+
+/// Returns the nodes in contact that pull by more than rounding.
+pub fn pulling(surface: &[ContactNode]) -> Vec<NodeId> {
+    let least = ROUNDING * largest(surface.iter().map(|node| node.force));
+    let pulls = |node: &&ContactNode| node.force.is_some_and(|force| force < -least);
+    surface.iter().filter(|node| node.in_contact).filter(pulls).map(|node| node.node).collect()
+}
+
+/// Returns the largest |force| of those that are determined.
+fn largest(forces: impl Iterator<Item = Option<f64>>) -> f64 {
+    forces.flatten().fold(0.0, |largest, force| largest.max(force.abs()))
 }
 
 /// Writes and reads `dy` in files as 1 or 0.
@@ -78,19 +94,22 @@ impl Traction<'_> {
         let lengths =
             [&self.model.nodes[..], self.measured_in].map(|shape| self.surfaces.tributary(shape));
         let arcs = arcs(self.model);
+        let least = ROUNDING * largest(self.forces.iter().map(|force| force[0]));
         let node = |i: usize| {
             let pairing = self.pairings[i].as_ref()?;
             let stretch = lengths[1][i] / lengths[0][i];
-            Some(self.node(i, pairing, arcs[i], over(pairing.length, stretch).unwrap_or(0.0)))
+            let length = over(pairing.length, stretch).unwrap_or(0.0);
+            Some(self.node(i, pairing, arcs[i], length, least))
         };
         (0..self.pairings.len()).filter_map(node).collect()
     }
 
-    /// Returns the tractions on an entry that represents `length` of the undeformed surface.
-    fn node(&self, i: usize, pairing: &Pairing, arc: f64, length: f64) -> ContactNode {
+    /// Returns the tractions on an entry that represents `length` of the undeformed surface; a force of
+    /// up to `least` presses no node.
+    fn node(&self, i: usize, pairing: &Pairing, arc: f64, length: f64, least: f64) -> ContactNode {
         let [normal, tangent] = self.forces[i];
         let area = length * self.model.thickness;
-        let pressing = normal.filter(|normal| self.in_contact[i] && *normal > 0.0);
+        let pressing = normal.filter(|normal| self.in_contact[i] && *normal > least);
         ContactNode {
             node: pairing.node,
             arc,

@@ -26,6 +26,8 @@ choices! {
     Solver {
         /// LU of the full matrix, with row exchanges.
         DenseLu = "dense-lu",
+        /// LU of the entries that are not 0, with row exchanges.
+        SparseLu = "sparse-lu",
         /// Cholesky of the full matrix.
         DenseCholesky = "dense-cholesky",
         /// Cholesky of the entries that are not 0; LDLᵀ where the scalar has no square root.
@@ -57,9 +59,9 @@ pub struct Arithmetic {
     /// of the displacements), exact (rational numbers, for some hundred equations).
     #[arg(long, value_name = "NAME", default_value = "f64")]
     pub scalar: ScalarName,
-    /// dense-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients to --tol), refined
-    /// (factors in the scalar below, refined to --tol) [default: dense-lu; sparse-cholesky in
-    /// f64x2, exact and under unilateral].
+    /// dense-lu (Mathcad's own), sparse-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients
+    /// to --tol), refined (factors in the scalar below, refined to --tol) [default: sparse-cholesky;
+    /// sparse-lu under printed in f64, f32 and f64-bounded].
     #[arg(long, value_name = "NAME")]
     pub solver: Option<Solver>,
     /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop [default:
@@ -73,12 +75,12 @@ pub struct Arithmetic {
 }
 
 impl Arithmetic {
-    /// Returns the solver asked for; else dense LU in a scalar of the machine for a matrix that is
-    /// `printed`, as Mathcad solves it, and sparse Cholesky for every other one.
+    /// Returns the solver asked for; else sparse LU in a scalar of the machine for a matrix that is
+    /// `printed`, which need not be positive definite, and sparse Cholesky for every other one.
     pub fn solver(&self, printed: bool) -> Solver {
         use ScalarName::{BoundedDouble, Exact, F64x2};
         let slow = matches!(self.scalar, F64x2 | BoundedDouble | Exact);
-        let own = if printed && !slow { Solver::DenseLu } else { Solver::SparseCholesky };
+        let own = if printed && !slow { Solver::SparseLu } else { Solver::SparseCholesky };
         self.solver.unwrap_or(own)
     }
 
@@ -92,8 +94,10 @@ impl Arithmetic {
     pub fn check(&self) -> Result<()> {
         use {ScalarName as Name, Solver::*};
         let offered: &[Solver] = match self.scalar {
-            Name::F64 | Name::Bounded => &[DenseLu, DenseCholesky, SparseCholesky, Cg, Refined],
-            Name::F32 => &[DenseLu, DenseCholesky, SparseCholesky, Cg],
+            Name::F64 | Name::Bounded => {
+                &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg, Refined]
+            }
+            Name::F32 => &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg],
             Name::F64x2 => &[DenseLu, SparseCholesky, Cg, Refined],
             Name::Exact | Name::BoundedDouble => &[DenseLu, SparseCholesky],
         };

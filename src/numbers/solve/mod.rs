@@ -9,6 +9,7 @@
 //! | `symmetric`, `cholesky` | sparse symmetric matrices; faer's factor of one |
 //! | `sparse`, `condensed`, `iterative` | factors that tell a singular matrix; those that leave a few
 //!   equations over; solutions to a tolerance |
+//! | `sparse_lu` | those of a matrix that need not be positive definite |
 //! | `field`, `lu`, `ldlt`, `lifting` | elimination in numbers that no library factors |
 //! | `precision` | the solution in each scalar by each solver |
 
@@ -27,6 +28,7 @@ mod lu;
 pub mod memory;
 mod precision;
 mod sparse;
+mod sparse_lu;
 mod symbolic;
 mod symmetric;
 
@@ -42,5 +44,6 @@ pub use lifting::lift;
 pub use lu::solve_dense;
 pub use precision::{Precision, Solved, Unsolved};
 pub use sparse::{SparseCholesky, largest_motion};
+pub use sparse_lu::SparseLu;
 pub use symbolic::FactorSize;
 pub use symmetric::SparseSymmetric;

@@ -3,6 +3,7 @@
 //! | | `f32` | `f64`, `f64-bounded` | `f64x2`, `f64x2-bounded` | `exact` |
 //! |---|---|---|---|---|
 //! | `dense-lu` | faer | faer | own | own |
+//! | `sparse-lu` | faer | faer | - | - |
 //! | `dense-cholesky` | faer | faer | - | - |
 //! | `sparse-cholesky` | faer | faer | LDLᵀ | LDLᵀ modulo a prime, lifted |
 //! | `cg` | to `tol` | to `tol` | to `tol`; - with a bound | - |
@@ -22,6 +23,7 @@ use super::ldlt::Ldlt;
 use super::lifting::lift;
 use super::lu::solve_dense;
 use super::sparse::SparseCholesky;
+use super::sparse_lu::SparseLu;
 use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::{
     Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope,
@@ -60,7 +62,7 @@ pub type Outcome<T> = Result<Solved<T>, Unsolved>;
 
 pub trait Precision: Scalar {
     /// Solves `a` x = `b` by a solver that [`check`](super::arithmetic::Arithmetic::check) must
-    /// have passed; every solver but `dense-lu` takes A for symmetric and reads its lower triangle.
+    /// have passed; every solver but `dense-lu` and `sparse-lu` takes A for symmetric and reads its lower triangle.
     /// Errors: tells that A is singular, or that an iteration did not converge.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self>;
 
@@ -96,14 +98,23 @@ impl Precision for Bounded {
     /// of an entry.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         let (values, f) = (a.map(Scalar::to_f64), b.map(Scalar::to_f64));
-        let (factors, solved): (Box<dyn Factors<f64>>, _) = if by == Solver::DenseLu {
-            let lu = DenseLu::new(values)?;
-            let x = lu.solve(&f);
-            let residual = lu.residual(&x, &f);
-            (Box::new(lu), Solved { x, residual })
-        } else {
-            let factors = SparseCholesky::new(SparseSymmetric::of_lower(&values))?;
-            (Box::new(factors), f64::solve(values, &f, by, tol)?)
+        let (factors, solved): (Box<dyn Factors<f64>>, _) = match by {
+            Solver::DenseLu => {
+                let lu = DenseLu::new(values)?;
+                let x = lu.solve(&f);
+                let residual = lu.residual(&x, &f);
+                (Box::new(lu), Solved { x, residual })
+            }
+            Solver::SparseLu => {
+                let lu = SparseLu::new(&values)?;
+                let x = lu.solve(&f);
+                let residual = lu.residual(&x, &f);
+                (Box::new(lu), Solved { x, residual })
+            }
+            _ => {
+                let factors = SparseCholesky::new(SparseSymmetric::of_lower(&values))?;
+                (Box::new(factors), f64::solve(values, &f, by, tol)?)
+            }
         };
         Ok(with_bound(&*factors, &a, b, solved))
     }
@@ -113,7 +124,7 @@ impl Precision for BoundedDouble {
     /// Solves as in double-double, digit for digit; every entry of x carries the bound on the
     /// largest error of an entry.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
-        let factors = DenseLu::new(a.map(Scalar::to_f64))?;
+        let factors = SparseLu::new(&a.map(Scalar::to_f64))?;
         let solved = F64x2::solve(a.map(WithBound::value), &b.map(WithBound::value), by, tol)?;
         Ok(with_bound(&factors, &a, b, solved))
     }
@@ -184,6 +195,11 @@ impl Precision for Exact {
 fn native<T: Native>(a: DMatrix<T>, b: &DVector<T>, by: Solver, tol: Option<f64>) -> Outcome<T> {
     if by == Solver::DenseLu {
         let lu = DenseLu::new(a)?;
+        let x = lu.solve(b);
+        return Ok(Solved { residual: lu.residual(&x, b), x });
+    }
+    if by == Solver::SparseLu {
+        let lu = SparseLu::new(&a)?;
         let x = lu.solve(b);
         return Ok(Solved { residual: lu.residual(&x, b), x });
     }

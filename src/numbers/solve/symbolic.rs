@@ -55,6 +55,12 @@ impl FactorSize {
         }
     }
 
+    /// Returns the size of sparse LU of a matrix with the pattern of these Cholesky factors, as long as
+    /// no rows are exchanged.
+    pub fn as_lu(self) -> Self {
+        FactorSize { nonzeros: 2 * self.nonzeros, operations: 2.0 * self.operations, ..self }
+    }
+
     fn full(n: usize, nonzeros: usize) -> Self {
         FactorSize { equations: n, entries: n * (n + 1) / 2, nonzeros, operations: 0.0 }
     }

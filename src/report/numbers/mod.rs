@@ -16,7 +16,10 @@ pub use undefined::{NO_LIMIT, note, reason};
 pub fn short(x: f64) -> String {
     match x.abs() {
         size if !size.is_finite() => "-".into(),
-        size if size < 1e9 && x.fract() == 0.0 => format!("{x:.0}"),
+        size if size < 1e9 && x.fract() == 0.0 => {
+            // Added to 0, -0 is 0.
+            format!("{:.0}", x + 0.0)
+        }
         size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),
         _ => format!("{x:.3e}"),
     }

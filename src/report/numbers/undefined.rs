@@ -21,7 +21,7 @@ const REASONS: &[(&str, &str)] = &[
     ("pressure", "restraints leave the force undetermined"),
     ("shear", "restraints leave the force undetermined"),
     ("force", "restraints leave the force undetermined"),
-    ("friction_needed", "the node is not pressed, or its force is not determined"),
+    ("friction_needed", "the node is not pressed beyond rounding, or its force is not determined"),
     ("status", "the variant knows no statuses, or the node is not in contact"),
     ("mesh", "a body has too few triangles for an estimate"),
     ("mesh_energy_relative", "a body has too few triangles for an estimate"),

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
+use crate::answer::contact::pulling;
 use crate::answer::estimates::Certainty;
 use crate::answer::{BodySummary, Cycle, Distance, Solution, distance, summaries};
 use crate::problem::model::NodeId;
@@ -76,10 +77,6 @@ fn end(case: &Case, solution: &Solution) -> End {
         bodies: summaries(solution),
         distance: case.equilibrium().map(|other| distance(solution, other)),
         friction_needed: needed.reduce(f64::max),
-        pulling: solution
-            .in_contact()
-            .filter(|c| c.force.is_some_and(|force| force < 0.0))
-            .map(|c| c.node)
-            .collect(),
+        pulling: pulling(&solution.contact),
     }
 }

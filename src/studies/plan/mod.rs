@@ -113,6 +113,7 @@ impl Plan {
         let factors = match solver {
             Solver::DenseLu => FactorSize::dense_lu(equations.solved),
             Solver::DenseCholesky => FactorSize::dense_cholesky(equations.solved),
+            Solver::SparseLu => sparse.as_lu(),
             _ => sparse,
         };
         let candidates = contact.as_ref().map(|contact| &contact.candidates);

@@ -1,0 +1,85 @@
+//! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
+
+use faer::Par;
+use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
+use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use nalgebra::{DMatrix, DVector};
+
+use super::dense::DenseLu;
+use super::factors::{Factors, Native, Singular, backward_error, largest, solve};
+use super::sparse::largest_motion;
+use crate::numbers::scalar::Scalar;
+
+/// The motion under loads of 1, over that which a pivot of dense LU that counts as 0 would bring,
+/// beyond which dense LU says whether a matrix is singular.
+const DOUBTFUL: f64 = 1e-3;
+
+/// A matrix and its sparse LU factors.
+pub struct SparseLu<T: Native = f64> {
+    matrix: SparseColMat<usize, T>,
+    factors: Lu<usize, T>,
+}
+
+impl<T: Native> SparseLu<T> {
+    /// Factors an n x n `matrix`, which should be symmetric but for rounding.
+    /// Errors: those of [`DenseLu`], which judges a matrix that loads move far.
+    pub fn new(matrix: &DMatrix<T>) -> Result<Self, Singular> {
+        faer::set_global_parallelism(Par::Seq);
+        let sparse = columns(matrix);
+        let symbolic = SymbolicLu::try_new(sparse.symbolic()).expect("a pattern fits in memory");
+        let Ok(factors) = Lu::try_new_with_symbolic(symbolic, sparse.as_ref()) else {
+            return Err(judged(matrix).expect("dense LU finds the pivot that is 0"));
+        };
+        let lu = SparseLu { matrix: sparse, factors };
+        let n = matrix.nrows();
+        let scale = DVector::from_fn(n, |j, _| T::from_f64(largest(matrix.column(j).iter())));
+        let limit = DOUBTFUL / (16.0 * n as f64 * T::EPSILON);
+        let motion = largest_motion(&lu, &scale);
+        if motion < limit {
+            return Ok(lu);
+        }
+        judged(matrix).map_or(Ok(lu), Err)
+    }
+
+    /// Returns the solution x of A x = `b`.
+    pub fn solve(&self, b: &DVector<T>) -> DVector<T> {
+        solve(&self.factors, b)
+    }
+
+    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
+    /// vectors, 0 when x and b are 0.
+    pub fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
+        let mut rest = -b;
+        let mut row_sums = DVector::<T>::zeros(x.len());
+        for entry in self.matrix.triplet_iter() {
+            rest[entry.row] += *entry.val * x[entry.col];
+            row_sums[entry.row] += Scalar::abs(*entry.val);
+        }
+        backward_error(&rest, largest(row_sums.iter()), x, b)
+    }
+}
+
+impl<T: Native> Factors<T> for SparseLu<T> {
+    fn solve(&self, b: &DVector<T>) -> DVector<T> {
+        SparseLu::solve(self, b)
+    }
+}
+
+/// Returns why dense LU takes a matrix for singular; None where it does not.
+fn judged<T: Native>(matrix: &DMatrix<T>) -> Option<Singular> {
+    DenseLu::new(matrix.clone()).err()
+}
+
+/// Returns the entries that are not 0, column by column.
+fn columns<T: Native>(matrix: &DMatrix<T>) -> SparseColMat<usize, T> {
+    let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+    for column in matrix.column_iter() {
+        for (i, value) in column.iter().enumerate().filter(|(_, value)| !value.is_zero()) {
+            rows.push(i);
+            values.push(*value);
+        }
+        starts.push(rows.len());
+    }
+    let n = matrix.nrows();
+    SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values)
+}
