@@ -1,9 +1,47 @@
-//! Files are written beside their target and then renamed, so that no file is ever half written.
+//! Files are read up to a limit, as a device would never end, and written beside their target and then
+//! renamed, so that no file is ever half written.
 
-use std::io::Write;
+use std::io::{self, Read, Write};
 use std::path::Path;
 
 use crate::error::{InputError, Result};
+
+/// The bytes of a text that is read whole.
+const MOST: u64 = 1 << 28;
+
+/// Reads a text of up to 268 MB.
+///
+/// # Errors
+/// The file cannot be read, or is longer.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    read_from(std::fs::File::open(path)?)
+}
+
+/// Reads up to 268 MB to their end.
+///
+/// # Errors
+/// They cannot be read, or there are more.
+pub fn read_from(source: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    source.take(MOST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST {
+        let why = format!("it has more than {MOST} bytes");
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, why));
+    }
+    Ok(bytes)
+}
+
+/// Reads a text in UTF-8 of up to 268 MB.
+///
+/// # Errors
+/// The file cannot be read, is longer, or is not in UTF-8, with the line where it is not.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    String::from_utf8(read(path)?).map_err(|wrong| {
+        let before = &wrong.as_bytes()[..wrong.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        io::Error::new(io::ErrorKind::InvalidData, format!("line {line} is not in UTF-8"))
+    })
+}
 
 /// Writes `content` to `path`, and creates its folder where it is missing. A link is followed; a
 /// target that is no ordinary file (a pipe, a device) is written directly.

@@ -91,7 +91,7 @@ fn main() -> ExitCode {
             if std::env::args_os().any(|arg| arg == "--json") {
                 let _ = commands::print(&plane_contact::report::failure::failure(&error));
             }
-            eprintln!("error: {error}");
+            commands::tell(&format!("error: {error}\n"));
             ExitCode::from(error.exit_status())
         }
     }

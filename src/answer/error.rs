@@ -18,13 +18,24 @@ pub enum Error {
     Listing(#[from] Failure),
     /// A listing fails as it is executed: exit status 3, an audit result.
     #[error("the published algorithm fails as printed: {0}")]
-    Execution(#[from] Box<mathcad::Failure>),
+    Execution(Box<mathcad::Failure>),
     /// The matrix of an iteration cannot be solved: exit status 3, an audit result.
     #[error("{0}")]
     Singular(#[from] SingularMatrix),
     /// No equilibrium was found, or several: exit status 4.
     #[error("{0}")]
     Equilibrium(#[from] NoEquilibrium),
+}
+
+impl From<Box<mathcad::Failure>> for Error {
+    /// A limit is this program's own: it is no fault of the published algorithm.
+    fn from(failure: Box<mathcad::Failure>) -> Self {
+        if !failure.is_limit() {
+            return Error::Execution(failure);
+        }
+        let fix = "trace a smaller scene, or a listing that asks for less";
+        InputError::new("the listing", failure.to_string(), fix).into()
+    }
 }
 
 impl Error {

@@ -30,6 +30,7 @@ pub use elimination::{Constraint, Elimination, Motion};
 pub use factors::LastFactors;
 pub use hertz::Hertz;
 pub use probe::{Probe, Quantity};
+pub use published::BYTES_OF_A_NODE;
 pub use request::Request;
 pub use solution::{
     Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, StepBounds, Unilateral,

@@ -6,6 +6,7 @@ use plane_contact::answer::error::Result;
 use plane_contact::answer::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::numbers::solve::memory;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
@@ -71,12 +72,18 @@ fn find(id: &str) -> Result<&'static Finding, InputError> {
     })
 }
 
+/// Returns the case of a scene whose `Km` fits in memory once for each of two cores.
+fn case(scene: Scene) -> Result<Case, InputError> {
+    memory::check(scene.model.nodes.len(), 2, memory::free())?;
+    Ok(Case::new(scene))
+}
+
 fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let scene = match &args.scene {
         Some(scene) => Scene::open(scene)?,
         None => finding.scene(),
     };
-    let case = Case::new(scene);
+    let case = case(scene)?;
     let measured = finding.measure(&case);
     if let Some(out) = &args.out {
         files::write(&out.join(format!("{}.svg", finding.id)), &folder::mesh_picture(&case.scene))?;
@@ -88,7 +95,7 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
 }
 
 fn whole(args: &Args) -> Result<()> {
-    let case = Case::new(Scene::open(args.scene.as_deref().unwrap_or("strand"))?);
+    let case = case(Scene::open(args.scene.as_deref().unwrap_or("strand"))?)?;
     let places = if args.range { range(Reading::default())? } else { Vec::new() };
     let found = waiting("auditing", || audit(&case, &places));
     let (text, json) = (report::text(&found, &case.scene), report::json(&found, &case.scene));

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
@@ -92,7 +93,7 @@ fn first_pair<'a>(old: &'a Snapshot, verified: &'a Verified) -> Option<(&'a Run,
 
 /// Reads a snapshot, or runs a scene.
 fn side(args: &Args, side: usize, name: &str) -> Result<Snapshot> {
-    let is_snapshot = std::fs::read(Path::new(name)).is_ok_and(|text| {
+    let is_snapshot = files::read(Path::new(name)).is_ok_and(|text| {
         let document: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
         document.is_some_and(|document| document.get("runs").is_some())
     });

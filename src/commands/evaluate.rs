@@ -5,12 +5,13 @@ use std::rc::Rc;
 
 use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::paper::mathcad::{
     Failure, Limits, Listing, Outcome, Settings, Sheet, Value, file, json,
 };
 use serde_json::json;
 
-use super::print;
+use super::{print, tell};
 
 /// Run a program in the notation of the listings.
 #[derive(clap::Args)]
@@ -46,7 +47,7 @@ pub struct Args {
 /// Runs the call; returns the exit status.
 pub fn run(args: &Args) -> Result<u8> {
     let place = args.file.display().to_string();
-    let text = std::fs::read_to_string(&args.file).map_err(|why| {
+    let text = files::read_text(&args.file).map_err(|why| {
         let what = format!("the file cannot be read: {why}");
         InputError::new(&place, what, "give the path of a text file")
     })?;
@@ -78,7 +79,7 @@ pub fn run(args: &Args) -> Result<u8> {
     }
     // The failure of the program is what was asked for: no other document follows it.
     print(&format!("{}\n", error(&failure)))?;
-    eprintln!("error: {wrong}");
+    tell(&format!("error: {wrong}\n"));
     Ok(wrong.exit_status())
 }
 

@@ -1,9 +1,10 @@
 //! `plane-contact listing`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::paper::listings::Which;
 use plane_contact::paper::mathcad::xmcd::document::{self, Content};
 use plane_contact::paper::mathcad::xmcd::page;
@@ -56,7 +57,7 @@ fn read(name: &str) -> Result<Vec<Listing>> {
     let wrong = |what: String| {
         InputError::new(name, what, "give c_cnt, Km, a file of listings or a worksheet")
     };
-    let text = std::fs::read_to_string(name)
+    let text = files::read_text(Path::new(name))
         .map_err(|why| wrong(format!("the listing cannot be read: {why}")))?;
     if !text.trim_start_matches('\u{feff}').starts_with('<') {
         let listings = file::listings(name, &text, &Limits::default());

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::paper::exports::probe;
 use plane_contact::paper::mathcad::{Limits, worksheet, xmcd::document};
 use plane_contact::report::worksheet as report;
@@ -43,7 +44,7 @@ pub fn run(args: &Args) -> Result<()> {
 /// Reads a worksheet's file.
 pub fn open(file: &Path) -> Result<document::Worksheet, InputError> {
     let place = file.display().to_string();
-    let text = std::fs::read_to_string(file).map_err(|why| {
+    let text = files::read_text(file).map_err(|why| {
         let what = format!("the file cannot be read: {why}");
         InputError::new(&place, what, "give an .xmcd file, which is text in UTF-8")
     })?;

@@ -167,12 +167,17 @@ pub fn within(error: Error, place: &str) -> Error {
 
 /// Says on standard error that files were written to `folder`, or why not.
 pub fn say_written(folder: &Path, written: bool) {
-    match written {
-        true => eprintln!("Written to {}", folder.display()),
+    tell(&match written {
+        true => format!("Written to {}\n", folder.display()),
         false => {
-            eprintln!("No field is written: the two runs have no displacements of the same nodes")
+            "No field is written: the two runs have no displacements of the same nodes\n".into()
         }
-    }
+    });
+}
+
+/// Writes to standard error; where that cannot be written, results and exit status are as if it could.
+pub fn tell(text: &str) {
+    let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
 /// Does `work`, with a sign of life on standard error for what may take over two seconds; it shows

@@ -12,7 +12,7 @@ use plane_contact::report::{self, tables};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::solve_to;
 
-use super::{ModelArgs, ReadingArg, folder, folder_name, print, progress};
+use super::{ModelArgs, ReadingArg, folder, folder_name, print, progress, tell};
 
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
@@ -99,7 +99,7 @@ pub fn run(args: &Args) -> Result<()> {
             Some(_) => report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?,
             None => report::folder::result(&solution, &assessment, Some(&plan), wanted),
         };
-        eprint!("{accuracy}");
+        tell(&accuracy);
         print(&result)?;
         return several(&solution);
     }

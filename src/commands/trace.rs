@@ -1,10 +1,11 @@
 //! `plane-contact trace`.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use plane_contact::answer::Request;
-use plane_contact::answer::error::{Error, Result};
+use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::paper::door::Call;
 use plane_contact::paper::listings::{Which, settings};
 use plane_contact::paper::mathcad::Listing;
@@ -81,7 +82,7 @@ fn finish(trace: Trace, chosen: &Chosen, args: &Args, model: &Model, call: &Call
             Err(InputError::new(&args.listing, failure.to_string(), "correct the edited listing")
                 .into())
         }
-        Err(failure) => Err(Error::Execution(failure)),
+        Err(failure) => Err(failure.into()),
         Ok(product) if chosen.edited && !args.json => {
             let printed = chosen.which.under(&reading);
             match trace::run(chosen.which, &printed, &settings(&reading), call, &mut ()) {
@@ -100,7 +101,7 @@ fn choose(name: &str, reading: &Reading) -> Result<Chosen> {
     if let Ok(which) = name.parse::<Which>() {
         return Ok(Chosen { which, listing: which.under(reading), edited: false });
     }
-    let text = std::fs::read_to_string(PathBuf::from(name)).map_err(|why| {
+    let text = files::read_text(Path::new(name)).map_err(|why| {
         let what = format!("the listing cannot be read: {why}");
         InputError::new(name, what, "give c_cnt, Km, or the path of an edited listing")
     })?;

@@ -62,7 +62,7 @@ pub fn run(args: &Args) -> Result<u8> {
 /// Reads a snapshot.
 pub fn read(file: &Path) -> Result<Snapshot> {
     let place = file.display().to_string();
-    let text = std::fs::read(file).map_err(|why| {
+    let text = files::read(file).map_err(|why| {
         let what = format!("the snapshot cannot be read: {why}");
         InputError::new(&place, what, "give a file as `plane-contact record` writes it")
     })?;

@@ -22,6 +22,7 @@ mod explained;
 mod factors;
 mod gmsh;
 mod held;
+mod limits;
 mod mathcad;
 mod pictures;
 mod plan;

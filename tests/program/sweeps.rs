@@ -224,8 +224,8 @@ fn kill(id: u32) {
 #[test]
 fn a_crash_is_a_row() {
     let folder = folder(&json!({"format": 1, "generate": {"kind": "cook"},
-        "grid": {"/generate/n": [2, 1500, 4]}}));
-    let limited = format!("ulimit -v 1500000; exec {PROGRAM} sweep sweep.json --out r.jsonl");
+        "grid": {"/generate/n": [2, 430, 4]}}));
+    let limited = format!("ulimit -v 700000; exec {PROGRAM} sweep sweep.json --out r.jsonl");
     let output = Command::new("sh").args(["-c", &limited]).current_dir(folder.path()).output();
     let output = output.expect("a shell");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -18,7 +18,7 @@ use plane_contact::studies::sweep::{Cases, Row, Sweep, key_of, row};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-use super::{RunArgs, print};
+use super::{RunArgs, print, tell};
 use journal::Journal;
 
 /// Run a scene under many values of its fields and of options.
@@ -64,7 +64,7 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<u8> {
     let place = args.file.display().to_string();
-    let text = std::fs::read(&args.file).map_err(|why| {
+    let text = files::read(&args.file).map_err(|why| {
         let what = format!("the sweep cannot be read: {why}");
         InputError::new(&place, what, "see `plane-contact sweep --help`")
     })?;
@@ -166,7 +166,7 @@ fn one(cases: &Cases, case: usize, file: &Path) -> Result<u8> {
     match files::write(file, &text) {
         Ok(()) => Ok(0),
         Err(why) => {
-            eprintln!("error: {why}");
+            tell(&format!("error: {why}\n"));
             Ok(TRY_AGAIN)
         }
     }

@@ -1,4 +1,4 @@
-//! Whether the dense matrices fit in the memory that is free.
+//! Whether what a run needs fits in the memory that is free.
 
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
@@ -10,13 +10,38 @@ pub fn needed(r: usize, matrices: usize) -> u128 {
     matrices as u128 * equations * equations * 8
 }
 
-/// Returns the bytes of memory that are free now, a control group's limit included, or nothing
-/// where the system does not tell.
+/// Returns the bytes of memory that are free now, the limits of a control group and of the process
+/// included, or nothing where the system does not tell.
 pub fn free() -> Option<u128> {
     let memory = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
     let system = System::new_with_specifics(memory).ok()?;
     let limit = system.cgroup_limits().map_or(u64::MAX, |limits| limits.free_memory);
-    Some(u128::from(system.available_memory().min(limit)))
+    let of_process = address_space().unwrap_or(u64::MAX);
+    Some(u128::from(system.available_memory().min(limit).min(of_process)))
+}
+
+/// Returns the bytes of addresses that the process may still ask for (`ulimit -v`); nothing where
+/// there is no limit, or the system does not tell as Linux does.
+fn address_space() -> Option<u64> {
+    let number = |file: &str, line: &str, at: usize| {
+        let text = std::fs::read_to_string(file).ok()?;
+        let rest = text.lines().find_map(|text| text.strip_prefix(line))?;
+        rest.split_whitespace().nth(at)?.parse::<u64>().ok()
+    };
+    let limit = number("/proc/self/limits", "Max address space", 0)?;
+    let used = number("/proc/self/status", "VmSize:", 0)? * 1024;
+    Some(limit.saturating_sub(used))
+}
+
+/// Checks that `needed` bytes fit in those that are free; `place` and `fix` are those of the error.
+pub fn check_bytes(needed: f64, place: &str, whose: &str, fix: &str) -> Result<()> {
+    let free = free().unwrap_or(u128::MAX) as f64;
+    if needed <= free {
+        return Ok(());
+    }
+    let gigabytes = |bytes: f64| format!("{:.1} GB", bytes / 1e9);
+    let what = format!("{whose} need {}; {} are free", gigabytes(needed), gigabytes(free));
+    Err(InputError::new(place, what, fix))
 }
 
 /// Checks that `matrices` dense 2r x 2r matrices fit in `free` bytes.

@@ -51,7 +51,7 @@ pub type Fallible<T> = Result<T, Box<Failure>>;
 
 impl Failure {
     /// Returns whether a limit was reached: no method of evaluating `∧` passes over that.
-    pub(super) fn is_limit(&self) -> bool {
+    pub fn is_limit(&self) -> bool {
         matches!(self.cause, Cause::Limit { .. })
     }
 }

@@ -1,11 +1,11 @@
 //! Where a scene file is: among the embedded ones, at a path, or on standard input; and what is
 //! beside it.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use crate::error::{InputError, Result};
+use crate::files;
 
 /// The text of a scene file, and the place where its mesh file is.
 #[derive(Clone)]
@@ -37,8 +37,7 @@ impl SceneFile {
             return Ok(SceneFile { name, text, files: Files::Embedded(embedded) });
         }
         if name_or_path == "-" {
-            let mut text = Vec::new();
-            std::io::stdin().read_to_end(&mut text).map_err(|why| {
+            let text = files::read_from(std::io::stdin()).map_err(|why| {
                 let what = format!("the scene cannot be read: {why}");
                 InputError::new("standard input", what, "direct a scene file to it")
             })?;
@@ -47,7 +46,7 @@ impl SceneFile {
         }
         let path = from.join(name_or_path);
         let path = if path.is_dir() { path.join("scene.json") } else { path };
-        let text = std::fs::read(&path).map_err(|why| {
+        let text = files::read(&path).map_err(|why| {
             let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
             let what = format!("the scene file cannot be read: {why}");
             let fix = format!("give a path, or one of the scenes {}", names.join(", "));

@@ -1,14 +1,21 @@
 //! Checks of the parameters of benchmarks.
 
 use crate::error::{InputError, Result};
+use crate::numbers::solve::memory;
 
 /// More divisions of a side than anybody has memory for.
 const MOST: usize = 2000;
 
-/// Checks that a number of divisions lies in `least ..= MOST`.
+/// The bytes of a triangle of a mesh that is generated and written.
+const TRIANGLE: f64 = 900.0;
+
+/// Checks that a number of divisions lies in `least ..= MOST`, and that a square of so many fits in
+/// memory.
 pub fn count(option: &str, n: usize, least: usize) -> Result<()> {
     if (least..=MOST).contains(&n) {
-        return Ok(());
+        let bytes = TRIANGLE * 2.0 * (n * n) as f64;
+        let whose = format!("{n} divisions");
+        return memory::check_bytes(bytes, option, &whose, "give a smaller number");
     }
     let what = format!("{n} divisions are outside {least} .. {MOST}");
     Err(InputError::new(option, what, format!("give a number from {least} to {MOST}")))

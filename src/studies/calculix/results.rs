@@ -80,14 +80,18 @@ fn row<const I: usize, const V: usize>(line: &str) -> Result<([usize; I], [f64; 
     parsed().ok_or_else(|| not_understood(line))
 }
 
-/// A finite number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent is long.
+/// The largest number of results: squares of stresses and their sums stay finite.
+const LARGEST: f64 = 1e150;
+
+/// A number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent is long; none beyond
+/// [`LARGEST`].
 pub fn float(word: &str) -> Option<f64> {
     let plain = word.parse::<f64>().ok();
     let short = || {
         let sign = word.rfind(['+', '-']).filter(|&at| at > 0)?;
         format!("{}e{}", &word[..sign], &word[sign..]).parse().ok()
     };
-    plain.or_else(short).filter(|x| x.is_finite())
+    plain.or_else(short).filter(|x| x.abs() <= LARGEST)
 }
 
 fn not_understood(line: &str) -> InputError {

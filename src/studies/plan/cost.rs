@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::candidates::Candidates;
-use crate::answer::Request;
+use crate::answer::{BYTES_OF_A_NODE, Request};
 use crate::numbers::solve::{FactorSize, ScalarName};
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Variant};
@@ -65,8 +65,6 @@ const TRIANGLE: f64 = 3700.0;
 /// Bytes that are freed and not given back at once, of a triangle; and at most. Without contact,
 /// and with it.
 const FREED: [[f64; 2]; 2] = [[12e3, 17e6], [25e3, 13e6]];
-/// Bytes of a node in an iteration that is kept: shape, k_cnt, what its solution keeps.
-const KEPT: f64 = 160.0;
 /// Bytes of an entry of the printed matrix while its error is bounded: the matrix with a bound on
 /// each entry, its values, their factors.
 const PRINTED_BOUND: f64 = 43.0;
@@ -152,7 +150,7 @@ impl Work<'_> {
             program: PROGRAM,
             mesh: TRIANGLE * m + (each * m).min(most),
             matrices: self.dense_bytes() + FACTOR * self.sparse.nonzeros as f64,
-            iterations: KEPT * r * kept as f64,
+            iterations: BYTES_OF_A_NODE * r * kept as f64,
         }
     }
 

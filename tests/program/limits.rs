@@ -1,0 +1,76 @@
+//! What asks for more than there is, or has no end, is refused with what it needs; and what standard
+//! error cannot take is no reason to fail.
+#![cfg(target_os = "linux")]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::common::embedded::scene_json;
+use crate::common::program;
+
+/// Runs a line of the shell, in which `$P` is the program.
+fn shell(folder: &Path, line: &str) -> Output {
+    Command::new("sh")
+        .args(["-c", line])
+        .env("P", env!("CARGO_BIN_EXE_plane-contact"))
+        .current_dir(folder)
+        .output()
+        .expect("a shell")
+}
+
+/// Checks that a line ends with exit status 2, and that its error has all the `words`.
+#[track_caller]
+fn refused(folder: &Path, line: &str, words: &[&str]) {
+    let output = shell(folder, line);
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{line}: {error}");
+    for word in words {
+        assert!(error.contains(word), "{line}: {word:?} is not in {error}");
+    }
+}
+
+#[test]
+fn memory_that_a_process_may_not_have_is_refused_with_what_is_needed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    assert!(program::run(folder, &["mesh", "cook", "--n", "200", "--out", "c"]).status.success());
+    let few = "ulimit -v 8000000; $P";
+    let words = ["104.5 GB", "80802 x 80802", "coarser mesh"];
+    refused(folder, &format!("{few} audit c"), &words);
+    let words = ["limit of 134217728 numbers", "a smaller scene"];
+    refused(folder, "$P trace c --listing Km --node 5", &words);
+    refused(folder, "ulimit -v 4000000; $P mesh cook --n 2000", &["--n", "7.2 GB", "smaller"]);
+    let mut scene = scene_json("fig1");
+    scene["iterations"] = 1_000_000.into();
+    std::fs::write(folder.join("long.json"), scene.to_string()).expect("it is written");
+    let words = ["1000000 iterations of 13 nodes need 2.1 GB", "fewer"];
+    refused(folder, "ulimit -v 1500000; $P solve long.json", &words);
+}
+
+#[test]
+fn what_has_no_end_is_not_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for command in ["solve", "trace fig1 --listing", "evaluate", "verify", "sweep", "mathcad"] {
+        let words = ["/dev/zero", "more than 268435456 bytes"];
+        refused(folder.path(), &format!("$P {command} /dev/zero"), &words);
+    }
+    refused(folder.path(), "$P solve - < /dev/zero", &["standard input", "more than"]);
+}
+
+#[test]
+fn a_listing_that_is_not_in_utf_8_has_a_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("l.txt"), b"c_cnt :=\n  \xff").expect("it is written");
+    refused(folder.path(), "$P trace fig1 --listing l.txt", &["l.txt", "line 2 is not in UTF-8"]);
+}
+
+#[test]
+fn what_standard_error_cannot_take_changes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let code = |line: &str| shell(folder.path(), line).status.code();
+    assert_eq!(code("$P solve nosuch 2>/dev/full"), Some(2));
+    let line = "$P solve fig1 --accuracy 1e-3 --json";
+    let [plain, full] = [line, &format!("{line} 2>/dev/full")].map(|l| shell(folder.path(), l));
+    assert_eq!(full.status.code(), Some(0));
+    assert!(!plain.stderr.is_empty() && plain.stdout == full.stdout && !full.stdout.is_empty());
+}
