@@ -12,7 +12,7 @@ use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::Pairs;
 use crate::problem::model::{Model, TriangleId};
 use crate::problem::scene::Scene;
-use crate::studies::audit::trace::{Access, MOST_STEPS, Product, Step, Trace, text_of};
+use crate::studies::audit::trace::{Access, Product, Step, Trace, text_of};
 
 /// Changed entries of a matrix that are listed at most.
 const MOST_CHANGES: usize = 20;
@@ -33,8 +33,9 @@ pub fn text(trace: &Trace, listing: &Listing, model: &Model) -> String {
         }
     }
     text += &outside(trace, listing);
-    if trace.steps.len() == MOST_STEPS {
-        text += &format!("\n(only the first {MOST_STEPS} statements are shown)\n");
+    if trace.is_cut {
+        let shown = trace.steps.len();
+        text += &format!("\n(only the first {shown} statements are shown)\n");
     }
     if !trace.output.is_empty() {
         text += &format!("\ntrace() wrote: {}\n", trace.output.join(" | "));

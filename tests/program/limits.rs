@@ -74,3 +74,36 @@ fn what_standard_error_cannot_take_changes_nothing() {
     assert_eq!(full.status.code(), Some(0));
     assert!(!plain.stderr.is_empty() && plain.stdout == full.stdout && !full.stdout.is_empty());
 }
+
+/// Reads of arrays by the thousand are shown up to a limit, a trace of many long numbers is refused,
+/// and a listing of many lines has each of them at once.
+#[test]
+fn hostile_listings_stay_within_the_memory_of_a_process() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let head = "c_cnt(node_n) :=\n  for i1 ∈ 1 .. R\n    for i2 ∈ 1 .. 4\n      k_cnt[i1,i2] ← 0\n  \
+                for i1 ∈ 1 .. rows(cnt)\n    ct[i1] ← 0\n    yt[i1] ← 0\n    dy[i1] ← 0\n";
+    let tail = "  k_cnt\n";
+    let listing = |name: &str, body: &str| {
+        std::fs::write(folder.path().join(name), format!("{head}{body}{tail}")).expect("written");
+    };
+    let reads = vec!["rows(v)>0"; 40].join("∧");
+    let many = format!(
+        "  for i1 ∈ 1 .. 36\n    v[i1] ← 0.1234567890123456\n  for i1 ∈ 1 .. 4000\n    x ← 1 if {reads}\n"
+    );
+    listing("reads.txt", &many);
+    listing("lines.txt", &"  a ← 1\n".repeat(900));
+    let long = format!("  v ← identity(2800)·0 + 1{}\n  trace(v)\n", "0".repeat(308));
+    listing("trace.txt", &long);
+    let run = |name: &str| {
+        let line = format!("ulimit -v 4000000; $P trace fig1 --listing {name}");
+        let output = shell(folder.path(), &line);
+        let text = [&output.stdout, &output.stderr]
+            .map(|bytes| String::from_utf8_lossy(bytes).into_owned());
+        (output.status.code(), text.concat())
+    };
+    let (code, text) = run("reads.txt");
+    assert!(code == Some(0) && text.contains("(only the first"), "{code:?}");
+    assert_eq!(run("lines.txt").0, Some(0));
+    let (code, text) = run("trace.txt");
+    assert!(code == Some(2) && text.contains("The limit of"), "{code:?} {text}");
+}

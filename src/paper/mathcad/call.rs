@@ -120,13 +120,25 @@ impl<O: Observer> Run<'_, '_, O> {
     }
 
     fn write_trace(&mut self, arguments: &[Value]) -> Fallible<Value> {
-        // A number of 17 digits and its exponent fill three times the eight bytes of a number.
-        self.afford(size(arguments).saturating_mul(4))?;
+        // The line is kept twice, as output and as a value; a number takes eight bytes.
+        let characters = arguments.iter().map(characters).fold(0, usize::saturating_add);
+        self.afford(characters.saturating_mul(2).div_ceil(8))?;
         let line = arguments.iter().map(Value::to_string).collect::<Vec<_>>().join(" ");
         let value = Value::Text(line.as_str().into());
         self.stored += value.count();
         self.trace.push(line);
         Ok(value)
+    }
+}
+
+/// Returns the characters that a value is written in, or more.
+fn characters(value: &Value) -> usize {
+    // All 17 digits and as many zeros as the exponent asks for.
+    let of_number = |x: f64| 24 + Scalar::abs(x).max(f64::MIN_POSITIVE).log10().abs() as usize;
+    match value {
+        Value::Array(array) => array.entries().iter().map(|x| of_number(*x)).sum(),
+        Value::Number(x) => of_number(*x),
+        other => 8 * other.count(),
     }
 }
 

@@ -8,15 +8,17 @@ use crate::paper::door::Call;
 use crate::paper::listings::{self, Which};
 use crate::paper::mathcad::array::Table;
 use crate::paper::mathcad::observe::{Executed, Named};
-use crate::paper::mathcad::{Failure, Listing, Observer, Recorder, Settings, Value};
+use crate::paper::mathcad::{Failure, Line, Listing, Observer, Recorder, Settings, Value};
 use crate::paper::mirror::Pairs;
 
 pub struct Trace {
     /// Which of the paper's listings was executed, as printed or edited.
     pub which: Which,
     /// Its statements in order of execution, each with the turn of the outer loop that it belongs
-    /// to; at most [`MOST_STEPS`].
+    /// to.
     pub steps: Vec<Step>,
+    /// Whether there were more than are kept.
+    pub is_cut: bool,
     /// The lines that the listing's own `trace` wrote.
     pub output: Vec<String>,
     pub result: Result<Product, Box<Failure>>,
@@ -49,7 +51,10 @@ pub struct Access {
 }
 
 /// Statements kept at most: what comes after is executed, but not shown.
-pub const MOST_STEPS: usize = 200_000;
+const MOST_STEPS: usize = 200_000;
+
+/// Numbers that kept statements may have read and written, and one more for each name.
+const MOST_NUMBERS: usize = 1 << 20;
 
 /// Executes `listing` (as `which`) on the tables of `call`: `c_cnt` on the initial shape, `Km` on
 /// the contact pairs that were found. Only the turns that `wanted` asks for are kept.
@@ -61,13 +66,15 @@ pub fn trace(
     wanted: impl Fn(usize) -> bool,
 ) -> Trace {
     let mut steps = Vec::new();
-    let mut turn = None;
+    let (mut turn, mut numbers) = (None, 0);
     let mut recorder = Recorder::new(|done: &Executed| {
         let text = text_of(listing, done.line);
         if let Some(begun) = turn_begun(which, text, done) {
             turn = begun;
         }
-        if turn.is_none_or(&wanted) && steps.len() < MOST_STEPS {
+        let has_room = steps.len() < MOST_STEPS && numbers < MOST_NUMBERS;
+        if turn.is_none_or(&wanted) && has_room {
+            numbers += done.reads.iter().chain(&done.writes).map(shown).sum::<usize>();
             steps.push(Step::new(turn, done));
         }
     });
@@ -77,7 +84,8 @@ pub fn trace(
         Ok((product, output)) => (Ok(product), output),
         Err(failure) => (Err(failure), vec![]),
     };
-    Trace { which, steps, output, result }
+    let is_cut = steps.len() >= MOST_STEPS || numbers >= MOST_NUMBERS;
+    Trace { which, steps, is_cut, output, result }
 }
 
 /// Executes a listing and returns what it computes, with the lines that its own `trace` wrote.
@@ -98,7 +106,11 @@ pub fn run<O: Observer>(
 
 /// The text of a printed line; empty where the listing has no such line.
 pub fn text_of(listing: &Listing, printed: usize) -> &str {
-    listing.lines().iter().find(|line| line.printed == printed).map_or("", |line| &line.text)
+    let is_it = |line: &&Line| line.printed == printed;
+    let lines = listing.lines();
+    // Most listings number their lines one by one.
+    let at = lines.get(printed.wrapping_sub(1)).filter(is_it);
+    at.or_else(|| lines.iter().find(is_it)).map_or("", |line| &line.text)
 }
 
 /// Whether a `for` line begins another turn: over the contact nodes, over the elements, or over
@@ -132,11 +144,21 @@ impl Access {
     }
 }
 
+/// Returns what an access counts against [`MOST_NUMBERS`].
+fn shown(access: &Named) -> usize {
+    1 + if is_small(&access.value) { access.value.count() } else { 0 }
+}
+
+/// Returns whether the entries of a value are shown.
+fn is_small(value: &Value) -> bool {
+    value.count() <= 36
+}
+
 /// A number as a number, a small array as its entries (a matrix as rows), all else by its kind.
 fn json(value: &Value) -> Json {
     match value {
         Value::Number(x) => Json::from(*x),
-        Value::Array(a) if a.entries().len() > 36 => Json::from(value.kind()),
+        Value::Array(_) if !is_small(value) => Json::from(value.kind()),
         Value::Array(a) if a.cols() == 1 => Json::from(a.entries()),
         Value::Array(a) => a.entries().chunks(a.cols().max(1)).map(Json::from).collect(),
         other => Json::from(other.kind()),
