@@ -35,6 +35,7 @@ fn words(region: &Checked) -> String {
         Verdict::Same => "same to the last bit".into(),
         Verdict::Digits(digits) => format!("same to {digits} digits"),
         Verdict::SameFailure { saved, ours } => format!("both fail: «{saved}»; here: {ours}"),
+        Verdict::Fails(why) => format!("nothing saved to compare with; it fails here: {why}"),
         Verdict::Differs { saved, ours } => {
             format!("differs: saved {}; here {}", short(saved), short(ours))
         }
@@ -85,6 +86,7 @@ fn region(region: &Checked) -> Value {
         Verdict::Differs { saved, ours } => {
             ("differs", vec![("saved", saved.clone().into()), ("ours", ours.clone().into())])
         }
+        Verdict::Fails(why) => ("fails", vec![("ours", why.clone().into())]),
         Verdict::Beyond(construct) => ("beyond", vec![("construct", construct.clone().into())]),
     };
     fields.insert("verdict".into(), verdict.into());

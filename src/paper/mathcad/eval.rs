@@ -30,8 +30,18 @@ impl<O: Observer> Run<'_, '_, O> {
             }
             Kind::Not(x) => Ok(truth_value(!self.truth(x)?)),
             Kind::Power(x, y) => {
-                let (x, y) = (self.number(x)?, self.number(y)?);
-                power(x, y).map(Value::Number).map_err(|cause| self.fail(&expr.span, cause))
+                let (x, y) = (self.eval(x)?, self.number(y)?);
+                let power = match x {
+                    Value::Number(x) => power(x, y).map(Value::Number),
+                    matrix if y == -1.0 => {
+                        self.afford(matrix.count())?;
+                        // The elimination, and twice as much for the unit columns.
+                        self.spend(3 * matrices::steps(&matrix))?;
+                        matrices::inverse(&matrix)
+                    }
+                    other => Err(kind("a number, or a matrix to the power −1", &other)),
+                };
+                power.map_err(|cause| self.fail(&expr.span, cause))
             }
             Kind::Column(x, j) => {
                 let (x, j) = (self.eval(x)?, self.number(j)?);

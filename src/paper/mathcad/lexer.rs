@@ -47,15 +47,50 @@ impl fmt::Display for Token {
     }
 }
 
-/// The signs, those of two characters first; `-` and `*` stand for `−` and `·`.
-const SIGNS: [&str; 30] = [
-    ":=", "..", "←", "∈", "∧", "∨", "¬", "≤", "≥", "≠", "<", ">", "=", "+", "−", "-", "·", "*",
-    "/", "^", "ᵀ", "|", ",", ";", "(", ")", "[", "]", "⟨", "⟩",
+/// The signs, those of two characters first.
+const SIGNS: [&str; 34] = [
+    ":=", "..", "<-", "<=", ">=", "!=", "←", "∈", "∧", "∨", "¬", "≤", "≥", "≠", "<", ">", "=", "+",
+    "−", "-", "·", "*", "/", "^", "ᵀ", "|", ",", ";", "(", ")", "[", "]", "⟨", "⟩",
 ];
 
 /// The words that no name can be.
-pub const KEYWORDS: [&str; 8] =
-    ["for", "while", "if", "otherwise", "try", "return", "break", "continue"];
+pub const KEYWORDS: [&str; 13] = [
+    "for",
+    "while",
+    "if",
+    "otherwise",
+    "try",
+    "return",
+    "break",
+    "continue",
+    "in",
+    "and",
+    "or",
+    "not",
+    "transpose",
+];
+
+/// Signs and words as they are typed in ASCII, and what each stands for. `<-` stays what it is: the
+/// grammar knows where it assigns.
+const TYPED: [(&str, &str); 9] = [
+    ("-", "−"),
+    ("*", "·"),
+    ("<=", "≤"),
+    (">=", "≥"),
+    ("!=", "≠"),
+    ("in", "∈"),
+    ("and", "∧"),
+    ("or", "∨"),
+    ("not", "¬"),
+];
+
+/// What `<` and a minus sign behind it may mean.
+pub const ARROW: &str = "`<` and `-` without brackets, which may mean two things: write `x <- 1` to \
+                         assign 1, or `x < (-1)` to compare with -1";
+
+fn typed(sign: &'static str) -> &'static str {
+    TYPED.into_iter().find(|(ascii, _)| *ascii == sign).map_or(sign, |(_, meant)| meant)
+}
 
 /// The names of a listing in the order of their first appearance.
 #[derive(Clone, Debug, Default)]
@@ -126,12 +161,11 @@ impl Lexer<'_> {
     fn token(&mut self, at: usize) -> Result<(Token, usize), Complaint> {
         let rest = &self.text[at..];
         if let Some(sign) = SIGNS.into_iter().find(|sign| rest.starts_with(sign)) {
-            let known = match sign {
-                "-" => "−",
-                "*" => "·",
-                _ => sign,
-            };
-            return Ok((Token::Sign(known), sign.len()));
+            let behind_less = matches!(self.found.last(), Some((Token::Sign("<"), _)));
+            if sign == "-" && behind_less {
+                return Err((at, format!("found {ARROW}")));
+            }
+            return Ok((Token::Sign(typed(sign)), sign.len()));
         }
         match rest.chars().next() {
             Some('"') => text(rest).map_err(|message| (at, message)),
@@ -148,7 +182,7 @@ impl Lexer<'_> {
         let length = name_length(rest);
         let keyword = KEYWORDS.into_iter().find(|word| *word == &rest[..length]);
         let token = match &rest[..length] {
-            _ if keyword.is_some() => Token::Sign(keyword.unwrap_or_default()),
+            _ if keyword.is_some() => Token::Sign(typed(keyword.unwrap_or_default())),
             name if rest[length..].starts_with('(') => Token::Function(self.names.intern(name)),
             name => Token::Name(self.names.intern(name)),
         };

@@ -55,11 +55,18 @@ pub struct Operand<'a> {
     pub held: Option<bool>,
 }
 
-/// A statement executed: what it read, and what it wrote.
-#[derive(Clone, Debug, PartialEq)]
+/// A statement executed: what it read, what decided it, and what it wrote.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Executed {
     /// The number of the printed line, from 1.
     pub line: usize,
+    /// The number of the line in the file, from 1; of a line that an edit moves or repeats, in the
+    /// edit's.
+    pub in_file: usize,
+    /// Whether its condition was true; `None` without a condition, and where it failed.
+    pub held: Option<bool>,
+    /// The operands of its `∧`, in order: text and truth as an [`Operand`] has them.
+    pub operands: Vec<(String, Option<bool>)>,
     /// Everything that was read, in order.
     pub reads: Vec<Named>,
     /// Everything that was written, in order.
@@ -100,16 +107,16 @@ impl<F: FnMut(&Executed)> Recorder<F> {
     }
 
     /// Hands over the statement that is done and begins the next.
-    fn begin(&mut self, line: usize) {
-        let next = Executed { line, reads: vec![], writes: vec![] };
+    fn begin(&mut self, line: &Line) {
+        let next = Executed { line: line.printed, in_file: line.in_file, ..Executed::default() };
         if let Some(done) = self.current.replace(next) {
             (self.hand_over)(&done);
         }
     }
 
     /// Returns the current statement, a new one when a loop's line comes round again.
-    fn on(&mut self, line: usize) -> &mut Executed {
-        if self.current.as_ref().is_none_or(|current| current.line != line) {
+    fn on(&mut self, line: &Line) -> &mut Executed {
+        if self.current.as_ref().is_none_or(|current| current.line != line.printed) {
             self.begin(line);
         }
         self.current.as_mut().expect("a statement has begun")
@@ -118,15 +125,24 @@ impl<F: FnMut(&Executed)> Recorder<F> {
 
 impl<F: FnMut(&Executed)> Observer for Recorder<F> {
     fn statement(&mut self, line: &Line) {
-        self.begin(line.printed);
+        self.begin(line);
     }
 
     fn read(&mut self, access: Access<'_>) {
-        self.on(access.line.printed).reads.push(access.into());
+        self.on(access.line).reads.push(access.into());
     }
 
     fn write(&mut self, access: Access<'_>) {
-        self.on(access.line.printed).writes.push(access.into());
+        self.on(access.line).writes.push(access.into());
+    }
+
+    fn condition(&mut self, place: Place<'_>, held: bool) {
+        self.on(place.line).held = Some(held);
+    }
+
+    fn conjunction(&mut self, place: Place<'_>, operands: &[Operand<'_>]) {
+        let operands = operands.iter().map(|operand| (operand.text.into(), operand.held));
+        self.on(place.line).operands = operands.collect();
     }
 }
 

@@ -11,7 +11,7 @@ use chumsky::input::MappedInput;
 use chumsky::pratt::{infix, left, none};
 use chumsky::prelude::*;
 
-use super::lexer::{Complaint, Spanned, Token};
+use super::lexer::{ARROW, Complaint, Spanned, Token};
 use super::syntax::{Comparison, Expr, Kind, Operation, Range, Reference, Slot, Statement, Step};
 
 type Tokens<'t> = MappedInput<'t, Token, SimpleSpan, &'t [Spanned]>;
@@ -37,6 +37,9 @@ fn parse<'t, T>(grammar: Grammar<'t, T>, tokens: &'t [Spanned]) -> Result<T, Com
 
 fn complaint(errors: &[Rich<'_, Token>]) -> Complaint {
     let error = &errors[0];
+    if error.found() == Some(&Token::Sign("<-")) {
+        return (error.span().start, format!("found {ARROW}"));
+    }
     if let RichReason::Custom(message) = error.reason() {
         return (error.span().start, format!("found {message}"));
     }
@@ -97,8 +100,8 @@ fn step_grammar<'t>() -> Grammar<'t, Step> {
     let result = result.map(|(value, guard)| Step::Return { value, guard });
     let leave = sign("break").ignore_then(guard.clone()).map(|guard| Step::Break { guard });
     let next = sign("continue").ignore_then(guard.clone()).map(|guard| Step::Continue { guard });
-    let assign =
-        reference(expression()).then_ignore(sign("←")).then(expression()).then(guard.clone());
+    let arrow = select! { Token::Sign("←" | "<-" | ":=") => () }.labelled("`←`");
+    let assign = reference(expression()).then_ignore(arrow).then(expression()).then(guard.clone());
     let assign = assign.map(|((target, value), guard)| Step::Assign { target, value, guard });
     let evaluate = expression().then(guard).map(|(value, guard)| Step::Evaluate { value, guard });
     let words = choice((while_, otherwise, attempt, result, leave, next));
@@ -218,7 +221,12 @@ fn atom<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
     let magnitude = expression
         .delimited_by(sign("|"), just(Token::ClosingBar))
         .map(|x| Kind::Magnitude(Box::new(x)));
-    choice((plain, series, call, read, rows, magnitude))
+    let transpose = sign("transpose").ignore_then(rows.clone());
+    let transpose = transpose.map_with(|rows, e| match rows {
+        Kind::Group(x) => Kind::Transpose(x),
+        array => Kind::Transpose(Box::new(node(array, e.span()))),
+    });
+    choice((plain, series, call, read, rows, magnitude, transpose))
         .map_with(|kind, e| node(kind, e.span()))
         .boxed()
 }

@@ -39,6 +39,8 @@ pub enum Verdict {
     Digits(u32),
     /// Both fail; the words that Mathcad saved, and ours.
     SameFailure { saved: String, ours: String },
+    /// Ours fails where nothing is saved; why.
+    Fails(String),
     /// They differ: what Mathcad saved, and ours.
     Differs { saved: String, ours: String },
     /// The interpreter does not have this construct, or what it rests on.
@@ -322,10 +324,13 @@ fn verdict(outcome: &Outcome, saved: Option<&Saved>) -> Verdict {
         }
         // A function of Mathcad's that the interpreter does not have.
         (Outcome::Failed(Cause::Undefined { name }), _) => Verdict::Beyond(format!("`{name}`")),
-        (Outcome::Failed(cause), saved) => Verdict::Differs {
-            saved: saved.map_or("a value".into(), spelled),
-            ours: cause.to_string(),
-        },
+        (Outcome::Failed(Cause::Arguments { expected, found }), _) if found < expected => {
+            Verdict::Beyond("a call with fewer arguments, which is a function".into())
+        }
+        (Outcome::Failed(cause), None) => Verdict::Fails(cause.to_string()),
+        (Outcome::Failed(cause), Some(saved)) => {
+            Verdict::Differs { saved: spelled(saved), ours: cause.to_string() }
+        }
         (Outcome::Value(_), None) => Verdict::NothingSaved,
         (Outcome::Value(ours), Some(Saved::Value(saved))) => compare(saved, ours),
         (Outcome::Value(ours), Some(saved @ Saved::Error(_))) => {

@@ -95,6 +95,10 @@ fn endless_loops() {
         "copies"
     );
     assert_eq!(under(&limits, "a ← identity(50)\nfor i ∈ 1 .. 9999\n  a·a"), steps, "products");
+    for elimination in ["lsolve(a,a⟨1⟩)", "a^−1", "|a|"] {
+        let program = format!("a ← identity(50)\nfor i ∈ 1 .. 9999\n  {elimination}");
+        assert_eq!(under(&limits, &program), steps, "{elimination}");
+    }
     assert_eq!(
         under(&limits, "for i ∈ 1 .. 99999999\n  1 = 0 ∧ rows(identity(8000)) = 1"),
         steps,

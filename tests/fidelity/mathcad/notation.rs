@@ -68,6 +68,53 @@ fn operators_bind_as_in_mathcad() {
     assert_eq!(value("v·2ᵀ"), "2; 4; 6");
 }
 
+/// The paper's listings in ASCII are the same trees.
+#[test]
+fn listings_may_be_typed_in_ascii() {
+    let signs = [
+        ("←", "<-"),
+        ("∈", "in"),
+        ("∧", "and"),
+        ("≤", "<="),
+        ("≥", ">="),
+        ("≠", "!="),
+        ("·", "*"),
+        ("−", "-"),
+        ("(0 0 0 0 0 0)ᵀ", "transpose(0 0 0 0 0 0)"),
+        ("B[n]ᵀ", "transpose(B[n])"),
+        (" + c_tll)ᵀ", " + c_tll)"),
+        ("ntx <- (", "ntx := transpose("),
+        ("nty <- (", "nty := transpose("),
+    ];
+    for (name, text) in LISTINGS {
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        let text: String = lines.map(|line| format!("{line}\n")).collect();
+        let typed =
+            signs.iter().fold(text.clone(), |text, (sign, typed)| text.replace(sign, typed));
+        let typed = typed.replace('ν', "nu");
+        assert!(typed.is_ascii(), "{typed}");
+        let [printed, typed] = [text, typed].map(|text| Listing::parse(name, &text).unwrap());
+        assert_eq!(spelled(&typed).replace("nu", "ν"), spelled(&printed));
+    }
+    assert_eq!(value("y <- 1\ny := y + 1\ny"), "2");
+    assert_eq!(value("(1 < 2 and not 2 <= 1 or 1 != 1   max(transpose(v)))"), "1 3");
+}
+
+#[test]
+fn an_arrow_is_no_comparison() {
+    let message = |line: &str| refused(&format!("f(x) :=\n  {line}\n  x")).message;
+    for line in ["1 if x <-1", "1 if x < -1", "y <- x < - 1", "if x + 1 <- 1\n    x", "(x <-1)"] {
+        let message = message(line);
+        assert!(
+            message.contains("write `x <- 1` to assign 1, or `x < (-1)` to compare"),
+            "{line}: {message}"
+        );
+    }
+    assert_eq!(value("dy[2] <- 1\ndy"), "0; 1");
+    assert_eq!(value("dy[2] <-1\ndy"), "0; 1");
+    assert_eq!(value("(x < (-1)   x > -1   x <= -1   x < −1)"), "0 1 0 0");
+}
+
 fn refused(text: &str) -> ParseError {
     Listing::parse("f", text).err().unwrap_or_else(|| panic!("{text:?} was read"))
 }

@@ -49,8 +49,8 @@ fn mathcad_s_own_worksheets() {
                 Verdict::Same => "same",
                 Verdict::Digits(_) => "digits",
                 Verdict::SameFailure { .. } => "failure",
-                Verdict::Differs { saved, ours } => {
-                    panic!("{}, {}: saved {saved}, here {ours}", file.display(), region.id)
+                Verdict::Differs { .. } | Verdict::Fails(_) => {
+                    panic!("{}, {}: {:?}", file.display(), region.id, region.verdict)
                 }
                 Verdict::Beyond(_) => "beyond",
             };
@@ -62,7 +62,13 @@ fn mathcad_s_own_worksheets() {
 }
 
 /// The package reads what is written, writes it back byte for byte, and finds no error but names
-/// that a program writes entry by entry, which it does not follow out of loops.
+/// that it does not know.
+///
+/// Those are of two kinds, both limits of its `check`: Mathcad's functions `identity` and `trace`,
+/// which its registry lacks, and names that a loop writes entry by entry, which it does not follow
+/// out of the loop. The listings as printed have both, and so have worksheets that Mathcad 14.1
+/// saved: github:flying-pi/MS_2_2_lab, lab3.xmcd region 246 (`R`) and lab5.xmcd (`trace`). A loop
+/// made by the package itself is refused in the same way.
 #[test]
 fn the_package_reads_and_checks_what_is_written() {
     let Some(source) = source() else { return };
@@ -74,15 +80,27 @@ fn the_package_reads_and_checks_what_is_written() {
     }
     std::fs::write(folder.path().join("probe.xmcd"), probe::worksheet()).expect("a file");
     let script = "
-import sys
-from xmcd import Function, Symbol, ValidationContext, Worksheet
-symbols = tuple(map(Symbol, 'a b all ct yt dy k_cnt V cx MJS W d y z'.split()))
+import re, sys
+from xmcd import Define, DefinitionKind, For, Function, Program, Range, Symbol, ValidationContext, Worksheet
+
+def undefined(report):
+    return {re.search(\"'(.*?)' is not\", str(e))[1] for e in report.errors if 'undefined' in str(e)}
+
+own, i, z = Worksheet(), Symbol('i'), Symbol('z')
+entry = Define(z[i], i, kind=DefinitionKind.LOCAL)
+own.define(Function(Symbol('f'), [Symbol('x')]), Program(For(i, Range(1, 2), entry), z))
+assert undefined(own.check()) == {'z'}, own.check().errors
+
+names = 'a b all ct yt dy k_cnt V cx MJS W d y z'.split()
+symbols = tuple(map(Symbol, names))
 for file in sys.argv[1:]:
     x = [Symbol('x'), Symbol('y')]
     trace = Function(Symbol('trace'), x if 'probe' in file else x[:1])
     context = ValidationContext(symbols, (Function(Symbol('identity'), x[:1]), trace))
     sheet = Worksheet.read(file)
     assert sheet.to_bytes() == open(file, 'rb').read(), file
+    unknown = undefined(sheet.check())
+    assert 'trace' in unknown and unknown <= {*names, 'identity', 'trace'}, (file, unknown)
     # The questions about subscripts below ORIGIN are errors on purpose.
     errors = [str(e) for e in sheet.check(context=context).errors]
     errors = [e for e in errors if 'index-domain' not in e]

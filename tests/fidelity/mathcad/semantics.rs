@@ -265,6 +265,11 @@ fn functions_of_matrices() {
     assert_eq!(value("∏(i ∈ 1 .. 5, i)"), "120", "advanced 19");
     assert_eq!(value("∑(i ∈ 1 .. x, i)"), "15", "core 12");
     assert_eq!(value("i ← 9\n∑(i ∈ 1 .. 2, i)·10 + i"), "39", "its variable is its own");
+    assert_eq!(value("(2 1; 1 1)^−1"), "1 -1; -1 2");
+    assert_eq!(value("(0 2; 4 0)^−1"), "0 0.25; 0.5 0", "a row exchanged");
+    assert!(matches!(failure("(m·0)^−1"), Cause::Singular));
+    assert!(matches!(failure("v^−1"), Cause::Kind { .. }));
+    assert!(matches!(failure("m^2"), Cause::Kind { .. }));
     assert!(matches!(failure("lsolve(m·0, (1; 1))"), Cause::Singular));
     assert!(matches!(failure("lsolve(m, v)"), Cause::Sizes { .. }));
     assert!(matches!(failure("augment(m, v)"), Cause::Sizes { .. }));

@@ -100,6 +100,9 @@ fn results_are_compared_number_by_number() {
         "<ml:matrix rows=\"2\" cols=\"1\"><ml:real>1</ml:real><ml:real>2</ml:real></ml:matrix>";
     assert_eq!(verdict("(1; 2)", matrix), Verdict::Same);
     assert!(matches!(verdict("(1 2)", matrix), Verdict::Differs { .. }), "another shape");
+    assert!(matches!(verdict("1 / 0", ""), Verdict::Fails(_)), "nothing saved");
+    let fewer = "a call with fewer arguments, which is a function";
+    assert_eq!(verdict("mod(t)", "<ml:real>1</ml:real>"), Verdict::Beyond(fewer.into()));
     assert_eq!(
         verdict("linterp(t,t,1)", "<ml:real>1</ml:real>"),
         Verdict::Beyond("`linterp`".into())
@@ -244,6 +247,23 @@ fn run(listing: &Listing) -> Result<String, std::mem::Discriminant<Cause>> {
     let outcome = worksheet.call(&[Value::Number(5.0)]);
     let kind = outcome.map_err(|failure| std::mem::discriminant(&failure.cause));
     kind.map(|outcome| outcome.value.to_string())
+}
+
+/// What has no operator, or an operator that is none, is beyond the interpreter; it was once a
+/// recursion without end.
+#[test]
+fn an_empty_operator_is_named() {
+    for (expression, words) in [
+        ("<apply/>", "an incomplete `apply`"),
+        ("<apply><apply/><real>1</real></apply>", "an empty place"),
+    ] {
+        let text = format!(
+            "<worksheet><regions><region><math><eval>{expression}</eval></math></region></regions>\
+             </worksheet>"
+        );
+        let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
+        assert_eq!(checked[0].verdict, Verdict::Beyond(words.into()), "{expression}");
+    }
 }
 
 #[test]

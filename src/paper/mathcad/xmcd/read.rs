@@ -318,7 +318,10 @@ fn subscripts(node: Math<'_, '_>) -> Read<String> {
 /// Names the construct that an element is.
 pub fn beyond(node: Math<'_, '_>) -> Beyond {
     let words = match node.tag() {
-        "apply" => return beyond(node.parts().next().unwrap_or(node)),
+        "apply" => match node.parts().next() {
+            Some(operator) => return beyond(operator),
+            None => "an empty place",
+        },
         "imag" | "complex" | "conjugate" => "complex numbers",
         "unitedValue" | "unitMonomial" | "unitReference" => "units",
         "symEval" | "symResult" => "symbolics",
