@@ -31,7 +31,10 @@ macro_rules! choices {
             fn from_str(text: &str) -> Result<Self, String> {
                 match text {
                     $($text => Ok($name::$variant),)+
-                    _ => Err(format!("{text:?} is none of {}", [$($text),+].join(", "))),
+                    _ => {
+                        let near = $crate::suggestion::did_you_mean(text, [$($text),+]);
+                        Err(format!("{near}{text:?} is none of {}", [$($text),+].join(", ")))
+                    }
                 }
             }
         }

@@ -57,6 +57,8 @@ pub mod report;
 #[doc(hidden)]
 pub mod studies;
 #[doc(hidden)]
+pub mod suggestion;
+#[doc(hidden)]
 pub mod xml;
 
 #[doc(inline)]

@@ -16,6 +16,7 @@ use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{self, Precision, Solver, Unsolved};
 use crate::paper::door;
+use crate::paper::edited::Interpreter;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{Km, Pairs, RestraintIndex, Schedule, Worksheet};
 use crate::problem::model::{Dof, Model};
@@ -37,6 +38,8 @@ pub(super) struct Equations<'a, T> {
     model: &'a Arc<Model>,
     sheet: &'a Worksheet<T>,
     assembly: Assembly<T>,
+    /// What executes an edited `Km`; None where no listing is edited.
+    interpreter: Option<&'a Interpreter>,
     /// The stiffness, triangle by triangle.
     pub stiffness: Stiffness<T>,
     /// Whether the run takes each degree of freedom as restrained.
@@ -72,6 +75,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         sheet: &'a Worksheet<T>,
         load: DVector<T>,
         sparse: Option<MakeSparse<T>>,
+        interpreter: Option<&'a Interpreter>,
         number: &dyn Fn(f64) -> T,
     ) -> Result<Self, Error> {
         let share = match request.schedule() {
@@ -87,10 +91,25 @@ impl<'a, T: Precision> Equations<'a, T> {
         let assembly = match (request.variant, sparse) {
             (Variant::Printed, _) => Assembly::Printed,
             (_, Some(make)) => Assembly::Sparse(make(request, model)),
-            (_, None) => Assembly::Dense(door::free_stiffness(sheet, &request.reading)?),
+            (_, None) => Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
+                Some(edited) => edited?,
+                None => door::free_stiffness(sheet, &request.reading)?,
+            }),
         };
         let stiffness = Stiffness::new(model, number);
-        Ok(Equations { request, model, sheet, assembly, stiffness, restrained, load, f, share })
+        let equations = Equations {
+            request,
+            model,
+            sheet,
+            assembly,
+            interpreter,
+            stiffness,
+            restrained,
+            load,
+            f,
+            share,
+        };
+        Ok(equations)
     }
 
     /// Solves A(c)·u = f in iteration `k`.
@@ -107,8 +126,11 @@ impl<'a, T: Precision> Equations<'a, T> {
         match &self.assembly {
             Assembly::Printed => {
                 let solved = T::sweep(|| {
-                    let matrix = Km(self.sheet, &self.request.reading, &pairs.k_cnt)?.into_matrix();
-                    let solved = T::solve(matrix, &self.f, solver, tol);
+                    let matrix = match self.interpreter.and_then(|i| i.km(&pairs.k_cnt)) {
+                        Some(edited) => edited?,
+                        None => Km(self.sheet, &self.request.reading, &pairs.k_cnt)?,
+                    };
+                    let solved = T::solve(matrix.into_matrix(), &self.f, solver, tol);
                     solved.map_err(|why| self.unsolved(why, pairs, k, Dof::new))
                 })?;
                 Ok(self.solved(solved.residual, solved.x, &[]))

@@ -23,6 +23,8 @@ use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{Inputs, Precision, ScalarName, cost, memory};
 use crate::paper::decisions::{Decision, decisions};
 use crate::paper::door::{self, NodeToSegment};
+use crate::paper::edited::Interpreter;
+use crate::paper::listings::Which;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet};
 use crate::paper::near::c_cnt;
@@ -52,7 +54,10 @@ pub(super) fn published<T: Precision>(
     let sheet = door::worksheet(&model, number);
     let load = model.load_in(number);
     check_load(request, &model, &load)?;
-    let mut run = Run::new(request, &model, &sheet, load, sparse, &number)?;
+    let interpreter = (!request.edited.is_empty())
+        .then(|| Interpreter::new(&model, &request.reading, &request.edited));
+    let interpreter = interpreter.as_ref();
+    let mut run = Run::new(request, &model, &sheet, load, sparse, interpreter, &number)?;
     let mut steps: Vec<Step> = Vec::new();
     for k in 1..=request.iterations {
         let step = run.iterate(k)?;
@@ -127,6 +132,8 @@ struct Run<'a, T> {
     request: &'a Request,
     model: &'a Arc<Model>,
     sheet: &'a Worksheet<T>,
+    /// What executes the edited listings; None where there is none.
+    interpreter: Option<&'a Interpreter>,
     /// The equations of every iteration.
     equations: Equations<'a, T>,
     /// The surfaces that mortar needs; None under `nts`.
@@ -168,10 +175,11 @@ impl<'a, T: Precision> Run<'a, T> {
         sheet: &'a Worksheet<T>,
         load: DVector<T>,
         sparse: Option<MakeSparse<T>>,
+        interpreter: Option<&'a Interpreter>,
         number: &dyn Fn(f64) -> T,
     ) -> Result<Self, Error> {
         let mortar = request.contact.coupling == Coupling::Mortar;
-        let equations = Equations::new(request, model, sheet, load, sparse, number)?;
+        let equations = Equations::new(request, model, sheet, load, sparse, interpreter, number)?;
         let surfaces = (mortar && request.variant != Variant::Printed)
             .then(|| mortar_surfaces(request, model))
             .transpose()?;
@@ -179,6 +187,7 @@ impl<'a, T: Precision> Run<'a, T> {
             request,
             model,
             sheet,
+            interpreter,
             equations,
             surfaces,
             u: DVector::from_element(model.dofs(), T::zero()),
@@ -217,7 +226,10 @@ impl<'a, T: Precision> Run<'a, T> {
         }
         let (rule, variant) = (self.request.contact.status, self.request.variant);
         let by_listing = rule == StatusRule::Signs || variant == Variant::Printed;
-        let pairs = if by_listing {
+        let edited = self.interpreter.and_then(|interpreter| interpreter.c_cnt(&node_n));
+        let pairs = if let Some(pairs) = edited {
+            pairs?
+        } else if by_listing {
             c_cnt(self.sheet, reading, &node_n)?
         } else {
             let found = status::statuses(rule, self.model, self.sheet, reading, &node_n)?;
@@ -231,8 +243,12 @@ impl<'a, T: Precision> Run<'a, T> {
                 Some(status::decisions(rule, model, sheet, reading, &node_n, k)?)
             }
         };
-        let places = door::on_edges(self.sheet, &pairs, reading, &node_n);
         let linked = door::linked(self.sheet, &pairs);
+        let places = match self.request.is_edited(Which::CCnt) {
+            // Its weights are its own, wherever it takes them from.
+            true => linked.clone(),
+            false => door::on_edges(self.sheet, &pairs, reading, &node_n),
+        };
         let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
         let of_mortar = self.bind_by_mortar(&mut constraints, &node_n, k);
         let undecided =

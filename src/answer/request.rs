@@ -7,6 +7,8 @@ use super::contact;
 use crate::error::InputError;
 use crate::numbers::solve::{Arithmetic, Solver};
 use crate::paper::door;
+use crate::paper::edited::Edited;
+use crate::paper::listings::Which;
 use crate::paper::mirror::{Reading, Schedule};
 use crate::problem::model::Model;
 use crate::problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};
@@ -29,6 +31,8 @@ pub struct Request {
     pub arithmetic: Arithmetic,
     /// The tolerance of the contact search in place of the scene's own, length.
     pub tolerance: Option<f64>,
+    /// The edited listings that are executed in place of the paper's.
+    pub edited: Vec<Edited>,
     /// The bodies factored so far, shared with the requests that were made from this one.
     pub(super) shared: Shared,
 }
@@ -43,6 +47,7 @@ impl Request {
             reading: Reading::default(),
             arithmetic: Arithmetic::default(),
             tolerance: None,
+            edited: Vec::new(),
             shared: Shared::default(),
             scene: scene.clone(),
         }
@@ -88,7 +93,7 @@ impl Request {
     pub fn equilibrium(&self) -> Self {
         let contact = ContactModel { coupling: Coupling::Mortar, ..self.contact };
         let (variant, arithmetic) = (Variant::Unilateral, Arithmetic::default());
-        Request { contact, variant, arithmetic, ..self.clone() }
+        Request { contact, variant, arithmetic, edited: Vec::new(), ..self.clone() }
     }
 
     /// Returns whether `other` asks for the same solution of the same scene under `unilateral`.
@@ -109,6 +114,11 @@ impl Request {
     /// Returns the solver asked for, or the variant's and the scalar's own.
     pub fn solver(&self) -> Solver {
         self.arithmetic.solver(self.variant == Variant::Printed)
+    }
+
+    /// Returns whether one of the paper's listings is edited.
+    pub fn is_edited(&self, which: Which) -> bool {
+        self.edited.iter().any(|edited| edited.which == which)
     }
 
     /// Returns the load of an iteration: R7 where the reading sets it, else the variant's own.

@@ -11,10 +11,11 @@ use super::unilateral::unilateral;
 use crate::error::InputError;
 use crate::numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
 use crate::numbers::solve::{Arithmetic, ScalarName, Solver, cost};
+use crate::paper::listings::Which;
 use crate::paper::mirror::NodeTable;
 use crate::problem::element::State;
 use crate::problem::model::Model;
-use crate::problem::modelling::Variant;
+use crate::problem::modelling::{StatusRule, Variant};
 
 /// Solves `request`; `watch` is called after each step.
 ///
@@ -24,6 +25,7 @@ use crate::problem::modelling::Variant;
 /// under `unilateral` contact and restraints do not restrain the bodies.
 pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
     request.arithmetic.check()?;
+    check_edited(request)?;
     run(request, watch).map_err(|why| blamed(request, why))
 }
 
@@ -93,6 +95,36 @@ where
 /// The errors of [`solve`].
 pub fn equilibrium(request: &Request) -> Result<Solution, Error> {
     solve(&request.equilibrium(), &mut |_| ())
+}
+
+/// Checks that a run with edited listings executes them: in f64, as the interpreter does, and an
+/// edited `Km`, whose matrix need not be symmetric, by LU.
+fn check_edited(request: &Request) -> Result<(), InputError> {
+    let Request { variant, contact, arithmetic, .. } = request;
+    let c_cnt = request.is_edited(Which::CCnt);
+    let km = request.is_edited(Which::Km);
+    let by_listing = contact.status == StatusRule::Signs || *variant == Variant::Printed;
+    let refuse = |place: &str, what: String, fix: &str| Err(InputError::new(place, what, fix));
+    match () {
+        () if !c_cnt && !km => Ok(()),
+        () if *variant == Variant::Unilateral => {
+            let what = "unilateral executes no listing".into();
+            refuse("--c-cnt, --km", what, "ask for --variant printed, tied or stepped")
+        }
+        () if arithmetic.scalar != ScalarName::F64 => {
+            let what = format!("an edited listing is not executed in {}", arithmetic.scalar);
+            refuse("--scalar", what, "leave it out")
+        }
+        () if c_cnt && !by_listing => {
+            let what = format!("under the rule {} c_cnt is not called", contact.status);
+            refuse("--status", what, "leave it out")
+        }
+        () if km && !matches!(request.solver(), Solver::DenseLu | Solver::SparseLu) => {
+            let what = format!("{} does not solve what an edited Km builds", request.solver());
+            refuse("--solver", what, "use sparse-lu or dense-lu")
+        }
+        () => Ok(()),
+    }
 }
 
 /// Checks that `unilateral` is requested in f64 by sparse Cholesky.

@@ -1,5 +1,6 @@
 //! `plane-contact audit`.
 
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
@@ -15,8 +16,9 @@ use plane_contact::report::{audit as report, folder, pressure};
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::range::range;
 use plane_contact::studies::audit::{Audit, Case, audit};
+use plane_contact::suggestion::did_you_mean;
 
-use super::{print, waiting};
+use super::{TablesArgs, print, print_fitted, tell, waiting};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -49,6 +51,8 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
     /// Write the tables, JSON and pictures to a folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -67,7 +71,7 @@ fn find(id: &str) -> Result<&'static Finding, InputError> {
         InputError::new(
             "--finding",
             format!("there is no finding {id:?}"),
-            format!("the findings are {}", ids.join(", ")),
+            format!("{}the findings are {}", did_you_mean(id, ids.iter().copied()), ids.join(", ")),
         )
     })
 }
@@ -86,23 +90,29 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let case = case(scene)?;
     let measured = finding.measure(&case);
     if let Some(out) = &args.out {
-        files::write(&out.join(format!("{}.svg", finding.id)), &folder::mesh_picture(&case.scene))?;
+        files::write(
+            &out.join(format!("{}.svg", finding.id)),
+            &folder::finding_picture(finding.id, &case.scene),
+        )?;
     }
     if args.json {
         return print(&(finding.row(&measured).to_string() + "\n"));
     }
-    print(&report::explain(finding, &measured, &case.scene))
+    print_fitted(&report::explain(finding, &measured, &case.scene))
 }
 
 fn whole(args: &Args) -> Result<()> {
     let case = case(Scene::open(args.scene.as_deref().unwrap_or("strand"))?)?;
     let places = if args.range { range(Reading::default())? } else { Vec::new() };
+    if !std::io::stderr().is_terminal() {
+        tell(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
+    }
     let found = waiting("auditing", || audit(&case, &places));
     let (text, json) = (report::text(&found, &case.scene), report::json(&found, &case.scene));
     if let Some(out) = &args.out {
         write(out, &case, &found, &text, &json)?;
     }
-    print(if args.json { &json } else { &text })
+    if args.json { print(&json) } else { args.tables.print(&text) }
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.
@@ -111,7 +121,7 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     files::write(&out.join("audit.json"), json)?;
     for (finding, _) in &audit.findings {
         let own = Case::new(finding.scene());
-        let picture = folder::mesh_picture(&own.scene);
+        let picture = folder::finding_picture(finding.id, &own.scene);
         files::write(&out.join("findings").join(format!("{}.svg", finding.id)), &picture)?;
     }
     let others = [case.reference(), case.equilibrium()];

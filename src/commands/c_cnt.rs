@@ -6,7 +6,7 @@ use plane_contact::paper::door::Call;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{json, tables};
 
-use super::{ReadingArg, print};
+use super::{ReadingArg, TablesArgs, print};
 
 /// Call the listing c_cnt once, at the initial shape.
 #[derive(clap::Args)]
@@ -28,6 +28,8 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
 }
 
 pub fn run(args: &Args) -> Result<()> {
@@ -35,9 +37,8 @@ pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
     let call = Call::c_cnt(&model, &reading, &model.nodes)?;
-    print(&if args.json {
-        json::pairs(&scene, &call.pairs)
-    } else {
-        tables::pairs(&scene, &model, &call)
-    })
+    if args.json {
+        return print(&json::pairs(&scene, &call.pairs));
+    }
+    args.tables.print(&tables::pairs(&scene, &model, &call))
 }

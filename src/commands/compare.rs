@@ -7,7 +7,7 @@ use plane_contact::answer::estimates::certain;
 use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
-use super::export::DeckArgs;
+use super::{TablesArgs, export::DeckArgs};
 use super::{folder, folder_name, print, waiting};
 
 plane_contact::choices! {
@@ -56,6 +56,8 @@ pub struct Args {
     /// names.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
 }
 
 pub fn run(args: &Args) -> Result<()> {
@@ -87,5 +89,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json);
     }
-    print(&format!("{}\nWritten to {}\n", report::text(&compared), out.display()))
+    args.tables.print(&format!("{}\nWritten to {}\n", report::text(&compared), out.display()))
 }

@@ -8,7 +8,7 @@ use plane_contact::files;
 use plane_contact::report::extremes as report;
 use plane_contact::studies::extremes::{Generator, generators, measure};
 
-use super::{folder, print, waiting};
+use super::{TablesArgs, folder, print, waiting};
 
 /// Sweep magnitudes until something breaks down, every answer compared with exact numbers.
 #[derive(clap::Args)]
@@ -32,6 +32,8 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
     /// Folder for extremes.txt, extremes.json and a picture for each generator, or more where
     /// its curves are too many for one [default: out/extremes, with --json none].
     #[arg(long, value_name = "DIR")]
@@ -57,7 +59,7 @@ pub fn run(args: &Args) -> Result<()> {
             files::write(&out.join(format!("{}{more}.svg", of.name)), picture)?;
         }
     }
-    print(if args.json { &json } else { &text })
+    if args.json { print(&json) } else { args.tables.print(&text) }
 }
 
 /// The generators of these names, in the order of the list; all of them where no name is given.

@@ -14,6 +14,7 @@ pub mod mathcad;
 pub mod mesh;
 pub mod plan;
 pub mod record;
+pub mod scenes;
 pub mod solve;
 pub mod statuses;
 pub mod sweep;
@@ -35,7 +36,8 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{
     ContactModel, Coupling, Friction, Geometry, StatusRule, Variant,
 };
-use plane_contact::problem::scene::Scene;
+use plane_contact::problem::scene::{Scene, SceneBuilder};
+use plane_contact::report::printed;
 
 /// The option that all commands share.
 #[derive(clap::Args)]
@@ -120,6 +122,60 @@ impl ModelArgs {
     }
 }
 
+/// What a run changes of its scene; the result is that of a scene file edited so.
+#[derive(clap::Args)]
+pub struct SceneArgs {
+    /// The tolerance of the contact search in place of the scene's, length; the text's c_tol.
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    c_tll: Option<f64>,
+    /// The number of iterations of printed, tied and stepped in place of the scene's.
+    #[arg(long, value_name = "N")]
+    iterations: Option<usize>,
+    /// Multiply all loads of the scene.
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    load_factor: Option<f64>,
+}
+
+impl SceneArgs {
+    /// Returns the scene as it is with the changes.
+    ///
+    /// # Errors
+    /// A value is out of its range, or the scene has no contact that has a tolerance.
+    pub fn change(&self, scene: Scene) -> Result<Scene> {
+        let Some((description, mesh)) = scene.source().filter(|_| !self.names().is_empty()) else {
+            return Ok(scene);
+        };
+        let (mut description, mesh) = (description.clone(), mesh.clone());
+        if let Some(tolerance) = self.c_tll {
+            let contact = description.contact.as_mut().ok_or_else(|| {
+                InputError::new("--c-tll", "the scene has no contact", "leave it out")
+            })?;
+            contact.tolerance = tolerance;
+        }
+        description.iterations = self.iterations.unwrap_or(description.iterations);
+        if let Some(factor) = self.load_factor {
+            description.loads.iter_mut().for_each(|load| load.scale(factor));
+        }
+        Ok(SceneBuilder { name: scene.name.clone(), mesh, description }.build()?)
+    }
+
+    /// Returns the changes as parts of a folder's name.
+    pub fn names(&self) -> Vec<String> {
+        let c_tll = self.c_tll.map(|x| format!("c-tll-{x:e}"));
+        let iterations = self.iterations.map(|n| format!("iterations-{n}"));
+        let factor = self.load_factor.map(|x| format!("load-factor-{x}"));
+        [c_tll, iterations, factor].into_iter().flatten().collect()
+    }
+}
+
+/// Reads the file of a listing.
+pub fn read_listing(place: &str) -> Result<String, InputError> {
+    files::read_text(Path::new(place)).map_err(|why| {
+        let what = format!("the listing cannot be read: {why}");
+        InputError::new(place, what, "give the path of an edited listing")
+    })
+}
+
 /// Returns the name of the default folder of a run: `start`, and every option that differs from what
 /// the scene and the program do by themselves, so that no two results share one.
 pub fn folder_name(start: String, request: &Request, more: &[String]) -> String {
@@ -193,6 +249,42 @@ pub fn waiting<R>(what: &'static str, work: impl FnOnce() -> R) -> R {
 /// The folder that is asked for, else `name` in the folder `out`.
 pub fn folder(asked: &Option<PathBuf>, name: String) -> PathBuf {
     asked.clone().unwrap_or_else(|| Path::new("out").join(name))
+}
+
+/// Where tables go beside standard output.
+#[derive(clap::Args)]
+pub struct TablesArgs {
+    /// Write each table that is printed to a folder too, as CSV.
+    #[arg(long, value_name = "DIR", conflicts_with = "json")]
+    csv: Option<PathBuf>,
+}
+
+impl TablesArgs {
+    /// Prints a text with tables.
+    pub fn print(&self, text: &str) -> Result<()> {
+        if let Some(folder) = &self.csv {
+            for (name, table) in printed::tables(text) {
+                files::write(&folder.join(format!("{name}.csv")), &table)?;
+            }
+        }
+        print_fitted(text)
+    }
+}
+
+/// Prints a text for people, its tables and lines fitted to the terminal.
+pub fn print_fitted(text: &str) -> Result<()> {
+    match width() {
+        usize::MAX => print(text),
+        width => print(&printed::fitted(text, width)),
+    }
+}
+
+/// Returns the characters of a line: those of the terminal; where there is none, of the variable
+/// COLUMNS, else any number, so that files and pipes have whole lines.
+pub fn width() -> usize {
+    let columns = || std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
+    let terminal = terminal_size::terminal_size().map(|(width, _)| width.0.into());
+    terminal.or_else(columns).map_or(usize::MAX, |width: usize| width.max(40))
 }
 
 /// Writes to the file that is asked for, else to standard output.

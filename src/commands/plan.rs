@@ -6,7 +6,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
 use plane_contact::studies::plan::Plan;
 
-use super::{RunArgs, print};
+use super::{RunArgs, TablesArgs, print};
 
 /// What solve will build and what not, why, and what it will cost; nothing is solved.
 #[derive(clap::Args)]
@@ -29,6 +29,8 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
 }
 
 pub fn run(args: &Args) -> Result<()> {
@@ -37,5 +39,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&report::json(&scene, &plan));
     }
-    print(&report::text(&plan, memory::free()))
+    args.tables.print(&report::text(&plan, memory::free()))
 }

@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use plane_contact::answer::error::{NoEquilibrium, Result};
 use plane_contact::answer::{self, Assessment, Request, Solution, Step};
-use plane_contact::numbers::solve::Arithmetic;
+use plane_contact::error::InputError;
+use plane_contact::numbers::solve::{Arithmetic, Solver};
+use plane_contact::paper::edited::Edited;
+use plane_contact::paper::listings::Which;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::Wanted;
@@ -12,7 +15,9 @@ use plane_contact::report::{self, tables};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::solve_to;
 
-use super::{ModelArgs, ReadingArg, folder, folder_name, print, progress, tell};
+use super::{
+    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, progress, tell,
+};
 
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
@@ -31,6 +36,8 @@ Examples:
   plane-contact solve fig1 --scalar exact --inputs decimal
   plane-contact solve strand --variant tied --scalar f64x2 --solver refined --tol 1e-28
   plane-contact solve strand --accuracy 1e-3
+  plane-contact solve strand --c-tll 1e-4 --iterations 40 --load-factor 0.5
+  plane-contact solve fig1 --variant tied --c-cnt my-c_cnt.txt
   plane-contact solve strand --probe 0,-8 --probe=-2,-9
   plane-contact solve my/scene.json --reading R6=stress,R8=m")]
 pub struct Args {
@@ -45,10 +52,20 @@ pub struct Args {
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
+    changes: SceneArgs,
+    /// Execute this edited listing in place of c_cnt (notation: listings/README.md).
+    #[arg(long, value_name = "FILE")]
+    c_cnt: Option<PathBuf>,
+    /// Execute this edited listing in place of Km; under tied and stepped it builds the matrix
+    /// without contact.
+    #[arg(long, value_name = "FILE")]
+    km: Option<PathBuf>,
+    #[command(flatten)]
     arithmetic: Arithmetic,
     /// Take the cheapest precision whose rounding changes displacements by at most this part of the
     /// largest, and say what was done; the mesh's own error is reported beside it.
-    #[arg(long, value_name = "A", conflicts_with_all = ["scalar", "solver", "tol", "inputs"])]
+    #[arg(long, value_name = "A",
+        conflicts_with_all = ["scalar", "solver", "tol", "inputs", "c_cnt", "km"])]
     accuracy: Option<f64>,
     /// Print displacement, stress and strain at a point of the undeformed mesh, with what rounding
     /// and the mesh may do to them; may be given more than once.
@@ -76,14 +93,18 @@ pub struct Args {
     /// names.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let scene = Scene::open(&args.scene)?;
+    let scene = args.changes.change(Scene::open(&args.scene)?)?;
     let request = args.model.request(&scene, args.variant, &args.reading);
-    let request = request.arithmetic(args.arithmetic);
+    let request = edited(args, request.arithmetic(args.arithmetic))?;
     let (solution, accuracy) = solve(args, &request)?;
-    let asked: Vec<String> = args.accuracy.iter().map(|a| format!("accuracy-{a:e}")).collect();
+    let mut asked = args.changes.names();
+    asked.extend(args.accuracy.iter().map(|a| format!("accuracy-{a:e}")));
+    asked.extend(request.edited.iter().map(|edited| format!("edited-{}", edited.which)));
     let start = format!("{}-{}", scene.name, request.variant);
     let out = folder(&args.out, folder_name(start, &request, &asked));
     let assess = || match args.no_error_estimate {
@@ -110,8 +131,42 @@ pub fn run(args: &Args) -> Result<()> {
         + &tables::distance(&solution, &assessment)
         + &accuracy;
     let plan = report::plan::line(&plan);
-    print(&format!("{tables}\n{plan}\nWritten to {}\n", out.display()))?;
+    let changes = beside_the_print(&solution);
+    let text = format!("{tables}{changes}\n{plan}\nWritten to {}\n", out.display());
+    args.tables.print(&text)?;
     several(&solution)
+}
+
+/// Asks for the edited listings of `--c-cnt` and `--km`.
+fn edited(args: &Args, mut request: Request) -> Result<Request> {
+    for (which, file) in [(Which::CCnt, &args.c_cnt), (Which::Km, &args.km)] {
+        let Some(file) = file else { continue };
+        let place = file.display().to_string();
+        let edited = Edited::new(&place, &super::read_listing(&place)?)?;
+        if edited.which != which {
+            let what = format!("it is the listing {}, not {which}", edited.which);
+            return Err(InputError::new(place, what, "give it to the other option").into());
+        }
+        request.edited.push(edited);
+    }
+    if request.is_edited(Which::Km) {
+        // Its matrix need not be symmetric.
+        request.arithmetic.solver.get_or_insert(Solver::SparseLu);
+    }
+    Ok(request)
+}
+
+/// Compares a run of edited listings with that of the printed ones; nothing where none is edited.
+fn beside_the_print(solution: &Solution) -> String {
+    if solution.request.edited.is_empty() {
+        return String::new();
+    }
+    let mut request = solution.request.clone();
+    request.edited.clear();
+    match answer::solve(&request, &mut |_| ()) {
+        Ok(printed) => report::edited::beside(&printed, solution),
+        Err(why) => format!("\nThe edited listings run; as printed: {why}\n"),
+    }
 }
 
 /// Reads a point such as `3.5,-1`.

@@ -7,7 +7,7 @@ use plane_contact::files;
 use plane_contact::report::statuses as report;
 use plane_contact::studies::audit::statuses::measure;
 
-use super::{print, waiting};
+use super::{TablesArgs, print, waiting};
 
 /// Compare the rules that decide who is in contact, on random scenes whose statuses are known.
 #[derive(clap::Args)]
@@ -31,6 +31,8 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
     /// Write a picture: share of wrong statuses by depth.
     #[arg(long, value_name = "SVG")]
     picture: Option<PathBuf>,
@@ -41,5 +43,8 @@ pub fn run(args: &Args) -> Result<()> {
     if let Some(path) = &args.picture {
         files::write(path, &report::picture(&measured))?;
     }
-    print(&if args.json { report::json(&measured) } else { report::text(&measured) })
+    if args.json {
+        return print(&report::json(&measured));
+    }
+    args.tables.print(&report::text(&measured))
 }

@@ -1,21 +1,20 @@
 //! `plane-contact trace`.
 
-use std::path::Path;
-
 use plane_contact::answer::Request;
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
-use plane_contact::files;
 use plane_contact::paper::door::Call;
+use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::{Which, settings};
 use plane_contact::paper::mathcad::Listing;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::trace as report;
+use plane_contact::report::changes::changes;
+use plane_contact::report::trace::{self as report, Shown};
 use plane_contact::studies::audit::trace::{self, Trace};
 
-use super::{ReadingArg, print};
+use super::{ReadingArg, print, print_fitted, width};
 
 /// Execute a listing and show, line by line, what each statement read and wrote.
 #[derive(clap::Args)]
@@ -28,6 +27,8 @@ listings/README.md).
 Examples:
   plane-contact trace fig1
   plane-contact trace fig1 --node 7
+  plane-contact trace fig1 --summary                      a line for each decision
+  plane-contact trace fig1 --lines 16-18 --exact
   plane-contact trace fig1 --listing Km --node 7
   plane-contact trace fig1 --reading R4=left-to-right     the listing stops: exit status 3
   plane-contact trace strand --listing my-c_cnt.txt --node 113
@@ -42,6 +43,15 @@ pub struct Args {
     /// Only this contact node (c_cnt), or the elements of this node (Km).
     #[arg(long, value_name = "N")]
     node: Option<usize>,
+    /// Only these printed lines, such as 16-18, or 7.
+    #[arg(long, value_name = "LINES", value_parser = lines)]
+    lines: Option<[usize; 2]>,
+    /// Only what the conditions decided, a line for each.
+    #[arg(long)]
+    summary: bool,
+    /// Show numbers with all their digits; otherwise with six.
+    #[arg(long)]
+    exact: bool,
     #[command(flatten)]
     reading: ReadingArg,
     /// Print JSON.
@@ -69,7 +79,9 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         print(&report::json(&trace, &chosen.listing, &scene))?;
     } else {
-        print(&report::text(&trace, &chosen.listing, &model))?;
+        let lines = args.lines.unwrap_or([1, usize::MAX]);
+        let shown = Shown { summary: args.summary, lines, exact: args.exact, width: width() };
+        print_fitted(&report::text(&trace, &chosen.listing, &scene, &model, &shown))?;
     }
     finish(trace, &chosen, args, &model, &call)
 }
@@ -86,7 +98,7 @@ fn finish(trace: Trace, chosen: &Chosen, args: &Args, model: &Model, call: &Call
         Ok(product) if chosen.edited && !args.json => {
             let printed = chosen.which.under(&reading);
             match trace::run(chosen.which, &printed, &settings(&reading), call, &mut ()) {
-                Ok((printed, _)) => print(&report::changes(&printed, &product, model)),
+                Ok((printed, _)) => print(&changes(&printed, &product, model)),
                 Err(why) => {
                     print(&format!("\nThe edited listing runs; as printed it fails: {why}\n"))
                 }
@@ -96,24 +108,22 @@ fn finish(trace: Trace, chosen: &Chosen, args: &Args, model: &Model, call: &Call
     }
 }
 
+/// Reads the first and the last of some lines.
+fn lines(text: &str) -> Result<[usize; 2], String> {
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    match (first.trim().parse(), last.trim().parse()) {
+        (Ok(first), Ok(last)) if 0 < first && first <= last => Ok([first, last]),
+        _ => Err("give a line, or the first and the last, such as 16-18".into()),
+    }
+}
+
 /// One of the paper's listings by name, or the edited listing in a file.
 fn choose(name: &str, reading: &Reading) -> Result<Chosen> {
     if let Ok(which) = name.parse::<Which>() {
         return Ok(Chosen { which, listing: which.under(reading), edited: false });
     }
-    let text = files::read_text(Path::new(name)).map_err(|why| {
-        let what = format!("the listing cannot be read: {why}");
-        InputError::new(name, what, "give c_cnt, Km, or the path of an edited listing")
-    })?;
-    let text = text.trim_start_matches('\u{feff}');
-    let which = Which::of(text).ok_or_else(|| {
-        let what = "the file begins with neither c_cnt nor Km";
-        InputError::new(name, what, "keep the listing's first line")
-    })?;
-    let listing = which.edited(text).map_err(|error| {
-        InputError::new(name, error.to_string(), "see the notation in listings/README.md")
-    })?;
-    Ok(Chosen { which, listing, edited: true })
+    let edited = Edited::new(name, &super::read_listing(name)?)?;
+    Ok(Chosen { which: edited.which, listing: edited.listing(), edited: true })
 }
 
 /// The contact pairs that Km receives: those of c_cnt at the initial shape.

@@ -10,7 +10,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
 use plane_contact::studies::trade::{self, Knob, Options, Trial, peak};
 
-use super::{ReadingArg, folder, folder_name, print, progress};
+use super::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
 
 /// The runs of each trial unless told otherwise.
 const RUNS: u16 = 3;
@@ -47,6 +47,8 @@ pub struct Args {
     /// Print trade.json in place of the tables; files are written only to a folder that --out names.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
     /// Folder for the files [default: out/trade-<scene>, and every option that is given].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -81,7 +83,7 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json);
     }
-    print(&format!("{}\nWritten to {}\n", report::text(&measured), out.display()))
+    args.tables.print(&format!("{}\nWritten to {}\n", report::text(&measured), out.display()))
 }
 
 /// The peak memory of a process that runs nothing but `trial`: this command again, with one more

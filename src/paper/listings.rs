@@ -182,6 +182,8 @@ fn define(runner: &mut Runner, sheet: &Worksheet<f64>) {
     for (name, value) in tables(sheet) {
         runner.define(name, value);
     }
+    // ν, where a listing is typed in ASCII.
+    runner.define("nu", Value::from(&sheet.nu));
     let plane = sheet.plane;
     runner.define_function("D", move |arguments| match arguments {
         [Value::Number(e), Value::Number(nu)] => {

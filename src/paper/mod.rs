@@ -2,6 +2,7 @@
 
 pub mod decisions;
 pub mod door;
+pub mod edited;
 pub mod exports;
 pub mod listings;
 pub mod mathcad;

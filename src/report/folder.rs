@@ -100,6 +100,7 @@ fn pictures(
     Ok(())
 }
 
-pub fn mesh_picture(scene: &Scene) -> String {
-    picture::mesh(&Drawing::new(scene, &scene.title))
+/// Draws the mesh of a finding's scene, under the finding's id.
+pub fn finding_picture(id: &str, scene: &Scene) -> String {
+    picture::mesh(&Drawing::new(scene, &format!("{id}: {}", scene.title)))
 }

@@ -13,11 +13,15 @@
 //! | `failure`, `json`, `matrix_market`, `output`       | other files                            |
 //! | `sweep`                                            | job files of engines                   |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
+//! | `changes`, `edited`, `scenes`                      | edited listings, scenes that are there |
+//! | `printed`                                          | what is printed, fitted, and as CSV    |
 //! | `layout`, `numbers`                                | columns of words, numbers as text      |
 
 pub mod audit;
+pub mod changes;
 pub mod claims;
 pub mod comparison;
+pub mod edited;
 pub mod extremes;
 pub mod failure;
 pub mod folder;
@@ -29,7 +33,9 @@ mod output;
 pub mod picture;
 pub mod plan;
 pub mod pressure;
+pub mod printed;
 mod result_file;
+pub mod scenes;
 pub mod snapshot;
 pub mod statuses;
 pub mod sweep;

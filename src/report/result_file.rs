@@ -12,12 +12,14 @@ use crate::error::{InputError, Result};
 use crate::numbers::scalar::rational;
 use crate::numbers::solve::{Arithmetic, ScalarName};
 use crate::paper::decisions::Decision;
+use crate::paper::edited::Edited;
+use crate::paper::listings::Which;
 use crate::paper::mirror::Reading;
 use crate::problem::model::{NodeId, Triangle};
 use crate::problem::modelling::{ContactModel, Variant};
 use crate::problem::scene::{Material, Units};
 use crate::studies::plan::Plan;
-use crate::studies::snapshot::{FORMAT, Input, VERSION};
+use crate::studies::snapshot::{FORMAT, Input, VERSION, sha256};
 
 /// The most triangles whose mesh has its `u` and `elements` in `result.json` without being asked.
 pub const MOST_TRIANGLES: usize = 20_000;
@@ -44,6 +46,9 @@ pub struct ResultFile {
     /// The reading of the print that was in force, with the plane problem (R6) and the load of an
     /// iteration (R7) that the scene and the variant set where the reading did not.
     pub reading: Reading,
+    /// The edited listings that were executed, each with the SHA-256 of its text.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub edited: Vec<EditedListing>,
     /// How contact was modelled: `coupling`, `friction`, `geometry` and `status`.
     #[serde(flatten)]
     pub modelled: ContactModel,
@@ -111,6 +116,13 @@ pub struct ResultFile {
     /// The stresses and strains of each triangle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elements: Option<Vec<ElementRow>>,
+}
+
+/// A listing that stood in place of one of the paper's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EditedListing {
+    pub listing: Which,
+    pub sha256: String,
 }
 
 /// What an iteration came to.
@@ -222,6 +234,7 @@ impl ResultFile {
             },
             modelled: request.contact,
             units: scene.units.clone(),
+            edited: request.edited.iter().map(EditedListing::new).collect(),
             arithmetic: Arithmetic { solver: Some(request.solver()), ..request.arithmetic },
             thickness: solution.model.thickness,
             c_tll: solution.model.has_contact().then_some(solution.model.contact.tolerance),
@@ -296,6 +309,12 @@ impl ResultFile {
             result.fields()?;
         }
         Ok(result)
+    }
+}
+
+impl EditedListing {
+    fn new(edited: &Edited) -> Self {
+        EditedListing { listing: edited.which, sha256: sha256(&edited.text) }
     }
 }
 

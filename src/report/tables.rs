@@ -1,6 +1,6 @@
 //! The tables of `solve` and `c-cnt`.
 
-use super::layout::{Table, aligned, listed};
+use super::layout::{Table, aligned, counted, listed};
 use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, with_unit};
 use super::pressure;
 use crate::answer::contact::{ContactNode, Status};
@@ -64,16 +64,22 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
 fn heading(solution: &Solution) -> String {
     let (request, model) = (&solution.request, &solution.model);
     let heading = format!(
-        "scene {}, variant {}: {} load, plane {}; {} nodes, {} triangles; {} matrices factored",
+        "scene {}, variant {}: {} load, plane {}; {} nodes, {}; {} factored",
         request.scene.name,
         request.variant,
         request.schedule(),
         model.plane,
         model.nodes.len(),
-        model.triangles.len(),
-        solution.factored
+        counted(model.triangles.len(), "triangle", "triangles"),
+        counted(solution.factored, "matrix", "matrices")
     );
-    heading + &arithmetic(solution)
+    heading + &edited(solution) + &arithmetic(solution)
+}
+
+/// Names the edited listings that were executed; nothing where there is none.
+fn edited(solution: &Solution) -> String {
+    let edited = solution.request.edited.iter();
+    edited.map(|edited| format!("\nwith {} as edited in {}", edited.which, edited.place)).collect()
 }
 
 /// Tells in which numbers a run was done, unless in those of every run, and the bound they keep.

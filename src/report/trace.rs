@@ -5,62 +5,134 @@ use std::collections::BTreeSet;
 use serde_json::{Value as Json, json};
 
 use super::json::{headed, pairs_value};
-use super::layout::listed;
+use super::layout::{counted, filled, listed};
+use super::numbers::six_digits;
 use crate::paper::listings::Which;
 use crate::paper::mathcad::Listing;
 use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::Pairs;
-use crate::problem::model::{Model, TriangleId};
+use crate::problem::model::{Model, NodeId, TriangleId};
 use crate::problem::scene::Scene;
 use crate::studies::audit::trace::{Access, Product, Step, Trace, text_of};
 
-/// Changed entries of a matrix that are listed at most.
-const MOST_CHANGES: usize = 20;
+/// How much of a trace is shown, and how.
+pub struct Shown {
+    /// Only what the conditions decided, a line for each.
+    pub summary: bool,
+    /// The first and the last printed line.
+    pub lines: [usize; 2],
+    /// All digits, not six.
+    pub exact: bool,
+    /// The characters of a line of text.
+    pub width: usize,
+}
 
 /// Writes the steps turn by turn, then those outside the turns, then what `trace()` wrote.
-pub fn text(trace: &Trace, listing: &Listing, model: &Model) -> String {
+pub fn text(
+    trace: &Trace,
+    listing: &Listing,
+    scene: &Scene,
+    model: &Model,
+    shown: &Shown,
+) -> String {
     let turns: BTreeSet<usize> = trace.steps.iter().filter_map(|step| step.turn).collect();
     let mut text = String::new();
     for turn in turns {
-        text += &format!("\n{}\n", heading(trace.which, turn, model));
+        text += &format!("\n{}\n", heading(trace.which, turn, scene, model));
         let steps: Vec<&Step> = trace.steps.iter().filter(|s| s.turn == Some(turn)).collect();
-        let (shown, skipped) = without_missed_edges(trace.which, listing, &steps);
-        text.extend(shown.into_iter().map(|step| step_in_words(listing, step)));
-        if skipped > 0 {
+        let (mut steps, skipped) = without_missed_edges(trace.which, listing, &steps);
+        steps.retain(|step| shown.has(step));
+        text += &match shown.summary {
+            true => decisions(listing, &steps, shown),
+            false => steps.into_iter().map(|step| step_in_words(listing, step, shown)).collect(),
+        };
+        if skipped > 0 && shown.lines[0] <= 7 && shown.lines[1] >= 4 {
             text += &format!(
-                "  (lines 4-7 for {skipped} more edges: the node is outside their boxes)\n"
+                "  (lines 4-7 for {}: the node is outside {})\n",
+                counted(skipped, "more edge", "more edges"),
+                if skipped == 1 { "its box" } else { "their boxes" }
             );
         }
     }
-    text += &outside(trace, listing);
+    if !shown.summary {
+        text += &outside(trace, listing, shown);
+    }
     if trace.is_cut {
-        let shown = trace.steps.len();
-        text += &format!("\n(only the first {shown} statements are shown)\n");
+        let kept = trace.steps.len();
+        text += &format!("\n(only the first {kept} statements are shown)\n");
     }
     if !trace.output.is_empty() {
-        text += &format!("\ntrace() wrote: {}\n", trace.output.join(" | "));
+        text += "\n";
+        text += &filled("trace() wrote: ", 4, shown.width, &trace.output, " | ");
     }
     text
 }
 
-fn heading(which: Which, turn: usize, model: &Model) -> String {
+impl Shown {
+    fn has(&self, step: &Step) -> bool {
+        (self.lines[0]..=self.lines[1]).contains(&step.line)
+    }
+}
+
+fn heading(which: Which, turn: usize, scene: &Scene, model: &Model) -> String {
     match which {
         Which::CCnt => {
             let nodes = &model.contact.nodes;
-            let node = nodes.get(turn - 1).map_or(0, |node| node.number());
-            format!("contact node {node} (i1 = {turn} of {})", nodes.len())
+            let node = nodes.get(turn - 1).map(|node| named(scene, model, *node));
+            format!("contact node {} (i1 = {turn} of {})", node.unwrap_or_default(), nodes.len())
         }
         Which::Km => {
-            let nodes = listed(model.triangle(TriangleId::from_number(turn)).nodes);
+            let nodes = model.triangle(TriangleId::from_number(turn)).nodes;
+            let nodes = listed(nodes.map(|node| named(scene, model, node)));
             format!("element n = {turn} of {} (nodes {nodes})", model.triangles.len())
         }
     }
 }
 
+/// Writes a node's number; in the scene of the paper's fig. 1, with the number that it has there.
+fn named(scene: &Scene, model: &Model, node: NodeId) -> String {
+    let target: BTreeSet<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
+    let own = match model.contact.nodes.iter().position(|other| *other == node) {
+        Some(k) => Some(format!("2.{}", k + 1)),
+        None => target.iter().position(|other| *other == node).map(|k| format!("1.{}", k + 1)),
+    };
+    match own.filter(|_| scene.name == "fig1") {
+        Some(own) => format!("{node} ({own} of fig. 1)"),
+        None => node.to_string(),
+    }
+}
+
+/// Writes what each condition decided, and what followed: yes and what was written, or no and the
+/// first operand that is false. What happened more than once is counted.
+fn decisions(listing: &Listing, steps: &[&Step], shown: &Shown) -> String {
+    let mut lines: Vec<(String, usize)> = Vec::new();
+    for (step, held) in steps.iter().filter_map(|step| Some((step, step.held?))) {
+        let text = text_of(listing, step.line);
+        let condition = text.split_once("if ").map_or(text, |(_, condition)| condition);
+        let operands = step.operands.iter();
+        let failed = operands.into_iter().find(|(_, truth)| *truth == Some(false));
+        let failed = failed.map_or(condition, |(operand, _)| operand);
+        let told = match held {
+            true if step.writes.is_empty() => format!("yes  {condition}"),
+            true => format!("yes  {}", accesses(&step.writes, " ← ", shown).join(", ")),
+            false => format!("no   {failed} is false"),
+        };
+        let line = format!("  {:>2}  {told}", step.line);
+        match lines.iter_mut().find(|(other, _)| *other == line) {
+            Some((_, times)) => *times += 1,
+            None => lines.push((line, 1)),
+        }
+    }
+    let counted = |(line, times): (String, usize)| match times {
+        1 => line + "\n",
+        n => format!("{line}   ({n} times)\n"),
+    };
+    lines.into_iter().map(counted).collect()
+}
+
 /// Writes the lines outside the turns: how often each was executed, and what it wrote last.
-fn outside(trace: &Trace, listing: &Listing) -> String {
+fn outside(trace: &Trace, listing: &Listing, shown: &Shown) -> String {
     let mut lines: Vec<(usize, usize, &Step)> = Vec::new();
-    for step in trace.steps.iter().filter(|step| step.turn.is_none()) {
+    for step in trace.steps.iter().filter(|step| step.turn.is_none() && shown.has(step)) {
         match lines.iter_mut().find(|(line, _, _)| *line == step.line) {
             Some((_, times, last)) => (*times, *last) = (*times + 1, step),
             None => lines.push((step.line, 1, step)),
@@ -70,9 +142,11 @@ fn outside(trace: &Trace, listing: &Listing) -> String {
         return String::new();
     }
     let in_words = |(line, times, last): (usize, usize, &Step)| {
-        let written = accesses(&last.writes, " ← ");
+        let written = accesses(&last.writes, " ← ", shown).join(", ");
         let last = if written.is_empty() { String::new() } else { format!(", last ⇒ {written}") };
-        format!("  {line:>2}  {}   ({times} times{last})\n", text_of(listing, line))
+        let text =
+            format!("{}   ({}{last})", text_of(listing, line), counted(times, "time", "times"));
+        filled(&format!("  {line:>2}  "), 8, shown.width, text.split(' '), " ")
     };
     "\noutside these\n".to_string() + &lines.into_iter().map(in_words).collect::<String>()
 }
@@ -105,50 +179,57 @@ fn without_missed_edges<'s>(
 }
 
 /// Writes a printed line, what it read, and what it wrote.
-fn step_in_words(listing: &Listing, step: &Step) -> String {
+fn step_in_words(listing: &Listing, step: &Step, shown: &Shown) -> String {
     let printed = text_of(listing, step.line);
-    let mut text = format!("  {:>2}  {printed}\n", step.line);
-    let [reads, writes] = [accesses(&step.reads, " = "), accesses(&step.writes, " ← ")];
+    let start = format!("  {:>2}  ", step.line);
+    let mut text = filled(&start, 8, shown.width, printed.split(' '), " ");
+    let reads = accesses(&step.reads, " = ", shown);
+    let writes = accesses(&step.writes, " ← ", shown);
     if !reads.is_empty() {
-        text += &format!("        {reads}\n");
+        text += &filled("        ", 8, shown.width, reads, ", ");
     }
     if !writes.is_empty() {
-        text += &format!("      ⇒ {writes}\n");
-    } else if printed.contains(" if ") && !printed.starts_with("if ") {
+        text += &filled("      ⇒ ", 8, shown.width, writes, ", ");
+    } else if step.held == Some(false) {
         text += "      ⇒ the condition does not hold\n";
     }
     text
 }
 
 /// Writes names and values, each pair once.
-fn accesses(accesses: &[Access], sign: &str) -> String {
+fn accesses(accesses: &[Access], sign: &str, shown: &Shown) -> Vec<String> {
     let mut seen: Vec<String> = Vec::new();
     for access in accesses {
-        let item = format!("{}{sign}{}", access.name, value(&access.value));
+        let item = format!("{}{sign}{}", access.name, value(&access.value, shown));
         if !seen.contains(&item) {
             seen.push(item);
         }
     }
-    listed(seen)
+    seen
 }
 
 /// Writes a number, `(a  b)` for a column, `(a  b;  c  d)` for a matrix, or the kind of value.
-fn value(value: &Json) -> String {
+fn value(value: &Json, shown: &Shown) -> String {
     match value {
         Json::String(text) => text.clone(),
         Json::Array(rows) => {
-            let rows: Vec<String> = rows.iter().map(row).collect();
+            let rows: Vec<String> = rows.iter().map(|value| row(value, shown)).collect();
             let separator = if matches!(value[0], Json::Array(_)) { ";  " } else { "  " };
             format!("({})", rows.join(separator))
         }
-        number => row(number),
+        number => row(number, shown),
     }
 }
 
-fn row(value: &Json) -> String {
+fn row(value: &Json, shown: &Shown) -> String {
     match value {
-        Json::Array(entries) => entries.iter().map(row).collect::<Vec<_>>().join("  "),
-        number => number.as_f64().unwrap_or(f64::NAN).to_string(),
+        Json::Array(entries) => {
+            entries.iter().map(|value| row(value, shown)).collect::<Vec<_>>().join("  ")
+        }
+        number => {
+            let x = number.as_f64().unwrap_or(f64::NAN);
+            if shown.exact { x.to_string() } else { six_digits(x) }
+        }
     }
 }
 
@@ -186,59 +267,4 @@ fn product_value(product: &Product) -> Json {
 fn entries(matrix: &Table<f64>, of: impl Fn(usize, usize) -> f64) -> Vec<(usize, usize, f64)> {
     let places = (1..=matrix.rows()).flat_map(|i| (1..=matrix.cols()).map(move |j| (i, j)));
     places.map(|(i, j)| (i, j, of(i, j))).filter(|(_, _, x)| *x != 0.0).collect()
-}
-
-/// Tells what an edited listing changes against the listing as printed.
-pub fn changes(printed: &Product, edited: &Product, model: &Model) -> String {
-    let lines = match (printed, edited) {
-        (Product::Pairs(a), Product::Pairs(b)) => pair_changes(a, b, model),
-        (Product::Matrix(a), Product::Matrix(b))
-            if (a.rows(), a.cols()) == (b.rows(), b.cols()) =>
-        {
-            matrix_changes(a, b)
-        }
-        _ => vec!["the shape of the result".into()],
-    };
-    match lines.as_slice() {
-        [] => "\nThe edit changes nothing on this scene.\n".into(),
-        lines => format!("\nThe edit changes:\n  {}\n", lines.join("\n  ")),
-    }
-}
-
-fn matrix_changes(a: &Table<f64>, b: &Table<f64>) -> Vec<String> {
-    let changed = entries(a, |i, j| b[(i, j)] - a[(i, j)]);
-    if changed.is_empty() {
-        return Vec::new();
-    }
-    let line = |(i, j, _): &(usize, usize, f64)| {
-        format!("MJS[{i},{j}]: {} as printed, {} edited", a[(*i, *j)], b[(*i, *j)])
-    };
-    let more = changed.len().saturating_sub(MOST_CHANGES);
-    std::iter::once(format!("{} entries of MJS", changed.len()))
-        .chain(changed.iter().take(MOST_CHANGES).map(line))
-        .chain((more > 0).then(|| format!("and {more} more")))
-        .collect()
-}
-
-fn pair_changes(a: &Pairs<f64>, b: &Pairs<f64>, model: &Model) -> Vec<String> {
-    let mut lines = Vec::new();
-    let mut compare = |what: String, a: Option<f64>, b: Option<f64>| {
-        if a.map(f64::to_bits) != b.map(f64::to_bits) {
-            let [a, b] = [a, b].map(|x| x.map_or("none".to_string(), |x| x.to_string()));
-            lines.push(format!("{what}: {a} as printed, {b} edited"));
-        }
-    };
-    for (i1, node) in (1..).zip(&model.contact.nodes) {
-        let number = |n: Option<&usize>| n.map(|n| *n as f64);
-        compare(format!("ct[{i1}] (node {node})"), number(a.ct.get(i1)), number(b.ct.get(i1)));
-        compare(format!("yt[{i1}] (node {node})"), a.yt.get(i1).copied(), b.yt.get(i1).copied());
-        compare(format!("dy[{i1}] (node {node})"), number(a.dy.get(i1)), number(b.dy.get(i1)));
-    }
-    for n in 1..=model.nodes.len() {
-        for j in 1..=4 {
-            let entry = |p: &Pairs<f64>| p.k_cnt.get(n, j).copied();
-            compare(format!("k_cnt[{n},{j}]"), entry(a), entry(b));
-        }
-    }
-    lines
 }

@@ -364,7 +364,7 @@ fn trace_shows_what_each_line_read_and_wrote() {
     let folder = TempDir::new().unwrap();
     let trace = succeeds(folder.path(), &["trace", "fig1", "--node", "7"]);
     for words in [
-        "contact node 7 (i1 = 3 of 5)",
+        "contact node 7 (2.3 of fig. 1) (i1 = 3 of 5)",
         "17  dy[i1] ← 1 if i1 < rows(cnt) ∧ yt[i1] < 0 ∧ yt[i1+1] > 0 ∧ ct[i1] > 0",
         "⇒ dy[3] ← 1",
         "⇒ k_cnt[7,3] ← 3",
@@ -374,12 +374,42 @@ fn trace_shows_what_each_line_read_and_wrote() {
         assert!(trace.contains(words), "{words:?}: {trace}");
     }
     let km = succeeds(folder.path(), &["trace", "fig1", "--listing", "Km", "--node", "13"]);
-    assert!(km.contains("element n = 7 of 9 (nodes 7, 13, 12)"), "{km}");
+    assert!(km.contains("element n = 7 of 9 (nodes 7 (2.3 of fig. 1), 13, 12)"), "{km}");
     let json: Value =
         serde_json::from_str(&succeeds(folder.path(), &["trace", "fig1", "--json"])).unwrap();
     assert_eq!(json["result"]["dy"], serde_json::json!([1, 1, 1, 0, 1]));
     assert!(json["steps"].as_array().unwrap().len() > 100);
     fails(folder.path(), &["trace", "fig1", "--node", "1"], 2, &["node 1 is no contact node"]);
+}
+
+/// A summary has what each condition decided; lines, and all digits, as they are asked for.
+#[test]
+fn trace_shows_as_much_as_is_asked_for() {
+    let folder = TempDir::new().unwrap();
+    let trace = |args: &[&str]| succeeds(folder.path(), &[&["trace", "fig1"], args].concat());
+    let summary = trace(&["--summary", "--node", "7"]);
+    let decided = "   7  yes  ct[3] ← 2
+  10  yes  yt[3] ← -0.0015
+  16  no   |yt[i1]| < c_tll is false
+  17  yes  dy[3] ← 1
+  18  no   yt[i1−1] > 0 is false
+  19  yes  dy[i1] = 1
+";
+    assert!(summary.contains(decided), "{summary}");
+    assert!(trace(&["--summary", "--listing", "Km", "--node", "7"]).contains(" times)"));
+    let lines = trace(&["--lines", "16-18", "--node", "7"]);
+    let numbers: Vec<&str> =
+        lines.lines().filter_map(|line| line.get(..4)).filter(|n| n.trim() != "").collect();
+    assert_eq!(numbers[1..4], ["  16", "  17", "  18"], "{lines}");
+    assert!(!lines.contains("  15  "), "{lines}");
+    assert!(trace(&["--lines", "10", "--node", "5"]).contains("yt[1] ← -0.0005\n"));
+    assert!(
+        trace(&["--lines", "10", "--node", "5", "--exact"])
+            .contains("yt[1] ← -0.0004999999999999996\n")
+    );
+    for lines in ["0", "18-16", "x"] {
+        fails(folder.path(), &["trace", "fig1", "--lines", lines], 2, &["such as 16-18"]);
+    }
 }
 
 /// An edited listing runs on the same scene; what it changes is told. Line 18 without its slip on
@@ -396,6 +426,15 @@ fn trace_runs_an_edited_listing() {
     std::fs::write(folder.path().join("same.txt"), listing).unwrap();
     let trace = succeeds(folder.path(), &["trace", "fig1", "--listing", "same.txt"]);
     assert!(trace.contains("The edit changes nothing on this scene."), "{trace}");
+    // Another order of the operations rounds otherwise, and changes nothing else.
+    let line_22 = "  k1 ← 1 − (node[cnt[i1],2] − node[elem[ct[i1],6],2])";
+    let rounds = listing.replace(line_22, "  k1 ← 1 + (node[elem[ct[i1],6],2] − node[cnt[i1],2])");
+    let rounds = rounds.replace("k1 + k_cnt[cnt[i1],2]", "(0.1 + k1) − 0.1 + k_cnt[cnt[i1],2]");
+    std::fs::write(folder.path().join("rounds.txt"), rounds).unwrap();
+    let trace = succeeds(folder.path(), &["trace", "fig1", "--listing", "rounds.txt"]);
+    assert!(
+        trace.contains("The edit changes nothing on this scene.\nThe edit changes the rounding")
+    );
     std::fs::write(folder.path().join("broken.txt"), listing.replace("dy[i1] ← 0", "dy[i1 ← 0"))
         .unwrap();
     fails(

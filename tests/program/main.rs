@@ -15,6 +15,7 @@ mod common {
 mod claims;
 mod cli;
 mod drawing;
+mod edited;
 #[path = "../fidelity/mathcad/evidence.rs"]
 mod evidence;
 mod examples;
@@ -26,6 +27,7 @@ mod limits;
 mod mathcad;
 mod pictures;
 mod plan;
+mod printed;
 mod printed_numbers;
 mod result_file;
 mod scene_builder;

@@ -185,6 +185,14 @@ pub struct Load {
     pub stage: Option<usize>,
 }
 
+impl Load {
+    /// Multiplies the load by `factor`.
+    pub fn scale(&mut self, factor: f64) {
+        let vectors = [&mut self.traction, &mut self.force].into_iter().flatten().flatten();
+        vectors.chain(&mut self.pressure).for_each(|x| *x *= factor);
+    }
+}
+
 /// The two contact surfaces, the tolerance between them, and how contact is modelled.
 #[derive(Clone, Debug, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]

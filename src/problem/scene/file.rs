@@ -10,6 +10,7 @@ use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
 use crate::error::{InputError, Result};
+use crate::suggestion::did_you_mean;
 
 /// Parses a scene file, with the source of its mesh still in it.
 /// Errors: the text is no scene file; the error names the field's path, the line and the column.
@@ -22,13 +23,25 @@ pub fn parse(text: &[u8]) -> Result<Description> {
             path if path == "." || path == "?" => "the scene file".into(),
             path => format!("field {path}"),
         };
-        InputError::new(place, error.inner().to_string(), "see the scene format in README.md")
+        let what = error.inner().to_string();
+        let fix = meant(&what) + "see the scene format in README.md";
+        InputError::new(place, what, fix)
     })?;
     deserializer.end().map_err(|error| {
         let fix = "remove what follows the scene";
         InputError::new("the end of the scene file", error.to_string(), fix)
     })?;
     Ok(scene)
+}
+
+/// Returns the name that an unknown one was meant to be: serde's words name it first, then those that
+/// it expected, each in backticks.
+fn meant(what: &str) -> String {
+    let mut names = what.split('`').skip(1).step_by(2);
+    match names.next().filter(|_| what.starts_with("unknown ")) {
+        Some(typed) => did_you_mean(typed, names),
+        None => String::new(),
+    }
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::mesh::{Element, Mesh};
 use crate::error::{InputError, Result};
+use crate::suggestion::did_you_mean;
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(untagged)]
@@ -62,7 +63,10 @@ pub fn members<'m>(
     place: &str,
 ) -> Result<Vec<&'m Element>> {
     let what = ELEMENT_NAMES[dim];
-    let error = |what: String| InputError::new(place, what, known(mesh, dim));
+    let typed = group.text();
+    let names = mesh.names.iter().filter(|n| n.dim == dim).map(|n| n.name.as_str());
+    let fix = did_you_mean(&typed, names) + &known(mesh, dim);
+    let error = |what: String| InputError::new(place, what, fix.clone());
     let tag = tag(mesh, dim, group)
         .ok_or_else(|| error(format!("there is no physical group {group} of {what}")))?;
     let members: Vec<_> = mesh.of_dimension(dim).filter(|e| e.physical.contains(&tag)).collect();

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use crate::error::{InputError, Result};
 use crate::files;
+use crate::suggestion::did_you_mean;
 
 /// The text of a scene file, and the place where its mesh file is.
 #[derive(Clone)]
@@ -49,7 +50,8 @@ impl SceneFile {
         let text = files::read(&path).map_err(|why| {
             let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
             let what = format!("the scene file cannot be read: {why}");
-            let fix = format!("give a path, or one of the scenes {}", names.join(", "));
+            let near = did_you_mean(name_or_path, names.iter().copied());
+            let fix = format!("{near}give a path, or one of the scenes {}", names.join(", "));
             InputError::new(path.display().to_string(), what, fix)
         })?;
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();

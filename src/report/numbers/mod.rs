@@ -25,6 +25,15 @@ pub fn short(x: f64) -> String {
     }
 }
 
+/// Writes a number with six digits at most, and a very large or a very small one as 2.5e-7.
+pub fn six_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    match rounded.abs() {
+        size if size == 0.0 || (1e-5..1e9).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
 /// Writes a part of 1 in per cent: 0.125 with one decimal is `12.5 %`; `-` stands for what is no
 /// number.
 pub fn percent(part: f64, decimals: usize) -> String {

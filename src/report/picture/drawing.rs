@@ -1,5 +1,6 @@
 //! What the pictures of a mesh draw on.
 
+use super::search::Search;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::scene::Scene;
 
@@ -22,6 +23,8 @@ pub struct Drawing {
     pub length_unit: String,
     /// The surfaces that may touch, in a scene with contact.
     pub contact: Option<Contact>,
+    /// The contact search, in a small scene.
+    pub search: Option<Search>,
 }
 
 /// The two surfaces that may touch.
@@ -61,6 +64,7 @@ impl Drawing {
                 nodes: model.contact.nodes.iter().map(|node| node.index()).collect(),
                 edges: model.target_edges().map(|e| e.nodes.map(NodeId::index)).collect(),
             }),
+            search: Search::of(model),
         }
     }
 

@@ -10,6 +10,7 @@
 //! | `page`        | layout: title, panels, legend, captions            |
 //! | `colour`      | values to colours, and the colour bar              |
 //! | `raster`      | triangles of a fine mesh as pixels                 |
+//! | `search`      | the contact search of a small scene                |
 //! | `view`        | the mesh's coordinates to pixels                   |
 //! | `svg`         | shapes, on top of the XML writer                   |
 
@@ -21,6 +22,7 @@ mod drawing;
 mod fields;
 pub mod page;
 mod raster;
+mod search;
 pub mod svg;
 pub mod view;
 
@@ -31,6 +33,7 @@ use self::bodies::{draw_bodies, legend};
 use self::deformation::boundary_edges;
 use self::fields::FieldPicture;
 use self::page::Page;
+use self::svg::group;
 use self::view::{Bounds, View};
 use crate::xml::Element;
 
@@ -41,8 +44,17 @@ const ENLARGED_UP_TO: f64 = 0.8;
 pub fn mesh(drawing: &Drawing) -> String {
     let mut page = Page::new(&drawing.title);
     let outline = if drawing.is_fine() { boundary_edges(&drawing.triangles) } else { Vec::new() };
-    put_panels(&mut page, drawing, &drawing.points, |view| draw_bodies(drawing, &outline, view));
+    put_panels(&mut page, drawing, &drawing.points, |view| {
+        let bodies = draw_bodies(drawing, &outline, view);
+        match drawing.points.len() <= search::MOST_NODES {
+            true => group().with(bodies).with(search::numbers(&view.all(&drawing.points))),
+            false => bodies,
+        }
+    });
     page.legend(&legend(drawing));
+    if let (Some(search), Some(contact)) = (&drawing.search, &drawing.contact) {
+        search::panel(&mut page, &drawing.points, &contact.edges, search);
+    }
     if drawing.is_fine() {
         page.paragraph(raster::CAPTION);
     }

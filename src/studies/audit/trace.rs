@@ -37,6 +37,13 @@ pub struct Step {
     pub turn: Option<usize>,
     /// The number of the printed line, from 1.
     pub line: usize,
+    /// The number of the line in the listing's file, from 1; of a line that an edit moves or
+    /// repeats, in the edit's.
+    pub in_file: usize,
+    /// Whether the condition was true; none without one.
+    pub held: Option<bool>,
+    /// The operands of an `∧`, each with its truth; none where it failed or was not evaluated.
+    pub operands: Vec<(String, Option<bool>)>,
     /// What was read, in order.
     pub reads: Vec<Access>,
     /// What was written, in order.
@@ -129,7 +136,15 @@ fn turn_begun(which: Which, text: &str, done: &Executed) -> Option<Option<usize>
 impl Step {
     fn new(turn: Option<usize>, done: &Executed) -> Self {
         let all = |named: &[Named]| named.iter().map(Access::new).collect();
-        Step { turn, line: done.line, reads: all(&done.reads), writes: all(&done.writes) }
+        Step {
+            turn,
+            line: done.line,
+            in_file: done.in_file,
+            held: done.held,
+            operands: done.operands.clone(),
+            reads: all(&done.reads),
+            writes: all(&done.writes),
+        }
     }
 }
 

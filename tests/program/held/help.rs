@@ -29,6 +29,7 @@ pub const PASSAGES: Passages = Passages {
             "the names of a worksheet's settings",
         ),
         ("last-if previous|0, tiny itself|0", "as above"),
+        ("printed lines, such as 16-18, or 7", "lines of a listing"),
         ("Mathcad 13 to 15", "versions of Mathcad"),
         ("fig. 4", "the number of a figure of the paper"),
         ("fig. 5", "as above"),

@@ -1,0 +1,151 @@
+//! Edited listings, executed in a run in place of the mirror.
+
+use super::door;
+use super::listings::{self, Which, settings};
+use super::mathcad::array::{Column, Table};
+use super::mathcad::{Listing, Settings};
+use super::mirror::{Pairs, Reading, Worksheet};
+use crate::error::{InputError, Result};
+use crate::numbers::scalar::Scalar;
+use crate::problem::model::Model;
+
+const NOTATION: &str = "see the notation in listings/README.md";
+
+/// The text of a listing that stands in place of one of the paper's; it can be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edited {
+    pub which: Which,
+    /// The file, for messages.
+    pub place: String,
+    pub text: String,
+}
+
+impl Edited {
+    /// Checks the text of a listing.
+    ///
+    /// # Errors
+    /// It begins with neither of the paper's headers, or cannot be read.
+    pub fn new(place: &str, text: &str) -> Result<Self> {
+        let text = text.trim_start_matches('\u{feff}');
+        let which = Which::of(text).ok_or_else(|| {
+            let what = "the file begins with neither c_cnt nor Km";
+            InputError::new(place, what, "keep the listing's first line")
+        })?;
+        let read = which.edited(text);
+        read.map_err(|error| InputError::new(place, error.to_string(), NOTATION))?;
+        Ok(Edited { which, place: place.into(), text: text.into() })
+    }
+
+    pub fn listing(&self) -> Listing {
+        self.which.edited(&self.text).expect("it was read before")
+    }
+}
+
+/// The worksheet of a run with its edited listings.
+pub struct Interpreter {
+    sheet: Worksheet<f64>,
+    settings: Settings,
+    listings: Vec<(Edited, Listing)>,
+}
+
+impl Interpreter {
+    /// Returns the interpreter of `edited` on the tables of a model.
+    pub fn new(model: &Model, reading: &Reading, edited: &[Edited]) -> Self {
+        let listings = edited.iter().map(|edited| (edited.clone(), edited.listing())).collect();
+        Interpreter { sheet: door::worksheet(model, |x| x), settings: settings(reading), listings }
+    }
+
+    fn listing(&self, which: Which) -> Option<&(Edited, Listing)> {
+        self.listings.iter().find(|(edited, _)| edited.which == which)
+    }
+
+    /// Executes the edited `c_cnt` on a shape; None where it is not edited.
+    ///
+    /// # Errors
+    /// The listing fails, or ends with what are no contact pairs.
+    pub fn c_cnt<T: Scalar>(&self, node_n: &Table<T>) -> Option<Result<Pairs<T>>> {
+        let (edited, listing) = self.listing(Which::CCnt)?;
+        let node_n = Table::from_fn(node_n.rows(), 4, |i, j| node_n[(i, j)].to_f64());
+        let done = listings::c_cnt(listing, &self.settings, &self.sheet, &node_n, &mut ());
+        Some(done.map_err(|why| wrong(edited, why.to_string())).and_then(|(pairs, _)| {
+            self.check(&pairs).map_err(|what| wrong(edited, what))?;
+            Ok(pairs.map(T::from_f64))
+        }))
+    }
+
+    /// Executes the edited `Km` on contact pairs; None where it is not edited.
+    ///
+    /// # Errors
+    /// The listing fails, or its value is no matrix of 2R rows and columns.
+    pub fn km<T: Scalar>(&self, k_cnt: &Table<T>) -> Option<Result<Table<T>>> {
+        self.km_on(&self.sheet, k_cnt)
+    }
+
+    /// Does the same without contact and without restraints.
+    pub fn free_stiffness<T: Scalar>(&self) -> Option<Result<Table<T>>> {
+        let n = self.sheet.R();
+        let free = Worksheet { S: Column::filled(2 * n, 0), ..self.sheet.clone() };
+        self.km_on(&free, &Table::filled(n, 4, T::zero()))
+    }
+
+    fn km_on<T: Scalar>(
+        &self,
+        sheet: &Worksheet<f64>,
+        k_cnt: &Table<T>,
+    ) -> Option<Result<Table<T>>> {
+        let (edited, listing) = self.listing(Which::Km)?;
+        let k_cnt = Table::from_fn(k_cnt.rows(), 4, |i, j| k_cnt[(i, j)].to_f64());
+        let done = listings::km(listing, &self.settings, sheet, &k_cnt, &mut ());
+        Some(done.map_err(|why| wrong(edited, why.to_string())).and_then(|(matrix, _)| {
+            let n = 2 * sheet.R();
+            if (matrix.rows(), matrix.cols()) != (n, n) {
+                let (rows, cols) = (matrix.rows(), matrix.cols());
+                return Err(wrong(edited, format!("MJS is {rows} x {cols}, not {n} x {n}")));
+            }
+            Ok(Table::from_fn(n, n, |i, j| T::from_f64(matrix[(i, j)])))
+        }))
+    }
+
+    /// Checks that what an edited `c_cnt` leaves are contact pairs.
+    fn check(&self, pairs: &Pairs<f64>) -> Result<(), String> {
+        let Worksheet { cnt, trg, .. } = &self.sheet;
+        let (n, r) = (cnt.rows(), self.sheet.R());
+        for (name, rows) in
+            [("ct", pairs.ct.rows()), ("yt", pairs.yt.rows()), ("dy", pairs.dy.rows())]
+        {
+            if rows != n {
+                return Err(format!(
+                    "{name} has {rows} entries, not one for each of {n} contact nodes"
+                ));
+            }
+        }
+        if (pairs.k_cnt.rows(), pairs.k_cnt.cols()) != (r, 4) {
+            let (rows, cols) = (pairs.k_cnt.rows(), pairs.k_cnt.cols());
+            return Err(format!("k_cnt is {rows} x {cols}, not {r} x 4"));
+        }
+        for i1 in 1..=n {
+            let (ct, dy) = (pairs.ct[i1], pairs.dy[i1]);
+            if ct != 0 && !trg.iter().any(|number| *number == ct) {
+                return Err(format!(
+                    "ct[{i1}] = {ct} is neither 0 nor the number of a target edge"
+                ));
+            }
+            if dy > 1 || dy == 1 && ct == 0 {
+                return Err(format!(
+                    "dy[{i1}] = {dy}, but it is 1 or 0, and 1 only beside a target edge"
+                ));
+            }
+            for column in [1, 3].into_iter().filter(|_| dy == 1) {
+                let mate = pairs.k_cnt[(cnt[i1], column)];
+                if mate.fract() != 0.0 || !(1.0..=r as f64).contains(&mate) {
+                    return Err(format!("k_cnt[{},{column}] = {mate} is no node", cnt[i1]));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn wrong(edited: &Edited, what: String) -> InputError {
+    InputError::new(&edited.place, what, "correct the edited listing")
+}

@@ -1,0 +1,118 @@
+//! The contact search of a small scene: the boxes of lines 5 to 7 of `c_cnt`, and Y of its line 10,
+//! with heights drawn larger than lengths, for gaps are small.
+
+use super::page::{INNER, MARGIN, Page};
+use super::svg::{Anchor, DARK, Pixel, circle, group, line, path, rect, segments, text};
+use super::view::Bounds;
+use crate::paper::door::Call;
+use crate::paper::mirror::Reading;
+use crate::problem::model::Model;
+use crate::report::numbers::Decimal;
+use crate::xml::Element;
+
+/// A scene of more nodes has neither numbers nor boxes in its pictures.
+pub const MOST_NODES: usize = 40;
+
+/// The height of the panel at most, pixels.
+const HEIGHT: f64 = 360.0;
+
+/// Colours that the colour-blind tell apart, as those of the charts.
+const BOX: &str = "#0072b2";
+const ARROW: &str = "#d55e00";
+const TARGET_EDGE: &str = "#c1272d";
+
+/// What `c_cnt` looks at in the initial shape.
+pub struct Search {
+    /// The corners of the box of each target edge, length.
+    boxes: Vec<[[f64; 2]; 2]>,
+    nodes: Vec<Found>,
+}
+
+/// A contact node as `c_cnt` finds it.
+struct Found {
+    /// Its index among the points.
+    node: usize,
+    /// Y of line 10, length; None without a target edge.
+    distance: Option<f64>,
+    in_contact: bool,
+}
+
+impl Search {
+    /// Returns the search of a small model with contact; None where it is large, or `c_cnt` fails.
+    pub fn of(model: &Model) -> Option<Self> {
+        model.target().filter(|_| model.nodes.len() <= MOST_NODES)?;
+        let call = Call::c_cnt(model, &Reading::default(), &model.nodes).ok()?;
+        let c_tll = model.contact.tolerance;
+        let boxes = model.target_edges().map(|edge| {
+            let [a, b] = edge.nodes.map(|node| model.nodes[node.index()]);
+            [a.map(|x| x - c_tll), b.map(|x| x + c_tll)]
+        });
+        let nodes = call.statuses.iter().map(|status| Found {
+            node: status.node.index(),
+            distance: status.edge.map(|_| status.distance),
+            in_contact: status.in_contact,
+        });
+        Some(Search { boxes: boxes.collect(), nodes: nodes.collect() })
+    }
+}
+
+/// Writes the number of each point beside it.
+pub fn numbers(pixels: &[Pixel]) -> Element {
+    let number = |(k, [x, y]): (usize, &Pixel)| {
+        text([x + 5.0, y - 5.0], Anchor::Start, &(k + 1).to_string())
+    };
+    group().fill(DARK).with_all(pixels.iter().enumerate().map(number))
+}
+
+/// Puts a panel of the search on a page, with what its signs are; `edges` are those of the target, as
+/// indices of `points`.
+pub fn panel(page: &mut Page, points: &[[f64; 2]], edges: &[[usize; 2]], search: &Search) {
+    let own = search.nodes.iter().map(|found| &points[found.node]);
+    let bounds = Bounds::of(search.boxes.iter().flatten().chain(own));
+    let [width, height] = bounds.size();
+    if !(width > 0.0 && height > 0.0) {
+        return;
+    }
+    let scale = (INNER / width).min(HEIGHT / height);
+    let times = Decimal::round_at_most(HEIGHT / height / scale).value().max(1.0);
+    let bottom = page.y + 44.0 + height * scale * times;
+    let at = |[x, y]: [f64; 2]| {
+        [MARGIN + (x - bounds.low[0]) * scale, bottom - (y - bounds.low[1]) * scale * times]
+    };
+    page.paragraph(&format!(
+        "c_cnt in the initial shape, heights drawn {times} times as large as lengths: the boxes of \
+         lines 5 to 7, the arrow Y of line 10 from each node to the line of its target edge; filled \
+         nodes are in contact."
+    ));
+    let boxes = search.boxes.iter().map(|[a, b]| {
+        let [a, b] = [at(*a), at(*b)];
+        let size = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
+        rect([a[0].min(b[0]), a[1].min(b[1])], size).fill("none")
+    });
+    page.put(group().stroke(BOX, 1.0).set("stroke-dasharray", "5 3").with_all(boxes));
+    let pixels: Vec<Pixel> = points.iter().map(|point| at(*point)).collect();
+    page.put(segments(edges, &pixels).stroke(TARGET_EDGE, 2.5));
+    let ends: Vec<usize> = edges.iter().flatten().copied().collect();
+    for (k, pixel) in pixels.iter().enumerate().filter(|(k, _)| ends.contains(k)) {
+        page.put(text([pixel[0] + 5.0, pixel[1] + 16.0], Anchor::Start, &(k + 1).to_string()));
+    }
+    for found in &search.nodes {
+        let [x, y] = points[found.node];
+        if let Some(distance) = found.distance {
+            page.put(arrow(at([x, y]), at([x, y + distance])));
+        }
+        let fill = if found.in_contact { DARK } else { "#ffffff" };
+        let [px, py] = at([x, y]);
+        page.put(circle([px, py], 4.0).fill(fill).stroke(DARK, 1.5));
+        page.put(text([px + 7.0, py - 7.0], Anchor::Start, &(found.node + 1).to_string()));
+    }
+    page.y = bottom + 24.0;
+}
+
+/// Draws an arrow up or down; its head is no longer than the arrow.
+fn arrow(from: Pixel, to: Pixel) -> Element {
+    let length = to[1] - from[1];
+    let head = length.signum() * length.abs().min(6.0);
+    let tip = [[to[0] - 3.0, to[1] - head], to, [to[0] + 3.0, to[1] - head]];
+    group().stroke(ARROW, 1.5).with(line(from, to)).with(path([&tip[..]]))
+}
