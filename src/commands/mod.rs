@@ -1,6 +1,7 @@
 //! One module a command.
 
 pub mod accept;
+mod answers;
 pub mod audit;
 pub mod c_cnt;
 pub mod compare;
@@ -9,11 +10,13 @@ pub mod evaluate;
 pub mod export;
 pub mod extremes;
 pub mod km;
+pub mod lesson;
 pub mod listing;
 pub mod mathcad;
 pub mod mesh;
 pub mod plan;
 pub mod record;
+pub mod report;
 pub mod scenes;
 pub mod solve;
 pub mod statuses;

@@ -9,7 +9,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, Checked};
 use plane_contact::studies::snapshot::{self, Snapshot};
 
-use super::{print, waiting};
+use super::{answers, print, waiting};
 
 /// The exit status where what was compared differs, or nothing was compared.
 pub const DIFFERS: u8 = 1;
@@ -22,12 +22,16 @@ the tolerance that the snapshot gives. What is missing or added, other lengths a
 are differences. A difference is explained: its first cause, and how that is known. The exit status
 also tells a difference, and that nothing was compared.
 
+Files that the page of an exercise saved (`lesson --exercise`) are marked: how many answers are right,
+and what the others should be.
+
 Examples:
   plane-contact verify out/fig1.snapshot.json
   plane-contact verify my/*.json --junit verify.xml --report summary.markdown
-  plane-contact verify my/snapshot.json --scene my/scene.json    the scene as it is today")]
+  plane-contact verify my/snapshot.json --scene my/scene.json    the scene as it is today
+  plane-contact verify answers/*.json                            a class")]
 pub struct Args {
-    /// Snapshots.
+    /// Snapshots; or answers to exercises.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Run this scene in place of the one in the snapshot.
@@ -45,6 +49,9 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<u8> {
+    if args.files.iter().any(|file| answers::are_in(file)) {
+        return answers::verify(&args.files, args.json);
+    }
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
     let check = |file: &PathBuf| check(file, scene.as_ref());
     let checked = args.files.iter().map(check).collect::<Result<Vec<Checked>>>()?;

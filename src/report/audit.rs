@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::claims;
 use super::json::headed;
@@ -210,22 +210,25 @@ fn tenth(x: f64) -> String {
 }
 
 pub fn json(audit: &Audit, scene: &Scene) -> String {
-    let findings = audit.findings.iter();
-    let findings: Vec<serde_json::Value> = findings.map(|(f, m)| f.row(m)).collect();
-    headed(
-        Some(scene),
-        &json!({
-            "scene": scene.name,
-            "claims": audit.claims,
-            "assumptions": audit.assumptions,
-            "readings": audit.readings,
-            "findings": findings,
-            "variants": audit.variants,
-            "equilibrium": audit.equilibrium,
-            "reference": audit.reference,
-            "friction": audit.friction,
-        }),
-    )
+    let mut document = json!({ "scene": scene.name });
+    let fields = document.as_object_mut().expect("an object");
+    fields.extend(value(audit).as_object().expect("an object").clone());
+    headed(Some(scene), &document)
+}
+
+/// Returns what an audit found.
+pub fn value(audit: &Audit) -> Value {
+    let findings = audit.findings.iter().map(|(finding, measured)| finding.row(measured));
+    json!({
+        "claims": audit.claims,
+        "assumptions": audit.assumptions,
+        "readings": audit.readings,
+        "findings": findings.collect::<Vec<_>>(),
+        "variants": audit.variants,
+        "equilibrium": audit.equilibrium,
+        "reference": audit.reference,
+        "friction": audit.friction,
+    })
 }
 
 /// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.

@@ -8,8 +8,10 @@
 //! |----------------------------------------------------|----------------------------------------|
 //! | `tables`, `folder`, `result_file`, `pressure`      | a run: tables, folder, `result.json`   |
 //! | `audit`, `comparison`, `extremes`, `plan`, `trace` | a study each                           |
+//! | `answers`                                          | the marks of answers to exercises      |
 //! | `snapshot`, `statuses`, `trade`                    | a study each                           |
 //! | `picture`, `vtu`                                   | pictures and files for viewers         |
+//! | `page`                                             | pages of HTML, each one file           |
 //! | `failure`, `json`, `matrix_market`, `output`       | other files                            |
 //! | `sweep`                                            | job files of engines                   |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
@@ -17,6 +19,7 @@
 //! | `printed`                                          | what is printed, fitted, and as CSV    |
 //! | `layout`, `numbers`                                | columns of words, numbers as text      |
 
+pub mod answers;
 pub mod audit;
 pub mod changes;
 pub mod claims;
@@ -30,6 +33,7 @@ mod layout;
 pub mod matrix_market;
 pub mod numbers;
 mod output;
+pub mod page;
 pub mod picture;
 pub mod plan;
 pub mod pressure;

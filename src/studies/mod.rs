@@ -4,6 +4,7 @@ pub mod audit;
 pub mod benchmark;
 pub mod calculix;
 pub mod extremes;
+pub mod lesson;
 pub mod plan;
 pub mod snapshot;
 pub mod sweep;

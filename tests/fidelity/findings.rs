@@ -17,6 +17,8 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{FINDING_SCENES, SCENES, Scene};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding, Measured, Verdict};
+use plane_contact::studies::audit::trace::Product;
+use plane_contact::studies::lesson::{self, Run, Switch};
 use serde_json::{Value, json};
 
 fn finding(id: &str) -> &'static Finding {
@@ -367,4 +369,44 @@ fn every_folder_is_a_findings() {
             assert!(std::fs::exists(format!("{folder}/{id}/{file}")).unwrap(), "{id}/{file}");
         }
     }
+}
+
+/// What a finding's scene has after its repair, in the listing's own arrays: dy, ct, then where it
+/// says so a row of `k_cnt` or the diagonal of `MJS`.
+#[test]
+fn each_repair_takes_its_finding_away() {
+    let repaired: Vec<(&str, Run)> = FINDINGS
+        .iter()
+        .filter_map(|finding| {
+            let switch = lesson::repair(finding)?;
+            Some((finding.id, lesson::run(&finding.scene(), switch, &[]).expect("it runs")))
+        })
+        .collect();
+    let ids: Vec<&str> = repaired.iter().map(|(id, _)| *id).collect();
+    assert_eq!(ids, ["C3", "C4", "C5", "C11", "C12", "C14", "C15", "K3", "K7"]);
+    let run = |id: &str| &repaired.iter().find(|(other, _)| *other == id).expect("an id").1;
+    let pairs = |id: &str| match &run(id).c_cnt.as_ref().expect("contact").trace.result {
+        Ok(Product::Pairs(pairs)) => pairs.clone(),
+        _ => panic!("{id}: c_cnt ends with pairs"),
+    };
+    let matrix = |id: &str| match &run(id).km.as_ref().expect("Km is called").trace.result {
+        Ok(Product::Matrix(matrix)) => matrix.clone(),
+        _ => panic!("{id}: Km ends with a matrix"),
+    };
+    let statuses =
+        [("C4", vec![0, 1]), ("C5", vec![1, 1]), ("C11", vec![1, 0]), ("C15", vec![1, 0])];
+    for (id, dy) in statuses {
+        assert_eq!(pairs(id).dy.as_slice(), dy, "{id}");
+    }
+    assert_eq!(pairs("C3").dy.as_slice(), [1], "0.09 along the normal is within 0.1");
+    assert_eq!(pairs("C14").ct.as_slice(), [1], "the node on its edge is found");
+    assert_eq!(pairs("C12").k_cnt.row(4).copied().collect::<Vec<_>>(), [1.0, 0.75, 2.0, 0.25]);
+    let diagonal: Vec<f64> = (1..=6).map(|e| matrix("K3")[(e, e)]).collect();
+    assert!(diagonal.iter().all(|x| (1e4..=3e4).contains(x)), "{diagonal:?}");
+    let printed = lesson::run(&finding("K7").scene(), Switch::as_printed(), &[]).expect("it runs");
+    let printed = match printed.km.expect("Km is called").trace.result {
+        Ok(Product::Matrix(matrix)) => matrix,
+        _ => panic!("Km ends with a matrix"),
+    };
+    assert!(matrix("K7")[(1, 1)] > printed[(1, 1)], "the addition of node 4 is no longer lost");
 }

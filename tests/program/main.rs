@@ -25,6 +25,7 @@ mod gmsh;
 mod held;
 mod limits;
 mod mathcad;
+mod pages;
 mod pictures;
 mod plan;
 mod printed;

@@ -48,6 +48,16 @@ enum Trial {
 /// Nothing where a trial runs through, else what stopped it.
 type Outcome<'a> = Result<(), Box<dyn std::error::Error + 'a>>;
 
+/// R9: the lines that an alternative concerns, its name, and what it sets.
+pub const WORKSHEETS: [(&str, &str, fn(&mut Settings)); 6] = [
+    ("both", "ORIGIN = 0", |s| s.origin = 0),
+    ("c_cnt 10, 22, 23", "0/0 = 0", |s| s.zero_over_zero_is_zero = true),
+    ("both", "comparisons to 1e-12", |s| s.exact_boolean = false),
+    ("both", "below 1e-307 is 0", |s| s.tiny_is_zero = true),
+    ("both", "1 .. 0 is empty", |s| s.descending_is_empty = true),
+    ("both", "a failed last if is 0", |s| s.last_if_is_zero = true),
+];
+
 /// Every other reading on a scene, in the order of `listings/READING.md`, section 4.
 pub fn effects(case: &Case) -> Vec<Effect> {
     use Trial::{Conjunction, Mirror, StrainFormula, Worksheet};
@@ -61,7 +71,7 @@ pub fn effects(case: &Case) -> Vec<Effect> {
         Variant::Tied => ("R7 = stepped", Trial::Schedule(Variant::Stepped)),
         Variant::Printed | Variant::Unilateral => ("R7 = stepped", Mirror(own)),
     };
-    let trials: Vec<(&str, &str, &str, Trial)> = vec![
+    let mut trials: Vec<(&str, &str, &str, Trial)> = vec![
         ("R1", "c_cnt 14", "R1 = inside", Mirror(own)),
         ("R2", "Km 7", "R2 = printed", Mirror(Variant::Printed)),
         ("R3", "Km 16-33", "R3 = per-node", Mirror(Variant::Printed)),
@@ -72,14 +82,11 @@ pub fn effects(case: &Case) -> Vec<Effect> {
         ("R6", "Km 9", plane, Mirror(own)),
         ("R7", "-", schedule, load),
         ("R8", "c_cnt 5-7, 16", "R8 = m", Mirror(own)),
-        ("R9", "both", "ORIGIN = 0", Worksheet(|s| s.origin = 0)),
-        ("R9", "c_cnt 10, 22, 23", "0/0 = 0", Worksheet(|s| s.zero_over_zero_is_zero = true)),
-        ("R9", "both", "comparisons to 1e-12", Worksheet(|s| s.exact_boolean = false)),
-        ("R9", "both", "below 1e-307 is 0", Worksheet(|s| s.tiny_is_zero = true)),
-        ("R9", "both", "1 .. 0 is empty", Worksheet(|s| s.descending_is_empty = true)),
-        ("R9", "both", "a failed last if is 0", Worksheet(|s| s.last_if_is_zero = true)),
-        ("R10", "-", "stress formula / (1 + nu)", StrainFormula),
     ];
+    trials.extend(
+        WORKSHEETS.map(|(lines, reading, change)| ("R9", lines, reading, Worksheet(change))),
+    );
+    trials.push(("R10", "-", "stress formula / (1 + nu)", StrainFormula));
     let blank = executed(case, &Settings::default());
     let effect =
         |(id, lines, reading, trial): (&'static str, &'static str, &'static str, Trial)| {

@@ -9,13 +9,10 @@
 //!                                is drawn between.
 //! ```
 
-use std::sync::Arc;
-
 use fastrand::Rng;
 
 use crate::problem::element::Plane;
-use crate::problem::model::Model;
-use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
+use crate::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 
 /// The tolerance of the contact search, length: the text's c_tol.
 const C_TLL: f64 = 0.001;
@@ -43,7 +40,7 @@ impl Kind {
 
 /// A scene that was drawn, and the statuses of its contact nodes.
 pub struct Drawn {
-    pub model: Arc<Model>,
+    pub scene: Scene,
     pub touching: Vec<bool>,
 }
 
@@ -52,7 +49,7 @@ pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
     let (stamp, touching) = stamp(rng, &surface, kind);
     let turned = rng.bool();
     let scene = scene(&surface, &stamp, kind, turned).build();
-    Drawn { model: scene.expect("a scene that is drawn is sound").model, touching }
+    Drawn { scene: scene.expect("a scene that is drawn is sound"), touching }
 }
 
 /// A number between `low` and `high`.

@@ -22,7 +22,8 @@ use crate::paper::door;
 use crate::paper::mirror::{Reading, c_cnt};
 use crate::problem::modelling::StatusRule;
 use counted::{Counted, counting};
-use drawn::{Drawn, Kind, draw};
+use drawn::Drawn;
+pub use drawn::{Kind, draw};
 
 /// Depths of the jump, in c_tll. Target edges are some 250 c_tll long: the last sinks whole cells.
 const DEPTHS: [f64; 6] = [0.5, 2.0, 8.0, 32.0, 128.0, 512.0];
@@ -96,13 +97,13 @@ impl Score {
         (self.missed + self.false_contacts) as f64 / nodes.max(1) as f64
     }
 
-    fn add(&mut self, scene: &Drawn) {
-        let (model, reading) = (&*scene.model, Reading::default());
+    fn add(&mut self, drawn: &Drawn) {
+        let (model, reading) = (&*drawn.scene.model, Reading::default());
         let sheet = door::worksheet(model, Counted::from_f64);
         let vertical = "no target edge is drawn vertical";
         let (found, operations) =
             counting(|| statuses(self.rule, model, &sheet, &reading, &sheet.node).expect(vertical));
-        for (status, touching) in found.iter().zip(&scene.touching) {
+        for (status, touching) in found.iter().zip(&drawn.touching) {
             self.missed += usize::from(*touching && !status.in_contact);
             self.false_contacts += usize::from(!*touching && status.in_contact);
         }

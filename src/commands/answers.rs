@@ -1,0 +1,36 @@
+//! `plane-contact verify` on answers that pages of exercises exported.
+
+use std::path::Path;
+
+use plane_contact::answer::error::Result;
+use plane_contact::error::InputError;
+use plane_contact::report::answers::{self as report, Marked};
+use plane_contact::studies::lesson::exercise::{ANSWERS, Answers};
+
+use super::print;
+use super::verify::DIFFERS;
+
+/// Returns whether a file has answers: the kind that it names.
+pub fn are_in(file: &Path) -> bool {
+    let text = std::fs::read(file).unwrap_or_default();
+    let document: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
+    document.is_some_and(|document| document["kind"] == ANSWERS)
+}
+
+/// Marks the answers of files; the exit status says whether all are right.
+pub fn verify(files: &[impl AsRef<Path>], json: bool) -> Result<u8> {
+    let marked = files.iter().map(|file| marked(file.as_ref())).collect::<Result<Vec<_>>>()?;
+    print(&if json { report::json(&marked) } else { report::text(&marked) })?;
+    Ok(if marked.iter().all(Marked::is_right) { 0 } else { DIFFERS })
+}
+
+fn marked(file: &Path) -> Result<Marked> {
+    let name = file.display().to_string();
+    let fault = |why: String| {
+        let what = format!("these are no answers: {why}");
+        InputError::new(&name, what, "give files as the page of an exercise saves them")
+    };
+    let text = std::fs::read(file).map_err(|why| fault(why.to_string()))?;
+    let answers: Answers = serde_json::from_slice(&text).map_err(|why| fault(why.to_string()))?;
+    Ok(Marked { file: name, marks: answers.marks(), answers })
+}

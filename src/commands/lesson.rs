@@ -1,0 +1,91 @@
+//! `plane-contact lesson`.
+
+use std::path::{Path, PathBuf};
+
+use plane_contact::answer::error::Result;
+use plane_contact::files;
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::page::exercise;
+use plane_contact::report::page::lesson::{self as page, Chapter};
+use plane_contact::studies::audit::Case;
+use plane_contact::studies::audit::findings::{FINDINGS, Finding};
+use plane_contact::studies::lesson::exercise::Exercise;
+use plane_contact::studies::lesson::{Switch, repair, run as execute, switches};
+
+use super::{edited_listing, waiting};
+
+/// Write a page that teaches the listings: both of them, stepped forwards and backwards on a scene.
+#[derive(clap::Args)]
+#[command(after_help = "\
+The page is one file that opens offline. It shows the listing as printed with the current line lit,
+the scene with its gaps magnified, and every array as it is filled; each reading, the tolerance and
+the worksheet's settings can be switched. A chapter for each finding shows it on its smallest scene.
+
+Examples:
+  plane-contact lesson
+  plane-contact lesson two-blocks --out two-blocks.html
+  plane-contact lesson strand --nodes 113,114
+  plane-contact lesson fig1 --listing my-c_cnt.txt       an edited listing beside the printed one
+  plane-contact lesson --exercise 7 --seed 2026")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one [default: fig1].
+    #[arg(value_name = "SCENE")]
+    scene: Option<String>,
+    /// Show the turns of these contact nodes only, and the triangles at them.
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    nodes: Vec<usize>,
+    /// An edited listing, offered beside the printed one.
+    #[arg(long, value_name = "FILE")]
+    listing: Option<String>,
+    /// Make the page of an exercise: a scene that belongs to this number, such as a student's, and
+    /// to the seed. The page saves answers for `plane-contact verify`.
+    #[arg(long, value_name = "N", conflicts_with_all = ["scene", "nodes", "listing"])]
+    exercise: Option<u64>,
+    /// The seed of the class.
+    #[arg(long, value_name = "S", requires = "exercise", default_value = "1")]
+    seed: u64,
+    /// The file of the page [default: out/lesson.html, out/exercise-N.html].
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    let (name, page) = match args.exercise {
+        Some(number) => {
+            let exercise = Exercise { exercise: number, seed: args.seed };
+            (format!("exercise-{number}"), exercise::html(exercise))
+        }
+        None => ("lesson".into(), lesson(args)?),
+    };
+    let own = || Path::new("out").join(format!("{name}.html"));
+    let out = args.out.clone().unwrap_or_else(own);
+    files::write(&out, &page)?;
+    eprintln!("Written to {}", out.display());
+    Ok(())
+}
+
+fn lesson(args: &Args) -> Result<String> {
+    let scene = Scene::open(args.scene.as_deref().unwrap_or("fig1"))?;
+    let mut offered = switches(&scene);
+    if let Some(file) = &args.listing {
+        let (which, listing) = edited_listing(file)?;
+        let about = format!("{} as edited", which.name());
+        offered.insert(1, Switch::edited("edited", about, which, listing));
+    }
+    let chapters = waiting("executing the listings", || -> Result<Vec<_>> {
+        let runs = offered.into_iter().map(|switch| execute(&scene, switch, &args.nodes));
+        let own = Chapter { runs: runs.collect::<Result<_>>()?, finding: None, scene };
+        std::iter::once(Ok(own)).chain(FINDINGS.iter().map(chapter)).collect()
+    })?;
+    Ok(page::html(&chapters))
+}
+
+/// The chapter of a finding, on the smallest scene that shows it, with its repair where that is an
+/// edit of the listing.
+fn chapter(finding: &'static Finding) -> Result<Chapter> {
+    let case = Case::new(finding.scene());
+    let offered = std::iter::once(Switch::as_printed()).chain(repair(finding));
+    let runs = offered.map(|switch| execute(&case.scene, switch, &[])).collect::<Result<_>>()?;
+    let finding = Some((finding, finding.measure(&case)));
+    Ok(Chapter { runs, finding, scene: case.scene })
+}

@@ -1,0 +1,43 @@
+//! The page of an exercise: a scene in tables, the listing, and a form whose answers are exported.
+//! Nothing of the answers is in it.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use serde_json::json;
+
+use super::Page;
+use crate::paper::door;
+use crate::paper::listings::Which;
+use crate::report::folder;
+use crate::studies::lesson::exercise::{ANSWERS, Exercise};
+
+pub fn html(exercise: Exercise) -> String {
+    let scene = exercise.scene();
+    let sheet = door::worksheet(&scene.model, |x| x);
+    let surface = scene.model.target_edges().flat_map(|edge| edge.nodes);
+    let mut nodes: Vec<_> = surface.chain(scene.model.contact.nodes.iter().copied()).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let node = |n: &crate::problem::model::NodeId| (n.number(), scene.model.at(*n));
+    let edges = scene.model.target_edges().map(|edge| (edge.number, edge.nodes));
+    let picture = BASE64_STANDARD.encode(folder::mesh_picture(&scene));
+    let data = json!({
+        "kind": ANSWERS,
+        "exercise": exercise.exercise,
+        "seed": exercise.seed,
+        "listing": Which::CCnt.text(),
+        "c_tll": sheet.c_tll,
+        "nodes": nodes.iter().map(node).collect::<Vec<_>>(),
+        "edges": edges.collect::<Vec<_>>(),
+        "contact": scene.model.contact.nodes,
+        "picture": picture,
+    });
+    Page {
+        title: &format!("Exercise {}", exercise.exercise),
+        body: include_str!("exercise/body.html"),
+        style: include_str!("exercise/exercise.css"),
+        script: &[include_str!("table.js"), include_str!("exercise/exercise.js")],
+        data: &data,
+    }
+    .html()
+}

@@ -1,0 +1,136 @@
+// The page: what is chosen, and what is shown after each step.
+
+const page = { chapter: 0, run: 0, which: "c_cnt" };
+
+const chapter = () => data.scenes[page.chapter];
+const run = () => chapter().runs[page.run];
+
+/** A program that is not called. */
+const NOTHING = { lines: [], steps: [], turns: [] };
+
+/** Chooses scene, run and listing. Under another reading of the same listing the place stays. */
+function choose(change) {
+  const at = page.machine?.at ?? 0;
+  Object.assign(page, change);
+  page.mesh = new Mesh(chapter());
+  const { c_cnt, Km } = run().programs;
+  page.pairs = new Machine(c_cnt ?? NOTHING);
+  page.machine = page.which === "Km" ? new Machine(Km ?? { ...NOTHING, failure: "c_cnt stopped, so Km is not called" }) : page.pairs;
+  if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
+  page.zone = zoneOf(page.mesh, page.pairs);
+  page.map = new MatrixMap(page.mesh, page.machine);
+  page.machine.goTo("which" in change ? 0 : at);
+  byId("slider").max = page.machine.steps.length;
+  byId("about").textContent = `Scene ${chapter().name}. Reading: ${run().name} (${run().about}).`;
+  byId("turn").textContent = page.which === "Km" ? "element" : "node";
+  byId("turn").title = page.which === "Km" ? "Run to the next element (N)" : "Run to the next contact node (N)";
+  showLines(page.machine, chapter().runs[0].programs[page.which] ?? NOTHING, (line) => go(page.machine.runTo(line)));
+  fillTurns();
+  showChanges(chapter(), run());
+  show();
+}
+
+/** Lists the turns of the outer loops, each with the step that begins it. */
+function fillTurns() {
+  const name = (turn) => (page.which === "Km" ? `element ${turn}` : `node ${page.mesh.name(page.mesh.contact[turn - 1])}`);
+  const options = page.machine.turns.flatMap(({ from, turn }) => {
+    const line = page.machine.lines[page.machine.steps[from].line].number;
+    return turn === null ? [] : [make("option", { value: from + 1 }, `${name(turn)}, line ${line}`)];
+  });
+  byId("turns").replaceChildren(make("option", { value: 0 }, "the start"), ...options);
+}
+
+function go(at) {
+  page.machine.goTo(at);
+  show();
+}
+
+/** Shows the state after the steps that were executed. */
+function show() {
+  const { machine, mesh, pairs, zone } = page;
+  const turn = machine.turnAt(machine.at - 1);
+  const inKm = page.which === "Km";
+  lightLine(machine);
+  showStep(machine);
+  const node = inKm ? null : turn;
+  const line = machine.last ? machine.lines[machine.last.line].number : 0;
+  const boxed = !inKm && (line === 6 || line === 7);
+  if (mesh.contact.length) {
+    drawZone(mesh, pairs, zone, run().c_tll, node, boxed);
+    drawGaps(mesh, pairs, zone, run().c_tll, node);
+  }
+  const linked = inKm ? page.map.vector("W").map((e) => Math.ceil(e / 2)) : [];
+  drawWhole(mesh, pairs, inKm ? turn : null, linked);
+  byId("values").replaceChildren(...(inKm ? stiffnessTables(machine) : contactTables(mesh, machine, turn)));
+  byId("matrix").hidden = !inKm;
+  byId("pictures").classList.toggle("stiffness", inKm);
+  byId("block").replaceChildren(...(inKm ? [elementTable(machine)] : []));
+  if (inKm) page.map.draw();
+  const ended = machine.at === machine.steps.length;
+  byId("failure").textContent = ended && machine.failure ? `The listing stops: ${machine.failure}` : "";
+  ask(machine, mesh);
+  byId("slider").value = machine.at;
+  byId("status").textContent = `step ${machine.at} of ${machine.steps.length}${line ? `, line ${line}` : ""}`;
+  byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
+  byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
+  for (const id of ["start", "back"]) byId(id).disabled = machine.at === 0;
+  for (const id of ["forward", "over", "decision", "turn", "end"]) byId(id).disabled = ended;
+}
+
+/** What each button does, and its key. */
+const moves = {
+  start: ["Home", (machine) => 0],
+  back: ["ArrowLeft", (machine) => machine.at - 1],
+  forward: ["ArrowRight", (machine) => machine.at + 1],
+  over: ["o", (machine) => machine.over()],
+  decision: ["d", (machine) => machine.nextDecision()],
+  turn: ["n", (machine) => machine.nextTurn()],
+  end: ["End", (machine) => machine.steps.length],
+};
+
+function watch() {
+  for (const [id, [, to]] of Object.entries(moves)) byId(id).addEventListener("click", () => go(to(page.machine)));
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("select, input")) return;
+    const move = Object.values(moves).find(([key]) => key === event.key || key === event.key.toLowerCase());
+    if (!move) return;
+    event.preventDefault();
+    go(move[1](page.machine));
+  });
+  byId("slider").addEventListener("input", (event) => go(Number(event.target.value)));
+  byId("turns").addEventListener("change", (event) => go(Number(event.target.value)));
+  byId("chapter").addEventListener("change", (event) => openChapter(Number(event.target.value)));
+  byId("run").addEventListener("change", (event) => choose({ run: Number(event.target.value) }));
+  byId("ask").addEventListener("change", show);
+  for (const radio of document.getElementsByName("which")) {
+    radio.addEventListener("change", () => choose({ which: radio.value }));
+  }
+  window.addEventListener("resize", show);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
+  watchMatrix(() => page.map);
+}
+
+function openChapter(chapter) {
+  const runs = data.scenes[chapter].runs.map(({ name }, k) => make("option", { value: k }, name));
+  byId("run").replaceChildren(...runs);
+  showFinding(data.scenes[chapter]);
+  const { contact } = data.scenes[chapter].mesh;
+  byId("pictures").classList.toggle("alone", contact.length === 0);
+  const inKm = contact.length === 0 || data.scenes[chapter].finding?.[0].listing === "Km";
+  const which = inKm ? "Km" : "c_cnt";
+  for (const radio of document.getElementsByName("which")) {
+    radio.checked = radio.value === which;
+    radio.disabled = contact.length === 0 && radio.value === "c_cnt";
+  }
+  choose({ chapter, run: 0, which });
+}
+
+byId("title").textContent = document.title;
+byId("chapter").replaceChildren(
+  ...data.scenes.map(({ name, finding }, k) => make("option", { value: k }, finding ? `${finding[0].id}: ${finding[0].title}`.slice(0, 70) : `scene ${name}`)),
+);
+byId("colophon").textContent =
+  `plane-contact ${data.version}; scene ${data.scenes[0].name}, SHA-256 ${data.scene_sha256}, mesh ${data.mesh_sha256}.`;
+watch();
+showExactValues();
+openChapter(0);

@@ -1,0 +1,62 @@
+// The listing, its current line lit, and what the last step read, decided and wrote.
+
+/** Builds the lines; the number of a line runs to it. Lines that are not as printed are marked. */
+function showLines(machine, printed, runTo) {
+  const list = byId("listing");
+  const known = new Set(printed.lines.map((line) => line.join("\t")));
+  list.replaceChildren(
+    ...machine.lines.map((line, place) => {
+      const number = make("button", { "aria-label": `run to line ${line.number}` }, String(line.number));
+      number.addEventListener("click", () => runTo(place));
+      const text = make("code", { style: `--level: ${line.level}` }, line.text);
+      const same = known.has([line.number, line.level, line.text].join("\t"));
+      return make("li", { class: same ? undefined : "edited" }, number, text);
+    }),
+  );
+  roving(list, "button");
+}
+
+/** Lights the line that was executed last and marks the next; keeps them in sight. */
+function lightLine(machine) {
+  const items = byId("listing").children;
+  for (const item of items) {
+    item.removeAttribute("aria-current");
+    item.classList.remove("next");
+  }
+  if (machine.next) items[machine.next.line].classList.add("next");
+  const lit = machine.last && items[machine.last.line];
+  lit?.setAttribute("aria-current", "step");
+  const seen = lit ?? items[0];
+  if (!seen) return;
+  const box = byId("listing-box");
+  const top = seen.offsetTop - box.offsetTop;
+  if (top < box.scrollTop || top + seen.offsetHeight > box.scrollTop + box.clientHeight) {
+    box.scrollTop = top - box.clientHeight / 3;
+  }
+}
+
+/** Writes accesses, each with its exact value at hand. */
+function accesses(list, sign) {
+  return list.map(({ name, value }) =>
+    make("span", { class: "access", "data-exact": exact(value) }, `${name} ${sign} ${brief(value)}`),
+  );
+}
+
+const truth = (held) => make("span", { class: String(held) }, held === null ? "not evaluated" : held ? "true" : "false");
+
+/** Writes what the last step did. */
+function showStep(machine) {
+  const step = machine.last;
+  const rows = [];
+  const row = (term, ...content) => rows.push(make("dt", {}, term), make("dd", {}, ...content));
+  if (!step) {
+    byId("step").replaceChildren(make("p", { class: "muted" }, "Nothing is executed yet."));
+    return;
+  }
+  row("line", String(machine.lines[step.line].number));
+  if (step.reads.length) row("reads", ...accesses(step.reads, "="));
+  for (const [text, held] of step.operands) row("∧", make("code", {}, text), " is ", truth(held));
+  if (step.held !== null) row("decision", "the condition is ", truth(step.held));
+  if (step.writes.length) row("writes", ...accesses(step.writes, "←"));
+  byId("step").replaceChildren(make("dl", {}, ...rows));
+}

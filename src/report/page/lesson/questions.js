@@ -1,0 +1,71 @@
+// What comes next? Questions about the next step, made from the trace, with the reason of the answer.
+
+const score = { right: 0, asked: 0 };
+
+/** The question about the next step: its words, the answers to choose from, the right one and the
+ * reason; none where nothing is decided. */
+function question(machine, mesh) {
+  const step = machine.next;
+  if (!step) return null;
+  const { number, text } = machine.lines[step.line];
+  if (step.held !== null) {
+    const condition = text.includes(" if ") ? text.split(" if ")[1] : text.replace(/^if /, "");
+    return {
+      words: `Line ${number}: will “${condition}” hold?`,
+      given: step.reads,
+      answers: ["yes", "no"],
+      right: step.held ? "yes" : "no",
+      reason: reasonOf(step),
+    };
+  }
+  const turn = machine.turnAt(machine.at);
+  const begins = turn !== null && text.includes("rows(cnt)") && machine.turnAt(machine.at - 1) !== turn;
+  return begins && machine.get(`ct[${turn}]`) === undefined ? edgeQuestion(machine, mesh, turn) : null;
+}
+
+/** Why a condition holds or does not: of an ∧ each operand, else what was compared. */
+function reasonOf({ operands, reads, held }) {
+  if (operands.length === 0) return `It compares ${[...new Set(reads.map(({ name, value }) => `${name} = ${brief(value)}`))].join(", ")}.`;
+  const words = operands.map(([text, holds]) => `${text} is ${holds === null ? "not to be evaluated" : holds}`).join("; ");
+  return `${words}. ${held ? "All operands are true." : "One operand that is false is enough."}`;
+}
+
+/** Which target edge the search of a turn ends with, and which boxes had the node. */
+function edgeQuestion(machine, mesh, turn) {
+  const end = machine.turns.find(({ from }) => from > machine.at)?.from ?? machine.steps.length;
+  const name = `ct[${turn}]`;
+  const writes = machine.steps.slice(machine.at, end).flatMap((step) => step.writes.filter((write) => write.name === name));
+  const hits = writes.map(({ value }) => value).filter((edge) => edge !== 0);
+  const inWords = (edge) => (edge === 0 ? "none" : `edge ${edge}`);
+  return {
+    words: `Which target edge will node ${mesh.name(mesh.contact[turn - 1])} get (lines 4 to 7)?`,
+    given: [],
+    answers: [0, ...mesh.edges.map(([number]) => number)].slice(0, 12).map(inWords),
+    right: inWords(writes.at(-1)?.value ?? 0),
+    reason: hits.length
+      ? `The boxes that hold the node, in the order of trg: ${hits.map(inWords).join(", ")}. The last one stays (C2).`
+      : "No box of lines 5 and 6 holds the node.",
+  };
+}
+
+/** Shows the question about the next step, where questions are wanted. */
+function ask(machine, mesh) {
+  const place = byId("question");
+  const asked = byId("ask").checked ? question(machine, mesh) : null;
+  place.hidden = !asked;
+  if (!asked) return;
+  const verdict = make("p", { role: "status" });
+  const buttons = asked.answers.map((text) => {
+    const button = make("button", {}, text);
+    button.addEventListener("click", () => {
+      const isRight = text === asked.right;
+      score.asked += 1;
+      score.right += isRight ? 1 : 0;
+      for (const other of buttons) other.disabled = true;
+      verdict.textContent = `${isRight ? "Right" : `No: ${asked.right}`}. ${asked.reason} (${score.right} of ${score.asked} right)`;
+    });
+    return button;
+  });
+  const given = asked.given.length ? [make("p", {}, "Given: ", ...accesses(asked.given, "="))] : [];
+  place.replaceChildren(make("h3", {}, "What comes next?"), make("p", {}, asked.words), ...given, make("p", { class: "answers" }, ...buttons), verdict);
+}

@@ -1,0 +1,260 @@
+// The scene: the contact zone with its heights magnified, the gaps over the target's line, and the
+// whole to scale.
+
+/** What is drawn of a scene; nodes by their number. */
+class Mesh {
+  constructor(chapter) {
+    const { nodes, triangles, contact, edges, figure, target, restrained } = chapter.mesh;
+    Object.assign(this, { triangles, contact, edges, target, restrained });
+    this.bodies = chapter.mesh.bodies;
+    this.at = (n) => nodes[n - 1];
+    this.count = nodes.length;
+    this.figure = new Map(figure);
+    this.edge = new Map(edges);
+    this.length = chapter.units.length;
+  }
+
+  /** A node's name in the manner of the paper's fig. 1, and its number. */
+  name(n) {
+    const figure = this.figure.get(n);
+    return figure ? `${figure} (${n})` : String(n);
+  }
+
+  /** The height of an edge's line at `x`; none for a vertical edge. */
+  lineAt(edge, x) {
+    const [[xa, ya], [xb, yb]] = this.edge.get(edge).map(this.at);
+    return xa === xb ? undefined : ya + ((yb - ya) / (xb - xa)) * (x - xa);
+  }
+}
+
+/** The largest round number that is at most `x`. */
+function roundAtMost(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return [7, 5, 4, 3, 2.5, 2, 1.5, 1].find((k) => k * power <= x * (1 + 1e-12)) * power;
+}
+
+/** What the run has found of each contact node: `ct`, `yt`, `dy` and its row of `k_cnt`, as far as
+ * known; `pairs` is the machine of c_cnt. */
+function contactNodes(mesh, pairs) {
+  return mesh.contact.map((node, k) => {
+    const of = (name) => pairs.get(`${name}[${k + 1}]`);
+    const row = [1, 2, 3, 4].map((j) => pairs.get(`k_cnt[${node},${j}]`) ?? 0);
+    return { node, place: k + 1, ct: of("ct"), yt: of("yt"), dy: of("dy"), row };
+  });
+}
+
+/** A view: where a point of the scene is drawn, in pixels. */
+function view(points, width, height, margin, magnify) {
+  const [xs, ys] = [0, 1].map((j) => points.map((p) => p[j]));
+  const range = (values) => [Math.min(...values), Math.max(...values)];
+  const [[left, right], [low, high]] = [range(xs), range(ys)];
+  const span = Math.max(right - left, high - low) || 1;
+  const fit = (size, room) => room / Math.max(size, 1e-9 * span);
+  const [across, up] = [fit(right - left, width - 2 * margin), fit(high - low, height - 2 * margin)];
+  let [sx, factor] = [Math.min(across, up), 1];
+  if (magnify && up > across) [sx, factor] = [across, Math.max(1, roundAtMost(Math.min(up / across, 1e6)))];
+  const sy = sx * factor;
+  const [cx, cy] = [(left + right) / 2, (low + high) / 2];
+  const to = ([x, y]) => [width / 2 + (x - cx) * sx, height / 2 - (y - cy) * sy];
+  return { to, factor, sy };
+}
+
+/** Draws a path through points. */
+function path(context, points, { fill, stroke, width = 1, dash = [], close = false }) {
+  context.beginPath();
+  points.forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
+  if (close) context.closePath();
+  if (fill) {
+    context.fillStyle = fill;
+    context.fill();
+  }
+  if (stroke) {
+    context.setLineDash(dash);
+    context.lineWidth = width;
+    context.strokeStyle = stroke;
+    context.stroke();
+    context.setLineDash([]);
+  }
+}
+
+function arrow(context, from, to, stroke) {
+  path(context, [from, to], { stroke, width: 2 });
+  const up = Math.sign(to[1] - from[1]) || 1;
+  const size = Math.min(6, Math.abs(to[1] - from[1]) / 2 + 2);
+  path(context, [[to[0] - size / 2, to[1] - up * size], to, [to[0] + size / 2, to[1] - up * size]], { stroke, width: 2 });
+}
+
+/** Writes on a ground of its own, so that lines below do not cross the letters. */
+function label(context, text, [x, y], ink, align = "center") {
+  context.textAlign = align;
+  context.lineWidth = 4;
+  context.strokeStyle = colour("paper");
+  context.lineJoin = "round";
+  context.strokeText(text, x, y);
+  context.fillStyle = ink;
+  context.fillText(text, x, y);
+}
+
+/** A contact node: filled in contact, open apart, a small dot where its status is not known. */
+function status(context, [x, y], dy, current) {
+  context.beginPath();
+  context.arc(x, y, dy === undefined ? 3 : 6, 0, 2 * Math.PI);
+  context.fillStyle = dy === 0 ? colour("paper") : dy === 1 ? colour("accent") : colour("stamp-ink");
+  context.fill();
+  context.lineWidth = 2;
+  context.strokeStyle = dy === undefined ? colour("stamp-ink") : colour("accent");
+  context.stroke();
+  if (current) {
+    context.beginPath();
+    context.arc(x, y, 11, 0, 2 * Math.PI);
+    context.strokeStyle = colour("ink");
+    context.stroke();
+  }
+}
+
+function drawBodies(context, mesh, to, element) {
+  mesh.triangles.forEach(([nodes, body], k) => {
+    const [fill, stroke] = body === mesh.target ? ["target", "target-ink"] : ["stamp", "stamp-ink"];
+    const lit = k + 1 === element;
+    path(context, nodes.map((n) => to(mesh.at(n))), {
+      fill: colour(lit ? "lit" : fill), stroke: colour(stroke), width: lit ? 2.5 : 0.8, close: true,
+    });
+  });
+}
+
+/** The contact nodes that are drawn, and the target edges beside them. */
+function zoneOf(mesh, machine) {
+  const places = new Set(machine.turns.map(({ turn }) => turn));
+  const kept = mesh.contact.filter((_, k) => places.has(k + 1));
+  const nodes = kept.length ? kept : mesh.contact;
+  const xs = nodes.map((n) => mesh.at(n)[0]);
+  const reach = Math.max(Math.max(...xs) - Math.min(...xs), 0);
+  const near = mesh.edges.filter(([, ends]) => {
+    const [a, b] = ends.map((n) => mesh.at(n)[0]);
+    return Math.max(a, b) >= Math.min(...xs) - reach && Math.min(a, b) <= Math.max(...xs) + reach;
+  });
+  return { nodes, edges: nodes.length === mesh.contact.length ? mesh.edges : near };
+}
+
+/** Draws the zone: bodies, band of c_tll, search box of lines 5 to 7, arrow of line 10, links. */
+function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
+  const canvas = byId("zone");
+  const { context, width, height } = prepared(canvas, Math.max(230, Math.min(340, canvas.clientWidth * 0.6)));
+  const points = [...zone.nodes, ...zone.edges.flatMap(([, ends]) => ends)].map(mesh.at);
+  const { to, factor, sy } = view(points, width, height, 42, true);
+  drawBodies(context, mesh, to);
+  for (const [number, ends] of zone.edges) {
+    const [a, b] = ends.map((n) => to(mesh.at(n)));
+    const band = Math.min(tolerance * sy, height);
+    const corners = [[a[0], a[1] - band], [b[0], b[1] - band], [b[0], b[1] + band], [a[0], a[1] + band]];
+    context.globalAlpha = 0.28;
+    path(context, corners, { fill: colour("band"), close: true });
+    context.globalAlpha = 1;
+    const tried = boxed && number === mesh.edges[pairs.get("i2") - 1]?.[0];
+    path(context, [a, b], { stroke: colour("target-ink"), width: tried ? 4 : 2 });
+    label(context, `edge ${number}`, [(a[0] + b[0]) / 2, Math.max(a[1], b[1]) + 22], colour("target-ink"));
+  }
+  drawBox(context, to, pairs, boxed);
+  const nodes = contactNodes(mesh, pairs).filter(({ node }) => zone.nodes.includes(node));
+  for (const { node, place, ct, yt, row } of nodes) {
+    const [x, y] = mesh.at(node);
+    for (const [mate, weight] of [[row[0], row[1]], [row[2], row[3]]]) {
+      if (mate === 0) continue;
+      const [from, end] = [to([x, y]), to(mesh.at(mate))];
+      path(context, [from, end], { stroke: colour("accent"), width: place === turn ? 2 : 1, dash: [4, 3] });
+      if (place === turn) label(context, short(weight), [(from[0] + end[0]) / 2, (from[1] + end[1]) / 2 - 4], colour("accent"));
+    }
+    if (ct > 0 && yt !== undefined && yt !== 0) arrow(context, to([x, y]), to([x, y + yt]), colour(place === turn ? "accent" : "muted"));
+  }
+  for (const n of new Set(zone.edges.flatMap(([, ends]) => ends))) {
+    const [x, y] = to(mesh.at(n));
+    path(context, [[x - 3, y], [x + 3, y]], { stroke: colour("target-ink"), width: 6 });
+    label(context, mesh.name(n), [x, y + 38 > height ? y - 10 : y + 38], colour("target-ink"));
+  }
+  for (const { node, place, dy } of nodes) {
+    const [x, y] = to(mesh.at(node));
+    status(context, [x, y], dy, place === turn);
+    label(context, mesh.name(node), [x, Math.max(14, y - 15)], colour("stamp-ink"));
+  }
+  const size = factor === 1 ? "To scale." : `Heights are magnified ${short(factor)} times.`;
+  byId("zone-caption").textContent =
+    `${size} Green band: within c_tll of an edge’s line. Dashed box: where lines 5 to 7 search. Arrow: Y of line 10. ` +
+    "Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights.";
+  canvas.setAttribute("aria-label", `The contact zone: ${nodes.map((n) => `node ${mesh.name(n.node)} ${inWords(n)}`).join("; ")}`);
+}
+
+const inWords = ({ dy }) => (dy === undefined ? "not decided" : dy === 1 ? "in contact" : "apart");
+
+/** The box of lines 5 and 6, while lines 4 to 7 are executed. */
+function drawBox(context, to, pairs, boxed) {
+  const ends = ["ntx[1]", "ntx[2]", "nty[1]", "nty[2]"].map((name) => pairs.get(name));
+  if (!boxed || ends.includes(undefined)) return;
+  const [x1, x2, y1, y2] = ends;
+  const corners = [[x1, y1], [x2, y1], [x2, y2], [x1, y2]].map(to);
+  path(context, corners, { stroke: colour("ink"), width: 2, dash: [6, 4], close: true });
+}
+
+/** Draws each contact node at its height over its edge's line, the line drawn straight. */
+function drawGaps(mesh, pairs, zone, tolerance, turn) {
+  const canvas = byId("gaps");
+  const { context, width, height } = prepared(canvas, 170);
+  const known = contactNodes(mesh, pairs).filter((n) => zone.nodes.includes(n.node) && n.ct > 0 && n.yt !== undefined);
+  const most = Math.max(tolerance, ...known.map(({ yt }) => Math.abs(yt)));
+  const xs = zone.nodes.map((n) => mesh.at(n)[0]);
+  const [left, right] = [Math.min(...xs), Math.max(...xs)];
+  const sx = (width - 120) / (right - left || 1);
+  const factor = roundAtMost((height / 2 - 28) / (most || 1) / sx);
+  const to = (x, gap) => [60 + (x - left) * sx, height / 2 - gap * sx * factor];
+  const band = Math.max(tolerance * sx * factor, 1);
+  context.fillStyle = colour("target");
+  context.fillRect(0, height / 2, width, height / 2);
+  context.globalAlpha = 0.28;
+  context.fillStyle = colour("band");
+  context.fillRect(0, height / 2 - band, width, 2 * band);
+  context.globalAlpha = 1;
+  path(context, [[0, height / 2], [width, height / 2]], { stroke: colour("target-ink"), width: 3 });
+  for (const { node, place, yt, dy } of known) {
+    const point = to(mesh.at(node)[0], -yt);
+    arrow(context, point, [point[0], height / 2], colour(place === turn ? "accent" : "muted"));
+    status(context, point, dy, place === turn);
+    const below = point[1] > height / 2;
+    label(context, mesh.figure.get(node), [point[0], point[1] + (below ? 24 : -13)], colour("stamp-ink"));
+  }
+  byId("gaps-caption").textContent = known.length
+    ? `Gaps are drawn ${short(factor)} times as large as lengths along x. Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.`
+    : "No gap is known yet: line 10 computes them.";
+  canvas.setAttribute("aria-label", `Gaps: ${known.map((n) => `${mesh.name(n.node)} ${short(n.yt)}`).join(", ") || "none yet"}`);
+}
+
+/** Draws the whole scene to scale; `element` is lit, its equations' nodes V and W are ringed. */
+function drawWhole(mesh, pairs, element, linked) {
+  const canvas = byId("whole");
+  const points = Array.from({ length: mesh.count }, (_, k) => mesh.at(k + 1));
+  const { context, width, height } = prepared(canvas, Math.min(340, canvas.clientWidth * 0.75));
+  const { to } = view(points, width, height, 26, false);
+  drawBodies(context, mesh, to, element);
+  const numbered = mesh.count <= 60;
+  mesh.triangles.forEach(([nodes], k) => {
+    if (!numbered && k + 1 !== element) return;
+    const corners = nodes.map((n) => to(mesh.at(n)));
+    const middle = [0, 1].map((j) => corners.reduce((sum, p) => sum + p[j], 0) / 3);
+    label(context, String(k + 1), [middle[0], middle[1] + 4], colour("muted"));
+  });
+  const own = element ? mesh.triangles[element - 1][0] : [];
+  for (let n = 1; n <= mesh.count; n += 1) {
+    const [x, y] = to(mesh.at(n));
+    const ringed = own.includes(n) || linked.includes(n);
+    if (!numbered && !ringed) continue;
+    context.beginPath();
+    context.arc(x, y, ringed ? 6 : 2.5, 0, 2 * Math.PI);
+    context.fillStyle = linked.includes(n) ? colour("accent") : colour("ink");
+    ringed ? ((context.lineWidth = 2.5), (context.strokeStyle = context.fillStyle), context.stroke()) : context.fill();
+    const up = mesh.contact.includes(n) || y < height / 2 ? -9 : 19;
+    label(context, String(n), [x, y + up], colour(linked.includes(n) ? "accent" : "ink"));
+  }
+  const fixed = mesh.restrained.flatMap(([x, y], k) => (x || y ? [`${k + 1} (${[x && "x", y && "y"].filter(Boolean).join(", ")})`] : []));
+  byId("whole-caption").textContent =
+    `Triangles and nodes with their numbers. Restrained: ${fixed.slice(0, 12).join(", ")}${fixed.length > 12 ? " and others" : ""}.` +
+    (element ? ` Lit: triangle ${element}, which Km adds. Red: the linked nodes of W.` : "");
+  canvas.setAttribute("aria-label", `The scene: ${mesh.count} nodes, ${mesh.triangles.length} triangles`);
+}

@@ -1,0 +1,64 @@
+// The arrays as tables: values short, in full on hover and focus; what the last step wrote and read
+// is marked.
+
+/** Marks of the last step, by name. */
+function marks(machine) {
+  const found = new Map();
+  for (const { name } of machine.last?.reads ?? []) found.set(name, "read");
+  for (const { name, value } of machine.last?.writes ?? []) {
+    found.set(name, "written");
+    if (Array.isArray(value)) value.forEach((_, k) => found.set(`${name}[${k + 1}]`, "written"));
+  }
+  return found;
+}
+
+function cell(machine, marked, name) {
+  const value = machine.get(name);
+  const full = value === undefined ? `${name} has no value yet` : `${name} = ${exact(value)}`;
+  const text = value === undefined ? "·" : brief(value);
+  return make("td", { class: marked.get(name), "data-name": name, "data-exact": full }, text);
+}
+
+/** A table of entries with a heading a column; each row has its heading and its names. */
+function table(machine, caption, heads, rows, current) {
+  const marked = marks(machine);
+  const body = rows.map(([head, names], k) =>
+    make("tr", { class: k === current ? "current" : undefined }, make("th", { scope: "row" }, head), ...names.map((name) => cell(machine, marked, name))),
+  );
+  const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
+  const result = make("table", {}, make("caption", {}, caption), make("thead", {}, head), make("tbody", {}, ...body));
+  const box = make("div", { class: "scroll" }, result);
+  roving(box, "td", () => heads.length - 1);
+  return box;
+}
+
+const rowsOf = (rows, names) => rows.map(([head, index]) => [head, names.map((name) => `${name}[${index}]`)]);
+
+/** The tables of c_cnt: contact nodes, k_cnt, and the names of one value. */
+function contactTables(mesh, machine, turn) {
+  const contact = mesh.contact.map((n, k) => [mesh.name(n), k + 1]);
+  const nodes = Array.from({ length: mesh.count }, (_, k) => k + 1);
+  const touched = (n) => [1, 2, 3, 4].some((j) => machine.get(`k_cnt[${n},${j}]`));
+  const shown = mesh.count <= 40 ? nodes : nodes.filter(touched);
+  const k_cnt = shown.map((n) => [mesh.name(n), [1, 2, 3, 4].map((j) => `k_cnt[${n},${j}]`)]);
+  return [
+    table(machine, "by contact node", ["node", "ct", "yt", "dy"], rowsOf(contact, ["ct", "yt", "dy"]), turn - 1),
+    table(machine, "now", ["name", "value"], ["i1", "i2", "ntx", "nty", "k1", "k2"].map((name) => [name, [name]])),
+    table(machine, "k_cnt", ["node", "1: mate", "2: weight", "3: mate", "4: weight"], k_cnt),
+  ];
+}
+
+/** The tables of Km: the element's equations and the names of one value. */
+function stiffnessTables(machine) {
+  const six = [1, 2, 3, 4, 5, 6];
+  return [
+    table(machine, "by equation of the element", ["equation", "V", "W", "cx"], rowsOf(six.map((k) => [String(k), k]), ["V", "W", "cx"])),
+    table(machine, "now", ["name", "value"], ["n", "i1", "i", "j", "fl"].map((name) => [name, [name]])),
+  ];
+}
+
+/** The element's stiffness. */
+function elementTable(machine) {
+  const six = [1, 2, 3, 4, 5, 6];
+  return table(machine, "K", ["row", ...six.map(String)], six.map((i) => [String(i), six.map((j) => `K[${i},${j}]`)]));
+}

@@ -1,0 +1,91 @@
+// What all pages share: elements, numbers, colours, canvases, and the exact value of what is shown
+// short.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const byId = (id) => document.getElementById(id);
+
+/** Makes an element; attributes that are undefined are left out, texts are never read as HTML. */
+function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children);
+  return element;
+}
+
+/** Writes a number with six digits at most. */
+function short(x) {
+  if (typeof x !== "number") return String(x);
+  const size = Math.abs(x);
+  const text = size !== 0 && (size < 1e-4 || size >= 1e7) ? x.toExponential(3) : String(Number(x.toPrecision(6)));
+  return text.replace("-", "−");
+}
+
+/** Writes a value in full: a number with all its digits, an array as Mathcad shows it. */
+function exact(value) {
+  if (!Array.isArray(value)) return String(value);
+  return "(" + value.map((row) => (Array.isArray(row) ? row.join("  ") : row)).join(Array.isArray(value[0]) ? ";  " : "  ") + ")";
+}
+
+/** Writes a value short. */
+function brief(value) {
+  if (!Array.isArray(value)) return short(value);
+  return "(" + value.map((row) => (Array.isArray(row) ? row.map(short).join("  ") : short(row))).join(Array.isArray(value[0]) ? ";  " : "  ") + ")";
+}
+
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+
+/** Clears a canvas for its size on the page, in CSS pixels; returns its context. */
+function prepared(canvas, height) {
+  const ratio = window.devicePixelRatio || 1;
+  const width = canvas.clientWidth;
+  canvas.style.height = height + "px";
+  canvas.width = Math.round(width * ratio);
+  canvas.height = Math.round(height * ratio);
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.font = "13px system-ui, sans-serif";
+  return { context, width, height };
+}
+
+/** Shows the exact value of what has `data-exact`, under the pointer or with the focus. */
+function showExactValues() {
+  const tip = make("div", { id: "tip", hidden: true });
+  document.body.append(tip);
+  const show = (event) => {
+    const of = event.target.closest?.("[data-exact]");
+    tip.hidden = !of;
+    if (!of) return;
+    tip.textContent = of.dataset.exact;
+    const place = of.getBoundingClientRect();
+    tip.style.left = Math.max(4, Math.min(place.left, window.innerWidth - tip.offsetWidth - 4)) + "px";
+    tip.style.top = (place.top > 32 ? place.top - 28 : place.bottom + 4) + "px";
+  };
+  document.addEventListener("pointerover", show);
+  document.addEventListener("focusin", show);
+  document.addEventListener("scroll", () => (tip.hidden = true), true);
+}
+
+/** Makes what `selector` finds in `container` one stop of the Tab key; arrow keys go from one to the
+ * next. Called again when the content was made anew. */
+function roving(container, selector, columns = () => 1) {
+  const all = () => [...container.querySelectorAll(selector)];
+  all().forEach((item, k) => (item.tabIndex = k === 0 ? 0 : -1));
+  if (container.dataset.roving) return;
+  container.dataset.roving = "";
+  container.addEventListener("keydown", (event) => {
+    const items = all();
+    const at = items.indexOf(document.activeElement);
+    const across = columns() > 1 ? { ArrowLeft: -1, ArrowRight: 1 } : {};
+    const by = { ArrowUp: -columns(), ArrowDown: columns(), ...across }[event.key];
+    if (at < 0 || by === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const next = items[at + by];
+    if (!next) return;
+    items[at].tabIndex = -1;
+    next.tabIndex = 0;
+    next.focus();
+  });
+}

@@ -1,0 +1,183 @@
+//! The page of a report: what was run, what it came to, and the fields of every run.
+//!
+//! Its data: `audit` as `audit --json` has it, `runs`, each with `result` as `result.json` has it,
+//! and the mesh and the fields as numbers in base64, little-endian: `u` and `state` (of a triangle
+//! sigma_x, sigma_y, tau_xy, von Mises stress, e_xx, e_yy, g_xy, von Mises strain) in 32 bits; of
+//! iterations before the last `u`, and the von Mises stress in 16 bits of its largest.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::Page;
+use crate::answer::{Assessment, Detail, Solution, Step, Stiffness};
+use crate::problem::element::State;
+use crate::problem::model::{Model, NodeId};
+use crate::problem::scene::Scene;
+use crate::report::picture::colour;
+use crate::report::{ResultFile, audit as audit_report, json, pressure};
+use crate::studies::audit::Audit;
+use crate::studies::calculix::{Comparison, Fields};
+
+/// The shades of a field.
+const SHADES: u8 = 64;
+
+/// What a report testifies.
+pub struct Report<'a> {
+    pub scene: &'a Scene,
+    /// What was asked, in words: what, and what it was set to.
+    pub what: Vec<(&'a str, String)>,
+    pub audit: Option<&'a Audit>,
+    pub runs: Vec<Run<'a>>,
+    /// The run beside CalculiX, and how the two were run, in words.
+    pub calculix: Option<(&'a Comparison, String)>,
+    /// Charts of `trade`: name and SVG.
+    pub charts: Vec<(String, String)>,
+}
+
+/// A run of a report.
+pub struct Run<'a> {
+    pub solution: &'a Solution,
+    pub assessment: Assessment<'a>,
+}
+
+pub fn html(report: &Report) -> String {
+    let scene = report.scene;
+    let mut data = json::head(Some(scene));
+    let runs = report.runs.par_iter().map(run).collect::<Vec<Value>>();
+    let calculix_fields = report.calculix.as_ref().map(|(comparison, _)| calculix_run(comparison));
+    let charts = report.charts.iter();
+    let charts = charts.map(|(name, svg)| json!({ "name": name, "svg": base64(svg.as_bytes()) }));
+    let own = json!({
+        "scene": { "name": scene.name, "title": scene.title },
+        "what": report.what,
+        "audit": report.audit.map(audit_report::value),
+        "mesh": mesh(&scene.model),
+        "runs": runs.into_iter().chain(calculix_fields).collect::<Vec<_>>(),
+        "own": own_run(report),
+        "equilibrium": report.runs.last().map(|run| pressure::name(run.solution)),
+        "calculix": report.calculix.as_ref().map(|(compared, heading)| calculix(compared, heading)),
+        "charts": charts.collect::<Vec<_>>(),
+        "colours": colour::parts(SHADES),
+    });
+    data.extend(own.as_object().expect("an object").clone());
+    Page {
+        title: &format!("Report: {}", scene.name),
+        body: include_str!("report/body.html"),
+        style: include_str!("report/report.css"),
+        script: &[
+            include_str!("table.js"),
+            include_str!("report/fields.js"),
+            include_str!("report/viewer.js"),
+            include_str!("report/chart.js"),
+            include_str!("report/report.js"),
+        ],
+        data: &data.into(),
+    }
+    .html()
+}
+
+/// Returns the name of the run of the scene's own variant.
+fn own_run(report: &Report) -> Option<String> {
+    let own = |run: &&Run| run.solution.request.variant == report.scene.variant;
+    report.runs.iter().find(own).map(|run| pressure::name(run.solution))
+}
+
+fn base64(bytes: &[u8]) -> String {
+    BASE64_STANDARD.encode(bytes)
+}
+
+/// Writes numbers in 32 bits.
+fn floats(numbers: impl IntoIterator<Item = f64>) -> String {
+    base64(&numbers.into_iter().flat_map(|x| (x as f32).to_le_bytes()).collect::<Vec<u8>>())
+}
+
+fn mesh(model: &Model) -> Value {
+    let nodes = model.triangles.iter().flat_map(|triangle| triangle.nodes);
+    let indices: Vec<u8> = nodes.flat_map(|n| (n.index() as u32).to_le_bytes()).collect();
+    let mut body = vec![0u8; model.triangles.len()];
+    for (place, own) in model.bodies.iter().enumerate() {
+        own.triangles.iter().for_each(|id| body[id.index()] = place.min(255) as u8);
+    }
+    json!({
+        "nodes": floats(model.nodes.as_flattened().iter().copied()),
+        "triangles": base64(&indices),
+        "body": base64(&body),
+        "bodies": model.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
+        "contact": model.contact.nodes,
+        "edges": model.target_edges().map(|edge| edge.nodes).collect::<Vec<[NodeId; 2]>>(),
+    })
+}
+
+fn run(run: &Run) -> Value {
+    let solution = run.solution;
+    let stiffness = Stiffness::new(&solution.model, |x| x);
+    let before = solution.steps.windows(2).filter(|steps| is_shown(&steps[0], &steps[1]));
+    let before = before.map(|steps| iteration(&solution.model, &stiffness, [&steps[0], &steps[1]]));
+    let result = ResultFile::new(solution, &run.assessment, None);
+    json!({
+        "name": pressure::name(solution),
+        "result": ResultFile { nodes: None, u: None, u_digits: None, elements: None, ..result },
+        "u": floats(solution.u.iter().copied()),
+        "state": floats(solution.elements.iter().flat_map(values)),
+        "iterations": before.collect::<Vec<_>>(),
+    })
+}
+
+/// Returns whether the fields of an iteration are shown: on a path of the load, where it ends a step.
+fn is_shown(own: &Step, next: &Step) -> bool {
+    match (&own.detail, &next.detail) {
+        (Detail::Unilateral(own), Detail::Unilateral(next)) => own.load < next.load,
+        _ => true,
+    }
+}
+
+/// Returns the fields of an iteration: the shape that it ended in is that from which the next
+/// started.
+fn iteration(model: &Model, stiffness: &Stiffness, [own, next]: [&Step; 2]) -> Value {
+    let moved = next.shape.as_flattened().iter().zip(model.nodes.as_flattened());
+    let u: Vec<f64> = moved.map(|(now, before)| now - before).collect();
+    let states = stiffness.states(&u.clone().into());
+    let stress: Vec<f64> = states.iter().map(|state| state.von_mises_stress).collect();
+    let most = stress.iter().copied().fold(0.0, f64::max);
+    let part = |x: &f64| if most > 0.0 { (x / most * 65535.0).round() as u16 } else { 0 };
+    let parts: Vec<u8> = stress.iter().flat_map(|x| part(x).to_le_bytes()).collect();
+    json!({ "k": own.k, "u": floats(u), "von_mises": base64(&parts), "most": most })
+}
+
+/// Returns the eight values of a triangle that a page shows.
+fn values(state: &State) -> [f64; 8] {
+    let ([sx, sy, sxy], [ex, ey, exy]) = (state.sigma.into(), state.epsilon.into());
+    [sx, sy, sxy, state.von_mises_stress, ex, ey, exy, state.von_mises_strain]
+}
+
+/// Returns CalculiX's fields as a run; it is not asked for strains.
+fn calculix_run(comparison: &Comparison) -> Value {
+    let Fields { u, sigma } = &comparison.theirs;
+    let state = sigma.iter().zip(&comparison.von_mises[1]);
+    let state = state.flat_map(|(s, v)| [s[0], s[1], s[3], *v, 0.0, 0.0, 0.0, 0.0]);
+    json!({
+        "name": "CalculiX",
+        "u": floats(u.as_flattened().iter().copied()),
+        "state": floats(state),
+        "iterations": [],
+    })
+}
+
+fn calculix(compared: &Comparison, heading: &str) -> Value {
+    let (u, stress) = (&compared.displacement.largest, &compared.stress.largest);
+    let row = |of: &str, at: String, [difference, scale, relative]: [f64; 3]| json!({ "of": of, "at": at, "difference": difference, "scale": scale, "relative": relative });
+    json!({
+        "heading": heading,
+        "differences": [
+            row("displacement", format!("node {}", u.at), [u.difference, u.scale, u.relative]),
+            row(
+                "stress",
+                format!("triangle {}", stress.at),
+                [stress.difference, stress.scale, stress.relative],
+            ),
+        ],
+        "bodies": compared.bodies,
+    })
+}

@@ -1,0 +1,101 @@
+// The fields of the runs: what is stored as bytes, opened when it is first shown.
+
+/** The numbers that a text in base64 holds. */
+function numbers(Kind, text) {
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  return new Kind(bytes.buffer);
+}
+
+const mesh = {
+  at: numbers(Float32Array, data.mesh.nodes),
+  triangles: numbers(Uint32Array, data.mesh.triangles),
+  body: numbers(Uint8Array, data.mesh.body),
+};
+mesh.nodes = mesh.at.length / 2;
+mesh.count = mesh.triangles.length / 3;
+
+/** The smallest and the largest of many numbers. */
+function range(values) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const x of values) {
+    if (x < low) low = x;
+    if (x > high) high = x;
+  }
+  return [low, high];
+}
+
+/** What can be shown: its name, its unit, and where its values are: a place in a triangle's state,
+ * or what is taken of a node's displacement. */
+const FIELDS = [
+  { name: "von Mises stress", unit: "stress", state: 3 },
+  { name: "stress σx", unit: "stress", state: 0 },
+  { name: "stress σy", unit: "stress", state: 1 },
+  { name: "stress τxy", unit: "stress", state: 2 },
+  { name: "von Mises strain", unit: null, state: 7 },
+  { name: "strain εx", unit: null, state: 4 },
+  { name: "strain εy", unit: null, state: 5 },
+  { name: "strain γxy", unit: null, state: 6 },
+  { name: "displacement |u|", unit: "length", of: Math.hypot },
+  { name: "displacement ux", unit: "length", of: (x) => x },
+  { name: "displacement uy", unit: "length", of: (x, y) => y },
+];
+
+const unitOf = (field) => (field.unit ? (data.units[field.unit] ?? "") : "");
+
+/** The runs that have fields. */
+const shownRuns = data.runs.filter((run) => run.u !== undefined);
+
+/** How many iterations a run shows; the last has every field, those before it have displacements and
+ * von Mises stress. */
+const iterationsOf = (run) => run.iterations.length + 1;
+
+/** The number of the iteration at a place of the slider. */
+const numberOf = (run, place) => run.iterations[place - 1]?.k ?? lastOf(run);
+const lastOf = (run) => run.result?.iterations.length ?? 1;
+
+/** The displacements at a place of the slider, from 1. */
+function displacements(run, k) {
+  const kept = run.iterations[k - 1];
+  const holder = kept ?? run;
+  return (holder.opened ??= numbers(Float32Array, holder.u));
+}
+
+/** The values of a field by triangle; null where the iteration does not have it. */
+function valuesOf(run, field, k) {
+  const values = new Float32Array(mesh.count);
+  if (field.of) {
+    const u = displacements(run, k);
+    const of = (n) => field.of(u[2 * n], u[2 * n + 1]);
+    for (let t = 0; t < mesh.count; t += 1) {
+      values[t] = (of(mesh.triangles[3 * t]) + of(mesh.triangles[3 * t + 1]) + of(mesh.triangles[3 * t + 2])) / 3;
+    }
+    return values;
+  }
+  const kept = run.iterations[k - 1];
+  if (kept) {
+    if (field.state !== 3) return null;
+    const parts = numbers(Uint16Array, kept.von_mises);
+    return values.map((_, t) => (parts[t] / 65535) * kept.most);
+  }
+  run.states ??= numbers(Float32Array, run.state);
+  return values.map((_, t) => run.states[8 * t + field.state]);
+}
+
+/** The nodes' places under displacements drawn `factor` times. */
+function placesOf(run, k, factor) {
+  if (factor === 0) return mesh.at;
+  const u = displacements(run, k);
+  return mesh.at.map((x, j) => x + factor * u[j]);
+}
+
+/** The triangle that a point is in, from 0; −1 outside. */
+function triangleAt(places, x, y) {
+  const { triangles } = mesh;
+  for (let t = 0; t < mesh.count; t += 1) {
+    const [a, b, c] = [2 * triangles[3 * t], 2 * triangles[3 * t + 1], 2 * triangles[3 * t + 2]];
+    const side = (p, q) => (places[q] - places[p]) * (y - places[p + 1]) - (places[q + 1] - places[p + 1]) * (x - places[p]);
+    const [d, e, f] = [side(a, b), side(b, c), side(c, a)];
+    if ((d >= 0 && e >= 0 && f >= 0) || (d <= 0 && e <= 0 && f <= 0)) return t;
+  }
+  return -1;
+}

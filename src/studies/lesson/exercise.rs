@@ -1,0 +1,108 @@
+//! An exercise: a scene of its own for each student, what `c_cnt` finds on it, and the marks of the
+//! answers.
+
+use fastrand::Rng;
+use serde::{Deserialize, Serialize};
+
+use crate::paper::door::Call;
+use crate::paper::mirror::Reading;
+use crate::problem::model::NodeId;
+use crate::problem::scene::Scene;
+use crate::studies::audit::statuses::{Kind, draw};
+
+/// The kind of file that the page of an exercise exports.
+pub const ANSWERS: &str = "plane-contact answers";
+
+/// The scenes of exercises: a target of four edges, and a stamp that jumped twice c_tll deep.
+const KIND: Kind = Kind { edges: 4, depth: 2.0, above: false };
+
+/// How far an answered weight may be from the listing's: two digits are asked for.
+const WEIGHT: f64 = 0.0051;
+
+/// The exercise of a student: a number, and the seed of the class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Exercise {
+    pub exercise: u64,
+    pub seed: u64,
+}
+
+/// What `c_cnt` finds of a contact node, or what a student says of it; nothing where he says
+/// nothing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Answer {
+    /// The number of the contact node.
+    pub node: usize,
+    /// The number of its target edge; 0 for none.
+    pub ct: Option<f64>,
+    /// 1 in contact, else 0.
+    pub dy: Option<f64>,
+    /// The weight of the edge's first node, `k_cnt` in column 2; 0 for a node that is apart.
+    pub k1: Option<f64>,
+}
+
+/// The answers of a student, as the page of an exercise exports them.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Answers {
+    /// [`ANSWERS`].
+    pub kind: String,
+    pub exercise: u64,
+    pub seed: u64,
+    pub student: String,
+    pub answers: Vec<Answer>,
+}
+
+/// A value that was asked for: what was said, and what the listing finds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Mark {
+    pub node: usize,
+    pub of: &'static str,
+    pub said: Option<f64>,
+    pub found: f64,
+    pub right: bool,
+}
+
+impl Exercise {
+    /// Draws the scene.
+    pub fn scene(self) -> Scene {
+        let mut seeds = Rng::with_seed(self.seed);
+        let own = seeds.u64(..).wrapping_add(self.exercise);
+        draw(&mut Rng::with_seed(own), KIND).scene
+    }
+
+    /// Returns what `c_cnt` finds on the scene, by contact node.
+    pub fn found(self) -> Vec<[f64; 4]> {
+        let model = self.scene().model;
+        let call = Call::c_cnt(&model, &Reading::default(), &model.nodes)
+            .expect("no target edge that is drawn is vertical");
+        let row = |(place, node): (usize, &NodeId)| {
+            let pairs = &call.pairs;
+            let (ct, dy) = (pairs.ct[place] as f64, pairs.dy[place] as f64);
+            [node.number() as f64, ct, dy, call.row(*node)[1]]
+        };
+        (1..).zip(&model.contact.nodes).map(row).collect()
+    }
+}
+
+impl Answers {
+    /// Marks the answers.
+    pub fn marks(&self) -> Vec<Mark> {
+        let found = Exercise { exercise: self.exercise, seed: self.seed }.found();
+        let of_node = |[node, ct, dy, k1]: [f64; 4]| {
+            let node = node as usize;
+            let own = self.answers.iter().find(|answer| answer.node == node);
+            let said = |of: fn(&Answer) -> Option<f64>| own.and_then(of);
+            [
+                mark(node, "ct", said(|answer| answer.ct), ct, 0.0),
+                mark(node, "dy", said(|answer| answer.dy), dy, 0.0),
+                mark(node, "k1", said(|answer| answer.k1), k1, WEIGHT),
+            ]
+        };
+        found.into_iter().flat_map(of_node).collect()
+    }
+}
+
+fn mark(node: usize, of: &'static str, said: Option<f64>, found: f64, within: f64) -> Mark {
+    Mark { node, of, said, found, right: said.is_some_and(|x| (x - found).abs() <= within) }
+}

@@ -1,0 +1,130 @@
+//! A lesson: both listings executed on a small scene, every step kept, under each reading that the
+//! lesson offers.
+
+pub mod exercise;
+mod repairs;
+mod switches;
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use crate::answer::Request;
+use crate::answer::error::Result;
+use crate::error::InputError;
+use crate::paper::door::Call;
+use crate::paper::listings::{Which, settings};
+use crate::paper::mathcad::{Listing, Settings};
+use crate::paper::mirror::Reading;
+use crate::problem::model::{Model, NodeId};
+use crate::problem::scene::Scene;
+use crate::studies::audit::trace::{Product, Trace, trace};
+
+pub use repairs::repair;
+pub use switches::{Switch, switches};
+
+/// The statements that a page holds at most, both listings together.
+const MOST_SHOWN: usize = 20_000;
+
+/// Both listings on a scene under a switch.
+pub struct Run {
+    pub switch: Switch,
+    /// The model under the switch.
+    pub model: Arc<Model>,
+    /// `c_cnt` at the initial shape; nothing without contact.
+    pub c_cnt: Option<Program>,
+    /// `Km` on the pairs that `c_cnt` found; nothing where `c_cnt` stopped.
+    pub km: Option<Program>,
+}
+
+/// A listing and what it did.
+pub struct Program {
+    pub listing: Listing,
+    pub trace: Trace,
+}
+
+/// Executes both listings on a scene under a switch. Of `nodes`, where some are named, the turns of
+/// `c_cnt` over these contact nodes are kept and those of `Km` over the triangles that have one of
+/// them; else every step is.
+///
+/// # Errors
+/// A named node is no contact node, or there are more steps than a page can show.
+pub fn run(scene: &Scene, switch: Switch, nodes: &[usize]) -> Result<Run> {
+    let model = switch.request(scene).model()?;
+    check(&model, nodes)?;
+    let kept = Kept::of(&model, nodes);
+    let worksheet = switch.settings();
+    let executed =
+        |which, call: &Call| kept.program(which, switch.listing(which), &worksheet, call);
+    let call = Call::without_contact(&model);
+    let c_cnt = model.has_contact().then(|| executed(Which::CCnt, &call));
+    let call = match c_cnt.as_ref().map(|c_cnt| &c_cnt.trace.result) {
+        Some(Ok(Product::Pairs(pairs))) => Some(Call { pairs: pairs.clone(), ..call }),
+        Some(_) => None,
+        None => Some(call),
+    };
+    let km = call.map(|call| executed(Which::Km, &call));
+    let steps = [&c_cnt, &km].into_iter().flatten().map(|p| p.trace.steps.len()).sum::<usize>();
+    if steps > MOST_SHOWN {
+        let what =
+            format!("the listings take {steps} steps, and a page shows {MOST_SHOWN} at most");
+        let fix = "choose contact nodes, such as --nodes 5,6";
+        return Err(InputError::new("SCENE", what, fix).into());
+    }
+    Ok(Run { switch, model, c_cnt, km })
+}
+
+fn check(model: &Model, nodes: &[usize]) -> Result<(), InputError> {
+    let is_contact = |n: &&usize| model.contact.nodes.iter().any(|node| node.number() == **n);
+    match nodes.iter().find(|n| !is_contact(n)) {
+        Some(n) => {
+            let what = format!("node {n} is no contact node");
+            Err(InputError::new("--nodes", what, "name nodes of the contact surface"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The turns of each listing that a lesson keeps.
+struct Kept {
+    /// The places in `cnt`, from 1, and the triangles' numbers.
+    turns: [BTreeSet<usize>; 2],
+    /// Whether the steps outside the turns are kept too.
+    outside: bool,
+}
+
+impl Kept {
+    fn of(model: &Model, nodes: &[usize]) -> Self {
+        let chosen = |node: &NodeId| nodes.is_empty() || nodes.contains(&node.number());
+        let places = model.contact.nodes.iter().zip(1..).filter(|(node, _)| chosen(node));
+        let triangles =
+            model.triangle_ids().filter(|id| model.triangle(*id).nodes.iter().any(chosen));
+        let turns =
+            [places.map(|(_, place)| place).collect(), triangles.map(|id| id.number()).collect()];
+        Kept { turns, outside: nodes.is_empty() }
+    }
+
+    fn program(&self, which: Which, listing: Listing, settings: &Settings, call: &Call) -> Program {
+        let turns = &self.turns[usize::from(which == Which::Km)];
+        let mut trace = trace(which, &listing, settings, call, |turn| turns.contains(&turn));
+        if !self.outside {
+            trace.steps.retain(|step| step.turn.is_some());
+        }
+        Program { listing, trace }
+    }
+}
+
+/// Returns the numbers that the paper's fig. 1 gives the nodes of two surfaces: 1.1, 1.2, ... along
+/// the target, 2.1, 2.2, ... along the stamp, each in the order in which the surface is given.
+pub fn figure_numbers(model: &Model) -> Vec<(NodeId, String)> {
+    let mut target: Vec<NodeId> = Vec::new();
+    for node in model.target_edges().flat_map(|edge| edge.nodes) {
+        if !target.contains(&node) {
+            target.push(node);
+        }
+    }
+    let numbered = |surface: usize, nodes: &[NodeId]| {
+        let nodes = nodes.iter().zip(1..);
+        nodes.map(|(node, k)| (*node, format!("{surface}.{k}"))).collect::<Vec<_>>()
+    };
+    [numbered(1, &target), numbered(2, &model.contact.nodes)].concat()
+}

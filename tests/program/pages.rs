@@ -1,0 +1,212 @@
+//! The pages in a real browser, where there is one: what is shown against the program's own JSON, by
+//! pointer and by keyboard, in both schemes, at two widths, with pictures of the views.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use plane_contact::studies::lesson::exercise::{ANSWERS, Exercise};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use crate::common::program::run;
+use crate::common::tolerances::{PICTURE, assert_near};
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// The folder of playwright-core and axe-core where a browser can be driven, as it must be where
+/// `REQUIRE_BROWSER` is set.
+fn browser() -> Option<PathBuf> {
+    let modules = Path::new(ROOT).join("target/browser/node_modules");
+    let starts = |program: &str| Command::new(program).arg("--version").output().is_ok();
+    let there = modules.join("playwright-core").is_dir() && starts("node") && starts("chromium");
+    assert!(there || std::env::var_os("REQUIRE_BROWSER").is_none(), "a browser is required");
+    if !there {
+        eprintln!("no browser is installed: the pages are not opened");
+    }
+    there.then_some(modules)
+}
+
+/// Writes what a command prints, or the page that it makes, to a file of the folder.
+fn made(folder: &Path, name: &str, args: &[&str]) -> String {
+    let path = folder.join(name).to_string_lossy().into_owned();
+    let is_page = name.ends_with(".html");
+    let args = if is_page { [args, &["--out", &path]].concat() } else { args.to_vec() };
+    let output = run(folder, &args);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    if !is_page {
+        std::fs::write(&path, output.stdout).expect("a file");
+    }
+    path
+}
+
+/// Runs a script of `tests/program/pages/`.
+fn in_browser(modules: &Path, script: &str, args: &[&str]) {
+    let output = Command::new("node")
+        .arg(Path::new(ROOT).join("tests/program/pages").join(script))
+        .args(args)
+        .env("BROWSER_MODULES", modules)
+        .output()
+        .expect("node starts");
+    let said =
+        [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    assert!(output.status.success(), "{}", said.concat());
+}
+
+/// Compares the pictures in a folder with those of `golden/pages/`; INSTA_UPDATE=always takes them.
+fn assert_pictures(folder: &Path, count: usize) {
+    let golden = Path::new(ROOT).join("golden/pages");
+    let pictures = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("a file"));
+    let pictures: Vec<PathBuf> =
+        pictures.map(|e| e.path()).filter(|p| p.extension().is_some_and(|e| e == "png")).collect();
+    assert_eq!(pictures.len(), count);
+    for picture in pictures {
+        let name = picture.file_name().expect("a name").to_string_lossy().into_owned();
+        let expected = golden.join(&name);
+        if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+            std::fs::create_dir_all(&golden).expect("a folder");
+            std::fs::copy(&picture, &expected).expect("a file");
+        }
+        assert_near(&name, difference(&picture, &expected), 0.0, 1.0, &PICTURE);
+    }
+}
+
+/// The mean difference of two pictures' channels, over their range; 1 where the sizes differ.
+fn difference(one: &Path, other: &Path) -> f64 {
+    let [(size, a), (other_size, b)] = [one, other].map(pixels);
+    if size != other_size {
+        return 1.0;
+    }
+    let differences = a.iter().zip(&b).map(|(x, y)| f64::from(x.abs_diff(*y)));
+    differences.sum::<f64>() / 255.0 / a.len() as f64
+}
+
+/// The size and the channels of a PNG.
+fn pixels(path: &Path) -> ([u32; 2], Vec<u8>) {
+    let file = File::open(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    let mut reader = png::Decoder::new(BufReader::new(file)).read_info().expect("a PNG");
+    let mut buffer = vec![0; reader.output_buffer_size().expect("a size")];
+    let info = reader.next_frame(&mut buffer).expect("a picture");
+    buffer.truncate(info.buffer_size());
+    ([info.width, info.height], buffer)
+}
+
+#[test]
+fn the_lesson_shows_what_the_trace_has() {
+    let Some(modules) = browser() else { return };
+    let folder = TempDir::new().expect("a folder");
+    let page = made(folder.path(), "lesson.html", &["lesson", "fig1"]);
+    let [c_cnt, km] = ["c_cnt", "Km"].map(|listing| {
+        made(folder.path(), listing, &["trace", "fig1", "--listing", listing, "--json"])
+    });
+    let pictures = folder.path().to_string_lossy().into_owned();
+    in_browser(&modules, "lesson.cjs", &[&page, &pictures, &c_cnt, &km]);
+    assert_pictures(folder.path(), 8);
+}
+
+#[test]
+fn the_report_shows_what_solve_and_audit_have() {
+    let folder = TempDir::new().expect("a folder");
+    let page = made(folder.path(), "report.html", &["report"]);
+    let size = std::fs::metadata(&page).expect("a file").len();
+    assert!(size < 3_000_000, "{size} bytes");
+    let Some(modules) = browser() else { return };
+    let result = made(folder.path(), "result.json", &["solve", "--fields", "--json"]);
+    let audit = made(folder.path(), "audit.json", &["audit", "--json"]);
+    let pictures = folder.path().to_string_lossy().into_owned();
+    in_browser(&modules, "report.cjs", &[&page, &pictures, &result, &audit]);
+    assert_pictures(folder.path(), 4);
+}
+
+/// The page of an exercise, filled in with what `c_cnt` finds on its scene and with one mistake; the
+/// saved files are marked.
+#[test]
+fn answers_to_an_exercise_are_marked() {
+    let folder = TempDir::new().expect("a folder");
+    let exercise = Exercise { exercise: 7, seed: 2026 };
+    let args = ["lesson", "--exercise", "7", "--seed", "2026"];
+    let page = made(folder.path(), "exercise.html", &args);
+    let answer = |[node, ct, dy, k1]: [f64; 4]| {
+        let k1 = (100.0 * k1).round() / 100.0;
+        json!({ "node": node as usize, "ct": ct, "dy": dy, "k1": k1 })
+    };
+    let found: Vec<Value> = exercise.found().into_iter().map(answer).collect();
+    let count = 3 * found.len();
+    let file = json!({
+        "kind": ANSWERS, "exercise": 7, "seed": 2026, "student": "A. Student", "answers": found,
+    });
+    let mut wrong = file.clone();
+    wrong["answers"][0]["dy"] = json!(1.0 - found[0]["dy"].as_f64().unwrap());
+    for (name, file) in [("right.json", &file), ("wrong.json", &wrong)] {
+        std::fs::write(folder.path().join(name), file.to_string()).expect("a file");
+    }
+    let verify = |files: &[&str]| run(folder.path(), &[&["verify"], files].concat());
+    assert_eq!(verify(&["right.json"]).status.code(), Some(0));
+    let output = verify(&["right.json", "wrong.json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let one_wrong = format!("{} of {count}", count - 1);
+    for words in [&format!("{count} of {count}"), &one_wrong, ": dy is ", "A. Student"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    std::fs::write(folder.path().join("broken.json"), r#"{"kind": "plane-contact answers"}"#)
+        .expect("a file");
+    assert_eq!(verify(&["broken.json"]).status.code(), Some(2));
+    let other = Exercise { exercise: 8, seed: 2026 };
+    assert_ne!(other.scene().model.nodes, exercise.scene().model.nodes, "each has its own scene");
+    if let Some(modules) = browser() {
+        let saved = folder.path().join("saved.json").to_string_lossy().into_owned();
+        let typed = folder.path().join("right.json").to_string_lossy().into_owned();
+        in_browser(&modules, "exercise.cjs", &[&page, &typed, &saved]);
+        assert_eq!(verify(&["saved.json"]).status.code(), Some(0));
+    }
+}
+
+#[test]
+fn a_page_is_the_same_on_every_run_and_has_nothing_from_outside() {
+    let folder = TempDir::new().expect("a folder");
+    let page =
+        |name| std::fs::read_to_string(made(folder.path(), name, &["lesson"])).expect("UTF-8");
+    let text = page("a.html");
+    assert_eq!(text, page("b.html"));
+    for outside in ["http://", "https://", "src=", "@import", "url("] {
+        assert!(!text.contains(outside), "{outside}");
+    }
+}
+
+/// What a scene says ends no element of the page.
+#[test]
+fn texts_of_a_scene_are_escaped() {
+    let folder = TempDir::new().expect("a folder");
+    let fig1 = std::fs::read_to_string(Path::new(ROOT).join("golden/fig1/scene.json"));
+    let hostile = r#""title": "</script><script>throw 1</script><!-- &amp;","#;
+    let scene = fig1.expect("UTF-8").replacen('{', &format!("{{{hostile}"), 1);
+    let own =
+        scene.lines().filter(|line| !line.contains("figure 1")).collect::<Vec<_>>().join("\n");
+    std::fs::write(folder.path().join("scene.json"), own).expect("a file");
+    let page = made(folder.path(), "lesson.html", &["lesson", "scene.json"]);
+    let text = std::fs::read_to_string(&page).expect("UTF-8");
+    assert_eq!(text.matches("</script>").count(), 2, "those of the page itself");
+    assert!(!text.contains("<!--"));
+    assert!(text.contains("<title>Lesson: &lt;/script&gt;&lt;script&gt;throw 1"));
+    if let Some(modules) = browser() {
+        let title = "Lesson: </script><script>throw 1</script><!-- &amp;";
+        in_browser(&modules, "title.cjs", &[&page, title]);
+    }
+}
+
+#[test]
+fn a_lesson_is_of_a_small_scene_or_of_chosen_nodes() {
+    let folder = TempDir::new().expect("a folder");
+    let refused = |args: &[&str], words: &str| {
+        let output = run(folder.path(), args);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(words), "{said}");
+    };
+    refused(&["lesson", "strand"], "choose contact nodes");
+    refused(&["lesson", "fig1", "--nodes", "12"], "node 12 is no contact node");
+    refused(&["lesson", "fig1", "--listing", "nowhere.txt"], "cannot be read");
+    made(folder.path(), "lesson.html", &["lesson", "strand", "--nodes", "113,114"]);
+}

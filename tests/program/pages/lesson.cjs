@@ -1,0 +1,229 @@
+// The lesson of fig. 1 in a browser: node lesson.cjs PAGE FOLDER TRACE_OF_C_CNT TRACE_OF_KM. The
+// folder receives a picture of each of eight views.
+
+const assert = require("node:assert");
+const fs = require("node:fs");
+const { WIDTHS, open, violations, overflows, run, drawn } = require("./browser.cjs");
+
+const [file, folder, ofContact, ofStiffness] = process.argv.slice(2);
+const traces = Object.fromEntries(
+  [["c_cnt", ofContact], ["Km", ofStiffness]].map(([name, path]) => [name, JSON.parse(fs.readFileSync(path, "utf8"))]),
+);
+
+/** What the names of a listing hold after some steps of its trace. */
+function valuesAfter(steps) {
+  const values = new Map();
+  for (const { writes } of steps) {
+    for (const { name, value } of writes) {
+      if (typeof value !== "number") for (const other of [...values.keys()]) if (other.startsWith(`${name}[`)) values.delete(other);
+      values.set(name, value);
+      if (!Array.isArray(value)) continue;
+      value.forEach((row, i) => {
+        if (Array.isArray(row)) row.forEach((x, j) => values.set(`${name}[${i + 1},${j + 1}]`, x));
+        else values.set(`${name}[${i + 1}]`, row);
+      });
+    }
+  }
+  return values;
+}
+
+const flat = (value) => (Array.isArray(value) ? `(${value.map((row) => [row].flat().join("  ")).join(Array.isArray(value[0]) ? ";  " : "  ")})` : String(value));
+
+/** Compares what the page shows with the trace; returns how many steps were executed. */
+async function compare(page, which) {
+  const shown = await page.evaluate(() => ({
+    status: document.getElementById("status").textContent,
+    lit: document.querySelector("#listing li[aria-current] button")?.textContent,
+    step: [...document.querySelectorAll("#step .access")].map((item) => [item.textContent.replace(/ .*/, ""), item.dataset.exact]),
+    cells: [...document.querySelectorAll("td[data-name]")].map((cell) => [cell.dataset.name, cell.dataset.exact, cell.textContent]),
+  }));
+  const at = Number(/step (\d+) of/.exec(shown.status)[1]);
+  const { steps } = traces[which];
+  const last = steps[at - 1];
+  assert.equal(shown.lit, last && String(last.line), `the lit line after ${at} steps of ${which}`);
+  const reads = [...new Set((last?.reads ?? []).map((read) => JSON.stringify([read.name, flat(read.value)])))].map((text) => JSON.parse(text));
+  const writes = (last?.writes ?? []).map(({ name, value }) => [name, flat(value)]);
+  assert.deepEqual(shown.step, [...reads, ...writes], `what step ${at} of ${which} read and wrote`);
+  const values = valuesAfter(steps.slice(0, at));
+  assert.ok(shown.cells.length > 20, "the tables have cells");
+  for (const [name, full, text] of shown.cells) {
+    const value = values.get(name);
+    assert.equal(full, value === undefined ? `${name} has no value yet` : `${name} = ${flat(value)}`, `after ${at} steps of ${which}`);
+    if (typeof value === "number") {
+      const read = Number(text.replace("−", "-"));
+      assert.ok(Math.abs(read - value) <= 1e-3 * Math.abs(value), `${name} is shown as ${text}, and is ${value}`);
+    }
+  }
+  return at;
+}
+
+const chosen = (page, which) => page.check(`input[value=${which}]`);
+
+/** 200 moves drawn at random, each compared with the trace. */
+async function walk(browser) {
+  const { page, said } = await open(browser, file);
+  const random = drawn(14);
+  const keys = ["ArrowRight", "ArrowRight", "ArrowLeft", "o", "d", "n", "End", "Home"];
+  const visited = new Set();
+  for (let k = 0; k < 200; k += 1) {
+    const which = k < 100 ? "c_cnt" : "Km";
+    if (k % 100 === 0) await chosen(page, which);
+    if (random() < 0.4) {
+      const at = Math.floor(random() * (traces[which].steps.length + 1));
+      await page.locator("#slider").fill(String(at));
+    } else {
+      await page.evaluate(() => document.activeElement.blur());
+      await page.keyboard.press(keys[Math.floor(random() * keys.length)]);
+    }
+    visited.add(`${which} ${await compare(page, which)}`);
+  }
+  assert.ok(visited.size > 80, `${visited.size} different states were compared`);
+  assert.deepEqual(said, []);
+}
+
+/** The steps that a line's number, "decision" and "over" lead to. */
+async function runs(browser) {
+  const { page } = await open(browser, file);
+  const { steps } = traces.c_cnt;
+  await page.click("#listing button:text-is('16')");
+  assert.equal(await compare(page, "c_cnt"), steps.findIndex(({ line }) => line === 16) + 1);
+  await page.click("#start");
+  await page.click("#decision");
+  assert.equal(steps[await compare(page, "c_cnt")].line, 7, "the first decision is line 7");
+  await page.click("#over");
+  assert.equal(await compare(page, "c_cnt") > 0, true);
+  await page.selectOption("#turns", { index: 2 });
+  assert.equal(steps[(await compare(page, "c_cnt")) - 1].turn, 2);
+}
+
+/** By keyboard alone: to each control by Tab, a line's number by arrows, a value in full. */
+async function keyboard(browser) {
+  const { page } = await open(browser, file);
+  const reached = new Set();
+  for (let k = 0; k < 40; k += 1) {
+    await page.keyboard.press("Tab");
+    reached.add(await page.evaluate(() => document.activeElement.id || document.activeElement.name || document.activeElement.tagName));
+  }
+  for (const id of ["run", "which", "forward", "decision", "slider", "turns", "TD"]) assert.ok(reached.has(id), `${id} by Tab: ${[...reached]}`);
+  await page.focus("#listing button");
+  for (let k = 0; k < 4; k += 1) await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  assert.match(await page.textContent("#status"), /line 5$/);
+  await page.focus("td[data-name='ct[1]']");
+  assert.equal(await page.textContent("#tip"), "ct[1] = 0");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await page.textContent("#tip"), "yt[1] has no value yet");
+}
+
+/** The pointer over a value and over an entry of MJS. */
+async function hover(browser) {
+  const { page } = await open(browser, file);
+  await page.click("#end");
+  await page.hover("td[data-name='yt[1]']");
+  assert.equal(await page.textContent("#tip"), "yt[1] = -0.0004999999999999996");
+  await chosen(page, "Km");
+  await page.click("#end");
+  const entries = new Map(traces.Km.result.entries.map(([i, j, x]) => [`${i},${j}`, x]));
+  const box = await page.locator("#mjs").boundingBox();
+  const cell = (box.width - 22) / 26;
+  for (const [i, j] of [[1, 1], [3, 4], [17, 3], [12, 12]]) {
+    await page.locator("#mjs").hover({ position: { x: 22 + (j - 0.5) * cell, y: 22 + (i - 0.5) * cell } });
+    assert.match(await page.textContent("#entry"), new RegExp(`^MJS\\[${i},${j}\\] = ${String(entries.get(`${i},${j}`) ?? 0).replace(".", "\\.")} `));
+  }
+}
+
+/** Every reading can be chosen; one that stops the listing says so. */
+async function readings(browser) {
+  const { page, said } = await open(browser, file);
+  const names = await page.locator("#run option").allTextContents();
+  assert.ok(names.length > 15, names.join(", "));
+  const ends = new Map();
+  for (const [index, name] of names.entries()) {
+    await page.selectOption("#run", { index });
+    await page.locator("#slider").evaluate((slider) => {
+      slider.value = slider.max;
+      slider.dispatchEvent(new Event("input"));
+    });
+    const stops = await page.textContent("#failure");
+    const cells = await page.locator("td[data-name^='dy'], td[data-name^='k_cnt']").evaluateAll((all) => all.map((cell) => cell.dataset.exact));
+    ends.set(name, stops + cells.join());
+  }
+  const printed = ends.get("as printed");
+  assert.match(ends.get("R4 = left-to-right"), /The listing stops: .*line 18/);
+  for (const name of ["R1 = inside", "R8 = m", "c_tll · 10"]) assert.notEqual(ends.get(name), printed, name);
+  for (const name of ["R9: 0/0 = 0", "R5 = node_n"]) assert.equal(ends.get(name), printed, name);
+  await chosen(page, "Km");
+  await page.selectOption("#run", { label: "R2 = printed" });
+  assert.equal(await page.locator("#listing li.edited").count(), 1, "line 7 is marked");
+  assert.deepEqual(said, []);
+}
+
+/** Questions about what comes next, answered: the verdict is the trace's. */
+async function questions(browser) {
+  const { page, said } = await open(browser, file);
+  const { steps } = traces.c_cnt;
+  await page.check("#ask");
+  const begin = steps.findIndex(({ turn, line }) => turn === 3 && line === 2);
+  await page.locator("#slider").fill(String(begin));
+  assert.match(await page.textContent("#question"), /Which target edge will node 2.3 \(7\) get/);
+  await page.click("#question button:text-is('edge 2')");
+  assert.match(await page.textContent("#question [role=status]"), /^Right\. The boxes that hold the node, in the order of trg: edge 2\./);
+  for (const [at, step] of steps.entries()) {
+    if (![16, 17, 18].includes(step.line)) continue;
+    await page.locator("#slider").fill(String(at));
+    await page.click("#question button:text-is('yes')");
+    assert.match(await page.textContent("#question [role=status]"), step.writes.length ? /^Right/ : /^No: no\. .*is false/);
+  }
+  assert.deepEqual(said, []);
+}
+
+/** The chapter of each finding, and what its repair changes. */
+async function chapters(browser) {
+  const { page, said } = await open(browser, file);
+  const names = await page.locator("#chapter option").allTextContents();
+  assert.equal(names.length, 25);
+  let repaired = 0;
+  for (const [index, name] of names.entries()) {
+    await page.selectOption("#chapter", { index });
+    await page.click("#end");
+    if (index === 0) continue;
+    assert.match(await page.textContent("#finding h2"), new RegExp(`^${name.split(":")[0]} `));
+    if ((await page.locator("#run option").count()) < 2) continue;
+    await page.selectOption("#run", { label: "repaired" });
+    assert.ok((await page.locator("#changes tbody tr").count()) > 0, `${name}: the repair changes something`);
+    repaired += 1;
+  }
+  assert.equal(repaired, 9);
+  await page.selectOption("#chapter", { index: names.findIndex((name) => name.startsWith("C4")) });
+  await page.selectOption("#run", { label: "repaired" });
+  const changed = await page.locator("#changes tbody tr").allTextContents();
+  assert.deepEqual(changed.slice(0, 2), ["dy[1]10", "dy[2]01"]);
+  assert.deepEqual(said, []);
+}
+
+/** Both widths and both schemes: nothing is cut off, axe-core finds nothing, a picture of each. */
+async function views(browser) {
+  for (const width of Object.keys(WIDTHS).map(Number)) {
+    for (const scheme of ["light", "dark"]) {
+      const scale = width === 1440 && scheme === "light" ? 1 : 0.5;
+      const { page, said } = await open(browser, file, { width, scheme, scale });
+      for (const [which, at] of [["c_cnt", 230], ["Km", 1000]]) {
+        await chosen(page, which);
+        await page.locator("#slider").fill(String(at));
+        await page.evaluate(() => window.scrollTo(0, 0));
+        assert.deepEqual(await violations(page), []);
+        assert.equal(await overflows(page), false, `${width} ${scheme}`);
+        await page.screenshot({ path: `${folder}/lesson-${which}-${width}-${scheme}.png` });
+      }
+      assert.deepEqual(said, []);
+    }
+  }
+}
+
+const tests = [walk, runs, keyboard, hover, readings, questions, chapters, views];
+run(async (browser) => {
+  for (const test of tests.filter(({ name }) => (process.env.ONLY ?? name).includes(name))) {
+    await test(browser);
+    console.log(`${test.name}: done`);
+  }
+});

@@ -1,0 +1,117 @@
+// A report in a browser: node report.cjs PAGE FOLDER RESULT AUDIT NAME. RESULT is the result.json of
+// the scene's own variant, with its fields; AUDIT what audit --json prints. The folder receives a
+// picture of each of four views.
+
+const assert = require("node:assert");
+const fs = require("node:fs");
+const { WIDTHS, open, violations, overflows, run, drawn } = require("./browser.cjs");
+
+const [file, folder, resultFile, auditFile] = process.argv.slice(2);
+const result = JSON.parse(fs.readFileSync(resultFile, "utf8"));
+const audit = JSON.parse(fs.readFileSync(auditFile, "utf8"));
+
+const rows = (page, title) => page.locator(`div[aria-label="${title}"] tbody tr`).count();
+
+/** Chooses an option by its text, or a range by its value. */
+const setRange = (page, id, value) => page.locator(`#${id}`).fill(String(value));
+
+/** Each field at triangles drawn at random, by probes on the undeformed shape. */
+async function fields(browser) {
+  const { page, said } = await open(browser, file);
+  await page.locator("#factor").fill("0");
+  await page.locator("#factor").blur();
+  const random = drawn(3);
+  const of = {
+    "von Mises stress": (e) => e.von_mises_stress, "stress σy": (e) => e.sigma[1],
+    "strain γxy": (e) => e.epsilon[2], "von Mises strain": (e) => e.von_mises_strain,
+    "displacement uy": (e) => e.nodes.reduce((sum, n) => sum + result.u[n - 1][1], 0) / 3,
+  };
+  for (const [name, value] of Object.entries(of)) {
+    await page.selectOption("#field", { label: name });
+    const element = result.elements[Math.floor(random() * result.elements.length)];
+    const place = [0, 1].map((j) => element.nodes.reduce((sum, n) => sum + result.nodes[n - 1][j], 0) / 3);
+    await page.fill("#probe-x", String(place[0]));
+    await page.fill("#probe-y", String(place[1]));
+    await page.click("#probe button");
+    const cells = await page.locator("#probes tbody tr").last().locator("td").evaluateAll((all) => all.map((cell) => cell.dataset.exact ?? cell.textContent));
+    assert.equal(cells[2], String(element.n), `the triangle at ${place}`);
+    const shown = Number(cells[6].replace("−", "-"));
+    assert.ok(Math.abs(shown - value(element)) <= 1e-4 * Math.abs(value(element)) + 1e-12, `${name}: ${shown}, ${value(element)}`);
+  }
+  for (const name of await page.locator("#field option").allTextContents()) await page.selectOption("#field", { label: name });
+  assert.deepEqual(said, []);
+}
+
+/** Iterations on the slider; both runs can be any. */
+async function iterations(browser) {
+  const { page, said } = await open(browser, file);
+  assert.equal(await page.locator("#iterations tbody tr").count(), result.iterations.length);
+  await setRange(page, "iteration", 3);
+  assert.match(await page.textContent("#said-0"), /iteration 3 of/);
+  for (const side of [0, 1]) {
+    const count = await page.locator(`#run-${side} option`).count();
+    for (let k = 0; k < count; k += 1) await page.selectOption(`#run-${side}`, { index: k });
+  }
+  await page.click("#zoom-contact");
+  await page.click("#whole");
+  assert.deepEqual(said, []);
+}
+
+/** The audit's tables, whole, and as CSV. */
+async function tables(browser) {
+  const { page } = await open(browser, file);
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  for (const [title, list] of [["Claims", audit.claims], ["Readings", audit.readings], ["Findings", audit.findings], ["Variants", audit.variants]]) {
+    assert.equal(await rows(page, title), list.length, title);
+  }
+  await page.click('button[aria-label="copy as CSV: Findings"]');
+  const csv = await page.evaluate(() => navigator.clipboard.readText());
+  const lines = csv.trimEnd().split("\r\n");
+  assert.equal(lines.length, audit.findings.length + 1);
+  const fourth = audit.findings[3];
+  assert.ok(lines[4].startsWith(`${fourth.id},"${fourth.listing} ${fourth.lines.join(", ")}",${fourth.verdict},${fourth.number},`), lines[4]);
+}
+
+/** The pointer over a picture, dragging, and keys. */
+async function moves(browser) {
+  const { page, said } = await open(browser, file);
+  const canvas = page.locator("#view-0");
+  await canvas.scrollIntoViewIfNeeded();
+  const box = await canvas.boundingBox();
+  const middle = [box.x + box.width / 2, box.y + box.height * 0.7];
+  await page.mouse.move(...middle);
+  assert.match(await page.textContent("#pointed"), /^triangle \d+, .*MPa/);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 40, middle[1] + 20, { steps: 4 });
+  await page.mouse.up();
+  assert.equal(await page.locator("#probes tbody tr").count(), 0, "a drag takes no probe");
+  await page.mouse.click(...middle);
+  assert.equal(await page.locator("#probes tbody tr").count(), 1);
+  await canvas.focus();
+  for (const key of ["ArrowLeft", "+", "-", "Enter"]) await page.keyboard.press(key);
+  assert.equal(await page.locator("#probes tbody tr").count(), 2);
+  assert.deepEqual(said, []);
+}
+
+async function views(browser) {
+  for (const width of Object.keys(WIDTHS).map(Number)) {
+    for (const scheme of ["light", "dark"]) {
+      const scale = width === 1440 && scheme === "light" ? 1 : 0.5;
+      const { page, said } = await open(browser, file, { width, scheme, scale });
+      assert.deepEqual(await violations(page), []);
+      assert.equal(await overflows(page), false, `${width} ${scheme}`);
+      await page.locator("#fields").evaluate((section) => section.scrollIntoView());
+      await page.screenshot({ path: `${folder}/report-${width}-${scheme}.png` });
+      if (scale === 1) assert.ok((await page.pdf()).length > 20000, "it prints");
+      assert.deepEqual(said, []);
+    }
+  }
+}
+
+const tests = [fields, iterations, tables, moves, views];
+run(async (browser) => {
+  for (const test of tests.filter(({ name }) => (process.env.ONLY ?? name).includes(name))) {
+    await test(browser);
+    console.log(`${test.name}: done`);
+  }
+});
