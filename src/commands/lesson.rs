@@ -66,15 +66,18 @@ pub fn run(args: &Args) -> Result<()> {
 
 fn lesson(args: &Args) -> Result<String> {
     let scene = Scene::open(args.scene.as_deref().unwrap_or("fig1"))?;
-    let mut offered = switches(&scene);
+    let mut asked = vec![Switch::as_printed()];
     if let Some(file) = &args.listing {
         let (which, listing) = edited_listing(file)?;
         let about = format!("{} as edited", which.name());
-        offered.insert(1, Switch::edited("edited", about, which, listing));
+        asked.push(Switch::edited("edited", about, which, listing));
     }
     let chapters = waiting("executing the listings", || -> Result<Vec<_>> {
-        let runs = offered.into_iter().map(|switch| execute(&scene, switch, &args.nodes));
-        let own = Chapter { runs: runs.collect::<Result<_>>()?, finding: None, scene };
+        let run = |switch: Switch| execute(&scene, switch, &args.nodes);
+        let mut runs = asked.into_iter().map(run).collect::<Result<Vec<_>>>()?;
+        // What a page cannot show under a reading, as R1 = inside on many nodes, is not offered.
+        runs.extend(switches(&scene).into_iter().skip(1).filter_map(|switch| run(switch).ok()));
+        let own = Chapter { runs, finding: None, scene };
         std::iter::once(Ok(own)).chain(FINDINGS.iter().map(chapter)).collect()
     })?;
     Ok(page::html(&chapters))
