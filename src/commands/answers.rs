@@ -4,6 +4,7 @@ use std::path::Path;
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::report::answers::{self as report, Marked};
 use plane_contact::studies::lesson::exercise::{ANSWERS, Answers};
 
@@ -11,7 +12,7 @@ use super::print;
 
 /// Returns whether a file has answers: the kind that it names.
 pub fn are_in(file: &Path) -> bool {
-    let text = std::fs::read(file).unwrap_or_default();
+    let text = files::read(file).unwrap_or_default();
     let document: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
     document.is_some_and(|document| document["kind"] == ANSWERS)
 }
@@ -29,7 +30,7 @@ fn marked(file: &Path) -> Result<Marked> {
         let what = format!("these are no answers: {why}");
         InputError::new(&name, what, "give files as the page of an exercise saves them")
     };
-    let text = std::fs::read(file).map_err(|why| fault(why.to_string()))?;
+    let text = files::read(file).map_err(|why| fault(why.to_string()))?;
     let answers: Answers = serde_json::from_slice(&text).map_err(|why| fault(why.to_string()))?;
     Ok(Marked { file: name, marks: answers.marks(), answers })
 }

@@ -126,7 +126,7 @@ fn charts(folder: &Path) -> Result<Vec<(String, String)>> {
         let path = entry.map_err(fault)?.path();
         if path.extension().is_some_and(|extension| extension == "svg") {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            found.push((name, std::fs::read_to_string(&path).map_err(fault)?));
+            found.push((name, files::read_text(&path).map_err(fault)?));
         }
     }
     found.sort();

@@ -63,10 +63,10 @@ pub fn run(scene: &Scene, switch: Switch, nodes: &[usize]) -> Result<Run> {
         None => Some(call),
     };
     let km = call.map(|call| executed(Which::Km, &call));
-    let steps = [&c_cnt, &km].into_iter().flatten().map(|p| p.trace.steps.len()).sum::<usize>();
-    if steps > MOST_SHOWN {
-        let what =
-            format!("the listings take {steps} steps, and a page shows {MOST_SHOWN} at most");
+    let traces = || [&c_cnt, &km].into_iter().flatten().map(|program| &program.trace);
+    let steps = traces().map(|trace| trace.steps.len()).sum::<usize>();
+    if steps > MOST_SHOWN || traces().any(|trace| trace.is_cut) {
+        let what = format!("the listings take more steps than the {MOST_SHOWN} that a page shows");
         let fix = "choose contact nodes, such as --nodes 5,6";
         return Err(InputError::new("SCENE", what, fix).into());
     }
