@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::files;
+use plane_contact::paper::edited::Edited;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::page::exercise;
 use plane_contact::report::page::lesson::{self as page, Chapter};
@@ -12,7 +13,7 @@ use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::lesson::exercise::Exercise;
 use plane_contact::studies::lesson::{Switch, repair, run as execute, switches};
 
-use super::{edited_listing, waiting};
+use super::{read_listing, waiting};
 
 /// Write a page that teaches the listings: both of them, stepped forwards and backwards on a scene.
 #[derive(clap::Args)]
@@ -68,9 +69,9 @@ fn lesson(args: &Args) -> Result<String> {
     let scene = Scene::open(args.scene.as_deref().unwrap_or("fig1"))?;
     let mut asked = vec![Switch::as_printed()];
     if let Some(file) = &args.listing {
-        let (which, listing) = edited_listing(file)?;
-        let about = format!("{} as edited", which.name());
-        asked.push(Switch::edited("edited", about, which, listing));
+        let edited = Edited::new(file, &read_listing(file)?)?;
+        let about = format!("{} as edited", edited.which.name());
+        asked.push(Switch::edited("edited", about, edited.which, edited.listing()));
     }
     let chapters = waiting("executing the listings", || -> Result<Vec<_>> {
         let run = |switch: Switch| execute(&scene, switch, &args.nodes);

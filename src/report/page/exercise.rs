@@ -8,7 +8,7 @@ use serde_json::json;
 use super::Page;
 use crate::paper::door;
 use crate::paper::listings::Which;
-use crate::report::folder;
+use crate::report::picture::{self, Drawing};
 use crate::studies::lesson::exercise::{ANSWERS, Exercise};
 
 pub fn html(exercise: Exercise) -> String {
@@ -20,7 +20,7 @@ pub fn html(exercise: Exercise) -> String {
     nodes.dedup();
     let node = |n: &crate::problem::model::NodeId| (n.number(), scene.model.at(*n));
     let edges = scene.model.target_edges().map(|edge| (edge.number, edge.nodes));
-    let picture = BASE64_STANDARD.encode(folder::mesh_picture(&scene));
+    let picture = BASE64_STANDARD.encode(picture::mesh(&Drawing::new(&scene, "")));
     let data = json!({
         "kind": ANSWERS,
         "exercise": exercise.exercise,
