@@ -48,8 +48,11 @@ enum Trial {
 /// Nothing where a trial runs through, else what stopped it.
 type Outcome<'a> = Result<(), Box<dyn std::error::Error + 'a>>;
 
-/// R9: the lines that an alternative concerns, its name, and what it sets.
-pub const WORKSHEETS: [(&str, &str, fn(&mut Settings)); 6] = [
+/// An alternative of R9: the lines that it concerns, its name, and what it sets.
+pub type Alternative = (&'static str, &'static str, fn(&mut Settings));
+
+/// What a worksheet, or Mathcad itself, may do otherwise around the listings.
+pub const WORKSHEETS: [Alternative; 6] = [
     ("both", "ORIGIN = 0", |s| s.origin = 0),
     ("c_cnt 10, 22, 23", "0/0 = 0", |s| s.zero_over_zero_is_zero = true),
     ("both", "comparisons to 1e-12", |s| s.exact_boolean = false),
