@@ -92,6 +92,9 @@ pub struct Unilateral {
     /// The largest change of a sliding node's friction over that of μ times the normal forces which
     /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
     pub feedback: f64,
+    /// The least force of a node in contact, and the least part of its friction that one that sticks
+    /// has left, over the largest force of a node: how near its decisions are to others.
+    pub margin: f64,
     /// Whether restraints leave the force on each entry of the contact surface undetermined.
     pub undetermined: Vec<bool>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.

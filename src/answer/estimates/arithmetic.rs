@@ -102,6 +102,15 @@ fn looked_at<'a>(
     let model = &*solution.model;
     let mut looking = Looking::new(solution, stiffness);
     let (last, way) = solution.steps.split_last()?;
+    let part = |step: &Step| match &step.detail {
+        Detail::Unilateral(detail) => detail.load,
+        Detail::Published(_) => 0.0,
+    };
+    // From its displacements count the slips of the last step of the load.
+    let from = way.iter().rposition(|step| part(step) < part(last));
+    let is_near = |i: usize| Some(i) == from || !looking.is_far(&way[i]);
+    let counts = if solution.way_counts() { way.len() } else { 0 };
+    let near: Vec<&Step> = (0..counts).filter(|i| is_near(*i)).map(|i| &way[i]).collect();
     // The displacements before the step of the load, and after the last iteration.
     let mut before = DVector::zeros(model.dofs());
     let mut reached: Option<(f64, DVector<Bounded>)> = None;
@@ -117,7 +126,7 @@ fn looked_at<'a>(
         reached = Some((detail.load, u));
         Some(())
     };
-    for step in way.iter().filter(|_| solution.way_counts()) {
+    for step in near {
         let Detail::Unilateral(detail) = &step.detail else { return None };
         let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
         look(step, &Held::at(solution, step)?, load)?;

@@ -26,6 +26,10 @@ use crate::problem::modelling::{Coupling, Geometry};
 /// The rounding of a coordinate and of what a search computes from it, in units of the coordinate.
 const COORDINATE: f64 = 8.0;
 
+/// A force over the largest, and a change of a node's place over the largest displacement, which are
+/// beyond rounding: states that errors of this size are in are refused as singular or nearly so.
+const FAR: f64 = 1e-6;
+
 /// A contact state, with displacements and loads within bounds on their errors.
 pub struct State<'a> {
     pub step: &'a Step,
@@ -54,18 +58,52 @@ impl<'a> Looking<'a> {
         Looking { solution, stiffness, surfaces, decisions: Vec::new(), only_ties: true }
     }
 
+    /// Returns whether a state on the way is far from other decisions, beyond what rounding does in any
+    /// state that is solved at all: its bound need not be known. The nodes that the first iteration
+    /// closes are decided otherwise, and looked at.
+    pub fn is_far(&self, step: &Step) -> bool {
+        let Detail::Unilateral(detail) = &step.detail else { return true };
+        let by_forces = step.k > 1 && detail.margin > FAR && !self.rests_on_shared(detail);
+        by_forces && self.faces_surely(step)
+    }
+
+    /// Returns whether friction rests on a force that restraints leave undetermined.
+    fn rests_on_shared(&self, detail: &Unilateral) -> bool {
+        let coefficient = self.solution.request.contact.friction.coefficient();
+        coefficient > 0.0 && coefficient.is_finite() && detail.undetermined.contains(&true)
+    }
+
+    /// Returns whether every node faces the same part of the target also where it stands a little
+    /// elsewhere.
+    fn faces_surely(&self, step: &Step) -> bool {
+        let Some(surfaces) = &self.surfaces else { return true };
+        let contact = &self.solution.request.contact;
+        if contact.geometry == Geometry::Initial {
+            // The last state is measured in the same shape.
+            return true;
+        }
+        let radius = FAR * step.max_displacement;
+        if contact.coupling == Coupling::Mortar {
+            let within = |x: f64| Bounded::new(x, radius);
+            let shape: Vec<_> = step.shape.iter().map(|place| place.map(within)).collect();
+            return surfaces.mortar(&shape).unsure.is_empty();
+        }
+        surfaces.facing_otherwise(&step.shape, radius).is_empty()
+    }
+
     /// Looks at a contact state.
     pub fn at(&mut self, state: &State) {
         let Detail::Unilateral(detail) = &state.step.detail else { return };
         let friction = detail.friction.map(Bounded::from_f64);
         let reaction = self.stiffness.times(state.u) - (&state.load + friction);
-        let coefficient = self.solution.request.contact.friction.coefficient();
-        let rubs = coefficient > 0.0 && coefficient.is_finite();
+        let rests_on_shared = self.rests_on_shared(detail);
         for (i, pairing) in detail.pairings.iter().enumerate() {
             match (detail.statuses[i], pairing) {
                 (_, None) => (),
                 (Status::Open, Some(pairing)) => self.open(state, pairing, detail.violation),
-                (_, Some(pairing)) if detail.undetermined[i] && rubs => self.shared(state, pairing),
+                (_, Some(pairing)) if detail.undetermined[i] && rests_on_shared => {
+                    self.shared(state, pairing)
+                }
                 (status, Some(pairing)) => self.closed(state, status, pairing, &reaction),
             }
         }

@@ -185,6 +185,7 @@ fn step(problem: &Problem, k: usize, load: f64, place: &Place, iteration: &Itera
             pairings: place.pairings.clone(),
             friction: moved.friction.clone(),
             feedback: moved.feedback,
+            margin: problem.margin(iteration),
             undetermined: moved.forces.iter().map(|force| force.undetermined).collect(),
             violation: *violation,
         }),

@@ -359,6 +359,21 @@ impl<'a> Problem<'a> {
         (0..iteration.statuses.len()).map(status).collect()
     }
 
+    /// Returns the least force of a node in contact, and the least friction that one that sticks has
+    /// left, over the largest force; infinite where nothing is in contact.
+    pub(super) fn margin(&self, iteration: &Iteration) -> f64 {
+        let pairs = || iteration.statuses.iter().zip(&iteration.moved.forces);
+        let largest = pairs().map(|(_, force)| force.normal.abs()).fold(0.0, f64::max);
+        let left = |(status, force): (&Status, &Force)| match status {
+            Status::Open => f64::INFINITY,
+            Status::Stick if self.friction.is_finite() => {
+                force.normal.abs().min((self.friction * force.normal - force.tangent.abs()).abs())
+            }
+            _ => force.normal.abs(),
+        };
+        pairs().map(left).fold(f64::INFINITY, f64::min) / largest
+    }
+
     /// Returns how far a node slipped along the tangent in a step of the load, length.
     fn slip(&self, pairing: &Pairing, iteration: &Iteration, setting: &Setting) -> f64 {
         let [ux, uy] = pairing.motion(|n| n.of(&iteration.moved.u));
