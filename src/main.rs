@@ -10,6 +10,9 @@ mod commands;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use plane_contact::Error;
+use plane_contact::error::InputError;
+use plane_contact::report::failure::failure;
 
 /// Audited reimplementation of a published plane contact algorithm (Filipov & Khomenko): finite
 /// elements, contact pairs by the listing c_cnt, stiffness by the listing Km.
@@ -60,11 +63,23 @@ enum Command {
     Export(commands::export::Args),
     Compare(commands::compare::Args),
     Extremes(commands::extremes::Args),
+    Schema(commands::schema::Args),
 }
 
 fn main() -> ExitCode {
     let done = |()| 0;
-    let result = match Cli::parse().command {
+    // Every command that prints JSON has this option.
+    let json = std::env::args_os().any(|arg| arg == "--json");
+    let command = match Cli::try_parse() {
+        Ok(Cli { command }) => command,
+        Err(why) => {
+            if json && why.use_stderr() {
+                let _ = commands::print(&failure(&usage(&why)));
+            }
+            why.exit()
+        }
+    };
+    let result = match command {
         Command::Record(args) => commands::record::run(&args).map(done),
         Command::Verify(args) => commands::verify::run(&args),
         Command::Explain(args) => commands::verify::run_explain(&args),
@@ -72,7 +87,7 @@ fn main() -> ExitCode {
         Command::Accept(args) => commands::accept::run(&args).map(done),
         Command::Sweep(args) => commands::sweep::run(&args),
         Command::Key(args) => commands::sweep::run_key(&args).map(done),
-        Command::Solve(args) => commands::solve::run(&args).map(done),
+        Command::Solve(args) => commands::solve::run(&args),
         Command::Audit(args) => commands::audit::run(&args).map(done),
         Command::CCnt(args) => commands::c_cnt::run(&args).map(done),
         Command::Km(args) => commands::km::run(&args).map(done),
@@ -81,7 +96,7 @@ fn main() -> ExitCode {
         Command::Scene(args) => commands::scenes::run_scene(&args).map(done),
         Command::Plan(args) => commands::plan::run(&args).map(done),
         Command::Statuses(args) => commands::statuses::run(&args).map(done),
-        Command::Trace(args) => commands::trace::run(&args).map(done),
+        Command::Trace(args) => commands::trace::run(&args),
         Command::Evaluate(args) => commands::evaluate::run(&args),
         Command::Mathcad(args) => commands::mathcad::run(&args).map(done),
         Command::Listing(args) => commands::listing::run(&args).map(done),
@@ -91,16 +106,24 @@ fn main() -> ExitCode {
         Command::Export(args) => commands::export::run(&args).map(done),
         Command::Compare(args) => commands::compare::run(&args).map(done),
         Command::Extremes(args) => commands::extremes::run(&args).map(done),
+        Command::Schema(args) => commands::schema::run(&args).map(done),
     };
     match result {
         Ok(status) => ExitCode::from(status),
         Err(error) => {
-            // Every command that prints JSON has this option.
-            if std::env::args_os().any(|arg| arg == "--json") {
-                let _ = commands::print(&plane_contact::report::failure::failure(&error));
+            if json {
+                let _ = commands::print(&failure(&error));
             }
-            commands::tell(&format!("error: {error}\n"));
-            ExitCode::from(error.exit_status())
+            ExitCode::from(commands::told(&error))
         }
     }
+}
+
+/// Returns a fault of the command line.
+fn usage(why: &clap::Error) -> Error {
+    let text = why.render().to_string();
+    let start = text.lines().take_while(|line| !line.is_empty()).map(str::trim);
+    let start = start.collect::<Vec<_>>().join(" ");
+    let what = start.trim_start_matches("error: ");
+    InputError::new("the command line", what, "see --help").into()
 }

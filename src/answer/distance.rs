@@ -1,6 +1,7 @@
 //! The distance of a run from the reference solution on the same mesh: `unilateral` with mortar,
 //! under the scene's friction.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::not_finite::or_nan;
@@ -9,22 +10,24 @@ use super::stiffness::Stiffness;
 use super::summary::summaries;
 
 /// The differences between a run and the reference solution.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Distance {
     /// The largest difference of a node's displacement, length.
     pub displacement: f64,
     /// That difference over the largest displacement of the reference solution.
     #[serde(deserialize_with = "or_nan")]
+    #[schemars(with = "Option<f64>")]
     pub displacement_relative: f64,
     /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the reference solution.
     #[serde(deserialize_with = "or_nan")]
+    #[schemars(with = "Option<f64>")]
     pub energy_relative: f64,
     /// The largest stresses of each body, in the model's order.
     pub bodies: Vec<BodyDistance>,
 }
 
 /// A body's largest von Mises stress beside that of the reference solution.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BodyDistance {
     /// The name of the body.
     pub name: String,
@@ -34,6 +37,7 @@ pub struct BodyDistance {
     pub reference: f64,
     /// The difference of the two over the reference.
     #[serde(deserialize_with = "or_nan")]
+    #[schemars(with = "Option<f64>")]
     pub relative: f64,
 }
 

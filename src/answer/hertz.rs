@@ -10,6 +10,7 @@
 
 use std::f64::consts::PI;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contact::{Pairing, Surfaces, arcs};
@@ -28,7 +29,7 @@ const SHALLOW: f64 = 0.3;
 const FEWEST: usize = 3;
 
 /// Hertz's contact of two cylinders along a line.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Hertz {
     /// The relative radius of the two surfaces, length.
     pub radius: f64,

@@ -2,6 +2,7 @@
 //! it.
 
 use nalgebra::{DVector, SVector, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contact::search::Segment;
@@ -19,7 +20,7 @@ use crate::problem::model::{Body, Model, TriangleId};
 const NEAR: f64 = 1e-8;
 
 /// What a run says of a point of a body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Probe {
     /// The point in the undeformed shape, length.
     pub at: [f64; 2],
@@ -38,7 +39,7 @@ pub struct Probe {
 }
 
 /// A number at a point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Quantity {
     /// What it is: `u_x`, `sigma_x`, `epsilon_x`, ...
     pub name: String,

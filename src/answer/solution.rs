@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use dashu_ratio::RBig;
 use nalgebra::DVector;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contact::{ContactNode, Pairing, Status};
@@ -102,7 +103,7 @@ pub struct Unilateral {
 }
 
 /// The path of the load at the end of which a solution under friction stands.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Path {
     /// The number of equal steps of a stage's load.
     pub steps: usize,
@@ -113,7 +114,7 @@ pub struct Path {
 }
 
 /// An equilibrium beside the one that was found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Other {
     /// The nodes that stick in it.
     pub stick: Vec<NodeId>,
@@ -124,7 +125,7 @@ pub struct Other {
 }
 
 /// What is known of other equilibria under the same load.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Uniqueness {
     /// There is no other one: the problem is convex and contact holds the bodies.
@@ -200,7 +201,7 @@ impl Step {
 }
 
 /// The return of an earlier contact state.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Cycle {
     /// The number of steps since the state last occurred; 1 means that it did not change.
     pub length: usize,
@@ -238,7 +239,7 @@ pub struct Solution {
 }
 
 /// What `unilateral` knows of the equilibrium that it found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Equilibrium {
     /// The path of the load; None without friction, where it has no effect.
     pub path: Option<Path>,

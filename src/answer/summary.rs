@@ -1,12 +1,13 @@
 //! The largest values of each body, for tables and result files.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::solution::Solution;
 use crate::problem::model::{Body, TriangleId};
 
 /// The largest displacement, stress and strain of a body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BodySummary {
     /// The name of the body.
     pub name: String,

@@ -44,7 +44,7 @@ pub fn run(args: &Args) -> Result<()> {
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
     let mut snapshot = read(&args.file)?;
     let place = args.file.display().to_string();
-    let verified = waiting("verifying", || verify(&snapshot, scene.as_ref()));
+    let verified = waiting("verifying", || verify(&snapshot, scene.as_ref(), &|| ()));
     let verified = verified.map_err(|error| super::within(error, &place))?;
     let (entry, reason, failing) = (args.entry.as_deref(), &args.reason[..], args.failing);
     let accepted = accept(&mut snapshot, &verified, Chosen { entry, reason, failing })?;

@@ -96,7 +96,7 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
         )?;
     }
     if args.json {
-        return print(&(finding.row(&measured).to_string() + "\n"));
+        return print(&report::finding_json(finding, &measured, &case.scene));
     }
     print_fitted(&report::explain(finding, &measured, &case.scene))
 }

@@ -38,7 +38,7 @@ pub fn run(args: &Args) -> Result<()> {
     let model = Request::new(&scene).reading(reading).model()?;
     let call = Call::c_cnt(&model, &reading, &model.nodes)?;
     if args.json {
-        return print(&json::pairs(&scene, &call.pairs));
+        return print(&json::of_scene(&scene, &json::Found::from(&call.pairs)));
     }
     args.tables.print(&tables::pairs(&scene, &model, &call))
 }

@@ -6,12 +6,10 @@ use std::rc::Rc;
 use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::paper::mathcad::{
-    Failure, Limits, Listing, Outcome, Settings, Sheet, Value, file, json,
-};
-use serde_json::json;
+use plane_contact::paper::mathcad::{Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
+use plane_contact::report::evaluation as report;
 
-use super::{print, tell};
+use super::{print, told};
 
 /// Run a program in the notation of the listings.
 #[derive(clap::Args)]
@@ -67,7 +65,7 @@ pub fn run(args: &Args) -> Result<u8> {
     let outcome = call.runner_in(&sheet, &args.settings, &Limits::default()).call(&[]);
     let failure = match outcome {
         Ok(outcome) if args.json => {
-            return print(&format!("{}\n", result(&outcome))).map(|()| 0);
+            return print(&report::json(&outcome)).map(|()| 0);
         }
         Ok(outcome) => return print(&shown(&outcome)).map(|()| 0),
         Err(failure) => failure,
@@ -78,9 +76,8 @@ pub fn run(args: &Args) -> Result<u8> {
         return Err(wrong);
     }
     // The failure of the program is what was asked for: no other document follows it.
-    print(&format!("{}\n", error(&failure)))?;
-    tell(&format!("error: {wrong}\n"));
-    Ok(wrong.exit_status())
+    print(&report::error_json(&failure))?;
+    Ok(told(&wrong))
 }
 
 /// The call of a function on names of the worksheet.
@@ -101,21 +98,6 @@ fn inputs(text: &str) -> Result<Sheet, InputError> {
         sheet.define(&name, value);
     }
     Ok(sheet)
-}
-
-fn result(outcome: &Outcome) -> serde_json::Value {
-    json!({ "value": json::write(&outcome.value), "trace": outcome.trace_output })
-}
-
-fn error(failure: &Failure) -> serde_json::Value {
-    json!({ "error": {
-        "cause": failure.cause.to_string(),
-        "listing": failure.listing,
-        "line": failure.line,
-        "column": failure.column,
-        "text": failure.text,
-        "statement": failure.statement,
-    } })
 }
 
 /// What `trace` was given, then the value, a row on each line.

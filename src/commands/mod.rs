@@ -18,6 +18,7 @@ pub mod plan;
 pub mod record;
 pub mod report;
 pub mod scenes;
+pub mod schema;
 pub mod solve;
 pub mod statuses;
 pub mod sweep;
@@ -237,6 +238,12 @@ pub fn say_written(folder: &Path, written: bool) {
 /// Writes to standard error; where that cannot be written, results and exit status are as if it could.
 pub fn tell(text: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
+}
+
+/// Says on standard error why a command that printed its document fails, and returns the exit status.
+pub fn told(error: &Error) -> u8 {
+    tell(&format!("error: {error}\n"));
+    error.exit_status()
 }
 
 /// Does `work`, with a sign of life on standard error for what may take over two seconds; it shows

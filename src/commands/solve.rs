@@ -16,7 +16,7 @@ use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::solve_to;
 
 use super::{
-    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, progress, tell,
+    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, progress, tell, told,
 };
 
 /// Run the iterations and write pictures and data.
@@ -97,7 +97,8 @@ pub struct Args {
     tables: TablesArgs,
 }
 
-pub fn run(args: &Args) -> Result<()> {
+/// Solves a scene and writes its files; returns the exit status.
+pub fn run(args: &Args) -> Result<u8> {
     let scene = args.changes.change(Scene::open(&args.scene)?)?;
     let request = args.model.request(&scene, args.variant, &args.reading);
     let request = edited(args, request.arithmetic(args.arithmetic))?;
@@ -122,7 +123,7 @@ pub fn run(args: &Args) -> Result<()> {
         };
         tell(&accuracy);
         print(&result)?;
-        return several(&solution);
+        return Ok(status(&solution));
     }
     report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?;
     let tables = tables::solution(&solution, &assessment)
@@ -134,7 +135,7 @@ pub fn run(args: &Args) -> Result<()> {
     let changes = beside_the_print(&solution);
     let text = format!("{tables}{changes}\n{plan}\nWritten to {}\n", out.display());
     args.tables.print(&text)?;
-    several(&solution)
+    Ok(status(&solution))
 }
 
 /// Asks for the edited listings of `--c-cnt` and `--km`.
@@ -178,14 +179,15 @@ fn point(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// Ends with a status of its own where other equilibria are known.
-fn several(solution: &Solution) -> Result<()> {
+/// Returns the exit status, which is one of its own where other equilibria are known; the result says
+/// so too.
+fn status(solution: &Solution) -> u8 {
     let found = solution.equilibrium.as_ref();
     if !found.is_some_and(|found| found.uniqueness.is_refuted()) {
-        return Ok(());
+        return 0;
     }
     let what = "the equilibrium is not the only one: see the line Equilibrium".into();
-    Err(NoEquilibrium { what }.into())
+    told(&NoEquilibrium { what }.into())
 }
 
 /// The solution, and under `--accuracy` how its precision was found.

@@ -14,7 +14,7 @@ use plane_contact::report::changes::changes;
 use plane_contact::report::trace::{self as report, Shown};
 use plane_contact::studies::audit::trace::{self, Trace};
 
-use super::{ReadingArg, print, print_fitted, width};
+use super::{ReadingArg, print, print_fitted, told, width};
 
 /// Execute a listing and show, line by line, what each statement read and wrote.
 #[derive(clap::Args)]
@@ -66,7 +66,8 @@ struct Chosen {
     edited: bool,
 }
 
-pub fn run(args: &Args) -> Result<()> {
+/// Executes a listing and shows its trace; returns the exit status.
+pub fn run(args: &Args) -> Result<u8> {
     let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
@@ -76,26 +77,42 @@ pub fn run(args: &Args) -> Result<()> {
     let wanted = |turn: usize| turns.contains(&turn);
     let settings = settings(&reading);
     let trace = trace::trace(chosen.which, &chosen.listing, &settings, &call, wanted);
+    let failure = failure(&trace, &chosen, args);
     if args.json {
-        print(&report::json(&trace, &chosen.listing, &scene))?;
-    } else {
-        let lines = args.lines.unwrap_or([1, usize::MAX]);
-        let shown = Shown { summary: args.summary, lines, exact: args.exact, width: width() };
-        print_fitted(&report::text(&trace, &chosen.listing, &scene, &model, &shown))?;
+        let why = failure.as_ref().map(Into::into);
+        print(&report::json(&trace, &chosen.listing, &scene, why))?;
+        // The failure stands in the document: no other one follows.
+        return Ok(failure.as_ref().map_or(0, told));
     }
-    finish(trace, &chosen, args, &model, &call)
+    let lines = args.lines.unwrap_or([1, usize::MAX]);
+    let shown = Shown { summary: args.summary, lines, exact: args.exact, width: width() };
+    print_fitted(&report::text(&trace, &chosen.listing, &scene, &model, &shown))?;
+    finish(trace, failure, &chosen, args, &model, &call).map(|()| 0)
+}
+
+/// Returns why the listing stopped, and who is to blame.
+fn failure(trace: &Trace, chosen: &Chosen, args: &Args) -> Option<Error> {
+    let failure = trace.result.as_ref().err()?;
+    let fix = "correct the edited listing";
+    Some(match chosen.edited {
+        true => InputError::new(&args.listing, failure.to_string(), fix).into(),
+        false => failure.clone().into(),
+    })
 }
 
 /// Tells what an edit changed, or why the listing stopped.
-fn finish(trace: Trace, chosen: &Chosen, args: &Args, model: &Model, call: &Call) -> Result<()> {
+fn finish(
+    trace: Trace,
+    failure: Option<Error>,
+    chosen: &Chosen,
+    args: &Args,
+    model: &Model,
+    call: &Call,
+) -> Result<()> {
     let reading = args.reading.reading;
-    match trace.result {
-        Err(failure) if chosen.edited => {
-            Err(InputError::new(&args.listing, failure.to_string(), "correct the edited listing")
-                .into())
-        }
-        Err(failure) => Err(failure.into()),
-        Ok(product) if chosen.edited && !args.json => {
+    match (trace.result, failure) {
+        (_, Some(failure)) => Err(failure),
+        (Ok(product), None) if chosen.edited => {
             let printed = chosen.which.under(&reading);
             match trace::run(chosen.which, &printed, &settings(&reading), call, &mut ()) {
                 Ok((printed, _)) => print(&changes(&printed, &product, model)),
@@ -104,7 +121,7 @@ fn finish(trace: Trace, chosen: &Chosen, args: &Args, model: &Model, call: &Call
                 }
             }
         }
-        Ok(_) => Ok(()),
+        _ => Ok(()),
     }
 }
 

@@ -77,9 +77,9 @@ pub fn run(args: &Args) -> Result<()> {
     let start = format!("trade-{}", scene.name);
     let out = folder(&args.out, folder_name(start, &request, &asked));
     if args.json && args.out.is_none() {
-        return print(&report::json(&measured));
+        return print(&report::json(&scene, &measured));
     }
-    let json = report::write(&out, &measured)?;
+    let json = report::write(&out, &scene, &measured)?;
     if args.json {
         return print(&json);
     }

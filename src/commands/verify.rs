@@ -9,7 +9,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, Checked};
 use plane_contact::studies::snapshot::{self, Snapshot};
 
-use super::{answers, print, waiting};
+use super::{answers, print, progress};
 
 /// The exit status where what was compared differs, or nothing was compared.
 pub const DIFFERS: u8 = 1;
@@ -54,8 +54,7 @@ pub fn run(args: &Args) -> Result<u8> {
         return Ok(if all_right { 0 } else { DIFFERS });
     }
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let check = |file: &PathBuf| check(file, scene.as_ref());
-    let checked = args.files.iter().map(check).collect::<Result<Vec<Checked>>>()?;
+    let checked = check(&args.files, scene.as_ref())?;
     if let Some(file) = &args.junit {
         files::write(file, &report::junit(&checked))?;
     }
@@ -77,12 +76,20 @@ pub fn read(file: &Path) -> Result<Snapshot> {
     Ok(Snapshot::read(&text).map_err(|error| error.within(&place))?)
 }
 
-fn check(file: &Path, scene: Option<&Scene>) -> Result<Checked> {
-    let snapshot = read(file)?;
-    let name = file.display().to_string();
-    let verified = waiting("verifying", || snapshot::verify(&snapshot, scene));
-    let verified = verified.map_err(|error| super::within(error, &name))?;
-    Ok(Checked { file: name, verified })
+/// Verifies snapshots one by one, with a progress bar over their runs.
+fn check(files: &[PathBuf], scene: Option<&Scene>) -> Result<Vec<Checked>> {
+    let snapshots: Vec<Snapshot> = files.iter().map(|file| read(file)).collect::<Result<_>>()?;
+    let runs = snapshots.iter().map(|snapshot| snapshot.runs.len()).sum();
+    let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
+    let check = |(file, snapshot): (&PathBuf, &Snapshot)| {
+        let file = file.display().to_string();
+        let verified = snapshot::verify(snapshot, scene, &|| bar.inc(1));
+        let verified = verified.map_err(|error| super::within(error, &file))?;
+        Ok(Checked { file, verified })
+    };
+    let checked = files.iter().zip(&snapshots).map(check).collect();
+    bar.finish_and_clear();
+    checked
 }
 
 /// Explain why a scene no longer gives what its snapshot recorded.
@@ -113,7 +120,7 @@ pub struct ExplainArgs {
 
 pub fn run_explain(args: &ExplainArgs) -> Result<u8> {
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let checked = [check(&args.file, scene.as_ref())?];
+    let checked = check(std::slice::from_ref(&args.file), scene.as_ref())?;
     let snapshot = read(&args.file)?;
     let verified = &checked[0].verified;
     print(&if args.json { report::json(&checked) } else { report::text(&checked) })?;

@@ -7,6 +7,7 @@
 //! one has already settled does not count. Where none is left to rounding, exact arithmetic takes
 //! the same turns.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::mathcad;
@@ -17,7 +18,7 @@ use crate::numbers::scalar::{Scalar, Unsure};
 use crate::problem::model::NodeId;
 
 /// A decision on who is in contact that rounding may have taken.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Decision {
     /// The iteration, from 1.
     pub iteration: usize,

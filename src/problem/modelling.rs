@@ -1,8 +1,10 @@
 //! The variants that can be run, and how contact is modelled beyond what the paper prints.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer};
 use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
@@ -83,6 +85,16 @@ impl Serialize for Friction {
     }
 }
 
+impl JsonSchema for Friction {
+    fn schema_name() -> Cow<'static, str> {
+        "Friction".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [{ "type": "number", "minimum": 0 }, { "const": "stick" }] })
+    }
+}
+
 impl<'de> Deserialize<'de> for Friction {
     /// Reads a coefficient, as a number or as text, or `"stick"`.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -131,7 +143,7 @@ choices! {
 pub const LOAD_STEPS: usize = 16;
 
 /// The model of contact, beyond what the paper prints.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ContactModel {
     /// The method that binds a contact node to the target surface.
     pub coupling: Coupling,

@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
 
 use super::claims;
-use super::json::headed;
+use super::json::of_scene;
 use super::layout::{Table, aligned, listed};
 use super::numbers::{or_dash, percent, short};
 use super::tables::certainty;
@@ -14,10 +16,11 @@ use crate::paper::listings::Which;
 use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
-use crate::studies::audit::findings::{Finding, Measured};
+use crate::studies::audit::claims::Judged;
+use crate::studies::audit::findings::{Finding, Measured, Verdict};
 use crate::studies::audit::readings::Effect;
 use crate::studies::audit::variants::{End, VariantRow};
-use crate::studies::audit::{Audit, Compared, Rubbing};
+use crate::studies::audit::{Assumption, Audit, Compared, Rubbing};
 
 pub fn text(audit: &Audit, scene: &Scene) -> String {
     format!(
@@ -209,26 +212,73 @@ fn tenth(x: f64) -> String {
     format!("{:.1}", (10.0 * x).round() / 10.0 + 0.0)
 }
 
-pub fn json(audit: &Audit, scene: &Scene) -> String {
-    let mut document = json!({ "scene": scene.name });
-    let fields = document.as_object_mut().expect("an object");
-    fields.extend(value(audit).as_object().expect("an object").clone());
-    headed(Some(scene), &document)
+/// The audit of a scene as JSON.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    scene: &'a str,
+    claims: &'a [Judged],
+    assumptions: &'a [Assumption],
+    readings: &'a [Effect],
+    findings: Vec<FindingRow>,
+    variants: &'a [VariantRow],
+    equilibrium: &'a Option<Compared>,
+    reference: &'a Option<Compared>,
+    friction: &'a [Rubbing],
 }
 
-/// Returns what an audit found.
-pub fn value(audit: &Audit) -> Value {
-    let findings = audit.findings.iter().map(|(finding, measured)| finding.row(measured));
-    json!({
-        "claims": audit.claims,
-        "assumptions": audit.assumptions,
-        "readings": audit.readings,
-        "findings": findings.collect::<Vec<_>>(),
-        "variants": audit.variants,
-        "equilibrium": audit.equilibrium,
-        "reference": audit.reference,
-        "friction": audit.friction,
-    })
+/// A finding on a scene.
+#[derive(Serialize, JsonSchema)]
+pub struct FindingRow {
+    id: &'static str,
+    /// `c_cnt`, `Km`, or `-` where it is the iterations'.
+    listing: &'static str,
+    /// The printed lines that do it, from 1.
+    lines: &'static [usize],
+    /// What the listing does that the text does not say.
+    title: &'static str,
+    verdict: Verdict,
+    /// What was measured.
+    number: f64,
+    /// What the number is, with its unit.
+    of: &'static str,
+    detail: String,
+}
+
+impl FindingRow {
+    fn new(finding: &Finding, measured: &Measured) -> Self {
+        let Finding { id, listing, lines, title, number: of, .. } = *finding;
+        let Measured { verdict, number, ref detail } = *measured;
+        FindingRow { id, listing, lines, title, verdict, number, of, detail: detail.clone() }
+    }
+}
+
+/// Returns the audit of a scene as JSON.
+pub fn json(audit: &Audit, scene: &Scene) -> String {
+    of_scene(scene, &document(audit, scene))
+}
+
+/// Returns what an audit of a scene found, without a head.
+pub fn value(audit: &Audit, scene: &Scene) -> Value {
+    serde_json::to_value(document(audit, scene)).expect("a document is JSON")
+}
+
+fn document<'a>(audit: &'a Audit, scene: &'a Scene) -> Document<'a> {
+    Document {
+        scene: &scene.name,
+        claims: &audit.claims,
+        assumptions: &audit.assumptions,
+        readings: &audit.readings,
+        findings: audit.findings.iter().map(|(f, m)| FindingRow::new(f, m)).collect(),
+        variants: &audit.variants,
+        equilibrium: &audit.equilibrium,
+        reference: &audit.reference,
+        friction: &audit.friction,
+    }
+}
+
+/// Returns what a scene shows of one finding as JSON.
+pub fn finding_json(finding: &Finding, measured: &Measured, scene: &Scene) -> String {
+    of_scene(scene, &FindingRow::new(finding, measured))
 }
 
 /// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.

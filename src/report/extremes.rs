@@ -1,13 +1,22 @@
 //! Stability at the extremes, for people, for machines and as a picture.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::json::headed;
 use super::layout::{Table, aligned};
 use super::picture::{Axis, SERIES, Series, Style, chart};
 use crate::studies::extremes::{Break, Column, Generator, Measured, Verdict};
 
+/// The content of `extremes.json`: a row for each generator.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    rows: &'a [Measured],
+}
+
 /// Returns the content of `extremes.json`.
 pub fn json(measured: &[Measured]) -> String {
-    headed(None, &measured)
+    headed(&Document { rows: measured })
 }
 
 pub fn list(generators: &[Generator]) -> String {

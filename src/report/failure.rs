@@ -1,45 +1,97 @@
 //! A failure as JSON.
 
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::json::headed;
 use crate::answer::error::Error;
 
+/// Why a command ended without a result.
+#[derive(Serialize, JsonSchema)]
+pub struct Failure {
+    /// The exit status: 2 the input is at fault, 3 the published algorithm fails as printed, 4 no
+    /// equilibrium was found, or more than one.
+    exit_status: u8,
+    #[serde(flatten)]
+    cause: Cause,
+    /// What standard error says.
+    message: String,
+}
+
+/// Who is to blame, and for what.
+#[derive(Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+enum Cause {
+    /// The input breaks a condition: what, where, and how to fix it.
+    Input { what: String, r#where: String, fix: String },
+    /// A listing fails: its line, from 1, and the values that caused it, where they are known.
+    Listing {
+        listing: String,
+        line: usize,
+        cause: String,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        values: Option<String>,
+    },
+    /// The matrix of an iteration, from 1, is singular: at which equation, and how many contact
+    /// nodes were in contact.
+    Singular {
+        variant: &'static str,
+        iteration: usize,
+        node: usize,
+        direction: char,
+        in_contact: usize,
+    },
+    /// No equilibrium was found, or more than one.
+    Equilibrium,
+}
+
+/// The document of a command that ended without a result.
+#[derive(Serialize, JsonSchema)]
+pub struct Failed {
+    failure: Failure,
+}
+
+impl From<&Error> for Failure {
+    fn from(error: &Error) -> Self {
+        Failure {
+            exit_status: error.exit_status(),
+            cause: cause(error),
+            message: error.to_string(),
+        }
+    }
+}
+
+fn cause(error: &Error) -> Cause {
+    match error {
+        Error::Input(why) => Cause::Input {
+            what: why.what.clone(),
+            r#where: why.place.clone(),
+            fix: why.fix.clone(),
+        },
+        Error::Listing(why) => Cause::Listing {
+            listing: why.listing.into(),
+            line: why.line,
+            cause: why.cause.words().into(),
+            values: Some(why.values.clone()),
+        },
+        Error::Execution(why) => Cause::Listing {
+            listing: why.listing.clone(),
+            line: why.line,
+            cause: why.cause.to_string(),
+            values: None,
+        },
+        Error::Singular(why) => Cause::Singular {
+            variant: why.variant,
+            iteration: why.iteration,
+            node: why.node,
+            direction: why.direction,
+            in_contact: why.in_contact,
+        },
+        Error::Equilibrium(_) => Cause::Equilibrium,
+    }
+}
+
 /// Returns why a command ended without a result.
 pub fn failure(error: &Error) -> String {
-    let (kind, more) = match error {
-        Error::Input(why) => {
-            ("input", json!({"what": why.what, "where": why.place, "fix": why.fix}))
-        }
-        Error::Listing(why) => (
-            "listing",
-            json!({
-                "listing": why.listing,
-                "line": why.line,
-                "cause": why.cause.words(),
-                "values": why.values,
-            }),
-        ),
-        Error::Execution(_) => ("listing", json!({})),
-        Error::Singular(why) => (
-            "singular",
-            json!({
-                "variant": why.variant,
-                "iteration": why.iteration,
-                "node": why.node,
-                "direction": why.direction.to_string(),
-                "in_contact": why.in_contact,
-            }),
-        ),
-        Error::Equilibrium(_) => ("equilibrium", json!({})),
-    };
-    let mut failure = json!({
-        "exit_status": error.exit_status(),
-        "kind": kind,
-        "message": error.to_string(),
-    });
-    if let (Value::Object(failure), Value::Object(more)) = (&mut failure, more) {
-        failure.extend(more);
-    }
-    headed(None, &json!({ "failure": failure }))
+    headed(&Failed { failure: error.into() })
 }

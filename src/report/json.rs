@@ -1,11 +1,12 @@
 //! What several reports write as JSON.
 
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 use super::numbers::{NO_LIMIT, reason};
 use crate::paper::mirror::Pairs;
-use crate::problem::scene::Scene;
+use crate::problem::scene::{Scene, Units};
 use crate::studies::snapshot::{FORMAT, Input, VERSION};
 
 /// Writes a document on one line. Floats read back to the same bits; what is not finite is null. The
@@ -15,31 +16,50 @@ pub fn line(document: &impl Serialize) -> String {
     explained(document).to_string() + "\n"
 }
 
-/// Writes a document on one line behind what every document says of itself: its format, the version
-/// of the program, and of its scene the units and the hashes.
-pub fn headed(scene: Option<&Scene>, document: &impl Serialize) -> String {
-    let mut fields = head(scene);
-    let document = serde_json::to_value(document).expect("a document has string keys only");
-    match document {
-        Value::Object(own) => fields.extend(own),
-        list => drop(fields.insert("rows".into(), list)),
-    }
-    line(&fields)
+/// A document behind what it says of itself.
+#[derive(Serialize, JsonSchema)]
+pub struct Headed<Head, Own> {
+    #[serde(flatten)]
+    head: Head,
+    #[serde(flatten)]
+    own: Own,
 }
 
-/// Returns what every document says of itself.
-pub fn head(scene: Option<&Scene>) -> Map<String, Value> {
-    let mut fields = Map::new();
-    fields.insert("format".into(), FORMAT.into());
-    fields.insert("version".into(), VERSION.into());
-    if let Some(scene) = scene {
-        fields.insert("units".into(), json!(scene.units));
-        if let Ok(input) = Input::of(scene) {
-            fields.insert("scene_sha256".into(), input.scene_sha256.into());
-            fields.insert("mesh_sha256".into(), input.mesh_sha256.into());
-        }
-    }
-    fields
+/// What every document says of itself.
+#[derive(Serialize, JsonSchema)]
+pub struct Head {
+    /// The version of the format.
+    format: u32,
+    /// The version of the program.
+    version: &'static str,
+}
+
+/// What a document says of itself and of its scene.
+#[derive(Serialize, JsonSchema)]
+pub struct SceneHead {
+    #[serde(flatten)]
+    head: Head,
+    /// The names of the scene's units, each empty where the scene names none.
+    units: Units,
+    /// The SHA-256 of the scene, as a snapshot has it.
+    scene_sha256: String,
+    /// The SHA-256 of its mesh.
+    mesh_sha256: String,
+}
+
+/// Returns what a document without a scene says of itself.
+const HEAD: Head = Head { format: FORMAT, version: VERSION };
+
+/// Writes a document on one line behind its head.
+pub fn headed(own: &impl Serialize) -> String {
+    line(&Headed { head: HEAD, own })
+}
+
+/// Writes a document on a scene, which a file describes, on one line behind its head.
+pub fn of_scene(scene: &Scene, own: &impl Serialize) -> String {
+    let Input { scene_sha256, mesh_sha256, .. } = Input::of(scene).expect("a file describes it");
+    let head = SceneHead { head: HEAD, units: scene.units.clone(), scene_sha256, mesh_sha256 };
+    line(&Headed { head, own })
 }
 
 /// Returns a document with the reasons of its nulls.
@@ -134,19 +154,27 @@ fn explain(value: &Value, field: &str, nulls: &mut Map<String, Value>) {
     }
 }
 
-/// Writes what one call of `c_cnt` found on a scene.
-pub fn pairs(scene: &Scene, pairs: &Pairs<f64>) -> String {
-    headed(Some(scene), &pairs_value(pairs))
+/// What one call of `c_cnt` found.
+#[derive(Serialize, JsonSchema)]
+pub struct Found {
+    /// The `elem` number of each contact node's target edge, 0 = none.
+    ct: Vec<usize>,
+    /// The vertical distance of each contact node from its target line, length.
+    yt: Vec<f64>,
+    /// Whether each contact node is in contact: 1 or 0.
+    dy: Vec<usize>,
+    /// By node: mate, weight, mate, weight.
+    k_cnt: Vec<[f64; 4]>,
 }
 
-/// Returns `ct`, `yt`, `dy` by contact node and `k_cnt` by node.
-pub fn pairs_value(pairs: &Pairs<f64>) -> Value {
-    let k_cnt: Vec<Vec<f64>> =
-        (1..=pairs.k_cnt.rows()).map(|n| pairs.k_cnt.row(n).copied().collect()).collect();
-    json!({
-        "ct": pairs.ct.as_slice(),
-        "yt": pairs.yt.as_slice(),
-        "dy": pairs.dy.as_slice(),
-        "k_cnt": k_cnt,
-    })
+impl From<&Pairs<f64>> for Found {
+    fn from(pairs: &Pairs<f64>) -> Self {
+        let row = |n| [1, 2, 3, 4].map(|j| pairs.k_cnt[(n, j)]);
+        Found {
+            ct: pairs.ct.as_slice().to_vec(),
+            yt: pairs.yt.as_slice().to_vec(),
+            dy: pairs.dy.as_slice().to_vec(),
+            k_cnt: (1..=pairs.k_cnt.rows()).map(row).collect(),
+        }
+    }
 }

@@ -12,7 +12,8 @@
 //! | `snapshot`, `statuses`, `trade`                    | a study each                           |
 //! | `picture`, `vtu`                                   | pictures and files for viewers         |
 //! | `page`                                             | pages of HTML, each one file           |
-//! | `failure`, `json`, `matrix_market`, `output`       | other files                            |
+//! | `evaluation`, `failure`, `json`, `schema`          | JSON, and what is in it                |
+//! | `matrix_market`, `output`                          | other files                            |
 //! | `sweep`                                            | job files of engines                   |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
 //! | `changes`, `edited`, `scenes`                      | edited listings, scenes that are there |
@@ -25,6 +26,7 @@ pub mod changes;
 pub mod claims;
 pub mod comparison;
 pub mod edited;
+pub mod evaluation;
 pub mod extremes;
 pub mod failure;
 pub mod folder;
@@ -40,6 +42,7 @@ pub mod pressure;
 pub mod printed;
 mod result_file;
 pub mod scenes;
+pub mod schema;
 pub mod snapshot;
 pub mod statuses;
 pub mod sweep;

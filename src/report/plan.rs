@@ -1,5 +1,6 @@
 //! The plan of a run, for people and for machines.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json;
@@ -49,15 +50,18 @@ pub fn text(plan: &Plan, free: Option<u128>) -> String {
     )
 }
 
+/// The plan as JSON.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    #[serde(flatten)]
+    plan: &'a Plan,
+    /// Peak memory of the process, bytes.
+    bytes: f64,
+}
+
 /// Writes the plan as JSON, with the sum of its bytes.
 pub fn json(scene: &Scene, plan: &Plan) -> String {
-    #[derive(Serialize)]
-    struct Document<'a> {
-        #[serde(flatten)]
-        plan: &'a Plan,
-        bytes: f64,
-    }
-    json::headed(Some(scene), &Document { plan, bytes: plan.cost.bytes.total() })
+    json::of_scene(scene, &Document { plan, bytes: plan.cost.bytes.total() })
 }
 
 fn row(name: &str, value: impl ToString, why: impl ToString) -> Vec<String> {

@@ -1,5 +1,6 @@
 //! `result.json`: everything that a machine needs of a run, written and read back.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{json, plan};
@@ -26,7 +27,7 @@ pub const MOST_TRIANGLES: usize = 20_000;
 
 /// The content of `result.json`. Lengths, stresses and forces are in the units of the scene. Every
 /// float reads back to the same bits; one that is not finite is null, and reads back as NaN.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ResultFile {
     /// The version of the format.
     pub format: u32,
@@ -119,14 +120,14 @@ pub struct ResultFile {
 }
 
 /// A listing that stood in place of one of the paper's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EditedListing {
     pub listing: Which,
     pub sha256: String,
 }
 
 /// What an iteration came to.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IterationRow {
     /// The number of the iteration, from 1.
     pub k: usize,
@@ -156,7 +157,7 @@ pub struct IterationRow {
 }
 
 /// How far the numbers of a run may be from the truth; nothing where that is not known.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct KnownEstimates {
     /// What rounding may do to a displacement, length.
     pub displacement_arithmetic: Option<f64>,
@@ -174,7 +175,7 @@ pub struct KnownEstimates {
 }
 
 /// How far a body's largest von Mises stress may be from the truth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BodyEstimates {
     /// The name of the body.
     pub name: String,
@@ -194,7 +195,7 @@ pub struct BodyEstimates {
 }
 
 /// The stresses and strains of a triangle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ElementRow {
     /// Its number, from 1: its row of `EL`.
     pub n: usize,

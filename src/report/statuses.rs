@@ -8,7 +8,7 @@ use crate::studies::audit::statuses::{Measurement, Row};
 
 /// Lays out two tables: the wrong statuses by depth, and the operations by size.
 pub fn json(measured: &Measurement) -> String {
-    headed(None, measured)
+    headed(measured)
 }
 
 pub fn text(measured: &Measurement) -> String {

@@ -2,9 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use serde_json::{Value as Json, json};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value as Json;
 
-use super::json::{headed, pairs_value};
+use super::failure::Failure;
+use super::json::{Found, of_scene};
 use super::layout::{counted, filled, listed};
 use super::numbers::six_digits;
 use crate::paper::listings::Which;
@@ -233,34 +236,74 @@ fn row(value: &Json, shown: &Shown) -> String {
     }
 }
 
-pub fn json(trace: &Trace, listing: &Listing, scene: &Scene) -> String {
-    let step = |step: &Step| {
-        json!({
-            "turn": step.turn, "line": step.line, "text": text_of(listing, step.line),
-            "reads": step.reads, "writes": step.writes,
-        })
-    };
-    headed(
-        Some(scene),
-        &json!({
-            "scene": scene.name,
-            "listing": trace.which.name(),
-            "steps": trace.steps.iter().map(step).collect::<Vec<_>>(),
-            "trace": trace.output,
-            "result": trace.result.as_ref().ok().map(product_value),
-            "failure": trace.result.as_ref().err().map(ToString::to_string),
-        }),
-    )
+/// A trace as JSON.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    scene: &'a str,
+    /// `c_cnt` or `Km`.
+    listing: &'static str,
+    /// The statements in order of execution.
+    steps: Vec<StepRow<'a>>,
+    /// What the listing's own `trace` wrote.
+    trace: &'a [String],
+    /// What the listing computes; null where it failed.
+    result: Option<Computed>,
+    /// Why it failed; null where it did not.
+    failure: Option<Failure>,
 }
 
-fn product_value(product: &Product) -> Json {
-    match product {
-        Product::Pairs(pairs) => pairs_value(pairs),
-        Product::Matrix(matrix) => {
-            let entries = entries(matrix, |i, j| matrix[(i, j)]);
-            json!({ "rows": matrix.rows(), "cols": matrix.cols(), "entries": entries })
+/// A statement as it was executed.
+#[derive(Serialize, JsonSchema)]
+struct StepRow<'a> {
+    /// The turn of the outer loop, from 1; null outside it.
+    turn: Option<usize>,
+    /// The printed line, from 1.
+    line: usize,
+    text: &'a str,
+    reads: &'a [Access],
+    writes: &'a [Access],
+}
+
+impl<'a> StepRow<'a> {
+    fn new(step: &'a Step, listing: &'a Listing) -> Self {
+        let Step { turn, line, ref reads, ref writes, .. } = *step;
+        StepRow { turn, line, text: text_of(listing, line), reads, writes }
+    }
+}
+
+/// What a listing computes: of `c_cnt` the pairs, of `Km` the entries of MJS that are not 0, each
+/// with its row and its column, from 1, force/length.
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
+enum Computed {
+    Pairs(Found),
+    Matrix { rows: usize, cols: usize, entries: Vec<(usize, usize, f64)> },
+}
+
+impl From<&Product> for Computed {
+    fn from(product: &Product) -> Self {
+        match product {
+            Product::Pairs(pairs) => Computed::Pairs(pairs.into()),
+            Product::Matrix(matrix) => Computed::Matrix {
+                rows: matrix.rows(),
+                cols: matrix.cols(),
+                entries: entries(matrix, |i, j| matrix[(i, j)]),
+            },
         }
     }
+}
+
+/// Returns a trace as JSON; `failure` is why the listing failed.
+pub fn json(trace: &Trace, listing: &Listing, scene: &Scene, failure: Option<Failure>) -> String {
+    let document = Document {
+        scene: &scene.name,
+        listing: trace.which.name(),
+        steps: trace.steps.iter().map(|step| StepRow::new(step, listing)).collect(),
+        trace: &trace.output,
+        result: trace.result.as_ref().ok().map(Computed::from),
+        failure,
+    };
+    of_scene(scene, &document)
 }
 
 /// Returns the values of `of` that are not zero, each with its row and its column in `matrix`.

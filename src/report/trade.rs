@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::claims::{over, over_the_range};
-use super::json::headed;
+use super::json::of_scene;
 use super::layout::{Table, listed};
 use super::numbers::{note, or_dash};
 use super::output::{csv as csv_of, write_all};
@@ -11,6 +11,7 @@ use super::picture::{Axis, Series, Style, chart};
 use crate::answer::estimates::Certainty;
 use crate::error::Result;
 use crate::problem::modelling::Variant;
+use crate::problem::scene::Scene;
 use crate::studies::audit::claims::{Claim, Elsewhere};
 use crate::studies::audit::range::{Parameter, Place};
 use crate::studies::trade::{Came, Errors, Knob, Order, Reached, Row, Section, Trade};
@@ -21,13 +22,13 @@ pub const COLUMNS: &str = "knob,variant,setting,own,equations,in_contact,cycle,s
     change_displacement,change_energy,change_von_mises,pareto,failure";
 
 /// Returns the content of `trade.json`.
-pub fn json(trade: &Trade) -> String {
-    headed(None, trade)
+pub fn json(scene: &Scene, trade: &Trade) -> String {
+    of_scene(scene, trade)
 }
 
 /// Writes `trade.json`, `trade.csv` and `trade.svg` to `folder`; gives back the first.
-pub fn write(folder: &Path, trade: &Trade) -> Result<String> {
-    let json = json(trade);
+pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<String> {
+    let json = json(scene, trade);
     let (csv, picture) = (csv(trade), picture(trade));
     let geometry: Vec<_> = trade.sections.iter().flat_map(geometry).collect();
     let of_range = geometry.iter().map(|(name, picture)| (&**name, &**picture));

@@ -1,8 +1,12 @@
 //! A worksheet of Mathcad, executed beside the results that it saved.
 
-use serde_json::{Value, json};
+use std::collections::BTreeSet;
 
-use super::json::line;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+
+use super::json::headed;
 use crate::paper::mathcad::json as values;
 use crate::paper::mathcad::worksheet::{Checked, Verdict};
 
@@ -63,37 +67,88 @@ fn summary(regions: &[Checked]) -> String {
     )
 }
 
-/// Writes the regions on one line.
-pub fn json(name: &str, regions: &[Checked], decided: &[(String, String)]) -> String {
-    let regions: Vec<_> = regions.iter().map(region).collect();
-    let decided = decided.iter().map(|(q, a)| json!({ "question": q, "decides": a }));
-    let decided: Vec<_> = decided.collect();
-    line(&json!({ "file": name, "regions": regions, "questions": decided }))
+/// A worksheet that was executed, as JSON.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    file: &'a str,
+    regions: Vec<RegionRow<'a>>,
+    /// What a worksheet of questions decides.
+    questions: Vec<Question<'a>>,
 }
 
-fn region(region: &Checked) -> Value {
-    let mut fields = serde_json::Map::new();
-    fields.insert("region".into(), region.id.clone().into());
-    fields.insert("tag".into(), region.tag.clone().into());
-    fields.insert("text".into(), region.text.clone().into());
-    let (verdict, more): (_, Vec<(&str, Value)>) = match &region.verdict {
-        Verdict::NothingSaved => ("nothing saved", vec![]),
-        Verdict::Same => ("same", vec![]),
-        Verdict::Digits(digits) => ("digits", vec![("digits", (*digits).into())]),
-        Verdict::SameFailure { saved, ours } => {
-            ("failure", vec![("saved", saved.clone().into()), ("ours", ours.clone().into())])
-        }
-        Verdict::Differs { saved, ours } => {
-            ("differs", vec![("saved", saved.clone().into()), ("ours", ours.clone().into())])
-        }
-        Verdict::Fails(why) => ("fails", vec![("ours", why.clone().into())]),
-        Verdict::Beyond(construct) => ("beyond", vec![("construct", construct.clone().into())]),
-    };
-    fields.insert("verdict".into(), verdict.into());
-    fields.extend(more.into_iter().map(|(name, value)| (name.to_string(), value)));
-    fields.insert("inputs".into(), json!(region.inputs));
-    if let Some(value) = &region.value {
-        fields.insert("value".into(), values::write(value));
+/// A region as it was executed.
+#[derive(Serialize, JsonSchema)]
+struct RegionRow<'a> {
+    region: &'a str,
+    tag: &'a str,
+    /// The region in the text notation.
+    text: &'a str,
+    #[serde(flatten)]
+    verdict: VerdictRow<'a>,
+    /// The regions whose saved results went into this one.
+    inputs: &'a BTreeSet<String>,
+    /// The region's value: a number, words, or a list of rows; absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<Value>,
+}
+
+/// How a region compares with what Mathcad saved.
+#[derive(Serialize, JsonSchema)]
+#[serde(tag = "verdict", rename_all = "lowercase")]
+enum VerdictRow<'a> {
+    #[serde(rename = "nothing saved")]
+    NothingSaved,
+    /// Every number has the saved bits.
+    Same,
+    /// The numbers agree to so many digits.
+    Digits {
+        digits: u32,
+    },
+    /// Both fail.
+    Failure {
+        saved: &'a str,
+        ours: &'a str,
+    },
+    Differs {
+        saved: &'a str,
+        ours: &'a str,
+    },
+    /// The interpreter does not have this.
+    Beyond {
+        construct: &'a str,
+    },
+}
+
+/// A question, and what Mathcad's results say to it.
+#[derive(Serialize, JsonSchema)]
+struct Question<'a> {
+    question: &'a str,
+    decides: &'a str,
+}
+
+/// Writes the regions on one line.
+pub fn json(file: &str, regions: &[Checked], decided: &[(String, String)]) -> String {
+    let mut questions = Vec::new();
+    for (question, decides) in decided {
+        questions.push(Question { question, decides });
     }
-    fields.into()
+    headed(&Document { file, regions: regions.iter().map(region).collect(), questions })
+}
+
+fn region(region: &Checked) -> RegionRow<'_> {
+    let Checked { id, tag, text, inputs, .. } = region;
+    let value = region.value.as_ref().map(values::write);
+    RegionRow { region: id, tag, text, verdict: verdict(&region.verdict), inputs, value }
+}
+
+fn verdict(verdict: &Verdict) -> VerdictRow<'_> {
+    match verdict {
+        Verdict::NothingSaved => VerdictRow::NothingSaved,
+        Verdict::Same => VerdictRow::Same,
+        Verdict::Digits(digits) => VerdictRow::Digits { digits: *digits },
+        Verdict::SameFailure { saved, ours } => VerdictRow::Failure { saved, ours },
+        Verdict::Differs { saved, ours } => VerdictRow::Differs { saved, ours },
+        Verdict::Fails(ours) => VerdictRow::Fails { ours },
+        Verdict::Beyond(construct) => VerdictRow::Beyond { construct },
+    }
 }

@@ -40,7 +40,7 @@ fn snapshots_of_every_scene_and_variant() {
         assert!(Variant::ALL.iter().all(|variant| variants.contains(variant)), "{variants:?}");
         // The scene as it is today, so that a change of scene.json is a difference too.
         let today = Scene::open(scene.name).expect("embedded scenes are sound");
-        let verified = verify(&snapshot, Some(&today)).expect("it runs");
+        let verified = verify(&snapshot, Some(&today), &|| ()).expect("it runs");
         let same = verified.is_same();
         assert_eq!(verified.input, snapshot.input, "{file} is not of the scene beside it");
         assert!(same, "{}", report::text(&[Checked { file, verified }]));

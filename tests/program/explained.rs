@@ -180,7 +180,7 @@ fn what_rounding_decided_is_said_to_be_decided_by_rounding() {
     let mut run = run.clone();
     run.options.solver = None;
     snapshot.runs = [(run.options.name(), run)].into_iter().collect();
-    let verified = verify(&snapshot, None).expect("it runs");
+    let verified = verify(&snapshot, None, &|| ()).expect("it runs");
     let explanation = verified.runs[0].explanation.as_ref().expect("it differs");
     assert_eq!(explanation.class, Class::Rounding, "{explanation:?}");
     assert!(explanation.cause.contains("c_cnt"), "{}", explanation.cause);
@@ -196,7 +196,10 @@ fn another_version_and_a_defect_are_told_apart_and_exact_numbers_arbitrate() {
     let Values::Rows(rows) = &mut stress.values else { panic!("rows") };
     rows[2].values[1].0 *= 1.0 + 1e-6;
     let explained = |snapshot: &Snapshot| {
-        verify(snapshot, None).expect("it runs").runs[0].explanation.clone().expect("it differs")
+        verify(snapshot, None, &|| ()).expect("it runs").runs[0]
+            .explanation
+            .clone()
+            .expect("it differs")
     };
     let defect = explained(&snapshot);
     assert_eq!((defect.class, defect.first.as_deref()), (Class::Defect, Some("stress")));

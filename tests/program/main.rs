@@ -10,6 +10,7 @@ mod common {
     pub mod random;
     pub mod recovery;
     pub mod tolerances;
+    pub mod tools;
 }
 
 mod claims;
@@ -33,6 +34,7 @@ mod printed_numbers;
 mod result_file;
 mod scene_builder;
 mod scenes;
+mod schemas;
 mod snapshots;
 mod sweeps;
 mod texts;

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::program::run;
+use crate::common::tools::is_there;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_plane-contact");
 
@@ -167,7 +168,7 @@ fn a_sweep_that_was_killed_twenty_times_ends_with_the_same_bytes() {
         let mut sweep = start(folder.path(), "killed.jsonl");
         std::thread::sleep(Duration::from_millis(rng.u64(1..=pause)));
         if killed % 3 == 0 {
-            children(sweep.id()).into_iter().for_each(kill);
+            children(sweep.id()).into_iter().for_each(|id| _ = kill(id));
         }
         match sweep.try_wait().expect("it can be asked") {
             // It ended before: the next one has less time, and starts anew.
@@ -196,7 +197,7 @@ fn killed_workers_lose_no_case() {
     let mut sweep = start(folder.path(), "r.jsonl");
     for _ in 0..5 {
         std::thread::sleep(Duration::from_millis(40));
-        children(sweep.id()).into_iter().take(1).for_each(kill);
+        children(sweep.id()).into_iter().take(1).for_each(|id| _ = kill(id));
     }
     assert!(sweep.wait().expect("it ends").success());
     let rows = rows(folder.path(), "r.jsonl");
@@ -214,9 +215,12 @@ fn children(id: u32) -> Vec<u32> {
     lists.iter().flat_map(|list| list.split_whitespace()).filter_map(|id| id.parse().ok()).collect()
 }
 
+/// Kills a process; returns whether it was there.
 #[cfg(target_os = "linux")]
-fn kill(id: u32) {
-    Command::new("kill").args(["-9", &id.to_string()]).status().expect("kill is there");
+fn kill(id: u32) -> bool {
+    let mut kill = Command::new("kill");
+    let status = kill.args(["-9", &id.to_string()]).stderr(Stdio::null()).status();
+    status.expect("kill is there").success()
 }
 
 /// A case that takes more memory than there is ends its process, and is a row; the others run.
@@ -254,14 +258,6 @@ fn a_full_disk_is_worth_another_try() {
     assert!(status == 75 && errors.contains("cannot be written"), "{errors}");
 }
 
-/// Whether a command succeeds; where the environment demands it, it must.
-fn is_there(mut command: Command, demanded_by: &str) -> bool {
-    let found = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
-    let is_there = found.is_ok_and(|status| status.success());
-    assert!(is_there || std::env::var_os(demanded_by).is_none(), "{command:?} is demanded");
-    is_there
-}
-
 /// The job file of an engine, made for a thousand cases, in the folder of the sweep.
 fn emitted(at: &Path, engine: &str, file: &str) {
     let (status, jobs, errors) = ran(at, &["sweep", "sweep.json", "--emit", engine]);
@@ -276,6 +272,11 @@ fn same_as_here(at: &Path) {
     assert!(ran(at, &["sweep", "sweep.json", "--out", "here.jsonl"]).1.contains("1000 ran"));
     assert!(gathered == std::fs::read(at.join("here.jsonl")).expect("rows"));
     assert_eq!(std::fs::read_dir(at.join("sweep.rows")).expect("rows").count(), 1000);
+}
+
+/// The number of rows that an engine has written.
+fn rows_there(at: &Path) -> usize {
+    std::fs::read_dir(at.join("sweep.rows")).map_or(0, |rows| rows.count())
 }
 
 /// A server of HyperQueue with two workers, which runs a job file.
@@ -307,7 +308,7 @@ fn hyperqueue_runs_a_thousand_cases_with_its_workers_killed_in_the_middle() {
         command.args(["-c", CLUSTER]).current_dir(at).stdout(Stdio::null()).stderr(Stdio::null());
         command.spawn().expect("python")
     };
-    let rows = || std::fs::read_dir(at.join("sweep.rows")).map_or(0, |rows| rows.count());
+    let rows = || rows_there(at);
     let mut cluster = start();
     let since = Instant::now();
     while rows() < 200 {
@@ -321,9 +322,16 @@ fn hyperqueue_runs_a_thousand_cases_with_its_workers_killed_in_the_middle() {
     same_as_here(at);
 }
 
-/// Snakemake on two cores, one of whose cases is killed in the middle.
+/// The processes that a process has started, and those that these have.
+#[cfg(target_os = "linux")]
+fn descendants(id: u32) -> Vec<u32> {
+    children(id).into_iter().flat_map(|id| [vec![id], descendants(id)].concat()).collect()
+}
+
+/// A thousand cases on Snakemake; three that are running are killed in the middle, and tried again.
+#[cfg(target_os = "linux")]
 #[test]
-fn snakemake_runs_a_thousand_cases() {
+fn snakemake_runs_a_thousand_cases_of_which_three_are_killed() {
     let mut program = Command::new("snakemake");
     program.arg("--version");
     if !is_there(program, "REQUIRE_SNAKEMAKE") {
@@ -333,8 +341,22 @@ fn snakemake_runs_a_thousand_cases() {
     let at = folder.path();
     emitted(at, "snakemake", "Snakefile");
     let args = ["--cores", "2", "--quiet", "all"];
-    let output = Command::new("snakemake").args(args).current_dir(at).output().expect("snakemake");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut command = Command::new("snakemake");
+    command.args(args).current_dir(at).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut engine = command.spawn().expect("snakemake");
+    let is_case = |id: &u32| {
+        let program = std::fs::read_link(format!("/proc/{id}/exe"));
+        program.is_ok_and(|program| program == Path::new(PROGRAM))
+    };
+    let mut killed = 0;
+    while killed < 3 {
+        assert!(engine.try_wait().expect("it can be asked").is_none(), "it ended before");
+        if rows_there(at) >= 100 {
+            let cases = descendants(engine.id()).into_iter().filter(is_case);
+            killed += cases.filter(|id| kill(*id)).count();
+        }
+    }
+    assert!(engine.wait().expect("it ends").success());
     same_as_here(at);
 }
 

@@ -197,8 +197,9 @@ fn geometry_is_no_knob_of_other_scenes() {
 
 #[test]
 fn csv_and_json_agree() {
-    let trade = measured(&open("fig1"), &[Knob::Arithmetic, Knob::Tolerance]);
-    let (csv, json) = (report::csv(&trade), report::json(&trade));
+    let scene = open("fig1");
+    let trade = measured(&scene, &[Knob::Arithmetic, Knob::Tolerance]);
+    let (csv, json) = (report::csv(&trade), report::json(&scene, &trade));
     let json: Value = serde_json::from_str(&json).expect("JSON");
     let mut lines = csv.lines();
     let head: Vec<&str> = lines.next().expect("a head").split(',').collect();
@@ -325,7 +326,7 @@ fn everything_but_times_is_reproducible() {
         for row in trade.sections.iter_mut().flat_map(|section| &mut section.rows) {
             (row.seconds, row.pareto) = (None, false);
         }
-        report::json(&trade)
+        report::json(&scene, &trade)
     };
     assert!(measured() == measured());
 }

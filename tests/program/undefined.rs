@@ -10,7 +10,7 @@ use crate::common::program::run;
 
 /// A block under a stamp that is held by itself and pushed into it: `load` acts on the stamp's one
 /// contact node, `gap` above the block.
-fn scene(load: f64, gap: f64) -> Value {
+pub fn scene(load: f64, gap: f64) -> Value {
     json!({
         "plane": "strain",
         "node": [

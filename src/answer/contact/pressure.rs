@@ -2,6 +2,7 @@
 //! the contact body's equations.
 
 use nalgebra::DVector;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::pairing::Pairing;
@@ -13,7 +14,7 @@ use crate::problem::model::{Model, NodeId};
 const ACROSS: f64 = 1e-9;
 
 /// A contact node at the end of a run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ContactNode {
     /// The node of the contact surface.
     pub node: NodeId,
@@ -21,6 +22,7 @@ pub struct ContactNode {
     pub arc: f64,
     /// Whether it is in contact by the variant's own rule.
     #[serde(rename = "dy", with = "as_number")]
+    #[schemars(with = "u8", range(max = 1))]
     pub in_contact: bool,
     /// The distance from the target along its normal, length; < 0 where the node penetrates.
     pub gap: f64,

@@ -1,5 +1,6 @@
 //! A run in numbers in which rounding does not decide who is in contact.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::arithmetic::rounding;
@@ -8,7 +9,7 @@ use crate::numbers::solve::{Arithmetic, ScalarName};
 use crate::problem::modelling::Variant;
 
 /// Whether rounding decides who is in contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Certainty {
     /// It decides nothing.

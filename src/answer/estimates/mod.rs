@@ -18,6 +18,7 @@ mod singular;
 mod ties;
 
 use nalgebra::DVector;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::held::Held;
@@ -69,7 +70,7 @@ pub struct BodyEstimates {
 }
 
 /// A point of a body where the stress grows without limit as the mesh is refined.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NoLimit {
     /// The node that stands there; of contact, that of the contact surface.
     pub node: NodeId,

@@ -52,7 +52,15 @@ choices! {
 /// In which numbers, by which solver, and to which tolerance a run computes; its docs are the
 /// command line's help.
 #[derive(
-    Clone, Copy, Debug, Default, PartialEq, clap::Args, serde::Serialize, serde::Deserialize,
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    clap::Args,
+    serde::Serialize,
+    serde::Deserialize,
+    schemars::JsonSchema,
 )]
 pub struct Arithmetic {
     /// f64, f32, f64x2 (31 digits), f64-bounded and f64x2-bounded (the same with a bound on the error

@@ -7,7 +7,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{Pair, SymbolicSparseColMat};
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct FactorSize {
     pub equations: usize,
     /// The number of entries of the lower triangle of A that are not 0.

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::choices;
@@ -69,7 +70,7 @@ choices! {
 
 /// A choice for each ambiguity of the print (`listings/READING.md`, section 4). The scene and the
 /// variant set R6 and R7 unless the reading does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "UPPERCASE")]
 pub struct Reading {
     /// R1: the weights loop beside the zeroing loop, or inside it.

@@ -4,6 +4,7 @@
 
 use std::str::FromStr;
 
+use schemars::JsonSchema;
 use serde::de::{self, Deserializer};
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -16,7 +17,7 @@ use crate::problem::modelling::{
 
 /// The description of a mesh: a scene file, field by field. Lengths, forces and stresses may be in
 /// any consistent unit. Fields with their default are not written.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Description {
     #[serde(default, skip_serializing_if = "is_default")]
@@ -110,7 +111,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 }
 
 /// The unit names that are shown beside numbers.
-#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq, Eq, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Units {
     /// The unit of lengths and displacements, such as `mm`.
@@ -122,7 +123,7 @@ pub struct Units {
 }
 
 /// An isotropic elastic material.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// The elastic modulus, stress.
@@ -133,8 +134,10 @@ pub struct Material {
 }
 
 /// The materials in their order in the scene file, each with its physical group of triangles.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Materials(pub Vec<(GroupRef, Material)>);
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema)]
+pub struct Materials(
+    #[schemars(with = "std::collections::BTreeMap<String, Material>")] pub Vec<(GroupRef, Material)>,
+);
 
 impl Serialize for Materials {
     /// Writes an object whose keys are the groups' names or tags.
@@ -144,7 +147,7 @@ impl Serialize for Materials {
 }
 
 /// Displacements restrained to 0: those of a group's nodes, or of one node.
-#[derive(Clone, Debug, Deserialize, Serialize, PartialEq)]
+#[derive(Clone, Debug, Deserialize, Serialize, PartialEq, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Restraint {
     /// A physical group, all of whose nodes are restrained; None where `node` is named.
@@ -155,7 +158,7 @@ pub struct Restraint {
     pub fix: Vec<Axis>,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     X,
@@ -163,7 +166,7 @@ pub enum Axis {
 }
 
 /// A load: `on` with `pressure` or `traction`, or `node` with `force`.
-#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -194,7 +197,7 @@ impl Load {
 }
 
 /// The two contact surfaces, the tolerance between them, and how contact is modelled.
-#[derive(Clone, Debug, Deserialize, Serialize, PartialEq)]
+#[derive(Clone, Debug, Deserialize, Serialize, PartialEq, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// The contact (stamp) surface: a group of edges, or node numbers in order.

@@ -2,16 +2,20 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::{Value, to_value};
 
 use super::{Compared, WORST};
+use crate::answer::estimates::Certainty;
 use crate::error::Result;
+use crate::problem::element::Plane;
 use crate::problem::model::{NodeId, Triangle, TriangleId};
-use crate::report::json::headed;
+use crate::problem::modelling::{Friction, Variant};
+use crate::report::json::of_scene;
 use crate::report::output::{csv, write_all};
 use crate::report::picture::{self, Drawing, Field};
-use crate::studies::calculix::{Comparison, Contact, Difference, Pair};
+use crate::studies::calculix::{BodyStress, Comparison, Contact, Difference, Largest, Pair};
 
 /// The heading of `nodes.csv`, and the fields of a node that stand under it.
 const NODES: [&str; 2] =
@@ -76,67 +80,131 @@ pub fn json(compared: &Compared) -> String {
     document(compared, &nodes(compared.comparison), &elements(compared.comparison))
 }
 
-fn document(compared: &Compared, nodes: &[Value], elements: &[Value]) -> String {
+/// The content of `compare.json`.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    scene: &'a str,
+    title: &'a str,
+    variant: Variant,
+    certainty: Certainty,
+    /// The version of CalculiX.
+    calculix: &'a str,
+    plane: Plane,
+    contact: ContactRow,
+    decks: usize,
+    displacement: Differences<NodeId>,
+    stress: Differences<TriangleId>,
+    bodies: &'a [BodyStress],
+    /// The nodes with the largest differences, the largest first.
+    worst_nodes: Vec<NodeId>,
+    nodes: &'a [NodeRow],
+    elements: &'a [ElementRow],
+}
+
+/// How the bodies touch in the deck.
+#[derive(Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+enum ContactRow {
+    /// The same linear systems: the number of equations.
+    Equation { equations: usize },
+    /// CalculiX's own contact: its penalty, stress/length.
+    Pair { penalty: f64, friction: Friction },
+}
+
+/// The largest difference, and the root of the mean of the squares of all.
+#[derive(Serialize, JsonSchema)]
+struct Differences<Place> {
+    largest: Largest<Place>,
+    rms: f64,
+}
+
+impl<Place: Copy> From<&Difference<Place>> for Differences<Place> {
+    fn from(of: &Difference<Place>) -> Self {
+        Differences { largest: of.largest, rms: of.rms }
+    }
+}
+
+/// The displacements of a node, length.
+#[derive(Serialize, JsonSchema)]
+struct NodeRow {
+    n: NodeId,
+    u: [f64; 2],
+    u_calculix: [f64; 2],
+    difference: f64,
+}
+
+/// The stresses sigma_x, sigma_y, tau_xy of a triangle.
+#[derive(Serialize, JsonSchema)]
+struct ElementRow {
+    n: TriangleId,
+    sigma: [f64; 3],
+    sigma_calculix: [f64; 3],
+    von_mises_stress: f64,
+    von_mises_stress_calculix: f64,
+    difference: f64,
+}
+
+fn document(compared: &Compared, nodes: &[NodeRow], elements: &[ElementRow]) -> String {
     let Compared { scene, model, comparison, .. } = compared;
-    headed(
-        Some(scene),
-        &json!({
-            "scene": scene.name,
-            "title": scene.title,
-            "variant": compared.variant,
-            "certainty": compared.certainty,
-            "calculix": compared.version,
-            "plane": model.plane,
-            "contact": contact_value(compared.contact),
-            "decks": compared.decks,
-            "displacement": difference_value(&comparison.displacement),
-            "stress": difference_value(&comparison.stress),
-            "bodies": comparison.bodies,
-            "worst_nodes": comparison.displacement.worst(WORST),
-            "nodes": nodes,
-            "elements": elements,
-        }),
-    )
+    let document = Document {
+        scene: &scene.name,
+        title: &scene.title,
+        variant: compared.variant,
+        certainty: compared.certainty,
+        calculix: compared.version,
+        plane: model.plane,
+        contact: contact_row(compared.contact),
+        decks: compared.decks,
+        displacement: (&comparison.displacement).into(),
+        stress: (&comparison.stress).into(),
+        bodies: &comparison.bodies,
+        worst_nodes: comparison.displacement.worst(WORST),
+        nodes,
+        elements,
+    };
+    of_scene(scene, &document)
 }
 
-fn difference_value<Place: Serialize>(of: &Difference<Place>) -> Value {
-    json!({ "largest": of.largest, "rms": of.rms })
-}
-
-fn contact_value(contact: &Contact) -> Value {
+fn contact_row(contact: &Contact) -> ContactRow {
     match contact {
-        Contact::Equations(all, _) => json!({ "kind": "equation", "equations": all.len() }),
+        Contact::Equations(all, _) => ContactRow::Equation { equations: all.len() },
         Contact::Pair(Pair { penalty, friction }) => {
-            json!({ "kind": "pair", "penalty": penalty, "friction": friction })
+            ContactRow::Pair { penalty: *penalty, friction: *friction }
         }
     }
 }
 
-fn nodes(comparison: &Comparison) -> Vec<Value> {
+fn nodes(comparison: &Comparison) -> Vec<NodeRow> {
     let Comparison { ours, theirs, displacement, .. } = comparison;
-    let row = |(node, difference): &(NodeId, f64)| {
-        let k = node.index();
-        json!({ "n": node, "u": ours.u[k], "u_calculix": theirs.u[k], "difference": difference })
+    let row = |&(n, difference): &(NodeId, f64)| {
+        let k = n.index();
+        NodeRow { n, u: ours.u[k], u_calculix: theirs.u[k], difference }
     };
     displacement.at.iter().map(row).collect()
 }
 
-fn elements(comparison: &Comparison) -> Vec<Value> {
+fn elements(comparison: &Comparison) -> Vec<ElementRow> {
     let Comparison { ours, theirs, von_mises, stress, .. } = comparison;
-    let row = |(id, difference): &(TriangleId, f64)| {
-        let k = id.index();
-        json!({
-            "n": id, "sigma": plane(&ours.sigma[k]), "sigma_calculix": plane(&theirs.sigma[k]),
-            "von_mises_stress": von_mises[0][k], "von_mises_stress_calculix": von_mises[1][k],
-            "difference": difference,
-        })
+    let row = |&(n, difference): &(TriangleId, f64)| {
+        let k = n.index();
+        ElementRow {
+            n,
+            sigma: plane(&ours.sigma[k]),
+            sigma_calculix: plane(&theirs.sigma[k]),
+            von_mises_stress: von_mises[0][k],
+            von_mises_stress_calculix: von_mises[1][k],
+            difference,
+        }
     };
     stress.at.iter().map(row).collect()
 }
 
-/// Lays out `fields` of rows of JSON as CSV; a list of numbers takes as many cells.
-fn csv_of([head, fields]: [&str; 2], rows: &[Value]) -> String {
-    let cells = |row: &Value| fields.split(',').flat_map(|field| numbers(&row[field])).collect();
+/// Lays out `fields` of rows as CSV; a list of numbers takes as many cells.
+fn csv_of([head, fields]: [&str; 2], rows: &[impl Serialize]) -> String {
+    let cells = |row| {
+        let row = to_value(row).expect("a row has string keys");
+        fields.split(',').flat_map(|field| numbers(&row[field])).collect()
+    };
     csv(head, rows.iter().map(cells))
 }
 

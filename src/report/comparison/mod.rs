@@ -14,7 +14,7 @@ use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 use crate::studies::calculix::{Comparison, Contact, Difference, Pair};
 
-pub use files::{json, write};
+pub use files::{Document, json, write};
 
 /// How many nodes are listed, those with the largest differences.
 const WORST: usize = 10;

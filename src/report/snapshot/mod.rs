@@ -3,13 +3,17 @@
 mod field;
 mod words;
 
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 pub use field::difference_files;
 pub use words::{difference, explanation};
 
-use super::json::{line, pretty};
-use crate::studies::snapshot::{Acceptance, FORMAT, Run, Snapshot, VERSION, Verified, VerifiedRun};
+use super::json::{headed, pretty};
+use crate::problem::scene::Units;
+use crate::studies::snapshot::{
+    Acceptance, Difference, Explanation, Run, Snapshot, Verified, VerifiedRun,
+};
 use crate::xml::Element;
 
 /// A snapshot's file and what verifying it found.
@@ -141,32 +145,70 @@ pub fn junit(checked: &[Checked]) -> String {
     Element::new("testsuites").with_all(checked.iter().map(suite)).document()
 }
 
+/// What verifying found, as JSON.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    /// Whether something was compared in every file, and nothing differs.
+    same: bool,
+    files: Vec<FileRow<'a>>,
+}
+
+/// What verifying a file found.
+#[derive(Serialize, JsonSchema)]
+struct FileRow<'a> {
+    file: &'a str,
+    same: bool,
+    /// The names of the units of the scene that was run.
+    units: Units,
+    /// The SHA-256 of that scene.
+    scene_sha256: &'a str,
+    /// The SHA-256 of its mesh.
+    mesh_sha256: &'a str,
+    runs: Vec<RunRow<'a>>,
+}
+
+/// What verifying a run found.
+#[derive(Serialize, JsonSchema)]
+struct RunRow<'a> {
+    run: &'a str,
+    same: bool,
+    /// How many facts and numbers were compared.
+    compared: usize,
+    /// Why it differs; null where it does not.
+    explanation: &'a Option<Explanation>,
+    /// What differs, in the order of computation.
+    differences: &'a [Difference],
+}
+
+impl<'a> From<&'a VerifiedRun> for RunRow<'a> {
+    fn from(run: &'a VerifiedRun) -> Self {
+        RunRow {
+            run: &run.name,
+            same: run.differences.is_empty() && run.compared > 0,
+            compared: run.compared,
+            explanation: &run.explanation,
+            differences: &run.differences,
+        }
+    }
+}
+
+impl<'a> From<&'a Checked> for FileRow<'a> {
+    fn from(Checked { file, verified }: &'a Checked) -> Self {
+        FileRow {
+            file,
+            same: verified.is_same(),
+            units: verified.input.units(),
+            scene_sha256: &verified.input.scene_sha256,
+            mesh_sha256: &verified.input.mesh_sha256,
+            runs: verified.runs.iter().map(RunRow::from).collect(),
+        }
+    }
+}
+
 /// Returns what verifying found as JSON.
 pub fn json(checked: &[Checked]) -> String {
-    let run = |run: &VerifiedRun| {
-        json!({
-            "run": run.name,
-            "same": run.differences.is_empty() && run.compared > 0,
-            "compared": run.compared,
-            "explanation": run.explanation,
-            "differences": run.differences,
-        })
-    };
-    let file = |Checked { file, verified }: &Checked| {
-        json!({
-            "file": file,
-            "same": verified.is_same(),
-            "scene_sha256": verified.input.scene_sha256,
-            "mesh_sha256": verified.input.mesh_sha256,
-            "runs": verified.runs.iter().map(run).collect::<Vec<Value>>(),
-        })
-    };
-    line(&json!({
-        "format": FORMAT,
-        "version": VERSION,
-        "same": checked.iter().all(|checked| checked.verified.is_same()),
-        "files": checked.iter().map(file).collect::<Vec<Value>>(),
-    }))
+    let same = checked.iter().all(|checked| checked.verified.is_same());
+    headed(&Document { same, files: checked.iter().map(FileRow::from).collect() })
 }
 
 /// Returns what was accepted, for people.

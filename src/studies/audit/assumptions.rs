@@ -1,12 +1,13 @@
 //! What the paper does not give, and what a scene has in its place.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::problem::model::{Model, NodeId};
 use crate::problem::scene::Scene;
 
 /// A thing that the paper leaves open.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Assumption {
     pub what: &'static str,
     /// What the scene has.

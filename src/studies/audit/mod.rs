@@ -11,6 +11,7 @@ pub mod trace;
 pub mod variants;
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use assumptions::{Assumption, assumptions};
@@ -50,7 +51,7 @@ pub struct Audit {
 pub const FRICTION: [f64; 5] = [0.0, 0.1, 0.2, 0.4, f64::INFINITY];
 
 /// The contact under a coefficient of friction.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Rubbing {
     /// The coefficient.
     pub friction: Friction,
@@ -59,7 +60,7 @@ pub struct Rubbing {
 }
 
 /// A solution that others are compared with, in short.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Compared {
     /// How contact was modelled.
     pub model: ContactModel,

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Case;
@@ -77,7 +78,7 @@ fn decimal(length: f64) -> f64 {
 }
 
 /// A parameter at one of its values.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Place {
     pub parameter: Parameter,
     pub value: f64,

@@ -1,6 +1,7 @@
 //! The ambiguities of the print, one by one: what the other reading changes on a scene.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::case::Case;
@@ -14,7 +15,7 @@ use crate::paper::mirror::{Km, Pairs, Reading};
 use crate::problem::element::{self, Plane};
 use crate::problem::modelling::{StatusRule, Variant};
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Effect {
     /// The ambiguity's name, `R1` to `R10`.
     pub id: &'static str,

@@ -1,6 +1,7 @@
 //! What a listing reads and writes as it runs, line by line, by contact node (`c_cnt`) or by
 //! element (`Km`).
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value as Json;
 
@@ -50,7 +51,7 @@ pub struct Step {
     pub writes: Vec<Access>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Access {
     /// The name, with the subscripts of an entry: `ct[3]`.
     pub name: String,

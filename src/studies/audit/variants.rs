@@ -1,6 +1,7 @@
 //! The variants side by side.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::case::Case;
@@ -10,7 +11,7 @@ use crate::answer::{BodySummary, Cycle, Distance, Solution, distance, summaries}
 use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct VariantRow {
     pub variant: Variant,
     /// Whether rounding decides who is in contact; nothing of a failure.
@@ -19,7 +20,7 @@ pub struct VariantRow {
     pub end: End,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum End {
     Result {

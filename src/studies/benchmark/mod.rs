@@ -52,6 +52,12 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Returns the names of the kinds.
+    pub fn names() -> Vec<String> {
+        let command = <Self as clap::Subcommand>::augment_subcommands(clap::Command::new("mesh"));
+        command.get_subcommands().map(|kind| kind.get_name().to_string()).collect()
+    }
+
     /// Generates the scene; it has the kind's name.
     /// Errors: a parameter is out of its range.
     pub fn generate(&self) -> Result<SceneBuilder> {

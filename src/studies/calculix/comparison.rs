@@ -1,5 +1,6 @@
 //! The differences between two results of one model.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fields::Fields;
@@ -30,7 +31,7 @@ pub struct Difference<Place> {
 }
 
 /// The largest difference, where it is, and against what: every share is of CalculiX's value.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Largest<Place> {
     pub at: Place,
     /// The difference there, length or stress.
@@ -41,7 +42,7 @@ pub struct Largest<Place> {
     pub relative: f64,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct BodyStress {
     pub name: String,
     /// Its largest stress by this program.

@@ -35,7 +35,7 @@ mod problem;
 pub mod results;
 mod run;
 
-pub use comparison::{Comparison, Difference};
+pub use comparison::{BodyStress, Comparison, Difference, Largest};
 pub use deck::deck;
 pub use fields::Fields;
 pub use problem::{Contact, ContactKind, Equation, Pair, Part, Problem};

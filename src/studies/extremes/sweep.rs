@@ -1,6 +1,7 @@
 //! A magnitude swept, and where something breaks down.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::verdict::Verdict;
@@ -66,7 +67,7 @@ impl Method {
     }
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Measured {
     pub name: &'static str,
     pub title: &'static str,
@@ -79,7 +80,7 @@ pub struct Measured {
     pub columns: Vec<Column>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Column {
     /// The method's name: variant or remedy, and scalar.
     pub name: String,
@@ -91,7 +92,7 @@ pub struct Column {
     pub above: Option<Break>,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Break {
     /// Power of ten, bisected to half a decade.
     pub exponent: f64,

@@ -1,5 +1,6 @@
 //! The bodies of a scene, and which of them nothing can move.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::choices;
@@ -19,7 +20,7 @@ choices! {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BodyPlan {
     pub name: String,
     pub nodes: usize,

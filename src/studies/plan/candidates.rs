@@ -9,6 +9,7 @@
 //!     +-------------+
 //! ```
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::answer::contact::search::Segment;
@@ -20,7 +21,7 @@ pub const MARGIN: f64 = 0.5;
 
 /// Contact nodes and target edges, and the pairs of them that can come together from the initial
 /// shape.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Candidates {
     pub nodes: usize,
     pub edges: usize,

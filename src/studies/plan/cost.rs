@@ -3,6 +3,7 @@
 //! Counted: operations of the factorisations, numbers in the matrices. Measured, on meshes of 13 to
 //! 15,045 nodes, and stated as constants: what a node, a triangle, an entry takes besides.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::candidates::Candidates;
@@ -27,7 +28,7 @@ pub(super) struct Work<'a> {
     pub candidates: Option<&'a Candidates>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Cost {
     /// Dense 2R x 2R matrices of `f64` in memory at once: what is compared with the free memory.
     pub dense_matrices: usize,
@@ -41,7 +42,7 @@ pub struct Cost {
 }
 
 /// Peak memory of the process, bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Bytes {
     pub program: f64,
     /// Mesh, worksheet, results and files.

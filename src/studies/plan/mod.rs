@@ -11,6 +11,7 @@ mod bodies;
 mod candidates;
 mod cost;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use bodies::{BodyPlan, Idle};
@@ -37,7 +38,7 @@ choices! {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Plan {
     pub scene: String,
     pub variant: Variant,
@@ -61,7 +62,7 @@ pub struct Plan {
     pub half: Option<HalfPlan>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Equations {
     /// Number of all equations, 2R.
     pub all: usize,
@@ -75,7 +76,7 @@ pub struct Equations {
     pub idle: usize,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct HalfPlan {
     /// Where the line of symmetry stands: x, length.
     pub at: f64,
@@ -83,7 +84,7 @@ pub struct HalfPlan {
 }
 
 /// How contact is modelled, and who can come into contact.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ContactPlan {
     /// How a node is bound to the target; `printed`: by `Km` as printed.
     pub coupling: Coupling,

@@ -1,5 +1,6 @@
 //! New values accepted into a snapshot, each with its reason.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -9,7 +10,7 @@ use super::{Snapshot, VERSION};
 use crate::error::{InputError, Result};
 
 /// A value that was accepted.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Acceptance {
     /// The run and the entry: `stepped/u`, or `input`.

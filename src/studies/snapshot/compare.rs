@@ -1,5 +1,6 @@
 //! Two runs compared entry by entry: facts are the same or not, numbers agree within a limit.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -9,7 +10,7 @@ use super::numbers::{Numbers, WITHOUT_BOUND};
 use super::place::place;
 
 /// A difference between two runs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Difference {
     /// The name of the entry.
     pub entry: String,
@@ -18,7 +19,7 @@ pub struct Difference {
 }
 
 /// What differs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Kind {
     /// The entry is in the old run alone.
@@ -36,7 +37,8 @@ pub enum Kind {
 }
 
 /// The number that differs most, in units of what it may.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(inline)]
 pub struct Worst {
     /// The number of the node or triangle, or the place in the list, from 1.
     pub at: f64,

@@ -1,5 +1,6 @@
 //! Numbers that a user expects of a run, each with its origin.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Run;
@@ -7,7 +8,7 @@ use super::numbers::Tolerance;
 use crate::error::{InputError, Result};
 
 /// A number that a user expects.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expected {
     /// The entry of `numbers` in which it stands.
@@ -32,7 +33,7 @@ fn first() -> usize {
 }
 
 /// The origin of a number.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Origin {
     /// A formula.

@@ -1,5 +1,6 @@
 //! Why two runs differ: the first difference along the order of computation, and its cause.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -46,7 +47,7 @@ pub struct Side<'a> {
 }
 
 /// A difference of what went into two runs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Cause {
     pub class: Class,
     /// The field: `scene materials.block.E`, `mesh node 7 x`, `reading R2`.
@@ -56,7 +57,7 @@ pub struct Cause {
 }
 
 /// The reason why two runs differ.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Explanation {
     pub class: Class,
     /// The first cause.

@@ -9,7 +9,7 @@ use crate::paper::listings::Which;
 use crate::problem::modelling::StatusRule;
 
 /// The place in a run where two runs go different ways.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Flip {
     /// The iteration, from 1.
     pub iteration: usize,

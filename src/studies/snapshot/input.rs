@@ -1,15 +1,16 @@
 //! The input of a run: a scene's description and mesh, whole, each with its SHA-256.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::error::{InputError, Result};
 use crate::problem::scene::{
-    Description, Element, Mesh, Node, PhysicalName, Scene, SceneBuilder, file,
+    Description, Element, Mesh, Node, PhysicalName, Scene, SceneBuilder, Units, file,
 };
 
 /// A scene as a snapshot has it: from it alone the scene is built again.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Input {
     /// The name of the scene.
@@ -19,6 +20,7 @@ pub struct Input {
     /// The SHA-256 of `mesh`, as JSON without blanks.
     pub mesh_sha256: String,
     /// The fields of the scene file, without those of its mesh.
+    #[schemars(with = "Description")]
     pub scene: serde_json::Value,
     pub mesh: Rows,
 }
@@ -27,7 +29,7 @@ pub struct Input {
 pub type ElementRow = (usize, usize, Vec<usize>, usize, Vec<usize>);
 
 /// A mesh as rows of numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rows {
     /// The named physical groups: dimension, tag, name.
@@ -100,6 +102,11 @@ impl Input {
             scene: scene_value,
             mesh,
         })
+    }
+
+    /// Returns the names of the scene's units.
+    pub fn units(&self) -> Units {
+        Units::deserialize(&self.scene["units"]).unwrap_or_default()
     }
 
     /// Builds the scene again.

@@ -16,6 +16,7 @@ mod compare;
 mod entries;
 mod expected;
 mod explain;
+mod facts;
 mod flip;
 mod input;
 mod numbers;
@@ -25,6 +26,7 @@ mod record;
 mod verify;
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -53,7 +55,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// What a scene gives, by runs under different options. Lengths, stresses and forces are in the units
 /// of the scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Snapshot {
     /// The version of the format.
@@ -72,14 +74,16 @@ pub struct Snapshot {
 }
 
 /// A run: what it was asked for and what came of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
     /// What was asked for in place of what the scene says.
     pub options: Options,
     /// What is the same or not.
+    #[schemars(schema_with = "facts::schema")]
     pub facts: Entries<Value>,
     /// What is the same within bounds.
+    #[schemars(extend("propertyNames" = place::names()))]
     pub numbers: Entries<Numbers>,
     /// Numbers that a user expects, with their origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

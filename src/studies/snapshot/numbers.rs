@@ -1,12 +1,15 @@
 //! Numbers of a run, each array with the bound on the rounding error of its numbers.
 
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 /// The tolerance of numbers without a bound on their error, relative to the largest of the array.
 pub const WITHOUT_BOUND: f64 = 1e-9;
 
 /// An array of numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Numbers {
     /// The unit, empty where the scene names none.
@@ -21,7 +24,7 @@ pub struct Numbers {
 }
 
 /// The numbers of an array.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Values {
     /// A number for each place.
@@ -39,7 +42,7 @@ pub struct Row {
 }
 
 /// A float; in a file null stands for one that is not finite, and reads back as NaN.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "Option<f64>", into = "Option<f64>")]
 pub struct Number(pub f64);
 
@@ -52,6 +55,22 @@ impl From<Option<f64>> for Number {
 impl From<Number> for Option<f64> {
     fn from(x: Number) -> Self {
         Some(x.0)
+    }
+}
+
+impl JsonSchema for Row {
+    fn schema_name() -> Cow<'static, str> {
+        "Row".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": "array",
+            "description": "The number of a node or a triangle, then its values.",
+            "prefixItems": [{ "type": "integer", "minimum": 1 }],
+            "items": generator.subschema_for::<Number>(),
+            "minItems": 2,
+        })
     }
 }
 
@@ -74,7 +93,7 @@ impl From<Row> for Vec<serde_json::Value> {
 }
 
 /// The tolerance of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Tolerance {
     /// A number, in the unit of what is compared.

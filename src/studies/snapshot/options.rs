@@ -1,5 +1,6 @@
 //! The options of a run: what is asked for in place of what the scene says.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::answer::Request;
@@ -9,7 +10,7 @@ use crate::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Stat
 use crate::problem::scene::Scene;
 
 /// The options of a run, each absent where the scene or the program decides.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Options {
     /// The variant that is run.
@@ -23,6 +24,7 @@ pub struct Options {
     pub c_tll: Option<f64>,
     /// The readings that differ from the default, as on the command line.
     #[serde(skip_serializing_if = "is_default", with = "as_text")]
+    #[schemars(with = "String")]
     pub reading: Reading,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Coupling>,

@@ -15,7 +15,7 @@ use crate::numbers::scalar::{Bounded, Scalar};
 use crate::paper::door;
 use crate::paper::mirror::{Km, Pairs};
 use crate::problem::element;
-use crate::problem::model::{Body, EdgeId, Model, NodeId, TriangleId};
+use crate::problem::model::{Body, Model, NodeId, TriangleId};
 use crate::problem::modelling::Variant;
 
 /// The roundings of a pressure and of an entry of a triangle's matrix, in units of 2^-53.
@@ -46,28 +46,36 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     };
     // A solution may leave out steps that were taken back.
     let steps = solved.as_ref().map_or(&steps, |solution| &solution.steps);
+    let of = Recorded { request, model: &model, stiffness: &stiffness };
     for (k, step) in steps.iter().enumerate() {
         let bounds = rounding.as_ref().and_then(|rounding| rounding.steps[k]);
-        let of = Recorded { request, model: &model, stiffness: &stiffness };
         of.iteration(&mut run, step, bounds.map(|b| [b.yt, b.weights, b.u]));
     }
-    let (status, failure) = match &solved {
-        Ok(solution) if is_refuted(solution) => (4, json!("the equilibrium is not the only one")),
-        Ok(_) => (0, Value::Null),
-        Err(Error::Input(_)) => return Err(solved.expect_err("it is an error")),
-        Err(why) => (why.exit_status(), failure(why)),
-    };
     run.facts.set("iterations", json!(steps.len()));
+    let (status, failure) = outcome(&solved);
     run.facts.set("exit status", json!(status));
     run.facts.set("failure", failure);
-    if let Ok(solution) = &solved {
-        end(&mut run, solution, rounding.as_ref());
+    let solution = match solved {
+        Err(why @ Error::Input(_)) => return Err(why),
+        solved => solved.ok(),
+    };
+    if let Some(solution) = solution {
+        end(&mut run, &solution, rounding.as_ref());
         run.decided_by_rounding =
             rounding.and_then(|rounding| rounding.decisions).unwrap_or_default();
     }
     run.facts.sort_by_key(place);
     run.numbers.sort_by_key(place);
     Ok(run)
+}
+
+/// Returns the exit status of `solve`, and the failure; null where there is none.
+fn outcome(solved: &Result<Solution>) -> (u8, Value) {
+    match solved {
+        Ok(solution) if is_refuted(solution) => (4, json!("the equilibrium is not the only one")),
+        Ok(_) => (0, Value::Null),
+        Err(why) => (why.exit_status(), failure(why)),
+    }
 }
 
 fn is_refuted(solution: &Solution) -> bool {
@@ -120,33 +128,21 @@ struct Recorded<'a> {
 impl Recorded<'_> {
     /// Records an iteration; `bounds` are those of yt, of the weights and of the displacements.
     fn iteration(&self, run: &mut Run, step: &Step, bounds: Option<[f64; 3]>) {
-        let Recorded { request, model, .. } = self;
-        let units = &request.scene.units;
+        let units = &self.request.scene.units;
         let name = |quantity: &str| of_iteration(step.k, quantity);
         let bound = |k: usize| bounds.map(|bounds| bounds[k]);
-        let edge = |id: Option<EdgeId>| id.map_or(0, |id| model.edge(id).number);
-        let (faced, distances): (Vec<usize>, Vec<f64>) = match &step.detail {
-            Detail::Published(own) => {
-                (own.pairs.ct.as_slice().to_vec(), own.pairs.yt.as_slice().to_vec())
-            }
-            Detail::Unilateral(own) => {
-                // Where a node closes divides a step, so that this is a number like others.
-                run.numbers.set(name("load"), Numbers::list("", [own.load], None));
-                let statuses: Vec<String> = own.statuses.iter().map(ToString::to_string).collect();
-                run.facts.set(name("statuses"), json!(statuses));
-                let pairings = || own.pairings.iter();
-                let gap = |p: &Option<Pairing>| p.as_ref().map_or(0.0, |p| p.gap);
-                (
-                    pairings().map(|p| edge(p.as_ref().map(|p| p.edge))).collect(),
-                    pairings().map(gap).collect(),
-                )
-            }
-        };
+        if let Detail::Unilateral(own) = &step.detail {
+            // Where a node closes divides a step, so that this is a number like others.
+            run.numbers.set(name("load"), Numbers::list("", [own.load], None));
+            let statuses: Vec<String> = own.statuses.iter().map(ToString::to_string).collect();
+            run.facts.set(name("statuses"), json!(statuses));
+        }
+        let (faced, distances) = self.faced(step);
         run.facts.set(name("ct"), json!(faced));
         run.numbers.set(name("yt"), Numbers::list(&units.length, distances, bound(0)));
         let dy: Vec<u8> = step.statuses().into_iter().map(u8::from).collect();
         run.facts.set(name("dy"), json!(dy));
-        run.facts.set(name("in contact"), json!(step.contact_set(model)));
+        run.facts.set(name("in contact"), json!(step.contact_set(self.model)));
         let (mates, weights) = mates(step);
         run.facts.set(name("mates"), json!(mates));
         run.numbers.set(name("weights"), Numbers::list("", weights, bound(1)));
@@ -158,6 +154,22 @@ impl Recorded<'_> {
         matrix.into_iter().for_each(|matrix| run.numbers.set(name("MJS"), matrix));
         run.numbers.set(name("u"), Numbers::list(&units.length, [step.max_displacement], bound(2)));
         run.facts.set(name("cycle"), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
+    }
+
+    /// Returns the number of each contact node's target edge, 0 for none, and its distance from it,
+    /// length.
+    fn faced(&self, step: &Step) -> (Vec<usize>, Vec<f64>) {
+        match &step.detail {
+            Detail::Published(own) => {
+                (own.pairs.ct.as_slice().to_vec(), own.pairs.yt.as_slice().to_vec())
+            }
+            Detail::Unilateral(own) => {
+                let of = |pairing: &Option<Pairing>| {
+                    pairing.as_ref().map_or((0, 0.0), |p| (self.model.edge(p.edge).number, p.gap))
+                };
+                own.pairings.iter().map(of).unzip()
+            }
+        }
     }
 
     /// Returns the sum of the diagonal and the sum of the sizes of all entries of the matrix that the

@@ -43,11 +43,15 @@ impl Verified {
 }
 
 /// Runs the scene of `snapshot`, or `scene` in its place, under the options of every run, and
-/// compares.
+/// compares. `done` is called after each run.
 ///
 /// # Errors
 /// The snapshot or the scene is at fault.
-pub fn verify(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Verified> {
+pub fn verify(
+    snapshot: &Snapshot,
+    scene: Option<&Scene>,
+    done: &(dyn Fn() + Sync),
+) -> Result<Verified> {
     let own = snapshot.input.build().map_err(|error| error.within("the snapshot"));
     let (scene, input) = match scene {
         None => (own?, snapshot.input.clone()),
@@ -60,7 +64,9 @@ pub fn verify(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Verified> {
             .iter()
             .try_for_each(|e| e.check())
             .map_err(|e: InputError| e.within(&place()))?;
-        verify_run(snapshot, &scene, &input, name, old)
+        let verified = verify_run(snapshot, &scene, &input, name, old);
+        done();
+        verified
     });
     Ok(Verified { runs: verified.collect::<Result<_>>()?, input: input.clone() })
 }

@@ -1,6 +1,7 @@
 //! How far one solution is from another, on the same mesh, on a coarser one or on half of it.
 
 use nalgebra::DVector;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::trials::Setting;
@@ -9,13 +10,16 @@ use crate::error::InputError;
 use crate::problem::scene::{Refined, Scene, symmetry};
 
 /// Differences relative to the solution that is compared with.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Errors {
     /// Largest difference of a node's displacement over the largest displacement.
+    #[schemars(with = "Option<f64>")]
     pub displacement: f64,
     /// Energy norm of the difference over that of the solution compared with.
+    #[schemars(with = "Option<f64>")]
     pub energy: f64,
     /// Largest difference of a body's largest von Mises stress.
+    #[schemars(with = "Option<f64>")]
     pub von_mises: f64,
 }
 

@@ -14,10 +14,11 @@
 //! can do, so that squares add, as Pythagoras has it. Contact makes this approximate, because the
 //! bodies' surfaces meet otherwise on each mesh: [`departure`] measures by how much.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// An order of convergence and its fit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Order {
     pub quantity: &'static str,
     /// Differences between neighbouring meshes, over the finest one's value, the coarsest first.

@@ -1,5 +1,6 @@
 //! The tables that a measurement fills.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Knob;
@@ -12,7 +13,7 @@ use crate::studies::audit::claims::Judged;
 use crate::studies::audit::range::Place;
 
 /// Speed against accuracy on a scene.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Trade {
     pub scene: String,
     pub nodes: usize,
@@ -21,7 +22,7 @@ pub struct Trade {
     pub sections: Vec<Section>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Section {
     pub knob: Knob,
     /// What errors are measured against, in words.
@@ -40,17 +41,18 @@ pub struct Section {
 }
 
 /// What a ladder of meshes, each of half the element size of the one before, tells of each of them.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Ladder {
     /// The error of each mesh in the energy norm as `solve` estimates it from that mesh alone,
     /// relative; infinite where unknown.
+    #[schemars(with = "Vec<Option<f64>>")]
     pub estimates: Vec<f64>,
     /// How far the squares of differences are from adding up; nothing of two meshes.
     pub departure: Option<f64>,
 }
 
 /// What was measured of a trial. Times and peaks are this machine's.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Row {
     /// Where the knob stood, in words.
     #[serde(rename = "setting")]

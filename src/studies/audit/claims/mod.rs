@@ -11,6 +11,7 @@ mod register;
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use register::CLAIMS;
@@ -20,7 +21,7 @@ use super::range::{Place, Range};
 use crate::choices;
 
 /// Something that the paper says.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Claim {
     /// Its name: P1, P2, ...
     pub id: &'static str,
@@ -87,7 +88,7 @@ choices! {
 type Outcome<'a> = Result<Measured, Box<dyn std::error::Error + 'a>>;
 
 /// A verdict, the number that the claim names, and what else is to be said.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Measured {
     pub verdict: Verdict,
     pub number: Option<f64>,
@@ -95,7 +96,7 @@ pub struct Measured {
 }
 
 /// A claim with its verdict on a scene and over the range.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Judged {
     #[serde(flatten)]
     pub claim: Claim,
@@ -107,7 +108,7 @@ pub struct Judged {
 }
 
 /// A verdict at a place of the range.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Elsewhere {
     #[serde(flatten)]
     pub place: Place,

@@ -12,8 +12,6 @@ mod status;
 mod stiffness;
 mod weights;
 
-use serde_json::{Value, json};
-
 pub use register::FINDINGS;
 
 use super::Case;
@@ -51,19 +49,6 @@ impl Finding {
 
     pub fn scene(&self) -> Scene {
         Scene::open(&format!("findings/{}", self.id)).expect("a finding's scene is sound")
-    }
-
-    pub fn row(&self, measured: &Measured) -> Value {
-        json!({
-            "id": self.id,
-            "listing": self.listing,
-            "lines": self.lines,
-            "title": self.title,
-            "verdict": measured.verdict.name(),
-            "number": measured.number,
-            "of": self.number,
-            "detail": measured.detail,
-        })
     }
 }
 

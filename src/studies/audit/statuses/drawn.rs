@@ -13,6 +13,7 @@ use fastrand::Rng;
 
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use crate::studies::snapshot::Input;
 
 /// The tolerance of the contact search, length: the text's c_tol.
 const C_TLL: f64 = 0.001;
@@ -42,6 +43,8 @@ impl Kind {
 pub struct Drawn {
     pub scene: Scene,
     pub touching: Vec<bool>,
+    /// The SHA-256 of the scene, and of its mesh.
+    pub hashes: [String; 2],
 }
 
 pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
@@ -49,7 +52,9 @@ pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
     let (stamp, touching) = stamp(rng, &surface, kind);
     let turned = rng.bool();
     let scene = scene(&surface, &stamp, kind, turned).build();
-    Drawn { scene: scene.expect("a scene that is drawn is sound"), touching }
+    let scene = scene.expect("a scene that is drawn is sound");
+    let Input { scene_sha256, mesh_sha256, .. } = Input::of(&scene).expect("it was built");
+    Drawn { scene, touching, hashes: [scene_sha256, mesh_sha256] }
 }
 
 /// A number between `low` and `high`.

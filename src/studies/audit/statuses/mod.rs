@@ -14,6 +14,7 @@ mod counted;
 mod drawn;
 
 use fastrand::Rng;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::answer::contact::status::statuses;
@@ -21,6 +22,7 @@ use crate::numbers::scalar::Scalar;
 use crate::paper::door;
 use crate::paper::mirror::{Reading, c_cnt};
 use crate::problem::modelling::StatusRule;
+use crate::studies::snapshot::sha256;
 use counted::{Counted, counting};
 use drawn::Drawn;
 pub use drawn::{Kind, draw};
@@ -36,16 +38,18 @@ const DEPTH: f64 = 4.0;
 const WEIGHTS: u64 = 12;
 
 /// What was measured, in numbers that the seed determines.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Measurement {
     pub scenes: usize,
     pub seed: u64,
+    /// The SHA-256 of the scenes: over that of the scenes before and those of a scene and its mesh.
+    pub scenes_sha256: String,
     pub by_depth: Vec<Row>,
     /// Operations by size, both orientations together.
     pub by_size: Vec<Row>,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Row {
     pub edges: usize,
     /// Depth of the jump, in c_tll.
@@ -57,7 +61,7 @@ pub struct Row {
     pub rules: Vec<Score>,
 }
 
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Score {
     pub rule: StatusRule,
     /// Nodes in contact that it takes for apart.
@@ -72,6 +76,7 @@ pub struct Score {
 /// leads to the same numbers.
 pub fn measure(scenes: usize, seed: u64) -> Measurement {
     let mut rng = Rng::with_seed(seed);
+    let mut scenes_sha256 = String::new();
     let mut row = |edges, depth, target: &'static str| {
         let score = |rule: &StatusRule| Score { rule: *rule, ..Score::default() };
         let rules = StatusRule::ALL.iter().map(score).collect();
@@ -79,6 +84,7 @@ pub fn measure(scenes: usize, seed: u64) -> Measurement {
         for k in 0..scenes {
             let above = if target == "both" { k % 2 == 1 } else { target == "above" };
             let scene = draw(&mut rng, Kind { edges, depth, above });
+            scenes_sha256 = sha256(&(&scenes_sha256, &scene.hashes));
             row.nodes += scene.touching.len();
             row.touching += scene.touching.iter().filter(|touching| **touching).count();
             row.rules.iter_mut().for_each(|score| score.add(&scene));
@@ -88,7 +94,7 @@ pub fn measure(scenes: usize, seed: u64) -> Measurement {
     let depths = DEPTHS.iter().flat_map(|depth| [(*depth, "below"), (*depth, "above")]);
     let by_depth = depths.map(|(depth, target)| row(EDGES, depth, target)).collect();
     let by_size = SIZES.iter().map(|edges| row(*edges, DEPTH, "both")).collect();
-    Measurement { scenes, seed, by_depth, by_size }
+    Measurement { scenes, seed, scenes_sha256, by_depth, by_size }
 }
 
 impl Score {

@@ -1,0 +1,46 @@
+//! `plane-contact schema`.
+
+use plane_contact::answer::error::Result;
+use plane_contact::error::InputError;
+use plane_contact::report::schema::SCHEMAS;
+
+use super::print;
+
+/// Print the JSON Schema of a file, or of what a command prints under --json.
+#[derive(clap::Args)]
+#[command(after_help = "\
+A document of a command with --json has the schema that bears the command's name or that the list
+gives it; where the command ends without one, what it prints has the schema failure. What a schema
+does not name is not allowed.
+
+Examples:
+  plane-contact schema                       the list
+  plane-contact schema result
+  plane-contact schema scene > scene.schema.json")]
+pub struct Args {
+    /// The name of a schema, or of a command [default: the list of them].
+    #[arg(value_name = "NAME")]
+    name: Option<String>,
+    /// List the schemas: name, documents, commands.
+    #[arg(long, conflicts_with = "name")]
+    list: bool,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    let Some(name) = &args.name else {
+        let line = |schema: &plane_contact::report::schema::Named| {
+            let commands: String =
+                schema.commands.iter().map(|c| format!(", {c} --json")).collect();
+            format!("{:<10}{}{commands}\n", schema.name, schema.of)
+        };
+        return print(&SCHEMAS.iter().map(line).collect::<String>());
+    };
+    let asked = |commands: &[&str]| commands.contains(&name.as_str());
+    let schema = SCHEMAS.iter().find(|schema| schema.name == name || asked(schema.commands));
+    let schema = schema.ok_or_else(|| {
+        let names: Vec<&str> = SCHEMAS.iter().map(|schema| schema.name).collect();
+        let fix = format!("the schemas are {}", names.join(", "));
+        InputError::new("NAME", format!("there is no schema {name:?}"), fix)
+    })?;
+    print(&schema.text())
+}

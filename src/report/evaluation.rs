@@ -1,0 +1,52 @@
+//! What came of a program in the notation of the listings, as JSON.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+
+use super::json::headed;
+use crate::paper::mathcad::{self, Failure, Outcome};
+
+/// What came of a program.
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Document<'a> {
+    Result {
+        /// A number, words, or a list of rows.
+        value: Value,
+        /// What the program's own `trace` wrote.
+        trace: &'a [String],
+    },
+    Failure {
+        error: ErrorRow<'a>,
+    },
+}
+
+/// Why a program failed, and where.
+#[derive(Serialize, JsonSchema)]
+pub struct ErrorRow<'a> {
+    cause: String,
+    /// The function.
+    listing: &'a str,
+    /// The line, from 1.
+    line: usize,
+    /// Where the failed expression starts in the line, from 1, indentation aside.
+    column: usize,
+    /// The failed expression.
+    text: &'a str,
+    /// The whole line.
+    statement: &'a str,
+}
+
+/// Returns what a program computed.
+pub fn json(outcome: &Outcome) -> String {
+    let value = mathcad::json::write(&outcome.value);
+    headed(&Document::Result { value, trace: &outcome.trace_output })
+}
+
+/// Returns why a program failed.
+pub fn error_json(failure: &Failure) -> String {
+    let Failure { listing, line, column, text, statement, cause } = failure;
+    let (line, column, cause) = (*line, *column, cause.to_string());
+    headed(&Document::Failure { error: ErrorRow { cause, listing, line, column, text, statement } })
+}
