@@ -1,7 +1,7 @@
 //! `plane-contact trace`.
 
 use plane_contact::answer::Request;
-use plane_contact::answer::error::Result;
+use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::paper::door::Call;
 use plane_contact::paper::edited::Edited;
