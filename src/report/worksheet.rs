@@ -113,6 +113,10 @@ enum VerdictRow<'a> {
         saved: &'a str,
         ours: &'a str,
     },
+    /// The interpreter fails, and nothing was saved.
+    Fails {
+        ours: &'a str,
+    },
     /// The interpreter does not have this.
     Beyond {
         construct: &'a str,

@@ -17,18 +17,6 @@ pub fn assert_golden_by(folder: &str, name: &str, text: &str, same: fn(&str, &st
     settings.bind(|| insta::assert_snapshot!(name, text));
 }
 
-/// Compares `text` with the file at `path`; INSTA_UPDATE=always changes the file.
-#[track_caller]
-pub fn assert_file(path: &Path, text: &str) {
-    if std::env::var_os("INSTA_UPDATE").is_some_and(|update| update == "always") {
-        plane_contact::files::write(path, text).expect("a golden file can be written");
-    }
-    let golden = std::fs::read_to_string(path).unwrap_or_default();
-    let lines = || golden.lines().zip(text.lines()).enumerate();
-    let first = lines().find(|(_, (golden, is))| golden != is);
-    assert!(golden == text, "{} differs: {first:?}", path.display());
-}
-
 /// Two texts under a rule.
 struct Toleranced(fn(&str, &str) -> bool);
 
