@@ -1,6 +1,7 @@
 //! The marks of answers to exercises, for people and for machines.
 
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::json::headed;
 use super::layout::{Table, listed};
@@ -45,17 +46,40 @@ pub fn text(marked: &[Marked]) -> String {
         .text()
 }
 
+/// The marks of files of answers.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    answers: Vec<Row<'a>>,
+}
+
+/// The marks of a file of answers.
+#[derive(Serialize, JsonSchema)]
+struct Row<'a> {
+    file: &'a str,
+    student: &'a str,
+    exercise: u64,
+    seed: u64,
+    /// The number of right answers.
+    right: usize,
+    /// The number of questions.
+    of: usize,
+    marks: &'a [Mark],
+}
+
+impl<'a> Row<'a> {
+    fn new(marked: &'a Marked) -> Self {
+        Row {
+            file: &marked.file,
+            student: &marked.answers.student,
+            exercise: marked.answers.exercise,
+            seed: marked.answers.seed,
+            right: marked.right(),
+            of: marked.marks.len(),
+            marks: &marked.marks,
+        }
+    }
+}
+
 pub fn json(marked: &[Marked]) -> String {
-    let row = |marked: &Marked| {
-        json!({
-            "file": marked.file,
-            "student": marked.answers.student,
-            "exercise": marked.answers.exercise,
-            "seed": marked.answers.seed,
-            "right": marked.right(),
-            "of": marked.marks.len(),
-            "marks": marked.marks,
-        })
-    };
-    headed(None, &marked.iter().map(row).collect::<Vec<Value>>())
+    headed(&Document { answers: marked.iter().map(Row::new).collect() })
 }

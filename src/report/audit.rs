@@ -245,7 +245,7 @@ pub struct FindingRow {
 }
 
 impl FindingRow {
-    fn new(finding: &Finding, measured: &Measured) -> Self {
+    pub fn new(finding: &Finding, measured: &Measured) -> Self {
         let Finding { id, listing, lines, title, number: of, .. } = *finding;
         let Measured { verdict, number, ref detail } = *measured;
         FindingRow { id, listing, lines, title, verdict, number, of, detail: detail.clone() }

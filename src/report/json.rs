@@ -57,9 +57,20 @@ pub fn headed(own: &impl Serialize) -> String {
 
 /// Writes a document on a scene, which a file describes, on one line behind its head.
 pub fn of_scene(scene: &Scene, own: &impl Serialize) -> String {
+    line(&Headed { head: scene_head(scene), own })
+}
+
+/// Returns what a document on a scene, which a file describes, says of itself.
+pub fn head(scene: &Scene) -> Map<String, Value> {
+    match serde_json::to_value(scene_head(scene)) {
+        Ok(Value::Object(fields)) => fields,
+        _ => unreachable!("a head is an object"),
+    }
+}
+
+fn scene_head(scene: &Scene) -> SceneHead {
     let Input { scene_sha256, mesh_sha256, .. } = Input::of(scene).expect("a file describes it");
-    let head = SceneHead { head: HEAD, units: scene.units.clone(), scene_sha256, mesh_sha256 };
-    line(&Headed { head, own })
+    SceneHead { head: HEAD, units: scene.units.clone(), scene_sha256, mesh_sha256 }
 }
 
 /// Returns a document with the reasons of its nulls.

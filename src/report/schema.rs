@@ -8,10 +8,11 @@ use serde_json::{Map, Value, json};
 use super::failure::Failed;
 use super::json::{Found, Head, Headed, SceneHead};
 use super::{
-    ResultFile, audit, comparison, evaluation, extremes, plan, snapshot, trace, worksheet,
+    ResultFile, answers, audit, comparison, evaluation, extremes, plan, snapshot, trace, worksheet,
 };
 use crate::problem::scene::Description;
 use crate::studies::audit::statuses::Measurement;
+use crate::studies::lesson::exercise::Answers;
 use crate::studies::snapshot::Snapshot;
 use crate::studies::sweep::{self, Sweep};
 use crate::studies::trade::Trade;
@@ -34,6 +35,13 @@ type OfNone<T> = Headed<Head, T>;
 pub const SCHEMAS: &[Named] = &[
     Named { name: "scene", of: "a scene file", commands: &[], make: read::<Description> },
     Named { name: "sweep", of: "the file of a sweep", commands: &[], make: read::<Sweep> },
+    Named { name: "answers", of: "answers to an exercise", commands: &[], make: read::<Answers> },
+    Named {
+        name: "marks",
+        of: "what verify --json prints of answers",
+        commands: &[],
+        make: printed::<OfNone<answers::Document>>,
+    },
     Named { name: "row", of: "a row of a sweep", commands: &[], make: sweep::row_schema },
     Named { name: "snapshot", of: "a snapshot", commands: &[], make: read::<Snapshot> },
     Named { name: "result", of: "result.json", commands: &["solve"], make: printed::<ResultFile> },

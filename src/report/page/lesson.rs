@@ -12,6 +12,7 @@ use super::Page;
 use crate::paper::mathcad::Listing;
 use crate::problem::model::Model;
 use crate::problem::scene::Scene;
+use crate::report::audit::FindingRow;
 use crate::report::json;
 use crate::studies::audit::findings::{Finding, Measured};
 use crate::studies::audit::trace::{Access, Step};
@@ -30,7 +31,7 @@ pub fn html(chapters: &[Chapter]) -> String {
     let scene = &chapters[0].scene;
     let mut shared = Shared::default();
     let scenes: Vec<Value> = chapters.iter().map(|chapter| shared.chapter(chapter)).collect();
-    let mut data = json::head(Some(scene));
+    let mut data = json::head(scene);
     let Shared { names, values, accesses, steps } = shared;
     data.extend([
         ("scenes".to_string(), scenes.into()),
@@ -96,7 +97,7 @@ impl Shared {
             "runs": runs,
             "finding": chapter.finding.as_ref().map(|(finding, measured)| {
                 let own = json!({ "why": finding.why, "repair": finding.repair });
-                [finding.row(measured), own]
+                [json!(FindingRow::new(finding, measured)), own]
             }),
         })
     }

@@ -44,7 +44,7 @@ pub struct Run<'a> {
 
 pub fn html(report: &Report) -> String {
     let scene = report.scene;
-    let mut data = json::head(Some(scene));
+    let mut data = json::head(scene);
     let runs = report.runs.par_iter().map(run).collect::<Vec<Value>>();
     let calculix_fields = report.calculix.as_ref().map(|(comparison, _)| calculix_run(comparison));
     let charts = report.charts.iter();
@@ -52,7 +52,7 @@ pub fn html(report: &Report) -> String {
     let own = json!({
         "scene": { "name": scene.name, "title": scene.title },
         "what": report.what,
-        "audit": report.audit.map(audit_report::value),
+        "audit": report.audit.map(|audit| audit_report::value(audit, scene)),
         "mesh": mesh(&scene.model),
         "runs": runs.into_iter().chain(calculix_fields).collect::<Vec<_>>(),
         "own": own_run(report),

@@ -2,6 +2,7 @@
 //! answers.
 
 use fastrand::Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::paper::door::Call;
@@ -28,7 +29,7 @@ pub struct Exercise {
 
 /// What `c_cnt` finds of a contact node, or what a student says of it; nothing where he says
 /// nothing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Answer {
     /// The number of the contact node.
@@ -42,7 +43,7 @@ pub struct Answer {
 }
 
 /// The answers of a student, as the page of an exercise exports them.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Answers {
     /// [`ANSWERS`].
@@ -54,7 +55,7 @@ pub struct Answers {
 }
 
 /// A value that was asked for: what was said, and what the listing finds.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Mark {
     pub node: usize,
     pub of: &'static str,
