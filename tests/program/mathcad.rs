@@ -36,10 +36,9 @@ fn evaluate_runs_any_program() {
         evaluate(&["--call", "both(v)", "--inputs", "{\"v\": [3, 4]}", "--json"]);
     assert_eq!(status, 0);
     let value: Value = serde_json::from_str(&text).expect("JSON");
-    assert_eq!(
-        value,
-        json!({ "value": [[6.0], [24.0]], "trace": ["3", "2", "1", "4", "3", "2", "1"] })
-    );
+    assert_eq!(value["value"], json!([[6.0], [24.0]]));
+    assert_eq!(value["trace"], json!(["3", "2", "1", "4", "3", "2", "1"]));
+    assert_eq!(value["format"], 1);
     assert_eq!(
         evaluate(&["--inputs", "{\"n\": 2}"]).1,
         "trace: 2\ntrace: 1\n2\n",
