@@ -6,6 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use plane_contact::studies::lesson::exercise::{ANSWERS, Exercise};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -268,6 +269,13 @@ fn inputs(documents: &mut Documents) {
         let rows = std::fs::read_to_string(documents.at().join("r.jsonl")).expect("rows");
         rows.lines().for_each(|row| documents.text("row", row));
     }
+    let answer = |[node, ct, dy, k1]: [f64; 4]| json!({ "node": node as usize, "ct": ct, "dy": dy, "k1": (100.0 * k1).round() / 100.0 });
+    let found = Exercise { exercise: 7, seed: 2026 }.found().into_iter().map(answer);
+    let answers = json!({ "kind": ANSWERS, "exercise": 7, "seed": 2026, "student": "A. Student",
+        "answers": found.collect::<Vec<_>>() });
+    documents.text("answers", &answers.to_string());
+    documents.write("answers.json", &answers.to_string());
+    documents.printed("marks", 0, "verify answers.json");
 }
 
 /// Every document is valid by its schema, and `golden/schema/open.txt` shows what the schemas leave
