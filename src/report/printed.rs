@@ -1,6 +1,6 @@
 //! What a command prints, fitted to a width, and its tables as CSV.
 //!
-//! A table is what [`layout`](super::layout) lays out: a heading, a rule of hyphens that shows where
+//! A table is what `layout` lays out: a heading, a rule of hyphens that shows where
 //! the columns stand, and the rows under it. All other lines are prose.
 
 use super::layout::filled;

@@ -84,7 +84,7 @@ fn row<const I: usize, const V: usize>(line: &str) -> Result<([usize; I], [f64; 
 const LARGEST: f64 = 1e150;
 
 /// A number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent is long; none beyond
-/// [`LARGEST`].
+/// the largest.
 pub fn float(word: &str) -> Option<f64> {
     let plain = word.parse::<f64>().ok();
     let short = || {
