@@ -12,9 +12,12 @@ use super::print;
 
 /// Returns whether a file has answers: the kind that it names.
 pub fn are_in(file: &Path) -> bool {
+    #[derive(serde::Deserialize)]
+    struct Kind {
+        kind: String,
+    }
     let text = files::read(file).unwrap_or_default();
-    let document: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
-    document.is_some_and(|document| document["kind"] == ANSWERS)
+    serde_json::from_slice(&text).is_ok_and(|Kind { kind }| kind == ANSWERS)
 }
 
 /// Marks the answers of files; returns whether all are right.

@@ -7,7 +7,6 @@ use plane_contact::answer::error::Result;
 use plane_contact::answer::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::numbers::solve::memory;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
@@ -76,18 +75,12 @@ fn find(id: &str) -> Result<&'static Finding, InputError> {
     })
 }
 
-/// Returns the case of a scene whose `Km` fits in memory once for each of two cores.
-fn case(scene: Scene) -> Result<Case, InputError> {
-    memory::check(scene.model.nodes.len(), 2, memory::free())?;
-    Ok(Case::new(scene))
-}
-
 fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let scene = match &args.scene {
         Some(scene) => Scene::open(scene)?,
         None => finding.scene(),
     };
-    let case = case(scene)?;
+    let case = Case::within_memory(scene)?;
     let measured = finding.measure(&case);
     if let Some(out) = &args.out {
         files::write(
@@ -102,7 +95,8 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
 }
 
 fn whole(args: &Args) -> Result<()> {
-    let case = case(Scene::open(args.scene.as_deref().unwrap_or("strand"))?)?;
+    let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
+    let case = Case::within_memory(scene)?;
     let places = if args.range { range(Reading::default())? } else { Vec::new() };
     if !std::io::stderr().is_terminal() {
         tell(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));

@@ -13,7 +13,7 @@ use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::lesson::exercise::Exercise;
 use plane_contact::studies::lesson::{Switch, repair, run as execute, switches};
 
-use super::{read_listing, waiting};
+use super::{read_listing, say_written, waiting};
 
 /// Write a page that teaches the listings: both of them, stepped forwards and backwards on a scene.
 #[derive(clap::Args)]
@@ -61,7 +61,7 @@ pub fn run(args: &Args) -> Result<()> {
     let own = || Path::new("out").join(format!("{name}.html"));
     let out = args.out.clone().unwrap_or_else(own);
     files::write(&out, &page)?;
-    eprintln!("Written to {}", out.display());
+    say_written(&out, true);
     Ok(())
 }
 

@@ -12,7 +12,7 @@ use plane_contact::report::page::report::{self as page, Report};
 use plane_contact::studies::audit::{Case, audit};
 use plane_contact::studies::calculix::{self, Comparison, Contact, Fields, Pair, Part};
 
-use super::waiting;
+use super::{say_written, waiting};
 
 /// Write a page that testifies: what was run on a scene, the claims with their verdicts, readings,
 /// findings, and the fields of every variant side by side.
@@ -49,11 +49,12 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let case = Case::new(Scene::open(&args.scene)?);
+    let scene = Scene::open(&args.scene)?;
+    let case = if args.no_audit { Case::new(scene) } else { Case::within_memory(scene)? };
     let charts = args.charts.as_deref().map_or(Ok(Vec::new()), charts)?;
     let html = waiting("auditing", || page_of(args, &case, charts))?;
     files::write(&args.out, &html)?;
-    eprintln!("Written to {}", args.out.display());
+    say_written(&args.out, true);
     Ok(())
 }
 

@@ -19,12 +19,11 @@ pub fn beside(printed: &Solution, edited: &Solution) -> String {
         (quantity("force on target", &units.force), force(printed), force(edited)),
     ];
     for (a, b) in summaries(printed).into_iter().zip(summaries(edited)) {
-        let stress = |x| short(x);
         let what = format!("largest von Mises stress of {}", a.name);
         rows.push((
             quantity(&what, &units.stress),
-            stress(a.max_von_mises_stress),
-            stress(b.max_von_mises_stress),
+            short(a.max_von_mises_stress),
+            short(b.max_von_mises_stress),
         ));
     }
     let table = Table::of(rows)

@@ -37,6 +37,7 @@ fn memory_that_a_process_may_not_have_is_refused_with_what_is_needed() {
     let few = "ulimit -v 8000000; $P";
     let words = ["104.5 GB", "80802 x 80802", "coarser mesh"];
     refused(folder, &format!("{few} audit c"), &words);
+    refused(folder, &format!("{few} report c"), &words);
     let words = ["limit of 134217728 numbers", "a smaller scene"];
     refused(folder, "$P trace c --listing Km --node 5", &words);
     refused(folder, "ulimit -v 4000000; $P mesh cook --n 2000", &["--n", "7.2 GB", "smaller"]);
@@ -69,6 +70,7 @@ fn what_standard_error_cannot_take_changes_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let code = |line: &str| shell(folder.path(), line).status.code();
     assert_eq!(code("$P solve nosuch 2>/dev/full"), Some(2));
+    assert_eq!(code("$P lesson --exercise 1 2>/dev/full"), Some(0));
     let line = "$P solve fig1 --accuracy 1e-3 --json";
     let [plain, full] = [line, &format!("{line} 2>/dev/full")].map(|l| shell(folder.path(), l));
     assert_eq!(full.status.code(), Some(0));

@@ -41,6 +41,14 @@ pub struct State<'a> {
     pub u: &'a DVector<Bounded>,
 }
 
+/// What may be otherwise where nodes stand a little elsewhere.
+enum Elsewhere {
+    /// Comparisons of integrals, by node.
+    Mortar(Vec<(NodeId, Unsure)>),
+    /// The part of the target that a node faces, and what it would face.
+    Nts(Vec<(NodeId, Option<Pairing>)>),
+}
+
 /// Looks at the contact states of a solution.
 pub struct Looking<'a> {
     solution: &'a Solution,
@@ -63,32 +71,40 @@ impl<'a> Looking<'a> {
     /// closes are decided otherwise, and looked at.
     pub fn is_far(&self, step: &Step) -> bool {
         let Detail::Unilateral(detail) = &step.detail else { return true };
-        let by_forces = step.k > 1 && detail.margin > FAR && !self.rests_on_shared(detail);
+        let rests_on_shared = self.rubs() && detail.undetermined.contains(&true);
+        let by_forces = step.k > 1 && detail.margin > FAR && !rests_on_shared;
         by_forces && self.faces_surely(step)
     }
 
-    /// Returns whether friction rests on a force that restraints leave undetermined.
-    fn rests_on_shared(&self, detail: &Unilateral) -> bool {
+    /// Returns whether friction depends on the normal forces.
+    fn rubs(&self) -> bool {
         let coefficient = self.solution.request.contact.friction.coefficient();
-        coefficient > 0.0 && coefficient.is_finite() && detail.undetermined.contains(&true)
+        coefficient > 0.0 && coefficient.is_finite()
     }
 
     /// Returns whether every node faces the same part of the target also where it stands a little
     /// elsewhere.
     fn faces_surely(&self, step: &Step) -> bool {
         let Some(surfaces) = &self.surfaces else { return true };
-        let contact = &self.solution.request.contact;
-        if contact.geometry == Geometry::Initial {
+        if self.solution.request.contact.geometry == Geometry::Initial {
             // The last state is measured in the same shape.
             return true;
         }
         let radius = FAR * step.max_displacement;
-        if contact.coupling == Coupling::Mortar {
-            let within = |x: f64| Bounded::new(x, radius);
-            let shape: Vec<_> = step.shape.iter().map(|place| place.map(within)).collect();
-            return surfaces.mortar(&shape).unsure.is_empty();
+        match self.elsewhere(surfaces, &step.shape, radius) {
+            Elsewhere::Mortar(unsure) => unsure.is_empty(),
+            Elsewhere::Nts(other) => other.is_empty(),
         }
-        surfaces.facing_otherwise(&step.shape, radius).is_empty()
+    }
+
+    /// Returns what nodes that stand up to `radius` from their places in a shape face otherwise.
+    fn elsewhere(&self, surfaces: &Surfaces, shape: &[[f64; 2]], radius: f64) -> Elsewhere {
+        if self.solution.request.contact.coupling == Coupling::Nts {
+            return Elsewhere::Nts(surfaces.facing_otherwise(shape, radius));
+        }
+        let within = |x: f64| Bounded::new(x, radius);
+        let shape: Vec<_> = shape.iter().map(|place| place.map(within)).collect();
+        Elsewhere::Mortar(surfaces.mortar(&shape).unsure)
     }
 
     /// Looks at a contact state.
@@ -96,12 +112,11 @@ impl<'a> Looking<'a> {
         let Detail::Unilateral(detail) = &state.step.detail else { return };
         let friction = detail.friction.map(Bounded::from_f64);
         let reaction = self.stiffness.times(state.u) - (&state.load + friction);
-        let rests_on_shared = self.rests_on_shared(detail);
         for (i, pairing) in detail.pairings.iter().enumerate() {
             match (detail.statuses[i], pairing) {
                 (_, None) => (),
                 (Status::Open, Some(pairing)) => self.open(state, pairing, detail.violation),
-                (_, Some(pairing)) if detail.undetermined[i] && rests_on_shared => {
+                (_, Some(pairing)) if detail.undetermined[i] && self.rubs() => {
                     self.shared(state, pairing)
                 }
                 (status, Some(pairing)) => self.closed(state, status, pairing, &reaction),
@@ -218,34 +233,31 @@ impl<'a> Looking<'a> {
             return;
         }
         let k = state.step.k;
-        let found: Vec<Decision> = if contact.coupling == Coupling::Mortar {
-            let within = |x: f64| Bounded::new(x, radius);
-            let shape: Vec<_> = measured_in.iter().map(|place| place.map(within)).collect();
-            let condition = || "a comparison of mortar's integrals".into();
-            let unsure = surfaces.mortar(&shape).unsure.into_iter();
-            unsure.map(|(node, by)| Decision::unsure(k, node, condition(), by)).collect()
-        } else {
-            let entry = |node: NodeId| model.contact.nodes.iter().position(|other| *other == node);
-            let counts = |(node, other): &(NodeId, Option<Pairing>)| {
-                entry(*node).is_some_and(|entry| detail.statuses[entry].is_closed())
-                    || other.as_ref().is_some_and(|other| {
-                        let gap = self.gap(other, state.u);
-                        gap.to_f64() <= gap.error()
-                    })
-            };
-            let other = surfaces.facing_otherwise(measured_in, radius);
-            let mut nodes: Vec<NodeId> =
-                other.iter().filter(|it| counts(it)).map(|it| it.0).collect();
-            nodes.dedup();
-            let condition = || "which part of the target it faces".into();
-            let decision = |node| Decision {
-                iteration: k,
-                node,
-                condition: condition(),
-                margin: None,
-                bound: Some(radius),
-            };
-            nodes.into_iter().map(decision).collect()
+        let entry = |node: NodeId| model.contact.nodes.iter().position(|other| *other == node);
+        let counts = |(node, other): &(NodeId, Option<Pairing>)| {
+            entry(*node).is_some_and(|entry| detail.statuses[entry].is_closed())
+                || other.as_ref().is_some_and(|other| {
+                    let gap = self.gap(other, state.u);
+                    gap.to_f64() <= gap.error()
+                })
+        };
+        let by_integral =
+            |(node, by)| Decision::unsure(k, node, "a comparison of mortar's integrals".into(), by);
+        let by_place = |node| Decision {
+            iteration: k,
+            node,
+            condition: "which part of the target it faces".into(),
+            margin: None,
+            bound: Some(radius),
+        };
+        let found: Vec<Decision> = match self.elsewhere(surfaces, measured_in, radius) {
+            Elsewhere::Mortar(unsure) => unsure.into_iter().map(by_integral).collect(),
+            Elsewhere::Nts(other) => {
+                let mut nodes: Vec<NodeId> =
+                    other.iter().filter(|it| counts(it)).map(|it| it.0).collect();
+                nodes.dedup();
+                nodes.into_iter().map(by_place).collect()
+            }
         };
         self.only_ties &= found.is_empty();
         self.decisions.extend(found);

@@ -5,7 +5,7 @@ use faer::linalg::solvers::{Llt, PartialPivLu};
 use faer::{MatRef, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
-use super::factors::{Factors, Native, Singular, backward_error, largest, solve};
+use super::factors::{Factors, Lu, Native, Singular, backward_error, largest, solve};
 use crate::numbers::scalar::Scalar;
 
 pub struct DenseLu<T: Native = f64> {
@@ -35,27 +35,22 @@ impl<T: Native> DenseLu<T> {
             None => Ok(DenseLu { matrix, factors }),
         }
     }
+}
 
-    /// Returns the solution x of A x = `b`.
-    pub fn solve(&self, b: &DVector<T>) -> DVector<T> {
+impl<T: Native> Factors<T> for DenseLu<T> {
+    fn solve(&self, b: &DVector<T>) -> DVector<T> {
         solve(&self.factors, b)
     }
+}
 
-    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
-    /// vectors, 0 when x and b are 0.
-    pub fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
+impl<T: Native> Lu<T> for DenseLu<T> {
+    fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
         // The row sums of |A|, gathered column by column as the matrix lies in memory.
         let mut row_sums = DVector::<T>::zeros(x.len());
         for column in self.matrix.column_iter() {
             row_sums.zip_apply(&column, |sum, a| *sum += Scalar::abs(a));
         }
         backward_error(&(&self.matrix * x - b), largest(row_sums.iter()), x, b)
-    }
-}
-
-impl<T: Native> Factors<T> for DenseLu<T> {
-    fn solve(&self, b: &DVector<T>) -> DVector<T> {
-        DenseLu::solve(self, b)
     }
 }
 

@@ -27,6 +27,13 @@ pub trait Factors<T>: Sync {
     fn solve(&self, b: &DVector<T>) -> DVector<T>;
 }
 
+/// LU factors of a matrix that they keep.
+pub trait Lu<T>: Factors<T> {
+    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
+    /// vectors, 0 when x and b are 0.
+    fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64;
+}
+
 /// A column whose pivot vanished: the matrix has no unique solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular {

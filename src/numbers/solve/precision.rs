@@ -16,7 +16,7 @@ use num_traits::Zero;
 use super::arithmetic::Solver;
 use super::dense::{DenseCholesky, DenseLu};
 use super::error_bound::error_bound;
-use super::factors::{Factors, Native, Singular};
+use super::factors::{Factors, Lu, Native, Singular};
 use super::field::Field;
 use super::iterative::{NotConverged, conjugate_gradients, refine};
 use super::ldlt::Ldlt;
@@ -99,17 +99,9 @@ impl Precision for Bounded {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         let (values, f) = (a.map(Scalar::to_f64), b.map(Scalar::to_f64));
         let (factors, solved): (Box<dyn Factors<f64>>, _) = match by {
-            Solver::DenseLu => {
-                let lu = DenseLu::new(values)?;
-                let x = lu.solve(&f);
-                let residual = lu.residual(&x, &f);
-                (Box::new(lu), Solved { x, residual })
-            }
-            Solver::SparseLu => {
-                let lu = SparseLu::new(&values)?;
-                let x = lu.solve(&f);
-                let residual = lu.residual(&x, &f);
-                (Box::new(lu), Solved { x, residual })
+            Solver::DenseLu | Solver::SparseLu => {
+                let (lu, solved) = by_lu(values, &f, by)?;
+                (lu, solved)
             }
             _ => {
                 let factors = SparseCholesky::new(SparseSymmetric::of_lower(&values))?;
@@ -193,15 +185,8 @@ impl Precision for Exact {
 
 /// Solves in a scalar of the machine by faer, or by conjugate gradients.
 fn native<T: Native>(a: DMatrix<T>, b: &DVector<T>, by: Solver, tol: Option<f64>) -> Outcome<T> {
-    if by == Solver::DenseLu {
-        let lu = DenseLu::new(a)?;
-        let x = lu.solve(b);
-        return Ok(Solved { residual: lu.residual(&x, b), x });
-    }
-    if by == Solver::SparseLu {
-        let lu = SparseLu::new(&a)?;
-        let x = lu.solve(b);
-        return Ok(Solved { residual: lu.residual(&x, b), x });
+    if matches!(by, Solver::DenseLu | Solver::SparseLu) {
+        return Ok(by_lu(a, b, by)?.1);
     }
     let sparse = SparseSymmetric::of_lower(&a);
     let x = match by {
@@ -210,6 +195,21 @@ fn native<T: Native>(a: DMatrix<T>, b: &DVector<T>, by: Solver, tol: Option<f64>
         _ => SparseCholesky::new(sparse.clone())?.solve(b),
     };
     Ok(Solved { residual: sparse.residual(&x, b), x })
+}
+
+/// Solves by LU of the full matrix, or of its entries that are not 0.
+fn by_lu<T: Native>(
+    a: DMatrix<T>,
+    b: &DVector<T>,
+    by: Solver,
+) -> Result<(Box<dyn Lu<T>>, Solved<T>), Singular> {
+    let lu: Box<dyn Lu<T>> = match by {
+        Solver::SparseLu => Box::new(SparseLu::new(&a)?),
+        _ => Box::new(DenseLu::new(a)?),
+    };
+    let x = lu.solve(b);
+    let residual = lu.residual(&x, b);
+    Ok((lu, Solved { x, residual }))
 }
 
 /// Solves by sparse Cholesky factors in L, refined by residuals in T.

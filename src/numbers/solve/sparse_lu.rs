@@ -1,12 +1,12 @@
 //! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
 
 use faer::Par;
-use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
+use faer::sparse::linalg::solvers::{self, SymbolicLu};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use nalgebra::{DMatrix, DVector};
 
 use super::dense::DenseLu;
-use super::factors::{Factors, Native, Singular, backward_error, largest, solve};
+use super::factors::{Factors, Lu, Native, Singular, backward_error, largest, solve};
 use super::sparse::largest_motion;
 use crate::numbers::scalar::Scalar;
 
@@ -17,7 +17,7 @@ const DOUBTFUL: f64 = 1e-3;
 /// A matrix and its sparse LU factors.
 pub struct SparseLu<T: Native = f64> {
     matrix: SparseColMat<usize, T>,
-    factors: Lu<usize, T>,
+    factors: solvers::Lu<usize, T>,
 }
 
 impl<T: Native> SparseLu<T> {
@@ -27,7 +27,7 @@ impl<T: Native> SparseLu<T> {
         faer::set_global_parallelism(Par::Seq);
         let sparse = columns(matrix);
         let symbolic = SymbolicLu::try_new(sparse.symbolic()).expect("a pattern fits in memory");
-        let Ok(factors) = Lu::try_new_with_symbolic(symbolic, sparse.as_ref()) else {
+        let Ok(factors) = solvers::Lu::try_new_with_symbolic(symbolic, sparse.as_ref()) else {
             return Err(judged(matrix).expect("dense LU finds the pivot that is 0"));
         };
         let lu = SparseLu { matrix: sparse, factors };
@@ -40,15 +40,16 @@ impl<T: Native> SparseLu<T> {
         }
         judged(matrix).map_or(Ok(lu), Err)
     }
+}
 
-    /// Returns the solution x of A x = `b`.
-    pub fn solve(&self, b: &DVector<T>) -> DVector<T> {
+impl<T: Native> Factors<T> for SparseLu<T> {
+    fn solve(&self, b: &DVector<T>) -> DVector<T> {
         solve(&self.factors, b)
     }
+}
 
-    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
-    /// vectors, 0 when x and b are 0.
-    pub fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
+impl<T: Native> Lu<T> for SparseLu<T> {
+    fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
         let mut rest = -b;
         let mut row_sums = DVector::<T>::zeros(x.len());
         for entry in self.matrix.triplet_iter() {
@@ -56,12 +57,6 @@ impl<T: Native> SparseLu<T> {
             row_sums[entry.row] += Scalar::abs(*entry.val);
         }
         backward_error(&rest, largest(row_sums.iter()), x, b)
-    }
-}
-
-impl<T: Native> Factors<T> for SparseLu<T> {
-    fn solve(&self, b: &DVector<T>) -> DVector<T> {
-        SparseLu::solve(self, b)
     }
 }
 

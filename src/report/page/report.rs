@@ -61,7 +61,8 @@ pub fn html(report: &Report) -> String {
         "charts": charts.collect::<Vec<_>>(),
         "colours": colour::parts(SHADES),
     });
-    data.extend(own.as_object().expect("an object").clone());
+    let Value::Object(own) = own else { unreachable!("it is written as an object") };
+    data.extend(own);
     Page {
         title: &format!("Report: {}", scene.name),
         body: include_str!("report/body.html"),

@@ -7,6 +7,8 @@ use rayon::prelude::*;
 use crate::answer::error::Error;
 use crate::answer::estimates::{Certainty, certain};
 use crate::answer::{Request, Solution, equilibrium, solve};
+use crate::error::InputError;
+use crate::numbers::solve::memory;
 use crate::paper::door::Call;
 use crate::paper::mirror::{Failure, Reading};
 use crate::problem::model::Model;
@@ -28,6 +30,15 @@ impl Case {
     /// The case of a scene under the default reading, of which nothing has run yet.
     pub fn new(scene: Scene) -> Self {
         Case::of(Request::new(&scene))
+    }
+
+    /// The same, where the `Km` that an audit builds fits in memory once for each of two cores.
+    ///
+    /// # Errors
+    /// It does not: says how much it needs.
+    pub fn within_memory(scene: Scene) -> Result<Self, InputError> {
+        memory::check(scene.model.nodes.len(), 2, memory::free())?;
+        Ok(Case::new(scene))
     }
 
     /// The case of a request's scene, its variant aside.

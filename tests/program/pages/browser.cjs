@@ -3,6 +3,7 @@
 // with BROWSER_MODULES, the folder of playwright-core and axe-core. It ends with status 1 at the
 // first expectation that is not met.
 
+const assert = require("node:assert");
 const { createRequire } = require("node:module");
 const { pathToFileURL } = require("node:url");
 const fs = require("node:fs");
@@ -44,6 +45,33 @@ async function violations(page) {
 /** Whether a page is wider than its window. */
 const overflows = (page) => page.evaluate(() => document.documentElement.scrollWidth > window.innerWidth);
 
+/** Looks at a page in both widths and both schemes: `look` gets it, a function that checks that
+ * nothing is cut off and that axe-core finds nothing, and what a picture is named after. */
+async function inAllViews(browser, file, look) {
+  for (const width of Object.keys(WIDTHS).map(Number)) {
+    for (const scheme of ["light", "dark"]) {
+      const view = `${width}-${scheme}`;
+      const isWhole = view === "1440-light";
+      const { page, said } = await open(browser, file, { width, scheme, scale: isWhole ? 1 : 0.5 });
+      const check = async () => {
+        assert.deepEqual(await violations(page), []);
+        assert.equal(await overflows(page), false, view);
+      };
+      await look({ page, check, view, isWhole });
+      assert.deepEqual(said, []);
+    }
+  }
+}
+
+/** Runs tests one after the other, or those that ONLY names. */
+const runAll = (tests) =>
+  run(async (browser) => {
+    for (const test of tests.filter(({ name }) => (process.env.ONLY ?? name).includes(name))) {
+      await test(browser);
+      console.log(`${test.name}: done`);
+    }
+  });
+
 /** Runs a test with a browser, which is closed at its end. */
 async function run(test) {
   const browser = await chromium.launch({
@@ -66,4 +94,4 @@ function drawn(seed) {
   return () => ((state = (state * 48271) % 2147483647), state / 2147483647);
 }
 
-module.exports = { WIDTHS, open, violations, overflows, run, drawn };
+module.exports = { open, violations, overflows, inAllViews, run, runAll, drawn };

@@ -3,7 +3,7 @@
 
 const assert = require("node:assert");
 const fs = require("node:fs");
-const { WIDTHS, open, violations, overflows, run, drawn } = require("./browser.cjs");
+const { open, inAllViews, runAll, drawn } = require("./browser.cjs");
 
 const [file, folder, ofContact, ofStiffness] = process.argv.slice(2);
 const traces = Object.fromEntries(
@@ -203,27 +203,16 @@ async function chapters(browser) {
 
 /** Both widths and both schemes: nothing is cut off, axe-core finds nothing, a picture of each. */
 async function views(browser) {
-  for (const width of Object.keys(WIDTHS).map(Number)) {
-    for (const scheme of ["light", "dark"]) {
-      const scale = width === 1440 && scheme === "light" ? 1 : 0.5;
-      const { page, said } = await open(browser, file, { width, scheme, scale });
-      for (const [which, at] of [["c_cnt", 230], ["Km", 1000]]) {
-        await chosen(page, which);
-        await page.locator("#slider").fill(String(at));
-        await page.evaluate(() => window.scrollTo(0, 0));
-        assert.deepEqual(await violations(page), []);
-        assert.equal(await overflows(page), false, `${width} ${scheme}`);
-        await page.screenshot({ path: `${folder}/lesson-${which}-${width}-${scheme}.png` });
-      }
-      assert.deepEqual(said, []);
+  await inAllViews(browser, file, async ({ page, check, view }) => {
+    for (const [which, at] of [["c_cnt", 230], ["Km", 1000]]) {
+      await chosen(page, which);
+      await page.locator("#slider").fill(String(at));
+      await page.evaluate(() => window.scrollTo(0, 0));
+      await check();
+      await page.screenshot({ path: `${folder}/lesson-${which}-${view}.png` });
     }
-  }
+  });
 }
 
 const tests = [walk, runs, keyboard, hover, readings, questions, chapters, views];
-run(async (browser) => {
-  for (const test of tests.filter(({ name }) => (process.env.ONLY ?? name).includes(name))) {
-    await test(browser);
-    console.log(`${test.name}: done`);
-  }
-});
+runAll(tests);

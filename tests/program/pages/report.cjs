@@ -4,7 +4,7 @@
 
 const assert = require("node:assert");
 const fs = require("node:fs");
-const { WIDTHS, open, violations, overflows, run, drawn } = require("./browser.cjs");
+const { open, inAllViews, runAll, drawn } = require("./browser.cjs");
 
 const [file, folder, resultFile, auditFile] = process.argv.slice(2);
 const result = JSON.parse(fs.readFileSync(resultFile, "utf8"));
@@ -94,24 +94,13 @@ async function moves(browser) {
 }
 
 async function views(browser) {
-  for (const width of Object.keys(WIDTHS).map(Number)) {
-    for (const scheme of ["light", "dark"]) {
-      const scale = width === 1440 && scheme === "light" ? 1 : 0.5;
-      const { page, said } = await open(browser, file, { width, scheme, scale });
-      assert.deepEqual(await violations(page), []);
-      assert.equal(await overflows(page), false, `${width} ${scheme}`);
-      await page.locator("#fields").evaluate((section) => section.scrollIntoView());
-      await page.screenshot({ path: `${folder}/report-${width}-${scheme}.png` });
-      if (scale === 1) assert.ok((await page.pdf()).length > 20000, "it prints");
-      assert.deepEqual(said, []);
-    }
-  }
+  await inAllViews(browser, file, async ({ page, check, view, isWhole }) => {
+    await check();
+    await page.locator("#fields").evaluate((section) => section.scrollIntoView());
+    await page.screenshot({ path: `${folder}/report-${view}.png` });
+    if (isWhole) assert.ok((await page.pdf()).length > 20000, "it prints");
+  });
 }
 
 const tests = [fields, iterations, tables, moves, views];
-run(async (browser) => {
-  for (const test of tests.filter(({ name }) => (process.env.ONLY ?? name).includes(name))) {
-    await test(browser);
-    console.log(`${test.name}: done`);
-  }
-});
+runAll(tests);
