@@ -7,7 +7,7 @@ use plane_contact::files;
 use plane_contact::paper::edited::Edited;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::page::exercise;
-use plane_contact::report::page::lesson::{self as page, Chapter};
+use plane_contact::report::page::lesson::{self as page, Chapter, Shown};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::lesson::exercise::Exercise;
@@ -85,11 +85,15 @@ fn lesson(args: &Args) -> Result<String> {
 }
 
 /// The chapter of a finding, on the smallest scene that shows it, with its repair where that is an
-/// edit of the listing.
+/// edit of the listing, else with the reason.
 fn chapter(finding: &'static Finding) -> Result<Chapter> {
     let case = Case::new(finding.scene());
-    let offered = std::iter::once(Switch::as_printed()).chain(repair(finding));
-    let runs = offered.map(|switch| execute(&case.scene, switch, &[])).collect::<Result<_>>()?;
-    let finding = Some((finding, finding.measure(&case)));
-    Ok(Chapter { runs, finding, scene: case.scene })
+    let (switches, no_repair) = match repair(finding) {
+        Ok(both) => (both.to_vec(), None),
+        Err(reason) => (vec![Switch::as_printed()], Some(reason)),
+    };
+    let runs = switches.into_iter().map(|switch| execute(&case.scene, switch, &[]));
+    let runs = runs.collect::<Result<_>>()?;
+    let measured = finding.measure(&case);
+    Ok(Chapter { runs, finding: Some(Shown { finding, measured, no_repair }), scene: case.scene })
 }

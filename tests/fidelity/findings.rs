@@ -8,11 +8,11 @@ use crate::common::golden_floats::assert_golden;
 use crate::common::json::build;
 use crate::common::tolerances::{FINDING, assert_near};
 use crate::golden::number;
-use nalgebra::DVector;
-use plane_contact::answer::{self, Request};
-use plane_contact::paper::door::Call;
+use nalgebra::{DMatrix, DVector};
+use plane_contact::answer::{self, Detail, Request};
+use plane_contact::paper::door::{Call, free_stiffness, linked, worksheet};
 use plane_contact::paper::mirror::{Km, Reading};
-use plane_contact::problem::model::NodeId;
+use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{FINDING_SCENES, SCENES, Scene};
 use plane_contact::studies::audit::Case;
@@ -371,41 +371,140 @@ fn every_folder_is_a_findings() {
     }
 }
 
-/// What a finding's scene has after its repair, in the listing's own arrays: dy, ct, then where it
-/// says so a row of `k_cnt` or the diagonal of `MJS`.
+/// What a finding's scene has before and after its repair, in the listing's own arrays: dy, ct, then
+/// where it says so a row of `k_cnt` or entries of `MJS`.
 #[test]
 fn each_repair_takes_its_finding_away() {
-    let repaired: Vec<(&str, Run)> = FINDINGS
+    let repaired: Vec<(&str, [Run; 2])> = FINDINGS
         .iter()
-        .filter_map(|finding| {
-            let switch = lesson::repair(finding)?;
-            Some((finding.id, lesson::run(&finding.scene(), switch, &[]).expect("it runs")))
+        .filter_map(|finding| Some((finding.id, runs(finding, lesson::repair(finding).ok()?))))
+        .collect();
+    assert_eq!(repaired.len(), 20);
+    let both = |id: &str| &repaired.iter().find(|(other, _)| *other == id).expect("an id").1;
+    let run = |id: &str| &both(id)[1];
+    let pairs = |run: &Run| match &run.c_cnt.as_ref().expect("contact").trace.result {
+        Ok(Product::Pairs(pairs)) => pairs.clone(),
+        _ => panic!("c_cnt ends with pairs"),
+    };
+    let matrix = |run: &Run| match &run.km.as_ref().expect("Km is called").trace.result {
+        Ok(Product::Matrix(matrix)) => matrix.clone(),
+        _ => panic!("Km ends with a matrix"),
+    };
+    let statuses = [
+        ("C4", vec![0, 1]),
+        ("C5", vec![1, 1]),
+        ("C8", vec![1, 1, 0]),
+        ("C11", vec![1, 0]),
+        ("C15", vec![1, 0]),
+    ];
+    for (id, dy) in statuses {
+        assert_eq!(pairs(run(id)).dy.as_slice(), dy, "{id}");
+    }
+    assert_eq!(pairs(run("C3")).dy.as_slice(), [1], "0.09 along the normal is within 0.1");
+    assert_eq!(pairs(run("C14")).ct.as_slice(), [1], "the node on its edge is found");
+    let edges = |id: &str| both(id).each_ref().map(|run| pairs(run).ct.as_slice().to_vec());
+    assert_eq!(edges("C1"), [[0], [1]], "the edge turned round");
+    assert_eq!(edges("C2"), [[2], [1]], "the nearest edge");
+    assert_eq!(edges("C9"), [[1, 0], [1, 1]], "the deep node too");
+    let weights = |id: &str, n: usize| pairs(run(id)).k_cnt.row(n).copied().collect::<Vec<_>>();
+    assert_eq!(weights("C12", 4), [1.0, 0.75, 2.0, 0.25]);
+    assert_eq!(weights("K8", 5), [1.0, 0.0, 2.0, 1.0], "the end of the edge");
+    let [stops, runs] = both("C10").each_ref().map(|run| &run.c_cnt.as_ref().unwrap().trace.result);
+    assert!(stops.is_err() && runs.is_ok());
+    let diagonal: Vec<f64> = (1..=6).map(|e| matrix(run("K3"))[(e, e)]).collect();
+    assert!(diagonal.iter().all(|x| (1e4..=3e4).contains(x)), "{diagonal:?}");
+    let last = both("K4").each_ref().map(|run| matrix(run)[(8, 8)]);
+    assert_eq!(last, [0.0, 1.0], "the equations of the node of no triangle");
+    let [printed, repaired] = both("K7");
+    assert_eq!(additions(printed), 0, "fl is 0 in the stamp's triangle");
+    assert_eq!(additions(repaired), 36, "node 4 adds with its own weight");
+}
+
+fn runs(finding: &Finding, switches: [Switch; 2]) -> [Run; 2] {
+    switches.map(|switch| lesson::run(&finding.scene(), switch, &[]).expect("it runs"))
+}
+
+/// K1, and with it C7, C13 and K2: the repaired `Km` is Tᵀ·K·T, with the rows of the free equations
+/// as products of matrices give them, in either order of `cnt`.
+#[test]
+fn the_repair_of_k1_joins_the_bodies() {
+    for id in ["K1", "C7", "C13", "K2"] {
+        let [own, reversed] = [false, true].map(|reverse| {
+            let mut json = scene_json(id);
+            if reverse {
+                json["contact"]["cnt"].as_array_mut().expect("a list").reverse();
+            }
+            // The target can move.
+            json["restraints"].as_array_mut().expect("a list").retain(|r| r["on"] != 1);
+            let [_, repaired] = lesson::repair(finding("K1")).expect("a repair");
+            let run = lesson::run(&build(&json).expect("a sound scene"), repaired, &[]).unwrap();
+            let Ok(Product::Matrix(mjs)) = run.km.expect("Km is called").trace.result else {
+                panic!("Km ends with a matrix")
+            };
+            (mjs.into_matrix(), run.model)
+        });
+        let expected = constrained(&own.1);
+        assert!(expected.amax() > 1.0);
+        assert_near(id, (&own.0 - &expected).amax(), 0.0, expected.amax(), &FINDING);
+        assert_near(id, (reversed.0 - &expected).amax(), 0.0, expected.amax(), &FINDING);
+    }
+}
+
+/// Tᵀ·K·T of a model in its initial shape, 1 on the diagonal of the equations without an entry.
+fn constrained(model: &Model) -> DMatrix<f64> {
+    let call = Call::c_cnt(model, &Reading::default(), &model.nodes).expect("c_cnt runs");
+    let free = free_stiffness(&call.sheet, &Reading::default()).expect("finite").into_matrix();
+    let mut t = DMatrix::identity(free.nrows(), free.nrows());
+    for bound in linked(&call.sheet, &call.pairs) {
+        for e in bound.node.dofs().map(|dof| dof.index()) {
+            t[(e, e)] = 0.0;
+        }
+        for (master, weight) in bound.masters {
+            for (e, m) in bound.node.dofs().into_iter().zip(master.dofs()) {
+                t[(e.index(), m.index())] = weight;
+            }
+        }
+    }
+    for e in (0..free.nrows()).filter(|e| model.restrained[*e]) {
+        t.column_mut(e).fill(0.0);
+    }
+    let mut mjs = t.transpose() * free * t;
+    for e in 0..mjs.nrows() {
+        if mjs[(e, e)] == 0.0 {
+            mjs[(e, e)] = 1.0;
+        }
+    }
+    mjs
+}
+
+/// What the chapters without a repair of a listing say in its place.
+#[test]
+fn each_finding_without_a_repair_has_a_reason_that_holds() {
+    let reasons = FINDINGS.iter().filter_map(|f| Some((f.id, lesson::repair(f).err()?)));
+    let ids: Vec<&str> = reasons
+        .map(|(id, reason)| {
+            assert!(reason.contains(&format!("solve findings/{id}")), "{reason}");
+            id
         })
         .collect();
-    let ids: Vec<&str> = repaired.iter().map(|(id, _)| *id).collect();
-    assert_eq!(ids, ["C3", "C4", "C5", "C11", "C12", "C14", "C15", "K3", "K7"]);
-    let run = |id: &str| &repaired.iter().find(|(other, _)| *other == id).expect("an id").1;
-    let pairs = |id: &str| match &run(id).c_cnt.as_ref().expect("contact").trace.result {
-        Ok(Product::Pairs(pairs)) => pairs.clone(),
-        _ => panic!("{id}: c_cnt ends with pairs"),
+    assert_eq!(ids, ["C6", "K5", "K6", "K9"]);
+    let solved = |id: &str, change: &dyn Fn(Request) -> Request| {
+        let request = change(Request::new(&finding(id).scene()));
+        answer::solve(&request, &mut |_| ()).expect("it runs")
     };
-    let matrix = |id: &str| match &run(id).km.as_ref().expect("Km is called").trace.result {
-        Ok(Product::Matrix(matrix)) => matrix.clone(),
-        _ => panic!("{id}: Km ends with a matrix"),
-    };
-    let statuses =
-        [("C4", vec![0, 1]), ("C5", vec![1, 1]), ("C11", vec![1, 0]), ("C15", vec![1, 0])];
-    for (id, dy) in statuses {
-        assert_eq!(pairs(id).dy.as_slice(), dy, "{id}");
-    }
-    assert_eq!(pairs("C3").dy.as_slice(), [1], "0.09 along the normal is within 0.1");
-    assert_eq!(pairs("C14").ct.as_slice(), [1], "the node on its edge is found");
-    assert_eq!(pairs("C12").k_cnt.row(4).copied().collect::<Vec<_>>(), [1.0, 0.75, 2.0, 0.25]);
-    let diagonal: Vec<f64> = (1..=6).map(|e| matrix("K3")[(e, e)]).collect();
-    assert!(diagonal.iter().all(|x| (1e4..=3e4).contains(x)), "{diagonal:?}");
-    let printed = lesson::run(&finding("K7").scene(), Switch::as_printed(), &[]).expect("it runs");
-    assert_eq!(additions(&printed), 0, "fl is 0 in the stamp's triangle");
-    assert_eq!(additions(run("K7")), 36, "node 4 adds with its own weight");
+    let current = solved("C6", &|request| request.reading("R5=node_n".parse().unwrap()));
+    let found = current.steps.iter().filter_map(|step| match &step.detail {
+        Detail::Published(found) => Some(linked(&worksheet(&current.model, |x| x), &found.pairs)),
+        Detail::Unilateral(_) => None,
+    });
+    let weights: Vec<f64> =
+        found.flatten().flat_map(|bound| bound.masters.map(|(_, weight)| weight)).collect();
+    assert!(!weights.is_empty() && weights.iter().all(|k| (0.0..=1.0).contains(k)), "{weights:?}");
+    let stepped = solved("K5", &|request| request.variant(Variant::Stepped));
+    assert!(stepped.steps.iter().all(|step| step.cycle.as_ref().is_none_or(|c| c.length == 1)));
+    solved("K6", &|request| request);
+    let released = solved("K9", &|request| request.variant(Variant::Unilateral));
+    assert_eq!(released.in_contact().count(), 0);
 }
 
 /// How often line 23 is reached in the second triangle.

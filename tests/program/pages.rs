@@ -12,6 +12,7 @@ use tempfile::TempDir;
 
 use crate::common::program::run;
 use crate::common::tolerances::{PICTURE, assert_near};
+use crate::common::tools::is_there;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -52,6 +53,7 @@ fn in_browser(modules: &Path, script: &str, args: &[&str]) {
     let said =
         [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
     assert!(output.status.success(), "{}", said.concat());
+    println!("{}", said.concat());
 }
 
 /// Compares the pictures in a folder with those of `golden/pages/`; INSTA_UPDATE=always takes them.
@@ -117,6 +119,37 @@ fn the_report_shows_what_solve_and_audit_have() {
     let pictures = folder.path().to_string_lossy().into_owned();
     in_browser(&modules, "report.cjs", &[&page, &pictures, &result, &audit]);
     assert_pictures(folder.path(), 4);
+    in_browser(&modules, "large.cjs", &[&page, "2014"]);
+}
+
+/// The page of a mesh that a canvas's own paths, or SVG, would take seconds to draw.
+#[test]
+fn a_report_shows_100_352_triangles() {
+    let Some(modules) = browser() else { return };
+    let folder = TempDir::new().expect("a folder");
+    made(folder.path(), "mesh", &["mesh", "blocks", "--upper", "224", "--lower", "224"]);
+    let args = ["report", "out/mesh-blocks", "--variant", "unilateral", "--no-audit"];
+    let page = made(folder.path(), "report.html", &args);
+    in_browser(&modules, "large.cjs", &[&page, "100352"]);
+}
+
+#[test]
+fn a_report_has_hertz_charts_and_calculix_beside_the_runs() {
+    let Some(modules) = browser() else { return };
+    let folder = TempDir::new().expect("a folder");
+    let report = |kind: &str, args: &[&str]| {
+        let args = [&["report", "--no-audit"], args].concat();
+        in_browser(&modules, "beside.cjs", &[&made(folder.path(), "report.html", &args), kind]);
+    };
+    made(folder.path(), "mesh", &["mesh", "hertz"]);
+    report("hertz", &["out/mesh-hertz", "--variant", "unilateral"]);
+    made(folder.path(), "trade", &["trade", "two-blocks", "--only", "solver", "--out", "charts"]);
+    report("charts", &["two-blocks", "--charts", "charts"]);
+    let mut ccx = Command::new("sh");
+    ccx.args(["-c", "command -v ccx"]);
+    if is_there(ccx, "REQUIRE_CCX") {
+        report("calculix", &["fig1", "--ccx"]);
+    }
 }
 
 /// The page of an exercise, filled in with what `c_cnt` finds on its scene and with one mistake; the
@@ -166,12 +199,16 @@ fn answers_to_an_exercise_are_marked() {
 #[test]
 fn a_page_is_the_same_on_every_run_and_has_nothing_from_outside() {
     let folder = TempDir::new().expect("a folder");
-    let page =
-        |name| std::fs::read_to_string(made(folder.path(), name, &["lesson"])).expect("UTF-8");
-    let text = page("a.html");
-    assert_eq!(text, page("b.html"));
-    for outside in ["http://", "https://", "src=", "@import", "url("] {
-        assert!(!text.contains(outside), "{outside}");
+    let page = |name, args: &[&str]| {
+        std::fs::read_to_string(made(folder.path(), name, args)).expect("UTF-8")
+    };
+    for args in [&["lesson"][..], &["report", "fig1"]] {
+        let text = page("a.html", args);
+        assert_eq!(text, page("b.html", args));
+        let text = text.replace("http://www.w3.org/2000/svg", "the name of SVG");
+        for outside in ["http://", "https://", "src=", "@import", "url("] {
+            assert!(!text.contains(outside), "{args:?}: {outside}");
+        }
     }
 }
 

@@ -19,7 +19,7 @@ function short(x) {
   if (typeof x !== "number") return String(x);
   const size = Math.abs(x);
   const text = size !== 0 && (size < 1e-4 || size >= 1e7) ? x.toExponential(3) : String(Number(x.toPrecision(6)));
-  return text.replace("-", "−");
+  return text.replaceAll("-", "−");
 }
 
 /** Writes a value in full: a number with all its digits, an array as Mathcad shows it. */

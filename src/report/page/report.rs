@@ -70,6 +70,7 @@ pub fn html(report: &Report) -> String {
         script: &[
             include_str!("table.js"),
             include_str!("report/fields.js"),
+            include_str!("report/raster.js"),
             include_str!("report/viewer.js"),
             include_str!("report/chart.js"),
             include_str!("report/report.js"),
@@ -153,11 +154,12 @@ fn values(state: &State) -> [f64; 8] {
     [sx, sy, sxy, state.von_mises_stress, ex, ey, exy, state.von_mises_strain]
 }
 
-/// Returns CalculiX's fields as a run; it is not asked for strains.
+/// Returns CalculiX's fields as a run; strains, which it is not asked for, are no numbers.
 fn calculix_run(comparison: &Comparison) -> Value {
     let Fields { u, sigma } = &comparison.theirs;
     let state = sigma.iter().zip(&comparison.von_mises[1]);
-    let state = state.flat_map(|(s, v)| [s[0], s[1], s[3], *v, 0.0, 0.0, 0.0, 0.0]);
+    let state =
+        state.flat_map(|(s, v)| [s[0], s[1], s[3], *v, f64::NAN, f64::NAN, f64::NAN, f64::NAN]);
     json!({
         "name": "CalculiX",
         "u": floats(u.as_flattened().iter().copied()),

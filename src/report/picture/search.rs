@@ -79,10 +79,13 @@ pub fn panel(page: &mut Page, points: &[[f64; 2]], edges: &[[usize; 2]], search:
     let at = |[x, y]: [f64; 2]| {
         [MARGIN + (x - bounds.low[0]) * scale, bottom - (y - bounds.low[1]) * scale * times]
     };
+    let heights = match times {
+        1.0 => String::new(),
+        times => format!(", heights drawn {times} times as large as lengths"),
+    };
     page.paragraph(&format!(
-        "c_cnt in the initial shape, heights drawn {times} times as large as lengths: the boxes of \
-         lines 5 to 7, the arrow Y of line 10 from each node to the line of its target edge; filled \
-         nodes are in contact."
+        "c_cnt in the initial shape{heights}: the boxes of lines 5 to 7, the arrow Y of line 10 \
+         from each node to the line of its target edge; filled nodes are in contact."
     ));
     let boxes = search.boxes.iter().map(|[a, b]| {
         let [a, b] = [at(*a), at(*b)];

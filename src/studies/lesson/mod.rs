@@ -49,7 +49,7 @@ pub struct Program {
 /// # Errors
 /// A named node is no contact node, or there are more steps than a page can show.
 pub fn run(scene: &Scene, switch: Switch, nodes: &[usize]) -> Result<Run> {
-    let model = switch.request(scene).model()?;
+    let model = switch.model(scene)?;
     check(&model, nodes)?;
     let kept = Kept::of(&model, nodes);
     let worksheet = switch.settings();

@@ -1,6 +1,9 @@
 //! What a lesson can switch: readings, the worksheet's settings, the tolerance, an edited listing.
 
-use super::{Listing, Reading, Request, Scene, Settings, Which, settings};
+use std::sync::Arc;
+
+use super::{Listing, Model, Reading, Request, Scene, Settings, Which, settings};
+use crate::answer::error::Result;
 use crate::problem::element::Plane;
 use crate::problem::modelling::Variant;
 use crate::studies::audit::readings::WORKSHEETS;
@@ -12,12 +15,14 @@ pub struct Switch {
     pub name: String,
     /// What it does, in words.
     pub about: String,
-    reading: Reading,
+    pub(super) reading: Reading,
     worksheet: fn(&mut Settings),
     /// The tolerance over the scene's.
     factor: f64,
+    /// What is changed of the scene's model.
+    pub(super) change: fn(&mut Model),
     /// The listing in place of one of the paper's.
-    edited: Option<(Which, Listing)>,
+    pub(super) edited: Option<(Which, Listing)>,
 }
 
 /// The values of R1 to R8 that are not the default and that a call of the listings depends on; R6
@@ -70,6 +75,7 @@ impl Switch {
             reading: Reading::default(),
             worksheet: |_| (),
             factor: 1.0,
+            change: |_| (),
             edited: None,
         }
     }
@@ -84,10 +90,13 @@ impl Switch {
         Switch { edited: Some((which, listing)), ..Switch::named(name, about) }
     }
 
-    pub(super) fn request(&self, scene: &Scene) -> Request {
+    /// Returns the scene's model under the switch.
+    pub(super) fn model(&self, scene: &Scene) -> Result<Arc<Model>> {
         let mut request = Request::new(scene).variant(Variant::Printed).reading(self.reading);
         request.tolerance = Some(self.factor * scene.model.contact.tolerance);
-        request
+        let mut model = Arc::unwrap_or_clone(request.model()?);
+        (self.change)(&mut model);
+        Ok(Arc::new(model))
     }
 
     pub(super) fn listing(&self, which: Which) -> Listing {

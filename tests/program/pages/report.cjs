@@ -34,11 +34,36 @@ async function fields(browser) {
     await page.fill("#probe-y", String(place[1]));
     await page.click("#probe button");
     const cells = await page.locator("#probes tbody tr").last().locator("td").evaluateAll((all) => all.map((cell) => cell.dataset.exact ?? cell.textContent));
-    assert.equal(cells[2], String(element.n), `the triangle at ${place}`);
-    const shown = Number(cells[6].replace("−", "-"));
+    assert.equal(cells[2], `triangle ${element.n}`, `the triangle at ${place}`);
+    const shown = Number(cells[6].replaceAll("−", "-"));
     assert.ok(Math.abs(shown - value(element)) <= 1e-4 * Math.abs(value(element)) + 1e-12, `${name}: ${shown}, ${value(element)}`);
   }
   for (const name of await page.locator("#field option").allTextContents()) await page.selectOption("#field", { label: name });
+  assert.deepEqual(said, []);
+}
+
+/** Gap, pressure and shear at contact nodes, by probes; they are kept of the last iteration only. */
+async function surface(browser) {
+  const { page, said } = await open(browser, file);
+  const nodes = result.contact.filter(({ dy }) => dy === 1);
+  const of = { gap: "gap", "contact pressure": "pressure", "contact shear": "shear" };
+  await page.click("#zoom-contact");
+  for (const [name, key] of Object.entries(of)) {
+    await page.selectOption("#field", { label: name });
+    for (const node of nodes.slice(0, 3)) {
+      const [x, y] = result.nodes[node.node - 1];
+      await page.fill("#probe-x", String(x));
+      await page.fill("#probe-y", String(y));
+      await page.click("#probe button");
+      const cells = await page.locator("#probes tbody tr").last().locator("td").evaluateAll((all) => all.map((cell) => cell.dataset.exact ?? cell.textContent));
+      assert.deepEqual([cells[2], cells[6]], [`node ${node.node}`, String(node[key])]);
+    }
+  }
+  await page.locator("#view-0").focus();
+  await page.keyboard.press("Enter");
+  assert.match(await page.locator("#probes tbody tr").last().locator("td").nth(2).textContent(), /^node \d+$/);
+  await setRange(page, "iteration", 2);
+  assert.match(await page.textContent("#said-0"), /is kept of the last iteration only/);
   assert.deepEqual(said, []);
 }
 
@@ -102,5 +127,5 @@ async function views(browser) {
   });
 }
 
-const tests = [fields, iterations, tables, moves, views];
+const tests = [fields, surface, iterations, tables, moves, views];
 runAll(tests);

@@ -55,7 +55,7 @@ function showFinding(chapter) {
   const place = byId("finding");
   place.hidden = !chapter.finding;
   if (!chapter.finding) return;
-  const [row, { why, repair }] = chapter.finding;
+  const [row, { why, repair, no_repair: noRepair }] = chapter.finding;
   const lines = row.lines.length ? `${row.listing} ${row.lines.join(", ")}` : "around the listings";
   const part = (term, text) => [make("dt", {}, term), make("dd", {}, text)];
   place.replaceChildren(
@@ -66,7 +66,7 @@ function showFinding(chapter) {
       ...part("On this scene", `${row.verdict}: ${short(row.number)} ${row.of}. ${row.detail}`),
       ...part("Why it matters", why),
       ...part("A repair", repair),
-      ...part("Before and after", chapter.runs.length > 1 ? "choose the reading “repaired”: the listing with the repair, and what it changes" : "the repair is no edit of one or two lines; audit measures what the finding does"),
+      ...part("Before and after", noRepair ?? `before: ${chapter.runs[0].about}; after: choose the reading “repaired”, the listing with the repair, and see what it changes`),
     ),
   );
 }

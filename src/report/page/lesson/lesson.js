@@ -106,7 +106,7 @@ function watch() {
     radio.addEventListener("change", () => choose({ which: radio.value }));
   }
   window.addEventListener("resize", show);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
+  matchMedia("screen and (prefers-color-scheme: dark)").addEventListener("change", show);
   watchMatrix(() => page.map);
 }
 

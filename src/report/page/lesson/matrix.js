@@ -20,6 +20,7 @@ class MatrixMap {
     this.machine = machine;
     this.equations = mappedNodes(mesh, machine).flatMap((n) => [2 * n - 1, 2 * n]);
     this.cursor = [0, 0];
+    this.joins = machine.lines.some(({ text }) => text.startsWith("MJS[V[i],W[j]]"));
     this.places = new Map(this.equations.map((e, k) => [e, k]));
   }
 
@@ -60,12 +61,12 @@ class MatrixMap {
         if (now) this.frame(context, row, column, "ink", 3);
       }),
     );
-    this.neverAdded(context);
+    if (!this.joins) this.neverAdded(context);
     this.numbers(context);
     if (document.activeElement === canvas) this.frame(context, ...this.cursor, "accent", 2);
     byId("matrix-caption").textContent =
       "Blue: above 0, red: below 0, the darker the larger. Yellow: the rows and columns of V; pink: of W. " +
-      "Dashed: the block (V, W), which would join the two bodies and is never added (K1).";
+      (this.joins ? "The block (V, W) joins the two bodies." : "Dashed: the block (V, W), which would join the two bodies and is never added (K1).");
     canvas.setAttribute("aria-label", `MJS, ${count} by ${count} entries; arrow keys go from entry to entry`);
     this.say();
   }

@@ -221,7 +221,7 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
     label(context, mesh.figure.get(node), [point[0], point[1] + (below ? 24 : -13)], colour("stamp-ink"));
   }
   byId("gaps-caption").textContent = known.length
-    ? `Gaps are drawn ${short(factor)} times as large as lengths along x. Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.`
+    ? `${factor === 1 ? "" : `Gaps are drawn ${short(factor)} times as large as lengths along x. `}Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.`
     : "No gap is known yet: line 10 computes them.";
   canvas.setAttribute("aria-label", `Gaps: ${known.map((n) => `${mesh.name(n.node)} ${short(n.yt)}`).join(", ") || "none yet"}`);
 }

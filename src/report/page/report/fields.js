@@ -2,7 +2,7 @@
 
 /** The numbers that a text in base64 holds. */
 function numbers(Kind, text) {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const bytes = Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   return new Kind(bytes.buffer);
 }
 
@@ -25,7 +25,7 @@ function range(values) {
 }
 
 /** What can be shown: its name, its unit, and where its values are: a place in a triangle's state,
- * or what is taken of a node's displacement. */
+ * what is taken of a node's displacement, or what is known of a contact node. */
 const FIELDS = [
   { name: "von Mises stress", unit: "stress", state: 3 },
   { name: "stress σx", unit: "stress", state: 0 },
@@ -38,6 +38,9 @@ const FIELDS = [
   { name: "displacement |u|", unit: "length", of: Math.hypot },
   { name: "displacement ux", unit: "length", of: (x) => x },
   { name: "displacement uy", unit: "length", of: (x, y) => y },
+  { name: "gap", unit: "length", contact: "gap" },
+  { name: "contact pressure", unit: "stress", contact: "pressure" },
+  { name: "contact shear", unit: "stress", contact: "shear" },
 ];
 
 const unitOf = (field) => (field.unit ? (data.units[field.unit] ?? "") : "");
@@ -60,25 +63,37 @@ function displacements(run, k) {
   return (holder.opened ??= numbers(Float32Array, holder.u));
 }
 
-/** The values of a field by triangle; null where the iteration does not have it. */
+/** The values of a field by triangle, in an iteration; null where they are not known. */
 function valuesOf(run, field, k) {
-  const values = new Float32Array(mesh.count);
-  if (field.of) {
-    const u = displacements(run, k);
-    const of = (n) => field.of(u[2 * n], u[2 * n + 1]);
-    for (let t = 0; t < mesh.count; t += 1) {
-      values[t] = (of(mesh.triangles[3 * t]) + of(mesh.triangles[3 * t + 1]) + of(mesh.triangles[3 * t + 2])) / 3;
-    }
-    return values;
-  }
+  if (field.contact) return null;
+  if (field.of) return ofTriangles(displacements(run, k), field.of);
   const kept = run.iterations[k - 1];
+  if (kept && field.state !== 3) return null;
+  const values = new Float32Array(mesh.count);
   if (kept) {
-    if (field.state !== 3) return null;
     const parts = numbers(Uint16Array, kept.von_mises);
     return values.map((_, t) => (parts[t] / 65535) * kept.most);
   }
   run.states ??= numbers(Float32Array, run.state);
-  return values.map((_, t) => run.states[8 * t + field.state]);
+  // What a program was not asked for is no number.
+  return Number.isNaN(run.states[field.state]) ? null : values.map((_, t) => run.states[8 * t + field.state]);
+}
+
+/** The mean over each triangle's nodes of what `of` takes of a displacement. */
+function ofTriangles(u, of) {
+  const { triangles } = mesh;
+  const at = Float32Array.from({ length: mesh.nodes }, (_, n) => of(u[2 * n], u[2 * n + 1]));
+  const mean = (_, t) => (at[triangles[3 * t]] + at[triangles[3 * t + 1]] + at[triangles[3 * t + 2]]) / 3;
+  return new Float32Array(mesh.count).map(mean);
+}
+
+/** The values of a field at contact nodes, by node from 0, in order along the surface; null where
+ * they are not known, as before the last iteration. */
+function marksOf(run, field, k) {
+  if (!field.contact || k < iterationsOf(run)) return null;
+  const known = (run.result?.contact ?? []).map((node) => [node.node - 1, node[field.contact]]);
+  const marks = new Map(known.filter(([, value]) => typeof value === "number"));
+  return marks.size > 0 ? marks : null;
 }
 
 /** The nodes' places under displacements drawn `factor` times. */

@@ -86,6 +86,12 @@ function stretch(runs) {
   return from < to ? [from - margin, to + margin] : range(runs.flatMap(({ result }) => result.contact.map(({ arc }) => arc)));
 }
 
+/** Hertz's pressure over the distance along the contact surface. */
+function hertzCurve({ centre, half_width, peak }) {
+  const at = Array.from({ length: 201 }, (_, k) => -1 + k / 100);
+  return at.map((s) => [centre + s * half_width, peak * Math.sqrt(1 - s * s)]);
+}
+
 function showSurface() {
   const runs = data.runs.filter(({ result }) => result?.contact.length);
   if (runs.length === 0) return fill("surface");
@@ -93,10 +99,7 @@ function showSurface() {
   const across = `distance along the contact surface, ${data.units.length}`;
   const series = (of) => runs.map(({ name, result }) => ({ name, points: result.contact.filter(({ arc }) => from <= arc && arc <= to).map((c) => [c.arc, of(c)]).filter(([, y]) => typeof y === "number") }));
   const hertz = runs.map(({ result }) => result.hertz).findLast((hertz) => hertz);
-  const curve = hertz && { name: "Hertz", points: Array.from({ length: 101 }, (_, k) => {
-    const s = -1 + k / 50;
-    return [hertz.centre + s * hertz.half_width, hertz.peak * Math.sqrt(Math.max(0, 1 - s * s))];
-  }) };
+  const curve = hertz && { name: "Hertz", points: hertzCurve(hertz).filter(([arc]) => from <= arc && arc <= to) };
   const all = [
     ["Contact pressure", "stress", [...series((c) => c.pressure), ...(curve ? [curve] : [])]],
     ["Shear on the contact surface", "stress", series((c) => c.shear)],

@@ -1,5 +1,4 @@
-// Two pictures of fields that move together. Triangles are drawn once for a view, by colour; while
-// the view moves, what was drawn is moved, and drawn anew when it rests.
+// Two pictures of fields that move together.
 
 const view = { cx: 0, cy: 0, scale: 1, field: FIELDS[0], k: 1, factor: 0, panels: [] };
 const SHADES = data.colours.map(([r, g, b]) => `rgb(${r},${g},${b})`);
@@ -26,66 +25,66 @@ function compute() {
     const k = Math.min(view.k, iterationsOf(panel.run));
     panel.places = placesOf(panel.run, k, view.factor);
     panel.values = valuesOf(panel.run, view.field, k);
+    panel.marks = marksOf(panel.run, view.field, k);
     panel.k = k;
   }
-  const ranges = view.panels.filter(({ values }) => values).map(({ values }) => range(values));
+  const ranges = view.panels.map(rangeOf).filter((known) => known);
   view.range = ranges.length ? [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))] : [0, 1];
+  const plain = packed([1, 3, 5].map((at) => parseInt(colour("rule").slice(at, at + 2), 16)));
+  const shades = data.colours.map(packed);
+  for (const { colours, values } of view.panels) {
+    if (values) for (let t = 0; t < mesh.count; t += 1) colours[t] = shades[shadeOf(values[t])];
+    else colours.fill(plain);
+  }
+}
+
+/** The smallest and the largest value that a panel shows; nothing where it shows none. */
+function rangeOf({ values, marks }) {
+  const all = values ?? marks?.values();
+  return all && range(all);
+}
+
+/** The place of a value's colour. */
+function shadeOf(value) {
   const [low, high] = view.range;
-  for (const panel of view.panels) panel.order = panel.values && byColour(panel.values, low, high);
+  if (!(high > low)) return SHADES.length >> 1;
+  return Math.min(SHADES.length - 1, Math.floor(((value - low) / (high - low)) * SHADES.length));
 }
 
-/** The triangles in the order of their colours, and where each colour begins. */
-function byColour(values, low, high) {
-  const shades = SHADES.length;
-  const part = (x) => (high > low ? Math.min(shades - 1, Math.floor(((x - low) / (high - low)) * shades)) : shades >> 1);
-  const begins = new Uint32Array(shades + 1);
-  for (const x of values) begins[part(x) + 1] += 1;
-  for (let s = 0; s < shades; s += 1) begins[s + 1] += begins[s];
-  const next = begins.slice(0, shades);
-  const order = new Uint32Array(values.length);
-  values.forEach((x, t) => (order[next[part(x)]++] = t));
-  return { begins, order };
-}
-
-/** Draws every triangle of a panel. */
-function drawTriangles(panel) {
-  const { context, width, height: tall } = prepared(panel.canvas, height(panel.canvas));
-  const { triangles } = mesh;
-  const { places, order } = panel;
-  const [x0, y0] = [width / 2 - view.cx * view.scale, tall / 2 + view.cy * view.scale];
-  const x = (n) => x0 + places[2 * n] * view.scale;
-  const y = (n) => y0 - places[2 * n + 1] * view.scale;
-  context.lineWidth = 0.6;
-  const batch = (from, to, shade, of) => {
-    if (from === to) return;
-    context.beginPath();
-    for (let k = from; k < to; k += 1) {
-      const t = 3 * of(k);
-      context.moveTo(x(triangles[t]), y(triangles[t]));
-      context.lineTo(x(triangles[t + 1]), y(triangles[t + 1]));
-      context.lineTo(x(triangles[t + 2]), y(triangles[t + 2]));
-      context.closePath();
-    }
-    context.fillStyle = context.strokeStyle = shade;
-    context.fill();
-    context.stroke();
-  };
-  if (order) SHADES.forEach((shade, s) => batch(order.begins[s], order.begins[s + 1], shade, (k) => order.order[k]));
-  else batch(0, mesh.count, colour("rule"), (k) => k);
-  drawSurfaces(context, x, y);
-  panel.drawn = { cx: view.cx, cy: view.cy, scale: view.scale, picture: snapshot(panel.canvas) };
+/** Draws a panel with so many pixels to one of the page. */
+function draw(panel, ratio) {
+  const { canvas, places } = panel;
+  const [width, tall] = [canvas.clientWidth, height(canvas)];
+  canvas.style.height = `${tall}px`;
+  const [columns, rows] = [width, tall].map((size) => Math.round(size * ratio));
+  if (canvas.width !== columns || canvas.height !== rows) {
+    [canvas.width, canvas.height] = [columns, rows];
+    panel.image = new ImageData(columns, rows);
+    panel.pixels = new Uint32Array(panel.image.data.buffer);
+  }
+  const [scale, x0, y0] = [view.scale * ratio, columns / 2, rows / 2];
+  for (let n = 0; n < mesh.nodes; n += 1) {
+    panel.x[n] = x0 + (places[2 * n] - view.cx) * scale;
+    panel.y[n] = y0 - (places[2 * n + 1] - view.cy) * scale;
+  }
+  panel.pixels.fill(0);
+  fillTriangles(panel.pixels, columns, mesh.triangles, panel.x, panel.y, panel.colours);
+  const context = canvas.getContext("2d");
+  context.putImageData(panel.image, 0, 0);
+  drawSurfaces(context, panel, ratio);
+  if (panel.marks) drawMarks(context, panel, ratio);
 }
 
 /** The two contact surfaces: contact nodes joined, target edges. */
-function drawSurfaces(context, x, y) {
+function drawSurfaces(context, { x, y }, ratio) {
   const stroke = (edges, ink) => {
     context.beginPath();
     for (const [a, b] of edges) {
-      context.moveTo(x(a - 1), y(a - 1));
-      context.lineTo(x(b - 1), y(b - 1));
+      context.moveTo(x[a - 1], y[a - 1]);
+      context.lineTo(x[b - 1], y[b - 1]);
     }
     context.strokeStyle = colour(ink);
-    context.lineWidth = 1.2;
+    context.lineWidth = 1.2 * ratio;
     context.stroke();
   };
   stroke(data.mesh.edges, "target-ink");
@@ -93,32 +92,32 @@ function drawSurfaces(context, x, y) {
   stroke(contact.slice(1).map((n, k) => [contact[k], n]), "stamp-ink");
 }
 
-function snapshot(canvas) {
-  const kept = document.createElement("canvas");
-  [kept.width, kept.height] = [canvas.width, canvas.height];
-  kept.getContext("2d").drawImage(canvas, 0, 0);
-  return kept;
+/** The values at contact nodes, each by a disc in its colour. */
+function drawMarks(context, { x, y, marks }, ratio) {
+  context.strokeStyle = colour("ink");
+  context.lineWidth = 0.5 * ratio;
+  for (const [n, value] of marks) {
+    context.beginPath();
+    context.arc(x[n], y[n], 5 * ratio, 0, 2 * Math.PI);
+    context.fillStyle = SHADES[shadeOf(value)];
+    context.fill();
+    context.stroke();
+  }
 }
 
-/** Shows what was drawn where it is in the view now. */
-function moveDrawn(panel) {
-  const { canvas, drawn } = panel;
-  const context = canvas.getContext("2d");
-  const ratio = window.devicePixelRatio || 1;
-  const grown = view.scale / drawn.scale;
-  const [w, h] = [canvas.width, canvas.height];
-  context.setTransform(1, 0, 0, 1, 0, 0);
-  context.clearRect(0, 0, w, h);
-  const dx = (drawn.cx - view.cx) * view.scale * ratio;
-  const dy = (view.cy - drawn.cy) * view.scale * ratio;
-  context.drawImage(drawn.picture, w / 2 + dx - (w * grown) / 2, h / 2 + dy - (h * grown) / 2, w * grown, h * grown);
-}
+/** The pixels to one of the page of a picture at rest, whose edges are then smooth. */
+const fine = () => Math.max(2, window.devicePixelRatio);
 
-/** Moves what was drawn at once; draws anew when the view rests. */
+const drawAll = (ratio) => view.panels.forEach((panel) => draw(panel, ratio));
+
+/** Draws a moving view once a frame, and finely when it rests. */
 function moved() {
-  view.panels.forEach(moveDrawn);
+  view.frame ??= requestAnimationFrame(() => {
+    view.frame = undefined;
+    drawAll(window.devicePixelRatio);
+  });
   clearTimeout(view.resting);
-  view.resting = setTimeout(() => view.panels.forEach(drawTriangles), REST);
+  view.resting = setTimeout(() => drawAll(fine()), REST);
 }
 
 function drawScale() {
@@ -133,26 +132,39 @@ function drawScale() {
   context.fillStyle = colour("ink");
   for (let k = 0; k <= 4; k += 1) {
     context.textAlign = k === 0 ? "left" : k === 4 ? "right" : "center";
-    context.fillText(short(Number((low + ((high - low) * k) / 4).toPrecision(4))), 12 + (wide * k) / 4, 34);
+    const value = low + ((high - low) * k) / 4;
+    const rounding = 1e-9 * (high - low);
+    context.fillText(short(Math.abs(value) < rounding ? 0 : Number(value.toPrecision(4))), 12 + (wide * k) / 4, 34);
   }
   canvas.setAttribute("aria-label", `${view.field.name} from ${short(low)} to ${short(high)} ${unitOf(view.field)}`);
+}
+
+/** What a panel shows, in words. */
+function saidOf(panel) {
+  const { run, k } = panel;
+  const name = view.field.name;
+  const known = rangeOf(panel);
+  if (!known) return `${run.name}: ${name} is ${k < iterationsOf(run) ? "kept of the last iteration only" : "not known"}`;
+  return `${run.name}, iteration ${numberOf(run, k)} of ${lastOf(run)}: ${name} from ${known.map(short).join(" to ")} ${unitOf(view.field)}`;
+}
+
+/** Which shape is drawn, in words. */
+function drawnShape() {
+  if (view.factor === 0) return "undeformed";
+  return view.factor === 1 ? "deformed" : `displacements drawn ${short(view.factor)} times`;
 }
 
 /** Computes and draws everything anew. */
 function showFields() {
   compute();
-  view.panels.forEach(drawTriangles);
+  drawAll(fine());
   drawScale();
   const most = Math.max(...view.panels.map(({ run }) => iterationsOf(run)));
   byId("iteration").max = most;
   byId("iteration-shown").textContent = view.panels.map(({ run, k }) => `${numberOf(run, k)} of ${lastOf(run)}`).join(" | ");
   view.panels.forEach((panel, side) => {
-    const [low, high] = panel.values ? range(panel.values) : [];
-    const unit = unitOf(view.field);
-    const said = panel.values
-      ? `${panel.run.name}, iteration ${numberOf(panel.run, panel.k)} of ${lastOf(panel.run)}: ${view.field.name} from ${short(low)} to ${short(high)} ${unit}`
-      : `${panel.run.name}: ${view.field.name} is kept of the last iteration only`;
-    byId(`said-${side}`).textContent = `${said}; displacements drawn ${short(view.factor)} times`;
+    const said = saidOf(panel);
+    byId(`said-${side}`).textContent = `${said}; ${drawnShape()}`;
     panel.canvas.setAttribute("aria-label", said);
   });
   showIterations(view.panels[0].run);
@@ -164,30 +176,49 @@ function pointAt(panel, offsetX, offsetY) {
   return [view.cx + (offsetX - canvas.clientWidth / 2) / view.scale, view.cy - (offsetY - height(canvas) / 2) / view.scale];
 }
 
-/** What both panels show at a triangle. */
-function valuesAt(t) {
-  return view.panels.map(({ values }) => (values && t >= 0 ? values[t] : null));
+/** The contact node with a value that is nearest to a point, from 0, and how far it is. */
+function markAt({ places, marks }, x, y) {
+  const far = (n) => Math.hypot(places[2 * n] - x, places[2 * n + 1] - y);
+  const nearest = [...(marks?.keys() ?? [])].reduce((best, n) => (best === undefined || far(n) < far(best) ? n : best), undefined);
+  return nearest === undefined ? [-1, Infinity] : [nearest, far(nearest)];
 }
+
+/** What there is at a point of a panel's drawn shape: in words, and the value of each panel there. A
+ * contact node is found `within` a distance. */
+function foundAt(panel, x, y, within) {
+  if (view.field.contact) {
+    const [n, far] = markAt(panel, x, y);
+    if (far > within) return null;
+    return { at: `node ${n + 1}`, values: view.panels.map(({ marks }) => marks?.get(n) ?? null) };
+  }
+  const t = triangleAt(panel.places, x, y);
+  if (t < 0) return null;
+  return { at: `triangle ${t + 1}`, body: data.mesh.bodies[mesh.body[t]], values: view.panels.map(({ values }) => values?.[t] ?? null) };
+}
+
+/** How near to a contact node the pointer finds it, pixels. */
+const NEAR = 14;
+
+const said = (value) => (value === null ? "not known" : `${short(value)} ${unitOf(view.field)}`);
 
 function pointed(panel, place) {
   const [x, y] = pointAt(panel, ...place);
-  const t = triangleAt(panel.places, x, y);
-  const unit = unitOf(view.field);
-  byId("pointed").textContent =
-    t < 0 ? "" : `triangle ${t + 1}, ${data.mesh.bodies[mesh.body[t]]}, at (${short(x)}, ${short(y)}): ${view.panels.map(({ run }, k) => `${run.name} ${short(valuesAt(t)[k] ?? NaN)} ${unit}`).join("; ")}`;
+  const found = foundAt(panel, x, y, NEAR / view.scale);
+  const values = found && view.panels.map(({ run }, k) => `${run.name} ${said(found.values[k])}`).join("; ");
+  byId("pointed").textContent = found ? `${[found.at, found.body].filter(Boolean).join(", ")}, at (${short(x)}, ${short(y)}): ${values}` : "";
 }
 
 const probes = [];
 
-/** Takes the values of both panels at a point of the drawn shape of one. */
+/** Takes the values of both panels at a point of the drawn shape of one; of a field of contact
+ * nodes, at the nearest. */
 function probe(panel, x, y) {
-  const t = triangleAt(panel.places, x, y);
-  const [left, right] = valuesAt(t);
-  probes.push({ x, y, t, left, right, names: view.panels.map(({ run, k }) => `${run.name}, iteration ${numberOf(run, k)}`), field: view.field });
+  const found = foundAt(panel, x, y, Infinity);
+  const [left, right] = found?.values ?? [null, null];
+  probes.push({ x, y, at: found?.at ?? "outside", left, right, names: view.panels.map(({ run, k }) => `${run.name}, iteration ${numberOf(run, k)}`), field: view.field });
   byId("probes").replaceChildren(
     tableOf("Probes", [
-      ["x", (p) => p.x], ["y", (p) => p.y],
-      ["triangle", (p) => (p.t < 0 ? "outside" : p.t + 1)],
+      ["x", (p) => p.x], ["y", (p) => p.y], ["at", (p) => p.at, "text"],
       ["field", (p) => p.field.name, "text"], ["unit", (p) => unitOf(p.field), "text"],
       ["left", (p) => p.names[0], "text"], ["value left", (p) => p.left],
       ["right", (p) => p.names[1], "text"], ["value right", (p) => p.right],
@@ -254,7 +285,10 @@ function startViewer() {
   if (shownRuns.length === 0) return void (byId("fields").hidden = true);
   const own = Math.max(0, shownRuns.findIndex((run) => run.name === data.own));
   const other = Math.max(0, shownRuns.findIndex((run) => run.name === data.equilibrium));
-  view.panels = [own, other].map((at, side) => ({ canvas: byId(`view-${side}`), run: shownRuns[at] }));
+  view.panels = [own, other].map((at, side) => ({
+    canvas: byId(`view-${side}`), run: shownRuns[at],
+    x: new Float64Array(mesh.nodes), y: new Float64Array(mesh.nodes), colours: new Uint32Array(mesh.count),
+  }));
   view.panels.forEach((panel, side) => {
     const select = byId(`run-${side}`);
     select.replaceChildren(...shownRuns.map((run, k) => make("option", { value: k }, run.name)));
@@ -284,5 +318,5 @@ function startViewer() {
   });
   look();
   window.addEventListener("resize", () => look());
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", showFields);
+  matchMedia("screen and (prefers-color-scheme: dark)").addEventListener("change", showFields);
 }

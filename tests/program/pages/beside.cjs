@@ -1,0 +1,44 @@
+// What stands beside the runs of a report: node beside.cjs PAGE KIND. KIND is `calculix`, whose strains
+// and contact are not known here, `charts` of trade, or `hertz`.
+
+const assert = require("node:assert");
+const { open, run } = require("./browser.cjs");
+
+const [file, kind] = process.argv.slice(2);
+
+/** CalculiX's stresses are shown; what it was not asked for is not shown as 0. */
+async function calculix(page) {
+  await page.selectOption("#run-1", { label: "CalculiX" });
+  for (const field of ["strain εx", "von Mises strain", "gap", "contact pressure"]) {
+    await page.selectOption("#field", { label: field });
+    assert.equal(await page.textContent("#said-1"), `CalculiX: ${field} is not known; undeformed`);
+    assert.match(await page.textContent("#said-0"), new RegExp(`: ${field} from `));
+  }
+  await page.selectOption("#field", { label: "von Mises stress" });
+  assert.match(await page.textContent("#said-1"), /^CalculiX, .*: von Mises stress from .* MPa/);
+  assert.equal(await page.locator('#calculix table').count(), 2);
+}
+
+/** Each chart is a picture that the browser reads. */
+async function charts(page) {
+  const sizes = await page.locator("#charts img").evaluateAll((all) => Promise.all(all.map(async (image) => (await image.decode(), [image.alt, image.naturalWidth]))));
+  assert.ok(sizes.length > 0 && sizes.every(([name, width]) => name !== "" && width > 100), String(sizes));
+}
+
+/** Hertz's curve stands in the chart of the pressure, and unilateral's lies on it. */
+async function hertz(page) {
+  const curves = await page.locator('svg[aria-label="Contact pressure"] polyline').evaluateAll((all) =>
+    all.map((line) => [line.textContent, [...line.points].map(({ x, y }) => [x, y])]));
+  const [, exact] = curves.find(([name]) => name === "Hertz");
+  const [, own] = curves.find(([name]) => name.startsWith("unilateral"));
+  const height = Math.max(...exact.map(([, y]) => y)) - Math.min(...exact.map(([, y]) => y));
+  const near = ([x, y]) => Math.min(...exact.map(([ex, ey]) => Math.hypot(ex - x, ey - y)));
+  const loaded = own.filter(([x]) => x <= Math.max(...exact.map(([ex]) => ex)));
+  assert.ok(loaded.length > 5 && loaded.every((point) => near(point) < 0.05 * height), String(loaded));
+}
+
+run(async (browser) => {
+  const { page, said } = await open(browser, file);
+  await { calculix, charts, hertz }[kind](page);
+  assert.deepEqual(said, []);
+});
