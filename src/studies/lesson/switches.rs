@@ -16,9 +16,9 @@ pub struct Switch {
     /// What it does, in words.
     pub about: String,
     pub(super) reading: Reading,
-    worksheet: fn(&mut Settings),
+    pub(super) worksheet: fn(&mut Settings),
     /// The tolerance over the scene's.
-    factor: f64,
+    pub(super) factor: f64,
     /// What is changed of the scene's model.
     pub(super) change: fn(&mut Model),
     /// The listing in place of one of the paper's.
