@@ -16,8 +16,9 @@ use super::{print, waiting};
 #[command(after_help = "\
 Regions are executed in the worksheet's order and settings, and each result is compared with the one
 that Mathcad saved: same to the last bit, to so many digits, or differing. Units, symbolics, plots,
-solve blocks, derivatives, integrals and random numbers are named as beyond us; where the worksheet
-shows such a name's value, the saved value goes on as input, and results that rest on it say so.
+solve blocks, derivatives, integrals and random numbers are named as beyond us. Where the worksheet
+shows a name's value and ours is not the same to the last bit, or beyond us, the saved value goes on
+as input, so that each result is judged for itself; results that rest on it say so.
 
 Examples:
   plane-contact mathcad worksheet.xmcd

@@ -167,8 +167,8 @@ const PROBES: [Probe; 20] = [
         question: "whether 0, 0.1 .. 0.3 has its end, which 3 · 0.1 is just beyond",
         program: "y ← 0\nfor i ∈ 0, 0.1 .. 0.3\n  y ← y + 1\ny",
         answers: &[
-            answer(Number(3.0), "ranges end exactly, as here"),
-            answer(Number(4.0), "ranges end with a tolerance"),
+            answer(Number(4.0), "ranges end with a tolerance, as here"),
+            answer(Number(3.0), "ranges end exactly"),
         ],
     },
     Probe {
@@ -191,7 +191,7 @@ const PROBES: [Probe; 20] = [
         question: "sin(π), times 1e16",
         program: "sin(3.1415926535897931)·1E16",
         answers: &[
-            answer(Number(1.224_606_353_822_377_3), "the sine is x87's"),
+            answer(Number(1.224_606_353_822_377_3), "the sine is x87's, as here"),
             answer(Any, "the sine is another"),
         ],
     },

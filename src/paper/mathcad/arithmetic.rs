@@ -105,7 +105,7 @@ pub fn kind(expected: &'static str, found: &Value) -> Cause {
 }
 
 /// Maps every entry, in place if nothing else shares the array.
-fn map(mut array: Rc<Array>, f: impl Fn(f64) -> Result<f64, Cause>) -> Result<Value, Cause> {
+pub fn map(mut array: Rc<Array>, f: impl Fn(f64) -> Result<f64, Cause>) -> Result<Value, Cause> {
     for x in Rc::make_mut(&mut array).entries_mut() {
         *x = f(*x)?;
     }

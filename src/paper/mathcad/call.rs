@@ -1,6 +1,6 @@
 //! Calling a function on the values of its arguments.
 
-use super::arithmetic::{finite, fold, identity, kind, sum};
+use super::arithmetic::{finite, fold, identity, kind, map, sum};
 use super::failure::{Cause, Fallible};
 use super::function::Function;
 use super::listing::Listing;
@@ -30,11 +30,15 @@ impl<O: Observer> Run<'_, '_, O> {
             Some(Function::Trace) => return self.write_trace(arguments),
             Some(Function::Elementary(function)) => {
                 let function = *function;
-                numbers(arguments).and_then(|[x]| real(function(x), x, &name))
+                self.afford(size(arguments))?;
+                let name = || self.listing.names.name(slot).into();
+                one(arguments).and_then(|x| each(x, |x| real(function(x), x, &name)))
             }
-            Some(Function::Root) => root(arguments, &name),
-            Some(Function::Log) => log(arguments, &name),
-            Some(Function::Mod) => numbers(arguments).and_then(|[x, y]| real(x % y, y, &name)),
+            Some(Function::Root) => root(arguments, &name).map(Value::Number),
+            Some(Function::Log) => log(arguments, &name).map(Value::Number),
+            Some(Function::Mod) => {
+                numbers(arguments).and_then(|[x, y]| real(x % y, y, &name)).map(Value::Number)
+            }
             Some(Function::Factorial) => {
                 numbers(arguments).and_then(|[n]| factorial(n, &name)).map(Value::Number)
             }
@@ -179,8 +183,17 @@ fn numbers<const N: usize>(arguments: &[Value]) -> Result<[f64; N], Cause> {
     Ok(numbers)
 }
 
+/// Returns a function's value of a number, or of each number of an array.
+fn each(value: &Value, function: impl Fn(f64) -> Result<f64, Cause>) -> Result<Value, Cause> {
+    match value {
+        Value::Number(x) => function(*x).map(Value::Number),
+        Value::Array(array) => map(array.clone(), function),
+        other => Err(kind("a number or an array of numbers", other)),
+    }
+}
+
 /// Returns a function's result, if it is a number that is real.
-fn real(result: f64, argument: f64, name: &dyn Fn() -> String) -> Result<Value, Cause> {
+fn real(result: f64, argument: f64, name: &dyn Fn() -> String) -> Result<f64, Cause> {
     if result.is_nan() {
         Err(Cause::Complex { name: name() })
     } else if result.is_infinite() && name() == "exp" {
@@ -188,7 +201,7 @@ fn real(result: f64, argument: f64, name: &dyn Fn() -> String) -> Result<Value, 
     } else if result.is_infinite() {
         Err(Cause::Domain { name: name(), argument })
     } else {
-        Ok(Value::Number(result))
+        Ok(result)
     }
 }
 
@@ -200,7 +213,7 @@ fn extent(value: &Value) -> (usize, usize) {
     }
 }
 
-fn root(arguments: &[Value], name: &dyn Fn() -> String) -> Result<Value, Cause> {
+fn root(arguments: &[Value], name: &dyn Fn() -> String) -> Result<f64, Cause> {
     if arguments.len() == 1 {
         return numbers(arguments).and_then(|[x]| real(x.sqrt(), x, name));
     }
@@ -214,7 +227,7 @@ fn root(arguments: &[Value], name: &dyn Fn() -> String) -> Result<Value, Cause> 
     real(if whole.powf(n) == x { whole } else { root }, x, name)
 }
 
-fn log(arguments: &[Value], name: &dyn Fn() -> String) -> Result<Value, Cause> {
+fn log(arguments: &[Value], name: &dyn Fn() -> String) -> Result<f64, Cause> {
     if arguments.len() == 1 {
         return numbers(arguments).and_then(|[x]| real(x.log10(), x, name));
     }

@@ -1,6 +1,6 @@
 //! The values of expressions.
 
-use super::arithmetic::{calculate, compare, cost, kind, negative, operate, power, transpose};
+use super::arithmetic::{calculate, compare, cost, kind, map, negative, operate, power, transpose};
 use super::entry::entry_of;
 use super::failure::{Cause, Fallible, Subscripts};
 use super::function::Function;
@@ -10,6 +10,9 @@ use super::settings::Conjunction;
 use super::state::Run;
 use super::syntax::{Expr, Kind, Operation, Reference, Slot, Span};
 use super::value::{Array, Grid, Value};
+
+/// The largest power of a matrix: numbers up to it are whole or not.
+const LARGEST_POWER: f64 = 9_007_199_254_740_992.0;
 
 impl<O: Observer> Run<'_, '_, O> {
     pub fn eval(&mut self, expr: &Expr) -> Fallible<Value> {
@@ -39,7 +42,17 @@ impl<O: Observer> Run<'_, '_, O> {
                         self.spend(3 * matrices::steps(&matrix))?;
                         matrices::inverse(&matrix)
                     }
-                    other => Err(kind("a number, or a matrix to the power −1", &other)),
+                    Value::Array(column) if column.cols() == 1 => {
+                        self.afford(column.rows())?;
+                        map(column, |x| power(x, y))
+                    }
+                    matrix if (1.0..=LARGEST_POWER).contains(&y) && y.fract() == 0.0 => {
+                        return self.repeated(matrix, y, &expr.span);
+                    }
+                    other => Err(kind(
+                        "a number, a column, or a matrix to a power of −1, 1, 2, ...",
+                        &other,
+                    )),
                 };
                 power.map_err(|cause| self.fail(&expr.span, cause))
             }
@@ -125,7 +138,16 @@ impl<O: Observer> Run<'_, '_, O> {
         self.stored += x.count();
         let y = self.eval(y);
         self.stored -= x.count();
-        let y = y?;
+        self.operate(operation, x, y?, span)
+    }
+
+    fn operate(
+        &mut self,
+        operation: Operation,
+        x: Value,
+        y: Value,
+        span: &Span,
+    ) -> Fallible<Value> {
         let result = if let (Value::Number(x), Value::Number(y)) = (&x, &y) {
             calculate(operation, *x, *y, self.settings).map(Value::Number)
         } else {
@@ -177,6 +199,28 @@ impl<O: Observer> Run<'_, '_, O> {
         let name = || self.place(&of.span).text.into();
         let entry = entry_of(&value, Subscripts { row, col }, self.settings.origin, &name);
         entry.map_err(|cause| self.fail(span, cause))
+    }
+
+    /// Returns a matrix to a whole power by repeated squaring, the smallest square on the right.
+    fn repeated(&mut self, matrix: Value, power: f64, span: &Span) -> Fallible<Value> {
+        let (mut rest, mut square, mut product) = (power as u64, matrix, None);
+        loop {
+            if rest % 2 == 1 {
+                product = Some(match product {
+                    None => square.clone(),
+                    Some(product) => {
+                        self.operate(Operation::Multiply, square.clone(), product, span)?
+                    }
+                });
+            }
+            rest /= 2;
+            match product {
+                Some(product) if rest == 0 => return Ok(product),
+                _ => {
+                    square = self.operate(Operation::Multiply, square.clone(), square, span)?;
+                }
+            }
+        }
     }
 
     /// Returns a sum or product of terms, added or multiplied one after another from the first; the

@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::listing::Listing;
 use super::value::Value;
+use super::x87;
 
 pub enum Function<'l> {
     /// `identity(n)`, the n x n matrix.
@@ -43,7 +44,7 @@ pub enum Function<'l> {
     Mod,
     /// `factorial(n)`.
     Factorial,
-    /// A function of one number.
+    /// A function of one number, or of each number of an array.
     Elementary(Elementary),
     /// A function of the worksheet.
     Program(Rc<Listing>),
@@ -56,15 +57,15 @@ pub type Elementary = fn(f64) -> f64;
 /// A function from outside: it returns its value, or why there is none.
 pub type Outside<'l> = Box<dyn FnMut(&[Value]) -> Result<Value, String> + 'l>;
 
-/// The functions of one number. Their last bit need not be Mathcad's, whose sine and cosine are
-/// those of x87.
+/// The functions of one number, also of each number of an array. Their last bit need not be
+/// Mathcad's.
 const ELEMENTARY: [(&str, Elementary); 20] = [
-    ("sin", f64::sin),
-    ("cos", f64::cos),
-    ("tan", f64::tan),
-    ("cot", |x| 1.0 / x.tan()),
-    ("sec", |x| 1.0 / x.cos()),
-    ("csc", |x| 1.0 / x.sin()),
+    ("sin", x87::sin),
+    ("cos", x87::cos),
+    ("tan", x87::tan),
+    ("cot", |x| 1.0 / x87::tan(x)),
+    ("sec", |x| 1.0 / x87::cos(x)),
+    ("csc", |x| 1.0 / x87::sin(x)),
     ("asin", f64::asin),
     ("acos", f64::acos),
     ("atan", f64::atan),

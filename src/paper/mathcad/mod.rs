@@ -21,7 +21,7 @@
 //! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
 //! | [`edit`], [`file`] | the alternative readings of a listing; files of several listings |
 //! | [`observe`] | watching a run: traces and coverage |
-//! | `arithmetic`, `matrices`, `function` | operations on values, and the functions a listing may call |
+//! | `arithmetic`, `matrices`, `x87`, `function` | operations on values, and the functions a listing may call |
 //! | [`json`] | values as JSON |
 //! | [`sheet`] | what a worksheet defines above a program |
 //! | `state`, `entry`, `call`, `eval`, [`run`] | running a listing |
@@ -54,6 +54,7 @@ mod matrices;
 mod parser;
 mod state;
 pub mod syntax;
+mod x87;
 
 pub use edit::Edit;
 pub use failure::{Cause, Failure, ParseError};

@@ -1,14 +1,14 @@
 //! The grammar of one line.
 //!
-//! From the loosest to the tightest: `∨`, `∧`, `¬`, one comparison, `+ −`, `· /`, the sign `−x`,
+//! From the loosest to the tightest: `∨`, `∧`, `¬`, comparisons, `+ −`, `· /`, the sign `−x`,
 //! one power, and behind an operand `xᵀ`, `x[i]`, `x⟨j⟩`. Operators of one level group from the
-//! left.
+//! left, but for a chain of comparisons, `a < b < c`, which is `a < b ∧ b < c`.
 
 use std::collections::BTreeSet;
 
 use chumsky::error::{RichPattern, RichReason};
 use chumsky::input::MappedInput;
-use chumsky::pratt::{infix, left, none};
+use chumsky::pratt::{infix, left};
 use chumsky::prelude::*;
 
 use super::lexer::{ARROW, Complaint, Spanned, Token};
@@ -151,9 +151,10 @@ fn comparison<'t>(operand: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
         infix(left(2), arithmetic([Operation::Add, Operation::Subtract]), |l, o, r, _| {
             calculation(o, l, r)
         }),
-        infix(none(1), compare, |l, c, r, _| comparing(c, l, r)),
     );
-    operand.pratt(levels).boxed()
+    let sum = operand.pratt(levels).boxed();
+    let chain = sum.clone().then(compare.then(sum).repeated().collect::<Vec<_>>());
+    chain.map(|(first, rest)| chained(first, rest)).boxed()
 }
 
 fn operand<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
@@ -251,9 +252,17 @@ fn calculation(operation: Operation, l: Expr, r: Expr) -> Expr {
     Expr { kind: Kind::Arithmetic(operation, Box::new(l), Box::new(r)), span }
 }
 
-fn comparing(comparison: Comparison, l: Expr, r: Expr) -> Expr {
-    let span = l.span.start..r.span.end;
-    Expr { kind: Kind::Compare(comparison, Box::new(l), Box::new(r)), span }
+/// Compares each operand with the next; all comparisons must hold.
+fn chained(first: Expr, rest: Vec<(Comparison, Expr)>) -> Expr {
+    let mut comparisons = Vec::new();
+    let mut l = first;
+    for (comparison, r) in rest {
+        let span = l.span.start..r.span.end;
+        let kind = Kind::Compare(comparison, Box::new(l), Box::new(r.clone()));
+        comparisons.push(Expr { kind, span });
+        l = r;
+    }
+    if comparisons.is_empty() { l } else { joined(comparisons, Kind::All) }
 }
 
 /// Joins operands, at least one; one alone is itself.

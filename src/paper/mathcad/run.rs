@@ -139,6 +139,10 @@ enum Turns {
     Over(Value),
 }
 
+/// What part of a step a range may pass its end by: rounding's. At least 1.1e-13 is Mathcad's (see
+/// README.md).
+const RANGE_END: f64 = 1e-12;
+
 /// Returns the numbers of a range, if its step leads from its start to its end.
 fn span(from: f64, second: Option<f64>, to: f64, descending_is_empty: bool) -> Option<Turns> {
     let step = match second {
@@ -155,7 +159,8 @@ impl Turns {
         match self {
             Turns::Span { from, step, to } => {
                 let x = from + step * turn as f64;
-                (if *step > 0.0 { x <= *to } else { x >= *to }).then_some(Value::Number(x))
+                let end = to + RANGE_END * step;
+                (if *step > 0.0 { x <= end } else { x >= end }).then_some(Value::Number(x))
             }
             Turns::Over(value @ (Value::Number(_) | Value::Text(_))) => {
                 (turn == 0).then(|| value.clone())

@@ -13,6 +13,9 @@ use super::xmcd::document::{Content, Region, Saved, Worksheet};
 /// Fewer digits than these in common are a difference.
 pub const LEAST_DIGITS: u32 = 10;
 
+/// The name whose definition sets the subscript of first entries from there on.
+const ORIGIN: &str = "ORIGIN";
+
 /// A region as it was executed.
 #[derive(Clone, Debug)]
 pub struct Checked {
@@ -50,13 +53,14 @@ pub enum Verdict {
 /// Executes a worksheet's regions in order, each under `limits`.
 pub fn execute(worksheet: &Worksheet, limits: &Limits) -> Vec<Checked> {
     let mut run = Execution {
-        settings: &worksheet.settings,
+        settings: worksheet.settings.clone(),
         limits,
         sheet: Sheet::default(),
         ranges: BTreeMap::new(),
         beyond: BTreeMap::new(),
         inputs: BTreeMap::new(),
     };
+    run.sheet.define(ORIGIN, f64::from(run.settings.origin));
     let is_global =
         |region: &&Region| matches!(region.content, Content::Definition { global: true, .. });
     for region in worksheet.regions.iter().filter(is_global) {
@@ -68,7 +72,7 @@ pub fn execute(worksheet: &Worksheet, limits: &Limits) -> Vec<Checked> {
 }
 
 struct Execution<'a> {
-    settings: &'a Settings,
+    settings: Settings,
     limits: &'a Limits,
     sheet: Sheet,
     /// Range variables, as the text of a loop has their numbers.
@@ -118,8 +122,15 @@ impl Execution<'_> {
                 (format!("{expression} ="), outcome)
             }
         };
+        let outcome = match (&region.content, &region.saved, outcome) {
+            // What Mathcad shows and saves is the entry.
+            (Content::Definition { entry: Some(target), .. }, Some(_), Outcome::Value(_)) => {
+                self.evaluation(target, &mut inputs)
+            }
+            (_, _, outcome) => outcome,
+        };
         let verdict = verdict(&outcome, region.saved.as_ref());
-        if let (Verdict::Beyond(_), Some(Saved::Value(value))) = (&verdict, &region.saved) {
+        if let (false, Some(Saved::Value(value))) = (verdict == Verdict::Same, &region.saved) {
             self.take_saved(region, value);
         }
         let value = match outcome {
@@ -129,10 +140,13 @@ impl Execution<'_> {
         Checked { id: region.id.clone(), tag: region.tag.clone(), text, verdict, inputs, value }
     }
 
-    /// Lets the saved value of a name go on as input.
+    /// Lets the saved value of a name go on as input, so that what follows is judged for itself.
     fn take_saved(&mut self, region: &Region, value: &Value) {
+        let is_known = |name: &String| self.sheet.value(name).is_some();
         let name = match &region.content {
-            Content::Evaluation(name) if self.beyond.contains_key(name) => name.clone(),
+            Content::Evaluation(name) if self.beyond.contains_key(name) || is_known(name) => {
+                name.clone()
+            }
             Content::Definition { name, entry: None, .. } => name.clone(),
             Content::Beyond { names, .. } if names.len() == 1 => names[0].clone(),
             _ => return,
@@ -212,6 +226,10 @@ impl Execution<'_> {
     ) -> Outcome {
         let outcome = match entry {
             None => self.run(&indented(lines, 1), inputs),
+            // The entries that are not assigned stay unknown.
+            Some(_) if self.beyond.contains_key(name) => {
+                return Outcome::Beyond(self.rests_on(name).expect("it is beyond"));
+            }
             Some(target) => {
                 let value = lines.first().map(String::as_str).unwrap_or_default();
                 let line = format!("{target} ← {value}");
@@ -227,7 +245,14 @@ impl Execution<'_> {
             Outcome::Failed(cause) => self.lose(name, &format!("an error: {cause}")),
             Outcome::Defined => {}
         }
-        outcome
+        match (name, &outcome) {
+            (ORIGIN, Outcome::Value(Value::Number(x))) if *x == f64::from(*x as i32) => {
+                self.settings.origin = *x as i32;
+                outcome
+            }
+            (ORIGIN, _) => Outcome::Beyond("an ORIGIN that is no whole number".into()),
+            _ => outcome,
+        }
     }
 
     /// Evaluates an expression: over a range variable, for each of its numbers.
@@ -271,13 +296,20 @@ impl Execution<'_> {
             return Outcome::Beyond(construct);
         }
         let outcome: Fallible<_> =
-            program.runner_in(&self.sheet, self.settings, self.limits).call(&[]);
+            program.runner_in(&self.sheet, &self.settings, self.limits).call(&[]);
         match outcome.map_err(|failure| failure.cause) {
             Ok(outcome) => Outcome::Value(outcome.value),
             Err(Cause::Complex { .. }) => Outcome::Beyond("complex numbers".into()),
             Err(limit @ Cause::Limit { .. }) => Outcome::Beyond(limit.to_string()),
             Err(cause) => Outcome::Failed(cause),
         }
+    }
+
+    /// Returns why what reads a name is beyond the interpreter, if the name is.
+    fn rests_on(&self, name: &str) -> Option<String> {
+        let construct = self.beyond.get(name)?;
+        let follows = construct.contains("rests on");
+        Some(if follows { construct.clone() } else { format!("it rests on {name}: {construct}") })
     }
 
     /// Collects the saved results that a program rests on, its functions' included. Returns why it
@@ -292,12 +324,8 @@ impl Execution<'_> {
             if !seen.insert(name.into()) {
                 continue;
             }
-            if let Some(construct) = self.beyond.get(name) {
-                let follows = construct.contains("rests on");
-                return Some(match follows {
-                    true => construct.clone(),
-                    false => format!("it rests on {name}: {construct}"),
-                });
+            if let Some(construct) = self.rests_on(name) {
+                return Some(construct);
             }
             inputs.extend(self.inputs.get(name).into_iter().flatten().cloned());
             if let Some(program) = self.sheet.program(name).cloned()

@@ -121,11 +121,15 @@ fn saved_values_go_on_as_input() {
     let integral = format!("<ml:apply><ml:integral/>{}</ml:apply>", id("t"));
     let twice = format!("<ml:apply><ml:mult/><ml:real>2</ml:real>{}</ml:apply>", id("y"));
     let result = |x: &str| format!("<result><ml:real>{x}</ml:real></result>");
+    let first = format!("<ml:apply><ml:indexer/>{}<ml:real>1</ml:real></ml:apply>", id("z"));
     let regions = [
         format!("<ml:define>{}{integral}</ml:define>", id("y")),
         format!("<ml:eval>{twice}{}</ml:eval>", result("8")),
         format!("<ml:eval>{}{}</ml:eval>", id("y"), result("4")),
         format!("<ml:eval>{twice}{}</ml:eval>", result("8")),
+        format!("<ml:define>{}{integral}</ml:define>", id("z")),
+        format!("<ml:define>{first}<ml:real>0</ml:real></ml:define>"),
+        format!("<ml:eval>{}{}</ml:eval>", id("z"), result("5")),
     ];
     let regions = regions.iter().enumerate().map(|(k, r)| math(r).replace("ID", &k.to_string()));
     let text = format!(
@@ -136,8 +140,45 @@ fn saved_values_go_on_as_input() {
     let verdicts: Vec<_> = checked.iter().map(|c| c.verdict.clone()).collect();
     let beyond = |words: &str| Verdict::Beyond(words.into());
     let rests = "it rests on y: an integral";
-    assert_eq!(verdicts, [beyond("an integral"), beyond(rests), beyond(rests), Verdict::Same]);
+    assert_eq!(verdicts[..4], [beyond("an integral"), beyond(rests), beyond(rests), Verdict::Same]);
+    // One entry that is known does not make the others so.
+    let rests = "it rests on z: an integral";
+    assert_eq!(verdicts[4..], [beyond("an integral"), beyond(rests), beyond(rests)]);
     assert_eq!(checked[3].inputs.iter().collect::<Vec<_>>(), ["2"]);
+}
+
+/// `ORIGIN := 0` counts from there on; a definition of an entry shows that entry.
+#[test]
+fn origin_is_set_by_a_region_and_entries_show_themselves() {
+    let math = |inside: &str| format!("<region region-id=\"1\"><math>{inside}</math></region>");
+    let number = |x: &str| format!("<ml:real>{x}</ml:real>");
+    let entry =
+        |i: &str| format!("<ml:apply><ml:indexer/><ml:id>v</ml:id>{}</ml:apply>", number(i));
+    let saved = |x: &str| format!("<result>{}</result>", number(x));
+    let regions = [
+        format!("<ml:define>{}{}</ml:define>", entry("2"), number("7")),
+        format!("<ml:eval>{}{}</ml:eval>", entry("2"), saved("7")),
+        format!("<ml:define><ml:id>ORIGIN</ml:id>{}</ml:define>", number("0")),
+        format!("<ml:eval>{}{}</ml:eval>", entry("1"), saved("7")),
+        format!(
+            "<ml:define>{}<ml:eval>{}{}</ml:eval></ml:define>",
+            entry("0"),
+            number("5"),
+            saved("5")
+        ),
+        format!("<ml:define><ml:id>ORIGIN</ml:id>{}</ml:define>", number("0.5")),
+    ];
+    let text = format!(
+        "<worksheet xmlns:ml=\"ml\"><settings><calculation><builtInVariables \
+         array-origin=\"1\"/></calculation></settings><regions>{}</regions></worksheet>",
+        regions.map(|region| math(&region)).concat()
+    );
+    let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
+    let verdicts: Vec<_> = checked.into_iter().map(|c| c.verdict).collect();
+    let none = Verdict::NothingSaved;
+    let half = Verdict::Beyond("an ORIGIN that is no whole number".into());
+    let same = Verdict::Same;
+    assert_eq!(verdicts, [none.clone(), same.clone(), none, same.clone(), same, half]);
 }
 
 /// Every candidate that is said to be ours is, and a recalculated worksheet of probes decides each.

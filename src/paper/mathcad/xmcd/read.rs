@@ -241,7 +241,8 @@ fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
         Ok([operand(x, left, subscript)?, sign.into(), operand(y()?, right, subscript)?].concat())
     };
     if let Some(at) = COMPARISONS.iter().position(|name| *name == operator.tag()) {
-        return infix(&format!(" {} ", Comparison::ALL[at].sign()), Level::Sum, Level::Sum);
+        // One within another on the left, without parentheses, is a chain.
+        return infix(&format!(" {} ", Comparison::ALL[at].sign()), Level::Comparison, Level::Sum);
     }
     match operator.tag() {
         "or" => infix(" ∨ ", Level::Any, Level::All),
