@@ -52,7 +52,8 @@ pub fn open(file: &Path) -> Result<document::Worksheet, InputError> {
     document::read(&text, &place)
 }
 
-/// The limits of a region: arrays that are spelled out make long lines.
+/// The limits of a region: arrays that are spelled out make long lines; a worksheet has many regions,
+/// so that each has but seconds.
 pub fn limits() -> Limits {
-    Limits { lines: 10_000, characters: 1 << 20, ..Limits::default() }
+    Limits { lines: 10_000, characters: 1 << 20, entries: 1 << 22, ..Limits::default() }
 }
