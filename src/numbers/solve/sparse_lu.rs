@@ -32,7 +32,8 @@ impl<T: Native> SparseLu<T> {
         };
         let lu = SparseLu { matrix: sparse, factors };
         let n = matrix.nrows();
-        let scale = DVector::from_fn(n, |j, _| T::from_f64(largest(matrix.column(j).iter())));
+        let column = |j| lu.matrix.val_of_col(j).iter();
+        let scale = DVector::from_fn(n, |j, _| T::from_f64(largest(column(j))));
         let limit = DOUBTFUL / (16.0 * n as f64 * T::EPSILON);
         let motion = largest_motion(&lu, &scale);
         if motion < limit {

@@ -72,7 +72,9 @@ pub fn name(id: Math<'_, '_>) -> Read<String> {
         return Err(beyond(id));
     }
     let mut name = id.text().to_string();
-    if let Some(subscript) = id.attribute("subscript").filter(|s| !s.is_empty()) {
+    if let Some(subscript) = id.attribute("subscript") {
+        // An empty one makes a name of its own too: a variable `m` beside the unit.
+        let subscript = if subscript.is_empty() { "_" } else { subscript };
         name = format!("{name}.{subscript}");
     }
     let starts = name.starts_with(|c: char| !c.is_numeric() && c != '\'' && c != '.');
