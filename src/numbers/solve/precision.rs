@@ -100,7 +100,8 @@ impl Precision for Bounded {
         let (values, f) = (a.map(Scalar::to_f64), b.map(Scalar::to_f64));
         let (factors, solved): (Box<dyn Factors<f64>>, _) = match by {
             Solver::DenseLu | Solver::SparseLu => {
-                let (lu, solved) = by_lu(values, &f, by)?;
+                let lu = lu(values, by)?;
+                let solved = solved(&*lu, &f);
                 (lu, solved)
             }
             _ => {
@@ -186,7 +187,7 @@ impl Precision for Exact {
 /// Solves in a scalar of the machine by faer, or by conjugate gradients.
 fn native<T: Native>(a: DMatrix<T>, b: &DVector<T>, by: Solver, tol: Option<f64>) -> Outcome<T> {
     if matches!(by, Solver::DenseLu | Solver::SparseLu) {
-        return Ok(by_lu(a, b, by)?.1);
+        return Ok(solved(&*lu(a, by)?, b));
     }
     let sparse = SparseSymmetric::of_lower(&a);
     let x = match by {
@@ -197,19 +198,17 @@ fn native<T: Native>(a: DMatrix<T>, b: &DVector<T>, by: Solver, tol: Option<f64>
     Ok(Solved { residual: sparse.residual(&x, b), x })
 }
 
-/// Solves by LU of the full matrix, or of its entries that are not 0.
-fn by_lu<T: Native>(
-    a: DMatrix<T>,
-    b: &DVector<T>,
-    by: Solver,
-) -> Result<(Box<dyn Lu<T>>, Solved<T>), Singular> {
-    let lu: Box<dyn Lu<T>> = match by {
+/// Factors the full matrix, or its entries that are not 0, by LU.
+fn lu<T: Native>(a: DMatrix<T>, by: Solver) -> Result<Box<dyn Lu<T>>, Singular> {
+    Ok(match by {
         Solver::SparseLu => Box::new(SparseLu::new(&a)?),
         _ => Box::new(DenseLu::new(a)?),
-    };
+    })
+}
+
+fn solved<T: Native>(lu: &dyn Lu<T>, b: &DVector<T>) -> Solved<T> {
     let x = lu.solve(b);
-    let residual = lu.residual(&x, b);
-    Ok((lu, Solved { x, residual }))
+    Solved { residual: lu.residual(&x, b), x }
 }
 
 /// Solves by sparse Cholesky factors in L, refined by residuals in T.
