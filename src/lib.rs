@@ -51,6 +51,8 @@ pub mod numbers;
 #[doc(hidden)]
 pub mod paper;
 #[doc(hidden)]
+pub mod plain;
+#[doc(hidden)]
 pub mod problem;
 #[doc(hidden)]
 pub mod report;

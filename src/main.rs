@@ -12,6 +12,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use plane_contact::Error;
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::report::failure::failure;
 
 /// Audited reimplementation of a published plane contact algorithm (Filipov & Khomenko): finite
@@ -67,6 +68,8 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    #[cfg(unix)]
+    end_by_signals();
     let done = |()| 0;
     // Every command that prints JSON has this option.
     let json = std::env::args_os().any(|arg| arg == "--json");
@@ -117,6 +120,16 @@ fn main() -> ExitCode {
             ExitCode::from(commands::told(&error))
         }
     }
+}
+
+/// Has SIGINT and SIGTERM end the process as they do by themselves, once nothing temporary is left.
+#[cfg(unix)]
+fn end_by_signals() {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::{iterator::Signals, low_level::emulate_default_handler};
+    let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+    let end = |signal| files::abandon(|| emulate_default_handler(signal).unwrap_or_default());
+    std::thread::spawn(move || signals.forever().for_each(end));
 }
 
 /// Returns a fault of the command line.

@@ -83,10 +83,9 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let case = Case::within_memory(scene)?;
     let measured = finding.measure(&case);
     if let Some(out) = &args.out {
-        files::write(
-            &out.join(format!("{}.svg", finding.id)),
-            &folder::finding_picture(finding.id, &case.scene),
-        )?;
+        let picture = folder::finding_picture(finding.id, &case.scene);
+        let name = format!("{}.svg", finding.id);
+        files::write_all(out, &format!("audit --finding {}", finding.id), &[(name, picture)])?;
     }
     if args.json {
         return print(&report::finding_json(finding, &measured, &case.scene));
@@ -111,26 +110,27 @@ fn whole(args: &Args) -> Result<()> {
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.
 fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Result<()> {
-    files::write(&out.join("audit.txt"), text)?;
-    files::write(&out.join("audit.json"), json)?;
+    let mut files: Vec<(String, Vec<u8>)> =
+        vec![("audit.txt".into(), text.into()), ("audit.json".into(), json.into())];
     for (finding, _) in &audit.findings {
-        let own = Case::new(finding.scene());
-        let picture = folder::finding_picture(finding.id, &own.scene);
-        files::write(&out.join("findings").join(format!("{}.svg", finding.id)), &picture)?;
+        let picture = folder::finding_picture(finding.id, &finding.scene());
+        files.push((format!("findings/{}.svg", finding.id), picture.into_bytes()));
     }
     let others = [case.reference(), case.equilibrium()];
     for variant in Variant::ALL {
         if let Ok(solution) = case.run(*variant) {
             let assessment = Assessment::against(solution, others);
-            let folder = out.join(variant.name());
-            folder::write(&folder, solution, &assessment, None, Wanted::default())?;
+            let of_run = folder::contents(solution, &assessment, None, Wanted::default());
+            let named =
+                of_run.into_iter().map(|(name, bytes)| (format!("{variant}/{name}"), bytes));
+            files.extend(named);
         }
     }
     let own = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
     let runs: Vec<&Solution> = own.chain(others.into_iter().flatten()).collect();
     if let Some(last) = runs.last().filter(|_| case.model().target().is_some()) {
         let picture = pressure::picture(&case.scene, &runs, Hertz::of(last).as_ref());
-        files::write(&out.join("pressure.svg"), &picture)?;
+        files.push(("pressure.svg".into(), picture.into_bytes()));
     }
-    Ok(())
+    Ok(files::write_all(out, "audit", &files)?)
 }

@@ -51,14 +51,15 @@ pub fn run(args: &Args) -> Result<()> {
         return print(&json);
     }
     let out = folder(&args.out, "extremes".into());
-    files::write(&out.join("extremes.txt"), &text)?;
-    files::write(&out.join("extremes.json"), &json)?;
-    for of in &measured {
-        for (picture, k) in report::pictures(of).iter().zip(1..) {
+    let mut written = vec![("extremes.txt".into(), &text), ("extremes.json".into(), &json)];
+    let pictures: Vec<_> = measured.iter().map(|of| (of.name, report::pictures(of))).collect();
+    for (name, pictures) in &pictures {
+        for (picture, k) in pictures.iter().zip(1..) {
             let more = if k == 1 { String::new() } else { format!("-{k}") };
-            files::write(&out.join(format!("{}{more}.svg", of.name)), picture)?;
+            written.push((format!("{name}{more}.svg"), picture));
         }
     }
+    files::write_all(&out, "extremes", &written)?;
     if args.json { print(&json) } else { args.tables.print(&text) }
 }
 

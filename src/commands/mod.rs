@@ -273,9 +273,10 @@ impl TablesArgs {
     /// Prints a text with tables.
     pub fn print(&self, text: &str) -> Result<()> {
         if let Some(folder) = &self.csv {
-            for (name, table) in printed::tables(text) {
-                files::write(&folder.join(format!("{name}.csv")), &table)?;
-            }
+            let tables = printed::tables(text).into_iter();
+            let tables: Vec<_> = tables.map(|(name, csv)| (format!("{name}.csv"), csv)).collect();
+            let command = std::env::args().nth(1).unwrap_or_default();
+            files::write_all(folder, &format!("{command} --csv"), &tables)?;
         }
         print_fitted(text)
     }

@@ -59,10 +59,9 @@ pub fn run_scene(args: &SceneArgs) -> Result<()> {
         let fix = "choose another folder with --out";
         return Err(InputError::new(file.display().to_string(), "it exists already", fix).into());
     }
-    for (name, bytes) in scene.files {
-        files::write(&folder.join(name), bytes)?;
-    }
-    files::write(&file, scene.scene)?;
+    let mut written = scene.files.to_vec();
+    written.push(("scene.json", scene.scene));
+    files::write_all(&folder, "scene", &written)?;
     let folder = folder.display();
     print(&format!("Written to {folder}; plane-contact solve {folder} runs it\n"))
 }

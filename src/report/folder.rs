@@ -29,9 +29,8 @@ impl Default for Wanted {
     }
 }
 
-/// Writes `fields.vtu`, `result.json` and, where pictures are wanted, `mesh.svg`,
-/// `von_mises_stress.svg`, `von_mises_strain.svg` and, with contact, `pressure.svg` to `folder`;
-/// returns the content of `result.json`. `plan` is the plan that the run followed.
+/// Writes the files of a run to `folder`; returns the content of `result.json`. `plan` is the plan
+/// that the run followed.
 pub fn write(
     folder: &Path,
     solution: &Solution,
@@ -39,15 +38,31 @@ pub fn write(
     plan: Option<&Plan>,
     wanted: Wanted,
 ) -> Result<String> {
+    let mut files = contents(solution, assessment, plan, wanted);
+    files::write_all(folder, "solve", &files)?;
+    Ok(String::from_utf8(files.swap_remove(0).1).expect("JSON is UTF-8"))
+}
+
+/// Returns the files of a run, each with its name: `result.json`, `fields.vtu` and, where pictures
+/// are wanted, `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg` and, with contact,
+/// `pressure.svg`.
+pub fn contents(
+    solution: &Solution,
+    assessment: &Assessment,
+    plan: Option<&Plan>,
+    wanted: Wanted,
+) -> Vec<(&'static str, Vec<u8>)> {
     let scene = &solution.request.scene;
     let drawing = Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
+    let mut files = vec![
+        ("result.json", result(solution, assessment, plan, wanted).into_bytes()),
+        ("fields.vtu", vtu::vtu(&drawing, solution, assessment)),
+    ];
     if wanted.pictures {
-        pictures(folder, &drawing, solution, assessment)?;
+        let pictures = pictures(&drawing, solution, assessment).into_iter();
+        files.extend(pictures.map(|(name, picture)| (name, picture.into_bytes())));
     }
-    files::write(&folder.join("fields.vtu"), &vtu::vtu(&drawing, solution, assessment))?;
-    let result = result(solution, assessment, plan, wanted);
-    files::write(&folder.join("result.json"), &result)?;
-    Ok(result)
+    files
 }
 
 /// Returns the content of `result.json`, and writes nothing.
@@ -62,11 +77,10 @@ pub fn result(
 }
 
 fn pictures(
-    folder: &Path,
     drawing: &Drawing,
     solution: &Solution,
     assessment: &Assessment,
-) -> Result<()> {
+) -> Vec<(&'static str, String)> {
     let scene = &solution.request.scene;
     let displacement = &solution.displacements()[..];
     let field = |quantity, unit, of: fn(&State) -> f64| {
@@ -81,10 +95,7 @@ fn pictures(
     let mesh = || picture::mesh(drawing);
     let pictures: [(&str, &(dyn Fn() -> String + Sync)); 3] =
         [("mesh.svg", &mesh), ("von_mises_stress.svg", &stress), ("von_mises_strain.svg", &strain)];
-    let drawn: Vec<String> = pictures.par_iter().map(|(_, draw)| draw()).collect();
-    for ((name, _), picture) in pictures.iter().zip(drawn) {
-        files::write(&folder.join(name), &picture)?;
-    }
+    let mut drawn: Vec<_> = pictures.par_iter().map(|(name, draw)| (*name, draw())).collect();
     if !solution.contact.is_empty() {
         let measured = assessment.own();
         let others = [assessment.measure(), measured].into_iter().flatten();
@@ -95,9 +106,9 @@ fn pictures(
             }
         }
         let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
-        files::write(&folder.join("pressure.svg"), &pressure::picture(scene, &runs, hertz))?;
+        drawn.push(("pressure.svg", pressure::picture(scene, &runs, hertz)));
     }
-    Ok(())
+    drawn
 }
 
 /// Draws the mesh of a finding's scene, under the finding's id.

@@ -1,14 +1,4 @@
-//! Files that reports write.
-
-use std::path::Path;
-
-use crate::error::Result;
-use crate::files;
-
-/// Writes each content to the file of its name in `folder`.
-pub fn write_all(folder: &Path, contents: &[(&str, &str)]) -> Result<()> {
-    contents.iter().try_for_each(|(name, content)| files::write(&folder.join(name), content))
-}
+//! The text of tables in files.
 
 /// Lays out a table as RFC 4180 has it: the line `head`, then a line for each of `rows`.
 pub fn csv(head: &str, rows: impl IntoIterator<Item = Vec<String>>) -> String {

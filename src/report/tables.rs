@@ -3,7 +3,7 @@
 use super::layout::{Table, aligned, counted, listed};
 use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, with_unit};
 use super::pressure;
-use crate::answer::contact::{ContactNode, Status};
+use crate::answer::contact::{ContactNode, Status, oddity};
 use crate::answer::error::Error;
 use crate::answer::estimates::{Certainty, NoLimit};
 use crate::answer::{
@@ -57,8 +57,22 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
             text += "  The pressures are what the blocks that Km adds to the stamp take up; nothing \
                      couples the bodies (finding K1),\n  so that none of it reaches the target\n";
         }
+        text += &list_of_contact(solution);
     }
     text
+}
+
+/// Tells what c_cnt takes as it stands in the list of the contact surface; nothing under
+/// `unilateral`, which orders it.
+fn list_of_contact(solution: &Solution) -> String {
+    let is_published = solution.request.variant != Variant::Unilateral;
+    let oddity = is_published.then(|| oddity(&solution.model)).flatten();
+    oddity.map_or(String::new(), |what| {
+        format!(
+            "  cnt is no walk along its surface: {what}.\n  c_cnt takes it as it stands (findings \
+             C12, C13)\n"
+        )
+    })
 }
 
 fn heading(solution: &Solution) -> String {

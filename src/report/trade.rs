@@ -6,10 +6,11 @@ use super::claims::{over, over_the_range};
 use super::json::of_scene;
 use super::layout::{Table, listed};
 use super::numbers::{note, or_dash};
-use super::output::{csv as csv_of, write_all};
+use super::output::csv as csv_of;
 use super::picture::{Axis, Series, Style, chart};
 use crate::answer::estimates::Certainty;
 use crate::error::Result;
+use crate::files::write_all;
 use crate::problem::modelling::Variant;
 use crate::problem::scene::Scene;
 use crate::studies::audit::claims::{Claim, Elsewhere};
@@ -33,7 +34,7 @@ pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<String> {
     let geometry: Vec<_> = trade.sections.iter().flat_map(geometry).collect();
     let of_range = geometry.iter().map(|(name, picture)| (&**name, &**picture));
     let files = [("trade.json", &*json), ("trade.csv", &csv), ("trade.svg", &picture)];
-    write_all(folder, &files.into_iter().chain(of_range).collect::<Vec<_>>())?;
+    write_all(folder, "trade", &files.into_iter().chain(of_range).collect::<Vec<_>>())?;
     Ok(json)
 }
 

@@ -58,7 +58,7 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         (Some("13"), Some("9"))
     );
     let count = std::fs::read_dir(&out).unwrap().count();
-    assert_eq!(count, 6, "and no temporary file is left");
+    assert_eq!(count, 7, "with the list of them, and no temporary file is left");
 }
 
 /// Returns `fields.vtu` of a run's folder without its arrays.
@@ -88,8 +88,8 @@ fn solve_leaves_out_pictures_and_estimates() {
         names.sort();
         names
     };
-    assert_eq!(files(&pictures.1), ["fields.vtu", "result.json"]);
-    assert_eq!(files(&estimates.1).len(), 6);
+    assert_eq!(files(&pictures.1), ["SHA256SUMS", "fields.vtu", "result.json"]);
+    assert_eq!(files(&estimates.1).len(), 7);
     assert_eq!(pictures.0.replace("no-pictures", "all"), all);
     assert!(head_of_vtu(&pictures.1).contains("\"mesh_error\""));
     assert!(!head_of_vtu(&estimates.1).contains("\"mesh_error\""));

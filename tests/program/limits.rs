@@ -9,7 +9,7 @@ use crate::common::embedded::scene_json;
 use crate::common::program;
 
 /// Runs a line of the shell, in which `$P` is the program.
-fn shell(folder: &Path, line: &str) -> Output {
+pub fn shell(folder: &Path, line: &str) -> Output {
     Command::new("sh")
         .args(["-c", line])
         .env("P", env!("CARGO_BIN_EXE_plane-contact"))
@@ -20,7 +20,7 @@ fn shell(folder: &Path, line: &str) -> Output {
 
 /// Checks that a line ends with exit status 2, and that its error has all the `words`.
 #[track_caller]
-fn refused(folder: &Path, line: &str, words: &[&str]) {
+pub fn refused(folder: &Path, line: &str, words: &[&str]) {
     let output = shell(folder, line);
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{line}: {error}");
@@ -56,6 +56,31 @@ fn what_has_no_end_is_not_read() {
         refused(folder.path(), &format!("$P {command} /dev/zero"), &words);
     }
     refused(folder.path(), "$P solve - < /dev/zero", &["standard input", "more than"]);
+}
+
+/// A file of 2 GB without a byte on the disk.
+#[test]
+fn a_mesh_file_beyond_the_memory_is_refused_before_it_is_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut scene = scene_json("fig1");
+    scene.as_object_mut().expect("an object").retain(|field, _| field != "node" && field != "elem");
+    scene["mesh"] = "large.msh".into();
+    std::fs::write(folder.path().join("s.json"), scene.to_string()).expect("it is written");
+    let mesh = std::fs::File::create(folder.path().join("large.msh")).expect("a file");
+    mesh.set_len(2_000_000_000).expect("a length");
+    let words = ["large.msh", "its text and tables need 6.0 GB"];
+    refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &words);
+}
+
+#[test]
+fn steps_of_a_listing_have_a_limit_which_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let times = "    for i2 ∈ 1 .. 1000\n      for i3 ∈ 1 .. 1000\n        x ← 1\n";
+    let listing = format!("c_cnt(node_n) :=\n  for i1 ∈ 1 .. 1000\n{times}  x\n");
+    std::fs::write(folder.path().join("l.txt"), listing).expect("it is written");
+    let words = ["The limit of 16782624 steps is reached", "correct the edited listing"];
+    refused(folder.path(), "$P trace fig1 --listing l.txt", &words);
+    refused(folder.path(), "$P solve fig1 --c-cnt l.txt", &words);
 }
 
 #[test]

@@ -42,13 +42,13 @@ fn fields() {
     let e = refused(|s| s["c_tol"] = json!(1.0));
     says(&e, "c_tol", &["unknown field `c_tol`", "expected one of `title`, `mesh`"]);
     let e = refused(|s| s["contact"]["c_tll"] = json!("small"));
-    says(&e, "contact.c_tll", &["invalid type: string \"small\", expected f64", "line"]);
+    says(&e, "contact.c_tll", &["the text \"small\" where a number is expected", "line"]);
     let e = refused(|s| s["plane"] = json!("strian"));
     says(&e, "plane", &["\"strian\" is none of strain, stress"]);
     let e = refused(|s| s["restraints"][1]["fix"] = json!(["z"]));
     says(&e, "restraints[1].fix[0]", &["unknown variant `z`, expected `x` or `y`"]);
     let e = refused(|s| s["loads"][0]["on"] = json!([1]));
-    says(&e, "loads[0].on", &["expected the name or the tag of a physical group"]);
+    says(&e, "loads[0].on", &["where the name or the tag of a physical group is expected"]);
     let e = refused(|s| s["materials"]["1"]["G"] = json!(1));
     says(&e, "materials.1", &["unknown field `G`, expected `E` or `nu`"]);
     let e = refused(|s| drop(s.as_object_mut().unwrap().remove("materials")));
@@ -64,7 +64,7 @@ fn text_that_is_no_scene() {
         error.expect_err("refused")
     };
     says(&parse("{"), "the scene file", &["EOF", "line 1"]);
-    says(&parse("[1]"), "field", &["expected a string"]);
+    says(&parse("[1]"), "field", &["the number 1 where an object is expected"]);
     let whole = scene_json("fig1").to_string();
     says(&parse(&(whole.clone() + "x")), "the end of the scene file", &["trailing characters"]);
     says(&parse(&whole.replacen("0.001", "1e999", 1)), "c_tll", &["number out of range"]);

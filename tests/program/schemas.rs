@@ -10,23 +10,12 @@ use plane_contact::studies::lesson::exercise::{ANSWERS, Exercise};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+use crate::common::golden_file::assert_file;
 use crate::common::program::run;
 use crate::common::tools::is_there;
 use crate::undefined::scene;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-
-/// Compares `text` with the file at `path`; INSTA_UPDATE=always changes the file.
-#[track_caller]
-fn assert_file(path: &Path, text: &str) {
-    if std::env::var_os("INSTA_UPDATE").is_some_and(|update| update == "always") {
-        plane_contact::files::write(path, text).expect("a golden file can be written");
-    }
-    let golden = std::fs::read_to_string(path).unwrap_or_default();
-    let lines = || golden.lines().zip(text.lines()).enumerate();
-    let first = lines().find(|(_, (golden, is))| golden != is);
-    assert!(golden == text, "{} differs: {first:?}", path.display());
-}
 
 /// Prints what the program prints, whatever its exit status is, and that.
 fn ran(folder: &Path, args: &[&str]) -> (Option<i32>, String) {

@@ -65,7 +65,7 @@ fn is_explained(file: &Path) {
 }
 
 #[track_caller]
-fn has_no_undefined_number(text: &str) {
+pub fn has_no_undefined_number(text: &str) {
     for word in text.split(|c: char| c.is_whitespace() || ",;()=".contains(c)) {
         assert!(!["inf", "-inf", "NaN"].contains(&word), "{word}: {text}");
     }

@@ -11,7 +11,7 @@ mod sliding;
 pub mod status;
 mod surface;
 pub use mortar::Mortar;
-pub use order::along;
+pub use order::{along, oddity};
 pub use pairing::Pairing;
 pub(super) use pressure::arcs;
 pub use pressure::{ContactNode, Traction, pulling, reactions};

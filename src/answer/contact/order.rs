@@ -61,6 +61,30 @@ pub fn along(model: &Model) -> Result<Vec<NodeId>, InputError> {
     Err(InputError::new(PLACE, what, "name one outline, or parts of it that are not closed"))
 }
 
+/// Returns what the list of the contact surface has that no walk along it would have; None where it
+/// follows the surface, in either direction.
+pub fn oddity(model: &Model) -> Option<String> {
+    let listed = &model.contact.nodes;
+    let mut known = HashSet::new();
+    if let Some(twice) = listed.iter().find(|node| !known.insert(**node)) {
+        return Some(format!("node {twice} is listed more than once"));
+    }
+    let along = match along(model) {
+        Ok(along) => along,
+        Err(error) => return Some(error.what),
+    };
+    let beside: HashSet<_> = listed.windows(2).map(sorted).collect();
+    let is_edge = |pair: &&[NodeId]| model.sides.boundary([pair[0], pair[1]]).is_some();
+    let mut apart = along.windows(2).filter(is_edge).filter(|pair| !beside.contains(&sorted(pair)));
+    let [a, b] = sorted(apart.next()?);
+    Some(format!("nodes {a} and {b} share an edge and are listed apart"))
+}
+
+/// Returns a pair of nodes, the lower one first.
+fn sorted(pair: &[NodeId]) -> [NodeId; 2] {
+    [pair[0].min(pair[1]), pair[0].max(pair[1])]
+}
+
 /// Returns the nodes after `start` as far as `end` or the end of the chain.
 fn follow(
     next: &HashMap<NodeId, NodeId>,

@@ -174,7 +174,8 @@ impl SceneBuilder {
     pub fn write(&self, folder: &Path) -> Result<()> {
         self.build()?;
         let mesh_file = format!("{}.msh", self.name);
-        files::write(&folder.join(&mesh_file), &gmsh::write(&self.mesh))?;
-        files::write(&folder.join("scene.json"), &file::write(&self.description, &mesh_file))
+        let mesh = gmsh::write(&self.mesh);
+        let scene = file::write(&self.description, &mesh_file);
+        files::write_all(folder, "mesh", &[(&*mesh_file, mesh), ("scene.json", scene)])
     }
 }

@@ -15,11 +15,15 @@ const MOST_ITERATIONS: usize = 1_000_000;
 pub fn numbers(file: &Description) -> Result<()> {
     if !(file.thickness > 0.0 && file.thickness.is_finite()) {
         let what = format!("the thickness {} is not positive", file.thickness);
-        return Err(InputError::new("field thickness", what, "the paper's is 1"));
+        return Err(InputError::new("field thickness", what, "give one above 0; the paper's is 1"));
     }
     if !(1..=MOST_ITERATIONS).contains(&file.iterations) {
         let what = format!("{} iterations are outside 1 .. {MOST_ITERATIONS}", file.iterations);
-        return Err(InputError::new("field iterations", what, "the paper's number is 20"));
+        return Err(InputError::new(
+            "field iterations",
+            what,
+            "give a number inside; the paper's is 20",
+        ));
     }
     Ok(())
 }
@@ -96,7 +100,7 @@ pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
     if !(contact.tolerance >= 0.0 && contact.tolerance.is_finite()) {
         let what = format!("c_tll = {} is negative", contact.tolerance);
-        return Err(InputError::new("contact.c_tll", what, "the paper's is 0.001"));
+        return Err(InputError::new("contact.c_tll", what, "give 0 or more; the paper's is 0.001"));
     }
     let nodes = surface::contact_nodes(mesh, &contact.contact)?;
     let target = surface::target_edges(mesh, &contact.target)?;

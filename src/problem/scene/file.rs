@@ -1,15 +1,18 @@
 //! The scene file: a mesh and its description, as JSON.
 
+use std::collections::HashMap;
 use std::fmt;
 
 use serde::Deserialize;
-use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::{self, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
+use serde_json::de::SliceRead;
 
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
 use crate::error::{InputError, Result};
+use crate::plain::plain;
 use crate::suggestion::did_you_mean;
 
 /// Parses a scene file, with the source of its mesh still in it.
@@ -17,21 +20,47 @@ use crate::suggestion::did_you_mean;
 pub fn parse(text: &[u8]) -> Result<Description> {
     let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
     let mut deserializer = serde_json::Deserializer::from_slice(text);
-    let scene = serde_path_to_error::deserialize(&mut deserializer);
-    let scene: Description = scene.map_err(|error| {
-        let place = match error.path().to_string() {
-            path if path == "." || path == "?" => "the scene file".into(),
-            path => format!("field {path}"),
-        };
-        let what = error.inner().to_string();
-        let fix = meant(&what) + "see the scene format in README.md";
-        InputError::new(place, what, fix)
-    })?;
+    let _: Objects = read(&mut deserializer)?;
+    let mut deserializer = serde_json::Deserializer::from_slice(text);
+    let scene: Description = read(&mut deserializer)?;
     deserializer.end().map_err(|error| {
         let fix = "remove what follows the scene";
         InputError::new("the end of the scene file", error.to_string(), fix)
     })?;
     Ok(scene)
+}
+
+/// The fields that are objects; serde would take a list in the order of their fields.
+#[derive(Deserialize)]
+struct Objects {
+    #[serde(default, rename = "units")]
+    _units: Object,
+    #[serde(default, rename = "contact")]
+    _contact: Option<Object>,
+    #[serde(default, rename = "materials")]
+    _materials: HashMap<String, Object>,
+    #[serde(default, rename = "restraints")]
+    _restraints: Vec<Object>,
+    #[serde(default, rename = "loads")]
+    _loads: Vec<Object>,
+}
+
+type Object = HashMap<String, IgnoredAny>;
+
+/// Reads what a scene file holds.
+/// Errors: it is malformed; the error names the field's path, the line and the column.
+fn read<'de, T: Deserialize<'de>>(
+    from: &mut serde_json::Deserializer<SliceRead<'de>>,
+) -> Result<T> {
+    serde_path_to_error::deserialize(from).map_err(|error| {
+        let place = match error.path().to_string() {
+            path if path == "." || path == "?" => "the scene file".into(),
+            path => format!("field {path}"),
+        };
+        let what = plain(error.inner());
+        let fix = meant(&what) + "see the scene format in README.md";
+        InputError::new(place, what, fix)
+    })
 }
 
 /// Returns the name that an unknown one was meant to be: serde's words name it first, then those that

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use crate::error::{InputError, Result};
 use crate::files;
+use crate::numbers::solve::memory;
 use crate::suggestion::did_you_mean;
 
 /// The text of a scene file, and the place where its mesh file is.
@@ -82,12 +83,17 @@ impl SceneFile {
     }
 }
 
-/// Reads an ordinary file; a device would never end.
+/// The bytes of a mesh file's text and of the tables made of it, over the former.
+const WITH_TABLES: f64 = 3.0;
+
+/// Reads an ordinary file that fits in memory; a device would never end.
 fn read_beside(path: &Path) -> Result<Vec<u8>, String> {
     let metadata = std::fs::metadata(path).map_err(|why| why.to_string())?;
     if !metadata.is_file() {
         return Err("it is no ordinary file".into());
     }
+    let needed = WITH_TABLES * metadata.len() as f64;
+    memory::check_bytes(needed, "", "its text and tables", "").map_err(|why| why.what)?;
     std::fs::read(path).map_err(|why| why.to_string())
 }
 

@@ -9,11 +9,12 @@ use serde_json::{Value, to_value};
 use super::{Compared, WORST};
 use crate::answer::estimates::Certainty;
 use crate::error::Result;
+use crate::files::write_all;
 use crate::problem::element::Plane;
 use crate::problem::model::{NodeId, Triangle, TriangleId};
 use crate::problem::modelling::{Friction, Variant};
 use crate::report::json::of_scene;
-use crate::report::output::{csv, write_all};
+use crate::report::output::csv;
 use crate::report::picture::{self, Drawing, Field};
 use crate::studies::calculix::{BodyStress, Comparison, Contact, Difference, Largest, Pair};
 
@@ -57,6 +58,7 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
     let json = document(compared, &nodes, &elements);
     write_all(
         folder,
+        "compare",
         &[
             ("nodes.csv", &csv_of(NODES, &nodes)),
             ("elements.csv", &csv_of(ELEMENTS, &elements)),

@@ -36,10 +36,11 @@ pub fn difference_files(folder: &Path, scene: &Scene, [old, new]: [&Run; 2]) -> 
         displacement: &displacement,
         largest_at: None,
     };
-    files::write(&folder.join("difference.svg"), &picture::field(&drawing, &field))?;
     let unit = &scene.units.length[..];
     let points = [("difference", unit, 2, &difference[..]), ("displacement", unit, 2, &is[..])];
     let vtu = vtu::document(&[], &drawing.points, &drawing.triangles, &points, &[]);
-    files::write(&folder.join("difference.vtu"), &vtu)?;
+    let picture = picture::field(&drawing, &field);
+    let files = [("difference.svg", picture.as_bytes()), ("difference.vtu", &vtu)];
+    files::write_all(folder, "diff", &files)?;
     Ok(true)
 }

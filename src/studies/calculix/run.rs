@@ -8,7 +8,7 @@ use super::fields::Fields;
 use super::problem::{Part, Problem};
 use super::results::parse;
 use crate::error::{InputError, Result};
-use crate::files;
+use crate::files::Staged;
 use crate::problem::model::Model;
 use crate::problem::scene::Scene;
 
@@ -38,11 +38,12 @@ pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Resul
 
 /// What `program` prints to its `.dat` file for `deck`, in a temporary folder.
 fn print(program: &str, deck: &str) -> Result<String> {
-    let folder = tempfile::tempdir().map_err(|why| {
-        let what = format!("no temporary folder can be made: {why}");
+    let no_folder = |why| {
+        let what = format!("no temporary folder can be written: {why}");
         InputError::new("the temporary folder", what, "set TMPDIR to a place that can be written")
-    })?;
-    files::write(&folder.path().join("job.inp"), deck)?;
+    };
+    let folder = Staged::new(&std::env::temp_dir()).map_err(no_folder)?;
+    std::fs::write(folder.path().join("job.inp"), deck).map_err(no_folder)?;
     let output = start(program, &["job"], folder.path())?;
     let text = text(&output);
     if !output.status.success() || text.contains("*ERROR") {

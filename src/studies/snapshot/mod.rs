@@ -33,6 +33,7 @@ use serde_json::Value;
 use crate::answer::{Request, error as answer};
 use crate::error::{InputError, Result};
 use crate::paper::decisions::Decision;
+use crate::plain::plain;
 use crate::problem::scene::{Scene, Units};
 
 pub use accept::{Acceptance, Chosen, accept};
@@ -150,7 +151,7 @@ impl Snapshot {
             serde_path_to_error::deserialize(&mut deserializer);
         let snapshot = read.map_err(|error| {
             let place = format!("field {} of the snapshot", error.path());
-            InputError::new(place, error.inner().to_string(), fix)
+            InputError::new(place, plain(error.inner()), fix)
         })?;
         deserializer
             .end()

@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use crate::answer::Request;
 use crate::error::{InputError, Result};
+use crate::plain::plain;
 use crate::problem::scene::{SceneBuilder, SceneFile, file};
 use crate::studies::benchmark::Kind;
 use crate::studies::snapshot::{Options, VERSION, sha256};
@@ -98,11 +99,7 @@ impl Document {
         let options: Options =
             serde_path_to_error::deserialize(&self.fields["options"]).map_err(|error| {
                 let place = format!("options.{}", error.path());
-                InputError::new(
-                    place,
-                    error.inner().to_string(),
-                    "see `plane-contact sweep --help`",
-                )
+                InputError::new(place, plain(error.inner()), "see `plane-contact sweep --help`")
             })?;
         Ok(options.request(&scene))
     }

@@ -9,6 +9,7 @@ use serde_json::{Map, Value};
 
 use super::document::Document;
 use crate::error::{InputError, Result};
+use crate::plain::plain;
 use crate::studies::benchmark::Kind;
 use crate::studies::snapshot::Options;
 
@@ -116,7 +117,7 @@ impl Sweep {
         let mut deserializer = serde_json::Deserializer::from_slice(text);
         let sweep: Self = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
             let place = format!("field {} of the sweep", error.path());
-            InputError::new(place, error.inner().to_string(), "see `plane-contact sweep --help`")
+            InputError::new(place, plain(error.inner()), "see `plane-contact sweep --help`")
         })?;
         if sweep.format != FORMAT {
             let what = format!("the sweep is of format {}", sweep.format);

@@ -1,8 +1,16 @@
-//! Files are read up to a limit, as a device would never end, and written beside their target and then
-//! renamed, so that no file is ever half written.
+//! Files are read up to a limit, as a device would never end, and written beside their target and
+//! then renamed, so that no file is ever half written; those of a folder all at once.
+
+mod folder;
+mod manifest;
+mod staged;
 
 use std::io::{self, Read, Write};
 use std::path::Path;
+
+pub use folder::write_all;
+pub use manifest::MANIFEST;
+pub use staged::{Staged, abandon};
 
 use crate::error::{InputError, Result};
 
@@ -60,26 +68,20 @@ pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
 }
 
 /// Writes a file beside `path` and renames it.
-fn replace(path: &Path, content: &[u8]) -> std::io::Result<()> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
+    let folder = folder_of(path);
     std::fs::create_dir_all(folder)?;
-    let mut file = temporary(folder)?;
+    let _undisturbed = staged::registry();
+    let mut file = staged::file(folder)?;
     file.write_all(content)?;
     file.persist(path).map_err(|failed| failed.error)?;
     Ok(())
 }
 
-/// Creates a temporary file with an ordinary file's permissions; tempfile's are the owner's alone.
-fn temporary(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".plane-contact-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
+/// Returns the folder in which `path` lies.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     }
-    builder.tempfile_in(folder)
 }

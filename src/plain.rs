@@ -1,0 +1,52 @@
+//! What serde says of a value of the wrong kind, in words for people.
+
+use std::fmt::Display;
+
+/// What serde calls the kinds of values, found or expected.
+const KINDS: &[(&str, &str)] = &[
+    ("sequence", "a list"),
+    ("a sequence", "a list"),
+    ("map", "an object"),
+    ("a map", "an object"),
+    ("f64", "a number"),
+    ("usize", "a whole number"),
+    ("u64", "a whole number"),
+    ("u32", "a whole number"),
+    ("integer", "the number"),
+    ("floating point", "the number"),
+    ("string", "the text"),
+    ("boolean", "the value"),
+    ("length", "a list of"),
+];
+
+/// Returns what `error` says, with the kinds of JSON in place of those of Rust.
+///
+/// ```
+/// let error = serde_json::from_str::<Vec<f64>>(r#"["x"]"#).expect_err("no number");
+/// let words = "the text \"x\" where a number is expected, at line 1 column 4";
+/// assert_eq!(plane_contact::plain::plain(&error), words);
+/// ```
+pub fn plain(error: &impl Display) -> String {
+    let text = error.to_string();
+    if let Some(at) = text.strip_prefix("trailing characters ") {
+        return format!("the list is too long, {at}");
+    }
+    let starts = ["invalid type: ", "invalid value: ", "invalid "];
+    let Some(rest) = starts.iter().find_map(|start| text.strip_prefix(start)) else { return text };
+    let Some((found, expected)) = rest.split_once(", expected ") else { return text };
+    let (expected, at) = match expected.rsplit_once(" at line ") {
+        Some((expected, at)) => (expected, format!(", at line {at}")),
+        None => (expected, String::new()),
+    };
+    format!("{} where {} is expected{at}", of_json(found), of_json(expected))
+}
+
+/// Returns the words for a kind, and for a value whose kind comes first.
+fn of_json(words: &str) -> String {
+    let known = |(rust, plain): &(&str, &str)| {
+        let value = words.strip_prefix(rust)?;
+        let is_whole = value.is_empty() || value.starts_with([' ', '`']) && !rust.starts_with("a ");
+        is_whole.then(|| format!("{plain}{value}").replace('`', ""))
+    };
+    KINDS.iter().find_map(known).unwrap_or_else(|| words.into())
+}

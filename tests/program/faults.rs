@@ -1,0 +1,268 @@
+//! The files of a run appear all or not at all, whatever happens in the middle: kills, full disks,
+//! two runs at once, folders that cannot be written.
+#![cfg(target_os = "linux")]
+
+use std::collections::BTreeMap;
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+use crate::common::program::run;
+use crate::limits::{refused, shell};
+
+/// The kills of a test; the variable of this name asks for more.
+const KILLS: (&str, u32) = ("PLANE_CONTACT_KILLS", 20);
+
+/// How soon a signal ends a run, beside other tests on a busy machine; alone it is below 0.2 s.
+const SOON: Duration = Duration::from_secs(2);
+
+/// How the name of everything temporary begins.
+const STAGED: &str = ".plane-contact-staged-";
+
+/// Two runs that leave different files.
+const RUNS: [&[&str]; 2] = [
+    &["solve", "fig1", "--variant", "tied", "--no-error-estimate", "--out", "o"],
+    &[
+        "solve",
+        "fig1",
+        "--variant",
+        "printed",
+        "--no-error-estimate",
+        "--no-pictures",
+        "--out",
+        "o",
+    ],
+];
+
+type Files = BTreeMap<String, Vec<u8>>;
+
+/// The content of each file in `folder` and below, by its name there; none where it is missing.
+fn files(folder: &Path) -> Files {
+    let mut found = Files::new();
+    for entry in std::fs::read_dir(folder).into_iter().flatten() {
+        let entry = entry.expect("an entry");
+        let name = entry.file_name().into_string().expect("UTF-8");
+        if entry.path().is_dir() {
+            found.extend(files(&entry.path()).into_iter().map(|(k, v)| (format!("{name}/{k}"), v)));
+        } else {
+            found.insert(name, std::fs::read(entry.path()).expect("a file"));
+        }
+    }
+    found
+}
+
+/// The names of what is temporary in `folder`.
+fn staged(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("a folder").flatten();
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    names.filter(|name| name.starts_with(STAGED)).collect()
+}
+
+/// What each of the two runs leaves, and the longer of their durations.
+fn whole(folder: &Path) -> ([Files; 2], Duration) {
+    let mut longest = Duration::ZERO;
+    let found = RUNS.map(|args| {
+        let start = Instant::now();
+        assert!(run(folder, args).status.success());
+        longest = longest.max(start.elapsed());
+        files(&folder.join("o"))
+    });
+    assert_ne!(found[0], found[1]);
+    (found, longest)
+}
+
+fn start(folder: &Path, args: &[&str]) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_plane-contact"))
+        .args(args)
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts")
+}
+
+/// Sends `signal` to a process, and returns how long it lives on and the signal that it died of;
+/// None where it had ended by itself.
+fn kill(child: &mut Child, signal: &str) -> (Duration, Option<i32>) {
+    let kill = format!("kill -{signal} {} 2>/dev/null", child.id());
+    let sent = Instant::now();
+    let _ = Command::new("sh").args(["-c", &kill]).status().expect("a shell");
+    let status = child.wait().expect("it ends");
+    (sent.elapsed(), status.signal())
+}
+
+/// Every other kill comes when files are being written: a staged folder is there.
+#[test]
+fn a_kill_leaves_the_old_files_or_the_new_ones() {
+    let folder = TempDir::new().expect("a folder");
+    let (expected, duration) = whole(folder.path());
+    let kills = std::env::var(KILLS.0).ok().map_or(KILLS.1, |n| n.parse().expect("a number"));
+    let mut random = fastrand::Rng::with_seed(16);
+    let (mut died, mut changed, mut slowest) = (0, 0, Duration::ZERO);
+    let mut before = files(&folder.path().join("o"));
+    for k in 0..kills {
+        let (signal, number) = [("KILL", 9), ("TERM", 15), ("INT", 2)][k as usize % 3];
+        let other = usize::from(before == expected[0]);
+        let left = staged(folder.path());
+        let mut child = start(folder.path(), RUNS[other]);
+        if k % 2 == 0 {
+            std::thread::sleep(duration.mul_f64(1.2 * random.f64()));
+        } else {
+            let is_staged = || staged(folder.path()).iter().any(|name| !left.contains(name));
+            while !is_staged() && child.try_wait().expect("a process").is_none() {}
+            std::thread::sleep(Duration::from_micros(random.u64(0..4000)));
+        }
+        let (lived, of) = kill(&mut child, signal);
+        let now = files(&folder.path().join("o"));
+        assert!(expected.contains(&now), "kill {k} by {signal}: {:?}", now.keys());
+        if let Some(of) = of {
+            assert_eq!(of, number);
+            died += 1;
+            slowest = slowest.max(lived);
+            assert!(lived < SOON, "{signal} took {lived:?}");
+            if signal != "KILL" {
+                let new = staged(folder.path()).into_iter().find(|name| !left.contains(name));
+                assert_eq!(new, None, "kill {k} by {signal}");
+            }
+        }
+        changed += u32::from(now != before);
+        before = now;
+    }
+    println!("{kills} kills, {died} in the middle, {changed} after the files; at most {slowest:?}");
+    assert!(died > 0);
+    assert!(run(folder.path(), RUNS[0]).status.success());
+    assert_eq!(files(&folder.path().join("o")), expected[0]);
+    assert_eq!(staged(folder.path()), [""; 0], "the next run removes what kills left");
+}
+
+#[test]
+fn a_long_run_ends_by_a_signal_and_leaves_the_old_files() {
+    let folder = TempDir::new().expect("a folder");
+    let (expected, _) = whole(folder.path());
+    for (signal, number) in [("INT", 2), ("TERM", 15)] {
+        let mut child = start(folder.path(), &["audit", "strand", "--out", "o"]);
+        std::thread::sleep(Duration::from_millis(300));
+        let (lived, of) = kill(&mut child, signal);
+        assert_eq!(of, Some(number));
+        assert!(lived < SOON, "{signal} took {lived:?}");
+        assert_eq!(files(&folder.path().join("o")), expected[1]);
+        assert_eq!(staged(folder.path()), [""; 0]);
+    }
+}
+
+#[test]
+fn two_runs_into_one_folder_leave_the_files_of_one() {
+    let folder = TempDir::new().expect("a folder");
+    let (expected, _) = whole(folder.path());
+    for _ in 0..8 {
+        let both = RUNS.map(|args| start(folder.path(), args));
+        for mut child in both {
+            assert!(child.wait().expect("it ends").success());
+        }
+        let now = files(&folder.path().join("o"));
+        assert!(expected.contains(&now), "{:?}", now.keys());
+    }
+    assert_eq!(staged(folder.path()), [""; 0]);
+}
+
+/// What is not the program's, or was changed since, is left; what an earlier run of the command
+/// wrote is not.
+#[test]
+fn a_users_files_stay_and_those_of_an_earlier_run_go() {
+    let folder = TempDir::new().expect("a folder");
+    let (expected, _) = whole(folder.path());
+    let at = |name: &str| folder.path().join("o").join(name);
+    assert!(run(folder.path(), RUNS[0]).status.success());
+    std::fs::create_dir(at("mine")).expect("a folder");
+    for name in ["notes.txt", "mine/data.csv", "mesh.svg"] {
+        std::fs::write(at(name), "mine").expect("it is written");
+    }
+    assert!(run(folder.path(), RUNS[1]).status.success());
+    let mut now = files(&folder.path().join("o"));
+    for name in ["notes.txt", "mine/data.csv", "mesh.svg"] {
+        assert_eq!(now.remove(name).expect(name), b"mine");
+    }
+    assert_eq!(now, expected[1]);
+    let sums = shell(&folder.path().join("o"), "sha256sum --check --strict SHA256SUMS");
+    assert!(sums.status.success(), "{}", String::from_utf8_lossy(&sums.stdout));
+}
+
+/// Another command's files are not those of an earlier run: a scene is solved where it lies.
+#[test]
+fn commands_share_a_folder() {
+    let folder = TempDir::new().expect("a folder");
+    assert!(run(folder.path(), &["scene", "fig1", "--out", "o"]).status.success());
+    let scene = files(&folder.path().join("o"));
+    for args in [RUNS[0], RUNS[1], &["solve", "o", "--out", "o", "--csv", "o"]] {
+        assert!(run(folder.path(), args).status.success());
+    }
+    let now = files(&folder.path().join("o"));
+    assert_eq!(now["scene.json"], scene["scene.json"]);
+    assert!(now.contains_key("result.json") && now.keys().any(|name| name.ends_with(".csv")));
+    let sums = shell(&folder.path().join("o"), "sha256sum --check --strict SHA256SUMS");
+    assert!(sums.status.success(), "{}", String::from_utf8_lossy(&sums.stdout));
+}
+
+/// The folder in which a process works stays the same one.
+#[test]
+fn the_current_folder_stays() {
+    use std::os::unix::fs::MetadataExt;
+    let folder = TempDir::new().expect("a folder");
+    let (expected, _) = whole(folder.path());
+    let here = folder.path().join("o");
+    let inode = || std::fs::metadata(&here).expect("a folder").ino();
+    let before = inode();
+    let args: Vec<&str> = [&RUNS[0][..RUNS[0].len() - 1], &["."]].concat();
+    assert!(run(&here, &args).status.success());
+    assert_eq!((files(&here), inode()), (expected[0].clone(), before));
+}
+
+/// A file that grows too large stands for a disk that is full.
+#[test]
+fn what_cannot_be_written_leaves_the_old_files() {
+    let folder = TempDir::new().expect("a folder");
+    let (expected, _) = whole(folder.path());
+    std::fs::write(folder.path().join("file"), "").expect("it is written");
+    std::fs::create_dir_all(folder.path().join("p/result.json")).expect("a folder");
+    let solve = "$P solve fig1 --variant tied --no-error-estimate --out";
+    for (line, words) in [
+        (format!("{solve} file"), ["where: ", "file is a file"]),
+        (format!("{solve} file/o"), ["file/o", "file is a file"]),
+        (format!("{solve} p"), ["where: ", "result.json is a folder in it"]),
+        (format!("{solve} /proc/o"), ["/proc/o", "cannot be written"]),
+        (format!("trap '' XFSZ; ulimit -f 8; {solve} o"), ["where: ", "File too large"]),
+    ] {
+        refused(folder.path(), &line, &words);
+        refused(folder.path(), &line, &["fix:   choose another place"]);
+        let json = shell(folder.path(), &format!("{line} --json"));
+        let document: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON alone");
+        assert_eq!(document["failure"]["exit_status"], 2, "{line}: {document}");
+    }
+    assert_eq!(files(&folder.path().join("o")), expected[1]);
+    assert_eq!(files(&folder.path().join("p")), Files::new());
+    assert_eq!(staged(folder.path()), [""; 0]);
+    let gone = "mkdir q && cd q && rm -r ../q && $P solve fig1 --out o";
+    refused(folder.path(), gone, &["cannot be written"]);
+}
+
+#[test]
+fn a_poor_environment_changes_nothing_but_the_width() {
+    let folder = TempDir::new().expect("a folder");
+    let solve = "$P solve fig1 --variant tied --out o";
+    let plain = shell(folder.path(), solve);
+    let poor = shell(folder.path(), &format!("env -i LANG=C P=\"$P\" sh -c '{solve}'"));
+    assert_eq!((plain.status.code(), &plain.stdout), (Some(0), &poor.stdout));
+    let narrow = shell(folder.path(), &format!("COLUMNS=20 {solve}"));
+    assert_eq!(narrow.status.code(), Some(0));
+    let text = String::from_utf8(narrow.stdout).expect("UTF-8");
+    assert!(text.lines().all(|line| line.chars().count() <= 40), "{text}");
+    let expected = files(&folder.path().join("o"));
+    for line in [format!("{solve} | true"), format!("{solve} >&-"), format!("{solve} 2>&-")] {
+        assert_eq!(shell(folder.path(), &line).status.code(), Some(0), "{line}");
+        assert_eq!(files(&folder.path().join("o")), expected, "{line}");
+    }
+    refused(folder.path(), &format!("{solve} >/dev/full"), &["standard output", "No space left"]);
+}
