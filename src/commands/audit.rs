@@ -14,10 +14,10 @@ use plane_contact::report::folder::Wanted;
 use plane_contact::report::{audit as report, folder, pressure};
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::range::range;
-use plane_contact::studies::audit::{Audit, Case, audit};
+use plane_contact::studies::audit::{Audit, Case, audit, steps};
 use plane_contact::suggestion::did_you_mean;
 
-use super::{TablesArgs, print, print_fitted, tell, waiting};
+use super::{TablesArgs, print, print_fitted, progress, tell};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -100,7 +100,9 @@ fn whole(args: &Args) -> Result<()> {
     if !std::io::stderr().is_terminal() {
         tell(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
     }
-    let found = waiting("auditing", || audit(&case, &places));
+    let bar = progress(steps(), "auditing {pos} of {len} {wide_bar} {eta}");
+    let found = audit(&case, &places, &|| bar.inc(1));
+    bar.finish_and_clear();
     let (text, json) = (report::text(&found, &case.scene), report::json(&found, &case.scene));
     if let Some(out) = &args.out {
         write(out, &case, &found, &text, &json)?;

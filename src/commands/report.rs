@@ -59,7 +59,7 @@ pub fn run(args: &Args) -> Result<()> {
 }
 
 fn page_of(args: &Args, case: &Case, charts: Vec<(String, String)>) -> Result<String> {
-    let audited = (!args.no_audit).then(|| audit(case, &Vec::new()));
+    let audited = (!args.no_audit).then(|| audit(case, &Vec::new(), &|| ()));
     let wanted = |variant: &&Variant| args.variant.is_empty() || args.variant.contains(variant);
     let ran = Variant::ALL.iter().filter(wanted).filter_map(|v| case.certain(*v).ok());
     let others = match args.no_audit {

@@ -69,15 +69,30 @@ pub struct Compared {
     pub bodies: Vec<BodySummary>,
 }
 
+/// The number of times that [`audit`] calls its `watch`.
+pub fn steps() -> usize {
+    FINDINGS.len() + 4
+}
+
 /// Audits a scene: claims, readings, findings and variants, each against the default; claims also
-/// at the `places` of the range of what the paper leaves open.
-pub fn audit(case: &Case, places: &Range) -> Audit {
+/// at the `places` of the range of what the paper leaves open. `watch` is called after each step.
+pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
     case.prepare();
+    watch();
     let variants = variants::side_by_side(case);
+    watch();
     let readings = readings::effects(case);
-    let findings = FINDINGS.par_iter().map(|finding| (finding, finding.measure(case))).collect();
+    watch();
+    let measured = |finding: &'static Finding| {
+        let measured = finding.measure(case);
+        watch();
+        (finding, measured)
+    };
+    let findings = FINDINGS.par_iter().map(measured).collect();
+    let claims = claims::judge(CLAIMS, case, places);
+    watch();
     Audit {
-        claims: claims::judge(CLAIMS, case, places),
+        claims,
         assumptions: assumptions(&case.scene),
         readings,
         findings,
