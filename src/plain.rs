@@ -2,6 +2,10 @@
 
 use std::fmt::Display;
 
+use serde::de::DeserializeOwned;
+
+use crate::error::{InputError, Result};
+
 /// What serde calls the kinds of values, found or expected.
 const KINDS: &[(&str, &str)] = &[
     ("sequence", "a list"),
@@ -18,6 +22,24 @@ const KINDS: &[(&str, &str)] = &[
     ("boolean", "the value"),
     ("length", "a list of"),
 ];
+
+/// Reads a JSON document, which errors call `name`.
+///
+/// # Errors
+/// Names the field that is wrong or lacking, or what follows the document.
+pub fn document<T: DeserializeOwned>(text: &[u8], name: &str, fix: &str) -> Result<T> {
+    let mut deserializer = serde_json::Deserializer::from_slice(text);
+    let document = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
+        let place = match error.path().to_string() {
+            path if path == "." || path == "?" => format!("the {name}"),
+            path => format!("field {path} of the {name}"),
+        };
+        InputError::new(place, plain(error.inner()), fix)
+    })?;
+    let end = |why| InputError::new(format!("the end of the {name}"), plain(&why), fix);
+    deserializer.end().map_err(end)?;
+    Ok(document)
+}
 
 /// Returns what `error` says, with the kinds of JSON in place of those of Rust.
 ///

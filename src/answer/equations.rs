@@ -18,7 +18,8 @@ use crate::numbers::solve::{self, Precision, Solver, Unsolved};
 use crate::paper::door;
 use crate::paper::edited::Interpreter;
 use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::{Km, Pairs, RestraintIndex, Schedule, Worksheet};
+use crate::paper::mirror::{self, Pairs, RestraintIndex, Schedule, Worksheet};
+use crate::paper::near::Km;
 use crate::problem::model::{Dof, Model};
 use crate::problem::modelling::{Coupling, Variant};
 
@@ -126,11 +127,16 @@ impl<'a, T: Precision> Equations<'a, T> {
         match &self.assembly {
             Assembly::Printed => {
                 let solved = T::sweep(|| {
-                    let matrix = match self.interpreter.and_then(|i| i.km(&pairs.k_cnt)) {
-                        Some(edited) => edited?,
-                        None => Km(self.sheet, &self.request.reading, &pairs.k_cnt)?,
+                    let (sheet, reading) = (self.sheet, &self.request.reading);
+                    let edited = self.interpreter.and_then(|i| i.km(&pairs.k_cnt));
+                    let solved = if let Some(edited) = edited {
+                        T::solve(edited?.into_matrix(), &self.f, solver, tol)
+                    } else if solver == Solver::SparseLu {
+                        T::solve_sparse(Km(sheet, reading, &pairs.k_cnt)?, &self.f, solver, tol)
+                    } else {
+                        let matrix = mirror::Km(sheet, reading, &pairs.k_cnt)?.into_matrix();
+                        T::solve(matrix, &self.f, solver, tol)
                     };
-                    let solved = T::solve(matrix.into_matrix(), &self.f, solver, tol);
                     solved.map_err(|why| self.unsolved(why, pairs, k, Dof::new))
                 })?;
                 Ok(self.solved(solved.residual, solved.x, &[]))

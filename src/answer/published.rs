@@ -115,7 +115,9 @@ fn check_load<T: Scalar>(
 /// Checks that the matrices fit in memory and that exact numbers end within a bearable time.
 fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), InputError> {
     // The count is in units of an f64, whatever the size of the scalar.
-    let matrices = dense_matrices(request.variant, request.arithmetic)
+    // An edited `Km` is interpreted into a dense matrix, of which a sparse one is made.
+    let of_listing = if request.is_edited(Which::Km) { 2 } else { 0 };
+    let matrices = dense_matrices(request.variant, request.arithmetic).max(of_listing)
         * size_of::<T>().div_ceil(size_of::<f64>());
     memory::check(model.nodes.len(), matrices, memory::free())?;
     let kept = BYTES_OF_A_NODE * (model.nodes.len() * request.iterations) as f64;

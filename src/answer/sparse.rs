@@ -171,6 +171,7 @@ pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
         (Variant::Printed, Solver::DenseLu) => 3,
         // K beside the matrix of the iteration and its two factors.
         (_, Solver::DenseLu) => 4,
+        (Variant::Printed, Solver::SparseLu) => 0,
         (_, Solver::SparseLu) => 2,
         (Variant::Printed, Solver::DenseCholesky) => 2,
         (_, Solver::DenseCholesky) => 3,

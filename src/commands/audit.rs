@@ -107,7 +107,7 @@ fn whole(args: &Args) -> Result<()> {
     if let Some(out) = &args.out {
         write(out, &case, &found, &text, &json)?;
     }
-    if args.json { print(&json) } else { args.tables.print(&text) }
+    if args.json { print(&json) } else { args.tables.print("audit", &text) }
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.

@@ -89,5 +89,6 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json);
     }
-    args.tables.print(&format!("{}\nWritten to {}\n", report::text(&compared), out.display()))
+    args.tables
+        .print("compare", &format!("{}\nWritten to {}\n", report::text(&compared), out.display()))
 }

@@ -60,7 +60,7 @@ pub fn run(args: &Args) -> Result<()> {
         }
     }
     files::write_all(&out, "extremes", &written)?;
-    if args.json { print(&json) } else { args.tables.print(&text) }
+    if args.json { print(&json) } else { args.tables.print("extremes", &text) }
 }
 
 /// The generators of these names, in the order of the list; all of them where no name is given.

@@ -270,12 +270,11 @@ pub struct TablesArgs {
 }
 
 impl TablesArgs {
-    /// Prints a text with tables.
-    pub fn print(&self, text: &str) -> Result<()> {
+    /// Prints a text with tables, which `command` made.
+    pub fn print(&self, command: &str, text: &str) -> Result<()> {
         if let Some(folder) = &self.csv {
             let tables = printed::tables(text).into_iter();
             let tables: Vec<_> = tables.map(|(name, csv)| (format!("{name}.csv"), csv)).collect();
-            let command = std::env::args().nth(1).unwrap_or_default();
             files::write_all(folder, &format!("{command} --csv"), &tables)?;
         }
         print_fitted(text)

@@ -39,5 +39,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&report::json(&scene, &plan));
     }
-    args.tables.print(&report::text(&plan, memory::free()))
+    args.tables.print("plan", &report::text(&plan, memory::free()))
 }

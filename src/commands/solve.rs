@@ -134,7 +134,7 @@ pub fn run(args: &Args) -> Result<u8> {
     let plan = report::plan::line(&plan);
     let changes = beside_the_print(&solution);
     let text = format!("{tables}{changes}\n{plan}\nWritten to {}\n", out.display());
-    args.tables.print(&text)?;
+    args.tables.print("solve", &text)?;
     Ok(status(&solution))
 }
 

@@ -46,5 +46,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&report::json(&measured));
     }
-    args.tables.print(&report::text(&measured))
+    args.tables.print("statuses", &report::text(&measured))
 }

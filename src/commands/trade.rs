@@ -83,7 +83,8 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json);
     }
-    args.tables.print(&format!("{}\nWritten to {}\n", report::text(&measured), out.display()))
+    args.tables
+        .print("trade", &format!("{}\nWritten to {}\n", report::text(&measured), out.display()))
 }
 
 /// The peak memory of a process that runs nothing but `trial`: this command again, with one more

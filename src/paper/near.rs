@@ -1,10 +1,13 @@
-//! `c_cnt` with the boxes of its lines 5 to 7 in a tree: the same pairs, to the bit, without a look at
-//! every edge for every contact node.
+//! The listings on large scenes, the same to the bit: `c_cnt` with the boxes of its lines 5 to 7 in a
+//! tree, without a look at every edge for every contact node, and `Km` without the zeros of `MJS`.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
+use std::ops::{Index, IndexMut};
+
 use super::mathcad::array::{Table, rows};
-use super::mirror::{Failure, Pairs, Reading, Worksheet, c_cnt_near};
+use super::mirror::{Failure, Km_in, Pairs, Reading, Worksheet, c_cnt_near};
 use crate::numbers::scalar::Scalar;
+use crate::numbers::solve::SparseSquare;
 use crate::problem::tree::{Bounds, Tree};
 
 /// The boxes of the target edges in a shape.
@@ -27,6 +30,34 @@ pub fn c_cnt<T: Scalar>(
         Some(boxes) => c_cnt_near(sheet, reading, node_n, &|i1| boxes.near(i1)),
         // A box that overflows fails the listing where it meets it first.
         None => super::mirror::c_cnt(sheet, reading, node_n),
+    }
+}
+
+/// A matrix that counts from 1.
+struct FromOne<T>(SparseSquare<T>);
+
+/// Assembles `MJS` (2R x 2R, force/length) from the contact pairs `k_cnt` (R x 4).
+///
+/// # Errors
+/// Those of the listing's [`Km`](super::mirror::Km).
+pub fn Km<T: Scalar>(
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    k_cnt: &Table<T>,
+) -> Result<SparseSquare<T>, Failure> {
+    Ok(Km_in(sheet, reading, k_cnt, FromOne(SparseSquare::zeros(2 * sheet.R())))?.0)
+}
+
+impl<T: Scalar> Index<(usize, usize)> for FromOne<T> {
+    type Output = T;
+    fn index(&self, (i, j): (usize, usize)) -> &T {
+        &self.0[(i - 1, j - 1)]
+    }
+}
+
+impl<T: Scalar> IndexMut<(usize, usize)> for FromOne<T> {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut T {
+        &mut self.0[(i - 1, j - 1)]
     }
 }
 

@@ -16,6 +16,7 @@ use crate::paper::decisions::Decision;
 use crate::paper::edited::Edited;
 use crate::paper::listings::Which;
 use crate::paper::mirror::Reading;
+use crate::plain;
 use crate::problem::model::{NodeId, Triangle};
 use crate::problem::modelling::{ContactModel, Variant};
 use crate::problem::scene::{Material, Units};
@@ -299,13 +300,8 @@ impl ResultFile {
     /// Names the field that is wrong or that lacks one, or what follows the result; or neither the
     /// fields nor where they are is in it.
     pub fn from_json(text: &str) -> Result<Self> {
-        let fault = |place: String, why: &serde_json::Error| {
-            InputError::new(place, why.to_string(), "give a result.json as solve writes it")
-        };
-        let mut deserializer = serde_json::Deserializer::from_str(text);
-        let result: Self = serde_path_to_error::deserialize(&mut deserializer)
-            .map_err(|e| fault(format!("field {} of the result", e.path()), e.inner()))?;
-        deserializer.end().map_err(|e| fault("the end of the result".into(), &e))?;
+        let fix = "give a result.json as solve writes it";
+        let result: Self = plain::document(text.as_bytes(), "result", fix)?;
         if result.fields_in.is_none() {
             result.fields()?;
         }

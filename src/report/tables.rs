@@ -37,7 +37,7 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
     let mut text = format!("{} ({})\n{}", scene.title, heading(solution), dropped(scene));
     text += &match path(solution) {
         Some(path) => {
-            format!("\nPath of the load\n{}", load_steps(solution, path, assessment.path_change))
+            format!("\nPath of the load\n{}", load_steps(solution, path, assessment))
         }
         None => format!("\nIterations\n{}", iterations(solution)),
     };
@@ -155,7 +155,7 @@ fn path(solution: &Solution) -> Option<&Path> {
 }
 
 /// Lays out the last iteration under each load of a path.
-fn load_steps(solution: &Solution, path: &Path, change: Option<f64>) -> String {
+fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> String {
     let units = &solution.request.scene.units;
     let length = |name| quantity(name, &units.length);
     let details: Vec<(f64, &Vec<Status>)> = solution.steps.iter().filter_map(under_load).collect();
@@ -179,13 +179,20 @@ fn load_steps(solution: &Solution, path: &Path, change: Option<f64>) -> String {
         })
         .text();
     let largest = max_displacement(&solution.u);
-    let change = match change {
+    let change = match assessment.path_change {
         Some(change) => format!(
             "half as many steps change displacements by {} = {}",
             with_unit(&short(change), &units.length),
             percent(if largest > 0.0 { change / largest } else { 0.0 }, 2)
         ),
-        None => "what is left of the size of the steps is not known: ask for an even number".into(),
+        None => {
+            let why = match () {
+                () if path.steps % 2 == 1 => "is not known: ask for an even number",
+                () if assessment.estimates.is_none() => "was not asked for",
+                () => "is not known: half as many find no equilibrium",
+            };
+            format!("what is left of the size of the steps {why}")
+        }
     };
     let halved = match path.halved {
         0 => String::new(),

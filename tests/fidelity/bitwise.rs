@@ -8,6 +8,7 @@
 use crate::common::random::fixed;
 use nalgebra::SMatrix;
 use plane_contact::answer::Request;
+use plane_contact::numbers::solve::SparseSquare;
 use plane_contact::paper::door;
 use plane_contact::paper::exports::{self, Export};
 use plane_contact::paper::listings::{self, Which, settings};
@@ -331,6 +332,12 @@ fn agree(
     prop_assert_eq!(
         &of_mirror_km,
         &listing_km.map(|(m, _)| flat(&m)).map_err(|f| listing_stop(&f))
+    );
+    let near_km = near::Km(sheet, reading, &k_cnt);
+    let sparse = |m: &SparseSquare| bits(m.dense().iter().copied());
+    prop_assert_eq!(
+        &of_mirror_km,
+        &near_km.as_ref().map(sparse).map_err(|f| mirror_stop(f.clone()))
     );
     Ok(Seen { c_cnt: of_mirror.map(|(_, _, dy, _)| dy.iter().sum()), km: of_mirror_km.map(|_| ()) })
 }

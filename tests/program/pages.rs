@@ -122,6 +122,27 @@ fn the_report_shows_what_solve_and_audit_have() {
     in_browser(&modules, "large.cjs", &[&page, "2014"]);
 }
 
+/// Firefox, where it is, as it must be where `REQUIRE_FIREFOX` is set.
+#[test]
+fn both_pages_work_in_firefox_too() {
+    let mut firefox = Command::new("firefox-esr");
+    firefox.arg("--version");
+    if !is_there(firefox, "REQUIRE_FIREFOX") {
+        return;
+    }
+    let modules = Path::new(ROOT).join("target/browser/node_modules");
+    let folder = TempDir::new().expect("a folder");
+    let made = |name: &str, args: &[&str]| made(folder.path(), name, args);
+    let files = [
+        made("lesson.html", &["lesson", "fig1"]),
+        made("c_cnt", &["trace", "fig1", "--listing", "c_cnt", "--json"]),
+        made("Km", &["trace", "fig1", "--listing", "Km", "--json"]),
+        made("report.html", &["report", "fig1", "--no-audit"]),
+        made("result.json", &["solve", "fig1", "--fields", "--json"]),
+    ];
+    in_browser(&modules, "firefox.cjs", &files.each_ref().map(String::as_str));
+}
+
 /// The page of a mesh that a canvas's own paths, or SVG, would take seconds to draw.
 #[test]
 fn a_report_shows_100_352_triangles() {

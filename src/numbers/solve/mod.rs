@@ -9,7 +9,7 @@
 //! | `symmetric`, `cholesky` | sparse symmetric matrices; faer's factor of one |
 //! | `sparse`, `condensed`, `iterative` | factors that tell a singular matrix; those that leave a few
 //!   equations over; solutions to a tolerance |
-//! | `sparse_lu` | those of a matrix that need not be positive definite |
+//! | `square`, `sparse_lu` | sparse matrices that need not be symmetric; factors of one |
 //! | `field`, `lu`, `ldlt`, `lifting` | elimination in numbers that no library factors |
 //! | `precision` | the solution in each scalar by each solver |
 
@@ -29,6 +29,7 @@ pub mod memory;
 mod precision;
 mod sparse;
 mod sparse_lu;
+mod square;
 mod symbolic;
 mod symmetric;
 
@@ -45,5 +46,6 @@ pub use lu::solve_dense;
 pub use precision::{Precision, Solved, Unsolved};
 pub use sparse::{SparseCholesky, largest_motion};
 pub use sparse_lu::SparseLu;
+pub use square::SparseSquare;
 pub use symbolic::FactorSize;
 pub use symmetric::SparseSymmetric;

@@ -11,7 +11,6 @@
 
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
-use num_traits::Zero;
 
 use super::arithmetic::Solver;
 use super::dense::{DenseCholesky, DenseLu};
@@ -24,6 +23,7 @@ use super::lifting::lift;
 use super::lu::solve_dense;
 use super::sparse::SparseCholesky;
 use super::sparse_lu::SparseLu;
+use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::{
     Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope,
@@ -66,6 +66,16 @@ pub trait Precision: Scalar {
     /// Errors: tells that A is singular, or that an iteration did not converge.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self>;
 
+    /// Does the same of a sparse matrix, which stays one under `sparse-lu`: the same digits.
+    fn solve_sparse(
+        a: SparseSquare<Self>,
+        b: &DVector<Self>,
+        by: Solver,
+        tol: Option<f64>,
+    ) -> Outcome<Self> {
+        Self::solve(a.dense(), b, by, tol)
+    }
+
     /// Does `work`, and frees every number that it made but its result.
     fn sweep<E>(work: impl FnOnce() -> Result<Solved<Self>, E>) -> Result<Solved<Self>, E> {
         work()
@@ -85,11 +95,35 @@ impl Precision for f64 {
             _ => native(a, b, by, tol),
         }
     }
+
+    fn solve_sparse(
+        a: SparseSquare<Self>,
+        b: &DVector<Self>,
+        by: Solver,
+        tol: Option<f64>,
+    ) -> Outcome<Self> {
+        match by {
+            Solver::SparseLu => Ok(solved(&SparseLu::new(&a)?, b)),
+            _ => Self::solve(a.dense(), b, by, tol),
+        }
+    }
 }
 
 impl Precision for f32 {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         native(a, b, by, tol)
+    }
+
+    fn solve_sparse(
+        a: SparseSquare<Self>,
+        b: &DVector<Self>,
+        by: Solver,
+        tol: Option<f64>,
+    ) -> Outcome<Self> {
+        match by {
+            Solver::SparseLu => Ok(solved(&SparseLu::new(&a)?, b)),
+            _ => Self::solve(a.dense(), b, by, tol),
+        }
     }
 }
 
@@ -97,12 +131,16 @@ impl Precision for Bounded {
     /// Solves as in `f64`, digit for digit; every entry of x carries the bound on the largest error
     /// of an entry.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
-        let (values, f) = (a.map(Scalar::to_f64), b.map(Scalar::to_f64));
+        let a = SparseSquare::of(&a);
+        if by == Solver::SparseLu {
+            return Self::solve_sparse(a, b, by, tol);
+        }
+        let (values, f) = (a.map(Scalar::to_f64).dense(), b.map(Scalar::to_f64));
         let (factors, solved): (Box<dyn Factors<f64>>, _) = match by {
-            Solver::DenseLu | Solver::SparseLu => {
-                let lu = lu(values, by)?;
-                let solved = solved(&*lu, &f);
-                (lu, solved)
+            Solver::DenseLu => {
+                let lu = DenseLu::new(values)?;
+                let solved = solved(&lu, &f);
+                (Box::new(lu), solved)
             }
             _ => {
                 let factors = SparseCholesky::new(SparseSymmetric::of_lower(&values))?;
@@ -111,29 +149,41 @@ impl Precision for Bounded {
         };
         Ok(with_bound(&*factors, &a, b, solved))
     }
+
+    fn solve_sparse(
+        a: SparseSquare<Self>,
+        b: &DVector<Self>,
+        by: Solver,
+        tol: Option<f64>,
+    ) -> Outcome<Self> {
+        if by != Solver::SparseLu {
+            return Self::solve(a.dense(), b, by, tol);
+        }
+        let factors = SparseLu::new(&a.map(Scalar::to_f64))?;
+        let solved = solved(&factors, &b.map(Scalar::to_f64));
+        Ok(with_bound(&factors, &a, b, solved))
+    }
 }
 
 impl Precision for BoundedDouble {
     /// Solves as in double-double, digit for digit; every entry of x carries the bound on the
     /// largest error of an entry.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
-        let factors = SparseLu::new(&a.map(Scalar::to_f64))?;
+        let entries = SparseSquare::of(&a);
+        let factors = SparseLu::new(&entries.map(Scalar::to_f64))?;
         let solved = F64x2::solve(a.map(WithBound::value), &b.map(WithBound::value), by, tol)?;
-        Ok(with_bound(&factors, &a, b, solved))
+        Ok(with_bound(&factors, &entries, b, solved))
     }
 }
 
 /// Returns a solution of A x = b with the bound on its error, by factors of A rounded to `f64`.
 fn with_bound<V: Rounded>(
     factors: &dyn Factors<f64>,
-    a: &DMatrix<WithBound<V>>,
+    a: &SparseSquare<WithBound<V>>,
     b: &DVector<WithBound<V>>,
     solved: Solved<V>,
 ) -> Solved<WithBound<V>> {
-    let column = |j: usize| a.column(j).into_iter().enumerate();
-    let entries = (0..b.len()).flat_map(|j| column(j).map(move |(i, a)| (i, j, *a)));
-    let entries = entries.filter(|(_, _, a)| !a.is_zero());
-    let error = error_bound(factors, entries, b, &solved.x);
+    let error = error_bound(factors, a.entries(), b, &solved.x);
     Solved { x: solved.x.map(|x| WithBound::new(x, error)), residual: solved.residual }
 }
 
@@ -186,8 +236,10 @@ impl Precision for Exact {
 
 /// Solves in a scalar of the machine by faer, or by conjugate gradients.
 fn native<T: Native>(a: DMatrix<T>, b: &DVector<T>, by: Solver, tol: Option<f64>) -> Outcome<T> {
-    if matches!(by, Solver::DenseLu | Solver::SparseLu) {
-        return Ok(solved(&*lu(a, by)?, b));
+    match by {
+        Solver::DenseLu => return Ok(solved(&DenseLu::new(a)?, b)),
+        Solver::SparseLu => return Ok(solved(&SparseLu::new(&SparseSquare::of(&a))?, b)),
+        _ => (),
     }
     let sparse = SparseSymmetric::of_lower(&a);
     let x = match by {
@@ -198,15 +250,7 @@ fn native<T: Native>(a: DMatrix<T>, b: &DVector<T>, by: Solver, tol: Option<f64>
     Ok(Solved { residual: sparse.residual(&x, b), x })
 }
 
-/// Factors the full matrix, or its entries that are not 0, by LU.
-fn lu<T: Native>(a: DMatrix<T>, by: Solver) -> Result<Box<dyn Lu<T>>, Singular> {
-    Ok(match by {
-        Solver::SparseLu => Box::new(SparseLu::new(&a)?),
-        _ => Box::new(DenseLu::new(a)?),
-    })
-}
-
-fn solved<T: Native>(lu: &dyn Lu<T>, b: &DVector<T>) -> Solved<T> {
+fn solved<T: Native>(lu: &impl Lu<T>, b: &DVector<T>) -> Solved<T> {
     let x = lu.solve(b);
     Solved { residual: lu.residual(&x, b), x }
 }

@@ -3,11 +3,12 @@
 use faer::Par;
 use faer::sparse::linalg::solvers::{self, SymbolicLu};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::dense::DenseLu;
 use super::factors::{Factors, Lu, Native, Singular, backward_error, largest, solve};
 use super::sparse::largest_motion;
+use super::square::SparseSquare;
 use crate::numbers::scalar::Scalar;
 
 /// The motion under loads of 1, over that which a pivot of dense LU that counts as 0 would bring,
@@ -23,7 +24,7 @@ pub struct SparseLu<T: Native = f64> {
 impl<T: Native> SparseLu<T> {
     /// Factors an n x n `matrix`, which should be symmetric but for rounding.
     /// Errors: those of [`DenseLu`], which judges a matrix that loads move far.
-    pub fn new(matrix: &DMatrix<T>) -> Result<Self, Singular> {
+    pub fn new(matrix: &SparseSquare<T>) -> Result<Self, Singular> {
         faer::set_global_parallelism(Par::Seq);
         let sparse = columns(matrix);
         let symbolic = SymbolicLu::try_new(sparse.symbolic()).expect("a pattern fits in memory");
@@ -31,7 +32,7 @@ impl<T: Native> SparseLu<T> {
             return Err(judged(matrix).expect("dense LU finds the pivot that is 0"));
         };
         let lu = SparseLu { matrix: sparse, factors };
-        let n = matrix.nrows();
+        let n = matrix.size();
         let column = |j| lu.matrix.val_of_col(j).iter();
         let scale = DVector::from_fn(n, |j, _| T::from_f64(largest(column(j))));
         let limit = DOUBTFUL / (16.0 * n as f64 * T::EPSILON);
@@ -62,20 +63,20 @@ impl<T: Native> Lu<T> for SparseLu<T> {
 }
 
 /// Returns why dense LU takes a matrix for singular; None where it does not.
-fn judged<T: Native>(matrix: &DMatrix<T>) -> Option<Singular> {
-    DenseLu::new(matrix.clone()).err()
+fn judged<T: Native>(matrix: &SparseSquare<T>) -> Option<Singular> {
+    DenseLu::new(matrix.dense()).err()
 }
 
 /// Returns the entries that are not 0, column by column.
-fn columns<T: Native>(matrix: &DMatrix<T>) -> SparseColMat<usize, T> {
-    let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-    for column in matrix.column_iter() {
-        for (i, value) in column.iter().enumerate().filter(|(_, value)| !value.is_zero()) {
-            rows.push(i);
-            values.push(*value);
-        }
-        starts.push(rows.len());
+fn columns<T: Native>(matrix: &SparseSquare<T>) -> SparseColMat<usize, T> {
+    let n = matrix.size();
+    let (mut starts, mut rows, mut values) = (vec![0; n + 1], Vec::new(), Vec::new());
+    for (row, column, value) in matrix.entries() {
+        rows.push(row);
+        values.push(value);
+        starts[column + 1] = rows.len();
     }
-    let n = matrix.nrows();
+    // A column without entries starts where the last one ended.
+    (0..n).for_each(|j| starts[j + 1] = starts[j + 1].max(starts[j]));
     SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values)
 }

@@ -14,7 +14,8 @@ use crate::numbers::scalar::Scalar;
 impl<O: Observer> Run<'_, '_, O> {
     /// Returns the value of the function that the name `slot` stands for.
     pub fn call(&mut self, slot: Slot, arguments: &[Value], span: &Span) -> Fallible<Value> {
-        let name = || self.listing.names.name(slot).into();
+        let listing = self.listing;
+        let name = || listing.names.name(slot).into();
         let result = match &mut self.functions[slot] {
             None => return Err(self.undefined(slot, span)),
             Some(Function::Program(program)) => {
@@ -31,7 +32,6 @@ impl<O: Observer> Run<'_, '_, O> {
             Some(Function::Elementary(function)) => {
                 let function = *function;
                 self.afford(size(arguments))?;
-                let name = || self.listing.names.name(slot).into();
                 one(arguments).and_then(|x| each(x, |x| real(function(x), x, &name)))
             }
             Some(Function::Root) => root(arguments, &name).map(Value::Number),

@@ -224,12 +224,14 @@ impl Execution<'_> {
         lines: &[String],
         inputs: &mut BTreeSet<String>,
     ) -> Outcome {
+        // The entries that are not assigned stay unknown.
+        if entry.is_some()
+            && let Some(construct) = self.rests_on(name)
+        {
+            return Outcome::Beyond(construct);
+        }
         let outcome = match entry {
             None => self.run(&indented(lines, 1), inputs),
-            // The entries that are not assigned stay unknown.
-            Some(_) if self.beyond.contains_key(name) => {
-                return Outcome::Beyond(self.rests_on(name).expect("it is beyond"));
-            }
             Some(target) => {
                 let value = lines.first().map(String::as_str).unwrap_or_default();
                 let line = format!("{target} ← {value}");

@@ -8,6 +8,8 @@
 //!     V[6] [  x     x            x   ]   (V, W) (finding K1).
 //! ```
 
+use std::ops::IndexMut;
+
 use super::failure::{Cause, Failure};
 use super::reading::{Reading, RestraintIndex, Wedge};
 use super::worksheet::Worksheet;
@@ -22,17 +24,27 @@ pub fn Km<T: Scalar>(
     reading: &Reading,
     c_cnt: &Table<T>,
 ) -> Result<Table<T>, Failure> {
+    //#  1 Km(c_cnt) :=
+    //#  2 MJS ← identity(2·R)·0
+    Km_in(sheet, reading, c_cnt, Table::filled(2 * sheet.R(), 2 * sheet.R(), T::zero()))
+}
+
+/// Assembles in `MJS`, which is all zeros, however it keeps its entries.
+/// Errors: those of [`Km`].
+pub fn Km_in<T: Scalar, Matrix: IndexMut<(usize, usize), Output = T>>(
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    c_cnt: &Table<T>,
+    mut MJS: Matrix,
+) -> Result<Matrix, Failure> {
     let Worksheet { EL, ind_1, S, Ae, B, E, nu, .. } = sheet;
-    let (R, M, ind_1, zero, one) = (sheet.R(), sheet.M(), *ind_1, T::zero(), T::one());
+    let (M, ind_1, zero, one) = (sheet.M(), *ind_1, T::zero(), T::one());
     let D = |E: T, nu: T| element::D(sheet.plane, E, nu);
     let mut V = Column::filled(6, 0);
     let mut cx = Column::filled(6, zero);
     let mut fl;
     let mut W;
 
-    //#  1 Km(c_cnt) :=
-    //#  2 MJS ← identity(2·R)·0
-    let mut MJS = Table::filled(2 * R, 2 * R, zero);
     //#  3 for n ∈ 1 .. M
     for n in 1..=M {
         //#  4 for i1 ∈ 1 .. 3

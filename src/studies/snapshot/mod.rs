@@ -33,7 +33,7 @@ use serde_json::Value;
 use crate::answer::{Request, error as answer};
 use crate::error::{InputError, Result};
 use crate::paper::decisions::Decision;
-use crate::plain::plain;
+use crate::plain;
 use crate::problem::scene::{Scene, Units};
 
 pub use accept::{Acceptance, Chosen, accept};
@@ -134,7 +134,6 @@ impl Snapshot {
     /// Names the field that is wrong or lacking, or a format that this program does not know.
     pub fn read(text: &[u8]) -> Result<Self> {
         let fix = "give a snapshot as `plane-contact record` writes it";
-        let mut deserializer = serde_json::Deserializer::from_slice(text);
         #[derive(Deserialize)]
         struct Head {
             format: Option<u32>,
@@ -147,15 +146,6 @@ impl Snapshot {
             let what = format!("the snapshot {found}; this program reads format {FORMAT}");
             return Err(InputError::new("field format", what, fix));
         }
-        let read: std::result::Result<Self, _> =
-            serde_path_to_error::deserialize(&mut deserializer);
-        let snapshot = read.map_err(|error| {
-            let place = format!("field {} of the snapshot", error.path());
-            InputError::new(place, plain(error.inner()), fix)
-        })?;
-        deserializer
-            .end()
-            .map_err(|why| InputError::new("the end of the snapshot", why.to_string(), fix))?;
-        Ok(snapshot)
+        plain::document(text, "snapshot", fix)
     }
 }

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use super::document::Document;
 use crate::error::{InputError, Result};
-use crate::plain::plain;
+use crate::plain;
 use crate::studies::benchmark::Kind;
 use crate::studies::snapshot::Options;
 
@@ -114,11 +114,7 @@ impl Sweep {
     /// # Errors
     /// Names the field that is wrong.
     pub fn read(text: &[u8]) -> Result<Self> {
-        let mut deserializer = serde_json::Deserializer::from_slice(text);
-        let sweep: Self = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
-            let place = format!("field {} of the sweep", error.path());
-            InputError::new(place, plain(error.inner()), "see `plane-contact sweep --help`")
-        })?;
+        let sweep: Self = plain::document(text, "sweep", "see `plane-contact sweep --help`")?;
         if sweep.format != FORMAT {
             let what = format!("the sweep is of format {}", sweep.format);
             return Err(InputError::new("field format", what, "this program reads format 1"));

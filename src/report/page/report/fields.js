@@ -45,6 +45,9 @@ const FIELDS = [
 
 const unitOf = (field) => (field.unit ? (data.units[field.unit] ?? "") : "");
 
+/** A number of a field in words, with its unit where it has one. */
+const inUnit = (text, field) => [text, unitOf(field)].filter(Boolean).join(" ");
+
 /** The runs that have fields. */
 const shownRuns = data.runs.filter((run) => run.u !== undefined);
 

@@ -136,7 +136,7 @@ function drawScale() {
     const rounding = 1e-9 * (high - low);
     context.fillText(short(Math.abs(value) < rounding ? 0 : Number(value.toPrecision(4))), 12 + (wide * k) / 4, 34);
   }
-  canvas.setAttribute("aria-label", `${view.field.name} from ${short(low)} to ${short(high)} ${unitOf(view.field)}`);
+  canvas.setAttribute("aria-label", `${view.field.name} from ${short(low)} to ${inUnit(short(high), view.field)}`);
 }
 
 /** What a panel shows, in words. */
@@ -145,7 +145,7 @@ function saidOf(panel) {
   const name = view.field.name;
   const known = rangeOf(panel);
   if (!known) return `${run.name}: ${name} is ${k < iterationsOf(run) ? "kept of the last iteration only" : "not known"}`;
-  return `${run.name}, iteration ${numberOf(run, k)} of ${lastOf(run)}: ${name} from ${known.map(short).join(" to ")} ${unitOf(view.field)}`;
+  return `${run.name}, iteration ${numberOf(run, k)} of ${lastOf(run)}: ${name} from ${inUnit(known.map(short).join(" to "), view.field)}`;
 }
 
 /** Which shape is drawn, in words. */
@@ -199,7 +199,7 @@ function foundAt(panel, x, y, within) {
 /** How near to a contact node the pointer finds it, pixels. */
 const NEAR = 14;
 
-const said = (value) => (value === null ? "not known" : `${short(value)} ${unitOf(view.field)}`);
+const said = (value) => (value === null ? "not known" : inUnit(short(value), view.field));
 
 function pointed(panel, place) {
   const [x, y] = pointAt(panel, ...place);

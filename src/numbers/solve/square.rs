@@ -1,0 +1,73 @@
+//! Sparse matrices that need not be symmetric, made entry by entry.
+
+use std::ops::{Index, IndexMut};
+
+use nalgebra::DMatrix;
+
+use crate::numbers::scalar::Scalar;
+
+/// A square matrix, counted from 0: of each column the entries that were written, rows ascending.
+#[derive(Clone, Debug)]
+pub struct SparseSquare<T = f64> {
+    columns: Vec<Vec<(usize, T)>>,
+    /// What every other entry is.
+    zero: T,
+}
+
+impl<T: Scalar> SparseSquare<T> {
+    /// Makes the n x n matrix of zeros.
+    pub fn zeros(n: usize) -> Self {
+        SparseSquare { columns: vec![Vec::new(); n], zero: T::zero() }
+    }
+
+    /// Takes the entries of a dense matrix, zeros left out.
+    pub fn of(matrix: &DMatrix<T>) -> Self {
+        let entries = |(i, value): (usize, &T)| (!value.is_zero()).then_some((i, *value));
+        let column = |j| matrix.column(j).into_iter().enumerate().filter_map(entries).collect();
+        SparseSquare { columns: (0..matrix.ncols()).map(column).collect(), zero: T::zero() }
+    }
+
+    /// Returns the number of rows, which is that of the columns.
+    pub fn size(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Returns the entries that are not 0, column by column, rows ascending: row, column, value.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> {
+        let entries = self.columns.iter().enumerate();
+        let entries = entries.flat_map(|(j, column)| column.iter().map(move |(i, a)| (*i, j, *a)));
+        entries.filter(|(_, _, value)| !value.is_zero())
+    }
+
+    /// Returns the matrix with `f` of each entry.
+    pub fn map<U: Scalar>(&self, f: impl Fn(T) -> U) -> SparseSquare<U> {
+        let column = |column: &Vec<(usize, T)>| column.iter().map(|(i, a)| (*i, f(*a))).collect();
+        SparseSquare { columns: self.columns.iter().map(column).collect(), zero: U::zero() }
+    }
+
+    /// Returns the same matrix with all its zeros.
+    pub fn dense(&self) -> DMatrix<T> {
+        DMatrix::from_fn(self.size(), self.size(), |i, j| self[(i, j)])
+    }
+
+    fn find(&self, (i, j): (usize, usize)) -> Result<usize, usize> {
+        self.columns[j].binary_search_by_key(&i, |(row, _)| *row)
+    }
+}
+
+impl<T: Scalar> Index<(usize, usize)> for SparseSquare<T> {
+    type Output = T;
+    fn index(&self, at: (usize, usize)) -> &T {
+        self.find(at).map_or(&self.zero, |k| &self.columns[at.1][k].1)
+    }
+}
+
+impl<T: Scalar> IndexMut<(usize, usize)> for SparseSquare<T> {
+    fn index_mut(&mut self, at: (usize, usize)) -> &mut T {
+        let k = self.find(at).unwrap_or_else(|k| {
+            self.columns[at.1].insert(k, (at.0, self.zero));
+            k
+        });
+        &mut self.columns[at.1][k].1
+    }
+}
