@@ -7,7 +7,7 @@ use super::json;
 use super::layout::{Table, aligned};
 use super::numbers::short;
 use crate::problem::scene::Scene;
-use crate::studies::plan::{BodyPlan, ContactPlan, MARGIN, Plan};
+use crate::studies::plan::{BodyPlan, ContactPlan, MARGIN, Plan, Storage};
 
 /// Writes the plan on one line, which is the same on every machine.
 pub fn line(plan: &Plan) -> String {
@@ -16,10 +16,10 @@ pub fn line(plan: &Plan) -> String {
         format!("{} contact candidates of {}", found.pairs, found.all())
     });
     let mut text = format!(
-        "plan: {} free equations of {}, {contact}, {} {} in {}; about {} MB, {} operations",
+        "plan: {} free equations of {}, {contact}, {}{} in {}; about {} MB, {} operations",
         plan.equations.free,
         plan.equations.all,
-        plan.storage,
+        if plan.storage == Storage::Dense { "dense matrices, " } else { "" },
         plan.solver,
         plan.scalar,
         megabytes(plan.cost.bytes.total()),

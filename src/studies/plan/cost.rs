@@ -19,8 +19,8 @@ pub(super) struct Work<'a> {
     /// Dense matrices in memory at once.
     pub dense: usize,
     pub factors: FactorSize,
-    /// The one factorisation of the bodies, which the reference solution shares with the run where
-    /// `dense` is 0.
+    /// The one factorisation of the bodies, which the reference solution shares with a run whose states
+    /// rest on it.
     pub sparse: FactorSize,
     /// The matrix of a contact state on the condensed bodies.
     pub condensed: FactorSize,
@@ -93,11 +93,18 @@ impl Work<'_> {
     }
 
     fn operations(&self, states: usize, reference_states: usize) -> f64 {
-        let bodies =
-            if self.dense == 0 || reference_states > 0 { self.sparse.operations } else { 0.0 };
-        let own = if self.dense == 0 { self.condensed } else { self.factors };
+        let whole = self.factors_whole();
+        let bodies = if !whole || reference_states > 0 { self.sparse.operations } else { 0.0 };
+        let own = if whole { self.factors } else { self.condensed };
         let [run, reference] = [states, reference_states].map(|states| states as f64);
         bodies + run * own.operations + reference * self.condensed.operations
+    }
+
+    /// Whether each contact state has a matrix of its own that is factored whole.
+    pub fn factors_whole(&self) -> bool {
+        self.dense > 0
+            || self.request.variant == Variant::Printed
+            || self.request.arithmetic.scalar == ScalarName::F32
     }
 
     /// Contact states that the run is likely to come to; of the paper's variants as on `strand`.

@@ -121,12 +121,13 @@ impl Plan {
         let near = candidates.map_or(0, |found| found.near);
         let condensed = FactorSize::dense_cholesky(kept_equations(model, near));
         let work = Work { request, model, dense, factors, sparse, condensed, candidates };
+        let (cost, condenses) = (work.cost(), near > 0 && !work.factors_whole());
         Ok(Plan {
             scene: scene.name.clone(),
             variant,
             nodes: model.nodes.len(),
             triangles: model.triangles.len(),
-            cost: work.cost(),
+            cost,
             bodies,
             equations,
             contact,
@@ -134,8 +135,7 @@ impl Plan {
             solver,
             storage: if dense > 0 { Storage::Dense } else { Storage::Sparse },
             factors,
-            condensed: (near > 0 && dense == 0 && arithmetic.scalar != ScalarName::F32)
-                .then_some(condensed.equations),
+            condensed: condenses.then_some(condensed.equations),
             orphans: scene.dropped.len(),
             half: half(scene).map(|half| HalfPlan { at: half.at, nodes: half.nodes.len() }),
         })
