@@ -15,8 +15,9 @@ use clap::Parser;
 use nalgebra::DVector;
 use plane_contact::answer::{Elimination, Stiffness};
 use plane_contact::numbers::solve::SparseCholesky;
+use plane_contact::paper::exports::{self, Export};
 use plane_contact::paper::listings::{self, Which, settings};
-use plane_contact::paper::mirror::{Reading, c_cnt};
+use plane_contact::paper::mirror::{Km, Reading, c_cnt};
 use plane_contact::paper::{door, near};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::Variant;
@@ -56,10 +57,11 @@ fn main() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let sizes: Vec<usize> =
         [59, 116, 340].into_iter().filter(|size| *size <= args.largest).collect();
-    let tables: [&dyn Fn() -> Table; 8] = [
+    let tables: [&dyn Fn() -> Table; 9] = [
         &interpreter,
         &search,
         &iteration,
+        &|| octave(folder.path()),
         &long_surfaces,
         &|| processes(folder.path()),
         &|| hertz(folder.path(), &sizes),
@@ -355,18 +357,70 @@ fn iteration() -> Table {
         Table::new("An iteration of `strand` beyond the first", &["ms", "20 over 1", "goal ms"]);
     let scene = Scene::open("strand").expect("embedded");
     for variant in [Variant::Tied, Variant::Stepped] {
-        let time = |iterations| {
-            // A new request each: clones of one share its factors.
-            least(5, || {
-                let mut request = Request::new(&scene).variant(variant);
-                request.iterations = iterations;
-                drop(black_box(solve(&request, &mut |_| ()).expect("it runs")));
-            })
-        };
-        let [one, twenty] = [1, 20].map(time);
+        let [one, twenty] = [1, 20].map(|iterations| of_iterations(&scene, variant, iterations));
         let each = 1e3 * (twenty - one) / 19.0;
         table.row(variant.to_string(), &[Some(each), Some(twenty / one), Some(0.3)]);
     }
+    table
+}
+
+/// Returns the least time of some iterations of a scene, s.
+fn of_iterations(scene: &Scene, variant: Variant, iterations: usize) -> f64 {
+    // A new request each: clones of one share its factors.
+    least(5, || {
+        let mut request = Request::new(scene).variant(variant);
+        request.iterations = iterations;
+        drop(black_box(solve(&request, &mut |_| ()).expect("it runs")));
+    })
+}
+
+/// The listings of an iteration in Octave, where `octave-cli` is installed, beside the mirror's, and
+/// beside an iteration of the fast layer with its solution.
+fn octave(folder: &Path) -> Table {
+    const CALLS: usize = 3;
+    let columns =
+        ["Octave, ms", "mirror, ms", "ratio", "goal", "fast with solution, ms", "ratio", "goal"];
+    let mut table = Table::new("`c_cnt` and `Km` of `strand` in Octave, an iteration", &columns);
+    if Command::new("octave-cli").arg("--version").stdout(Stdio::null()).status().is_err() {
+        return table;
+    }
+    let (scene, reading) = (Scene::open("strand").expect("embedded"), Reading::default());
+    let sheet = door::worksheet(&scene.model, |x| x);
+    let (title, thickness) = ("strand", scene.model.thickness);
+    let (sheet, reading, node_n) = (&sheet, &reading, &sheet.node);
+    let program = exports::octave::program(
+        &Export { title, sheet, reading, node_n, thickness, run: None },
+        title,
+    );
+    let timed = format!(
+        "  started = tic();\n  for call = 1:{CALLS}\n    MJS = Km(c_cnt(node_n));\n  end\n  \
+         show('seconds', toc(started) / {CALLS});\n  show('size', sum(sum(abs(MJS))));\n"
+    );
+    let program = program.replace("  show('MJS', Km(k_cnt));\n", &timed);
+    std::fs::write(folder.join("strand.m"), program).expect("it is written");
+    let output = Command::new("octave-cli")
+        .args(["--no-init-file", "--eval", title])
+        .current_dir(folder)
+        .output()
+        .expect("Octave starts");
+    let printed = String::from_utf8(output.stdout).expect("UTF-8");
+    let number = |name: &str| -> f64 {
+        let line = printed.lines().find_map(|line| line.strip_prefix(name)).expect("a line");
+        line.split(' ').next_back().and_then(|word| word.parse().ok()).expect("a number")
+    };
+    let mirrored = || {
+        let pairs = c_cnt(sheet, reading, node_n).expect("it runs");
+        Km(sheet, reading, &pairs.k_cnt).expect("it runs").into_matrix()
+    };
+    let size: f64 = mirrored().iter().map(|x| x.abs()).sum();
+    assert!((number("size") - size).abs() <= 1e-12 * size, "the matrices are the same");
+    let octave = 1e3 * number("seconds");
+    let mirror = 1e3 * least(5, || drop(black_box(mirrored())));
+    let [one, twenty] =
+        [1, 20].map(|iterations| of_iterations(&scene, Variant::Stepped, iterations));
+    let fast = 1e3 * (twenty - one) / 19.0;
+    let values = [octave, mirror, octave / mirror, 100.0, fast, octave / fast, 1000.0];
+    table.row("one iteration", &values.map(Some));
     table
 }
 

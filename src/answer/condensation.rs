@@ -34,7 +34,7 @@ const MOST: (f64, f64) = (600.0, 2.0);
 
 /// The number of contact nodes of larger surfaces that are expected to come into contact, over the
 /// square root of the number of equations; of fewer equations than these, nothing is expected, as the
-/// first contact state costs little.
+/// bodies are condensed anew in a moment.
 const EXPECTED: (f64, usize) = (0.85, 10_000);
 
 /// The number of neighbours that are kept on either side of a bound node of a larger surface, and
@@ -91,8 +91,8 @@ pub(super) struct Bodies {
     /// The contact surface and the nodes of the target surface, each in its order.
     surfaces: [Vec<NodeId>; 2],
     current: RefCell<Option<Arc<Condensation>>>,
-    /// The nodes to keep for the first contact state of large surfaces; none where only that state
-    /// shows which are bound.
+    /// The nodes to keep for the first contact state of large bodies; none where only that state shows
+    /// which are bound.
     expected: Vec<NodeId>,
     /// Whether a contact state was asked for.
     begun: Cell<bool>,
@@ -178,7 +178,7 @@ impl Bodies {
     }
 
     /// Returns the factors of Tᵀ K T under `constraints`; None where the whole matrix is to be
-    /// factored. On large surfaces of which nothing is expected the first state only shows which nodes
+    /// factored. Of large bodies of which nothing is expected the first state only shows which nodes
     /// are bound.
     pub(super) fn factors(
         &self,
@@ -187,7 +187,8 @@ impl Bodies {
         constraints: &[Constraint],
     ) -> Option<Bound> {
         let first = !self.begun.replace(true);
-        let unforeseen = first && !self.is_small() && self.expected.is_empty();
+        let large = !self.is_small() && self.model.free_dofs() >= EXPECTED.1;
+        let unforeseen = first && large && self.expected.is_empty();
         if self.impossible.get() || unforeseen {
             return None;
         }
@@ -383,8 +384,16 @@ impl Rows {
     }
 }
 
-/// Solves Tᵀ K T q = `f` by `factors` of nearly that matrix, whose norm is `norm`, and refines;
-/// returns q and its relative residual.
+/// A solution q of Tᵀ K T q = f.
+pub(super) struct Refined {
+    pub(super) q: DVector<f64>,
+    /// Its relative residual.
+    pub(super) residual: f64,
+    /// K T q by degree of freedom, force.
+    pub(super) force: DVector<f64>,
+}
+
+/// Solves Tᵀ K T q = `f` by `factors` of nearly that matrix, whose norm is `norm`, and refines.
 ///
 /// # Errors
 /// The factors are too far from the matrix; returns q so far.
@@ -393,18 +402,18 @@ pub(super) fn refined(
     t: &Elimination,
     (factors, norm): (&dyn Factors<f64>, f64),
     f: &DVector<f64>,
-) -> Result<(DVector<f64>, f64), (DVector<f64>, f64)> {
-    let times = |q: &DVector<f64>| t.load(&stiffness.times(&(t.expand(q) - t.shift())));
+) -> Result<Refined, Refined> {
     let mut q = factors.solve(f);
     let mut before = f64::INFINITY;
     loop {
-        let rest = f - times(&q);
+        let force = stiffness.times(&(t.expand(&q) - t.shift()));
+        let rest = f - t.load(&force);
         let error = backward_error(&rest, norm, &q, f);
         if error <= REFINED || (error <= ENOUGH && error > CONTRACTION * before) {
-            return Ok((q, error));
+            return Ok(Refined { q, residual: error, force });
         }
         if error.is_nan() || error > CONTRACTION * before {
-            return Err((q, error));
+            return Err(Refined { q, residual: error, force });
         }
         before = error;
         q += factors.solve(&rest);

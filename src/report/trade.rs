@@ -27,14 +27,15 @@ pub fn json(scene: &Scene, trade: &Trade) -> String {
     of_scene(scene, trade)
 }
 
-/// Writes `trade.json`, `trade.csv` and `trade.svg` to `folder`; gives back the first.
+/// Writes `trade.json`, `trade.csv` and the pictures to `folder`; gives back the first.
 pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<String> {
     let json = json(scene, trade);
-    let (csv, picture) = (csv(trade), picture(trade));
-    let geometry: Vec<_> = trade.sections.iter().flat_map(geometry).collect();
-    let of_range = geometry.iter().map(|(name, picture)| (&**name, &**picture));
-    let files = [("trade.json", &*json), ("trade.csv", &csv), ("trade.svg", &picture)];
-    write_all(folder, "trade", &files.into_iter().chain(of_range).collect::<Vec<_>>())?;
+    let timed = picture(trade).map(|picture| ("trade.svg".into(), picture));
+    let pictures: Vec<_> =
+        timed.into_iter().chain(trade.sections.iter().flat_map(geometry)).collect();
+    let pictures = pictures.iter().map(|(name, picture)| (&**name, &**picture));
+    let tables = [("trade.json", &*json), ("trade.csv", &csv(trade))];
+    write_all(folder, "trade", &tables.into_iter().chain(pictures).collect::<Vec<_>>())?;
     Ok(json)
 }
 
@@ -136,8 +137,9 @@ fn orders(orders: &[Order]) -> String {
         .text()
 }
 
-/// Draws time against error: a series for each knob, and rings around what is on its front.
-pub fn picture(trade: &Trade) -> String {
+/// Draws time against error: a series for each knob, and rings around what is on its front. None where
+/// nothing was timed.
+pub fn picture(trade: &Trade) -> Option<String> {
     let place = |row: &Row| row.seconds.zip(row.error).map(|(s, e)| [s, e.displacement]);
     let shown = |p: &[f64; 2]| p[1] > 0.0 && p[1].is_finite();
     let of_section = |section: &Section| Series {
@@ -154,12 +156,15 @@ pub fn picture(trade: &Trade) -> String {
     };
     let timed = trade.sections.iter().filter(|section| section.knob != Knob::Geometry);
     let series: Vec<Series> = timed.clone().map(of_section).chain([front]).collect();
+    if series.iter().all(|series| series.points.is_empty()) {
+        return None;
+    }
     let axes = ["time, s", "relative error of the displacements"]
         .map(|label| Axis { label, logarithmic: true });
     let references = timed.map(|s| format!("{}: against {}.", s.knob, s.against));
     let captions: Vec<String> =
         references.chain(["What has no error, the best itself, is not shown.".into()]).collect();
-    chart(&format!("Speed against accuracy: {}", trade.scene), axes, &series, &captions)
+    Some(chart(&format!("Speed against accuracy: {}", trade.scene), axes, &series, &captions))
 }
 
 /// Draws what each parameter of the range does, a picture each with its name: the errors of the

@@ -222,7 +222,9 @@ fn csv_and_json_agree() {
 
 #[test]
 fn the_picture_is_xml() {
-    let svg = report::picture(&measured(&open("fig1"), &[Knob::Solver]));
+    let untimed = measured(&open("fig1"), &[Knob::Geometry]);
+    assert_eq!(report::picture(&untimed), None, "a chart without a point");
+    let svg = report::picture(&measured(&open("fig1"), &[Knob::Solver])).expect("a chart");
     roxmltree::Document::parse(&svg).expect("XML");
 }
 
