@@ -91,8 +91,8 @@ pub(super) struct Bodies {
     /// The contact surface and the nodes of the target surface, each in its order.
     surfaces: [Vec<NodeId>; 2],
     current: RefCell<Option<Arc<Condensation>>>,
-    /// The nodes to keep for the first contact state of large bodies; none where only that state shows
-    /// which are bound.
+    /// The nodes to keep for the first contact state of large surfaces; none where only that state
+    /// shows which are bound.
     expected: Vec<NodeId>,
     /// Whether a contact state was asked for.
     begun: Cell<bool>,
@@ -159,11 +159,13 @@ impl Bodies {
         }
     }
 
-    /// Expects that the entries of the contact surface with the least gaps come into contact.
+    /// Expects that the entries of the contact surface with the least gaps come into contact; of few
+    /// equations, those that the first state binds.
     pub(super) fn expecting(mut self, pairings: &[Option<Pairing>]) -> Self {
         let (part, least) = EXPECTED;
         let equations = self.model.free_dofs();
         if equations < least {
+            self.begun.set(true);
             return self;
         }
         let mut nearest: Vec<&Pairing> = pairings.iter().flatten().collect();
@@ -178,7 +180,7 @@ impl Bodies {
     }
 
     /// Returns the factors of Tᵀ K T under `constraints`; None where the whole matrix is to be
-    /// factored. Of large bodies of which nothing is expected the first state only shows which nodes
+    /// factored. On large surfaces of which nothing is expected the first state only shows which nodes
     /// are bound.
     pub(super) fn factors(
         &self,
@@ -187,8 +189,7 @@ impl Bodies {
         constraints: &[Constraint],
     ) -> Option<Bound> {
         let first = !self.begun.replace(true);
-        let large = !self.is_small() && self.model.free_dofs() >= EXPECTED.1;
-        let unforeseen = first && large && self.expected.is_empty();
+        let unforeseen = first && !self.is_small() && self.expected.is_empty();
         if self.impossible.get() || unforeseen {
             return None;
         }
