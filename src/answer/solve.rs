@@ -15,16 +15,20 @@ use crate::paper::listings::Which;
 use crate::paper::mirror::NodeTable;
 use crate::problem::element::State;
 use crate::problem::model::Model;
-use crate::problem::modelling::{StatusRule, Variant};
+use crate::problem::modelling::{StatusRule, Variant, check_iterations, check_tolerance};
 
 /// Solves `request`; `watch` is called after each step.
 ///
 /// # Errors
-/// The published algorithm fails as printed; a matrix cannot be solved; a dense matrix does not fit
-/// in memory; the scalar does not have the solver; the scene is too large for exact numbers; or
-/// under `unilateral` contact and restraints do not restrain the bodies.
+/// A number that is asked for is out of its range; the published algorithm fails as printed; a
+/// matrix cannot be solved; a dense matrix does not fit in memory; the scalar does not have the
+/// solver; the scene is too large for exact numbers; or under `unilateral` contact and restraints do
+/// not restrain the bodies.
 pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
     request.arithmetic.check()?;
+    check_iterations(request.iterations)?;
+    request.contact.check()?;
+    request.tolerance.map_or(Ok(()), check_tolerance)?;
     check_edited(request)?;
     run(request, watch).map_err(|why| blamed(request, why))
 }

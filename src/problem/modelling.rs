@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
 
 use crate::choices;
+use crate::error::{InputError, Result};
 
 choices! {
     /// A variant: how the contact pairs enter the equations, and what load an iteration carries.
@@ -142,6 +143,32 @@ choices! {
 /// The number of equal steps in which the load of a stage is applied where a scene sets none.
 pub const LOAD_STEPS: usize = 16;
 
+/// The most iterations of the variants that the paper describes.
+const MOST_ITERATIONS: usize = 1_000_000;
+
+/// The most steps in which the load of a stage is applied.
+pub const MOST_LOAD_STEPS: usize = 100_000;
+
+/// Checks a number of iterations.
+/// Errors: it is 0 or too large.
+pub fn check_iterations(iterations: usize) -> Result<()> {
+    if (1..=MOST_ITERATIONS).contains(&iterations) {
+        return Ok(());
+    }
+    let what = format!("{iterations} iterations are outside 1 .. {MOST_ITERATIONS}");
+    Err(InputError::new("field iterations", what, "give a number inside; the paper's is 20"))
+}
+
+/// Checks a tolerance of the contact search, length.
+/// Errors: it is negative, or no number.
+pub fn check_tolerance(tolerance: f64) -> Result<()> {
+    if tolerance >= 0.0 && tolerance.is_finite() {
+        return Ok(());
+    }
+    let what = format!("c_tll = {tolerance} is negative");
+    Err(InputError::new("contact.c_tll", what, "give 0 or more; the paper's is 0.001"))
+}
+
 /// The model of contact, beyond what the paper prints.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ContactModel {
@@ -155,6 +182,20 @@ pub struct ContactModel {
     pub load_steps: usize,
     /// The rule by which `tied` and `stepped` decide which nodes are in contact.
     pub status: StatusRule,
+}
+
+impl ContactModel {
+    /// Checks the number of steps.
+    /// Errors: it is 0 or too large.
+    pub fn check(&self) -> Result<()> {
+        if (1..=MOST_LOAD_STEPS).contains(&self.load_steps) {
+            return Ok(());
+        }
+        let what =
+            format!("{} steps of the load are outside 1 .. {MOST_LOAD_STEPS}", self.load_steps);
+        let fix = format!("give a number inside; {LOAD_STEPS} where there is none");
+        Err(InputError::new("contact.load_steps", what, fix))
+    }
 }
 
 impl Default for ContactModel {

@@ -100,7 +100,7 @@ fn results_that_are_not_whole_are_refused() {
 #[track_caller]
 fn assert_same(comparison: &Comparison, what: &str) {
     let (u, stress) = (&comparison.displacement.largest, &comparison.stress.largest);
-    eprintln!("{what}: displacement {:.1e}, stress {:.1e}", u.relative, stress.relative);
+    eprintln!("{what}: displacement {:?}, stress {:?}", u.relative, stress.relative);
     assert_near(&format!("{what}, node {}", u.at), u.difference, 0.0, u.scale, &CCX_PRINTS);
     let name = format!("{what}, triangle {}", stress.at);
     assert_near(&name, stress.difference, 0.0, stress.scale, &CCX_PRINTS);
@@ -263,7 +263,7 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
         let ran = run("ccx", &scene, &solution.model, &[part]).unwrap();
         let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
         let (u, stress) = (comparison.displacement.largest, comparison.stress.largest);
-        eprintln!("{name}: displacement {:.1e}, stress {:.1e}", u.relative, stress.relative);
+        eprintln!("{name}: displacement {:?}, stress {:?}", u.relative, stress.relative);
         assert_near(&format!("{name}, node {}", u.at), u.difference, 0.0, u.scale, &PENALTY);
         for body in &comparison.bodies {
             eprintln!("  {}: {} here, {} by ccx", body.name, body.ours, body.calculix);

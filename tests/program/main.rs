@@ -24,12 +24,15 @@ mod examples;
 mod explained;
 mod factors;
 mod faults;
+mod fuzz;
 mod gmsh;
 mod held;
 mod hostile;
 mod limits;
 mod mathcad;
 mod mistakes;
+#[path = "../../fuzz/oracles/mod.rs"]
+mod oracles;
 mod pages;
 mod pictures;
 mod plan;

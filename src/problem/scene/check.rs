@@ -7,8 +7,7 @@ use super::mesh::Mesh;
 use super::{groups, surface};
 use crate::error::{InputError, Result};
 use crate::problem::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
-
-const MOST_ITERATIONS: usize = 1_000_000;
+use crate::problem::modelling::{check_iterations, check_tolerance};
 
 /// Checks the thickness and the number of iterations.
 /// Errors: the thickness is not positive, or the number of iterations is 0 or too large.
@@ -17,15 +16,7 @@ pub fn numbers(file: &Description) -> Result<()> {
         let what = format!("the thickness {} is not positive", file.thickness);
         return Err(InputError::new("field thickness", what, "give one above 0; the paper's is 1"));
     }
-    if !(1..=MOST_ITERATIONS).contains(&file.iterations) {
-        let what = format!("{} iterations are outside 1 .. {MOST_ITERATIONS}", file.iterations);
-        return Err(InputError::new(
-            "field iterations",
-            what,
-            "give a number inside; the paper's is 20",
-        ));
-    }
-    Ok(())
+    check_iterations(file.iterations)
 }
 
 /// Returns each triangle's material and the name of its group, in the order of `EL`.
@@ -95,13 +86,11 @@ pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>> {
 }
 
 /// Returns the two contact surfaces and their tolerance; empty where the scene has no contact.
-/// Errors: the tolerance is negative, or the surfaces do not exist or share a node.
+/// Errors: the tolerance is negative, the number of steps is 0 or too large, or the surfaces do not exist or share a node.
 pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
-    if !(contact.tolerance >= 0.0 && contact.tolerance.is_finite()) {
-        let what = format!("c_tll = {} is negative", contact.tolerance);
-        return Err(InputError::new("contact.c_tll", what, "give 0 or more; the paper's is 0.001"));
-    }
+    check_tolerance(contact.tolerance)?;
+    contact.model().check()?;
     let nodes = surface::contact_nodes(mesh, &contact.contact)?;
     let target = surface::target_edges(mesh, &contact.target)?;
     let (on_contact, on_target): (HashSet<usize>, HashSet<usize>) =

@@ -12,7 +12,7 @@ use super::groups::GroupRef;
 use super::surface::Surface;
 use crate::problem::element::Plane;
 use crate::problem::modelling::{
-    Coupling, Friction, Geometry, LOAD_STEPS, StatusRule, Variant, load_steps,
+    ContactModel, Coupling, Friction, Geometry, LOAD_STEPS, StatusRule, Variant, load_steps,
 };
 
 /// The description of a mesh: a scene file, field by field. Lengths, forces and stresses may be in
@@ -238,6 +238,17 @@ impl Contact {
             geometry: Geometry::default(),
             load_steps: LOAD_STEPS,
             status: StatusRule::default(),
+        }
+    }
+
+    /// Returns how contact is modelled.
+    pub(super) fn model(&self) -> ContactModel {
+        ContactModel {
+            coupling: self.coupling,
+            friction: self.friction,
+            geometry: self.geometry,
+            load_steps: self.load_steps,
+            status: self.status,
         }
     }
 }

@@ -132,15 +132,7 @@ impl Scene {
             model: Arc::new(model),
             iterations: file.iterations,
             variant: file.variant,
-            contact: file.contact.as_ref().map_or(ContactModel::default(), |contact| {
-                ContactModel {
-                    coupling: contact.coupling,
-                    friction: contact.friction,
-                    geometry: contact.geometry,
-                    load_steps: contact.load_steps,
-                    status: contact.status,
-                }
-            }),
+            contact: file.contact.as_ref().map_or(ContactModel::default(), Contact::model),
             dropped,
             source: Some(Arc::new((file, mesh.clone()))),
         })

@@ -114,7 +114,7 @@ fn row<Place: Display>(
     vec![
         of,
         format!("{:.3e}", largest.difference),
-        format!("{:.1e}", largest.relative),
+        or_dash(largest.relative, |relative| format!("{relative:.1e}")),
         short(largest.scale),
         format!("{kind} {}", largest.at),
         place(at, 3),

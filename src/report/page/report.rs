@@ -170,16 +170,14 @@ fn calculix_run(comparison: &Comparison) -> Value {
 
 fn calculix(compared: &Comparison, heading: &str) -> Value {
     let (u, stress) = (&compared.displacement.largest, &compared.stress.largest);
-    let row = |of: &str, at: String, [difference, scale, relative]: [f64; 3]| json!({ "of": of, "at": at, "difference": difference, "scale": scale, "relative": relative });
     json!({
         "heading": heading,
         "differences": [
-            row("displacement", format!("node {}", u.at), [u.difference, u.scale, u.relative]),
-            row(
-                "stress",
-                format!("triangle {}", stress.at),
-                [stress.difference, stress.scale, stress.relative],
-            ),
+            json!({ "of": "displacement", "at": format!("node {}", u.at), "difference": u.difference,
+                "scale": u.scale, "relative": u.relative }),
+            json!({ "of": "stress", "at": format!("triangle {}", stress.at),
+                "difference": stress.difference, "scale": stress.scale,
+                "relative": stress.relative }),
         ],
         "bodies": compared.bodies,
     })

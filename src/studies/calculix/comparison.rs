@@ -38,8 +38,8 @@ pub struct Largest<Place> {
     pub difference: f64,
     /// The largest value by CalculiX.
     pub scale: f64,
-    /// Difference over scale; 0 where both are 0.
-    pub relative: f64,
+    /// Difference over scale; 0 where both are 0, and null where the scale alone is.
+    pub relative: Option<f64>,
 }
 
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -54,7 +54,7 @@ pub struct BodyStress {
 impl BodyStress {
     /// Returns the difference of the two over CalculiX's; None where that is 0.
     pub fn relative(&self) -> Option<f64> {
-        (self.calculix != 0.0).then(|| (self.ours - self.calculix) / self.calculix)
+        over(self.ours - self.calculix, self.calculix)
     }
 }
 
@@ -88,7 +88,7 @@ impl<Place: Copy> Difference<Place> {
         let larger = |a: (Place, f64), b: (Place, f64)| if b.1 > a.1 { b } else { a };
         let largest = at.iter().copied().reduce(larger);
         let (place, difference) = largest.expect("a mesh has a node and a triangle");
-        let relative = if difference == 0.0 { 0.0 } else { difference / scale };
+        let relative = if difference == 0.0 { Some(0.0) } else { over(difference, scale) };
         let squares: f64 = at.iter().map(|(_, x)| x * x).sum();
         Difference {
             largest: Largest { at: place, difference, scale, relative },
@@ -103,6 +103,11 @@ impl<Place: Copy> Difference<Place> {
         at.sort_by(|(_, a), (_, b)| b.total_cmp(a));
         at.into_iter().take(count).map(|(place, _)| place).collect()
     }
+}
+
+/// Returns a share of a scale; None where that is 0, or too small.
+fn over(difference: f64, scale: f64) -> Option<f64> {
+    Some(difference / scale).filter(|share| share.is_finite())
 }
 
 fn bodies(model: &Model, von_mises: &[Vec<f64>; 2]) -> Vec<BodyStress> {

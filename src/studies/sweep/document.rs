@@ -134,8 +134,14 @@ pub fn key_of(scene: &str, options: &Options) -> Result<String> {
     Ok(Document::new(Some(scene), &Map::new(), &options, Path::new(""))?.key())
 }
 
+/// The most levels of a pointer; a case's document has fewer.
+const DEEPEST: usize = 32;
+
 /// Sets the value that a pointer names; of an object a new field too. None where it leads nowhere.
 fn set(fields: &mut Value, pointer: &str, value: &Value) -> Option<()> {
+    if pointer.split('/').count() > DEEPEST {
+        return None;
+    }
     if let Some(there) = fields.pointer_mut(pointer) {
         *there = value.clone();
         return Some(());

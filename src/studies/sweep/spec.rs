@@ -85,6 +85,13 @@ pub struct Steps {
 }
 
 impl Values {
+    fn count(&self) -> usize {
+        match self {
+            Values::List(list) => list.len(),
+            Values::Steps(steps) => steps.count,
+        }
+    }
+
     fn list(self) -> Vec<Value> {
         let Steps { from, to, count, log } = match self {
             Values::List(list) => return list,
@@ -129,36 +136,32 @@ impl Sweep {
     pub fn cases(&self, folder: &Path) -> Result<Cases> {
         let scene = self.scene.as_deref();
         let base = Document::new(scene, &self.generate, &self.options, folder)?;
-        let mut grid = Vec::new();
+        let list = if self.list.is_empty() { vec![Map::new()] } else { self.list.clone() };
+        let mut grid: Vec<(&String, Values)> = Vec::new();
         for (pointer, values) in &self.grid {
-            let values: Values = serde_json::from_value(values.clone()).map_err(|_| {
+            let values = serde_json::from_value(values.clone()).map_err(|_| {
                 let what = "the values are neither a list nor steps";
                 let fix = "give a list, or {\"from\": 1, \"to\": 2, \"count\": 5}";
                 InputError::new(format!("grid {pointer:?}"), what, fix)
             })?;
-            grid.push((pointer.clone(), values.list()));
+            grid.push((pointer, values));
         }
-        let list = if self.list.is_empty() { vec![Map::new()] } else { self.list.clone() };
-        let cases = Cases { base, grid, list };
-        match cases.count() {
-            Some(count) if count <= MOST_CASES => Ok(cases),
-            _ => {
-                let what = format!("there are more than {MOST_CASES} cases");
-                Err(InputError::new("grid and list", what, "divide the sweep"))
-            }
+        // Counted before the values are listed.
+        let sizes = grid.iter().map(|(_, values)| values.count().max(1));
+        if sizes.fold(list.len(), usize::saturating_mul) > MOST_CASES {
+            let what = format!("there are more than {MOST_CASES} cases");
+            return Err(InputError::new("grid and list", what, "divide the sweep"));
         }
+        let listed = |(pointer, values): (&String, Values)| (pointer.clone(), values.list());
+        let grid = grid.into_iter().map(listed).collect();
+        Ok(Cases { base, grid, list })
     }
 }
 
 impl Cases {
-    fn count(&self) -> Option<usize> {
-        let sizes = self.grid.iter().map(|(_, values)| values.len());
-        sizes.chain([self.list.len()]).try_fold(1_usize, |product, size| product.checked_mul(size))
-    }
-
     /// Returns the number of cases.
     pub fn len(&self) -> usize {
-        self.count().unwrap_or(0)
+        self.grid.iter().map(|(_, values)| values.len()).product::<usize>() * self.list.len()
     }
 
     pub fn is_empty(&self) -> bool {

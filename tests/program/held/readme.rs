@@ -212,7 +212,8 @@ fn beside((head, comparison): (&&str, &Comparison)) -> String {
         let relative = 100.0 * body.relative().expect("CalculiX has stress in both bodies");
         format!("{:.1} / {:.1}: {:.1} %", body.ours, body.calculix, relative.abs())
     };
-    let apart = 100.0 * comparison.displacement.largest.relative;
+    let apart = comparison.displacement.largest.relative.expect("CalculiX has displacements");
+    let apart = 100.0 * apart;
     format!("{head} {apart:.1} % | {} | {} |", stress(0), stress(1))
 }
 

@@ -6,6 +6,9 @@ use super::{Element, KINDS, Mesh, PhysicalName};
 use crate::error::{InputError, Result};
 use crate::problem::element;
 
+/// The largest tag that a Gmsh file can hold.
+const LARGEST_TAG: usize = i32::MAX as usize;
+
 impl Mesh {
     /// Checks that `n` is a node of the mesh.
     pub fn check_node(&self, n: usize, place: &str) -> Result<()> {
@@ -98,14 +101,20 @@ impl Mesh {
         Ok(())
     }
 
-    /// Checks that an element's number is not far beyond the number of elements, and that the
-    /// element names different nodes of the mesh.
+    /// Checks that an element's number is not far beyond the number of elements, that its tags are
+    /// numbers of Gmsh, and that the element names different nodes of the mesh.
     fn check_element(&self, element: &Element) -> Result<()> {
         let place = "the mesh's elements";
         let (number, nodes, count) = (element.number, &element.nodes, self.elements.len());
         if number == 0 || number > 16 * count + 1024 {
             let what = format!("element number {number} for {count} elements");
             let fix = "elem is indexed by element number: number the elements 1, 2, 3, ...";
+            return Err(InputError::new(place, what, fix));
+        }
+        let mut tags = element.physical.iter().chain([&element.geometric]);
+        if let Some(tag) = tags.find(|tag| **tag > LARGEST_TAG) {
+            let what = format!("element {number} has the tag {tag}");
+            let fix = format!("give tags up to {LARGEST_TAG}, as Gmsh has them");
             return Err(InputError::new(place, what, fix));
         }
         for (k, n) in nodes.iter().enumerate() {

@@ -1,0 +1,27 @@
+//! What must hold of any input, door by door: a function of bytes for each fuzz target, which panics
+//! where it does not hold. `fuzz_targets/` gives it what libFuzzer makes up, and
+//! `tests/program/fuzz.rs` the inputs that are kept in `corpus/`.
+#![forbid(unsafe_code)]
+
+pub mod documents;
+mod drawn;
+pub mod gmsh;
+pub mod listing;
+pub mod options;
+pub mod results;
+pub mod scene;
+pub mod solve;
+mod sound;
+pub mod worksheets;
+
+/// The targets by name.
+pub const TARGETS: [(&str, fn(&[u8])); 8] = [
+    ("documents", documents::hold),
+    ("gmsh", gmsh::hold),
+    ("listing", listing::hold),
+    ("options", options::hold),
+    ("results", results::hold),
+    ("scene", scene::hold),
+    ("solve", solve::hold),
+    ("worksheets", worksheets::hold),
+];

@@ -1,0 +1,45 @@
+//! A scene file, with a mesh of two blocks beside it whatever its name: it is refused with its fault,
+//! or it is a scene that is written, read back and planned.
+
+use plane_contact::input::Variant;
+use plane_contact::problem::scene::{SceneBuilder, file, gmsh};
+use plane_contact::report;
+use plane_contact::studies::plan::Plan;
+use plane_contact::studies::snapshot::Input;
+use plane_contact::{Request, Scene};
+
+use super::sound;
+
+const MESH: &[u8] = include_bytes!("../../tests/program/gmsh/blocks-2.2-ascii.msh");
+
+pub fn hold(data: &[u8]) {
+    match Scene::build("fuzz", data, |_| Ok(MESH.to_vec())) {
+        Err(error) => sound::input_error(&error),
+        Ok(scene) => {
+            reads_back(&scene);
+            Variant::ALL.iter().for_each(|variant| is_planned(&scene, *variant));
+        }
+    }
+}
+
+/// The scene's file and its mesh's file are the same scene, and so is what a snapshot keeps.
+fn reads_back(scene: &Scene) {
+    let (description, mesh) = scene.source().expect("a file describes it");
+    let text = file::write(description, "mesh.msh");
+    let beside = |_: &str| Ok(gmsh::write(mesh).into_bytes());
+    let read = SceneBuilder::read("fuzz", text.as_bytes(), beside).expect("what was written");
+    assert_eq!((&read.description, &read.mesh), (description, mesh));
+    let kept = Input::of(scene).expect("a file describes it");
+    let built = kept.build().expect("what was kept");
+    assert_eq!(built.source(), scene.source());
+}
+
+fn is_planned(scene: &Scene, variant: Variant) {
+    match Plan::new(&Request::new(scene).variant(variant)) {
+        Err(error) => sound::input_error(&error),
+        Ok(plan) => {
+            assert!(plan.cost.bytes.total().is_finite() && plan.cost.operations.is_finite());
+            sound::document(&report::plan::json(scene, &plan));
+        }
+    }
+}

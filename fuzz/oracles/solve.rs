@@ -1,0 +1,91 @@
+//! A run from end to end: of a scene file, or of a scene and options drawn from bytes. It fails with
+//! the exit status of who is to blame, or ends in numbers that all have a value, and that another way
+//! to compute them confirms.
+
+use arbitrary::{Result, Unstructured};
+use plane_contact::answer::Assessment;
+use plane_contact::answer::contact::pulling;
+use plane_contact::input::{Arithmetic, ScalarName, Solver, Variant};
+use plane_contact::numbers::solve::cost;
+use plane_contact::paper::mirror::NodeTable;
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::{ResultFile, tables};
+use plane_contact::studies::plan::Plan;
+use plane_contact::{Request, Solution, solve};
+
+use super::{drawn, sound};
+
+/// Scenes of files with more nodes, and more iterations and steps of theirs, are left out: a run is
+/// to end in some milliseconds.
+const MOST: usize = 40;
+
+pub fn hold(data: &[u8]) {
+    let request = match data.first() {
+        Some(b'{') => of_file(data),
+        _ => of_draws(&mut Unstructured::new(data)).ok().flatten(),
+    };
+    let Some(request) = request else { return };
+    let solution = match solve(&request, &mut |_| ()) {
+        Ok(solution) => solution,
+        Err(error) => return sound::failed_run(&error, request.variant),
+    };
+    is_written(&solution);
+    match request.variant {
+        Variant::Unilateral => assert_eq!(pulling(&solution.contact), []),
+        _ => is_confirmed(&solution),
+    }
+}
+
+fn of_file(text: &[u8]) -> Option<Request> {
+    let scene = Scene::build("fuzz", text, |_| Err("there is no other file".into())).ok()?;
+    let sizes = [scene.model.nodes.len(), scene.iterations, scene.contact.load_steps];
+    sizes.into_iter().all(|size| size <= MOST).then(|| Request::new(&scene))
+}
+
+fn of_draws(u: &mut Unstructured) -> Result<Option<Request>> {
+    let scene = drawn::scene(u)?.build();
+    scene.ok().map(|scene| drawn::request(u, &scene)).transpose()
+}
+
+/// The result and its tables have no number without a value, and the result reads back the same.
+fn is_written(solution: &Solution) {
+    let assessment = Assessment::new(solution);
+    let plan = Plan::new(&solution.request).expect("what ran can be planned");
+    let text = ResultFile::new(solution, &assessment, Some(&plan)).to_json();
+    sound::document(&text);
+    let read = ResultFile::from_json(&text).expect("what was written");
+    assert_eq!(read.to_json(), text);
+    sound::text(&tables::solution(solution, &assessment));
+    sound::text(&tables::error_estimates(solution, &assessment));
+    sound::text(&tables::distance(solution, &assessment));
+}
+
+/// Condensed and dense equations lead to the same displacements within the bounds that both runs keep
+/// on their own rounding, and so do exact numbers where they take no time.
+fn is_confirmed(solution: &Solution) {
+    let Request { arithmetic, reading, iterations, .. } = solution.request;
+    let bounded = |solver| {
+        let scalar = ScalarName::Bounded;
+        let arithmetic = Arithmetic { scalar, solver, tol: None, ..arithmetic };
+        let run = solve(&solution.request.clone().arithmetic(arithmetic), &mut |_| ()).ok()?;
+        let bound = run.error_bound.filter(|bound| bound.is_finite())?;
+        Some((run, bound))
+    };
+    let Some((condensed, bound)) = bounded(None) else { return };
+    let within = |other: &Solution, bound: f64| {
+        let apart = (&condensed.u - &other.u).amax();
+        assert!(apart <= bound, "{apart:e} apart, {bound:e} at most: {:?}", solution.request);
+    };
+    if let Some((dense, own)) = bounded(Some(Solver::DenseLu)) {
+        within(&dense, bound + own);
+    }
+    let equations = solution.model.free_dofs();
+    if cost::seconds(equations, reading.r5 == NodeTable::NodeN, iterations) < 0.01 {
+        let arithmetic =
+            Arithmetic { scalar: ScalarName::Exact, solver: None, tol: None, ..arithmetic };
+        let exact = solve(&solution.request.clone().arithmetic(arithmetic), &mut |_| ());
+        let exact = exact.expect("a run with a bound on its rounding does not fail without it");
+        // Its displacements are rounded to be written.
+        within(&exact, bound + exact.u.amax() * f64::EPSILON);
+    }
+}
