@@ -34,7 +34,7 @@ const MOST: (f64, f64) = (600.0, 2.0);
 
 /// The number of contact nodes of larger surfaces that are expected to come into contact, over the
 /// square root of the number of equations; of fewer equations than these, nothing is expected, as the
-/// bodies are condensed anew in a moment.
+/// first contact state costs little.
 const EXPECTED: (f64, usize) = (0.85, 10_000);
 
 /// The number of neighbours that are kept on either side of a bound node of a larger surface, and
@@ -159,13 +159,11 @@ impl Bodies {
         }
     }
 
-    /// Expects that the entries of the contact surface with the least gaps come into contact; of few
-    /// equations, those that the first state binds.
+    /// Expects that the entries of the contact surface with the least gaps come into contact.
     pub(super) fn expecting(mut self, pairings: &[Option<Pairing>]) -> Self {
         let (part, least) = EXPECTED;
         let equations = self.model.free_dofs();
         if equations < least {
-            self.begun.set(true);
             return self;
         }
         let mut nearest: Vec<&Pairing> = pairings.iter().flatten().collect();
@@ -385,16 +383,8 @@ impl Rows {
     }
 }
 
-/// A solution q of Tᵀ K T q = f.
-pub(super) struct Refined {
-    pub(super) q: DVector<f64>,
-    /// Its relative residual.
-    pub(super) residual: f64,
-    /// K T q by degree of freedom, force.
-    pub(super) force: DVector<f64>,
-}
-
-/// Solves Tᵀ K T q = `f` by `factors` of nearly that matrix, whose norm is `norm`, and refines.
+/// Solves Tᵀ K T q = `f` by `factors` of nearly that matrix, whose norm is `norm`, and refines;
+/// returns q and its relative residual.
 ///
 /// # Errors
 /// The factors are too far from the matrix; returns q so far.
@@ -403,18 +393,18 @@ pub(super) fn refined(
     t: &Elimination,
     (factors, norm): (&dyn Factors<f64>, f64),
     f: &DVector<f64>,
-) -> Result<Refined, Refined> {
+) -> Result<(DVector<f64>, f64), (DVector<f64>, f64)> {
+    let times = |q: &DVector<f64>| t.load(&stiffness.times(&(t.expand(q) - t.shift())));
     let mut q = factors.solve(f);
     let mut before = f64::INFINITY;
     loop {
-        let force = stiffness.times(&(t.expand(&q) - t.shift()));
-        let rest = f - t.load(&force);
+        let rest = f - times(&q);
         let error = backward_error(&rest, norm, &q, f);
         if error <= REFINED || (error <= ENOUGH && error > CONTRACTION * before) {
-            return Ok(Refined { q, residual: error, force });
+            return Ok((q, error));
         }
         if error.is_nan() || error > CONTRACTION * before {
-            return Err(Refined { q, residual: error, force });
+            return Err((q, error));
         }
         before = error;
         q += factors.solve(&rest);

@@ -73,8 +73,8 @@ impl Held {
             Made::Whole(whole) => whole.norm(),
         };
         let factors = (self.factors(), norm);
-        let (Ok(solved) | Err(solved)) = refined(&self.stiffness, &self.t, factors, f);
-        solved.q
+        let (Ok((q, _)) | Err((q, _))) = refined(&self.stiffness, &self.t, factors, f);
+        q
     }
 
     /// Returns the displacements under one more load by degree of freedom, length.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::condensation::{Bodies, Bound, Refined, refined};
+use super::condensation::{Bodies, Bound, refined};
 use super::elimination::{Constraint, Elimination};
 use super::factors::LastFactors;
 use super::request::Request;
@@ -82,9 +82,8 @@ impl Sparse<f64> for Condensing {
         let (t, bound) = self.factors(state);
         let refined = |bound: Bound| {
             let norm = bound.norm();
-            let Refined { q, residual, .. } =
-                refined(&self.stiffness, &t, (&bound, norm), state.f).ok()?;
-            Some(Solved { x: q, residual })
+            let (x, residual) = refined(&self.stiffness, &t, (&bound, norm), state.f).ok()?;
+            Some(Solved { x, residual })
         };
         bound.and_then(refined).map_or_else(|| Whole.solve(state), Ok)
     }
@@ -100,9 +99,8 @@ impl Sparse<Bounded> for Condensing {
         let f = state.f.map(Scalar::to_f64);
         let (t, bound) = self.factors(state);
         let refined = |bound: Bound| {
-            let Refined { q, residual, .. } =
-                refined(&self.stiffness, &t, (&bound, bound.norm()), &f).ok()?;
-            Some((bound, q, residual))
+            let (x, residual) = refined(&self.stiffness, &t, (&bound, bound.norm()), &f).ok()?;
+            Some((bound, x, residual))
         };
         let entries = state.stiffness.reduced(state.t);
         let with_error = |x: DVector<f64>, residual: f64, error: f64| Solved {

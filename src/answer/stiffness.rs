@@ -1,7 +1,6 @@
 //! The stiffness without contact and restraints, by triangle, which `Km` adds up in a matrix.
 
 use nalgebra::{DVector, SMatrix, SVector};
-use num_traits::Zero;
 
 use super::elimination::Elimination;
 use crate::numbers::scalar::Scalar;
@@ -58,11 +57,7 @@ impl<T: Scalar> Stiffness<T> {
         let (u, common) = T::over_common(u.as_slice().to_vec());
         let u = DVector::from_vec(u);
         for triangle in &self.triangles {
-            let moved = triangle.displacements(&u);
-            if moved.iter().all(Zero::is_zero) {
-                continue;
-            }
-            let product = triangle.k * moved;
+            let product = triangle.k * triangle.displacements(&u);
             for (dof, value) in triangle.dofs.into_iter().zip(product.iter()) {
                 force[dof.index()] += *value;
             }

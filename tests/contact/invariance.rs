@@ -199,7 +199,8 @@ fn random_scenes_have_one_answer_however_they_are_written() {
     println!("largest differences {worst:?}; whether it was said that rounding decides: {says:?}");
     let of =
         |said: bool| says.iter().filter(|(key, _)| key.1 == said).map(|(_, n)| n).sum::<usize>();
-    assert!(10 * of(true) < of(false), "it is seldom said in vain");
+    // Lemke's method is asked in some twentieth of these scenes.
+    assert!(7 * of(true) < of(false), "it is seldom said in vain");
     let mut found = String::new();
     for ((model, verdict), count) in &counts {
         found += &format!("{model} {verdict:?} {count}\n");

@@ -248,6 +248,21 @@ fn what_cannot_be_written_leaves_the_old_files() {
     refused(folder.path(), gone, &["cannot be written"]);
 }
 
+/// A disk that is mounted for reading alone, where a user may mount one.
+#[test]
+fn a_read_only_disk_is_named() {
+    let folder = TempDir::new().expect("a folder");
+    let mount = "unshare -rm sh -c 'mount -t tmpfs -o ro tmpfs .";
+    if !shell(folder.path(), &format!("{mount}'")).status.success() {
+        eprintln!("no disk can be mounted: a read-only one is not tried");
+        return;
+    }
+    for command in ["solve fig1 --out .", "record fig1", "lesson fig1 --out page.html"] {
+        let line = format!("{mount} && cd \"$PWD\" && \"$P\" {command}'");
+        refused(folder.path(), &line, &["cannot be written: ", "ead-only file"]);
+    }
+}
+
 #[test]
 fn a_poor_environment_changes_nothing_but_the_width() {
     let folder = TempDir::new().expect("a folder");

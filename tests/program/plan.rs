@@ -153,6 +153,6 @@ fn as_printed_no_load_reaches_the_block() {
 fn the_line_says_what_is_planned() {
     let text = line(&plan("fig1", Variant::Stepped));
     let expected = "plan: 20 free equations of 26, 8 contact candidates of 15, \
-                    sparse sparse-cholesky in f64; about 15 MB, 1.6e4 operations";
+                    sparse-cholesky in f64; about 15 MB, 1.6e4 operations";
     assert_eq!(text, expected);
 }

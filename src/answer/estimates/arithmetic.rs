@@ -101,6 +101,7 @@ fn looked_at<'a>(
 ) -> Option<(DVector<Bounded>, Looking<'a>)> {
     let model = &*solution.model;
     let mut looking = Looking::new(solution, stiffness);
+    looking.searches();
     let (last, way) = solution.steps.split_last()?;
     let part = |step: &Step| match &step.detail {
         Detail::Unilateral(detail) => detail.load,

@@ -5,6 +5,9 @@
 //! Under node to segment the latter is tried: each node is moved by the bound of its place. Under
 //! mortar its integrals are computed again with that bound.
 //!
+//! Under friction the search for a state may end by Lemke's method, which finds one of those that there
+//! may be, or none: which one is left to rounding.
+//!
 //! Not looked at are forces on a node that its restraints share without leaving them open.
 //!
 //! Gaps and forces are computed from displacements that are known within a bound, along the normals
@@ -16,7 +19,7 @@ use nalgebra::DVector;
 
 use crate::answer::contact::{Pairing, Status, Surfaces};
 use crate::answer::solution::Unilateral;
-use crate::answer::unilateral::FIRST_GROWTH;
+use crate::answer::unilateral::{FIRST_GROWTH, PATIENCE};
 use crate::answer::{Detail, Solution, Step, Stiffness};
 use crate::numbers::scalar::{Bounded, Scalar, Unsure};
 use crate::paper::decisions::Decision;
@@ -105,6 +108,28 @@ impl<'a> Looking<'a> {
         let within = |x: f64| Bounded::new(x, radius);
         let shape: Vec<_> = shape.iter().map(|place| place.map(within)).collect();
         Elsewhere::Mortar(surfaces.mortar(&shape).unsure)
+    }
+
+    /// Looks at how the contact states were found: by the active set alone, or also by Lemke's method,
+    /// which is asked where that has gone through many, and where it finds none has the step halved.
+    pub fn searches(&mut self) {
+        let path = self.solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
+        let halved = path.is_some_and(|path| path.halved > 0);
+        let part = |step: &Step| match &step.detail {
+            Detail::Unilateral(own) => own.load,
+            Detail::Published(_) => 0.0,
+        };
+        let mut loads = self.solution.steps.chunk_by(|a, b| part(a) == part(b));
+        if self.rubs() && (halved || loads.any(|steps| steps.len() > PATIENCE)) {
+            self.only_ties = false;
+            self.decisions.push(Decision {
+                iteration: 1,
+                node: self.solution.model.contact.nodes[0],
+                condition: "which contact state of a step Lemke's method finds, if any".into(),
+                margin: None,
+                bound: None,
+            });
+        }
     }
 
     /// Looks at a contact state.

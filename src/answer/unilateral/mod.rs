@@ -37,7 +37,7 @@ mod reduced;
 mod rigid;
 mod status;
 
-pub(super) use problem::FIRST_GROWTH;
+pub(super) use problem::{FIRST_GROWTH, PATIENCE};
 
 use super::error::{Error, NoEquilibrium};
 use super::request::Request;

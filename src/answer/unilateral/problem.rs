@@ -8,7 +8,7 @@ use super::forces::{self, Contact, Force, forces, tangent};
 use super::reduced::{Elastic, Last, Reduced};
 use super::rigid;
 use super::status::{Memory, first_closed, nearest_open, next_closed};
-use crate::answer::condensation::{Bodies, Refined};
+use crate::answer::condensation::Bodies;
 use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
 use crate::answer::elimination::{Constraint, Elimination, Motion};
 use crate::answer::error::{Error, NoEquilibrium};
@@ -36,7 +36,7 @@ pub const FIRST_GROWTH: f64 = 0.9;
 const SOFT: f64 = 1e-8;
 
 /// The number of iterations beyond one for each contact node after which the search ends.
-const PATIENCE: usize = 100;
+pub const PATIENCE: usize = 100;
 
 /// The change of the displacements, over the largest, below which a shape agrees with the one in
 /// which its contact was measured.
@@ -445,13 +445,13 @@ impl<'a> Problem<'a> {
             Ok(reduced) => reduced,
             Err(singular) => return Ok(self.free(&t, singular, &load)),
         };
-        let of_shift = self.stiffness.times(t.shift());
-        let Refined { q, residual, force } = match reduced.solve(&t.load(&(&load - &of_shift))) {
+        let f = t.load(&(&load - self.stiffness.times(t.shift())));
+        let (q, residual) = match reduced.solve(&f) {
             Ok(solved) => solved,
             Err(singular) => return Ok(self.free(&t, singular, &load)),
         };
         let u = t.expand(&q);
-        let reaction = force + of_shift - &setting.load;
+        let reaction = self.stiffness.times(&u) - &setting.load;
         let forces = self.forces(place, statuses, &reaction);
         let friction = DVector::zeros(u.len());
         let mut moved = Moved { u, forces, friction, feedback: 0.0, reaction, residual };

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::answer::condensation::{Bodies, Bound, Refined, refined};
+use crate::answer::condensation::{Bodies, Bound, refined};
 use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::factors::Whole;
@@ -101,11 +101,11 @@ impl<'a> Reduced<'a> {
         })
     }
 
-    /// Solves for q.
+    /// Returns q, and its relative residual.
     ///
     /// # Errors
     /// The matrix is singular.
-    pub(super) fn solve(&self, f: &DVector<f64>) -> Result<Refined, Singular> {
+    pub(super) fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
         let stiffness = self.elastic.stiffness;
         let by = |factors: &dyn Factors<f64>, norm| refined(stiffness, self.t, (factors, norm), f);
         let by_whole = |made: &Whole| by(made, made.norm());
@@ -145,7 +145,7 @@ impl<'a> Reduced<'a> {
     /// # Errors
     /// The matrix is singular.
     pub(super) fn under(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
-        let solved = self.solve(&self.t.load(&self.elastic.model.free_part(load)))?;
-        Ok(self.t.expand(&solved.q) - self.t.shift())
+        let (q, _) = self.solve(&self.t.load(&self.elastic.model.free_part(load)))?;
+        Ok(self.t.expand(&q) - self.t.shift())
     }
 }
