@@ -27,7 +27,7 @@ const REASONS: &[(&str, &str)] = &[
     ("mesh_energy_relative", "a body has too few triangles for an estimate"),
     ("arithmetic", "no bound is known"),
     ("bound", "no bound is known"),
-    ("margin", "no two sides were compared"),
+    ("margin", "no two finite sides were compared"),
     ("displacement_arithmetic", "no bound is known"),
     ("displacement_mesh", "the variant is printed with contact, or a body has too few triangles"),
     ("distance", "there is no such solution, or the scene has no contact"),
