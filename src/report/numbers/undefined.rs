@@ -28,6 +28,7 @@ const REASONS: &[(&str, &str)] = &[
     ("arithmetic", "no bound is known"),
     ("bound", "no bound is known"),
     ("margin", "no two finite sides were compared"),
+    ("decided_by_rounding", "it is not known who is in contact without rounding"),
     ("displacement_arithmetic", "no bound is known"),
     ("displacement_mesh", "the variant is printed with contact, or a body has too few triangles"),
     ("distance", "there is no such solution, or the scene has no contact"),
