@@ -71,7 +71,11 @@ fn of_snapshot(snapshot: &Snapshot) {
             let checked = [Checked { file: "fuzz".into(), verified }];
             // What is no number differs, and is null.
             let json: Result<Value, _> = serde_json::from_str(&report::json(&checked));
-            assert!(json.is_ok() && !report::text(&checked).is_empty() && !report::markdown(&checked).is_empty());
+            assert!(
+                json.is_ok()
+                    && !report::text(&checked).is_empty()
+                    && !report::markdown(&checked).is_empty()
+            );
             assert!(!report::junit(&checked).is_empty());
         }
         Err(error) => assert_eq!(error.exit_status(), 2, "{error}"),

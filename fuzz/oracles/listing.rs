@@ -2,6 +2,8 @@
 //! scene on which the printed listings have the mirror's bits, and of edits, under which they fail or
 //! end with numbers.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use arbitrary::{Result, Unstructured};
@@ -121,7 +123,7 @@ fn on_a_scene(u: &mut Unstructured) -> Result<()> {
     let k_cnt = is_mirrored(&sheet, &node_n, &reading);
     if edits > 0 {
         let which = *u.choose(Which::ALL)?;
-        let text = drawn::edited(u, &which.under(&reading).to_string(), edits)?;
+        let text = drawn::edited(u, &printed(which, &reading).to_string(), edits)?;
         executed(which, &text, &sheet, &node_n, &k_cnt, &reading);
     }
     Ok(())
@@ -153,6 +155,20 @@ fn executed(
     }
 }
 
+thread_local! {
+    /// The printed listings under the readings that came so far.
+    static READ: RefCell<BTreeMap<(&'static str, String), Rc<Listing>>> = RefCell::default();
+}
+
+fn printed(which: Which, reading: &Reading) -> Rc<Listing> {
+    let read = |read: &RefCell<BTreeMap<_, Rc<Listing>>>| {
+        let key = (which.name(), reading.to_string());
+        let under = || Rc::new(which.under(reading));
+        read.borrow_mut().entry(key).or_insert_with(under).clone()
+    };
+    READ.with(read)
+}
+
 type Stop = (usize, Cause);
 type PairBits = (Vec<usize>, Vec<u64>, Vec<usize>, Vec<u64>);
 
@@ -161,18 +177,19 @@ type PairBits = (Vec<usize>, Vec<u64>, Vec<usize>, Vec<u64>);
 fn is_mirrored(sheet: &Worksheet<f64>, node_n: &Table<f64>, reading: &Reading) -> Table<f64> {
     let settings = settings(reading);
     let mirror = c_cnt(sheet, reading, node_n);
-    let printed = listings::c_cnt(&Which::CCnt.under(reading), &settings, sheet, node_n, &mut ());
+    let listing = printed(Which::CCnt, reading);
+    let executed = listings::c_cnt(&listing, &settings, sheet, node_n, &mut ());
     let of_mirror = mirror.as_ref().map(pair_bits).map_err(stop);
     let near = near::c_cnt(sheet, reading, node_n);
     assert_eq!(of_mirror, near.as_ref().map(pair_bits).map_err(stop));
-    assert_eq!(of_mirror, printed.map(|(p, _)| pair_bits(&p)).map_err(|f| printed_stop(&f)));
+    assert_eq!(of_mirror, executed.map(|(p, _)| pair_bits(&p)).map_err(|f| printed_stop(&f)));
     let k_cnt = mirror.map_or_else(|_| Table::filled(sheet.R(), 4, 0.0), |pairs| pairs.k_cnt);
     let mirror = Km(sheet, reading, &k_cnt);
-    let printed = listings::km(&Which::Km.under(reading), &settings, sheet, &k_cnt, &mut ());
+    let executed = listings::km(&printed(Which::Km, reading), &settings, sheet, &k_cnt, &mut ());
     let flat = |table: &Table<f64>| bits(table.as_matrix());
     assert_eq!(
         mirror.as_ref().map(flat).map_err(stop),
-        printed.map(|(table, _)| flat(&table)).map_err(|f| printed_stop(&f))
+        executed.map(|(table, _)| flat(&table)).map_err(|f| printed_stop(&f))
     );
     k_cnt
 }

@@ -14,8 +14,11 @@ pub mod solve;
 mod sound;
 pub mod worksheets;
 
+/// What a target does with an input.
+pub type Hold = fn(&[u8]);
+
 /// The targets by name.
-pub const TARGETS: [(&str, fn(&[u8])); 8] = [
+pub const TARGETS: [(&str, Hold); 8] = [
     ("documents", documents::hold),
     ("gmsh", gmsh::hold),
     ("listing", listing::hold),

@@ -31,8 +31,10 @@ pub fn hold(data: &[u8]) {
         if let Err(why) = line.parse::<Settings>() {
             assert!(!why.is_empty());
         }
-        arithmetic(line);
-        generator(line);
+        if line.contains("--") {
+            arithmetic(line);
+            generator(line);
+        }
     });
 }
 

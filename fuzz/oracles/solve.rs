@@ -84,8 +84,11 @@ fn is_confirmed(solution: &Solution) {
         let arithmetic =
             Arithmetic { scalar: ScalarName::Exact, solver: None, tol: None, ..arithmetic };
         let exact = solve(&solution.request.clone().arithmetic(arithmetic), &mut |_| ());
-        let exact = exact.expect("a run with a bound on its rounding does not fail without it");
-        // Its displacements are rounded to be written.
-        within(&exact, bound + exact.u.amax() * f64::EPSILON);
+        match exact {
+            // Its displacements are rounded to be written.
+            Ok(exact) => within(&exact, bound + exact.u.amax() * f64::EPSILON),
+            // What takes square roots does not run in exact numbers.
+            Err(why) => assert_eq!(why.exit_status(), 2, "{why}"),
+        }
     }
 }

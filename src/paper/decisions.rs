@@ -36,8 +36,8 @@ impl Decision {
     /// A comparison in iteration `iteration` that counts for `node` and that rounding may have
     /// decided.
     pub fn unsure(iteration: usize, node: NodeId, condition: String, by: Unsure) -> Self {
-        let bound = Some(by.bound).filter(|bound| bound.is_finite());
-        Decision { iteration, node, condition, margin: Some(by.margin), bound }
+        let [margin, bound] = [by.margin, by.bound].map(|x| Some(x).filter(|x| x.is_finite()));
+        Decision { iteration, node, condition, margin, bound }
     }
 }
 

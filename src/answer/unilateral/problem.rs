@@ -673,9 +673,13 @@ impl<'a> Problem<'a> {
             let (least, most) =
                 moduli.fold((f64::MAX, 0.0), |(l, m): (f64, f64), e| (l.min(e), m.max(e)));
             let apart = most / least;
+            let ratio = match apart.is_finite() {
+                true => format!("{apart:.0e}"),
+                false => "more than 1e308".into(),
+            };
             let what = format!(
                 "restraints and contact hold the bodies, but in f64 the matrix is singular at node \
-                 {node}, direction {direction}; the moduli are {apart:.0e} apart"
+                 {node}, direction {direction}; the moduli are {ratio} apart"
             );
             let fix = "choose moduli that are closer, or restrain the stiff body itself";
             return match apart > FAR_APART {
