@@ -86,7 +86,8 @@ pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>> {
 }
 
 /// Returns the two contact surfaces and their tolerance; empty where the scene has no contact.
-/// Errors: the tolerance is negative, the number of steps is 0 or too large, or the surfaces do not exist or share a node.
+/// Errors: the tolerance is negative, the number of steps is 0 or too large, or the surfaces do not
+/// exist or share a node.
 pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
     check_tolerance(contact.tolerance)?;
