@@ -11,7 +11,7 @@ pub mod options;
 pub mod results;
 pub mod scene;
 pub mod solve;
-mod sound;
+pub mod sound;
 pub mod worksheets;
 
 /// What a target does with an input.

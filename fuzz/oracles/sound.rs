@@ -41,7 +41,7 @@ pub fn document(text: &str) -> Value {
 }
 
 /// Returns the names of the fields that are null.
-fn nulls<'a>(value: &'a Value, field: &'a str) -> Vec<&'a str> {
+pub fn nulls<'a>(value: &'a Value, field: &'a str) -> Vec<&'a str> {
     match value {
         Value::Null => vec![field],
         Value::Array(values) => values.iter().flat_map(|value| nulls(value, field)).collect(),
@@ -53,6 +53,7 @@ fn nulls<'a>(value: &'a Value, field: &'a str) -> Vec<&'a str> {
 }
 
 /// A text for people has a dash where a number has no value.
+#[track_caller]
 pub fn text(text: &str) {
     for word in text.split(|c: char| c.is_whitespace() || ",;()=".contains(c)) {
         assert!(!["inf", "-inf", "NaN"].contains(&word), "{word} in\n{text}");

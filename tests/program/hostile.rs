@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::program::run;
-use crate::undefined::has_no_undefined_number;
+use crate::oracles::sound::text as has_no_undefined_number;
 
 /// A load shared by contact nodes is passed on by none beyond its size, but for this.
 const ROUNDING: f64 = 1e-9;

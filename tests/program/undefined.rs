@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::program::run;
+use crate::oracles::sound::{nulls, text as has_no_undefined_number};
 
 /// A block under a stamp that is held by itself and pushed into it: `load` acts on the stamp's one
 /// contact node, `gap` above the block.
@@ -40,18 +41,6 @@ fn output(folder: &Path, scene: &Value, args: &[&str]) -> (Option<i32>, String) 
     (output.status.code(), text.concat())
 }
 
-/// The names of the fields that are null.
-fn nulls<'a>(value: &'a Value, field: &'a str) -> Vec<&'a str> {
-    match value {
-        Value::Null => vec![field],
-        Value::Array(values) => values.iter().flat_map(|value| nulls(value, field)).collect(),
-        Value::Object(fields) => {
-            fields.iter().flat_map(|(field, value)| nulls(value, field)).collect()
-        }
-        _ => Vec::new(),
-    }
-}
-
 #[track_caller]
 fn is_explained(file: &Path) {
     let text = std::fs::read_to_string(file).expect("the file is there");
@@ -61,13 +50,6 @@ fn is_explained(file: &Path) {
     for field in found {
         let reason = document["nulls"][field].as_str().unwrap_or_default();
         assert!(reason.len() > 10 && reason != "there is none", "{field}: {reason:?}");
-    }
-}
-
-#[track_caller]
-pub fn has_no_undefined_number(text: &str) {
-    for word in text.split(|c: char| c.is_whitespace() || ",;()=".contains(c)) {
-        assert!(!["inf", "-inf", "NaN"].contains(&word), "{word}: {text}");
     }
 }
 

@@ -66,14 +66,9 @@ pub trait Precision: Scalar {
     /// Errors: tells that A is singular, or that an iteration did not converge.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self>;
 
-    /// Does the same of a sparse matrix, which stays one under `sparse-lu`: the same digits.
-    fn solve_sparse(
-        a: SparseSquare<Self>,
-        b: &DVector<Self>,
-        by: Solver,
-        tol: Option<f64>,
-    ) -> Outcome<Self> {
-        Self::solve(a.dense(), b, by, tol)
+    /// Solves by `sparse-lu` from a matrix that is sparse already: the same digits.
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
+        Self::solve(a.dense(), b, Solver::SparseLu, None)
     }
 
     /// Does `work`, and frees every number that it made but its result.
@@ -96,16 +91,8 @@ impl Precision for f64 {
         }
     }
 
-    fn solve_sparse(
-        a: SparseSquare<Self>,
-        b: &DVector<Self>,
-        by: Solver,
-        tol: Option<f64>,
-    ) -> Outcome<Self> {
-        match by {
-            Solver::SparseLu => Ok(solved(&SparseLu::new(&a)?, b)),
-            _ => Self::solve(a.dense(), b, by, tol),
-        }
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
+        Ok(solved(&SparseLu::new(a)?, b))
     }
 }
 
@@ -114,16 +101,8 @@ impl Precision for f32 {
         native(a, b, by, tol)
     }
 
-    fn solve_sparse(
-        a: SparseSquare<Self>,
-        b: &DVector<Self>,
-        by: Solver,
-        tol: Option<f64>,
-    ) -> Outcome<Self> {
-        match by {
-            Solver::SparseLu => Ok(solved(&SparseLu::new(&a)?, b)),
-            _ => Self::solve(a.dense(), b, by, tol),
-        }
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
+        Ok(solved(&SparseLu::new(a)?, b))
     }
 }
 
@@ -133,7 +112,7 @@ impl Precision for Bounded {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         let a = SparseSquare::of(&a);
         if by == Solver::SparseLu {
-            return Self::solve_sparse(a, b, by, tol);
+            return Self::solve_sparse(&a, b);
         }
         let (values, f) = (a.map(Scalar::to_f64).dense(), b.map(Scalar::to_f64));
         let (factors, solved): (Box<dyn Factors<f64>>, _) = match by {
@@ -150,18 +129,10 @@ impl Precision for Bounded {
         Ok(with_bound(&*factors, &a, b, solved))
     }
 
-    fn solve_sparse(
-        a: SparseSquare<Self>,
-        b: &DVector<Self>,
-        by: Solver,
-        tol: Option<f64>,
-    ) -> Outcome<Self> {
-        if by != Solver::SparseLu {
-            return Self::solve(a.dense(), b, by, tol);
-        }
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
         let factors = SparseLu::new(&a.map(Scalar::to_f64))?;
         let solved = solved(&factors, &b.map(Scalar::to_f64));
-        Ok(with_bound(&factors, &a, b, solved))
+        Ok(with_bound(&factors, a, b, solved))
     }
 }
 
@@ -235,10 +206,15 @@ impl Precision for Exact {
 }
 
 /// Solves in a scalar of the machine by faer, or by conjugate gradients.
-fn native<T: Native>(a: DMatrix<T>, b: &DVector<T>, by: Solver, tol: Option<f64>) -> Outcome<T> {
+fn native<T: Native + Precision>(
+    a: DMatrix<T>,
+    b: &DVector<T>,
+    by: Solver,
+    tol: Option<f64>,
+) -> Outcome<T> {
     match by {
         Solver::DenseLu => return Ok(solved(&DenseLu::new(a)?, b)),
-        Solver::SparseLu => return Ok(solved(&SparseLu::new(&SparseSquare::of(&a))?, b)),
+        Solver::SparseLu => return T::solve_sparse(&SparseSquare::of(&a), b),
         _ => (),
     }
     let sparse = SparseSymmetric::of_lower(&a);
