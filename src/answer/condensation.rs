@@ -8,10 +8,14 @@
 //! Kept are all nodes of small surfaces, else those that a state binds and their neighbours; when a
 //! state binds others, the bodies are condensed anew. Where that cannot be done or trusted, a state
 //! has no such factors: its whole matrix is to be factored.
+//!
+//! The search for a contact state goes on with S alone ([`OnKept`]); where every digit counts, the
+//! factors of Tᵀ S T serve to refine the solution of the whole equations ([`Bound`]).
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::fmt;
+use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{DMatrix, DVector};
@@ -20,7 +24,7 @@ use super::contact::Pairing;
 use super::elimination::{Constraint, Elimination};
 use super::stiffness::Stiffness;
 use crate::numbers::solve::{
-    Condensed, DenseCholesky, Factors, SparseSymmetric, backward_error, largest_motion,
+    Condensed, DenseCholesky, Eliminated, Factors, SparseSymmetric, backward_error, largest_motion,
 };
 use crate::problem::model::{Dof, Model, NodeId};
 
@@ -91,6 +95,8 @@ pub(super) struct Bodies {
     /// The contact surface and the nodes of the target surface, each in its order.
     surfaces: [Vec<NodeId>; 2],
     current: RefCell<Option<Arc<Condensation>>>,
+    /// The load that was eliminated last.
+    loaded: RefCell<Option<Loaded>>,
     /// The nodes to keep for the first contact state of large surfaces; none where only that state
     /// shows which are bound.
     expected: Vec<NodeId>,
@@ -111,8 +117,28 @@ pub struct Condensation {
     kept: Vec<Dof>,
     /// Whether each degree of freedom is kept, or restrained at a kept node.
     is_kept: Vec<bool>,
+    /// Whether each degree of freedom is restrained or inside.
+    is_outside: Vec<bool>,
     /// The largest row sum of |K|, force/length.
     norm: f64,
+    /// The same of |S|.
+    kept_norm: f64,
+}
+
+/// A load by degree of freedom, force, and what is left of it on the kept equations.
+struct Loaded {
+    condensation: Arc<Condensation>,
+    load: DVector<f64>,
+    eliminated: Rc<Eliminated>,
+}
+
+/// Tᵀ S T under one contact state, factored.
+struct Small {
+    /// The equation of the state for each column of `t`.
+    columns: Vec<usize>,
+    /// The rows of T of the kept degrees of freedom.
+    t: Rows,
+    factors: DenseCholesky<f64>,
 }
 
 /// The factors of Tᵀ K T under one contact state.
@@ -120,11 +146,15 @@ pub(super) struct Bound {
     condensation: Arc<Condensation>,
     /// The equation of the bodies and that of the state for each degree of freedom inside.
     inside: Vec<(usize, usize)>,
-    /// The equation of the state for each column of `t`.
-    columns: Vec<usize>,
-    /// The rows of T of the kept degrees of freedom.
-    t: Rows,
-    factors: DenseCholesky<f64>,
+    small: Small,
+}
+
+/// The bodies under one contact state, in terms of what is kept of them.
+pub(super) struct OnKept {
+    condensation: Arc<Condensation>,
+    /// s on the kept equations, length.
+    shift: DVector<f64>,
+    small: Small,
 }
 
 /// Returns the nodes of the contact surface and those of the target surface, each in its order.
@@ -153,6 +183,7 @@ impl Bodies {
             shared: shared.clone(),
             surfaces: surfaces(model),
             current: RefCell::default(),
+            loaded: RefCell::default(),
             expected: Vec::new(),
             begun: Cell::new(false),
             impossible: Cell::new(!model.has_contact()),
@@ -177,36 +208,47 @@ impl Bodies {
         self
     }
 
-    /// Returns the factors of Tᵀ K T under `constraints`; None where the whole matrix is to be
-    /// factored. On large surfaces of which nothing is expected the first state only shows which nodes
-    /// are bound.
-    pub(super) fn factors(
+    /// Returns the bodies condensed to the nodes of `constraints` and others; None where the whole
+    /// matrix is to be factored. On large surfaces of which nothing is expected the first state only
+    /// shows which nodes are bound.
+    pub(super) fn condensed(
         &self,
         stiffness: &Stiffness,
-        t: &Elimination,
         constraints: &[Constraint],
-    ) -> Option<Bound> {
+    ) -> Option<Arc<Condensation>> {
         let first = !self.begun.replace(true);
         let unforeseen = first && !self.is_small() && self.expected.is_empty();
         if self.impossible.get() || unforeseen {
             return None;
         }
         let current = self.current.borrow().clone().filter(|c| c.has(constraints));
-        let condensation = match current {
-            Some(condensation) => condensation,
-            None => {
-                let expected: &[NodeId] = if first { &self.expected } else { &[] };
-                let nodes = self.nodes(constraints, expected);
-                if nodes.len() > self.most() {
-                    return None;
-                }
-                let made = self.shared.condensed(stiffness, &self.model, nodes);
-                self.impossible.set(made.is_none());
-                self.current.replace(made.clone());
-                made?
-            }
-        };
-        Bound::new(condensation, t)
+        if current.is_some() {
+            return current;
+        }
+        let expected: &[NodeId] = if first { &self.expected } else { &[] };
+        let nodes = self.nodes(constraints, expected);
+        if nodes.len() > self.most() {
+            return None;
+        }
+        let made = self.shared.condensed(stiffness, &self.model, nodes);
+        self.impossible.set(made.is_none());
+        self.current.replace(made.clone());
+        made
+    }
+
+    /// Returns what is left of a load by degree of freedom on the kept equations.
+    pub(super) fn eliminated(&self, state: &OnKept, load: &DVector<f64>) -> Rc<Eliminated> {
+        let condensation = &state.condensation;
+        let mut last = self.loaded.borrow_mut();
+        let known = last
+            .take()
+            .filter(|last| Arc::ptr_eq(&last.condensation, condensation) && last.load == *load);
+        let loaded = known.unwrap_or_else(|| Loaded {
+            condensation: Arc::clone(condensation),
+            load: load.clone(),
+            eliminated: Rc::new(condensation.eliminated(load)),
+        });
+        Rc::clone(&last.insert(loaded).eliminated)
     }
 
     /// Returns the condensed bodies that served last; None where there are none.
@@ -259,8 +301,47 @@ impl Condensation {
         let equations: Vec<usize> = (0..dofs.len()).filter(|e| is_kept[dofs[*e].index()]).collect();
         let kept = equations.iter().map(|e| dofs[*e]).collect();
         let condensed = Condensed::new(&matrix, &equations)?;
+        let outside = |(restrained, kept): (&bool, &bool)| *restrained || !kept;
+        let is_outside = model.restrained.iter().zip(&is_kept).map(outside).collect();
         let (model, norm) = (Arc::clone(model), matrix.norm());
-        Some(Condensation { model, nodes, condensed, dofs, kept, is_kept, norm })
+        let kept_norm = condensed.schur().column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
+        Some(Condensation {
+            model,
+            nodes,
+            condensed,
+            dofs,
+            kept,
+            is_kept,
+            is_outside,
+            norm,
+            kept_norm,
+        })
+    }
+
+    /// Returns what is left of a load by degree of freedom on the kept equations.
+    fn eliminated(&self, load: &DVector<f64>) -> Eliminated {
+        let load = self.dofs.iter().map(|dof| load[dof.index()]);
+        self.condensed.eliminate(&DVector::from_iterator(self.dofs.len(), load))
+    }
+
+    /// Returns the part on the kept equations of a vector by degree of freedom.
+    fn part(&self, all: &DVector<f64>) -> DVector<f64> {
+        DVector::from_iterator(self.kept.len(), self.kept.iter().map(|dof| all[dof.index()]))
+    }
+
+    /// Returns the vector by degree of freedom with a part on the kept equations, 0 elsewhere.
+    fn whole(&self, part: &DVector<f64>) -> DVector<f64> {
+        let mut all = DVector::zeros(self.is_kept.len());
+        self.kept.iter().zip(part).for_each(|(dof, x)| all[dof.index()] = *x);
+        all
+    }
+
+    /// Returns the displacements by degree of freedom from those of the kept equations.
+    fn expand(&self, load: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
+        let mut u = DVector::zeros(self.is_kept.len());
+        let all = self.condensed.expand(load, kept);
+        self.dofs.iter().zip(&all).for_each(|(dof, x)| u[dof.index()] = *x);
+        u
     }
 
     /// Returns whether it is that of the bodies of `model`.
@@ -280,9 +361,9 @@ impl Condensation {
     }
 }
 
-impl Bound {
+impl Small {
     /// Factors Tᵀ S T; None where that is singular or nearly so.
-    pub(super) fn new(condensation: Arc<Condensation>, all: &Elimination) -> Option<Self> {
+    fn new(condensation: &Condensation, all: &Elimination) -> Option<Self> {
         let mut column_of = vec![usize::MAX; all.size()];
         let mut columns = Vec::new();
         for (column, _) in condensation.kept.iter().flat_map(|dof| all.row(*dof)) {
@@ -294,6 +375,65 @@ impl Bound {
         let local = |(column, weight): &(usize, f64)| (column_of[*column], *weight);
         let rows = condensation.kept.iter().map(|dof| all.row(*dof).iter().map(local).collect());
         let t = Rows { rows: rows.collect(), columns: columns.len() };
+        let matrix = t.reduced(condensation.condensed.schur());
+        let factors = DenseCholesky::new(&matrix).ok()?;
+        let motion = largest_motion(&factors, &matrix.diagonal());
+        (motion < LOOSE).then_some(Small { columns, t, factors })
+    }
+
+    /// Returns the displacements of the kept equations under a load on them, without shift.
+    fn under(&self, load: &DVector<f64>) -> DVector<f64> {
+        self.t.expand(&self.factors.solve(&self.t.load(load)))
+    }
+}
+
+impl OnKept {
+    /// Factors a contact state on the kept equations; None where it is singular or nearly so.
+    pub(super) fn new(condensation: Arc<Condensation>, constraints: &[Constraint]) -> Option<Self> {
+        let t = Elimination::closing(&condensation.is_outside, constraints);
+        let (shift, small) = (condensation.part(t.shift()), Small::new(&condensation, &t)?);
+        Some(OnKept { condensation, shift, small })
+    }
+
+    /// Returns the displacements by degree of freedom under a load, length, and the relative residual
+    /// of the kept equations; None where their factors are too far from the matrix.
+    pub(super) fn displacements(&self, load: &Eliminated) -> Option<(DVector<f64>, f64)> {
+        let (condensation, Small { t, factors, .. }) = (&self.condensation, &self.small);
+        let schur = condensation.condensed.schur();
+        let f = t.load(&(&load.kept - schur * &self.shift));
+        let times = |q: &DVector<f64>| t.load(&(schur * t.expand(q)));
+        let (q, residual) = refine(factors, times, condensation.kept_norm, &f).ok()?;
+        Some((condensation.expand(load, &(t.expand(&q) + &self.shift)), residual))
+    }
+
+    /// Returns K u − f by degree of freedom, force; 0 but on the kept equations.
+    pub(super) fn reaction(&self, u: &DVector<f64>, load: &Eliminated) -> DVector<f64> {
+        let force = self.condensation.condensed.schur() * self.condensation.part(u);
+        self.condensation.whole(&(force - &load.kept))
+    }
+
+    /// Returns the same of the displacements without the shift of the constraints, under a load `f`
+    /// on kept nodes alone.
+    pub(super) fn response(&self, load: &DVector<f64>) -> DVector<f64> {
+        let f = self.condensation.part(load);
+        let force = self.condensation.condensed.schur() * self.small.under(&f);
+        self.condensation.whole(&(force - f))
+    }
+
+    /// Returns those displacements by degree of freedom, length, and the forces K u that keep them on
+    /// the kept equations.
+    pub(super) fn under(&self, load: &DVector<f64>) -> [DVector<f64>; 2] {
+        let Condensation { condensed, .. } = &*self.condensation;
+        let f = self.condensation.part(load);
+        let u = self.small.under(&f);
+        let force = self.condensation.whole(&(condensed.schur() * &u));
+        [self.condensation.expand(&condensed.on_kept(f), &u), force]
+    }
+}
+
+impl Bound {
+    /// Factors Tᵀ S T; None where that is singular or nearly so.
+    pub(super) fn new(condensation: Arc<Condensation>, all: &Elimination) -> Option<Self> {
         let mut inside = Vec::with_capacity(condensation.dofs.len());
         for (e, dof) in condensation.dofs.iter().enumerate() {
             if !condensation.is_kept[dof.index()] {
@@ -301,24 +441,15 @@ impl Bound {
                 inside.push((e, column));
             }
         }
-        let matrix = t.reduced(condensation.condensed.schur());
-        let factors = DenseCholesky::new(&matrix).ok()?;
-        let motion = largest_motion(&factors, &matrix.diagonal());
-        (motion < LOOSE).then_some(Bound { condensation, inside, columns, t, factors })
+        let small = Small::new(&condensation, all)?;
+        Some(Bound { condensation, inside, small })
     }
-}
 
-impl Bound {
     /// Returns K u − f under a load `f` by degree of freedom on kept nodes alone, force, where u are
     /// the displacements without the shift of the constraints.
     pub(super) fn reaction(&self, load: &DVector<f64>) -> DVector<f64> {
-        let Condensation { kept, condensed, .. } = &*self.condensation;
-        let f = DVector::from_iterator(kept.len(), kept.iter().map(|dof| load[dof.index()]));
-        let u = self.t.expand(&self.factors.solve(&self.t.load(&f)));
-        let force = condensed.schur() * u;
-        let mut reaction = -load;
-        kept.iter().zip(&force).for_each(|(dof, force)| reaction[dof.index()] += force);
-        reaction
+        let u = self.small.under(&self.condensation.part(load));
+        self.condensation.whole(&(self.condensation.condensed.schur() * u)) - load
     }
 
     /// Returns the largest row sum of |K| without constraints, force/length.
@@ -329,16 +460,17 @@ impl Bound {
 
 impl Factors<f64> for Bound {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        let condensed = &self.condensation.condensed;
+        let (condensed, Small { columns, t, factors }) =
+            (&self.condensation.condensed, &self.small);
         let mut load = DVector::zeros(self.condensation.dofs.len());
         self.inside.iter().for_each(|(e, column)| load[*e] = b[*column]);
         let eliminated = condensed.eliminate(&load);
-        let own = DVector::from_iterator(self.columns.len(), self.columns.iter().map(|c| b[*c]));
-        let q = self.factors.solve(&(own + self.t.load(&eliminated.kept)));
-        let u = condensed.expand(&eliminated, &self.t.expand(&q));
+        let own = DVector::from_iterator(columns.len(), columns.iter().map(|c| b[*c]));
+        let q = factors.solve(&(own + t.load(&eliminated.kept)));
+        let u = condensed.expand(&eliminated, &t.expand(&q));
         let mut x = DVector::zeros(b.len());
         self.inside.iter().for_each(|(e, column)| x[*column] = u[*e]);
-        self.columns.iter().zip(&q).for_each(|(column, q)| x[*column] = *q);
+        columns.iter().zip(&q).for_each(|(column, q)| x[*column] = *q);
         x
     }
 }
@@ -395,6 +527,16 @@ pub(super) fn refined(
     f: &DVector<f64>,
 ) -> Result<(DVector<f64>, f64), (DVector<f64>, f64)> {
     let times = |q: &DVector<f64>| t.load(&stiffness.times(&(t.expand(q) - t.shift())));
+    refine(factors, times, norm, f)
+}
+
+/// Solves A q = `f`, where `times` multiplies by A, whose norm is `norm`.
+fn refine(
+    factors: &dyn Factors<f64>,
+    times: impl Fn(&DVector<f64>) -> DVector<f64>,
+    norm: f64,
+    f: &DVector<f64>,
+) -> Result<(DVector<f64>, f64), (DVector<f64>, f64)> {
     let mut q = factors.solve(f);
     let mut before = f64::INFINITY;
     loop {

@@ -72,7 +72,8 @@ impl Condensing {
         let constraints: Vec<Constraint> =
             state.constraints.iter().map(|c| c.map(Scalar::to_f64)).collect();
         let t = Elimination::new(&state.model.restrained, &constraints);
-        let bound = self.bodies.factors(&self.stiffness, &t, &constraints);
+        let condensed = self.bodies.condensed(&self.stiffness, &constraints);
+        let bound = condensed.and_then(|condensed| Bound::new(condensed, &t));
         (t, bound)
     }
 }

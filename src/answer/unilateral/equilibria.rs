@@ -27,7 +27,7 @@ pub(super) fn uniqueness(
     before: &DVector<f64>,
 ) -> Uniqueness {
     let load = problem.model.load.clone();
-    let setting = Setting { load, before, statuses: None };
+    let setting = Setting { load, before, statuses: None, whole: false };
     if let Some(node) = indifferent(problem, found, &setting) {
         return Uniqueness::Indifferent { node };
     }

@@ -73,6 +73,7 @@ fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> 
         walk.closings = if with_friction { CLOSINGS } else { 0 };
         let (before, equilibrium) = walk.advance(&point, to, HALVINGS).map_err(placed)?;
         if step == total {
+            let equilibrium = walk.confirmed(&before, to, equilibrium).map_err(placed)?;
             let Walk { steps, factored, halved, .. } = walk;
             return Ok(End { before, equilibrium, steps, factored, halved });
         }
@@ -153,23 +154,55 @@ impl Walk<'_> {
 
     /// Goes to the load `to` in one step.
     fn step(&mut self, from: &Point, to: f64) -> Result<Equilibrium, Error> {
-        let setting =
-            Setting { load: self.load(to), before: &from.u, statuses: from.statuses.as_deref() };
+        let load = self.load(to);
+        let statuses = from.statuses.as_deref();
+        let setting = Setting { load: load.clone(), before: &from.u, statuses, whole: false };
         self.problem.equilibrium(&setting, &mut |place, iteration| {
-            self.factored += 1;
-            let step = step(self.problem, self.steps.len() + 1, to, place, iteration);
-            (self.watch)(&step);
-            self.steps.push(step);
+            self.keep(to, &load, place, iteration);
         })
+    }
+
+    /// Solves the last contact state at the load `to` on the whole bodies.
+    fn confirmed(
+        &mut self,
+        before: &DVector<f64>,
+        to: f64,
+        found: Equilibrium,
+    ) -> Result<Equilibrium, Error> {
+        let load = self.load(to);
+        let setting = Setting { load: load.clone(), before, statuses: None, whole: true };
+        let confirmed = self.problem.confirmed(found, &setting, &mut |place, iteration| {
+            self.keep(to, &load, place, iteration);
+        })?;
+        let k = self.steps.len();
+        if let Some(last) = self.steps.last_mut() {
+            let Equilibrium { place, last: iteration, .. } = &confirmed;
+            *last = step(self.problem, (k, to), &load, place, iteration);
+        }
+        Ok(confirmed)
+    }
+
+    /// Adds an iteration to the steps.
+    fn keep(&mut self, to: f64, load: &DVector<f64>, place: &Place, iteration: &Iteration) {
+        self.factored += 1;
+        let step = step(self.problem, (self.steps.len() + 1, to), load, place, iteration);
+        (self.watch)(&step);
+        self.steps.push(step);
     }
 }
 
-/// Returns an iteration as a step of the solution.
-fn step(problem: &Problem, k: usize, load: f64, place: &Place, iteration: &Iteration) -> Step {
+/// Returns an iteration, the `k`-th, at the part `to` of the path as a step of the solution.
+fn step(
+    problem: &Problem,
+    (k, to): (usize, f64),
+    load: &DVector<f64>,
+    place: &Place,
+    iteration: &Iteration,
+) -> Step {
     let Iteration { statuses, constraints, cycle, moved, violation, .. } = iteration;
     let contact = load_of(&place.pairings, &moved.forces, moved.u.len());
-    let restrained = &problem.model.restrained;
-    let support = restraints_of_target(problem.model, restrained, &(&moved.reaction - contact));
+    let reaction = problem.stiffness.times(&moved.u) - load - contact;
+    let support = restraints_of_target(problem.model, &problem.model.restrained, &reaction);
     Step {
         k,
         shape: place.shape.clone(),
@@ -180,7 +213,7 @@ fn step(problem: &Problem, k: usize, load: f64, place: &Place, iteration: &Itera
         target_force: against_load(problem.model, support),
         solve_residual: moved.residual,
         detail: Detail::Unilateral(solution::Unilateral {
-            load,
+            load: to,
             statuses: statuses.clone(),
             pairings: place.pairings.clone(),
             friction: moved.friction.clone(),

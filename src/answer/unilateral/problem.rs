@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, Force, forces, tangent};
-use super::reduced::{Elastic, Last, Reduced};
+use super::reduced::{Elastic, Last, OnSurface, Reduced, Responds};
 use super::rigid;
 use super::status::{Memory, first_closed, nearest_open, next_closed};
 use crate::answer::condensation::Bodies;
@@ -83,6 +83,8 @@ pub(super) struct Setting<'a> {
     pub(super) before: &'a DVector<f64>,
     /// The statuses from which the search starts; none at the beginning of the path.
     pub(super) statuses: Option<&'a [Status]>,
+    /// Whether equations are solved, and residuals taken, on the whole bodies.
+    pub(super) whole: bool,
 }
 
 /// A shape and the target that each contact node faces in it.
@@ -119,9 +121,9 @@ pub(super) struct Moved {
     /// The largest change of a sliding node's friction over that of μ times the normal forces which
     /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
     pub(super) feedback: f64,
-    /// K u − F, force: the forces of contact and restraints.
+    /// K u − F on the equations that contact can bind, force: the forces of contact.
     pub(super) reaction: DVector<f64>,
-    /// The relative residual of the solution.
+    /// The relative residual of the equations that were solved.
     pub(super) residual: f64,
 }
 
@@ -210,6 +212,30 @@ impl<'a> Problem<'a> {
         let what =
             format!("the shape did not settle when contact was measured in it {SHAPES} times");
         Err(NoEquilibrium { what }.into())
+    }
+
+    /// Solves the last contact state of an equilibrium again, on the whole bodies; where that asks for
+    /// other statuses, searches on from it there.
+    pub(super) fn confirmed(
+        &self,
+        found: Equilibrium,
+        setting: &Setting,
+        watch: &mut Watch,
+    ) -> Result<Equilibrium, Error> {
+        let Equilibrium { place, last, closing, shape_change } = found;
+        let Iteration { statuses, constraints, cycle, .. } = last;
+        if let Solved::Moved(moved) = self.solve(&place, &statuses, &constraints, setting)? {
+            let gaps = self.gaps(&place, &moved.u);
+            let violation = violation(&gaps, &statuses);
+            let last = Iteration { statuses, constraints, cycle, moved, gaps, violation };
+            if self.wanted(&place, &last, setting, false) == last.statuses {
+                return Ok(Equilibrium { place, last, closing, shape_change });
+            }
+            let setting =
+                Setting { load: setting.load.clone(), statuses: Some(&last.statuses), ..*setting };
+            return self.equilibrium(&setting, watch);
+        }
+        self.equilibrium(setting, watch)
     }
 
     /// Returns the part of a step after which the first node closes that closed in it, from its gaps
@@ -439,23 +465,38 @@ impl<'a> Problem<'a> {
         constraints: &[Constraint],
         setting: &Setting,
     ) -> Result<Solved, Error> {
+        let load = &setting.load;
+        if !setting.whole
+            && let Some(surface) = OnSurface::new(self.elastic(), constraints)
+            && let Ok(solved) = surface.displacements(load)
+        {
+            return self.moved(place, statuses, load, solved, &surface);
+        }
         let t = Elimination::closing(&self.model.restrained, constraints);
-        let load = self.model.free_part(&setting.load);
         let reduced = match Reduced::new(self.elastic(), &t, constraints, statuses) {
             Ok(reduced) => reduced,
-            Err(singular) => return Ok(self.free(&t, singular, &load)),
+            Err(singular) => return Ok(self.free(&t, singular, load)),
         };
-        let f = t.load(&(&load - self.stiffness.times(t.shift())));
-        let (q, residual) = match reduced.solve(&f) {
-            Ok(solved) => solved,
-            Err(singular) => return Ok(self.free(&t, singular, &load)),
-        };
-        let u = t.expand(&q);
-        let reaction = self.stiffness.times(&u) - &setting.load;
+        match reduced.displacements(load) {
+            Ok(solved) => self.moved(place, statuses, load, solved, &reduced),
+            Err(singular) => Ok(self.free(&t, singular, load)),
+        }
+    }
+
+    /// Adds the forces of contact, and what friction does, to the displacements.
+    fn moved(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        load: &DVector<f64>,
+        (u, residual): (DVector<f64>, f64),
+        bodies: &dyn Responds,
+    ) -> Result<Solved, Error> {
+        let reaction = bodies.reaction(&u, load);
         let forces = self.forces(place, statuses, &reaction);
         let friction = DVector::zeros(u.len());
         let mut moved = Moved { u, forces, friction, feedback: 0.0, reaction, residual };
-        self.slide(place, statuses, &mut moved, &reduced)?;
+        self.slide(place, statuses, &mut moved, bodies)?;
         Ok(Solved::Moved(moved))
     }
 
@@ -474,7 +515,7 @@ impl<'a> Problem<'a> {
     }
 
     fn free(&self, t: &Elimination, singular: Singular, load: &DVector<f64>) -> Solved {
-        let motion = free_motion(t, &self.stiffness.reduced(t), load);
+        let motion = free_motion(t, &self.stiffness.reduced(t), &self.model.free_part(load));
         Solved::Free { dof: t.dof(singular.column), motion }
     }
 
@@ -487,7 +528,7 @@ impl<'a> Problem<'a> {
         place: &Place,
         statuses: &[Status],
         moved: &mut Moved,
-        reduced: &Reduced,
+        bodies: &dyn Responds,
     ) -> Result<(), NoEquilibrium> {
         let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
             .filter_map(|i| match statuses[i] {
@@ -504,7 +545,7 @@ impl<'a> Problem<'a> {
         let response = |(_, _, pairing): &(usize, f64, &Pairing)| {
             let mut load = DVector::zeros(moved.u.len());
             forces::add(pairing, unit, 1.0, &mut load);
-            let reaction = reduced.reaction(&load)?;
+            let reaction = bodies.response(&load)?;
             Ok((load, reaction))
         };
         let responses: Result<Vec<_>, Singular> = sliding.iter().map(response).collect();
@@ -529,8 +570,8 @@ impl<'a> Problem<'a> {
         for ((load, _), size) in responses.iter().zip(&sizes) {
             moved.friction.axpy(*size, load, 1.0);
         }
-        let u = reduced.under(&moved.friction).map_err(|_| jammed())?;
-        moved.reaction += self.stiffness.times(&u);
+        let [u, force] = bodies.under(&moved.friction).map_err(|_| jammed())?;
+        moved.reaction += force;
         moved.u += u;
         moved.forces = self.forces(place, statuses, &(&moved.reaction - &moved.friction));
         for ((i, _, _), size) in sliding.iter().zip(&sizes) {

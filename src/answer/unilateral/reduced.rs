@@ -1,12 +1,13 @@
-//! The reduced equations Tᵀ K T q = f, solved by the factors of the condensed bodies, by factors of
-//! their own, or by those of nearly the same equations, with refinement.
+//! The bodies under imposed statuses: on the condensed bodies alone, or by the reduced equations
+//! Tᵀ K T q = f, solved by the factors of the condensed bodies, by factors of their own, or by those of
+//! nearly the same equations, with refinement.
 
 use std::cell::RefCell;
 use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::answer::condensation::{Bodies, Bound, refined};
+use crate::answer::condensation::{Bodies, Bound, OnKept, refined};
 use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::factors::Whole;
@@ -43,7 +44,70 @@ pub(super) struct Elastic<'a> {
     pub(super) last: &'a Last,
 }
 
-/// The reduced equations under imposed statuses.
+/// What the bodies under imposed statuses do under a load.
+pub(super) trait Responds {
+    /// Returns the displacements by degree of freedom, length, and the relative residual of their
+    /// equations.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular>;
+
+    /// Returns K u − f by degree of freedom, force, which is that of contact on the equations that
+    /// contact can bind.
+    fn reaction(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64>;
+
+    /// Returns the same for the displacements under a load on the contact surface alone, without the
+    /// shift of the constraints.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular>;
+
+    /// Returns those displacements, and K u.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    fn under(&self, load: &DVector<f64>) -> Result<[DVector<f64>; 2], Singular>;
+}
+
+/// The equations on the condensed bodies alone.
+pub(super) struct OnSurface<'a> {
+    bodies: &'a Bodies,
+    state: OnKept,
+}
+
+impl<'a> OnSurface<'a> {
+    /// Factors the equations on the condensed bodies; None where that cannot be.
+    pub(super) fn new(elastic: Elastic<'a>, constraints: &[Constraint]) -> Option<Self> {
+        let condensed = elastic.bodies.condensed(elastic.stiffness, constraints)?;
+        let state = OnKept::new(condensed, constraints)?;
+        // Those of a whole matrix are large, and not needed any more.
+        elastic.last.0.take();
+        Some(OnSurface { bodies: elastic.bodies, state })
+    }
+}
+
+impl Responds for OnSurface<'_> {
+    fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
+        let load = self.bodies.eliminated(&self.state, load);
+        self.state.displacements(&load).ok_or(Singular { column: 0, pivot: f64::NAN })
+    }
+
+    fn reaction(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64> {
+        self.state.reaction(u, &self.bodies.eliminated(&self.state, load))
+    }
+
+    fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
+        Ok(self.state.response(load))
+    }
+
+    fn under(&self, load: &DVector<f64>) -> Result<[DVector<f64>; 2], Singular> {
+        Ok(self.state.under(load))
+    }
+}
+
+/// The equations of the whole bodies.
 pub(super) struct Reduced<'a> {
     elastic: Elastic<'a>,
     t: &'a Elimination,
@@ -73,7 +137,8 @@ impl<'a> Reduced<'a> {
         constraints: &'a [Constraint],
         statuses: &[Status],
     ) -> Result<Self, Singular> {
-        if let Some(bound) = elastic.bodies.factors(elastic.stiffness, t, constraints) {
+        let condensed = elastic.bodies.condensed(elastic.stiffness, constraints);
+        if let Some(bound) = condensed.and_then(|condensed| Bound::new(condensed, t)) {
             // Those of a whole matrix are large, and not needed any more.
             elastic.last.0.take();
             return Ok(Reduced { elastic, t, constraints, made: Made::Condensed(bound) });
@@ -96,16 +161,12 @@ impl<'a> Reduced<'a> {
             elastic,
             t,
             constraints,
-
             made: Made::Whole { held, factors: RefCell::new(factors) },
         })
     }
 
     /// Returns q, and its relative residual.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    pub(super) fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
+    fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
         let stiffness = self.elastic.stiffness;
         let by = |factors: &dyn Factors<f64>, norm| refined(stiffness, self.t, (factors, norm), f);
         let by_whole = |made: &Whole| by(made, made.norm());
@@ -128,24 +189,35 @@ impl<'a> Reduced<'a> {
         }
     }
 
-    /// Returns K u − f under a load `f` on the contact surface alone, where u are the displacements
-    /// without the shift of the constraints.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    pub(super) fn reaction(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
+    /// Returns the displacements under a load, without the shift of the constraints, length.
+    fn unshifted(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
+        let (q, _) = self.solve(&self.t.load(&self.elastic.model.free_part(load)))?;
+        Ok(self.t.expand(&q) - self.t.shift())
+    }
+}
+
+impl Responds for Reduced<'_> {
+    fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
+        let shifted = self.elastic.stiffness.times(self.t.shift());
+        let f = self.t.load(&(self.elastic.model.free_part(load) - shifted));
+        let (q, residual) = self.solve(&f)?;
+        Ok((self.t.expand(&q), residual))
+    }
+
+    fn reaction(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64> {
+        self.elastic.stiffness.times(u) - load
+    }
+
+    fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
         match &self.made {
             Made::Condensed(bound) => Ok(bound.reaction(load)),
-            Made::Whole { .. } => Ok(self.elastic.stiffness.times(&self.under(load)?) - load),
+            Made::Whole { .. } => Ok(self.reaction(&self.unshifted(load)?, load)),
         }
     }
 
-    /// Returns the displacements under a load, without the shift of the constraints, length.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    pub(super) fn under(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
-        let (q, _) = self.solve(&self.t.load(&self.elastic.model.free_part(load)))?;
-        Ok(self.t.expand(&q) - self.t.shift())
+    fn under(&self, load: &DVector<f64>) -> Result<[DVector<f64>; 2], Singular> {
+        let u = self.unshifted(load)?;
+        let force = self.elastic.stiffness.times(&u);
+        Ok([u, force])
     }
 }
