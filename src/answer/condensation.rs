@@ -37,8 +37,8 @@ const SMALL: usize = 64;
 const MOST: (f64, f64) = (600.0, 2.0);
 
 /// The number of contact nodes of larger surfaces that are expected to come into contact, over the
-/// square root of the number of equations; of fewer equations than these, nothing is expected, as the
-/// first contact state costs little.
+/// square root of the number of equations; of fewer equations than these, those that the first contact
+/// state binds.
 const EXPECTED: (f64, usize) = (0.85, 10_000);
 
 /// The number of neighbours that are kept on either side of a bound node of a larger surface, and
@@ -190,11 +190,13 @@ impl Bodies {
         }
     }
 
-    /// Expects that the entries of the contact surface with the least gaps come into contact.
+    /// Expects that the entries of the contact surface with the least gaps come into contact; of few
+    /// equations, those that the first state binds.
     pub(super) fn expecting(mut self, pairings: &[Option<Pairing>]) -> Self {
         let (part, least) = EXPECTED;
         let equations = self.model.free_dofs();
         if equations < least {
+            self.begun.set(true);
             return self;
         }
         let mut nearest: Vec<&Pairing> = pairings.iter().flatten().collect();
@@ -236,7 +238,7 @@ impl Bodies {
         made
     }
 
-    /// Returns what is left of a load by degree of freedom on the kept equations.
+    /// Returns what is left of a load by degree of freedom on the kept equations of a state.
     pub(super) fn eliminated(&self, state: &OnKept, load: &DVector<f64>) -> Rc<Eliminated> {
         let condensation = &state.condensation;
         let mut last = self.loaded.borrow_mut();
@@ -423,11 +425,11 @@ impl OnKept {
     /// Returns those displacements by degree of freedom, length, and the forces K u that keep them on
     /// the kept equations.
     pub(super) fn under(&self, load: &DVector<f64>) -> [DVector<f64>; 2] {
-        let Condensation { condensed, .. } = &*self.condensation;
-        let f = self.condensation.part(load);
+        let condensation = &self.condensation;
+        let f = condensation.part(load);
         let u = self.small.under(&f);
-        let force = self.condensation.whole(&(condensed.schur() * &u));
-        [self.condensation.expand(&condensed.on_kept(f), &u), force]
+        let force = condensation.whole(&(condensation.condensed.schur() * &u));
+        [condensation.expand(&condensation.condensed.on_kept(f), &u), force]
     }
 }
 

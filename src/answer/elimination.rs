@@ -123,7 +123,7 @@ impl<T: Scalar> Elimination<T> {
         let mut constrained = vec![false; size / 2];
         bound.for_each(|constraint| constrained[constraint.node.index()] = true);
         let mut t = Elimination {
-            rows: vec![Row::new(); size],
+            rows: std::iter::repeat_with(Row::new).take(size).collect(),
             shift: DVector::from_element(size, T::zero()),
             free: Vec::new(),
         };

@@ -56,13 +56,20 @@ impl<T: Scalar> Stiffness<T> {
         let mut force = DVector::from_element(self.dofs, T::zero());
         let (u, common) = T::over_common(u.as_slice().to_vec());
         let u = DVector::from_vec(u);
-        for triangle in &self.triangles {
-            let product = triangle.k * triangle.displacements(&u);
-            for (dof, value) in triangle.dofs.into_iter().zip(product.iter()) {
-                force[dof.index()] += *value;
-            }
-        }
+        self.triangles.iter().for_each(|triangle| triangle.add_times(&u, &mut force));
         force.map(|f| f / common)
+    }
+
+    /// Returns the part of K u on the `wanted` degrees of freedom, force, the same to the bit; other
+    /// entries hold parts of theirs.
+    pub fn times_on(&self, wanted: &[bool], u: &DVector<T>) -> DVector<T> {
+        let mut force = DVector::from_element(self.dofs, T::zero());
+        let is_wanted =
+            |triangle: &&Element<T>| triangle.dofs.iter().any(|dof| wanted[dof.index()]);
+        for triangle in self.triangles.iter().filter(is_wanted) {
+            triangle.add_times(u, &mut force);
+        }
+        force
     }
 
     /// Returns Tᵀ K T, force/length.
@@ -110,6 +117,14 @@ impl<T: Scalar> Element<T> {
             }
         }
         entries
+    }
+
+    /// Adds its part of K u.
+    fn add_times(&self, u: &DVector<T>, force: &mut DVector<T>) {
+        let product = self.k * self.displacements(u);
+        for (dof, value) in self.dofs.into_iter().zip(product.iter()) {
+            force[dof.index()] += *value;
+        }
     }
 
     fn displacements(&self, u: &DVector<T>) -> SVector<T, 6> {

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::elimination::{Constraint, Motion, sum};
 use crate::numbers::scalar::Scalar;
-use crate::problem::model::Model;
+use crate::problem::model::{Dof, Model};
 
 /// Returns the sum of the target body's reactions, force. `force` is K·u − F by degree of freedom;
 /// `restrained` marks the degrees of freedom that the run restrains.
@@ -55,11 +55,22 @@ pub(super) fn restraints_of_target<T: Scalar>(
     force: &DVector<T>,
 ) -> [T; 2] {
     let mut total = [T::zero(), T::zero()];
-    let nodes = model.target().into_iter().flat_map(|target| &target.nodes);
-    for dof in nodes.flat_map(|n| n.dofs()).filter(|dof| restrained[dof.index()]) {
+    for dof in dofs_of_target(model).filter(|dof| restrained[dof.index()]) {
         total[dof.direction()] += force[dof.index()];
     }
     total
+}
+
+/// Returns whether each degree of freedom is a restrained one of the target body.
+pub(super) fn supports_of_target(model: &Model) -> Vec<bool> {
+    let mut supports = vec![false; model.dofs()];
+    dofs_of_target(model).for_each(|dof| supports[dof.index()] = model.is_restrained(dof));
+    supports
+}
+
+fn dofs_of_target(model: &Model) -> impl Iterator<Item = Dof> {
+    let nodes = model.target().into_iter().flat_map(|target| &target.nodes);
+    nodes.flat_map(|node| node.dofs())
 }
 
 /// Returns the reactions against the direction of the load, force.

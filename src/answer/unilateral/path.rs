@@ -201,7 +201,7 @@ fn step(
 ) -> Step {
     let Iteration { statuses, constraints, cycle, moved, violation, .. } = iteration;
     let contact = load_of(&place.pairings, &moved.forces, moved.u.len());
-    let reaction = problem.stiffness.times(&moved.u) - load - contact;
+    let reaction = problem.stiffness.times_on(&problem.supports, &moved.u) - load - contact;
     let support = restraints_of_target(problem.model, &problem.model.restrained, &reaction);
     Step {
         k,

@@ -16,6 +16,7 @@ use crate::answer::factors::LastFactors;
 use crate::answer::request::Request;
 use crate::answer::solution::Cycle;
 use crate::answer::stiffness::Stiffness;
+use crate::answer::support::supports_of_target;
 use crate::error::InputError;
 use crate::numbers::solve::{Singular, SparseCholesky, SparseSymmetric};
 use crate::problem::model::{Dof, Model, NodeId};
@@ -69,6 +70,8 @@ pub(super) struct Problem<'a> {
     pub(super) surfaces: Surfaces,
     /// The gap below which a node is closed, length.
     pub(super) closed: f64,
+    /// Whether each degree of freedom is a restrained one of the target.
+    pub(super) supports: Vec<bool>,
     /// Coulomb's coefficient.
     friction: f64,
     bodies: Bodies,
@@ -162,6 +165,7 @@ impl<'a> Problem<'a> {
             stiffness: Stiffness::new(model, |x| x),
             surfaces,
             closed: CLOSED * size(model),
+            supports: supports_of_target(model),
             friction: request.contact.friction.coefficient(),
             bodies: Bodies::new(model, &request.shared).expecting(&initial),
             last: Last::default(),

@@ -3,13 +3,16 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::perm::PermRef;
-use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
+use faer::sparse::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_lower_triangular_transpose_in_place,
+};
+use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
@@ -24,10 +27,16 @@ pub(super) fn is_large(pivot: f64, a: f64) -> bool {
     pivot > LEAST * a
 }
 
+/// The number of equations up to which a factor by supernodes is kept by columns too: its supernodes
+/// are so small that calling for each takes longer than its numbers do.
+const SMALL: usize = 10_000;
+
 /// The factor L, and the order P of the equations.
 pub(super) struct Cholesky<T> {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<T>,
+    /// L by columns, of a small factor by supernodes.
+    columns: Option<SparseColMat<usize, T>>,
 }
 
 impl<T: Native> Cholesky<T> {
@@ -49,8 +58,12 @@ impl<T: Native> Cholesky<T> {
             ..CholeskySymbolicParams::default()
         };
         let order = SymmetricOrdering::Custom(PermRef::new_checked(order, place, order.len()));
-        let factor = Self::factored(matrix, order, params)?;
-        matches!(factor.symbolic.raw(), SymbolicCholeskyRaw::Supernodal(_)).then_some(factor)
+        let mut factor = Self::factored(matrix, order, params)?;
+        if !matches!(factor.symbolic.raw(), SymbolicCholeskyRaw::Supernodal(_)) {
+            return None;
+        }
+        factor.columns = (matrix.size() <= SMALL).then(|| factor.by_columns());
+        Some(factor)
     }
 
     fn factored(
@@ -70,7 +83,7 @@ impl<T: Native> Cholesky<T> {
         symbolic
             .factorize_numeric_llt(&mut values, a, side, regularization, Par::Seq, stack, params)
             .ok()?;
-        Some(Cholesky { symbolic, values })
+        Some(Cholesky { symbolic, values, columns: None })
     }
 
     /// Returns the solution x of A x = `b`.
@@ -78,13 +91,11 @@ impl<T: Native> Cholesky<T> {
         let scratch = self.symbolic.solve_in_place_scratch::<T>(1, Par::Seq);
         let mut memory = MemBuffer::new(scratch);
         let mut x = b.clone();
-        let column = MatMut::from_column_major_slice_mut(x.as_mut_slice(), b.len(), 1);
-        let stack = MemStack::new(&mut memory);
         LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
             Conj::No,
-            column,
+            column(x.as_mut_slice()),
             Par::Seq,
-            stack,
+            MemStack::new(&mut memory),
         );
         x
     }
@@ -120,6 +131,9 @@ impl<T: Native> Cholesky<T> {
 
     /// Solves L z = z in place; z is in the order of the factor, which is one by supernodes.
     pub(super) fn solve_lower(&self, z: &mut [T]) {
+        if let Some(l) = &self.columns {
+            return solve_lower_triangular_in_place(l.as_ref(), Conj::No, column(z), Par::Seq);
+        }
         self.triangular(z, |factor, z, stack| {
             factor.l_solve_with_conj(Conj::No, z, Par::Seq, stack);
         });
@@ -127,6 +141,10 @@ impl<T: Native> Cholesky<T> {
 
     /// Solves Lᵀ x = x in place; x is in the order of the factor, which is one by supernodes.
     pub(super) fn solve_lower_transposed(&self, x: &mut [T]) {
+        if let Some(l) = &self.columns {
+            let (l, x) = (l.as_ref(), column(x));
+            return solve_lower_triangular_transpose_in_place(l, Conj::No, x, Par::Seq);
+        }
         self.triangular(x, |factor, x, stack| {
             factor.l_transpose_solve_with_conj(Conj::No, x, Par::Seq, stack);
         });
@@ -137,11 +155,29 @@ impl<T: Native> Cholesky<T> {
         x: &mut [T],
         solve: impl Fn(&SupernodalLltRef<'_, usize, T>, MatMut<'_, T>, &mut MemStack),
     ) {
-        let (n, factor) = (x.len(), self.supernodal());
+        let factor = self.supernodal();
         let scratch = factor.symbolic().solve_in_place_scratch::<T>(1, Par::Seq);
         let mut memory = MemBuffer::new(scratch);
         let stack = MemStack::new(&mut memory);
-        solve(&factor, MatMut::from_column_major_slice_mut(x, n, 1), stack);
+        solve(&factor, column(x), stack);
+    }
+
+    /// Returns L by columns, each from its diagonal entry on; the factor is one by supernodes.
+    fn by_columns(&self) -> SparseColMat<usize, T> {
+        let factor = self.supernodal();
+        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+        for s in 0..factor.symbolic().n_supernodes() {
+            let supernode = factor.supernode(s);
+            let (start, block) = (supernode.start(), supernode.val());
+            for j in 0..block.ncols() {
+                rows.extend((j..block.ncols()).map(|i| start + i));
+                rows.extend_from_slice(supernode.pattern());
+                values.extend((j..block.nrows()).map(|i| block[(i, j)]));
+                starts.push(rows.len());
+            }
+        }
+        let n = self.symbolic.nrows();
+        SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values)
     }
 
     /// Returns the block of L from the row and column `from` on; the factor is one by supernodes.
@@ -171,4 +207,10 @@ impl<T: Native> Cholesky<T> {
         };
         SupernodalLltRef::new(symbolic, &self.values)
     }
+}
+
+/// A vector as faer takes it.
+fn column<T>(x: &mut [T]) -> MatMut<'_, T> {
+    let n = x.len();
+    MatMut::from_column_major_slice_mut(x, n, 1)
 }

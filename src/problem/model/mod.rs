@@ -192,7 +192,8 @@ impl Model {
 
     /// Returns the sum of the loads along x and y, force.
     pub fn total_load(&self) -> [f64; 2] {
-        [0, 1].map(|direction| self.load.iter().skip(direction).step_by(2).sum())
+        let nodes = self.load.as_slice().chunks_exact(2);
+        [0, 1].map(|direction| nodes.clone().map(|load| load[direction]).sum())
     }
 
     pub fn has_contact(&self) -> bool {

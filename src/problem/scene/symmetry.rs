@@ -142,15 +142,16 @@ impl<'a> Mirror<'a> {
 
     fn conditions(&self, images: &Images) -> bool {
         let model = self.model;
-        let same_load = |load: &DVector<f64>, n: NodeId| {
-            let ([nx, ny], [mx, my]) = (n.of(load), images.of(n).of(load));
+        let same_load = |load: &DVector<f64>| {
             let near = LOAD * load.amax();
-            (nx + mx).abs() <= near && (ny - my).abs() <= near
+            model.node_ids().all(|n| {
+                let ([nx, ny], [mx, my]) = (n.of(load), images.of(n).of(load));
+                (nx + mx).abs() <= near && (ny - my).abs() <= near
+            })
         };
-        model.node_ids().all(|n| {
-            model.restraints_of(n) == model.restraints_of(images.of(n))
-                && model.stages.iter().all(|stage| same_load(stage, n))
-        })
+        let same_restraints =
+            |n: NodeId| model.restraints_of(n) == model.restraints_of(images.of(n));
+        model.node_ids().all(same_restraints) && model.stages.iter().all(same_load)
     }
 }
 

@@ -1,5 +1,7 @@
 //! The shapes of SVG that the pictures use, as XML elements. Lengths are in pixels, y downwards.
 
+use std::fmt::Write;
+
 use crate::xml::Element;
 
 /// The fonts to look for, in this order.
@@ -125,16 +127,30 @@ impl Element {
 
 /// Writes a length with at most two decimals, without trailing zeros and never as `-0`.
 fn number(x: f64) -> String {
-    let text = format!("{x:.2}");
-    match text.trim_end_matches('0').trim_end_matches('.') {
-        "-0" => String::from("0"),
-        trimmed => String::from(trimmed),
+    let mut text = String::new();
+    push_number(&mut text, x);
+    text
+}
+
+fn push_number(text: &mut String, x: f64) {
+    let start = text.len();
+    write!(text, "{x:.2}").expect("a string takes what is written");
+    text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
+    if &text[start..] == "-0" {
+        text.replace_range(start.., "0");
     }
 }
 
 /// Writes points with a space between two.
 fn places(points: &[Pixel]) -> String {
-    let places: Vec<_> =
-        points.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y))).collect();
-    places.join(" ")
+    let mut text = String::new();
+    for (i, [x, y]) in points.iter().enumerate() {
+        if i > 0 {
+            text.push(' ');
+        }
+        push_number(&mut text, *x);
+        text.push(',');
+        push_number(&mut text, *y);
+    }
+    text
 }
