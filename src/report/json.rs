@@ -92,14 +92,18 @@ fn explained(document: &impl Serialize) -> Value {
 
 /// Writes a document of a run over several lines, with the reasons of its nulls.
 pub fn pretty_explained(document: &impl Serialize) -> String {
-    pretty(&explained(document))
+    several_lines(&explained(document))
 }
 
 /// Writes a document over several lines, so that a comparison of two shows what changed: a line for
 /// each field and for each item of a list of lists or shallow objects. A list of scalars stands on one line.
 pub fn pretty(document: &impl Serialize) -> String {
+    several_lines(&serde_json::to_value(document).expect("a document has string keys"))
+}
+
+fn several_lines(document: &Value) -> String {
     let mut text = String::new();
-    indented(&serde_json::to_value(document).expect("a document has string keys"), 0, &mut text);
+    indented(document, 0, &mut text);
     text + "\n"
 }
 

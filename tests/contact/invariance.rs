@@ -26,17 +26,17 @@ const RUBBING_IMAGES: usize = 3;
 const COUNTS: &str = "\
     mortar 0 Same 4990\n\
     mortar 0 NoAnswer 10\n\
-    mortar 0.3 Same 213\n\
-    mortar 0.3 NoAnswer 3\n\
+    mortar 0.3 Same 215\n\
+    mortar 0.3 OtherPath 1\n\
     mortar stick Same 201\n\
     mortar stick NoAnswer 15\n\
     nts 0 Same 4955\n\
     nts 0 NoAnswer 45\n\
-    nts 0.3 Same 208\n\
+    nts 0.3 Same 202\n\
     nts 0.3 NoAnswer 1\n\
     nts 0.3 Several 3\n\
     nts 0.3 FoundOnce 2\n\
-    nts 0.3 OtherPath 2\n\
+    nts 0.3 OtherPath 8\n\
     nts stick Same 192\n\
     nts stick NoAnswer 18\n\
     nts stick Several 6\n";
@@ -146,6 +146,7 @@ fn random_scenes_have_one_answer_however_they_are_written() {
     let mut counts: BTreeMap<(String, Verdict), usize> = BTreeMap::new();
     let mut worst: BTreeMap<(String, Verdict), f64> = BTreeMap::new();
     let mut says: BTreeMap<(String, bool), usize> = BTreeMap::new();
+    let mut other_paths = Vec::new();
     let all = writings();
     let mut next = (0..all.len()).cycle();
     for (number, drawn) in scenes(11, SCENES).enumerate() {
@@ -188,6 +189,9 @@ fn random_scenes_have_one_answer_however_they_are_written() {
                             assert!(error <= bound, "{what}: {error:e} is beyond {bound:e}");
                         }
                     }
+                    if verdict == Verdict::OtherPath {
+                        other_paths.push(what);
+                    }
                     let key = (format!("{coupling} {}", model.friction), verdict);
                     *counts.entry(key.clone()).or_default() += 1;
                     let most = worst.entry(key).or_default();
@@ -197,6 +201,7 @@ fn random_scenes_have_one_answer_however_they_are_written() {
         }
     }
     println!("largest differences {worst:?}; whether it was said that rounding decides: {says:?}");
+    println!("on another path: {other_paths:#?}");
     let of =
         |said: bool| says.iter().filter(|(key, _)| key.1 == said).map(|(_, n)| n).sum::<usize>();
     // Lemke's method is asked in some twentieth of these scenes.

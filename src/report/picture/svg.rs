@@ -133,6 +133,24 @@ fn number(x: f64) -> String {
 }
 
 fn push_number(text: &mut String, x: f64) {
+    /// The number of hundredths up to which a product with 100 tells the nearest, unless it lies
+    /// [`BETWEEN`] two.
+    const MANY: f64 = 1e9;
+    const BETWEEN: f64 = 0.499;
+    let hundredths = (100.0 * x).round();
+    let is_clear = hundredths.abs() < MANY && (100.0 * x - hundredths).abs() < BETWEEN;
+    let (sign, all) = (if hundredths < 0.0 { "-" } else { "" }, hundredths.abs() as u32);
+    let written = match (all / 100, all % 100) {
+        _ if !is_clear => return push_between(text, x),
+        (whole, 0) => write!(text, "{sign}{whole}"),
+        (whole, part) if part % 10 == 0 => write!(text, "{sign}{whole}.{}", part / 10),
+        (whole, part) => write!(text, "{sign}{whole}.{part:02}"),
+    };
+    written.expect("a string takes what is written");
+}
+
+/// Writes a length whose nearest hundredth only its decimal digits tell.
+fn push_between(text: &mut String, x: f64) {
     let start = text.len();
     write!(text, "{x:.2}").expect("a string takes what is written");
     text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
