@@ -35,7 +35,8 @@ pub struct Step {
     /// The sum of the target body's reactions against the direction of the load applied so far,
     /// force; 0 without contact.
     pub target_force: f64,
-    /// The relative residual |A x − b| / (|A| |x| + |b|) of the solution.
+    /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations: under `unilateral`, but for
+    /// the last step, mostly those of the condensed bodies.
     pub solve_residual: f64,
     /// The results that only this kind of variant has.
     pub detail: Detail,

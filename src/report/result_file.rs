@@ -153,7 +153,8 @@ pub struct IterationRow {
     pub eq1_residual_step: f64,
     /// The sum of the reactions of the target against the direction of the load, force.
     pub target_force: f64,
-    /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations.
+    /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations: under `unilateral`, but for
+    /// the last iteration, mostly those of the condensed bodies.
     pub solve_residual: f64,
 }
 
