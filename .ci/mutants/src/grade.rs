@@ -1,0 +1,196 @@
+//! Whether the tests notice a mutant: those that reach its place are run, the fastest first, until
+//! one fails.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File, OpenOptions};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use crate::mutant::Mutant;
+use crate::processes::{self, End};
+use crate::select::Options;
+use crate::tests::{self, Test};
+use crate::{Failure, Work};
+
+/// A test has this many times its own time, and some seconds on top.
+const SLOWER: f64 = 10.0;
+const SECONDS: f64 = 5.0;
+/// The first process of a mutant has tests of this many seconds, each further one of twice as many.
+const FIRST_BATCH: f64 = 0.5;
+/// The tests that caught the last mutants of a file are tried first, where they take less than this.
+const KILLERS: usize = 4;
+const QUICK: f64 = 1.0;
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    Caught,
+    /// The tests do not end.
+    Timeout,
+    Missed,
+    /// Missed, as no test comes there.
+    Unreached,
+    /// Not noticed by the tests for which there is time.
+    Open,
+}
+
+#[derive(Clone, Serialize, Deserialize)]
+pub struct Graded {
+    pub name: String,
+    pub outcome: Outcome,
+    /// The test that noticed it.
+    pub by: Option<String>,
+    pub seconds: f64,
+    /// How long its tests were allowed to take.
+    budget: f64,
+}
+
+/// What the workers share.
+struct Bench<'a> {
+    work: &'a Work,
+    tests: &'a [Test],
+    reaching: BTreeMap<usize, Vec<usize>>,
+    budget: f64,
+    results: Mutex<File>,
+    /// Of each file, the tests that caught mutants, the last one last.
+    killers: Mutex<BTreeMap<String, Vec<usize>>>,
+}
+
+/// Grades the mutants that are chosen and have no result yet.
+pub fn grade(work: &Work, options: &Options) -> Result<(), Failure> {
+    let mutants: Vec<Mutant> = serde_json::from_str(&fs::read_to_string(work.mutants())?)?;
+    let tests = tests::read(work)?;
+    let is_done =
+        |graded: &Graded| graded.outcome != Outcome::Open || graded.budget >= options.budget;
+    let done: BTreeSet<String> =
+        read(work)?.into_iter().filter(is_done).map(|graded| graded.name).collect();
+    let chosen = options.select(&mutants);
+    if chosen.is_empty() || tests.is_empty() {
+        return Err("there is nothing to grade".into());
+    }
+    let mut left = chosen.iter().copied().filter(|mutant| !done.contains(&mutant.name));
+    println!("{} mutants chosen, {} to grade", chosen.len(), left.clone().count());
+    let results = OpenOptions::new().create(true).append(true).open(work.results())?;
+    let bench = Bench {
+        work,
+        tests: &tests,
+        reaching: by_place(&tests),
+        budget: options.budget,
+        results: Mutex::new(results),
+        killers: Mutex::default(),
+    };
+    let queue = Mutex::new(&mut left);
+    let next = || queue.lock().expect("no worker panics").next();
+    std::thread::scope(|scope| {
+        let work = |worker: usize| -> Result<(), String> {
+            while let Some(mutant) = next() {
+                bench.one(mutant, worker).map_err(|why| format!("{}: {why}", mutant.name))?;
+            }
+            Ok(())
+        };
+        let workers: Vec<_> = (1..=options.jobs).map(|k| scope.spawn(move || work(k))).collect();
+        workers.into_iter().try_for_each(|worker| worker.join().expect("no worker panics"))
+    })?;
+    Ok(())
+}
+
+/// Returns the results so far.
+pub fn read(work: &Work) -> Result<Vec<Graded>, Failure> {
+    let text = fs::read_to_string(work.results()).unwrap_or_default();
+    Ok(text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect())
+}
+
+/// Returns which tests that are not slow reach each place, the fastest first.
+fn by_place(tests: &[Test]) -> BTreeMap<usize, Vec<usize>> {
+    let mut reaching: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (k, test) in tests.iter().enumerate().filter(|(_, test)| !test.is_slow) {
+        test.reached.iter().for_each(|place| reaching.entry(*place).or_default().push(k));
+    }
+    reaching
+}
+
+impl Bench<'_> {
+    fn one(&self, mutant: &Mutant, worker: usize) -> Result<(), Failure> {
+        let start = Instant::now();
+        let temporary = self.work.temporary(worker);
+        tests::clear(&temporary)?;
+        let mut outcome = (Outcome::Unreached, None);
+        let mut spent = 0.0;
+        for batch in self.batches(mutant) {
+            if spent > self.budget {
+                outcome = (Outcome::Open, None);
+                break;
+            }
+            outcome = (Outcome::Missed, None);
+            match self.run(mutant, &batch, worker)? {
+                End::Passed => spent += batch.iter().map(|k| self.tests[*k].seconds).sum::<f64>(),
+                End::Failed(by) => outcome = (Outcome::Caught, Some(by)),
+                End::TooLong(by) => outcome = (Outcome::Timeout, Some(by)),
+            }
+            if outcome.0 != Outcome::Missed {
+                break;
+            }
+        }
+        let (mut outcome, by) = outcome;
+        let by_slow = |test: &Test| test.is_slow && test.reached.contains(&mutant.first);
+        if outcome >= Outcome::Missed && self.tests.iter().any(by_slow) {
+            outcome = Outcome::Open;
+        }
+        self.remember(mutant, by.as_deref());
+        let seconds = start.elapsed().as_secs_f64();
+        let graded =
+            Graded { name: mutant.name.clone(), outcome, by, seconds, budget: self.budget };
+        tests::append(&mut self.results.lock().expect("no worker panics"), &graded)
+    }
+
+    fn remember(&self, mutant: &Mutant, by: Option<&str>) {
+        let Some(test) = self.tests.iter().position(|test| Some(test.name.as_str()) == by) else {
+            return;
+        };
+        let mut killers = self.killers.lock().expect("no worker panics");
+        let of_file = killers.entry(mutant.file.clone()).or_default();
+        of_file.retain(|other| *other != test);
+        of_file.push(test);
+    }
+
+    /// Returns the tests that reach a mutant, a process each: of one binary, the fastest first.
+    fn batches(&self, mutant: &Mutant) -> Vec<Vec<usize>> {
+        let reaching = self.reaching.get(&mutant.first).cloned().unwrap_or_default();
+        let killers = self.killers.lock().expect("no worker panics");
+        let of_file = killers.get(&mutant.file).map_or(&[][..], Vec::as_slice);
+        let is_quick = |k: &&usize| self.tests[**k].seconds < QUICK && reaching.contains(k);
+        let first: Vec<usize> =
+            of_file.iter().rev().filter(is_quick).take(KILLERS).copied().collect();
+        let rest = reaching.iter().filter(|k| !first.contains(k));
+        let mut batches: Vec<Vec<usize>> = first.iter().map(|k| vec![*k]).collect();
+        let mut room = FIRST_BATCH;
+        let mut open: BTreeMap<_, (Vec<usize>, f64)> = BTreeMap::new();
+        for &k in rest {
+            let test = &self.tests[k];
+            let (batch, seconds) = open.entry(&test.binary).or_default();
+            batch.push(k);
+            *seconds += test.seconds;
+            if *seconds > room {
+                batches.push(std::mem::take(batch));
+                *seconds = 0.0;
+                room = (2.0 * room).min(self.budget / 4.0);
+            }
+        }
+        batches
+            .extend(open.into_values().map(|(batch, _)| batch).filter(|batch| !batch.is_empty()));
+        batches
+    }
+
+    /// Runs tests of one binary with a mutant on, until the first of them fails.
+    fn run(&self, mutant: &Mutant, batch: &[usize], worker: usize) -> Result<End, Failure> {
+        let names: Vec<&str> = batch.iter().map(|k| self.tests[*k].name.as_str()).collect();
+        let slowest = batch.iter().map(|k| self.tests[*k].seconds).fold(0.0, f64::max);
+        let limit = Duration::from_secs_f64(SLOWER * slowest + SECONDS);
+        let binary = &self.tests[batch[0]].binary;
+        let temporary = self.work.temporary(worker);
+        let mut command = processes::command(self.work, binary, &names, &temporary);
+        processes::run(command.env("MUTANT", mutant.id.to_string()), limit, names[0])
+    }
+}
