@@ -72,8 +72,8 @@ pub fn reach(work: &Work, left_out: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Appends a line in one piece, which the end of the process does not cut; one that was cut is no
-/// JSON, and read by nobody.
+/// Appends a value after a line break of its own: a line that a killed run cut off, which readers pass
+/// over, spoils no other.
 pub fn append(file: &mut File, value: &impl Serialize) -> Result<(), Failure> {
     file.write_all(format!("\n{}", serde_json::to_string(value)?).as_bytes())?;
     Ok(())
