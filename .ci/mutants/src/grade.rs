@@ -1,5 +1,5 @@
-//! Whether the tests notice a mutant: those that reach its place are run, the fastest first, until
-//! one fails.
+//! Whether the tests notice a mutant: those that reach its place are run until one fails, first
+//! those that catch the most mutants a second.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, OpenOptions};
@@ -19,9 +19,10 @@ const SLOWER: f64 = 10.0;
 const SECONDS: f64 = 5.0;
 /// The first process of a mutant has tests of this many seconds, each further one of twice as many.
 const FIRST_BATCH: f64 = 0.5;
-/// The tests that caught the last mutants of a file are tried first, where they take less than this.
-const KILLERS: usize = 4;
-const QUICK: f64 = 1.0;
+/// What is believed of a test before it ran: of how many mutants it catches how many, and how long its
+/// process takes to start, in seconds.
+const BELIEF: [f64; 2] = [10.0, 0.5];
+const START: f64 = 0.1;
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -54,8 +55,8 @@ struct Bench<'a> {
     reaching: BTreeMap<usize, Vec<usize>>,
     budget: f64,
     results: Mutex<File>,
-    /// Of each file, the tests that caught mutants, the last one last.
-    killers: Mutex<BTreeMap<String, Vec<usize>>>,
+    /// For how many mutants of a module a test was run, and how many it caught.
+    known: Mutex<BTreeMap<(String, usize), [f64; 2]>>,
 }
 
 /// Grades the mutants that are chosen and have no result yet.
@@ -79,7 +80,7 @@ pub fn grade(work: &Work, options: &Options) -> Result<(), Failure> {
         reaching: by_place(&tests),
         budget: options.budget,
         results: Mutex::new(results),
-        killers: Mutex::default(),
+        known: Mutex::default(),
     };
     let queue = Mutex::new(&mut left);
     let next = || queue.lock().expect("no worker panics").next();
@@ -124,7 +125,9 @@ impl Bench<'_> {
                 break;
             }
             outcome = (Outcome::Missed, None);
-            match self.run(mutant, &batch, worker)? {
+            let end = self.run(mutant, &batch, worker)?;
+            self.learn(mutant, &batch, &end);
+            match end {
                 End::Passed => spent += batch.iter().map(|k| self.tests[*k].seconds).sum::<f64>(),
                 End::Failed(by) => outcome = (Outcome::Caught, Some(by)),
                 End::TooLong(by) => outcome = (Outcome::Timeout, Some(by)),
@@ -138,36 +141,40 @@ impl Bench<'_> {
         if outcome >= Outcome::Missed && self.tests.iter().any(by_slow) {
             outcome = Outcome::Open;
         }
-        self.remember(mutant, by.as_deref());
         let seconds = start.elapsed().as_secs_f64();
         let graded =
             Graded { name: mutant.name.clone(), outcome, by, seconds, budget: self.budget };
         tests::append(&mut self.results.lock().expect("no worker panics"), &graded)
     }
 
-    fn remember(&self, mutant: &Mutant, by: Option<&str>) {
-        let Some(test) = self.tests.iter().position(|test| Some(test.name.as_str()) == by) else {
-            return;
-        };
-        let mut killers = self.killers.lock().expect("no worker panics");
-        let of_file = killers.entry(mutant.file.clone()).or_default();
-        of_file.retain(|other| *other != test);
-        of_file.push(test);
+    fn learn(&self, mutant: &Mutant, batch: &[usize], end: &End) {
+        let mut known = self.known.lock().expect("no worker panics");
+        for &k in batch {
+            let is_by = |name: &String| *name == self.tests[k].name;
+            let (runs, caught) = match end {
+                End::Passed => (1.0, 0.0),
+                End::Failed(by) | End::TooLong(by) if is_by(by) => (1.0, 1.0),
+                _ => (0.0, 0.0),
+            };
+            let of_test = known.entry((mutant.module(), k)).or_insert(BELIEF);
+            *of_test = [of_test[0] + runs, of_test[1] + caught];
+        }
     }
 
-    /// Returns the tests that reach a mutant, a process each: of one binary, the fastest first.
+    /// Returns the tests that reach a mutant, a process each: of one binary, first those that may be
+    /// expected to catch the most mutants a second.
     fn batches(&self, mutant: &Mutant) -> Vec<Vec<usize>> {
-        let reaching = self.reaching.get(&mutant.first).cloned().unwrap_or_default();
-        let killers = self.killers.lock().expect("no worker panics");
-        let of_file = killers.get(&mutant.file).map_or(&[][..], Vec::as_slice);
-        let is_quick = |k: &&usize| self.tests[**k].seconds < QUICK && reaching.contains(k);
-        let first: Vec<usize> =
-            of_file.iter().rev().filter(is_quick).take(KILLERS).copied().collect();
-        let rest = reaching.iter().filter(|k| !first.contains(k));
-        let mut batches: Vec<Vec<usize>> = first.iter().map(|k| vec![*k]).collect();
+        let mut reaching = self.reaching.get(&mutant.first).cloned().unwrap_or_default();
+        let known = self.known.lock().expect("no worker panics");
+        let pace = |k: &usize| {
+            let [runs, caught] = *known.get(&(mutant.module(), *k)).unwrap_or(&BELIEF);
+            caught / runs / (self.tests[*k].seconds + START)
+        };
+        reaching.sort_by(|a, b| pace(b).total_cmp(&pace(a)));
+        let mut batches = Vec::new();
         let mut room = FIRST_BATCH;
         let mut open: BTreeMap<_, (Vec<usize>, f64)> = BTreeMap::new();
-        for &k in rest {
+        for k in reaching {
             let test = &self.tests[k];
             let (batch, seconds) = open.entry(&test.binary).or_default();
             batch.push(k);
