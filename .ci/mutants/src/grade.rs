@@ -55,7 +55,7 @@ struct Bench<'a> {
     reaching: BTreeMap<usize, Vec<usize>>,
     budget: f64,
     results: Mutex<File>,
-    /// For how many mutants of a module a test was run, and how many it caught.
+    /// For how many mutants of a file or a module a test was run, and how many it caught.
     known: Mutex<BTreeMap<(String, usize), [f64; 2]>>,
 }
 
@@ -156,8 +156,10 @@ impl Bench<'_> {
                 End::Failed(by) | End::TooLong(by) if is_by(by) => (1.0, 1.0),
                 _ => (0.0, 0.0),
             };
-            let of_test = known.entry((mutant.module(), k)).or_insert(BELIEF);
-            *of_test = [of_test[0] + runs, of_test[1] + caught];
+            for place in [mutant.file.clone(), mutant.module()] {
+                let of_test = known.entry((place, k)).or_insert(BELIEF);
+                *of_test = [of_test[0] + runs, of_test[1] + caught];
+            }
         }
     }
 
@@ -167,10 +169,15 @@ impl Bench<'_> {
         let mut reaching = self.reaching.get(&mutant.first).cloned().unwrap_or_default();
         let known = self.known.lock().expect("no worker panics");
         let pace = |k: &usize| {
-            let [runs, caught] = *known.get(&(mutant.module(), *k)).unwrap_or(&BELIEF);
-            caught / runs / (self.tests[*k].seconds + START)
+            let rate = |place: String| {
+                let [runs, caught] = *known.get(&(place, *k)).unwrap_or(&BELIEF);
+                caught / runs
+            };
+            let rate = rate(mutant.file.clone()) + rate(mutant.module());
+            rate / (self.tests[*k].seconds + START)
         };
-        reaching.sort_by(|a, b| pace(b).total_cmp(&pace(a)));
+        // Positive numbers are in the order of their bits.
+        reaching.sort_by_cached_key(|k| std::cmp::Reverse(pace(k).to_bits()));
         let mut batches = Vec::new();
         let mut room = FIRST_BATCH;
         let mut open: BTreeMap<_, (Vec<usize>, f64)> = BTreeMap::new();
