@@ -19,8 +19,8 @@ const SLOWER: f64 = 10.0;
 const SECONDS: f64 = 5.0;
 /// The first process of a mutant has tests of this many seconds, each further one of twice as many.
 const FIRST_BATCH: f64 = 0.5;
-/// What is believed of a test before it ran: of how many mutants it catches how many, and how long its
-/// process takes to start, in seconds.
+/// What is believed of a test before it ran: of how many mutants it catches how many, and how long
+/// its process takes to start, in seconds.
 const BELIEF: [f64; 2] = [10.0, 0.5];
 const START: f64 = 0.1;
 
@@ -163,8 +163,8 @@ impl Bench<'_> {
         }
     }
 
-    /// Returns the tests that reach a mutant, a process each: of one binary, first those that may be
-    /// expected to catch the most mutants a second.
+    /// Returns the tests that reach a mutant in groups, each of one binary for one process; first
+    /// those that may be expected to catch the most mutants a second.
     fn batches(&self, mutant: &Mutant) -> Vec<Vec<usize>> {
         let mut reaching = self.reaching.get(&mutant.first).cloned().unwrap_or_default();
         let known = self.known.lock().expect("no worker panics");

@@ -21,7 +21,8 @@ struct Source {
     sites: Vec<Site>,
 }
 
-/// Rewrites the copy of the tree for the mutants of `list`, and leaves out those that do not compile.
+/// Rewrites the copy of the tree for the mutants of `list`, and leaves out those that do not
+/// compile.
 pub fn prepare(work: &Work, list: &Path) -> Result<(), Failure> {
     let mut mutants: Vec<Mutant> = serde_json::from_str(&fs::read_to_string(list)?)?;
     let sources = read(work, &mut mutants)?;

@@ -19,8 +19,8 @@ pub enum End {
     TooLong(String),
 }
 
-/// Returns a command that runs some tests of a binary as Cargo does, one after another, in a process
-/// group of its own.
+/// Returns a command that runs some tests of a binary as Cargo does, one after another, in a
+/// process group of its own.
 pub fn command(work: &Work, binary: &Path, names: &[&str], temporary: &Path) -> Command {
     let mut command = Command::new("sh");
     command

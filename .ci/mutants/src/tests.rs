@@ -48,7 +48,8 @@ pub fn clear(temporary: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Runs every test by itself, but for those in the file `left_out`, and writes down what it reaches.
+/// Runs every test by itself, but for those in the file `left_out`, and writes down what each
+/// reaches.
 pub fn reach(work: &Work, left_out: &Path) -> Result<(), Failure> {
     let left_out: Vec<LeftOut> = serde_json::from_str(&fs::read_to_string(left_out)?)?;
     let left_out: BTreeSet<&str> = left_out.iter().map(|test| test.test.as_str()).collect();
@@ -72,8 +73,8 @@ pub fn reach(work: &Work, left_out: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Appends a value after a line break of its own: a line that a killed run cut off, which readers pass
-/// over, spoils no other.
+/// Appends a value after a line break of its own: a line that a killed run cut off, which readers
+/// pass over, spoils no other.
 pub fn append(file: &mut File, value: &impl Serialize) -> Result<(), Failure> {
     file.write_all(format!("\n{}", serde_json::to_string(value)?).as_bytes())?;
     Ok(())
