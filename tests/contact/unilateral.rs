@@ -1,5 +1,7 @@
 //! The reference solution: what it promises, on every scene, coupling, friction and geometry.
 
+use std::sync::Arc;
+
 use crate::common::tolerances::{
     BALANCE, COMPLEMENTARITY, CURRENT_LENGTHS, FAR_FROM_THE_ORIGIN, FORCE_OF_A_SLOPE, assert_near,
 };
@@ -71,6 +73,27 @@ fn size(solution: &Solution) -> f64 {
         h - l
     };
     extent(0).max(extent(1))
+}
+
+/// Twice as thick bodies under twice the forces move as before, by the same pressures and shears.
+#[test]
+fn tractions_are_forces_over_length_and_thickness() {
+    let scene = Scene::open("two-blocks").unwrap();
+    let mut thick = scene.clone();
+    let model = Arc::make_mut(&mut thick.model);
+    model.thickness *= 2.0;
+    model.load *= 2.0;
+    model.stages.iter_mut().for_each(|stage| *stage *= 2.0);
+    let rubs = ContactModel { friction: Friction::new(0.3).unwrap(), ..ContactModel::default() };
+    let (one, other) = (solve(&scene, rubs).contact, solve(&thick, rubs).contact);
+    let tractions = |node: &ContactNode| [node.pressure, node.shear].map(Option::unwrap);
+    let scale = one.iter().map(|node| tractions(node)[0]).fold(0.0, f64::max);
+    assert!(scale > 0.0);
+    for (one, other) in one.iter().zip(&other) {
+        for d in [0, 1] {
+            assert_near("traction", tractions(other)[d], tractions(one)[d], scale, &BALANCE);
+        }
+    }
 }
 
 /// Force balance, complementarity, no node that pulls, none that penetrates, few iterations.

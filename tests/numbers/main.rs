@@ -20,5 +20,6 @@ mod error_estimates;
 mod extremes;
 mod precisions;
 mod scalars;
+mod singular;
 mod solvers;
 mod tolerances;

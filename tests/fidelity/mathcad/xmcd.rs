@@ -113,6 +113,25 @@ fn results_are_compared_number_by_number() {
     );
 }
 
+/// Regions count from the top of the page, and on a line from the left, whatever their order in the
+/// file; the line is where their text aligns.
+#[test]
+fn regions_are_in_the_order_of_the_page() {
+    let region = |id: &str, left: f64, top: f64, line: &str| {
+        format!("<region region-id=\"{id}\" left=\"{left}\" top=\"{top}\"{line}/>")
+    };
+    let regions = [
+        region("last", 0.0, 30.0, ""),
+        region("third", 0.0, 5.0, " align-y=\"20\""),
+        region("second", 50.0, 10.0, ""),
+        region("first", 7.5, 10.0, ""),
+    ];
+    let text = format!("<worksheet><regions>{}</regions></worksheet>", regions.concat());
+    let sheet = document::read(&text, "sheet").unwrap();
+    let found: Vec<&str> = sheet.regions.iter().map(|region| region.id.as_str()).collect();
+    assert_eq!(found, ["first", "second", "third", "last"]);
+}
+
 /// Where a construct is beyond the interpreter, its saved value goes on as input, and is marked.
 #[test]
 fn saved_values_go_on_as_input() {
