@@ -108,11 +108,6 @@ impl<T: Clone + Default> Grid<T> {
         Grid::from_fn(self.cols, self.rows, |i, j| self.entries[j * self.cols + i].clone())
     }
 
-    /// Returns `rows` rows and `cols` columns from row `i` and column `j`, from 0, on.
-    pub fn part(&self, i: usize, rows: usize, j: usize, cols: usize) -> Self {
-        Grid::from_fn(rows, cols, |k, l| self.entries[(i + k) * self.cols + j + l].clone())
-    }
-
     fn widen(&mut self, cols: usize) {
         let old = std::mem::take(&mut self.entries);
         self.entries = vec![T::default(); self.rows * cols];

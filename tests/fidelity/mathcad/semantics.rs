@@ -328,6 +328,8 @@ fn powers_roots_and_elementary_functions() {
     assert_eq!(value("2^−1·4"), "2");
     assert_eq!(value("√(2 + 3)"), "2.23606797749979", "precedence 15");
     assert_eq!(value("√(5, 32)"), "2", "advanced 21");
+    assert_eq!(value("√(3, −8)"), "-2", "an odd root");
+    assert!(matches!(failure("√(2, −4)"), Cause::Complex { .. }), "an even one");
     assert_eq!(value("log(8, 2)"), "3", "advanced 22");
     assert_eq!(value("factorial(x)"), "120", "advanced 20");
     assert_eq!(value("(exp(0)   ln(1)   sin(0)   floor(2.5)   mod(7, 3))"), "1 0 0 2 1");
