@@ -92,8 +92,8 @@ fn add_runtime(work: &Work) -> Result<(), Failure> {
     let allowed = "#![allow(warnings, arithmetic_overflow, unconditional_panic)]\n";
     let at = text.find("#![forbid").ok_or("lib.rs forbids nothing")?;
     let text = format!("{}{allowed}{}\nmod mutants;\n", &text[..at], &text[at..]);
-    fs::write(library, text)?;
-    fs::write(work.tree().join("src/mutants.rs"), include_str!("runtime.rs"))?;
+    fs::write(&library, text)?;
+    fs::write(library.with_file_name("mutants.rs"), include_str!("runtime.rs"))?;
     Ok(())
 }
 
