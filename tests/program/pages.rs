@@ -19,12 +19,18 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 /// The folder of playwright-core and axe-core where a browser can be driven, as it must be where
 /// `REQUIRE_BROWSER` is set.
 fn browser() -> Option<PathBuf> {
+    driven("chromium", &["playwright-core"], "REQUIRE_BROWSER")
+}
+
+/// The folder of the modules that drive a browser, where they, node and the browser are there.
+fn driven(browser: &str, drivers: &[&str], demanded_by: &str) -> Option<PathBuf> {
     let modules = Path::new(ROOT).join("target/browser/node_modules");
     let starts = |program: &str| Command::new(program).arg("--version").output().is_ok();
-    let there = modules.join("playwright-core").is_dir() && starts("node") && starts("chromium");
-    assert!(there || std::env::var_os("REQUIRE_BROWSER").is_none(), "a browser is required");
+    let drives = drivers.iter().all(|driver| modules.join(driver).is_dir());
+    let there = drives && starts("node") && starts(browser);
+    assert!(there || std::env::var_os(demanded_by).is_none(), "{browser} is required");
     if !there {
-        eprintln!("no browser is installed: the pages are not opened");
+        eprintln!("{browser} cannot be driven: the pages are not opened in it");
     }
     there.then_some(modules)
 }
@@ -125,12 +131,8 @@ fn the_report_shows_what_solve_and_audit_have() {
 /// Firefox, where it is, as it must be where `REQUIRE_FIREFOX` is set.
 #[test]
 fn both_pages_work_in_firefox_too() {
-    let mut firefox = Command::new("firefox-esr");
-    firefox.arg("--version");
-    if !is_there(firefox, "REQUIRE_FIREFOX") {
-        return;
-    }
-    let modules = Path::new(ROOT).join("target/browser/node_modules");
+    let drivers = ["playwright-core", "puppeteer-core"];
+    let Some(modules) = driven("firefox-esr", &drivers, "REQUIRE_FIREFOX") else { return };
     let folder = TempDir::new().expect("a folder");
     let made = |name: &str, args: &[&str]| made(folder.path(), name, args);
     let files = [
