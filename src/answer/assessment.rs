@@ -6,15 +6,15 @@ use std::borrow::Cow;
 use super::distance::{Distance, distance};
 use super::error::Error;
 use super::estimates::ErrorEstimates;
-use super::factors::LastFactors;
+use super::factors::Kept;
 use super::hertz::Hertz;
 use super::probe::{Probe, probes};
 use super::request::Request;
+use super::side_by_side::side_by_side;
 use super::solution::Solution;
 use super::solve::solve;
 use super::summary::{BodySummary, summaries};
 use crate::error::InputError;
-use crate::problem::model::Model;
 use crate::problem::modelling::ContactModel;
 
 /// The values and estimates that reports print beside a solution.
@@ -138,20 +138,9 @@ impl<'a> Assessment<'a> {
     }
 }
 
-/// Does both at once; one after the other of large bodies, as two factors take twice the memory.
-fn side_by_side<A: Send, B: Send>(
-    model: &Model,
-    a: impl FnOnce() -> A + Send,
-    b: impl FnOnce() -> B + Send,
-) -> (A, B) {
-    /// The number of equations of large bodies.
-    const LARGE: usize = 50_000;
-    if model.free_dofs() < LARGE { rayon::join(a, b) } else { (a(), b()) }
-}
-
 /// Returns a solution without what only its own estimates need: large factors.
 fn without_factors(solution: Solution) -> Solution {
-    Solution { factors: LastFactors::Unknown, ..solution }
+    Solution { factors: Kept::default(), ..solution }
 }
 
 /// Follows the path of the load in half as many steps.

@@ -1,7 +1,7 @@
 //! The factors with which a run ended, which the estimates of its errors go on with.
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::DVector;
 
@@ -33,6 +33,27 @@ impl fmt::Debug for LastFactors {
             LastFactors::Condensed(_) => "condensed",
             LastFactors::Whole(_) => "whole",
         })
+    }
+}
+
+/// The factors with which a run ended, shared by all copies of its solution, until they are let go.
+#[derive(Clone, Debug, Default)]
+pub struct Kept(Arc<Mutex<LastFactors>>);
+
+impl From<LastFactors> for Kept {
+    fn from(factors: LastFactors) -> Self {
+        Kept(Arc::new(Mutex::new(factors)))
+    }
+}
+
+impl Kept {
+    /// Returns the factors; unknown ones once they were let go.
+    pub(super) fn known(&self) -> LastFactors {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    pub(super) fn let_go(&self) {
+        std::mem::take(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner));
     }
 }
 

@@ -44,7 +44,7 @@ impl Held {
             _ => Elimination::new(&model.restrained, constraints),
         };
         let stiffness = Stiffness::new(model, |x| x);
-        let known = match &solution.factors {
+        let known = match &solution.factors.known() {
             LastFactors::Condensed(bodies) if bodies.has(constraints) => {
                 Bound::new(Arc::clone(bodies), &t).map(Made::Condensed)
             }

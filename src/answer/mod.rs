@@ -15,6 +15,7 @@ mod not_finite;
 mod probe;
 mod published;
 mod request;
+mod side_by_side;
 mod solution;
 mod solve;
 mod sparse;
@@ -27,11 +28,12 @@ pub use assessment::{Assessment, Measured};
 pub use condensation::kept_equations;
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
-pub use factors::LastFactors;
+pub use factors::Kept;
 pub use hertz::Hertz;
 pub use probe::{Probe, Quantity};
 pub use published::BYTES_OF_A_NODE;
 pub use request::Request;
+pub use side_by_side::side_by_side;
 pub use solution::{
     Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, StepBounds, Unilateral,
     Uniqueness, max_displacement,

@@ -73,7 +73,7 @@ pub(super) fn published<T: Precision>(
         equilibrium: None,
         error_bound: error_bound(&run.u, &steps),
         u: run.u.map(T::to_f64),
-        factors: run.equations.last_factors(),
+        factors: run.equations.last_factors().into(),
         request: request.clone(),
         model: Arc::clone(&model),
         steps,
@@ -303,7 +303,7 @@ impl<'a, T: Precision> Run<'a, T> {
         };
         Step {
             k,
-            shape: numbers(&door::shape(node_n)),
+            shape: Arc::new(numbers(&door::shape(node_n))),
             constraints: bound.iter().map(|bound| bound.map(T::to_f64)).collect(),
             in_contact: pairs.dy.iter().sum(),
             max_displacement: max_displacement(&self.u),

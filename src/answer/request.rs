@@ -138,12 +138,22 @@ impl Request {
     /// The plane problem of R6 does not allow a Poisson's ratio, or under `unilateral` the nodes of
     /// the contact surface make no chain.
     pub fn model(&self) -> Result<Arc<Model>, InputError> {
-        let mut model = (*self.scene.model).clone();
+        let scene = &self.scene.model;
+        let nodes = match self.variant {
+            Variant::Unilateral => {
+                Some(contact::along(scene)?).filter(|n| *n != scene.contact.nodes)
+            }
+            _ => None,
+        };
+        if nodes.is_none() && self.tolerance.is_none() && door::is_as_it_stands(&self.reading) {
+            return Ok(Arc::clone(scene));
+        }
+        let mut model = (**scene).clone();
         if let Some(tolerance) = self.tolerance {
             model.contact.tolerance = tolerance;
         }
-        if self.variant == Variant::Unilateral {
-            model.contact.nodes = contact::along(&model)?;
+        if let Some(nodes) = nodes {
+            model.contact.nodes = nodes;
         }
         Ok(Arc::new(door::under(model, &self.reading)?))
     }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::{ContactNode, Pairing, Status};
 use super::elimination::Constraint;
-use super::factors::LastFactors;
+use super::factors::Kept;
 use super::request::Request;
 use crate::numbers::scalar::Scalar;
 use crate::paper::decisions::Decision;
@@ -23,7 +23,7 @@ pub struct Step {
     /// The number of the step, from 1.
     pub k: usize,
     /// The shape from which the step started: the coordinates of each node, length.
-    pub shape: Vec<[f64; 2]>,
+    pub shape: Arc<Vec<[f64; 2]>>,
     /// The constraints on contact nodes, by elimination; empty under `printed`.
     pub constraints: Vec<Constraint>,
     /// The number of entries of the contact surface in contact.
@@ -90,7 +90,7 @@ pub struct Unilateral {
     /// The pairing of each entry in the shape in which contact was measured.
     pub pairings: Vec<Option<Pairing>>,
     /// The friction of sliding nodes by degree of freedom, force.
-    pub friction: DVector<f64>,
+    pub friction: Arc<DVector<f64>>,
     /// The largest change of a sliding node's friction over that of μ times the normal forces which
     /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
     pub feedback: f64,
@@ -236,7 +236,7 @@ pub struct Solution {
     /// What `unilateral` knows beside its solution; None under the other variants.
     pub equilibrium: Option<Equilibrium>,
     /// The factors with which the run ended, for the estimates of its errors.
-    pub factors: LastFactors,
+    pub factors: Kept,
 }
 
 /// What `unilateral` knows of the equilibrium that it found.
@@ -260,6 +260,13 @@ impl Solution {
     /// Returns the last step.
     pub fn last(&self) -> &Step {
         self.steps.last().expect("a run has a step")
+    }
+
+    /// Lets go of the factors that serve further estimates, the largest part of its memory: to write it
+    /// they are not needed. An estimate that is asked for afterwards factors anew.
+    pub fn let_go_of_factors(&self) {
+        self.factors.let_go();
+        self.request.shared.let_go();
     }
 
     /// Returns whether an equilibrium may depend on the way to it: under friction, which keeps the

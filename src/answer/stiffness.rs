@@ -1,32 +1,39 @@
 //! The stiffness without contact and restraints, by triangle, which `Km` adds up in a matrix.
 
+use std::borrow::Cow;
+
 use nalgebra::{DVector, SMatrix, SVector};
 
 use super::elimination::Elimination;
 use crate::numbers::scalar::Scalar;
-use crate::numbers::solve::SparseSymmetric;
+use crate::numbers::solve::{Pattern, SparseSymmetric};
 use crate::problem::element::{self, D, Plane, State};
-use crate::problem::model::{Dof, Model, TriangleId};
+use crate::problem::model::{Dof, Model, NodeId, TriangleId};
 
-/// The stiffness matrix K, 2R x 2R, force/length, stored as its triangles' matrices, from which
-/// stresses are computed too.
+/// The number of triangles up to which their matrices are kept. Those of more take longer to read from
+/// memory than to compute, and most of the memory of a run.
+const KEPT: usize = 100_000;
+
+/// The stiffness matrix K, 2R x 2R, force/length, as what its triangles' matrices, and their stresses,
+/// are computed from.
 pub struct Stiffness<T = f64> {
     plane: Plane,
     dofs: usize,
     triangles: Vec<Element<T>>,
+    /// The matrix of each triangle, where they are few; else empty.
+    matrices: Vec<SMatrix<T, 6, 6>>,
 }
 
 /// One triangle in the numbers of a run.
 struct Element<T> {
-    /// The degrees of freedom of its corners: x, y of each corner in turn.
-    dofs: [Dof; 6],
+    nodes: [NodeId; 3],
     /// The elastic modulus, stress.
     e: T,
     nu: T,
-    /// The strain matrix, 1/length.
-    b: SMatrix<T, 3, 6>,
-    /// The stiffness Ae·Bᵀ·D·B, force/length.
-    k: SMatrix<T, 6, 6>,
+    /// What the strain matrix is made of, 1/length.
+    gradients: [[T; 2]; 3],
+    /// The area times the thickness, length³.
+    volume: T,
 }
 
 impl<T: Scalar> Stiffness<T> {
@@ -34,21 +41,26 @@ impl<T: Scalar> Stiffness<T> {
     pub fn new(model: &Model, number: impl Fn(f64) -> T) -> Self {
         let triangle = |id: TriangleId| {
             let material = model.triangle(id).material;
-            let (e, nu) = (number(material.e), number(material.nu));
             let corners = model.corners(id).map(|p| p.map(&number));
-            let b = element::B(&corners);
-            let volume = element::area(&corners) * number(model.thickness);
-            let nodes = model.triangle(id).nodes;
             Element {
-                dofs: std::array::from_fn(|k| nodes[k / 2].dofs()[k % 2]),
-                k: element::stiffness(&b, &D(model.plane, e, nu)) * volume,
-                e,
-                nu,
-                b,
+                nodes: model.triangle(id).nodes,
+                e: number(material.e),
+                nu: number(material.nu),
+                gradients: element::gradients(&corners),
+                volume: element::area(&corners) * number(model.thickness),
             }
         };
-        let triangles = model.triangle_ids().map(triangle).collect();
-        Stiffness { plane: model.plane, dofs: model.dofs(), triangles }
+        let triangles: Vec<Element<T>> = model.triangle_ids().map(triangle).collect();
+        let kept = if triangles.len() <= KEPT { triangles.len() } else { 0 };
+        let matrices = triangles[..kept].iter().map(|triangle| triangle.matrix(model.plane));
+        let matrices = matrices.collect();
+        Stiffness { plane: model.plane, dofs: model.dofs(), triangles, matrices }
+    }
+
+    /// Returns the matrix Ae·Bᵀ·D·B of a triangle, force/length.
+    fn matrix(&self, i: usize) -> Cow<'_, SMatrix<T, 6, 6>> {
+        let kept = self.matrices.get(i).map(Cow::Borrowed);
+        kept.unwrap_or_else(|| Cow::Owned(self.triangles[i].matrix(self.plane)))
     }
 
     /// Returns K u, the forces that keep the shape `u`, force.
@@ -56,7 +68,12 @@ impl<T: Scalar> Stiffness<T> {
         let mut force = DVector::from_element(self.dofs, T::zero());
         let (u, common) = T::over_common(u.as_slice().to_vec());
         let u = DVector::from_vec(u);
-        self.triangles.iter().for_each(|triangle| triangle.add_times(&u, &mut force));
+        for (i, triangle) in self.triangles.iter().enumerate() {
+            // A shift moves a few nodes alone.
+            if triangle.dofs().any(|dof| !u[dof.index()].is_zero()) {
+                triangle.add_times(&self.matrix(i), &u, &mut force);
+            }
+        }
         force.map(|f| f / common)
     }
 
@@ -64,29 +81,37 @@ impl<T: Scalar> Stiffness<T> {
     /// entries hold parts of theirs.
     pub fn times_on(&self, wanted: &[bool], u: &DVector<T>) -> DVector<T> {
         let mut force = DVector::from_element(self.dofs, T::zero());
-        let is_wanted =
-            |triangle: &&Element<T>| triangle.dofs.iter().any(|dof| wanted[dof.index()]);
-        for triangle in self.triangles.iter().filter(is_wanted) {
-            triangle.add_times(u, &mut force);
+        for (i, triangle) in self.triangles.iter().enumerate() {
+            if triangle.dofs().any(|dof| wanted[dof.index()]) {
+                triangle.add_times(&self.matrix(i), u, &mut force);
+            }
         }
         force
     }
 
     /// Returns Tᵀ K T, force/length.
     pub fn reduced(&self, t: &Elimination<T>) -> SparseSymmetric<T> {
-        let entries = self.triangles.iter().flat_map(|triangle| triangle.reduced(t));
-        SparseSymmetric::new(t.size(), entries)
+        let places = |visit: &mut dyn FnMut(usize, usize)| {
+            self.triangles.iter().for_each(|triangle| triangle.places(t, visit));
+        };
+        let entries = |visit: &mut dyn FnMut(usize, usize, T)| {
+            for (i, triangle) in self.triangles.iter().enumerate() {
+                triangle.reduced(&self.matrix(i), t, visit);
+            }
+        };
+        SparseSymmetric::summed(Pattern::new(t.size(), places), entries)
     }
 
     /// Returns the stresses and strains of every triangle under displacements `u`.
     pub fn states(&self, u: &DVector<T>) -> Vec<State> {
-        let state = |t: &Element<T>| State::new(self.plane, t.e, t.nu, &t.b, &t.displacements(u));
+        let state =
+            |t: &Element<T>| State::new(self.plane, t.e, t.nu, &t.strain(), &t.displacements(u));
         self.triangles.iter().map(state).collect()
     }
 
     /// Returns sigma_x, sigma_y, tau_xy of every triangle under displacements `u`, stress.
     pub fn stresses(&self, u: &DVector<T>) -> Vec<SVector<T, 3>> {
-        let stress = |t: &Element<T>| D(self.plane, t.e, t.nu) * (t.b * t.displacements(u));
+        let stress = |t: &Element<T>| D(self.plane, t.e, t.nu) * (t.strain() * t.displacements(u));
         self.triangles.iter().map(stress).collect()
     }
 }
@@ -95,39 +120,66 @@ impl Stiffness {
     /// Returns the energy norm sqrt(uᵀ K u), sqrt(force·length). It is summed by triangle, so that
     /// no cancellation leaves a negative number.
     pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
-        let of_triangle = |triangle: &Element<f64>| {
+        let of_triangle = |(i, triangle): (usize, &Element<f64>)| {
             let u = triangle.displacements(u);
-            u.dot(&(triangle.k * u)).max(0.0)
+            u.dot(&(*self.matrix(i) * u)).max(0.0)
         };
-        self.triangles.iter().map(of_triangle).sum::<f64>().sqrt()
+        self.triangles.iter().enumerate().map(of_triangle).sum::<f64>().sqrt()
     }
 }
 
 impl<T: Scalar> Element<T> {
-    /// Returns the entries that it adds to the lower triangle of Tᵀ K T: row, column, value.
-    fn reduced(&self, t: &Elimination<T>) -> Vec<(usize, usize, T)> {
-        let mut entries = Vec::with_capacity(36);
-        for (i, p) in self.dofs.into_iter().enumerate() {
-            for (j, q) in self.dofs.into_iter().enumerate() {
+    /// Returns the strain matrix B, 1/length.
+    fn strain(&self) -> SMatrix<T, 3, 6> {
+        element::strain_matrix(&self.gradients)
+    }
+
+    fn matrix(&self, plane: Plane) -> SMatrix<T, 6, 6> {
+        element::stiffness(&self.strain(), &D(plane, self.e, self.nu)) * self.volume
+    }
+
+    /// Returns the degrees of freedom of its corners: x, y of each corner in turn.
+    fn dofs(&self) -> impl Iterator<Item = Dof> {
+        self.nodes.into_iter().flat_map(|node| node.dofs())
+    }
+
+    /// Visits the places of the lower triangle of Tᵀ K T to which it adds: row, column.
+    fn places(&self, t: &Elimination<T>, visit: &mut dyn FnMut(usize, usize)) {
+        for p in self.dofs() {
+            for q in self.dofs() {
+                for &(row, _) in t.row(p) {
+                    t.row(q).iter().filter(|(j, _)| *j <= row).for_each(|(j, _)| visit(row, *j));
+                }
+            }
+        }
+    }
+
+    /// Visits the entries that it adds there: row, column, value.
+    fn reduced(
+        &self,
+        k: &SMatrix<T, 6, 6>,
+        t: &Elimination<T>,
+        visit: &mut dyn FnMut(usize, usize, T),
+    ) {
+        for (i, p) in self.dofs().enumerate() {
+            for (j, q) in self.dofs().enumerate() {
                 for &(row, wr) in t.row(p) {
                     for &(column, wc) in t.row(q).iter().filter(|(column, _)| *column <= row) {
-                        entries.push((row, column, wr * self.k[(i, j)] * wc));
+                        visit(row, column, wr * k[(i, j)] * wc);
                     }
                 }
             }
         }
-        entries
     }
 
     /// Adds its part of K u.
-    fn add_times(&self, u: &DVector<T>, force: &mut DVector<T>) {
-        let product = self.k * self.displacements(u);
-        for (dof, value) in self.dofs.into_iter().zip(product.iter()) {
-            force[dof.index()] += *value;
-        }
+    fn add_times(&self, k: &SMatrix<T, 6, 6>, u: &DVector<T>, force: &mut DVector<T>) {
+        let product = k * self.displacements(u);
+        self.dofs().zip(product.iter()).for_each(|(dof, value)| force[dof.index()] += *value);
     }
 
     fn displacements(&self, u: &DVector<T>) -> SVector<T, 6> {
-        SVector::from_fn(|k, _| u[self.dofs[k].index()])
+        let [a, b, c] = self.nodes.map(|node| node.of(u));
+        SVector::from([a[0], a[1], b[0], b[1], c[0], c[1]])
     }
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::solution::Solution;
+use crate::numbers::largest::{Largest, largest};
 use crate::problem::model::{Body, TriangleId};
 
 /// The largest displacement, stress and strain of a body.
@@ -19,8 +20,11 @@ pub struct BodySummary {
     pub max_displacement: f64,
     /// The largest von Mises stress of its triangles.
     pub max_von_mises_stress: f64,
-    /// The triangle with that stress.
+    /// The triangle with that stress, the first of those that have it.
     pub at: TriangleId,
+    /// The number of other triangles with the same stress to 1e-9 of it, as mirror images have: only
+    /// rounding tells which is the largest.
+    pub as_large: usize,
     /// The centre of that triangle, length.
     pub centre: [f64; 2],
     /// The largest von Mises strain of its triangles.
@@ -35,9 +39,9 @@ pub fn summaries(solution: &Solution) -> Vec<BodySummary> {
 fn summary(body: &Body, solution: &Solution) -> BodySummary {
     let state = |id: TriangleId| &solution.elements[id.index()];
     let stress = |id: TriangleId| state(id).von_mises_stress;
-    let at =
-        body.triangles.iter().copied().reduce(|a, b| if stress(b) > stress(a) { b } else { a });
-    let at = at.expect("a body has a triangle");
+    let stresses = body.triangles.iter().map(|id| stress(*id));
+    let Largest { first, others } = largest(stresses).expect("a body has a triangle");
+    let at = body.triangles[first];
     let length = |[x, y]: [f64; 2]| x.hypot(y);
     let moved = body.nodes.iter().map(|n| length(n.of(&solution.u)));
     let strains = body.triangles.iter().map(|&id| state(id).von_mises_strain);
@@ -49,6 +53,7 @@ fn summary(body: &Body, solution: &Solution) -> BodySummary {
         max_displacement: moved.fold(0.0, f64::max),
         max_von_mises_stress: stress(at),
         at,
+        as_large: others,
         centre: [0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 3.0),
         max_von_mises_strain: strains.fold(0.0, f64::max),
     }

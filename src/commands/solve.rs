@@ -112,9 +112,11 @@ pub fn run(args: &Args) -> Result<u8> {
         true => Assessment::without_estimates(&solution),
         false => Assessment::new(&solution),
     };
-    let (mut assessment, plan) = rayon::join(assess, || Plan::new(&solution.request));
+    let plan = || Plan::new(&solution.request);
+    let (mut assessment, plan) = answer::side_by_side(&solution.model, assess, plan);
     let plan = plan?;
     assessment.probe(&solution, &args.probe)?;
+    solution.let_go_of_factors();
     let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
     if args.json {
         let result = match args.out {

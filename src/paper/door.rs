@@ -37,6 +37,11 @@ pub fn under(mut model: Model, reading: &Reading) -> Result<Model, InputError> {
     Ok(model)
 }
 
+/// Returns whether a reading leaves every model as it stands.
+pub fn is_as_it_stands(reading: &Reading) -> bool {
+    reading.r6.is_none() && reading.r8 != ToleranceUnit::Metre
+}
+
 /// Returns the paper's tables of a model. Each number passes through `number`; `Ae` and `B` are
 /// computed from the coordinates in T.
 pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Worksheet<T> {

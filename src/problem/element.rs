@@ -51,18 +51,29 @@ pub fn area<T: Scalar>(p: &Corners<T>) -> T {
     ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1])) / two
 }
 
+/// Returns how the displacement of each corner changes along x and y, 1/length, for an area not 0.
+pub fn gradients<T: Scalar>(p: &Corners<T>) -> [[T; 2]; 3] {
+    let double_area = area(p) + area(p);
+    [0, 1, 2].map(|k| {
+        let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+        let (dx, dy) = (p[next][1] - p[last][1], p[last][0] - p[next][0]);
+        [dx / double_area, dy / double_area]
+    })
+}
+
 /// Returns the strain matrix, 3 x 6, 1/length: strains = B · displacements, for an area not 0.
 pub fn B<T: Scalar>(p: &Corners<T>) -> SMatrix<T, 3, 6> {
-    let double_area = area(p) + area(p);
+    strain_matrix(&gradients(p))
+}
+
+/// Returns B of a triangle with these gradients.
+pub fn strain_matrix<T: Scalar>(gradients: &[[T; 2]; 3]) -> SMatrix<T, 3, 6> {
     let mut b = SMatrix::zeros();
-    for k in 0..3 {
-        let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-        let dx = (p[next][1] - p[last][1]) / double_area;
-        let dy = (p[last][0] - p[next][0]) / double_area;
-        b[(0, 2 * k)] = dx;
-        b[(1, 2 * k + 1)] = dy;
-        b[(2, 2 * k)] = dy;
-        b[(2, 2 * k + 1)] = dx;
+    for (k, [dx, dy]) in gradients.iter().enumerate() {
+        b[(0, 2 * k)] = *dx;
+        b[(1, 2 * k + 1)] = *dy;
+        b[(2, 2 * k)] = *dy;
+        b[(2, 2 * k + 1)] = *dx;
     }
     b
 }

@@ -279,9 +279,18 @@ fn bodies(units: &Units, bodies: &[BodySummary]) -> String {
         .column("triangles", |body| body.triangles)
         .column(quantity("largest |u|", &units.length), |body| short(body.max_displacement))
         .column(stress, |body| short(body.max_von_mises_stress))
-        .column("at x, y", |body| place(body.centre, 2))
+        .column("at x, y", at)
         .column("von Mises strain", |body| short(body.max_von_mises_strain))
         .text()
+}
+
+/// Says where a body's largest stress is, and in how many more triangles.
+fn at(body: &&BodySummary) -> String {
+    match body.as_large {
+        0 => place(body.centre, 2),
+        others if others + 1 == body.triangles => "everywhere".into(),
+        others => format!("{} and {others} more", place(body.centre, 2)),
+    }
 }
 
 /// Lays out the contact nodes that are in contact at the end.

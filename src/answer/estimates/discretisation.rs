@@ -35,6 +35,7 @@ use nalgebra::Matrix3;
 
 use super::patches::Patches;
 use super::recovery::{Stress, recover};
+use crate::numbers;
 use crate::problem::element::{self, Plane, State};
 use crate::problem::model::{Model, Triangle, TriangleId};
 
@@ -151,8 +152,9 @@ impl Discretisation {
         triangles: &[TriangleId],
     ) -> LargestVonMises {
         let stress = |id: TriangleId| elements[id.index()].von_mises_stress;
-        let higher = |a, b| if stress(b) > stress(a) { b } else { a };
-        let at = triangles.iter().copied().reduce(higher).expect("a body has a triangle");
+        let stresses = triangles.iter().map(|id| stress(*id));
+        let at =
+            triangles[numbers::largest::largest(stresses).expect("a body has a triangle").first];
         let nodes = |id: TriangleId| model.triangle(id).nodes;
         let beside = |id: TriangleId| nodes(id).iter().any(|node| nodes(at).contains(node));
         let error = |&id: &TriangleId| {

@@ -249,7 +249,7 @@ impl<'a> Looking<'a> {
         let Some(surfaces) = &self.surfaces else { return };
         let (model, contact) = (&*self.solution.model, &self.solution.request.contact);
         let is_current = contact.geometry == Geometry::Current;
-        let measured_in = if is_current { &state.step.shape } else { &model.nodes };
+        let measured_in = if is_current { &*state.step.shape } else { &model.nodes };
         let largest = measured_in.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
         let of_u = state.u.iter().map(|u| 2.0 * u.error()).fold(0.0, f64::max);
         let radius = if is_current { of_u } else { 0.0 } + COORDINATE * f64::EPSILON * largest;

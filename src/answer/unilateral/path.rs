@@ -1,5 +1,7 @@
 //! The path of the load: stage by stage, in equal steps, each of which starts from the one before.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 
 use super::equilibria::uniqueness;
@@ -205,7 +207,7 @@ fn step(
     let support = restraints_of_target(problem.model, &problem.model.restrained, &reaction);
     Step {
         k,
-        shape: place.shape.clone(),
+        shape: Arc::clone(&place.shape),
         constraints: constraints.clone(),
         in_contact: statuses.iter().filter(|status| status.is_closed()).count(),
         max_displacement: max_displacement(&moved.u),
@@ -216,7 +218,7 @@ fn step(
             load: to,
             statuses: statuses.clone(),
             pairings: place.pairings.clone(),
-            friction: moved.friction.clone(),
+            friction: Arc::clone(&moved.friction),
             feedback: moved.feedback,
             margin: problem.margin(iteration),
             undetermined: moved.forces.iter().map(|force| force.undetermined).collect(),
@@ -244,14 +246,14 @@ fn solution(
         u: last.moved.u,
         digits: None,
         error_bound: None,
-        factors: problem.last_factors(),
+        factors: problem.last_factors().into(),
         equilibrium: Some(solution::Equilibrium { path, uniqueness, unseen, shape_change }),
     }
 }
 
 /// Returns the contact surface at the end.
 fn contact(problem: &Problem, place: &Place, last: &Iteration) -> Vec<ContactNode> {
-    let measured = if problem.is_current() { &place.shape } else { &problem.model.nodes };
+    let measured = if problem.is_current() { &*place.shape } else { &problem.model.nodes };
     let open = problem.undetermined(place, last);
     let forces = last
         .moved

@@ -74,6 +74,8 @@ pub(super) struct Problem<'a> {
     pub(super) supports: Vec<bool>,
     /// Coulomb's coefficient.
     friction: f64,
+    /// The friction of sliding nodes where none slides against it, by degree of freedom: 0, force.
+    no_friction: Arc<DVector<f64>>,
     bodies: Bodies,
     last: Last,
 }
@@ -93,7 +95,7 @@ pub(super) struct Setting<'a> {
 /// A shape and the target that each contact node faces in it.
 pub(super) struct Place {
     /// The coordinates of each node, length.
-    pub(super) shape: Vec<[f64; 2]>,
+    pub(super) shape: Arc<Vec<[f64; 2]>>,
     /// The pairing of each entry of the contact surface.
     pub(super) pairings: Vec<Option<Pairing>>,
 }
@@ -120,7 +122,7 @@ pub(super) struct Moved {
     /// The forces on each entry of the contact surface, force.
     pub(super) forces: Vec<Force>,
     /// The friction of sliding nodes by degree of freedom, force.
-    pub(super) friction: DVector<f64>,
+    pub(super) friction: Arc<DVector<f64>>,
     /// The largest change of a sliding node's friction over that of μ times the normal forces which
     /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
     pub(super) feedback: f64,
@@ -128,6 +130,8 @@ pub(super) struct Moved {
     pub(super) reaction: DVector<f64>,
     /// The relative residual of the equations that were solved.
     pub(super) residual: f64,
+    /// Whether these were the equations of the whole bodies.
+    pub(super) whole: bool,
 }
 
 /// The equilibrium under a load.
@@ -167,6 +171,7 @@ impl<'a> Problem<'a> {
             closed: CLOSED * size(model),
             supports: supports_of_target(model),
             friction: request.contact.friction.coefficient(),
+            no_friction: Arc::new(DVector::zeros(model.dofs())),
             bodies: Bodies::new(model, &request.shared).expecting(&initial),
             last: Last::default(),
         })
@@ -218,14 +223,17 @@ impl<'a> Problem<'a> {
         Err(NoEquilibrium { what }.into())
     }
 
-    /// Solves the last contact state of an equilibrium again, on the whole bodies; where that asks for
-    /// other statuses, searches on from it there.
+    /// Solves the last contact state of an equilibrium again, on the whole bodies, unless it was
+    /// solved there; where that asks for other statuses, searches on from it there.
     pub(super) fn confirmed(
         &self,
         found: Equilibrium,
         setting: &Setting,
         watch: &mut Watch,
     ) -> Result<Equilibrium, Error> {
+        if found.last.moved.whole {
+            return Ok(found);
+        }
         let Equilibrium { place, last, closing, shape_change } = found;
         let Iteration { statuses, constraints, cycle, .. } = last;
         if let Solved::Moved(moved) = self.solve(&place, &statuses, &constraints, setting)? {
@@ -319,7 +327,7 @@ impl<'a> Problem<'a> {
         let shape = self.model.shape(u);
         let measured = if self.is_current() { &shape } else { &self.model.nodes };
         let pairings = self.surfaces.pairings(self.request.contact.coupling, measured);
-        Place { shape, pairings }
+        Place { shape: Arc::new(shape), pairings }
     }
 
     /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
@@ -498,8 +506,9 @@ impl<'a> Problem<'a> {
     ) -> Result<Solved, Error> {
         let reaction = bodies.reaction(&u, load);
         let forces = self.forces(place, statuses, &reaction);
-        let friction = DVector::zeros(u.len());
-        let mut moved = Moved { u, forces, friction, feedback: 0.0, reaction, residual };
+        let friction = Arc::clone(&self.no_friction);
+        let whole = bodies.are_whole();
+        let mut moved = Moved { u, forces, friction, feedback: 0.0, reaction, residual, whole };
         self.slide(place, statuses, &mut moved, bodies)?;
         Ok(Solved::Moved(moved))
     }
@@ -571,13 +580,15 @@ impl<'a> Problem<'a> {
         let sizes = sizes.ok_or_else(jammed)?;
         let rows = matrix.try_inverse().ok_or_else(jammed)?;
         moved.feedback = rows.row_iter().map(|row| row.lp_norm(1)).fold(0.0, f64::max);
+        let mut friction = DVector::zeros(moved.u.len());
         for ((load, _), size) in responses.iter().zip(&sizes) {
-            moved.friction.axpy(*size, load, 1.0);
+            friction.axpy(*size, load, 1.0);
         }
+        moved.friction = Arc::new(friction);
         let [u, force] = bodies.under(&moved.friction).map_err(|_| jammed())?;
         moved.reaction += force;
         moved.u += u;
-        moved.forces = self.forces(place, statuses, &(&moved.reaction - &moved.friction));
+        moved.forces = self.forces(place, statuses, &(&moved.reaction - &*moved.friction));
         for ((i, _, _), size) in sliding.iter().zip(&sizes) {
             moved.forces[*i].tangent = *size;
         }
@@ -609,7 +620,7 @@ impl<'a> Problem<'a> {
             (status, _) => status,
         };
         let statuses: Vec<Status> = (0..last.statuses.len()).map(touching).collect();
-        let reaction = &last.moved.reaction - &last.moved.friction;
+        let reaction = &last.moved.reaction - &*last.moved.friction;
         let forces = self.forces(place, &statuses, &reaction);
         forces.iter().map(|force| force.undetermined).collect()
     }

@@ -46,6 +46,9 @@ pub(super) struct Elastic<'a> {
 
 /// What the bodies under imposed statuses do under a load.
 pub(super) trait Responds {
+    /// Returns whether its equations are those of the whole bodies.
+    fn are_whole(&self) -> bool;
+
     /// Returns the displacements by degree of freedom, length, and the relative residual of their
     /// equations.
     ///
@@ -89,6 +92,10 @@ impl<'a> OnSurface<'a> {
 }
 
 impl Responds for OnSurface<'_> {
+    fn are_whole(&self) -> bool {
+        false
+    }
+
     fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
         let load = self.bodies.eliminated(&self.state, load);
         self.state.displacements(&load).ok_or(Singular { column: 0, pivot: f64::NAN })
@@ -197,6 +204,10 @@ impl<'a> Reduced<'a> {
 }
 
 impl Responds for Reduced<'_> {
+    fn are_whole(&self) -> bool {
+        true
+    }
+
     fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
         let shifted = self.elastic.stiffness.times(self.t.shift());
         let f = self.t.load(&(self.elastic.model.free_part(load) - shifted));
@@ -210,7 +221,7 @@ impl Responds for Reduced<'_> {
 
     fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
         match &self.made {
-            Made::Condensed(bound) => Ok(bound.reaction(load)),
+            Made::Condensed(bound) => Ok(bound.response(load)),
             Made::Whole { .. } => Ok(self.reaction(&self.unshifted(load)?, load)),
         }
     }

@@ -3,16 +3,13 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::perm::PermRef;
+use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::sparse::linalg::triangular_solve::{
-    solve_lower_triangular_in_place, solve_lower_triangular_transpose_in_place,
-};
-use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
@@ -27,16 +24,10 @@ pub(super) fn is_large(pivot: f64, a: f64) -> bool {
     pivot > LEAST * a
 }
 
-/// The number of equations up to which a factor by supernodes is kept by columns too: its supernodes
-/// are so small that calling for each takes longer than its numbers do.
-const SMALL: usize = 10_000;
-
 /// The factor L, and the order P of the equations.
 pub(super) struct Cholesky<T> {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<T>,
-    /// L by columns, of a small factor by supernodes.
-    columns: Option<SparseColMat<usize, T>>,
 }
 
 impl<T: Native> Cholesky<T> {
@@ -58,12 +49,8 @@ impl<T: Native> Cholesky<T> {
             ..CholeskySymbolicParams::default()
         };
         let order = SymmetricOrdering::Custom(PermRef::new_checked(order, place, order.len()));
-        let mut factor = Self::factored(matrix, order, params)?;
-        if !matches!(factor.symbolic.raw(), SymbolicCholeskyRaw::Supernodal(_)) {
-            return None;
-        }
-        factor.columns = (matrix.size() <= SMALL).then(|| factor.by_columns());
-        Some(factor)
+        let factor = Self::factored(matrix, order, params)?;
+        matches!(factor.symbolic.raw(), SymbolicCholeskyRaw::Supernodal(_)).then_some(factor)
     }
 
     fn factored(
@@ -83,7 +70,7 @@ impl<T: Native> Cholesky<T> {
         symbolic
             .factorize_numeric_llt(&mut values, a, side, regularization, Par::Seq, stack, params)
             .ok()?;
-        Some(Cholesky { symbolic, values, columns: None })
+        Some(Cholesky { symbolic, values })
     }
 
     /// Returns the solution x of A x = `b`.
@@ -131,9 +118,6 @@ impl<T: Native> Cholesky<T> {
 
     /// Solves L z = z in place; z is in the order of the factor, which is one by supernodes.
     pub(super) fn solve_lower(&self, z: &mut [T]) {
-        if let Some(l) = &self.columns {
-            return solve_lower_triangular_in_place(l.as_ref(), Conj::No, column(z), Par::Seq);
-        }
         self.triangular(z, |factor, z, stack| {
             factor.l_solve_with_conj(Conj::No, z, Par::Seq, stack);
         });
@@ -141,10 +125,6 @@ impl<T: Native> Cholesky<T> {
 
     /// Solves Lᵀ x = x in place; x is in the order of the factor, which is one by supernodes.
     pub(super) fn solve_lower_transposed(&self, x: &mut [T]) {
-        if let Some(l) = &self.columns {
-            let (l, x) = (l.as_ref(), column(x));
-            return solve_lower_triangular_transpose_in_place(l, Conj::No, x, Par::Seq);
-        }
         self.triangular(x, |factor, x, stack| {
             factor.l_transpose_solve_with_conj(Conj::No, x, Par::Seq, stack);
         });
@@ -160,24 +140,6 @@ impl<T: Native> Cholesky<T> {
         let mut memory = MemBuffer::new(scratch);
         let stack = MemStack::new(&mut memory);
         solve(&factor, column(x), stack);
-    }
-
-    /// Returns L by columns, each from its diagonal entry on; the factor is one by supernodes.
-    fn by_columns(&self) -> SparseColMat<usize, T> {
-        let factor = self.supernodal();
-        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-        for s in 0..factor.symbolic().n_supernodes() {
-            let supernode = factor.supernode(s);
-            let (start, block) = (supernode.start(), supernode.val());
-            for j in 0..block.ncols() {
-                rows.extend((j..block.ncols()).map(|i| start + i));
-                rows.extend_from_slice(supernode.pattern());
-                values.extend((j..block.nrows()).map(|i| block[(i, j)]));
-                starts.push(rows.len());
-            }
-        }
-        let n = self.symbolic.nrows();
-        SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values)
     }
 
     /// Returns the block of L from the row and column `from` on; the factor is one by supernodes.

@@ -48,4 +48,4 @@ pub use sparse::{SparseCholesky, largest_motion};
 pub use sparse_lu::SparseLu;
 pub use square::SparseSquare;
 pub use symbolic::FactorSize;
-pub use symmetric::SparseSymmetric;
+pub use symmetric::{Pattern, SparseSymmetric};

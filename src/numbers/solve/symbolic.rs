@@ -5,7 +5,8 @@ use faer::Side;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
 };
-use faer::sparse::{Pair, SymbolicSparseColMat};
+
+use super::symmetric::Pattern;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct FactorSize {
@@ -29,17 +30,11 @@ impl FactorSize {
         FactorSize { operations: cube(n) / 3.0, ..FactorSize::full(n, n * n) }
     }
 
-    /// Returns the size of sparse Cholesky of `n` equations whose matrix has `entries` (row,
-    /// column), those above the diagonal left out.
-    pub fn sparse_cholesky(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Self {
-        let lower: Vec<Pair<usize, usize>> = entries
-            .filter(|(row, column)| row >= column)
-            .map(|(row, col)| Pair { row, col })
-            .collect();
-        let (pattern, _) = SymbolicSparseColMat::try_new_from_indices(n, n, &lower)
-            .expect("rows and columns are within the matrix");
+    /// Returns the size of sparse Cholesky of a matrix with this pattern.
+    pub fn sparse_cholesky(pattern: &Pattern) -> Self {
+        let pattern = pattern.view();
         let factors = factorize_symbolic_cholesky(
-            pattern.as_ref(),
+            pattern,
             Side::Lower,
             SymmetricOrdering::Amd,
             CholeskySymbolicParams::default(),
@@ -47,7 +42,7 @@ impl FactorSize {
         .expect("a pattern that fits in memory");
         let columns = columns(factors.raw());
         FactorSize {
-            equations: n,
+            equations: pattern.nrows(),
             entries: pattern.compute_nnz(),
             nonzeros: factors.len_val(),
             // Column by column: a square root, divisions, and the update of what lies to its right.

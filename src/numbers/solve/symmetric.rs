@@ -1,6 +1,7 @@
 //! Sparse symmetric matrices.
 
-use std::ops::AddAssign;
+use std::ops::Range;
+use std::sync::Arc;
 
 use faer::sparse::SymbolicSparseColMatRef;
 use nalgebra::{DMatrix, DVector};
@@ -8,68 +9,99 @@ use nalgebra::{DMatrix, DVector};
 use super::factors::backward_error;
 use crate::numbers::scalar::Scalar;
 
+/// The places of the entries in the lower triangle of a symmetric matrix.
+#[derive(Debug)]
+pub struct Pattern {
+    /// Where each column starts, and where the last one ends.
+    starts: Vec<usize>,
+    /// The rows of each column, ascending.
+    rows: Vec<usize>,
+}
+
+impl Pattern {
+    /// Collects the places (row, column) in an n x n matrix that `places` visits, those above the
+    /// diagonal left out. It is called twice.
+    pub fn new(n: usize, places: impl Fn(&mut dyn FnMut(usize, usize))) -> Self {
+        let mut ends = vec![0; n + 1];
+        places(&mut |i, j| ends[j + 1] += usize::from(i >= j));
+        (0..n).for_each(|j| ends[j + 1] += ends[j]);
+        let mut all = vec![0_u32; ends[n]];
+        places(&mut |i, j| {
+            if i >= j {
+                all[ends[j]] = u32::try_from(i).expect("a row of a matrix that fits in memory");
+                ends[j] += 1;
+            }
+        });
+        let (mut starts, mut rows) = (Vec::with_capacity(n + 1), Vec::new());
+        let mut from = 0;
+        for end in &ends[..n] {
+            let column = &mut all[from..*end];
+            column.sort_unstable();
+            starts.push(rows.len());
+            rows.extend(column.chunk_by(|a, b| a == b).map(|same| same[0] as usize));
+            from = *end;
+        }
+        starts.push(rows.len());
+        Pattern { starts, rows }
+    }
+
+    /// Returns the number of rows, which is that of the columns.
+    pub fn size(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Returns where the values of a column stand.
+    fn column(&self, j: usize) -> Range<usize> {
+        self.starts[j]..self.starts[j + 1]
+    }
+
+    /// Returns the pattern as faer takes it.
+    pub(super) fn view(&self) -> SymbolicSparseColMatRef<'_, usize> {
+        let n = self.size();
+        SymbolicSparseColMatRef::new_checked(n, n, &self.starts, None, &self.rows)
+    }
+}
+
 /// A symmetric matrix: the entries of its lower triangle, column by column, rows ascending.
 #[derive(Clone, Debug)]
 pub struct SparseSymmetric<T = f64> {
-    /// Where each column starts, and where the last one ends.
-    starts: Vec<usize>,
-    rows: Vec<usize>,
+    pattern: Arc<Pattern>,
     values: Vec<T>,
 }
 
-impl<T: Copy> SparseSymmetric<T> {
+impl<T: Scalar> SparseSymmetric<T> {
     /// Sums `entries` (row, column, value) into an n x n matrix, in their order and without those
-    /// above the diagonal. They are gone through twice.
-    pub fn new(n: usize, entries: impl Iterator<Item = (usize, usize, T)> + Clone) -> Self
-    where
-        T: AddAssign,
-    {
+    /// above the diagonal. They are gone through three times.
+    pub fn new(n: usize, entries: impl Iterator<Item = (usize, usize, T)> + Clone) -> Self {
+        let pattern = Pattern::new(n, |visit| entries.clone().for_each(|(i, j, _)| visit(i, j)));
         let lower = entries.filter(|(i, j, _)| i >= j);
-        let mut ends = vec![0; n + 1];
-        lower.clone().for_each(|(_, j, _)| ends[j + 1] += 1);
-        (0..n).for_each(|j| ends[j + 1] += ends[j]);
-        let any = lower.clone().next();
-        let mut by_column = any.map_or(Vec::new(), |(i, _, value)| vec![(i, value); ends[n]]);
-        for (i, j, value) in lower {
-            by_column[ends[j]] = (i, value);
-            ends[j] += 1;
-        }
-        let mut matrix = SparseSymmetric { starts: vec![0], rows: Vec::new(), values: Vec::new() };
-        let mut from = 0;
-        for end in &ends[..n] {
-            let column = &mut by_column[from..*end];
-            column.sort_by_key(|(i, _)| *i);
-            matrix.push(column);
-            from = *end;
-        }
-        matrix
+        SparseSymmetric::summed(pattern, |visit| {
+            lower.clone().for_each(|(i, j, value)| visit(i, j, value));
+        })
     }
 
-    /// Adds a column of entries (row, value), rows ascending; those of one row are summed.
-    fn push(&mut self, column: &[(usize, T)])
-    where
-        T: AddAssign,
-    {
-        let start = self.rows.len();
-        for &(i, value) in column {
-            match self.values.last_mut() {
-                Some(sum) if self.rows.len() > start && self.rows.last() == Some(&i) => {
-                    *sum += value
-                }
-                _ => {
-                    self.rows.push(i);
-                    self.values.push(value);
-                }
+    /// Sums the entries of the lower triangle that `entries` visits, in their order; each stands at a
+    /// place of the pattern.
+    pub fn summed(pattern: Pattern, entries: impl FnOnce(&mut dyn FnMut(usize, usize, T))) -> Self {
+        let mut values = vec![T::zero(); pattern.rows.len()];
+        let mut begun = vec![false; values.len()];
+        entries(&mut |i, j, value| {
+            let column = pattern.column(j);
+            let at = column.start + pattern.rows[column].partition_point(|row| *row < i);
+            // The first is no sum: of some numbers 0 + x is not quite x.
+            match std::mem::replace(&mut begun[at], true) {
+                true => values[at] += value,
+                false => values[at] = value,
             }
-        }
-        self.starts.push(self.rows.len());
+        });
+        SparseSymmetric { pattern: Arc::new(pattern), values }
     }
 }
 
 impl<T: Clone> SparseSymmetric<T> {
     /// Returns the number of rows, which is that of the columns.
     pub fn size(&self) -> usize {
-        self.starts.len() - 1
+        self.pattern.size()
     }
 
     /// Returns the entries of the lower triangle: row, column, value.
@@ -79,7 +111,7 @@ impl<T: Clone> SparseSymmetric<T> {
 
     /// Returns the entries of a column of the lower triangle: row, value.
     pub(super) fn column(&self, j: usize) -> impl Iterator<Item = (usize, T)> {
-        (self.starts[j]..self.starts[j + 1]).map(|at| (self.rows[at], self.values[at].clone()))
+        self.pattern.column(j).map(|at| (self.pattern.rows[at], self.values[at].clone()))
     }
 
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> SparseSymmetric<U> {
@@ -89,7 +121,7 @@ impl<T: Clone> SparseSymmetric<T> {
     /// Returns the matrix with `f` of each entry; None where it is None of any.
     pub(super) fn try_map<U>(&self, f: impl Fn(&T) -> Option<U>) -> Option<SparseSymmetric<U>> {
         let values = self.values.iter().map(f).collect::<Option<Vec<U>>>()?;
-        Some(SparseSymmetric { starts: self.starts.clone(), rows: self.rows.clone(), values })
+        Some(SparseSymmetric { pattern: Arc::clone(&self.pattern), values })
     }
 
     /// Returns the values of the entries, column by column.
@@ -99,8 +131,7 @@ impl<T: Clone> SparseSymmetric<T> {
 
     /// Returns the pattern as faer takes it.
     pub(super) fn pattern(&self) -> SymbolicSparseColMatRef<'_, usize> {
-        let n = self.size();
-        SymbolicSparseColMatRef::new_checked(n, n, &self.starts, None, &self.rows)
+        self.pattern.view()
     }
 }
 
@@ -133,8 +164,8 @@ impl<T: Scalar> SparseSymmetric<T> {
 
     pub fn diagonal(&self) -> DVector<T> {
         let of_column = |j: usize| {
-            let first = self.starts[j];
-            (first < self.starts[j + 1] && self.rows[first] == j).then(|| self.values[first])
+            let first = self.column(j).next();
+            first.filter(|(i, _)| *i == j).map(|(_, value)| value)
         };
         DVector::from_fn(self.size(), |j, _| of_column(j).unwrap_or(T::zero()))
     }

@@ -1,5 +1,7 @@
 //! Bodies, which are the parts of a mesh that share no node, and whether each is restrained.
 
+use std::rc::Rc;
+
 use nalgebra::{Matrix3, Vector3};
 
 use super::ids::{NodeId, TriangleId};
@@ -25,7 +27,7 @@ impl Body {
 
 /// Returns the bodies that `triangles` on `nodes` nodes form, by their lowest node. `material`
 /// names the material of each triangle.
-pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[String]) -> Vec<Body> {
+pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[Rc<str>]) -> Vec<Body> {
     let lowest = lowest_nodes(nodes, triangles);
     let mut found: Vec<(NodeId, Body)> = Vec::new();
     for (id, triangle) in TriangleId::all(triangles.len()).zip(triangles) {
@@ -64,10 +66,10 @@ fn lowest_nodes(nodes: usize, triangles: &[Triangle]) -> Vec<NodeId> {
     (0..nodes).map(|n| NodeId::new(lowest(&mut root, n))).collect()
 }
 
-fn joined<'a>(names: impl Iterator<Item = &'a String>) -> String {
+fn joined<'a>(names: impl Iterator<Item = &'a Rc<str>>) -> String {
     let mut distinct: Vec<&str> = Vec::new();
     for name in names {
-        if !distinct.contains(&name.as_str()) {
+        if !distinct.contains(&&**name) {
             distinct.push(name);
         }
     }

@@ -9,24 +9,25 @@ macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub struct $name(usize);
+        pub struct $name(u32);
 
         impl $name {
             /// Returns the one at place `index`, from 0.
             pub const fn new(index: usize) -> Self {
-                $name(index)
+                assert!(index <= u32::MAX as usize, "a mesh that fits in memory");
+                $name(index as u32)
             }
 
             /// Returns its place, from 0.
             pub const fn index(self) -> usize {
-                self.0
+                self.0 as usize
             }
 
             /// Returns the first `count` of them, in order.
             pub fn all(
                 count: usize,
             ) -> impl DoubleEndedIterator<Item = Self> + Clone + ExactSizeIterator {
-                (0..count).map($name)
+                (0..count).map($name::new)
             }
         }
     };
@@ -38,12 +39,12 @@ macro_rules! numbered {
         impl $name {
             /// Returns the one with `number`, from 1.
             pub const fn from_number(number: usize) -> Self {
-                $name(number - 1)
+                $name::new(number - 1)
             }
 
             /// Returns its number, from 1.
             pub const fn number(self) -> usize {
-                self.0 + 1
+                self.index() + 1
             }
         }
 
@@ -107,12 +108,12 @@ numbered!(TriangleId);
 impl NodeId {
     /// Returns its displacement along x.
     pub const fn x(self) -> Dof {
-        Dof(2 * self.0)
+        Dof::new(2 * self.index())
     }
 
     /// Returns its displacement along y.
     pub const fn y(self) -> Dof {
-        Dof(2 * self.0 + 1)
+        Dof::new(2 * self.index() + 1)
     }
 
     /// Returns both of its degrees of freedom: x, y.
@@ -122,7 +123,7 @@ impl NodeId {
 
     /// Returns its two components of a field over all degrees of freedom.
     pub fn of<T: Copy>(self, field: &DVector<T>) -> [T; 2] {
-        self.dofs().map(|dof| field[dof.0])
+        self.dofs().map(|dof| field[dof.index()])
     }
 }
 
@@ -133,7 +134,7 @@ impl Dof {
 
     /// Returns the direction: 0 along x, 1 along y.
     pub const fn direction(self) -> usize {
-        self.0 % 2
+        self.index() % 2
     }
 
     pub const fn axis(self) -> char {

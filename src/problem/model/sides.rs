@@ -1,11 +1,14 @@
 //! The triangles beside each side, computed once per model.
 
-use std::collections::HashMap;
-
 use super::ids::{NodeId, TriangleId};
 
+/// What lies beside each side, by the lower of its two nodes, then by the higher one.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sides(HashMap<[NodeId; 2], Vec<Beside>>);
+pub struct Sides {
+    /// Where the sides of each lower node start, and where the last ones end.
+    starts: Vec<u32>,
+    beside: Vec<Beside>,
+}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Beside {
@@ -18,21 +21,34 @@ pub struct Beside {
 impl Sides {
     /// Collects the sides of `triangles`, each given by its nodes counter-clockwise.
     pub fn new(triangles: impl Iterator<Item = [NodeId; 3]>) -> Self {
-        let mut sides: HashMap<[NodeId; 2], Vec<Beside>> = HashMap::new();
-        for (index, corners) in triangles.enumerate() {
-            for k in 0..3 {
+        let of_triangle = |(index, corners): (usize, [NodeId; 3])| {
+            [0, 1, 2].map(|k| {
                 let [a, b, third] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| corners[k]);
-                let triangle = TriangleId::new(index);
-                let beside = Beside { triangle, nodes: [a, b], third };
-                sides.entry(unordered([a, b])).or_default().push(beside);
-            }
+                Beside { triangle: TriangleId::new(index), nodes: [a, b], third }
+            })
+        };
+        let mut beside: Vec<Beside> = triangles.enumerate().flat_map(of_triangle).collect();
+        beside.sort_by_key(|one| unordered(one.nodes));
+        let mut starts = Vec::new();
+        for (at, one) in beside.iter().enumerate() {
+            let [lower, _] = unordered(one.nodes);
+            starts.resize(starts.len().max(lower.index() + 1), at as u32);
         }
-        Sides(sides)
+        starts.push(beside.len() as u32);
+        Sides { starts, beside }
     }
 
     /// Returns the triangles that have the side between two nodes in any order, ascending.
     pub fn beside(&self, nodes: [NodeId; 2]) -> &[Beside] {
-        self.0.get(&unordered(nodes)).map_or(&[], Vec::as_slice)
+        let [lower, higher] = unordered(nodes);
+        let Some([from, to]) = self.starts.get(lower.index()..lower.index() + 2) else {
+            return &[];
+        };
+        let of_lower = &self.beside[*from as usize..*to as usize];
+        let higher_of = |one: &Beside| unordered(one.nodes)[1];
+        let from = of_lower.partition_point(|one| higher_of(one) < higher);
+        let to = of_lower.partition_point(|one| higher_of(one) <= higher);
+        &of_lower[from..to]
     }
 
     /// Returns the one triangle that has this side, where the side bounds the body; None for an

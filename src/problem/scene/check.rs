@@ -1,6 +1,7 @@
 //! Checks of a scene file against its mesh: materials, restraints, contact surfaces, bodies.
 
 use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
 
 use super::description::{Axis, Description};
 use super::mesh::Mesh;
@@ -22,7 +23,7 @@ pub fn numbers(file: &Description) -> Result<()> {
 /// Returns each triangle's material and the name of its group, in the order of `EL`.
 /// Errors: a material is out of its range, a triangle has no material or two, or a group has no
 /// triangle.
-pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material>, Vec<String>)> {
+pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material>, Vec<Rc<str>>)> {
     let mut of_element = HashMap::new();
     for (group, material) in &file.materials.0 {
         let place = format!("materials.{}", group.text());
@@ -32,11 +33,11 @@ pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material
             return Err(InputError::new(place, what, "give an elastic modulus above 0"));
         }
         file.plane.check_poisson(material.nu, &format!("{place}.nu"))?;
+        let name: Rc<str> = group.text().into();
         for triangle in groups::members(mesh, 2, group, &place)? {
             let number = triangle.number;
-            if let Some((_, other)) = of_element.insert(number, (*material, group.text())) {
-                let group = group.text();
-                let what = format!("triangle {number} has two materials, {other} and {group}");
+            if let Some((_, other)) = of_element.insert(number, (*material, Rc::clone(&name))) {
+                let what = format!("triangle {number} has two materials, {other} and {name}");
                 return Err(InputError::new(place, what, "give each triangle one material"));
             }
         }

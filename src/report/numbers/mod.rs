@@ -38,7 +38,13 @@ pub fn six_digits(x: f64) -> String {
 /// number.
 pub fn percent(part: f64, decimals: usize) -> String {
     let percent = 100.0 * part;
-    if percent.is_finite() { format!("{percent:.decimals$} %") } else { "-".into() }
+    if !percent.is_finite() {
+        return "-".into();
+    }
+    let text = format!("{percent:.decimals$} %");
+    // What is rounded to nothing has no sign.
+    let is_nothing = !text.contains(|c| ('1'..='9').contains(&c));
+    if is_nothing { text.trim_start_matches('-').into() } else { text }
 }
 
 pub fn place([x, y]: [f64; 2], decimals: usize) -> String {

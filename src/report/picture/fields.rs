@@ -6,6 +6,7 @@ use super::drawing::{Drawing, Field};
 use super::raster::{CAPTION, Raster};
 use super::svg::{Pixel, circle, group, path, polygon, segments};
 use super::view::{Bounds, View};
+use crate::numbers::largest::{Largest, largest};
 use crate::report::numbers::{Decimal, significant};
 use crate::xml::Element;
 
@@ -25,8 +26,8 @@ pub struct FieldPicture<'a> {
     drawing: &'a Drawing,
     field: &'a Field<'a>,
     boundary: Vec<[usize; 2]>,
-    smallest: usize,
-    largest: usize,
+    smallest: Largest,
+    largest: Largest,
 }
 
 impl<'a> FieldPicture<'a> {
@@ -116,22 +117,28 @@ impl<'a> FieldPicture<'a> {
     fn range_in_words(&self) -> String {
         let value = |triangle: usize| self.field.values[triangle];
         let [smallest, largest] = [self.smallest, self.largest]
-            .map(|triangle| self.scale.value_in_words(value(triangle), self.field.unit));
+            .map(|one| self.scale.value_in_words(value(one.first), self.field.unit));
         if self.scale.is_uniform() {
             return format!("The value is the same in every triangle: {largest}.");
         }
         let points = &self.drawing.points;
-        let [low, high] = [self.middle_of(self.smallest, points), self.largest_of(points)]
+        let [low, high] = [self.middle_of(self.smallest.first, points), self.largest_of(points)]
             .map(|place| self.place_in_words(place));
+        let [low_too, high_too] = [self.smallest, self.largest].map(|one| match one.others {
+            0 => String::new(),
+            1 => " and in 1 other triangle".into(),
+            others => format!(" and in {others} other triangles"),
+        });
         format!(
-            "Largest value {largest} at {high} (red circle); smallest value {smallest} at {low}."
+            "Largest value {largest} at {high} (red circle){high_too}; \
+             smallest value {smallest} at {low}{low_too}."
         )
     }
 
     /// Returns where the largest value is, `points` being the places of the mesh's points.
     fn largest_of(&self, points: &[[f64; 2]]) -> [f64; 2] {
         let at = self.field.largest_at;
-        at.map_or_else(|| self.middle_of(self.largest, points), |point| points[point])
+        at.map_or_else(|| self.middle_of(self.largest.first, points), |point| points[point])
     }
 
     fn middle_of(&self, triangle: usize, points: &[[f64; 2]]) -> [f64; 2] {
@@ -163,12 +170,10 @@ fn marker(at: Pixel) -> Element {
     group().with(ring("#ffffff", 4.5)).with(ring("#d4001a", 2.2))
 }
 
-/// Returns the triangles with the smallest and the largest value, the first of equals.
-fn extremes(values: &[f64]) -> [usize; 2] {
-    let triangles = || 0..values.len();
-    let smallest = triangles().min_by(|&a, &b| values[a].total_cmp(&values[b]));
-    let largest = triangles().rev().max_by(|&a, &b| values[a].total_cmp(&values[b]));
-    [smallest, largest].map(|triangle| triangle.expect("at least one triangle"))
+/// Returns the triangles with the smallest and the largest value.
+fn extremes(values: &[f64]) -> [Largest; 2] {
+    let smallest = largest(values.iter().map(|x| -x));
+    [smallest, largest(values.iter().copied())].map(|one| one.expect("at least one triangle"))
 }
 
 fn middle(corners: [[f64; 2]; 3]) -> [f64; 2] {

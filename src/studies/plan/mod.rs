@@ -23,7 +23,7 @@ use cost::{Cost, Work};
 use crate::answer::{Request, dense_matrices, kept_equations};
 use crate::choices;
 use crate::error::Result;
-use crate::numbers::solve::{FactorSize, ScalarName, Solver, memory};
+use crate::numbers::solve::{FactorSize, Pattern, ScalarName, Solver, memory};
 use crate::problem::model::Model;
 use crate::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use crate::problem::scene::symmetry::half;
@@ -110,7 +110,7 @@ impl Plan {
         let plan = |candidates| ContactPlan { coupling, friction, status, candidates };
         let contact = Candidates::find(model).map(plan);
         let dense = dense_matrices(variant, arithmetic);
-        let sparse = FactorSize::sparse_cholesky(equations.free, pattern(model).into_iter());
+        let sparse = FactorSize::sparse_cholesky(&pattern(model));
         let factors = match solver {
             Solver::DenseLu => FactorSize::dense_lu(equations.solved),
             Solver::DenseCholesky => FactorSize::dense_cholesky(equations.solved),
@@ -161,21 +161,18 @@ fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations 
     Equations { all, restrained: all - free, free, solved, idle }
 }
 
-/// Row and column, from 0, of the entries of K on the free equations, lower triangle. Contact is
-/// left out: it changes a few.
-fn pattern(model: &Model) -> Vec<(usize, usize)> {
+/// The pattern of K on the free equations. Contact is left out: it changes a few entries.
+fn pattern(model: &Model) -> Pattern {
     let mut free = 0..;
     let place = |restrained: &bool| if *restrained { None } else { free.next() };
     let place: Vec<Option<usize>> = model.restrained.iter().map(place).collect();
-    let mut entries = Vec::new();
-    for triangle in &model.triangles {
-        let dofs = triangle.nodes.into_iter().flat_map(|node| node.dofs());
-        let equations: Vec<usize> = dofs.filter_map(|dof| place[dof.index()]).collect();
-        for i in &equations {
-            entries.extend(equations.iter().filter(|j| *j <= i).map(|j| (*i, *j)));
+    Pattern::new(model.free_dofs(), |visit| {
+        for triangle in &model.triangles {
+            let dofs = triangle.nodes.into_iter().flat_map(|node| node.dofs());
+            let equations = dofs.filter_map(|dof| place[dof.index()]);
+            for i in equations.clone() {
+                equations.clone().for_each(|j| visit(i, j));
+            }
         }
-    }
-    entries.sort_unstable();
-    entries.dedup();
-    entries
+    })
 }

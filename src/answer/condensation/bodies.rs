@@ -1,0 +1,234 @@
+//! Which nodes are kept, and the bodies condensed to them when a contact state first needs it.
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
+use std::fmt;
+use std::rc::Rc;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use nalgebra::DVector;
+
+use super::schur::Condensation;
+use super::state::OnKept;
+use crate::answer::contact::Pairing;
+use crate::answer::elimination::Constraint;
+use crate::answer::stiffness::Stiffness;
+use crate::numbers::solve::Eliminated;
+use crate::problem::model::{Model, NodeId};
+
+/// The number of nodes of both surfaces up to which all are kept.
+const SMALL: usize = 64;
+
+/// The number of kept nodes beyond which a dense matrix of them takes longer, and more memory, than
+/// the whole sparse matrix of a state: this many, or on fine meshes so much of the square root of the
+/// number of equations, which is what a line across the mesh has.
+const MOST: (f64, f64) = (600.0, 2.0);
+
+/// The number of contact nodes of larger surfaces that are expected to come into contact, over the
+/// square root of the number of equations; of fewer equations than these, those that the first contact
+/// state binds.
+const EXPECTED: (f64, usize) = (0.85, 10_000);
+
+/// The number of neighbours that are kept on either side of a bound node of a larger surface, and
+/// the part of the number of bound nodes that comes on top.
+const MARGIN: (usize, f64) = (8, 0.1);
+
+/// The condensed bodies of a scene, shared by all that is asked of it: each is factored once.
+#[derive(Clone, Default)]
+pub struct Shared(Arc<Mutex<Vec<Arc<Condensation>>>>);
+
+impl fmt::Debug for Shared {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the condensed bodies")
+    }
+}
+
+impl Shared {
+    /// Lets go of all bodies factored so far.
+    pub(in crate::answer) fn let_go(&self) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+
+    /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.
+    fn condensed(
+        &self,
+        stiffness: &Stiffness,
+        model: &Arc<Model>,
+        nodes: BTreeSet<NodeId>,
+    ) -> Option<Arc<Condensation>> {
+        let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = made.iter().find(|known| known.nodes == nodes && known.is_of(model)) {
+            return Some(Arc::clone(known));
+        }
+        let condensation = Arc::new(Condensation::new(stiffness, model, nodes)?);
+        // Those of large bodies take much memory: of each model the last ones are kept.
+        made.retain(|known| !known.is_of(model));
+        made.push(Arc::clone(&condensation));
+        Some(condensation)
+    }
+}
+
+/// The bodies of a run, condensed when a contact state first needs it.
+pub(in crate::answer) struct Bodies {
+    model: Arc<Model>,
+    shared: Shared,
+    /// The contact surface and the nodes of the target surface, each in its order.
+    surfaces: [Vec<NodeId>; 2],
+    current: RefCell<Option<Arc<Condensation>>>,
+    /// The load that was eliminated last.
+    loaded: RefCell<Option<Loaded>>,
+    /// The nodes to keep for the first contact state of large surfaces; none where only that state
+    /// shows which are bound.
+    expected: Vec<NodeId>,
+    /// Whether a contact state was asked for.
+    begun: Cell<bool>,
+    /// Whether they cannot be, or need not, as there is no contact.
+    impossible: Cell<bool>,
+}
+
+/// A load by degree of freedom, force, and what is left of it on the kept equations.
+struct Loaded {
+    condensation: Arc<Condensation>,
+    load: DVector<f64>,
+    eliminated: Rc<Eliminated>,
+}
+
+/// Returns the nodes of the contact surface and those of the target surface, each in its order.
+fn surfaces(model: &Model) -> [Vec<NodeId>; 2] {
+    let mut target: Vec<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
+    target.dedup();
+    [model.contact.nodes.clone(), target]
+}
+
+/// Returns the number of equations to which the bodies are condensed where `near` contact nodes come
+/// to the target: an estimate where the surfaces are large.
+pub fn kept_equations(model: &Model, near: usize) -> usize {
+    let surfaces = surfaces(model).concat();
+    let nodes: BTreeSet<NodeId> = surfaces.iter().copied().collect();
+    let free = |node: &NodeId| model.restraints_of(*node).iter().filter(|held| !**held).count();
+    let all = nodes.iter().map(free).sum();
+    let (neighbours, part) = MARGIN;
+    let bound = (near as f64 * (1.0 + part)) as usize + 2 * neighbours;
+    if surfaces.len() <= SMALL { all } else { all.min(4 * bound) }
+}
+
+impl Bodies {
+    pub(in crate::answer) fn new(model: &Arc<Model>, shared: &Shared) -> Self {
+        Bodies {
+            model: Arc::clone(model),
+            shared: shared.clone(),
+            surfaces: surfaces(model),
+            current: RefCell::default(),
+            loaded: RefCell::default(),
+            expected: Vec::new(),
+            begun: Cell::new(false),
+            impossible: Cell::new(!model.has_contact()),
+        }
+    }
+
+    /// Expects that the entries of the contact surface with the least gaps come into contact; of few
+    /// equations, those that the first state binds.
+    pub(in crate::answer) fn expecting(mut self, pairings: &[Option<Pairing>]) -> Self {
+        let (part, least) = EXPECTED;
+        let equations = self.model.free_dofs();
+        if equations < least {
+            self.begun.set(true);
+            return self;
+        }
+        let mut nearest: Vec<&Pairing> = pairings.iter().flatten().collect();
+        nearest.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+        let most = part * (equations as f64).sqrt();
+        let nodes = |p: &&Pairing| {
+            let masters = p.masters.iter().map(|(master, _)| *master);
+            std::iter::once(p.node).chain(masters).collect::<Vec<_>>()
+        };
+        self.expected = nearest.iter().take(most as usize).flat_map(nodes).collect();
+        self
+    }
+
+    /// Returns the bodies condensed to the nodes of `constraints` and others; None where the whole
+    /// matrix is to be factored. On large surfaces of which nothing is expected the first state only
+    /// shows which nodes are bound.
+    pub(in crate::answer) fn condensed(
+        &self,
+        stiffness: &Stiffness,
+        constraints: &[Constraint],
+    ) -> Option<Arc<Condensation>> {
+        let first = !self.begun.replace(true);
+        let unforeseen = first && !self.is_small() && self.expected.is_empty();
+        if self.impossible.get() || unforeseen {
+            return None;
+        }
+        let current = self.current.borrow().clone().filter(|c| c.has(constraints));
+        if current.is_some() {
+            return current;
+        }
+        let expected: &[NodeId] = if first { &self.expected } else { &[] };
+        let nodes = self.nodes(constraints, expected);
+        if nodes.len() > self.most() {
+            return None;
+        }
+        let made = self.shared.condensed(stiffness, &self.model, nodes);
+        self.impossible.set(made.is_none());
+        self.current.replace(made.clone());
+        made
+    }
+
+    /// Returns what is left of a load by degree of freedom on the kept equations of a state.
+    pub(in crate::answer) fn eliminated(
+        &self,
+        state: &OnKept,
+        load: &DVector<f64>,
+    ) -> Rc<Eliminated> {
+        let condensation = state.condensation();
+        let mut last = self.loaded.borrow_mut();
+        let known = last
+            .take()
+            .filter(|last| Arc::ptr_eq(&last.condensation, condensation) && last.load == *load);
+        let loaded = known.unwrap_or_else(|| Loaded {
+            condensation: Arc::clone(condensation),
+            load: load.clone(),
+            eliminated: Rc::new(condensation.eliminated(load)),
+        });
+        Rc::clone(&last.insert(loaded).eliminated)
+    }
+
+    /// Returns the condensed bodies that served last; None where there are none.
+    pub(in crate::answer) fn last(&self) -> Option<Arc<Condensation>> {
+        self.current.borrow().clone()
+    }
+
+    fn is_small(&self) -> bool {
+        self.surfaces.iter().map(Vec::len).sum::<usize>() <= SMALL
+    }
+
+    fn most(&self) -> usize {
+        MOST.0.max(MOST.1 * (self.model.free_dofs() as f64).sqrt()) as usize
+    }
+
+    /// Returns the nodes to be kept for `constraints` and for what is expected.
+    fn nodes(&self, constraints: &[Constraint], expected: &[NodeId]) -> BTreeSet<NodeId> {
+        let all = self.surfaces.iter().flatten().copied();
+        if self.is_small() {
+            return all.collect();
+        }
+        let bound: BTreeSet<NodeId> = constraints
+            .iter()
+            .flat_map(Constraint::nodes)
+            .chain(expected.iter().copied())
+            .collect();
+        let mut nodes = bound.clone();
+        for surface in &self.surfaces {
+            let at: Vec<usize> =
+                (0..surface.len()).filter(|i| bound.contains(&surface[*i])).collect();
+            let margin = MARGIN.0 + (MARGIN.1 * at.len() as f64) as usize;
+            let mut from = 0;
+            for i in at {
+                let last = (i + margin).min(surface.len() - 1);
+                nodes.extend(surface.get(from.max(i.saturating_sub(margin))..=last).unwrap_or(&[]));
+                from = last + 1;
+            }
+        }
+        nodes
+    }
+}

@@ -1,0 +1,24 @@
+//! The stiffness condensed to the nodes that contact can bind. The bodies are factored once; each
+//! contact state Tᵀ K T is solved on these nodes alone.
+//!
+//! ```text
+//!   K --Condensation--> S on the kept nodes --T of a state--> Tᵀ S T, dense, factored for each state
+//! ```
+//!
+//! Kept are all nodes of small surfaces, else those that a state binds and their neighbours; when a
+//! state binds others, the bodies are condensed anew ([`bodies`]). Where that cannot be done or
+//! trusted, a state has no such factors: its whole matrix is to be factored.
+//!
+//! The search for a contact state goes on with S alone ([`OnKept`]); where every digit counts, the
+//! factors of Tᵀ S T serve to refine the solution of the whole equations ([`Bound`]).
+
+mod bodies;
+mod refinement;
+mod schur;
+mod state;
+
+pub use bodies::kept_equations;
+pub(super) use bodies::{Bodies, Shared};
+pub(super) use refinement::refined;
+pub use schur::Condensation;
+pub(super) use state::{Bound, OnKept};

@@ -1,0 +1,104 @@
+//! The bodies factored once, and what is left of them on the kept nodes: the Schur complement S.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use crate::answer::elimination::{Constraint, Elimination};
+use crate::answer::stiffness::Stiffness;
+use crate::numbers::solve::{Condensed, Eliminated, SparseSymmetric};
+use crate::problem::model::{Dof, Model, NodeId};
+
+/// The stiffness condensed to some nodes.
+pub struct Condensation {
+    model: Arc<Model>,
+    pub(super) nodes: BTreeSet<NodeId>,
+    pub(super) condensed: Condensed,
+    /// The degree of freedom of each equation of the unconstrained bodies.
+    pub(super) dofs: Vec<Dof>,
+    /// The degrees of freedom that are kept.
+    pub(super) kept: Vec<Dof>,
+    /// Whether each degree of freedom is kept, or restrained at a kept node.
+    pub(super) is_kept: Vec<bool>,
+    /// Whether each degree of freedom is restrained or inside.
+    pub(super) is_outside: Vec<bool>,
+    /// The largest row sum of |K|, force/length.
+    pub(super) norm: f64,
+    /// The same of |S|.
+    pub(super) kept_norm: f64,
+}
+
+impl Condensation {
+    pub(super) fn new(
+        stiffness: &Stiffness,
+        model: &Arc<Model>,
+        nodes: BTreeSet<NodeId>,
+    ) -> Option<Self> {
+        let free = Elimination::new(&model.restrained, &[]);
+        let matrix: SparseSymmetric = stiffness.reduced(&free);
+        let mut is_kept = vec![false; model.dofs()];
+        nodes.iter().flat_map(|node| node.dofs()).for_each(|dof| is_kept[dof.index()] = true);
+        let dofs: Vec<Dof> = (0..free.size()).map(|column| free.dof(column)).collect();
+        let equations: Vec<usize> = (0..dofs.len()).filter(|e| is_kept[dofs[*e].index()]).collect();
+        let kept = equations.iter().map(|e| dofs[*e]).collect();
+        let condensed = Condensed::new(&matrix, &equations)?;
+        let outside = |(restrained, kept): (&bool, &bool)| *restrained || !kept;
+        let is_outside = model.restrained.iter().zip(&is_kept).map(outside).collect();
+        let (model, norm) = (Arc::clone(model), matrix.norm());
+        let kept_norm = condensed.schur().column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
+        Some(Condensation {
+            model,
+            nodes,
+            condensed,
+            dofs,
+            kept,
+            is_kept,
+            is_outside,
+            norm,
+            kept_norm,
+        })
+    }
+
+    /// Returns what is left of a load by degree of freedom on the kept equations.
+    pub(super) fn eliminated(&self, load: &DVector<f64>) -> Eliminated {
+        let load = self.dofs.iter().map(|dof| load[dof.index()]);
+        self.condensed.eliminate(&DVector::from_iterator(self.dofs.len(), load))
+    }
+
+    /// Returns the part on the kept equations of a vector by degree of freedom.
+    pub(super) fn part(&self, all: &DVector<f64>) -> DVector<f64> {
+        DVector::from_iterator(self.kept.len(), self.kept.iter().map(|dof| all[dof.index()]))
+    }
+
+    /// Returns the vector by degree of freedom with a part on the kept equations, 0 elsewhere.
+    pub(super) fn whole(&self, part: &DVector<f64>) -> DVector<f64> {
+        let mut all = DVector::zeros(self.is_kept.len());
+        self.kept.iter().zip(part).for_each(|(dof, x)| all[dof.index()] = *x);
+        all
+    }
+
+    /// Returns the displacements by degree of freedom from those of the kept equations.
+    pub(super) fn expand(&self, load: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
+        let mut u = DVector::zeros(self.is_kept.len());
+        let all = self.condensed.expand(load, kept);
+        self.dofs.iter().zip(&all).for_each(|(dof, x)| u[dof.index()] = *x);
+        u
+    }
+
+    /// Returns whether it is that of the bodies of `model`.
+    pub(super) fn is_of(&self, model: &Model) -> bool {
+        let (own, other) = (&*self.model, model);
+        own.plane == other.plane
+            && own.thickness == other.thickness
+            && own.restrained == other.restrained
+            && own.nodes == other.nodes
+            && own.triangles == other.triangles
+    }
+
+    /// Returns whether it keeps every node that `constraints` name.
+    pub(in crate::answer) fn has(&self, constraints: &[Constraint]) -> bool {
+        let mut nodes = constraints.iter().flat_map(Constraint::nodes);
+        nodes.all(|node| self.is_kept[node.dofs()[0].index()])
+    }
+}
