@@ -18,6 +18,28 @@ const LAYERS: &[&[&str]] = &[
     &["commands", "main"],
 ];
 
+/// The names that the top level may have.
+const TOP: &[&str] = &[
+    ".ci",
+    ".gitignore",
+    "CHANGELOG.md",
+    "Cargo.lock",
+    "Cargo.toml",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "README.md",
+    "SECURITY.md",
+    "benches",
+    "deny.toml",
+    "examples",
+    "fuzz",
+    "golden",
+    "listings",
+    "rustfmt.toml",
+    "src",
+    "tests",
+];
+
 /// A source file: its module path and what it imports, in the words of the file.
 struct Source {
     path: PathBuf,
@@ -398,4 +420,21 @@ fn braces_circles_and_names_are_found() {
     assert_eq!(code("a // .S[\n\"EL\" b"), "a \n\"\" b");
     let quotes = r##"a("//b", '"', '\'', r"\", r#"c"d"#, "\"e"): &'f g"##;
     assert_eq!(code(quotes), r#"a("", ', ', "", "", ""): &'f g"#);
+}
+
+/// What stands at the top: what the project is made of, and what Cargo and git conventions call for.
+#[test]
+fn the_top_level_has_what_belongs_there() {
+    let output = std::process::Command::new("git")
+        .args(["ls-files", "-z"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output();
+    // Without git, or outside a repository, nothing tells a file of the project from a result.
+    let Some(output) = output.ok().filter(|output| output.status.success()) else { return };
+    let files = String::from_utf8(output.stdout).expect("names are UTF-8");
+    let top = |file: &str| file.split('/').next().expect("a name").to_string();
+    let found: BTreeSet<String> = files.split_terminator('\0').map(top).collect();
+    let known: BTreeSet<String> = TOP.iter().map(ToString::to_string).collect();
+    let unknown: Vec<&String> = found.difference(&known).collect();
+    assert!(unknown.is_empty(), "{unknown:?} do not belong at the top level");
 }

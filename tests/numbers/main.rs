@@ -18,6 +18,7 @@ mod discretisation;
 mod element;
 mod error_estimates;
 mod extremes;
+mod largest;
 mod precisions;
 mod scalars;
 mod singular;

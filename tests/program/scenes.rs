@@ -1,12 +1,16 @@
 //! Scenes that are refused: what is wrong, where, and how to fix it; and the forms that a scene may
 //! take.
 
+use std::sync::Arc;
+
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
 use plane_contact::answer::Request;
 use plane_contact::error::InputError;
 use plane_contact::paper::door;
 use plane_contact::paper::mirror::Worksheet;
+use plane_contact::problem::model::{NodeId, TriangleId};
+use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use serde_json::{Value, json};
 
@@ -35,6 +39,60 @@ fn sheet(scene: &Scene) -> Worksheet<f64> {
 
 fn push(list: &mut Value, value: Value) {
     list.as_array_mut().expect("a list").push(value);
+}
+
+/// The model of a request is the scene's own, not a copy, unless something changes it.
+#[test]
+fn the_model_of_a_request() {
+    let scene = Scene::open("fig1").expect("embedded");
+    let own = |request: &Request| {
+        Arc::ptr_eq(&request.model().expect("the request is sound"), &scene.model)
+    };
+    let request = Request::new(&scene);
+    let of = |variant| request.clone().variant(variant);
+    assert!(Variant::ALL.iter().all(|variant| own(&of(*variant))));
+    let mut finer = request.clone();
+    finer.tolerance = Some(1e-5);
+    assert!(!own(&finer));
+    assert_eq!(finer.model().unwrap().contact.tolerance, 1e-5);
+    for (reading, expected) in [("R6=stress", false), ("R8=m", false), ("R3=nested", true)] {
+        assert_eq!(own(&request.clone().reading(reading.parse().unwrap())), expected, "{reading}");
+    }
+    let mut backwards = scene_json("fig1");
+    backwards["contact"]["cnt"].as_array_mut().expect("a list").reverse();
+    let turned = Request::new(&build(&backwards).expect("a sound scene"));
+    let contact = |variant| turned.clone().variant(variant).model().unwrap().contact.clone();
+    let listed: Vec<NodeId> = scene.model.contact.nodes.iter().rev().copied().collect();
+    assert_eq!(contact(Variant::Tied).nodes, listed);
+    assert_eq!(contact(Variant::Unilateral), of(Variant::Unilateral).model().unwrap().contact);
+}
+
+/// What lies beside the side between any two nodes, against a look at every triangle.
+#[test]
+fn sides() {
+    for name in ["fig1", "two-blocks"] {
+        let model = &*Scene::open(name).expect("embedded").model;
+        for (a, b) in model.node_ids().flat_map(|a| model.node_ids().map(move |b| (a, b))) {
+            let has = |id: &TriangleId| {
+                a != b && [a, b].iter().all(|node| model.triangle(*id).nodes.contains(node))
+            };
+            let expected: Vec<TriangleId> = model.triangle_ids().filter(has).collect();
+            let beside = model.sides.beside([a, b]);
+            let triangles: Vec<TriangleId> = beside.iter().map(|one| one.triangle).collect();
+            assert_eq!(triangles, expected, "{name}: {a}, {b}");
+            for one in beside {
+                // The three nodes go round the triangle as it lists them.
+                let [from, to] = one.nodes;
+                let nodes = model.triangle(one.triangle).nodes;
+                let turned = [[from, to, one.third], [to, one.third, from], [one.third, from, to]];
+                assert!(turned.contains(&nodes), "{name}: {a}, {b}");
+            }
+            let boundary = if let [one] = beside { Some(*one) } else { None };
+            assert_eq!(model.sides.boundary([a, b]), boundary, "{name}: {a}, {b}");
+        }
+        let none = NodeId::new(model.nodes.len());
+        assert!(model.sides.beside([none, NodeId::new(0)]).is_empty());
+    }
 }
 
 #[test]
