@@ -1,7 +1,7 @@
 //! What a run takes: operations and bytes.
 //!
 //! Counted: operations of the factorisations, numbers in the matrices. Measured, on meshes of 13 to
-//! 15,045 nodes, and stated as constants: what a node, a triangle, an entry takes besides.
+//! 481,570 nodes, and stated as constants: what a node, a triangle, an entry takes besides.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -60,12 +60,14 @@ impl Bytes {
 
 /// The program's pages and the allocator's first ones, bytes.
 const PROGRAM: f64 = 14.5e6;
-/// Bytes of a triangle and its share of the nodes: worksheet, strain matrix, stiffness, states,
+/// Bytes of a triangle and its share of the nodes: mesh, model, what its matrix is made of, states,
 /// sparse matrix, pictures.
-const TRIANGLE: f64 = 3700.0;
-/// Bytes that are freed and not given back at once, of a triangle; and at most. Without contact,
-/// and with it.
-const FREED: [[f64; 2]; 2] = [[12e3, 17e6], [25e3, 13e6]];
+const TRIANGLE: f64 = 1550.0;
+/// Bytes of what is written, and of what is freed and not given back at once, of a triangle; and at
+/// most. Without contact, and with it.
+const FREED: [[f64; 2]; 2] = [[8.5e3, 90e6], [9.5e3, 90e6]];
+/// Bytes of a node in a contact state of `unilateral` under friction: friction and shape.
+const BYTES_OF_A_STATE: f64 = 32.0;
 /// Bytes of an entry of the printed matrix while its error is bounded: the matrix with a bound on
 /// each entry, its values, their factors.
 const PRINTED_BOUND: f64 = 43.0;
@@ -150,15 +152,16 @@ impl Work<'_> {
     fn bytes(&self, states: usize) -> Bytes {
         let (r, m) = (self.model.nodes.len() as f64, self.model.triangles.len() as f64);
         let [each, most] = FREED[usize::from(self.candidates.is_some())];
-        let kept = match self.request.variant {
-            Variant::Unilateral => states,
-            _ => self.request.iterations + self.reference_states(),
+        let kept = match (self.request.variant, self.request.contact.friction) {
+            (Variant::Unilateral, Friction::NONE) => 0.0,
+            (Variant::Unilateral, _) => BYTES_OF_A_STATE * states as f64,
+            _ => BYTES_OF_A_NODE * self.request.iterations as f64,
         };
         Bytes {
             program: PROGRAM,
             mesh: TRIANGLE * m + (each * m).min(most),
             matrices: self.dense_bytes() + FACTOR * self.sparse.nonzeros as f64,
-            iterations: BYTES_OF_A_NODE * r * kept as f64,
+            iterations: r * kept,
         }
     }
 
