@@ -37,7 +37,7 @@ impl Problem<'_> {
         let pairing =
             |i: usize| place.pairings[i].as_ref().expect("only entries that face a target");
         let restrained = |i: &usize| self.model.restraints_of(pairing(*i).node).contains(&true);
-        let mu = self.friction();
+        let mu = self.friction;
         if mu.is_infinite() || entries.len() > MOST || entries.iter().any(restrained) {
             return None;
         }
@@ -136,7 +136,7 @@ impl Problem<'_> {
     ) -> Option<DVector<f64>> {
         let n = entries.len();
         let mut statuses = vec![Status::Open; place.pairings.len()];
-        let held = if self.friction() == 0.0 { Status::Slip(Sense::Free) } else { Status::Stick };
+        let held = if self.friction == 0.0 { Status::Slip(Sense::Free) } else { Status::Stick };
         entries.iter().for_each(|i| statuses[*i] = held);
         let mut constraints = self.constraints(place, &statuses, setting);
         let mut own = Setting { load: setting.load.clone(), ..*setting };

@@ -31,7 +31,7 @@ pub(super) fn uniqueness(
     if let Some(node) = indifferent(problem, found, &setting) {
         return Uniqueness::Indifferent { node };
     }
-    if problem.friction() == 0.0 {
+    if problem.friction == 0.0 {
         return Uniqueness::Unique;
     }
     let place = &found.place;
@@ -124,7 +124,7 @@ impl Problem<'_> {
         let slips = [Status::Slip(Sense::Forward), Status::Slip(Sense::Backward)];
         match (&place.pairings[i], self.closing(place, i)) {
             (None, _) => vec![Status::Open],
-            (_, Status::Stick) if self.friction().is_finite() => {
+            (_, Status::Stick) if self.friction.is_finite() => {
                 [&[Status::Open, Status::Stick][..], &slips].concat()
             }
             (_, closed) => vec![Status::Open, closed],

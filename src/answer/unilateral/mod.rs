@@ -33,14 +33,17 @@
 mod condensed;
 mod equilibria;
 mod forces;
+mod imposed;
 mod lemke;
 mod path;
 mod problem;
 mod reduced;
 mod rigid;
+mod search;
 mod status;
+mod unrestrained;
 
-pub(super) use problem::{FIRST_GROWTH, PATIENCE};
+pub(super) use search::{FIRST_GROWTH, PATIENCE};
 
 use super::error::{Error, NoEquilibrium};
 use super::request::Request;

@@ -48,7 +48,7 @@ struct End {
 /// # Errors
 /// No equilibrium was found, or nothing restrains the bodies.
 pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
-    let with_friction = problem.friction() > 0.0;
+    let with_friction = problem.friction > 0.0;
     let per_stage = if with_friction { problem.request.contact.load_steps } else { 1 };
     let end = follow(problem, per_stage, watch)?;
     let path = with_friction.then(|| Path {
@@ -62,7 +62,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
 
 /// Follows the path in `per_stage` steps a stage.
 fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> Result<End, Error> {
-    let with_friction = problem.friction() > 0.0;
+    let with_friction = problem.friction > 0.0;
     // Without friction only the whole load counts.
     let stages = if with_friction { problem.model.stages.len() } else { 1 };
     let zero = DVector::zeros(problem.model.dofs());
@@ -151,7 +151,7 @@ impl Walk<'_> {
     fn load(&self, part: f64) -> DVector<f64> {
         let model = self.problem.model;
         // Without friction the path is the whole load.
-        if self.problem.friction() > 0.0 { model.load_after(part) } else { &model.load * part }
+        if self.problem.friction > 0.0 { model.load_after(part) } else { &model.load * part }
     }
 
     /// Goes to the load `to` in one step.

@@ -1,0 +1,179 @@
+//! What imposed statuses lead to: displacements, the forces of contact, and the friction of nodes that
+//! slide.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::forces::{self, Contact, Force, forces};
+use super::problem::{Moved, Place, Problem, Setting, Solved};
+use super::reduced::{Elastic, OnSurface, Reduced, Responds};
+use crate::answer::contact::{Pairing, Status};
+use crate::answer::elimination::{Constraint, Elimination};
+use crate::answer::error::{Error, NoEquilibrium};
+use crate::answer::factors::LastFactors;
+use crate::numbers::solve::{Singular, SparseCholesky, SparseSymmetric};
+
+/// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
+const SOFT: f64 = 1e-8;
+
+impl Problem<'_> {
+    /// Solves for the displacements and forces under imposed statuses.
+    pub(super) fn solve(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        constraints: &[Constraint],
+        setting: &Setting,
+    ) -> Result<Solved, Error> {
+        let load = &setting.load;
+        if !setting.whole
+            && let Some(surface) = OnSurface::new(self.elastic(), constraints)
+            && let Ok(solved) = surface.displacements(load)
+        {
+            return self.moved(place, statuses, load, solved, &surface);
+        }
+        let t = Elimination::closing(&self.model.restrained, constraints);
+        let reduced = match Reduced::new(self.elastic(), &t, constraints, statuses) {
+            Ok(reduced) => reduced,
+            Err(singular) => return Ok(self.free(&t, singular, load)),
+        };
+        match reduced.displacements(load) {
+            Ok(solved) => self.moved(place, statuses, load, solved, &reduced),
+            Err(singular) => Ok(self.free(&t, singular, load)),
+        }
+    }
+
+    /// Adds the forces of contact, and what friction does, to the displacements.
+    fn moved(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        load: &DVector<f64>,
+        (u, residual): (DVector<f64>, f64),
+        bodies: &dyn Responds,
+    ) -> Result<Solved, Error> {
+        let reaction = bodies.reaction(&u, load);
+        let forces = self.forces(place, statuses, &reaction);
+        let friction = Arc::clone(&self.no_friction);
+        let whole = bodies.are_whole();
+        let mut moved = Moved { u, forces, friction, feedback: 0.0, reaction, residual, whole };
+        self.slide(place, statuses, &mut moved, bodies)?;
+        Ok(Solved::Moved(moved))
+    }
+
+    /// Returns the factors that were made last.
+    pub(super) fn last_factors(&self) -> LastFactors {
+        match (self.last.made(), self.bodies.last()) {
+            (Some(whole), _) => LastFactors::Whole(whole),
+            (None, Some(condensed)) => LastFactors::Condensed(condensed),
+            (None, None) => LastFactors::Unknown,
+        }
+    }
+
+    fn elastic(&self) -> Elastic<'_> {
+        let Problem { model, stiffness, bodies, last, .. } = self;
+        Elastic { model, stiffness, bodies, last }
+    }
+
+    fn free(&self, t: &Elimination, singular: Singular, load: &DVector<f64>) -> Solved {
+        let motion = free_motion(t, &self.stiffness.reduced(t), &self.model.free_part(load));
+        Solved::Free { dof: t.dof(singular.column), motion }
+    }
+
+    /// Adds the friction of sliding nodes, whose size is μ times the normal forces that it leads to.
+    ///
+    /// # Errors
+    /// No size of the friction agrees with its normal forces.
+    fn slide(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        moved: &mut Moved,
+        bodies: &dyn Responds,
+    ) -> Result<(), NoEquilibrium> {
+        let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
+            .filter_map(|i| match statuses[i] {
+                Status::Slip(sense) if sense.sign() != 0.0 => {
+                    Some((i, sense.sign(), place.pairings[i].as_ref()?))
+                }
+                _ => None,
+            })
+            .collect();
+        if sliding.is_empty() {
+            return Ok(());
+        }
+        let unit = Force { tangent: 1.0, ..Force::default() };
+        let response = |(_, _, pairing): &(usize, f64, &Pairing)| {
+            let mut load = DVector::zeros(moved.u.len());
+            forces::add(pairing, unit, 1.0, &mut load);
+            let reaction = bodies.response(&load)?;
+            Ok((load, reaction))
+        };
+        let responses: Result<Vec<_>, Singular> = sliding.iter().map(response).collect();
+        let responses = responses.map_err(|_| jammed())?;
+        let n = sliding.len();
+        let mut matrix = DMatrix::identity(n, n);
+        for (column, (_, reaction)) in responses.iter().enumerate() {
+            let forces = self.forces(place, statuses, reaction);
+            for (row, (i, sign, _)) in sliding.iter().enumerate() {
+                matrix[(row, column)] += sign * self.friction * forces[*i].normal;
+            }
+        }
+        let right = DVector::from_fn(n, |row, _| {
+            let (i, sign, _) = sliding[row];
+            -sign * self.friction * moved.forces[i].normal
+        });
+        let matrix = matrix.lu();
+        let sizes = matrix.solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
+        let sizes = sizes.ok_or_else(jammed)?;
+        let rows = matrix.try_inverse().ok_or_else(jammed)?;
+        moved.feedback = rows.row_iter().map(|row| row.lp_norm(1)).fold(0.0, f64::max);
+        let mut friction = DVector::zeros(moved.u.len());
+        for ((load, _), size) in responses.iter().zip(&sizes) {
+            friction.axpy(*size, load, 1.0);
+        }
+        moved.friction = Arc::new(friction);
+        let [u, force] = bodies.under(&moved.friction).map_err(|_| jammed())?;
+        moved.reaction += force;
+        moved.u += u;
+        moved.forces = self.forces(place, statuses, &(&moved.reaction - &*moved.friction));
+        for ((i, _, _), size) in sliding.iter().zip(&sizes) {
+            moved.forces[*i].tangent = *size;
+        }
+        Ok(())
+    }
+
+    /// Returns the forces of all entries; 0 where an entry is open.
+    pub(super) fn forces(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        reaction: &DVector<f64>,
+    ) -> Vec<Force> {
+        let closed: Vec<usize> = (0..statuses.len())
+            .filter(|&i| statuses[i].is_closed() && place.pairings[i].is_some())
+            .collect();
+        let contact = |i: &usize| Contact {
+            pairing: place.pairings[*i].as_ref().expect("closed entries face the target"),
+            sticks: statuses[*i] == Status::Stick,
+        };
+        let contacts: Vec<Contact> = closed.iter().map(contact).collect();
+        let mut all = vec![Force::default(); statuses.len()];
+        for (i, force) in closed.into_iter().zip(forces(self.model, &contacts, reaction)) {
+            all[i] = force;
+        }
+        all
+    }
+}
+
+fn jammed() -> NoEquilibrium {
+    let what = "the sliding nodes jam: no friction agrees with its own normal forces".into();
+    NoEquilibrium { what }
+}
+
+/// Returns the motion that constraints leave free where only soft springs oppose the load.
+fn free_motion(t: &Elimination, k: &SparseSymmetric, load: &DVector<f64>) -> Option<DVector<f64>> {
+    let q = SparseCholesky::new(k.with_diagonal(SOFT)).ok()?.solve(&t.load(load));
+    Some(t.expand(&q) - t.shift())
+}

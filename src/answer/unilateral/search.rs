@@ -1,0 +1,307 @@
+//! The search for the equilibrium under one load: statuses are imposed, and the next ones follow from
+//! the forces, gaps and slips.
+
+use nalgebra::DVector;
+
+use super::forces::{Force, tangent};
+use super::problem::{
+    CONE, Equilibrium, Iteration, Moved, Place, Problem, Setting, Solved, Watch, violation,
+};
+use super::rigid;
+use super::status::{Memory, first_closed, nearest_open, next_closed};
+use crate::answer::contact::{Pairing, Sense, Status};
+use crate::answer::error::{Error, NoEquilibrium};
+
+/// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
+/// second set takes those that penetrate by more than this part of the deepest penetration.
+pub const FIRST_GROWTH: f64 = 0.9;
+
+/// The number of iterations beyond one for each contact node after which the search ends.
+pub const PATIENCE: usize = 100;
+
+/// The change of the displacements, over the largest, below which a shape agrees with the one in
+/// which its contact was measured.
+const SETTLED: f64 = 1e-12;
+
+/// The same where rounding lets the change shrink no further.
+const STALLED: f64 = 1e-8;
+
+/// The number of shapes in which contact is measured before the search ends.
+const SHAPES: usize = 60;
+
+/// The part of the largest force below which a pull is rounding.
+const PULL: f64 = 1e-11;
+
+impl Problem<'_> {
+    /// Finds the equilibrium of a setting.
+    pub(super) fn equilibrium(
+        &self,
+        setting: &Setting,
+        watch: &mut Watch,
+    ) -> Result<Equilibrium, Error> {
+        let mut gaps = Vec::new();
+        let mut first: Option<(Vec<Status>, Vec<Option<f64>>)> = None;
+        let mut keep_first = |place: &Place, iteration: &Iteration| {
+            first.get_or_insert_with(|| (iteration.statuses.clone(), iteration.gaps.clone()));
+            watch(place, iteration);
+        };
+        let mut start = setting.statuses.map(<[Status]>::to_vec);
+        let mut before: Option<(DVector<f64>, f64)> = None;
+        let mut memory = Memory::default();
+        for _ in 0..SHAPES {
+            memory.move_on();
+            let place = self.place(before.as_ref().map_or(setting.before, |(u, _)| u));
+            if before.is_none() {
+                gaps = self.gaps(&place, setting.before);
+            }
+            let last = self.settle(&place, start, setting, &mut memory, &mut keep_first)?;
+            let change = match &before {
+                _ if !self.is_current() => 0.0,
+                Some((u, _)) => (&last.moved.u - u).amax(),
+                None => f64::INFINITY,
+            };
+            let scale = last.moved.u.amax();
+            let stalled = before.as_ref().is_some_and(|(_, old)| change > old / 2.0);
+            if change <= SETTLED * scale || (stalled && change <= STALLED * scale) {
+                let closing = first.and_then(|first| self.first_closing(&gaps, first, &last));
+                return Ok(Equilibrium { place, last, closing, shape_change: change });
+            }
+            before = Some((last.moved.u, change));
+            start = Some(last.statuses);
+        }
+        let what =
+            format!("the shape did not settle when contact was measured in it {SHAPES} times");
+        Err(NoEquilibrium { what }.into())
+    }
+
+    /// Solves the last contact state of an equilibrium again, on the whole bodies, unless it was
+    /// solved there; where that asks for other statuses, searches on from it there.
+    pub(super) fn confirmed(
+        &self,
+        found: Equilibrium,
+        setting: &Setting,
+        watch: &mut Watch,
+    ) -> Result<Equilibrium, Error> {
+        if found.last.moved.whole {
+            return Ok(found);
+        }
+        let Equilibrium { place, last, closing, shape_change } = found;
+        let Iteration { statuses, constraints, cycle, .. } = last;
+        if let Solved::Moved(moved) = self.solve(&place, &statuses, &constraints, setting)? {
+            let gaps = self.gaps(&place, &moved.u);
+            let violation = violation(&gaps, &statuses);
+            let last = Iteration { statuses, constraints, cycle, moved, gaps, violation };
+            if self.wanted(&place, &last, setting, false) == last.statuses {
+                return Ok(Equilibrium { place, last, closing, shape_change });
+            }
+            let setting =
+                Setting { load: setting.load.clone(), statuses: Some(&last.statuses), ..*setting };
+            return self.equilibrium(&setting, watch);
+        }
+        self.equilibrium(setting, watch)
+    }
+
+    /// Returns the part of a step after which the first node closes that closed in it, from its gaps
+    /// before the step and those that the statuses before the step led to.
+    fn first_closing(
+        &self,
+        before: &[Option<f64>],
+        (statuses, after): (Vec<Status>, Vec<Option<f64>>),
+        last: &Iteration,
+    ) -> Option<f64> {
+        let part = |i: usize| {
+            let closed = statuses[i] == Status::Open && last.statuses[i].is_closed();
+            let (from, to) = (before[i]?, after[i]?);
+            (closed && from > self.closed && to < -self.closed).then(|| from / (from - to))
+        };
+        (0..statuses.len()).filter_map(part).reduce(f64::min)
+    }
+
+    /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active
+    /// set, and where that finds none, by Lemke's method.
+    fn settle(
+        &self,
+        place: &Place,
+        start: Option<Vec<Status>>,
+        setting: &Setting,
+        memory: &mut Memory,
+        watch: &mut Watch,
+    ) -> Result<Iteration, Error> {
+        let found = self.active_set(place, start, setting, memory, watch);
+        let Err(Error::Equilibrium(NoEquilibrium { what })) = found else { return found };
+        if self.friction == 0.0
+            && let Some(dof) = rigid::escape(self.model, &place.pairings, &setting.load)
+        {
+            return Err(self.escapes(dof).into());
+        }
+        let Some(statuses) = self.complementary(place, setting) else {
+            return Err(NoEquilibrium { what }.into());
+        };
+        memory.move_on();
+        self.active_set(place, Some(statuses), setting, memory, watch)
+    }
+
+    /// Goes from statuses to those that they ask for, until they ask for themselves.
+    fn active_set(
+        &self,
+        place: &Place,
+        start: Option<Vec<Status>>,
+        setting: &Setting,
+        memory: &mut Memory,
+        watch: &mut Watch,
+    ) -> Result<Iteration, Error> {
+        let mut statuses = start.unwrap_or_else(|| self.first(place, setting.before));
+        let limit = PATIENCE + self.model.contact.nodes.len();
+        for _ in 0..limit {
+            let iteration = self.iteration(place, statuses, setting, memory)?;
+            watch(place, &iteration);
+            let wanted = self.wanted(place, &iteration, setting, memory.iterations == 1);
+            if wanted == iteration.statuses {
+                return Ok(iteration);
+            }
+            statuses = memory.next(&iteration.statuses, wanted);
+        }
+        let never_slides = match self.friction.is_infinite() {
+            true => "; where no node may slide there may be none: give a finite coefficient",
+            false => "",
+        };
+        let what = format!(
+            "no contact state in equilibrium was found in {limit} iterations{}{never_slides}",
+            memory.returned()
+        );
+        Err(NoEquilibrium { what }.into())
+    }
+
+    fn first(&self, place: &Place, u: &DVector<f64>) -> Vec<Status> {
+        let closed = first_closed(&self.gaps(place, u), self.closed);
+        let status = |i: usize| if closed[i] { self.closing(place, i) } else { Status::Open };
+        (0..closed.len()).map(status).collect()
+    }
+
+    /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
+    fn wanted(
+        &self,
+        place: &Place,
+        iteration: &Iteration,
+        setting: &Setting,
+        first: bool,
+    ) -> Vec<Status> {
+        let growth = first && setting.statuses.is_none();
+        let deep = if growth { FIRST_GROWTH * iteration.violation } else { 0.0 }.max(self.closed);
+        let rounding = CONE * iteration.moved.u.amax();
+        let largest = iteration.moved.forces.iter().map(|f| f.normal).fold(0.0, f64::max);
+        let status = |i: usize| {
+            let (Some(pairing), Some(gap)) = (&place.pairings[i], iteration.gaps[i]) else {
+                return Status::Open;
+            };
+            let Force { normal, tangent, undetermined } = iteration.moved.forces[i];
+            match iteration.statuses[i] {
+                Status::Open if gap < -deep => self.closing(place, i),
+                Status::Open => Status::Open,
+                _ if normal < -PULL * largest => Status::Open,
+                _ if undetermined && gap > self.closed => Status::Open,
+                Status::Stick if tangent.abs() > self.friction * normal * (1.0 + CONE) => {
+                    Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
+                }
+                Status::Slip(sense)
+                    if sense.sign() * self.slip(pairing, iteration, setting) < -rounding =>
+                {
+                    Status::Stick
+                }
+                kept => kept,
+            }
+        };
+        (0..iteration.statuses.len()).map(status).collect()
+    }
+
+    /// Returns the least force of a node in contact, and the least friction that one that sticks has
+    /// left, over the largest force; infinite where nothing is in contact.
+    pub(super) fn margin(&self, iteration: &Iteration) -> f64 {
+        let pairs = || iteration.statuses.iter().zip(&iteration.moved.forces);
+        let largest = pairs().map(|(_, force)| force.normal.abs()).fold(0.0, f64::max);
+        let left = |(status, force): (&Status, &Force)| match status {
+            Status::Open => f64::INFINITY,
+            Status::Stick if self.friction.is_finite() => {
+                force.normal.abs().min((self.friction * force.normal - force.tangent.abs()).abs())
+            }
+            _ => force.normal.abs(),
+        };
+        pairs().map(left).fold(f64::INFINITY, f64::min) / largest
+    }
+
+    /// Returns how far a node slipped along the tangent in a step of the load, length.
+    fn slip(&self, pairing: &Pairing, iteration: &Iteration, setting: &Setting) -> f64 {
+        let [ux, uy] = pairing.motion(|n| n.of(&iteration.moved.u));
+        let [bx, by] = pairing.motion(|n| n.of(setting.before));
+        let [tx, ty] = tangent(pairing);
+        tx * (ux - bx) + ty * (uy - by)
+    }
+
+    /// Imposes `statuses`, or more closed nodes where they do not restrain the bodies.
+    fn iteration(
+        &self,
+        place: &Place,
+        mut statuses: Vec<Status>,
+        setting: &Setting,
+        memory: &mut Memory,
+    ) -> Result<Iteration, Error> {
+        for (status, pairing) in statuses.iter_mut().zip(&place.pairings) {
+            if pairing.is_none() {
+                *status = Status::Open;
+            }
+        }
+        let (constraints, moved) = loop {
+            let constraints = self.constraints(place, &statuses, setting);
+            match self.solve(place, &statuses, &constraints, setting)? {
+                Solved::Moved(moved) => break (constraints, moved),
+                Solved::Free { dof, motion } => {
+                    if !self.restrain_more(place, &mut statuses, setting, motion) {
+                        return Err(self.unrestrained(&place.pairings, &constraints, dof).into());
+                    }
+                }
+            }
+        };
+        let gaps = self.gaps(place, &moved.u);
+        let cycle = memory.keep(&statuses);
+        let violation = violation(&gaps, &statuses);
+        Ok(Iteration { statuses, constraints, cycle, moved, gaps, violation })
+    }
+
+    /// Closes more nodes, or lets one stick; false where there is none.
+    fn restrain_more(
+        &self,
+        place: &Place,
+        statuses: &mut [Status],
+        setting: &Setting,
+        motion: Option<DVector<f64>>,
+    ) -> bool {
+        let gaps = self.gaps(place, setting.before);
+        let first = motion.and_then(|u| next_closed(statuses, &gaps, &place.pairings, &u));
+        let more = first.map_or_else(|| nearest_open(statuses, &gaps), |i| vec![i]);
+        more.iter().for_each(|&i| statuses[i] = self.closing(place, i));
+        if !more.is_empty() {
+            return true;
+        }
+        let slides = |status: &&mut Status| matches!(status, Status::Slip(s) if s.sign() != 0.0);
+        statuses.iter_mut().find(slides).map(|status| *status = Status::Stick).is_some()
+    }
+
+    /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
+    pub(super) fn try_statuses(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        setting: &Setting,
+    ) -> Option<Moved> {
+        let constraints = self.constraints(place, statuses, setting);
+        let Ok(Solved::Moved(moved)) = self.solve(place, statuses, &constraints, setting) else {
+            return None;
+        };
+        let gaps = self.gaps(place, &moved.u);
+        let violation = violation(&gaps, statuses);
+        let statuses = statuses.to_vec();
+        let iteration = Iteration { statuses, constraints, cycle: None, moved, gaps, violation };
+        let wanted = self.wanted(place, &iteration, setting, false);
+        (wanted == iteration.statuses).then_some(iteration.moved)
+    }
+}
