@@ -106,6 +106,18 @@ fn endless_loops() {
     );
 }
 
+/// With n = 96, n² = 9,216 steps go into the matrix and n² + n³ / 48 = 27,648 into the elimination
+/// of its determinant. An inverse asks for as much, and for more than that by its unit columns.
+#[test]
+fn an_inverse_counts_its_unit_columns() {
+    let limits = Limits { steps: 70_000, ..Limits::default() };
+    let listing = program("a ← identity(96)\n|a|");
+    let determinant = listing.runner(&Settings::default(), &limits).call(&[Value::Number(5.0)]);
+    assert_eq!(determinant.expect("one elimination is within the limit").value, Value::Number(1.0));
+    let steps = Cause::Limit { limit: 70_000, of: "steps" };
+    assert_eq!(under(&limits, "a ← identity(96)\na^−1"), steps);
+}
+
 #[test]
 fn endless_output() {
     let limits = Limits { entries: 10_000, ..Limits::default() };

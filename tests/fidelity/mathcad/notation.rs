@@ -133,6 +133,24 @@ fn errors_point_at_line_and_column() {
     assert!(shown.ends_with("      z ← y[1\n             ^"), "{shown}");
 }
 
+/// What is missing below a `try` is missed behind the last line of its block.
+#[test]
+fn a_try_without_its_other_block_is_refused() {
+    for below in ["", "\n  z ← 2", "\n  z ← 2\n  z"] {
+        let error = refused(&format!("f(x) :=\n  try\n    y ← 1{below}"));
+        assert_eq!((error.line, error.column), (3, 10), "{below:?}");
+        assert_eq!(error.message, "expected a line `on error` below, beside its `try`");
+    }
+}
+
+/// Those that it reads or calls, in either block of a `try` too, and neither receives nor writes
+/// to.
+#[test]
+fn a_program_takes_names_from_its_worksheet() {
+    let text = "f(x) :=\n  try\n    y ← a + x\n  on error\n    y ← g(b)\n  y";
+    assert_eq!(Listing::parse("f", text).unwrap().free_names(), ["a", "g", "b"]);
+}
+
 #[test]
 fn errors_say_what_was_expected() {
     let message = |text| refused(&format!("f(x) :=\n{text}")).message;
@@ -143,6 +161,9 @@ fn errors_say_what_was_expected() {
     assert_eq!(message("   x"), "found an odd space, expected two for each level");
     assert_eq!(message("  x\nx"), "found a line beside the header, expected it indented");
     assert_eq!(message("  x ? 1"), "found \"?\", which is no part of the notation");
+    let open = "found a string without its second quotation mark";
+    assert_eq!(message("  x ← \"abc"), open);
+    assert_eq!(message("  x ← \""), open);
     assert_eq!(message("  \tx"), "found \"\\t\", which is no part of the notation");
     assert_eq!(message(&format!("  {}", "9".repeat(400))), "found a number too large");
 }

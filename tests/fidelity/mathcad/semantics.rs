@@ -72,6 +72,7 @@ fn an_entry_assigned_to_a_number_makes_it_an_array() {
     assert_eq!(value("a[2] ← v\n(rows(a)   a[1]   (a[2])[3])"), "2 0 3", "entries between are 0");
     assert_eq!(value("a[1,2] ← m\na[1,1] ← 5\n(a[1,1]   (a[1,2])[2,1])"), "5 3");
     assert_eq!(value("a[1] ← v\na[1] ← 2\na[1]"), "2", "and a number again");
+    assert_eq!(value("m[1,1] ← v\n(m[1,2]   m[2,1]   m[2,2])"), "2 3 4", "the others stay");
     let locals = outcome("a[1] ← v\nb ← a\nb[1] ← 1\na", &Settings::default()).unwrap().locals;
     assert_eq!((locals["a"].count(), locals["b"].count()), (3, 1), "arrays of arrays are values");
 }
@@ -182,6 +183,22 @@ fn sines_and_cosines_are_those_of_x87() {
     }
 }
 
+/// The exact sines of what x is beyond a multiple of x87's π/2, rounded: where the part of it that
+/// a double cannot hold decides the last digit. From 2^53 multiples on, the sines are the true
+/// ones.
+#[test]
+fn sines_keep_what_is_left_of_the_reduction() {
+    for (x, sine) in [
+        ("13.2", "0.592073514707223"),
+        ("11.9", "-0.6181371122370333"),
+        ("4.76", "-0.9988668094904142"),
+        ("10.83", "-0.9863238646169981"),
+        ("10^20", "-0.6452512852657808"),
+    ] {
+        assert_eq!(value(&format!("sin({x})")), sine, "{x}");
+    }
+}
+
 #[test]
 fn tiny_numbers_compare_as_zero_if_asked_to() {
     let tiny = format!("y ← 1 / 1{}\n(y = 0   y > 0)", "0".repeat(308));
@@ -222,6 +239,43 @@ fn conjunction_eager() {
         failure_under(&settings, "x < 0 ∧ v[0] > 0"),
         (2, Cause::IndexBelowOrigin { .. })
     ));
+}
+
+/// `∨` follows `∧`, with true for false.
+#[test]
+fn disjunction_follows_conjunction() {
+    let [eager, from_left] = [Conjunction::Eager, Conjunction::LeftToRight]
+        .map(|conjunction| with(|s| s.conjunction = conjunction));
+    let decided = "x > 0 ∨ v[0] > 0";
+    assert_eq!(value(decided), "1", "a true operand decides, though another failed");
+    assert_eq!(value_under(&from_left, decided), "1", "and what follows it is not evaluated");
+    for (settings, lines) in [(eager, decided), (from_left, "v[0] > 0 ∨ x > 0")] {
+        let (line, cause) = failure_under(&settings, lines);
+        assert!(matches!((line, cause), (2, Cause::IndexBelowOrigin { .. })), "{settings:?}");
+    }
+}
+
+/// Each setting by its words; what is not named keeps its default.
+#[test]
+fn settings_are_read_by_their_names() {
+    let read = |text: &str| text.parse::<Settings>();
+    assert_eq!(read(""), Ok(Settings::default()));
+    assert_eq!(read("conjunction=eager"), Ok(with(|s| s.conjunction = Conjunction::Eager)));
+    let all = "origin=-1, zero-over-zero=0, exact-boolean=false, tiny=0, \
+               conjunction=left-to-right, descending=empty, last-if=0";
+    let other = Settings {
+        origin: -1,
+        zero_over_zero_is_zero: true,
+        exact_boolean: false,
+        tiny_is_zero: true,
+        conjunction: Conjunction::LeftToRight,
+        descending_is_empty: true,
+        last_if_is_zero: true,
+    };
+    assert_eq!(read(all), Ok(other));
+    for wrong in ["conjunction=lazy", "tiny=1", "origin=0.5", "origin", "colour=red"] {
+        assert!(read(wrong).is_err(), "{wrong}");
+    }
 }
 
 #[test]
@@ -361,6 +415,7 @@ fn the_words_of_programs() {
     assert_eq!(value("(1 = 2 ∨ x > 0   ¬(x > 0)   ¬1 = 2)"), "1 0 1");
     assert_eq!(value("1 < 0 ∨ v[9] > 0 ∨ x > 0"), "1", "guarded, as ∧");
     assert_eq!(value("for y ∈ m\n  a[rows(a) + 1] ← y\na"), "1; 3; 2; 4", "entries by columns");
+    assert_eq!(value("for y ∈ 7\n  a[rows(a) + 1] ← y\na"), "7", "a number is its only entry");
     assert_eq!(failure("break"), Cause::OutsideLoop);
     let endless = Limits { steps: 1_000, ..Limits::default() };
     let listing = program("while x > 0\n  x ← x + 1\nx");
@@ -376,7 +431,9 @@ fn ranges_with_a_step() {
     assert_eq!(third, "0.30000000000000004");
     assert_eq!(value("for i ∈ 1, 3 .. 8\n  y ← 10·y + i"), "1357");
     assert_eq!(value("for i ∈ 9, 6 .. 1\n  y ← 10·y + i\ny"), "963");
+    assert_eq!(value("for i ∈ 5, 7 .. 5\n  y ← 10·y + i\ny"), "5", "its start is its end");
     assert!(matches!(failure("for i ∈ 6, 7 .. 5\n  i"), Cause::Range { .. }));
+    assert!(matches!(failure("for i ∈ 6, 6 .. 6\n  i"), Cause::Range { .. }), "without a step");
     assert!(matches!(failure("for i ∈ 6, 6 .. 7\n  i"), Cause::Range { .. }));
 }
 
@@ -436,6 +493,8 @@ fn arrays_of_arrays_are_read() {
     let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
     worksheet.define("B", [1.0, 2.0].map(Value::from).into_iter().collect::<Value>());
     assert_eq!(worksheet.call(&[Value::Number(5.0)]).unwrap().value, Value::Number(10.0));
+    let spelled = "a ← (v 2; 3 4)\n((a[1,1])[3]   a[1,2]   a[2,1]   a[2,2])";
+    assert_eq!(value(spelled), "3 2 3 4", "row by row");
 }
 
 #[test]

@@ -45,6 +45,7 @@ fn parentheses_stand_where_each_notation_needs_them() {
         "((a / b)) · (c + 1)",
         "a^(b + 1) + a^−1 + a^b + (a + b)^2 + (−2)^2",
         "a^((b + 1))",
+        "a^(−b) + a^−b",
         "(A[1])ᵀ + A[1,2]ᵀ + (Aᵀ)[1,2] + (Aᵀ)⟨1⟩",
         "−(a + b)·c − −2",
         "¬(a > 0) ∧ (b = 1 ∨ c ≠ 2) ∨ a ≤ b",
@@ -100,6 +101,7 @@ fn results_are_compared_number_by_number() {
         "<ml:matrix rows=\"2\" cols=\"1\"><ml:real>1</ml:real><ml:real>2</ml:real></ml:matrix>";
     assert_eq!(verdict("(1; 2)", matrix), Verdict::Same);
     assert!(matches!(verdict("(1 2)", matrix), Verdict::Differs { .. }), "another shape");
+    assert!(matches!(verdict("(1; 2; 3)", matrix), Verdict::Differs { .. }), "one entry more");
     assert!(matches!(verdict("1 / 0", ""), Verdict::Fails(_)), "nothing saved");
     let fewer = "a call with fewer arguments, which is a function";
     assert_eq!(verdict("mod(t)", "<ml:real>1</ml:real>"), Verdict::Beyond(fewer.into()));
@@ -164,6 +166,27 @@ fn saved_values_go_on_as_input() {
     let rests = "it rests on z: an integral";
     assert_eq!(verdicts[4..], [beyond("an integral"), beyond(rests), beyond(rests)]);
     assert_eq!(checked[3].inputs.iter().collect::<Vec<_>>(), ["2"]);
+}
+
+/// A definition that came to another value than Mathcad's is judged once: what follows goes on from
+/// the saved one.
+#[test]
+fn definitions_that_differ_go_on_with_what_is_saved() {
+    let math = |id: &str, inside: &str| {
+        format!("<region region-id=\"{id}\"><math>{inside}</math></region>")
+    };
+    let saved = |x: &str| format!("<result><ml:real>{x}</ml:real></result>");
+    let three = format!("<ml:eval><ml:real>3</ml:real>{}</ml:eval>", saved("4"));
+    let regions = [
+        math("first", &format!("<ml:define><ml:id>y</ml:id>{three}</ml:define>")),
+        math("second", &format!("<ml:eval><ml:id>y</ml:id>{}</ml:eval>", saved("4"))),
+    ];
+    let text =
+        format!("<worksheet xmlns:ml=\"ml\"><regions>{}</regions></worksheet>", regions.concat());
+    let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
+    let differs = Verdict::Differs { saved: "4".into(), ours: "3".into() };
+    assert_eq!([&checked[0].verdict, &checked[1].verdict], [&differs, &Verdict::Same]);
+    assert_eq!(checked[1].inputs.iter().collect::<Vec<_>>(), ["first"]);
 }
 
 /// `ORIGIN := 0` counts from there on; a definition of an entry shows that entry.
@@ -328,6 +351,18 @@ fn an_empty_operator_is_named() {
         let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
         assert_eq!(checked[0].verdict, Verdict::Beyond(words.into()), "{expression}");
     }
+}
+
+/// A solve block begins with the word Given; an equation within it defines nothing.
+#[test]
+fn a_solve_block_is_named() {
+    let region = |inside: &str| format!("<region><math>{inside}</math></region>");
+    let equation = "<apply><equal/><id>x</id><real>1</real></apply>";
+    let regions = [region("<id>Given</id>"), region(equation), region("<id>Gives</id>")];
+    let text = format!("<worksheet><regions>{}</regions></worksheet>", regions.concat());
+    let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
+    let verdicts: Vec<_> = checked.iter().map(|checked| &checked.verdict).collect();
+    assert_eq!(verdicts, [&Verdict::Beyond("a solve block".into())]);
 }
 
 #[test]
