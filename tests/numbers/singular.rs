@@ -1,8 +1,10 @@
-//! Points where the stress has no limit, on a square of 4 x 4 cells that stands on a fixed edge.
+//! Points where the stress has no limit, on 4 x 4 cells, most often on a fixed edge, and on two
+//! blocks that touch.
 
 use plane_contact::answer::estimates::{Cause, singular};
 use plane_contact::problem::element::Plane;
-use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 use plane_contact::{Request, solve};
 
 /// The number of a node by its place, from 1.
@@ -10,24 +12,50 @@ fn node([x, y]: [usize; 2]) -> usize {
     5 * y + x + 1
 }
 
-/// Builds the square; the cells that `is_hard` names by their lower left corner are of a material of
-/// their own.
-fn square(is_hard: impl Fn([usize; 2]) -> bool) -> SceneBuilder {
+const MATERIALS: [(&str, f64, f64); 3] =
+    [("soft", 1000.0, 0.3), ("hard", 30000.0, 0.2), ("steel", 210000.0, 0.3)];
+
+/// Builds the cells, held nowhere. A node of the place (x, y) stands at `at` of it; a cell is of
+/// that one of the materials that `of` names by its lower left corner.
+fn cells(
+    plane: Plane,
+    at: impl Fn([f64; 2]) -> [f64; 2],
+    of: impl Fn([usize; 2]) -> usize,
+) -> SceneBuilder {
     let places = || (0..5).flat_map(|y| (0..5).map(move |x| [x, y]));
     let mut mesh = MeshBuilder::default();
-    mesh.row(places().map(|place| place.map(|x| x as f64)));
-    for (name, hard) in [("soft", false), ("hard", true)] {
-        let cells = places().filter(|[x, y]| *x < 4 && *y < 4 && is_hard([*x, *y]) == hard);
-        let triangles = cells.flat_map(|[x, y]| {
+    mesh.row(places().map(|place| at(place.map(|x| x as f64))));
+    let own = |material: usize| {
+        let cells = places().filter(|[x, y]| *x < 4 && *y < 4);
+        cells.filter(|cell| of(*cell) == material).collect::<Vec<_>>()
+    };
+    let used: Vec<usize> = (0..MATERIALS.len()).filter(|k| !own(*k).is_empty()).collect();
+    for k in &used {
+        let triangles = own(*k).into_iter().flat_map(|[x, y]| {
             let [a, b, c, d] = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]].map(node);
             [[a, b, c], [a, c, d]]
         });
-        mesh.triangles(name, triangles);
+        mesh.triangles(MATERIALS[*k].0, triangles);
     }
-    let scene = SceneBuilder::new("square", mesh.finish(), Plane::Strain)
-        .material("soft", 1000.0, 0.3)
-        .iterations(1);
-    (0..5).fold(scene, |scene, x| scene.restrain_node(node([x, 0]), &[Axis::X, Axis::Y]))
+    let scene = SceneBuilder::new("square", mesh.finish(), plane).iterations(1);
+    used.into_iter()
+        .map(|k| MATERIALS[k])
+        .fold(scene, |scene, (name, e, nu)| scene.material(name, e, nu))
+}
+
+/// Fixes the lowest row.
+fn standing(cells: SceneBuilder) -> SceneBuilder {
+    (0..5).fold(cells, |scene, x| scene.restrain_node(node([x, 0]), &[Axis::X, Axis::Y]))
+}
+
+/// Builds a square of unit cells, some of them hard.
+fn square(is_hard: impl Fn([usize; 2]) -> bool) -> SceneBuilder {
+    standing(cells(Plane::Strain, |place| place, |cell| usize::from(is_hard(cell))))
+}
+
+/// The numbers of nodes by their places.
+fn nodes(places: &[[usize; 2]]) -> Vec<usize> {
+    places.iter().copied().map(node).collect()
 }
 
 /// Returns the nodes that a cause makes singular.
@@ -52,18 +80,99 @@ fn forces_on_single_free_nodes_have_no_limit() {
     assert_eq!(loaded(held.force(top(2), [1.0, 0.0])), [0; 0], "along the held direction alone");
 }
 
+/// On three reactions, half of a force in the middle of the top goes to each end of the bottom. Two
+/// forces against each other leave the reactions to rounding, which holds nothing.
+#[test]
+fn single_nodes_that_hold_a_force_have_no_limit() {
+    let square = cells(Plane::Strain, |place| place, |_| 0)
+        .restrain_node(node([0, 0]), &[Axis::X, Axis::Y])
+        .restrain_node(node([4, 0]), &[Axis::Y]);
+    let pressed = square.force(node([2, 4]), [0.0, -1.0]);
+    assert_eq!(found(pressed.clone(), Cause::Support), nodes(&[[0, 0], [4, 0]]));
+    let squeezed = pressed.force(node([2, 0]), [0.0, 1.0]);
+    assert_eq!(found(squeezed, Cause::Support), [0; 0]);
+}
+
+/// Where a fixed side ends at a free one, the stress has a limit up to an angle ω with
+/// sin²ω = (κ + 1) / 4. At ν = 0.3 that is 56.8° in plane strain, where κ is 1.8, and 61.3° in
+/// plane stress, where it is 2.7 / 1.3.
+#[test]
+fn the_end_of_a_fixed_edge_has_a_limit_in_a_sharp_corner() {
+    for (plane, limit) in [(Plane::Strain, 56.8), (Plane::Stress, 61.3)] {
+        let ends = |degrees: f64| {
+            let lean = |[x, y]: [f64; 2]| [x + y / degrees.to_radians().tan(), y];
+            found(standing(cells(plane, lean, |_| 0)), Cause::Restraint)
+        };
+        assert_eq!(ends(limit - 2.0), nodes(&[[4, 0]]), "{plane:?}: the other angle is obtuse");
+        assert_eq!(ends(limit + 2.0), nodes(&[[0, 0], [4, 0]]), "{plane:?}");
+    }
+}
+
 /// An interface of two materials ends at the outline and turns inside; where it is straight, the
 /// stress has a limit.
 #[test]
 fn interfaces_end_and_turn() {
-    let interface = |is_hard: fn([usize; 2]) -> bool| {
-        found(square(is_hard).material("hard", 30000.0, 0.2), Cause::Interface)
-    };
-    let ends = |places: &[[usize; 2]]| places.iter().copied().map(node).collect::<Vec<_>>();
-    assert_eq!(interface(|[_, y]| y >= 2), ends(&[[0, 2], [4, 2]]), "a straight layer");
-    let turns = ends(&[[2, 2], [4, 2], [2, 4]]);
+    let interface = |is_hard: fn([usize; 2]) -> bool| found(square(is_hard), Cause::Interface);
+    assert_eq!(interface(|[_, y]| y >= 2), nodes(&[[0, 2], [4, 2]]), "a straight layer");
+    let turns = nodes(&[[2, 2], [4, 2], [2, 4]]);
     assert_eq!(interface(|[x, y]| x >= 2 && y >= 2), turns, "a corner");
-    let branches = ends(&[[2, 2]]);
     let board = interface(|[x, y]| (x >= 2) == (y >= 2));
-    assert!(board.contains(&branches[0]), "four quarters meet: {board:?}");
+    assert!(board.contains(&node([2, 2])), "four quarters meet: {board:?}");
+}
+
+/// A layer on another, both bent in the middle: by up to 30° for a chord of a curve, by more for a
+/// corner. A slope is no bend.
+#[test]
+fn bent_interfaces_are_curves_or_corners() {
+    let layers = |at: &dyn Fn(f64) -> f64| {
+        let at = |[x, y]: [f64; 2]| [x / 2.0, y / 2.0 + at(x / 2.0)];
+        let layers = cells(Plane::Strain, at, |[_, y]| usize::from(y < 2));
+        found(standing(layers), Cause::Interface)
+    };
+    let bent = |degrees: f64| {
+        let slope = (degrees / 2.0).to_radians().tan();
+        layers(&|x| -slope * (x - 1.0).abs())
+    };
+    let ends = nodes(&[[0, 2], [4, 2]]);
+    assert_eq!(layers(&|x| x), ends, "a slope of 45°");
+    assert_eq!(bent(20.0), ends);
+    assert_eq!(bent(40.0), nodes(&[[0, 2], [2, 2], [4, 2]]));
+}
+
+/// The interface of a layer is straight where that of the two blocks below it ends.
+#[test]
+fn interfaces_branch() {
+    let branch = |[x, y]: [usize; 2]| if y >= 2 { 0 } else { 1 + usize::from(x >= 2) };
+    let branch = standing(cells(Plane::Strain, |place| place, branch));
+    assert_eq!(found(branch, Cause::Interface), nodes(&[[2, 0], [0, 2], [2, 2], [4, 2]]));
+}
+
+/// A block of three unit cells in width on another: where their sides make one straight outline,
+/// they are as one body; where the lower one is wider, contact ends at the edge of the upper one.
+#[test]
+fn contact_ends_at_the_edge_of_a_narrower_body() {
+    let edges = |overhang: [f64; 2]| {
+        let mut mesh = MeshBuilder::default();
+        let upper = [0.0, 1.0, 2.0, 3.0];
+        let lower = [-overhang[0], 1.0, 2.0, 3.0 + overhang[1]];
+        let rows = [(lower, 0.0), (lower, 1.0), (upper, 1.0), (upper, 2.0)]
+            .map(|(xs, y)| mesh.row(xs.map(|x| [x, y])));
+        mesh.join("lower", &rows[0], &rows[1]);
+        mesh.join("upper", &rows[2], &rows[3]);
+        let names = ["bottom", "target", "contact", "top"];
+        names.iter().zip(&rows).for_each(|(name, row)| mesh.edges(*name, row));
+        let scene = SceneBuilder::new("blocks", mesh.finish(), Plane::Strain)
+            .material("lower", 1000.0, 0.0)
+            .material("upper", 1000.0, 0.0)
+            .restrain("bottom", &[Axis::X, Axis::Y])
+            .restrain("top", &[Axis::X])
+            .pressure("top", 1.0)
+            .contact(Contact::new("contact", "target", 0.01))
+            .variant(Variant::Unilateral);
+        found(scene, Cause::Edge).into_iter().map(|n| n - rows[2][0]).collect::<Vec<_>>()
+    };
+    assert_eq!(edges([0.0, 0.0]), [0; 0]);
+    assert_eq!(edges([1.0, 0.0]), [0]);
+    assert_eq!(edges([0.0, 1.0]), [3]);
+    assert_eq!(edges([1.0, 1.0]), [0, 3]);
 }
