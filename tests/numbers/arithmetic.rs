@@ -6,7 +6,8 @@ use crate::common::tolerances::{DOUBLE_DOUBLE, Tolerance};
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
 use plane_contact::answer::Request;
-use plane_contact::numbers::scalar::{Exact, F64x2, Scalar, rational, scope};
+use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Scalar, rational, scope};
+use plane_contact::numbers::solve::Field;
 use plane_contact::paper::door;
 use plane_contact::paper::mathcad::array::Column;
 use plane_contact::paper::mirror::{Cause, Failure, Reading, c_cnt};
@@ -56,6 +57,26 @@ proptest! {
         within(x - y, &(&p - &q), &DOUBLE_DOUBLE);
         within(x * y, &(&p * &q), &DOUBLE_DOUBLE);
         within(x / y, &(&p / &q), &DOUBLE_DOUBLE);
+    }
+
+    /// What elimination multiplies by, it can divide by again.
+    #[test]
+    fn elimination_multiplies_and_divides(x in double_double(100), y in double_double(100)) {
+        let (p, q) = (exact(x), exact(y));
+        within(x.times(&y), &(&p * &q), &DOUBLE_DOUBLE);
+        within(x.over(&y), &(&p / &q), &DOUBLE_DOUBLE);
+        prop_assert_eq!(p.times(&q).over(&q), p);
+    }
+
+    /// The root of each end of an interval is within the bound of the root of its middle, which is
+    /// less than three times what the further of them needs.
+    #[test]
+    fn the_bound_of_a_root_holds_the_roots_about_it(x in float(20), part in 0.01..0.9_f64) {
+        let (middle, radius) = (x.abs(), x.abs() * part);
+        let root = Bounded::new(middle, radius).root();
+        let off = |x: f64| (x.sqrt() - root.value()).abs();
+        let furthest = off(middle - radius).max(off(middle + radius));
+        prop_assert!(furthest <= root.error() && root.error() < 3.0 * furthest, "{:?}", root);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 
 use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{ROUNDING_BOUND_WIDTH, Tolerance};
+use dashu_ratio::RBig;
 use nalgebra::DVector;
 use plane_contact::answer::estimates::arithmetic::{self, bounded, stress_bounds};
 use plane_contact::answer::{Constraint, Detail, Elimination, Request, Solution, Stiffness, solve};
@@ -72,6 +73,26 @@ fn the_bound_on_rounding_holds_on_every_setting() {
         }
     }
     assert!(held > 50, "only {held} runs could be compared");
+}
+
+/// What a run in double-double loses is what its digits lose where they are written as an f64: at
+/// most half a unit in the last place, beside which its own rounding is nothing.
+#[test]
+fn of_double_doubles_the_writing_is_what_rounds() {
+    for name in ["fig1", "two-blocks"] {
+        let double = in_scalar(ScalarName::F64x2, None);
+        let request = Request::new(&Scene::open(name).unwrap()).variant(Variant::Tied);
+        let solution = solve(&request.arithmetic(double), &mut |_| ()).unwrap();
+        let bound = arithmetic::rounding(&solution).displacement;
+        let half = f64::EPSILON / 2.0 * solution.u.amax();
+        let written = solution.u.iter().zip(solution.digits.as_ref().expect("it has more digits"));
+        let lost = written.map(|(u, digits)| {
+            let u = RBig::try_from(*u).expect("finite");
+            (u - digits).to_f64().value().abs()
+        });
+        let lost = lost.fold(0.0, f64::max);
+        assert!(lost <= bound && bound < 2.0 * half, "{name}: {lost:e}, {bound:e}, {half:e}");
+    }
 }
 
 /// Displacements of the last contact state of `unilateral`, its normals and weights taken as they

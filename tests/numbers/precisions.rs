@@ -382,6 +382,17 @@ fn a_looser_tolerance_stops_earlier() {
     assert!(tight <= 1e-12 && 1e-12 < loose && loose <= 1e-3, "{loose:e} {tight:e}");
 }
 
+/// Factors that take the matrix for symmetric would see a lower triangle without a diagonal.
+#[test]
+fn dense_lu_with_a_bound_needs_no_symmetry() {
+    let a = DMatrix::from_row_slice(2, 2, &[0.0, 2.0, 1.0, 0.0]).map(Bounded::from_f64);
+    let b = DVector::from_vec(vec![4.0, 3.0]).map(Bounded::from_f64);
+    let solved = Bounded::solve(a, &b, Solver::DenseLu, None).expect("it is not singular");
+    for (x, expected) in solved.x.iter().zip([3.0, 2.0]) {
+        assert!((x.value() - expected).abs() <= x.error() && x.error() < 1.0, "{x:?}");
+    }
+}
+
 #[test]
 fn a_singular_matrix_is_reported_on_every_setting() {
     // Two springs in a row that nothing holds.

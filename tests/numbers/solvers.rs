@@ -1,6 +1,9 @@
 //! Solvers of sparse matrices, the size of their factors, and the memory of dense ones.
 
+use std::ops::{Range, RangeInclusive};
+
 use nalgebra::DVector;
+use plane_contact::numbers::solve::cost;
 use plane_contact::numbers::solve::memory::check;
 use plane_contact::numbers::solve::{FactorSize, Pattern, SparseCholesky, SparseSymmetric};
 
@@ -49,6 +52,35 @@ fn a_full_matrix_has_full_factors() {
     let size = FactorSize::sparse_cholesky(&full);
     assert!(size.nonzeros >= size.entries);
     assert_eq!(size.operations, (1..=6).map(|k| f64::from(k * k)).sum::<f64>());
+}
+
+/// Two blocks of 100 equations and the 50 that both of them reach, each block full with those 50.
+/// The columns of the block that goes first have its own rows and the 50; what it leaves is full:
+/// large enough for columns of one pattern to be factored together.
+#[test]
+fn blocks_fill_in_nothing_but_themselves() {
+    let (blocks, shared) = ([0..100, 100..200], 200..250);
+    let together = |pair: &(usize, usize)| {
+        let reaches = |block: &Range<usize>, k| block.contains(&k) || shared.contains(&k);
+        blocks.iter().any(|block| reaches(block, pair.0) && reaches(block, pair.1))
+    };
+    let lower = (0..250).flat_map(|row| (0..=row).map(move |column| (row, column)));
+    let size = FactorSize::sparse_cholesky(250, lower.filter(together));
+    let squares = |columns: RangeInclusive<u32>| columns.map(|k| f64::from(k * k));
+    let operations: f64 = squares(51..=150).chain(squares(1..=150)).sum();
+    assert_eq!(size.operations, operations);
+}
+
+/// 144 equations take 2 s; twice as many take 8 times as long. Where numbers grow longer by a
+/// factor of the equations with each iteration behind the first, the last one counts.
+#[test]
+fn exact_numbers_take_longer_with_every_iteration_but_the_first() {
+    assert_eq!(cost::seconds(144, false, 3), 3.0 * 2.0);
+    assert_eq!(cost::seconds(288, false, 1), 8.0 * 2.0);
+    assert_eq!(cost::seconds(144, true, 1), 2.0);
+    assert_eq!(cost::seconds(144, true, 3), 3.0 * 2.0 * 144.0 * 144.0);
+    assert!(cost::check(144, false, 300).is_ok(), "600 s");
+    assert!(cost::check(144, false, 301).is_err());
 }
 
 #[test]
