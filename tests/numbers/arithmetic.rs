@@ -7,7 +7,6 @@ use dashu_ratio::RBig;
 use num_traits::{One, Zero};
 use plane_contact::answer::Request;
 use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Scalar, rational, scope};
-use plane_contact::numbers::solve::Field;
 use plane_contact::paper::door;
 use plane_contact::paper::mathcad::array::Column;
 use plane_contact::paper::mirror::{Cause, Failure, Reading, c_cnt};
@@ -57,15 +56,6 @@ proptest! {
         within(x - y, &(&p - &q), &DOUBLE_DOUBLE);
         within(x * y, &(&p * &q), &DOUBLE_DOUBLE);
         within(x / y, &(&p / &q), &DOUBLE_DOUBLE);
-    }
-
-    /// What elimination multiplies by, it can divide by again.
-    #[test]
-    fn elimination_multiplies_and_divides(x in double_double(100), y in double_double(100)) {
-        let (p, q) = (exact(x), exact(y));
-        within(x.times(&y), &(&p * &q), &DOUBLE_DOUBLE);
-        within(x.over(&y), &(&p / &q), &DOUBLE_DOUBLE);
-        prop_assert_eq!(p.times(&q).over(&q), p);
     }
 
     /// The root of each end of an interval is within the bound of the root of its middle, which is

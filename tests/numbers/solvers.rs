@@ -65,7 +65,9 @@ fn blocks_fill_in_nothing_but_themselves() {
         blocks.iter().any(|block| reaches(block, pair.0) && reaches(block, pair.1))
     };
     let lower = (0..250).flat_map(|row| (0..=row).map(move |column| (row, column)));
-    let size = FactorSize::sparse_cholesky(250, lower.filter(together));
+    let places = lower.filter(together);
+    let pattern = Pattern::new(250, |visit| places.clone().for_each(|(i, j)| visit(i, j)));
+    let size = FactorSize::sparse_cholesky(&pattern);
     let squares = |columns: RangeInclusive<u32>| columns.map(|k| f64::from(k * k));
     let operations: f64 = squares(51..=150).chain(squares(1..=150)).sum();
     assert_eq!(size.operations, operations);

@@ -59,9 +59,6 @@ impl Field for Counting {
     fn vanishes(&self) -> bool {
         false
     }
-    fn times(&self, _: &Self) -> Self {
-        Counting
-    }
     fn over(&self, _: &Self) -> Self {
         COUNTS.set([COUNTS.get()[0] + 1, COUNTS.get()[1]]);
         Counting

@@ -19,9 +19,6 @@ pub trait Field: Clone {
     /// Returns whether the number is exactly 0.
     fn vanishes(&self) -> bool;
 
-    /// Returns the product self · other.
-    fn times(&self, other: &Self) -> Self;
-
     /// Returns the quotient self / other, `other` not being 0.
     fn over(&self, other: &Self) -> Self;
 
@@ -40,9 +37,6 @@ impl Field for F64x2 {
     }
     fn vanishes(&self) -> bool {
         *self == <Self as Field>::zero()
-    }
-    fn times(&self, other: &Self) -> Self {
-        *self * *other
     }
     fn over(&self, other: &Self) -> Self {
         *self / *other
@@ -63,9 +57,6 @@ impl Field for RBig {
     }
     fn vanishes(&self) -> bool {
         self.is_zero()
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
     }
     fn over(&self, other: &Self) -> Self {
         self / other

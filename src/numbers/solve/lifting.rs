@@ -35,6 +35,12 @@ impl Residue {
         defined.then(|| Residue::of(x.numerator()).over(&denominator))
     }
 
+    fn times(&self, other: &Self) -> Self {
+        let product = u128::from(self.0) * u128::from(other.0);
+        // 2^61 is 1 modulo p.
+        Residue(((product as u64 & P) + (product >> 61) as u64) % P)
+    }
+
     /// Returns the inverse modulo p, by Fermat x^(p − 2).
     fn inverse(self) -> Self {
         let (mut power, mut square, mut exponent) = (Residue(1), self, P - 2);
@@ -60,11 +66,6 @@ impl Field for Residue {
     }
     fn vanishes(&self) -> bool {
         self.0 == 0
-    }
-    fn times(&self, other: &Self) -> Self {
-        let product = u128::from(self.0) * u128::from(other.0);
-        // 2^61 is 1 modulo p.
-        Residue(((product as u64 & P) + (product >> 61) as u64) % P)
     }
     fn over(&self, other: &Self) -> Self {
         self.times(&other.inverse())
