@@ -108,15 +108,18 @@ pub fn run(args: &Args) -> Result<u8> {
     asked.extend(request.edited.iter().map(|edited| format!("edited-{}", edited.which)));
     let start = format!("{}-{}", scene.name, request.variant);
     let out = folder(&args.out, folder_name(start, &request, &asked));
-    let assess = || match args.no_error_estimate {
-        true => Assessment::without_estimates(&solution),
-        false => Assessment::new(&solution),
+    let assess = || {
+        let mut assessment = match args.no_error_estimate {
+            true => Assessment::without_estimates(&solution),
+            false => Assessment::new(&solution),
+        };
+        let probed = assessment.probe(&solution, &args.probe);
+        solution.let_go_of_factors();
+        probed.map(|()| assessment)
     };
     let plan = || Plan::new(&solution.request);
-    let (mut assessment, plan) = answer::side_by_side(&solution.model, assess, plan);
-    let plan = plan?;
-    assessment.probe(&solution, &args.probe)?;
-    solution.let_go_of_factors();
+    let (assessment, plan) = answer::side_by_side(&solution.model, assess, plan);
+    let (plan, assessment) = (plan?, assessment?);
     let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
     if args.json {
         let result = match args.out {
