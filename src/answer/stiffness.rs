@@ -10,8 +10,8 @@ use crate::numbers::solve::{Pattern, SparseSymmetric};
 use crate::problem::element::{self, D, Plane, State};
 use crate::problem::model::{Dof, Model, NodeId, TriangleId};
 
-/// The number of triangles up to which their matrices are kept. Those of more take longer to read from
-/// memory than to compute, and most of the memory of a run.
+/// The number of triangles up to which their matrices are kept. Those of more would be a quarter of the
+/// memory of a run, and are computed each time they are needed.
 const KEPT: usize = 100_000;
 
 /// The stiffness matrix K, 2R x 2R, force/length, as what its triangles' matrices, and their stresses,

@@ -5,6 +5,7 @@ use crate::common::random::fixed;
 use crate::common::tolerances::{ELEMENT, PATCH, RIGID, assert_near};
 use nalgebra::{DVector, Matrix3, SVector};
 use plane_contact::answer::Stiffness;
+use plane_contact::numbers::scalar::{Bounded, Scalar};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::element::{B, Corners, D, State, area, stiffness};
 use plane_contact::problem::model::Dof;
@@ -55,6 +56,19 @@ fn the_stiffness_of_a_mesh_is_that_of_its_triangles() {
         let part = whole.times_on(&wanted, &u);
         assert!((0..model.dofs()).filter(|e| wanted[*e]).all(|e| part[e] == force[e]), "{n}");
     }
+}
+
+/// Displacements that are 0 within a bound are not known to be 0: their forces have a bound too.
+#[test]
+fn forces_have_a_bound_where_displacements_are_zero_within_one() {
+    let scene = Cook { n: 4 }.generate().unwrap().build().unwrap();
+    let stiffness = Stiffness::new(&scene.model, Bounded::from_f64);
+    let forces = |error| {
+        let u = DVector::from_element(scene.model.dofs(), Bounded::new(0.0, error));
+        stiffness.times(&u)
+    };
+    assert!(forces(1e-3).iter().all(|force| force.error() > 0.0));
+    assert!(forces(0.0).iter().all(|force| force.to_f64() == 0.0 && force.error() == 0.0));
 }
 
 proptest! {

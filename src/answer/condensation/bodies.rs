@@ -60,9 +60,9 @@ impl Shared {
         if let Some(known) = made.iter().find(|known| known.nodes == nodes && known.is_of(model)) {
             return Some(Arc::clone(known));
         }
-        let condensation = Arc::new(Condensation::new(stiffness, model, nodes)?);
         // Those of large bodies take much memory: of each model the last ones are kept.
         made.retain(|known| !known.is_of(model));
+        let condensation = Arc::new(Condensation::new(stiffness, model, nodes)?);
         made.push(Arc::clone(&condensation));
         Some(condensation)
     }
@@ -168,6 +168,8 @@ impl Bodies {
         if nodes.len() > self.most() {
             return None;
         }
+        self.loaded.take();
+        self.current.take();
         let made = self.shared.condensed(stiffness, &self.model, nodes);
         self.impossible.set(made.is_none());
         self.current.replace(made.clone());
