@@ -55,6 +55,25 @@ fn a_wrong_field_is_named() {
 }
 
 #[test]
+fn numbers_that_no_mesh_has_are_refused() {
+    let text = result("fig1", |request| request).to_json();
+    let read = |number: &str| {
+        let (before, after) = text.split_once("\"at\":").expect("a body has a largest stress");
+        let (_, rest) = after.split_once(',').expect("more follows");
+        ResultFile::from_json(&format!("{before}\"at\":{number},{rest}"))
+    };
+    let largest = read("2147483648").expect("all of its degrees of freedom have numbers");
+    assert_eq!(largest.bodies[0].at.number(), 1 << 31);
+    for (number, words) in [("0", "count from 1"), ("2147483649", "so large"), ("5e15", "number")] {
+        let error = read(number).expect_err(number);
+        assert!(
+            error.place.starts_with("field bodies[0].at") && error.what.contains(words),
+            "{error}"
+        );
+    }
+}
+
+#[test]
 fn fields_of_a_large_mesh_are_elsewhere_unless_asked_for() {
     let mut scene = Scene::open("two-blocks").expect("an embedded scene");
     while scene.model.triangles.len() <= MOST_TRIANGLES {

@@ -4,6 +4,9 @@
 
 use nalgebra::DVector;
 
+/// The largest number of a node or a triangle: each degree of freedom fits in 32 bits.
+const MOST: usize = 1 << 31;
+
 /// Declares an identifier that counts from 0.
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
@@ -78,6 +81,7 @@ macro_rules! numbered {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 match usize::deserialize(deserializer)? {
                     0 => Err(serde::de::Error::custom("numbers count from 1")),
+                    number if number > MOST => Err(serde::de::Error::custom("no mesh is so large")),
                     number => Ok($name::from_number(number)),
                 }
             }
