@@ -124,11 +124,14 @@ impl<'a> FieldPicture<'a> {
         let points = &self.drawing.points;
         let [low, high] = [self.middle_of(self.smallest.first, points), self.largest_of(points)]
             .map(|place| self.place_in_words(place));
-        let [low_too, high_too] = [self.smallest, self.largest].map(|one| match one.others {
-            0 => String::new(),
-            1 => " and in 1 other triangle".into(),
-            others => format!(" and in {others} other triangles"),
-        });
+        // A largest value at a point is that of every triangle about it.
+        let others_as_large = if self.field.largest_at.is_some() { 0 } else { self.largest.others };
+        let [low_too, high_too] =
+            [self.smallest.others, others_as_large].map(|others| match others {
+                0 => String::new(),
+                1 => " and in 1 other triangle".into(),
+                _ => format!(" and in {others} other triangles"),
+            });
         format!(
             "Largest value {largest} at {high} (red circle){high_too}; \
              smallest value {smallest} at {low}{low_too}."
