@@ -10,7 +10,9 @@ use super::problem::{
 use super::rigid;
 use super::status::{Memory, first_closed, nearest_open, next_closed};
 use crate::answer::contact::{Pairing, Sense, Status};
+use crate::answer::elimination::Constraint;
 use crate::answer::error::{Error, NoEquilibrium};
+use crate::answer::solution::Cycle;
 
 /// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
 /// second set takes those that penetrate by more than this part of the deepest penetration.
@@ -88,9 +90,7 @@ impl Problem<'_> {
         let Equilibrium { place, last, closing, shape_change } = found;
         let Iteration { statuses, constraints, cycle, .. } = last;
         if let Solved::Moved(moved) = self.solve(&place, &statuses, &constraints, setting)? {
-            let gaps = self.gaps(&place, &moved.u);
-            let violation = violation(&gaps, &statuses);
-            let last = Iteration { statuses, constraints, cycle, moved, gaps, violation };
+            let last = self.reached(&place, (statuses, constraints), cycle, moved);
             if self.wanted(&place, &last, setting, false) == last.statuses {
                 return Ok(Equilibrium { place, last, closing, shape_change });
             }
@@ -261,10 +261,21 @@ impl Problem<'_> {
                 }
             }
         };
-        let gaps = self.gaps(place, &moved.u);
         let cycle = memory.keep(&statuses);
+        Ok(self.reached(place, (statuses, constraints), cycle, moved))
+    }
+
+    /// Returns the iteration that imposed statuses by constraints and led to `moved`.
+    fn reached(
+        &self,
+        place: &Place,
+        (statuses, constraints): (Vec<Status>, Vec<Constraint>),
+        cycle: Option<Cycle>,
+        moved: Moved,
+    ) -> Iteration {
+        let gaps = self.gaps(place, &moved.u);
         let violation = violation(&gaps, &statuses);
-        Ok(Iteration { statuses, constraints, cycle, moved, gaps, violation })
+        Iteration { statuses, constraints, cycle, moved, gaps, violation }
     }
 
     /// Closes more nodes, or lets one stick; false where there is none.
@@ -297,10 +308,7 @@ impl Problem<'_> {
         let Ok(Solved::Moved(moved)) = self.solve(place, statuses, &constraints, setting) else {
             return None;
         };
-        let gaps = self.gaps(place, &moved.u);
-        let violation = violation(&gaps, statuses);
-        let statuses = statuses.to_vec();
-        let iteration = Iteration { statuses, constraints, cycle: None, moved, gaps, violation };
+        let iteration = self.reached(place, (statuses.to_vec(), constraints), None, moved);
         let wanted = self.wanted(place, &iteration, setting, false);
         (wanted == iteration.statuses).then_some(iteration.moved)
     }
