@@ -15,6 +15,7 @@ mod not_finite;
 mod probe;
 mod published;
 mod request;
+mod residual;
 mod side_by_side;
 mod solution;
 mod solve;
@@ -24,7 +25,7 @@ mod summary;
 mod support;
 mod unilateral;
 
-pub use assessment::{Assessment, Measured};
+pub use assessment::{Assessment, Measured, Others};
 pub use condensation::kept_equations;
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};

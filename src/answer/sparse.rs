@@ -8,11 +8,12 @@ use super::condensation::{Bodies, Bound, refined};
 use super::elimination::{Constraint, Elimination};
 use super::factors::LastFactors;
 use super::request::Request;
+use super::residual::error_of_solution;
 use super::stiffness::Stiffness;
 use crate::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar, WithBound};
 use crate::numbers::solve::{
     Arithmetic, Factors, Field, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky,
-    SparseSymmetric, Unsolved, error_bound, refine,
+    SparseSymmetric, Unsolved, refine,
 };
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
@@ -103,20 +104,17 @@ impl Sparse<Bounded> for Condensing {
             let (x, residual) = refined(&self.stiffness, &t, (&bound, bound.norm()), &f).ok()?;
             Some((bound, x, residual))
         };
-        let entries = state.stiffness.reduced(state.t);
-        let with_error = |x: DVector<f64>, residual: f64, error: f64| Solved {
-            x: x.map(|x| Bounded::new(x, error)),
-            residual,
+        let with_error = |factors: &dyn Factors<f64>, x: DVector<f64>, residual: f64| {
+            let error = error_of_solution((state.stiffness, state.t), factors, state.f, &x);
+            Solved { x: x.map(|x| Bounded::new(x, error)), residual }
         };
         if let Some((bound, x, residual)) = bound.and_then(refined) {
-            let error = error_bound(&bound, entries.both_triangles(), state.f, &x);
-            return Ok(with_error(x, residual, error));
+            return Ok(with_error(&bound, x, residual));
         }
-        let factors = SparseCholesky::new(entries.map(|x| x.to_f64()))?;
+        let factors = SparseCholesky::new(state.stiffness.reduced(state.t).map(|x| x.to_f64()))?;
         let x = factors.solve(&f);
         let residual = factors.residual(&x, &f);
-        let error = error_bound(&factors, entries.both_triangles(), state.f, &x);
-        Ok(with_error(x, residual, error))
+        Ok(with_error(&factors, x, residual))
     }
 }
 
@@ -131,14 +129,14 @@ impl Sparse<F64x2> for Condensing {
 impl Sparse<BoundedDouble> for Condensing {
     /// Solves as in double-double, with a bound on the error of the solution.
     fn solve(&self, state: &State<BoundedDouble>) -> Result<Solved<BoundedDouble>, Unsolved> {
-        let entries = state.stiffness.reduced(state.t);
-        let (matrix, f) = (entries.map(|x| x.value()), state.f.map(WithBound::value));
+        let matrix = state.stiffness.reduced(state.t).map(|x| x.value());
+        let f = state.f.map(WithBound::value);
         let (x, bound) = in_double(&matrix, &f, self.factors(state).1)?;
         let factors: Box<dyn Factors<f64>> = match bound {
             Some(bound) => Box::new(bound),
             None => Box::new(SparseCholesky::new(matrix.map(|x| x.to_f64()))?),
         };
-        let error = error_bound(&*factors, entries.both_triangles(), state.f, &x);
+        let error = error_of_solution((state.stiffness, state.t), &*factors, state.f, &x);
         let residual = matrix.residual(&x, &f);
         Ok(Solved { residual, x: x.map(|x| BoundedDouble::new(x, error)) })
     }

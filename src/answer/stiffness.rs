@@ -65,28 +65,27 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Returns K u, the forces that keep the shape `u`, force.
     pub fn times(&self, u: &DVector<T>) -> DVector<T> {
-        let mut force = DVector::from_element(self.dofs, T::zero());
-        let (u, common) = T::over_common(u.as_slice().to_vec());
-        let u = DVector::from_vec(u);
-        for (i, triangle) in self.triangles.iter().enumerate() {
-            // A shift moves a few nodes alone.
-            if triangle.dofs().any(|dof| !u[dof.index()].is_zero()) {
-                triangle.add_times(&self.matrix(i), &u, &mut force);
-            }
-        }
-        force.map(|f| f / common)
+        self.times_of(|_| true, u)
     }
 
     /// Returns the part of K u on the `wanted` degrees of freedom, force, the same to the bit; other
     /// entries hold parts of theirs.
     pub fn times_on(&self, wanted: &[bool], u: &DVector<T>) -> DVector<T> {
+        self.times_of(|triangle| triangle.dofs().iter().any(|dof| wanted[dof.index()]), u)
+    }
+
+    /// Returns what the `wanted` triangles add to K u, force.
+    fn times_of(&self, wanted: impl Fn(&Element<T>) -> bool, u: &DVector<T>) -> DVector<T> {
         let mut force = DVector::from_element(self.dofs, T::zero());
+        let (u, common) = T::over_common(u.as_slice().to_vec());
+        let u = DVector::from_vec(u);
         for (i, triangle) in self.triangles.iter().enumerate() {
-            if triangle.dofs().any(|dof| wanted[dof.index()]) {
-                triangle.add_times(&self.matrix(i), u, &mut force);
+            // A shift moves a few nodes alone.
+            if wanted(triangle) && triangle.dofs().iter().any(|dof| !u[dof.index()].is_zero()) {
+                triangle.add_times(&self.matrix(i), &u, &mut force);
             }
         }
-        force
+        force.map(|f| f / common)
     }
 
     /// Returns Tᵀ K T, force/length.
@@ -100,6 +99,14 @@ impl<T: Scalar> Stiffness<T> {
             }
         };
         SparseSymmetric::summed(Pattern::new(t.size(), places), entries)
+    }
+
+    /// Visits each triangle: the degrees of freedom of its corners, x, y of each in turn, and its matrix,
+    /// force/length.
+    pub fn visit(&self, mut triangle: impl FnMut([Dof; 6], &SMatrix<T, 6, 6>)) {
+        for (i, element) in self.triangles.iter().enumerate() {
+            triangle(element.dofs(), &self.matrix(i));
+        }
     }
 
     /// Returns the stresses and strains of every triangle under displacements `u`.
@@ -139,8 +146,9 @@ impl<T: Scalar> Element<T> {
     }
 
     /// Returns the degrees of freedom of its corners: x, y of each corner in turn.
-    fn dofs(&self) -> impl Iterator<Item = Dof> {
-        self.nodes.into_iter().flat_map(|node| node.dofs())
+    fn dofs(&self) -> [Dof; 6] {
+        let [a, b, c] = self.nodes.map(|node| node.dofs());
+        [a[0], a[1], b[0], b[1], c[0], c[1]]
     }
 
     /// Visits the places of the lower triangle of Tᵀ K T to which it adds: row, column.
@@ -161,8 +169,8 @@ impl<T: Scalar> Element<T> {
         t: &Elimination<T>,
         visit: &mut dyn FnMut(usize, usize, T),
     ) {
-        for (i, p) in self.dofs().enumerate() {
-            for (j, q) in self.dofs().enumerate() {
+        for (i, p) in self.dofs().into_iter().enumerate() {
+            for (j, q) in self.dofs().into_iter().enumerate() {
                 for &(row, wr) in t.row(p) {
                     for &(column, wc) in t.row(q).iter().filter(|(column, _)| *column <= row) {
                         visit(row, column, wr * k[(i, j)] * wc);
@@ -175,7 +183,10 @@ impl<T: Scalar> Element<T> {
     /// Adds its part of K u.
     fn add_times(&self, k: &SMatrix<T, 6, 6>, u: &DVector<T>, force: &mut DVector<T>) {
         let product = k * self.displacements(u);
-        self.dofs().zip(product.iter()).for_each(|(dof, value)| force[dof.index()] += *value);
+        self.dofs()
+            .iter()
+            .zip(product.iter())
+            .for_each(|(dof, value)| force[dof.index()] += *value);
     }
 
     fn displacements(&self, u: &DVector<T>) -> SVector<T, 6> {

@@ -17,8 +17,12 @@ pub struct Largest {
 pub fn largest(values: impl Iterator<Item = f64> + Clone) -> Option<Largest> {
     let most = values.clone().reduce(f64::max)?;
     let magnitude = values.clone().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let is_equal = |(_, x): &(usize, f64)| *x >= most - EQUAL * magnitude;
-    let mut equal = values.enumerate().filter(is_equal);
+    let mut equal = values.enumerate().filter(|(_, x)| is_as_large(*x, most, magnitude));
     let (first, _) = equal.next()?;
     Some(Largest { first, others: equal.count() })
+}
+
+/// Returns whether a value counts as no smaller than the largest, `most`, of values up to `magnitude`.
+pub fn is_as_large(value: f64, most: f64, magnitude: f64) -> bool {
+    value >= most - EQUAL * magnitude
 }

@@ -11,9 +11,10 @@ use nalgebra::{DVector, SVector};
 
 use super::ties::{Looking, State};
 use crate::answer::held::Held;
+use crate::answer::residual::error_of_solution;
 use crate::answer::{Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
-use crate::numbers::solve::{Arithmetic, ScalarName, error_bound};
+use crate::numbers::solve::{Arithmetic, ScalarName};
 use crate::paper::decisions::{Decision, first_difference};
 use crate::problem::element::Plane;
 use crate::problem::model::Model;
@@ -247,9 +248,9 @@ fn state(
     let Detail::Unilateral(detail) = &step.detail else { return None };
     let friction = detail.friction.map(Bounded::from_f64);
     let load = model.free_part(&(load + friction));
-    let (matrix, b) = (stiffness.reduced(&t), t.load(&(load - stiffness.times(t.shift()))));
+    let b = t.load(&(load - stiffness.times(t.shift())));
     let x = held.refined(&b.map(Scalar::to_f64));
-    let bound = error_bound(held.factors(), matrix.both_triangles(), &b, &x);
+    let bound = error_of_solution((stiffness, &t), held.factors(), &b, &x);
     // Friction follows the normal forces, whose errors are taken to be those of the displacements.
     let bound = (1.0 + detail.feedback) * bound;
     Some(t.expand(&x.map(|x| Bounded::new(x, bound))))

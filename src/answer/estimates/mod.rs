@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize};
 use super::held::Held;
 use super::side_by_side::side_by_side;
 use super::solution::{Solution, max_displacement};
+use crate::numbers::largest::is_as_large;
 use crate::paper::decisions::Decision;
 use crate::problem::model::{Body, NodeId, TriangleId};
 pub use certain::{Certainty, certain};
@@ -133,7 +134,8 @@ fn unlimited(solution: &Solution, points: &[Singular]) -> Option<(NodeId, Cause)
     let size = |node: NodeId| max_displacement(&DVector::from_row_slice(&node.of(&solution.u)));
     let largest = max_displacement(&solution.u);
     let counts = |point: &&Singular| {
-        point.cause.moves() && (point.cause == Cause::Support || size(point.node) == largest)
+        let moves_most = is_as_large(size(point.node), largest, largest);
+        point.cause.moves() && (point.cause == Cause::Support || moves_most)
     };
     points.iter().find(counts).map(|point| (point.node, point.cause))
 }

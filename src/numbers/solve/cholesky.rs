@@ -10,6 +10,9 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
+use faer::sparse::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_lower_triangular_transpose_in_place,
+};
 use faer::{Conj, MatMut, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
@@ -24,41 +27,45 @@ pub(super) fn is_large(pivot: f64, a: f64) -> bool {
     pivot > LEAST * a
 }
 
+/// The operations for each entry of L, over faer's own limit of 40, beyond which it is made and applied
+/// by supernodes, small dense blocks. Below that its entries one by one are quicker.
+const BY_SUPERNODES: f64 = 1.6;
+
 /// The factor L, and the order P of the equations.
 pub(super) struct Cholesky<T> {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<T>,
 }
 
+/// L, column by column or by supernodes.
+enum Lower<'a, T> {
+    Entries(SparseColMatRef<'a, usize, T>),
+    Blocks(SupernodalLltRef<'a, usize, T>),
+}
+
 impl<T: Native> Cholesky<T> {
     /// Factors a matrix in an order of small fill; None where a pivot is not positive.
     pub(super) fn new(matrix: &SparseSymmetric<T>) -> Option<Self> {
-        Self::factored(matrix, SymmetricOrdering::Amd, CholeskySymbolicParams::default())
+        Self::factored(matrix, SymmetricOrdering::Amd)
     }
 
-    /// Factors a matrix in an order of its own, by supernodes: `order` has the equation at each
-    /// place, `place` the place of each equation. None where a pivot is not positive, and without
-    /// equations.
+    /// Factors a matrix in an order of its own: `order` has the equation at each place, `place` the
+    /// place of each equation. None where a pivot is not positive.
     pub(super) fn ordered(
         matrix: &SparseSymmetric<T>,
         order: &[usize],
         place: &[usize],
     ) -> Option<Self> {
-        let params = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..CholeskySymbolicParams::default()
-        };
-        let order = SymmetricOrdering::Custom(PermRef::new_checked(order, place, order.len()));
-        let factor = Self::factored(matrix, order, params)?;
-        matches!(factor.symbolic.raw(), SymbolicCholeskyRaw::Supernodal(_)).then_some(factor)
+        let order = PermRef::new_checked(order, place, order.len());
+        Self::factored(matrix, SymmetricOrdering::Custom(order))
     }
 
-    fn factored(
-        matrix: &SparseSymmetric<T>,
-        order: SymmetricOrdering<usize>,
-        params: CholeskySymbolicParams,
-    ) -> Option<Self> {
+    fn factored(matrix: &SparseSymmetric<T>, order: SymmetricOrdering<usize>) -> Option<Self> {
         let side = Side::Lower;
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold(BY_SUPERNODES),
+            ..CholeskySymbolicParams::default()
+        };
         let symbolic = factorize_symbolic_cholesky(matrix.pattern(), side, order, params).ok()?;
         let mut values = vec![T::from_f64(0.0); symbolic.len_val()];
         // One thread: faster for plane problems, and faer's bits depend on the number of threads.
@@ -100,15 +107,11 @@ impl<T: Native> Cholesky<T> {
         let mut keep = |place: usize, l: T| {
             pivots[order.map_or(place, |order| order[place])] = l.to_f64() * l.to_f64();
         };
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(symbolic) => {
-                let starts = symbolic.col_ptr();
-                (0..symbolic.ncols()).for_each(|j| keep(j, self.values[starts[j]]));
-            }
-            SymbolicCholeskyRaw::Supernodal(_) => {
-                let factor = self.supernodal();
-                for s in 0..factor.symbolic().n_supernodes() {
-                    let (start, block) = (factor.supernode(s).start(), factor.supernode(s).val());
+        match self.lower() {
+            Lower::Entries(l) => (0..l.ncols()).for_each(|j| keep(j, l.val_of_col(j)[0])),
+            Lower::Blocks(l) => {
+                for s in 0..l.symbolic().n_supernodes() {
+                    let (start, block) = (l.supernode(s).start(), l.supernode(s).val());
                     (0..block.ncols()).for_each(|j| keep(start + j, block[(j, j)]));
                 }
             }
@@ -116,59 +119,76 @@ impl<T: Native> Cholesky<T> {
         pivots
     }
 
-    /// Solves L z = z in place; z is in the order of the factor, which is one by supernodes.
-    pub(super) fn solve_lower(&self, z: &mut [T]) {
-        self.triangular(z, |factor, z, stack| {
-            factor.l_solve_with_conj(Conj::No, z, Par::Seq, stack);
-        });
-    }
-
-    /// Solves Lᵀ x = x in place; x is in the order of the factor, which is one by supernodes.
-    pub(super) fn solve_lower_transposed(&self, x: &mut [T]) {
-        self.triangular(x, |factor, x, stack| {
-            factor.l_transpose_solve_with_conj(Conj::No, x, Par::Seq, stack);
-        });
-    }
-
-    fn triangular(
-        &self,
-        x: &mut [T],
-        solve: impl Fn(&SupernodalLltRef<'_, usize, T>, MatMut<'_, T>, &mut MemStack),
-    ) {
-        let factor = self.supernodal();
-        let scratch = factor.symbolic().solve_in_place_scratch::<T>(1, Par::Seq);
-        let mut memory = MemBuffer::new(scratch);
-        let stack = MemStack::new(&mut memory);
-        solve(&factor, column(x), stack);
-    }
-
-    /// Returns the block of L from the row and column `from` on; the factor is one by supernodes.
+    /// Returns the block of L from the row and column `from` on.
     pub(super) fn last_block(&self, from: usize) -> DMatrix<T> {
-        let factor = self.supernodal();
-        let size = factor.symbolic().nrows() - from;
+        let size = self.symbolic.nrows() - from;
         let mut last = DMatrix::from_element(size, size, T::from_f64(0.0));
-        for s in 0..factor.symbolic().n_supernodes() {
-            let supernode = factor.supernode(s);
-            let (start, block) = (supernode.start(), supernode.val());
-            let row = |i: usize| match i.checked_sub(block.ncols()) {
-                None => start + i,
-                Some(below) => supernode.pattern()[below],
-            };
-            for column in (0..block.ncols()).filter(|j| start + j >= from) {
-                for i in column..block.nrows() {
-                    last[(row(i) - from, start + column - from)] = block[(i, column)];
+        let mut keep = |i: usize, j: usize, l: &T| last[(i - from, j - from)] = *l;
+        match self.lower() {
+            Lower::Entries(l) => {
+                for j in from..l.ncols() {
+                    l.row_idx_of_col(j).zip(l.val_of_col(j)).for_each(|(i, l)| keep(i, j, l));
+                }
+            }
+            Lower::Blocks(l) => {
+                for s in 0..l.symbolic().n_supernodes() {
+                    let supernode = l.supernode(s);
+                    let (start, block) = (supernode.start(), supernode.val());
+                    let row = |i: usize| match i.checked_sub(block.ncols()) {
+                        None => start + i,
+                        Some(below) => supernode.pattern()[below],
+                    };
+                    for j in from.saturating_sub(start)..block.ncols() {
+                        (j..block.nrows()).for_each(|i| keep(row(i), start + j, &block[(i, j)]));
+                    }
                 }
             }
         }
         last
     }
 
-    fn supernodal(&self) -> SupernodalLltRef<'_, usize, T> {
-        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else {
-            unreachable!("the factor was asked for by supernodes")
-        };
-        SupernodalLltRef::new(symbolic, &self.values)
+    /// Solves L z = z in place; z is in the order of the factor.
+    pub(super) fn solve_lower(&self, z: &mut [T]) {
+        match self.lower() {
+            Lower::Entries(l) => solve_lower_triangular_in_place(l, Conj::No, column(z), Par::Seq),
+            Lower::Blocks(l) => with_scratch(&l, |stack| {
+                l.l_solve_with_conj(Conj::No, column(z), Par::Seq, stack);
+            }),
+        }
     }
+
+    /// Solves Lᵀ x = x in place; x is in the order of the factor.
+    pub(super) fn solve_lower_transposed(&self, x: &mut [T]) {
+        match self.lower() {
+            Lower::Entries(l) => {
+                solve_lower_triangular_transpose_in_place(l, Conj::No, column(x), Par::Seq)
+            }
+            Lower::Blocks(l) => with_scratch(&l, |stack| {
+                l.l_transpose_solve_with_conj(Conj::No, column(x), Par::Seq, stack);
+            }),
+        }
+    }
+
+    /// Returns L in the form in which it was made.
+    fn lower(&self) -> Lower<'_, T> {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(symbolic) => {
+                Lower::Entries(SparseColMatRef::new(symbolic.factor(), &self.values))
+            }
+            SymbolicCholeskyRaw::Supernodal(symbolic) => {
+                Lower::Blocks(SupernodalLltRef::new(symbolic, &self.values))
+            }
+        }
+    }
+}
+
+/// Solves with the memory that a factor by supernodes needs.
+fn with_scratch<T: Native>(
+    factor: &SupernodalLltRef<'_, usize, T>,
+    solve: impl FnOnce(&mut MemStack),
+) {
+    let scratch = factor.symbolic().solve_in_place_scratch::<T>(1, Par::Seq);
+    solve(MemStack::new(&mut MemBuffer::new(scratch)));
 }
 
 /// A vector as faer takes it.

@@ -29,8 +29,17 @@ pub fn error_bound<V: Rounded>(
         let rounding = a.value().double() - a.value().to_f64().double();
         spread[i] += a.error() + rounding.to_f64().abs();
     }
-    let w = r.map(|r| r.to_f64().abs() + r.error());
-    let rho = inverse_norm(factors, &spread);
+    error_of_rest(factors, &r, &spread)
+}
+
+/// Returns the same bound from `rest`, which is b − A x, and `spread`, the sums of the rows of E.
+pub fn error_of_rest(
+    factors: &dyn Factors<f64>,
+    rest: &DVector<BoundedDouble>,
+    spread: &DVector<f64>,
+) -> f64 {
+    let w = rest.map(|r| r.to_f64().abs() + r.error());
+    let rho = inverse_norm(factors, spread);
     if rho < 1.0 { inverse_norm(factors, &w) / (1.0 - rho) } else { f64::INFINITY }
 }
 

@@ -36,7 +36,7 @@ mod symmetric;
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
 pub use condensed::{Condensed, Eliminated};
 pub use dense::{DenseCholesky, DenseLu};
-pub use error_bound::{error_bound, inverse_norm};
+pub use error_bound::{error_bound, error_of_rest, inverse_norm};
 pub use factors::{Factors, Native, Singular, backward_error};
 pub use field::Field;
 pub use iterative::{NotConverged, conjugate_gradients, refine};

@@ -143,14 +143,6 @@ impl<T: Scalar> SparseSymmetric<T> {
         SparseSymmetric::new(n, lower.filter(|(_, _, value)| !value.is_zero()))
     }
 
-    /// Returns the entries of the whole matrix: row, column, value.
-    pub fn both_triangles(&self) -> impl Iterator<Item = (usize, usize, T)> {
-        self.entries().flat_map(|(i, j, value)| {
-            let mirrored = (i != j).then_some((j, i, value));
-            std::iter::once((i, j, value)).chain(mirrored)
-        })
-    }
-
     pub fn times(&self, x: &DVector<T>) -> DVector<T> {
         let mut product = DVector::from_element(x.len(), T::zero());
         for (i, j, value) in self.entries() {

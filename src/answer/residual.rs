@@ -1,0 +1,79 @@
+//! How far a solution of Tᵀ K T q = f may be from the true one, K, T and f themselves being known
+//! within bounds: what it leaves of f is summed triangle by triangle, without the matrix.
+
+use nalgebra::DVector;
+
+use super::elimination::Elimination;
+use super::stiffness::Stiffness;
+use crate::numbers::scalar::{BoundedDouble, Rounded, Scalar, WithBound};
+use crate::numbers::solve::{Factors, error_of_rest};
+use crate::problem::model::Dof;
+
+/// Returns a bound on the largest error of an entry of `q`, infinite where Tᵀ K T cannot be told from
+/// a singular matrix. `factors` are those of that matrix rounded to `f64`.
+pub(super) fn error_of_solution<V: Rounded>(
+    (stiffness, t): (&Stiffness<WithBound<V>>, &Elimination<WithBound<V>>),
+    factors: &dyn Factors<f64>,
+    f: &DVector<WithBound<V>>,
+    q: &DVector<V>,
+) -> f64 {
+    let zero = BoundedDouble::new(V::ZERO.double(), 0.0);
+    let rows: Vec<_> = (0..t.shift().len()).map(|e| t.row(Dof::new(e))).collect();
+    let of_row = |row: &&[(usize, WithBound<V>)]| Moved {
+        u: row.iter().fold(zero, |sum, (p, w)| sum + double(*w) * double(exact(q[*p]))),
+        size: row.iter().map(|(_, w)| size(*w) + off(*w)).sum(),
+        off: row.iter().map(|(_, w)| off(*w)).sum(),
+    };
+    let moved: Vec<Moved> = rows.iter().map(of_row).collect();
+    // K T q, and of each row of K T the sum of its entries' sizes, and of what they may be off.
+    let mut force = vec![Moved { u: zero, size: 0.0, off: 0.0 }; rows.len()];
+    stiffness.visit(|dofs, k| {
+        for (i, row) in dofs.iter().enumerate() {
+            let force = &mut force[row.index()];
+            for (j, column) in dofs.iter().enumerate() {
+                let (k, moved) = (k[(i, j)], &moved[column.index()]);
+                force.u += double(k) * moved.u;
+                force.size += size(k) * moved.size;
+                force.off += off(k) * moved.size + size(k) * moved.off;
+            }
+        }
+    });
+    let mut rest = f.map(double);
+    let mut spread = DVector::zeros(q.len());
+    for (row, force) in rows.iter().zip(&force) {
+        for (p, w) in row.iter() {
+            rest[*p] -= double(*w) * force.u;
+            spread[*p] += size(*w) * force.off + off(*w) * (force.size + force.off);
+        }
+    }
+    error_of_rest(factors, &rest, &spread)
+}
+
+/// A row of T or of K T.
+#[derive(Clone)]
+struct Moved {
+    /// Its product with q.
+    u: BoundedDouble,
+    /// The sum of the sizes of its entries.
+    size: f64,
+    /// The sum of what its entries may be off.
+    off: f64,
+}
+
+fn exact<V: Rounded>(x: V) -> WithBound<V> {
+    WithBound::new(x, 0.0)
+}
+
+fn double<V: Rounded>(x: WithBound<V>) -> BoundedDouble {
+    BoundedDouble::new(x.value().double(), x.error())
+}
+
+fn size<V: Rounded>(x: WithBound<V>) -> f64 {
+    x.value().to_f64().abs()
+}
+
+/// Returns how far a number, rounded to `f64`, may be from the true one.
+fn off<V: Rounded>(x: WithBound<V>) -> f64 {
+    let rounding = x.value().double() - x.value().to_f64().double();
+    x.error() + rounding.to_f64().abs()
+}
