@@ -3,6 +3,8 @@
 
 use std::borrow::Cow;
 
+use nalgebra::DVector;
+
 use super::distance::{Distance, distance};
 use super::error::Error;
 use super::estimates::ErrorEstimates;
@@ -15,7 +17,7 @@ use super::solution::Solution;
 use super::solve::solve;
 use super::summary::{BodySummary, summaries};
 use crate::error::InputError;
-use crate::problem::modelling::ContactModel;
+use crate::problem::modelling::{ContactModel, Friction, Variant};
 
 /// The values and estimates that reports print beside a solution.
 pub struct Assessment<'a> {
@@ -48,34 +50,77 @@ pub struct Measured<'a> {
     pub hertz: Option<Hertz>,
 }
 
+/// The other solutions beside which a solution is assessed; they can be solved before it is known.
+pub struct Others {
+    /// The reference solution; None without contact, and where that is what was asked for.
+    reference: Option<Result<Solution, Error>>,
+    /// The equilibrium under the scene's own friction and geometry; None too where that is the
+    /// reference solution.
+    equilibrium: Option<Result<Solution, Error>>,
+    /// The displacements at the end of a path of half as many steps of the load, length; None without
+    /// a path, where there is none such, and without estimates.
+    half: Option<DVector<f64>>,
+}
+
+impl Others {
+    /// Solves for what a solution of `request` is assessed beside, `with_estimates` or without.
+    pub fn new(request: &Request, with_estimates: bool) -> Self {
+        let model = &request.scene.model;
+        let (reference, equilibrium) = (request.reference(), request.equilibrium());
+        let is_wanted =
+            |wanted: &Request| model.target().is_some() && !request.is_same_equilibrium(wanted);
+        let own = Some(&equilibrium).filter(|own| !own.is_same_equilibrium(&reference));
+        let solved = |wanted: &Request| {
+            is_wanted(wanted).then(|| solve(wanted, &mut |_| ()).map(without_factors))
+        };
+        let half = || with_estimates.then(|| half_as_many_steps(request)).flatten();
+        let (reference, (equilibrium, half)) = side_by_side(
+            model,
+            || solved(&reference),
+            || side_by_side(model, || own.and_then(solved), half),
+        );
+        Others { reference, equilibrium, half }
+    }
+}
+
 impl<'a> Assessment<'a> {
     /// Assesses a solution, and solves for the reference solution and for the equilibrium under the
     /// scene's own friction and geometry, unless it is one of them.
     pub fn new(solution: &'a Solution) -> Self {
-        let estimates = || (ErrorEstimates::new(solution), path_change(solution));
-        let assessment = || Self::without_estimates(solution);
-        let (assessment, (estimates, path_change)) =
-            side_by_side(&solution.model, assessment, estimates);
-        Assessment { estimates: Some(estimates), path_change, ..assessment }
+        let (others, estimates) = side_by_side(
+            &solution.model,
+            || Others::new(&solution.request, true),
+            || ErrorEstimates::new(solution),
+        );
+        Self::beside(solution, others, Some(estimates))
     }
 
     /// Does the same without the estimates: neither their fields nor `path_change`, which takes
     /// another run, are computed.
     pub fn without_estimates(solution: &'a Solution) -> Self {
+        Self::beside(solution, Others::new(&solution.request, false), None)
+    }
+
+    /// Assesses a solution beside others that were solved for its request, and by `estimates` of its
+    /// errors.
+    pub fn beside(
+        solution: &'a Solution,
+        others: Others,
+        estimates: Option<ErrorEstimates>,
+    ) -> Self {
         let request = &solution.request;
-        let (reference, equilibrium) = (request.reference(), request.equilibrium());
-        let own = (!equilibrium.is_same_equilibrium(&reference)).then_some(equilibrium);
-        let solved = |wanted: Request| match request.is_same_equilibrium(&wanted) {
-            true => Ok(Cow::Borrowed(solution)),
-            false => solve(&wanted, &mut |_| ()).map(|other| Cow::Owned(without_factors(other))),
+        let Others { reference, equilibrium, half } = others;
+        let has_own = !request.equilibrium().is_same_equilibrium(&request.reference());
+        let known = |other: Option<Result<Solution, Error>>| match other {
+            Some(other) => other.map(Cow::Owned),
+            None => Ok(Cow::Borrowed(solution)),
         };
         let target = solution.model.target();
-        let (reference, equilibrium) = side_by_side(
-            &solution.model,
-            || target.map(|_| solved(reference)),
-            || target.and(own).map(solved),
-        );
-        Assessment::measured(solution, reference, equilibrium)
+        let reference = target.map(|_| known(reference));
+        let equilibrium = target.filter(|_| has_own).map(|_| known(equilibrium));
+        let path_change = half.map(|u| (u - &solution.u).amax());
+        let assessment = Assessment::measured(solution, reference, equilibrium);
+        Assessment { estimates, path_change, ..assessment }
     }
 
     /// Assesses a solution against solutions that are already known: the reference solution, and
@@ -85,7 +130,9 @@ impl<'a> Assessment<'a> {
         [reference, equilibrium]: [Option<&'a Solution>; 2],
     ) -> Self {
         let known = |other: Option<&'a Solution>| other.map(|other| Ok(Cow::Borrowed(other)));
-        let (estimates, path_change) = (ErrorEstimates::new(solution), path_change(solution));
+        let estimates = ErrorEstimates::new(solution);
+        let half = half_as_many_steps(&solution.request);
+        let path_change = half.map(|u| (u - &solution.u).amax());
         let assessment = Assessment::measured(solution, known(reference), known(equilibrium));
         Assessment { estimates: Some(estimates), path_change, ..assessment }
     }
@@ -143,15 +190,13 @@ fn without_factors(solution: Solution) -> Solution {
     Solution { factors: Kept::default(), ..solution }
 }
 
-/// Follows the path of the load in half as many steps.
-fn path_change(solution: &Solution) -> Option<f64> {
-    let path = solution.equilibrium.as_ref()?.path.as_ref()?;
-    if path.steps % 2 == 1 {
-        return None;
-    }
-    let contact = ContactModel { load_steps: path.steps / 2, ..solution.request.contact };
-    let other = solve(&solution.request.clone().contact(contact), &mut |_| ()).ok()?;
-    Some((&other.u - &solution.u).amax())
+/// Follows the path of a request's load in half as many steps; returns the displacements at its end.
+fn half_as_many_steps(request: &Request) -> Option<DVector<f64>> {
+    let ContactModel { friction, load_steps, .. } = request.contact;
+    let has_path = request.variant == Variant::Unilateral && friction != Friction::NONE;
+    let steps = Some(load_steps / 2).filter(|_| has_path && load_steps % 2 == 0)?;
+    let contact = ContactModel { load_steps: steps, ..request.contact };
+    Some(solve(&request.clone().contact(contact), &mut |_| ()).ok()?.u)
 }
 
 impl<'a> Measured<'a> {

@@ -11,7 +11,7 @@ use super::factors::LastFactors;
 use super::request::Request;
 use super::sparse::{MakeSparse, Sparse, State};
 use super::stiffness::Stiffness;
-use super::support::support;
+use super::support::{support, supports_of_target};
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{self, Precision, Solver, Unsolved};
@@ -45,6 +45,8 @@ pub(super) struct Equations<'a, T> {
     pub stiffness: Stiffness<T>,
     /// Whether the run takes each degree of freedom as restrained.
     restrained: Vec<bool>,
+    /// Whether each of them is one of the target body.
+    supports: Vec<bool>,
     /// The whole load by degree of freedom, force.
     load: DVector<T>,
     /// The load of one iteration by degree of freedom, 0 at restrained ones, force.
@@ -105,6 +107,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             assembly,
             interpreter,
             stiffness,
+            supports: supports_of_target(model, &restrained),
             restrained,
             load,
             f,
@@ -200,8 +203,11 @@ impl<'a, T: Precision> Equations<'a, T> {
     }
 
     fn solved(&self, residual: f64, u: DVector<T>, constraints: &[Constraint<T>]) -> Solved<T> {
+        let mut wanted = self.supports.clone();
+        let bound = constraints.iter().flat_map(|constraint| constraint.node.dofs());
+        bound.for_each(|dof| wanted[dof.index()] = true);
         let load = self.load.map(|f| f / self.share);
-        let force = self.stiffness.times(&u) - load;
+        let force = self.stiffness.times_on(&wanted, &u) - load;
         let support = support(self.model, &self.restrained, constraints, &force);
         Solved { residual, support, u }
     }

@@ -289,5 +289,10 @@ impl Solution {
 
 /// Returns the largest |u| of a node, length.
 pub fn max_displacement<T: Scalar>(u: &DVector<T>) -> f64 {
-    u.as_slice().chunks(2).map(|u| Scalar::hypot(u[0], u[1])).fold(0.0, f64::max)
+    /// More than |u| over the larger of |u_x| and |u_y|.
+    const ROOM: f64 = 1.5;
+    u.as_slice().chunks(2).fold(0.0, |largest: f64, u| {
+        let longer = Scalar::abs(u[0]).to_f64().max(Scalar::abs(u[1]).to_f64());
+        if ROOM * longer < largest { largest } else { largest.max(Scalar::hypot(u[0], u[1])) }
+    })
 }

@@ -61,10 +61,10 @@ pub(super) fn restraints_of_target<T: Scalar>(
     total
 }
 
-/// Returns whether each degree of freedom is a restrained one of the target body.
-pub(super) fn supports_of_target(model: &Model) -> Vec<bool> {
+/// Returns whether each degree of freedom is one of the target body that the run restrains.
+pub(super) fn supports_of_target(model: &Model, restrained: &[bool]) -> Vec<bool> {
     let mut supports = vec![false; model.dofs()];
-    dofs_of_target(model).for_each(|dof| supports[dof.index()] = model.is_restrained(dof));
+    dofs_of_target(model).for_each(|dof| supports[dof.index()] = restrained[dof.index()]);
     supports
 }
 

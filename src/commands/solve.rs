@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::{NoEquilibrium, Result};
-use plane_contact::answer::{self, Assessment, Request, Solution, Step};
+use plane_contact::answer::error::{Error, NoEquilibrium, Result};
+use plane_contact::answer::estimates::ErrorEstimates;
+use plane_contact::answer::{self, Assessment, Others, Request, Solution, Step, side_by_side};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::edited::Edited;
@@ -102,24 +103,30 @@ pub fn run(args: &Args) -> Result<u8> {
     let scene = args.changes.change(Scene::open(&args.scene)?)?;
     let request = args.model.request(&scene, args.variant, &args.reading);
     let request = edited(args, request.arithmetic(args.arithmetic))?;
-    let (solution, accuracy) = solve(args, &request)?;
+    let with_estimates = !args.no_error_estimate;
+    let own = || {
+        let (solution, accuracy) = solve(args, &request)?;
+        let estimates = with_estimates.then(|| ErrorEstimates::new(&solution));
+        if args.probe.is_empty() {
+            solution.let_go_of_factors();
+        }
+        Ok::<_, Error>((solution, accuracy, estimates))
+    };
+    // These do not wait for it.
+    let others = || Others::new(&request, with_estimates);
+    let model = &request.scene.model;
+    let (own, (others, plan)) =
+        side_by_side(model, own, || side_by_side(model, others, || Plan::new(&request)));
+    let (solution, accuracy, estimates) = own?;
+    let plan = plan?;
+    let mut assessment = Assessment::beside(&solution, others, estimates);
+    assessment.probe(&solution, &args.probe)?;
+    solution.let_go_of_factors();
     let mut asked = args.changes.names();
     asked.extend(args.accuracy.iter().map(|a| format!("accuracy-{a:e}")));
     asked.extend(request.edited.iter().map(|edited| format!("edited-{}", edited.which)));
     let start = format!("{}-{}", scene.name, request.variant);
     let out = folder(&args.out, folder_name(start, &request, &asked));
-    let assess = || {
-        let mut assessment = match args.no_error_estimate {
-            true => Assessment::without_estimates(&solution),
-            false => Assessment::new(&solution),
-        };
-        let probed = assessment.probe(&solution, &args.probe);
-        solution.let_go_of_factors();
-        probed.map(|()| assessment)
-    };
-    let plan = || Plan::new(&solution.request);
-    let (assessment, plan) = answer::side_by_side(&solution.model, assess, plan);
-    let (plan, assessment) = (plan?, assessment?);
     let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
     if args.json {
         let result = match args.out {

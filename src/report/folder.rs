@@ -54,14 +54,15 @@ pub fn contents(
 ) -> Vec<(&'static str, Vec<u8>)> {
     let scene = &solution.request.scene;
     let drawing = Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
-    let mut files = vec![
-        ("result.json", result(solution, assessment, plan, wanted).into_bytes()),
-        ("fields.vtu", vtu::vtu(&drawing, solution, assessment)),
-    ];
-    if wanted.pictures {
-        let pictures = pictures(&drawing, solution, assessment).into_iter();
-        files.extend(pictures.map(|(name, picture)| (name, picture.into_bytes())));
-    }
+    let result = || result(solution, assessment, plan, wanted).into_bytes();
+    let fields = || vtu::vtu(&drawing, solution, assessment);
+    let pictures = || match wanted.pictures {
+        true => pictures(&drawing, solution, assessment),
+        false => Vec::new(),
+    };
+    let (pictures, (result, fields)) = rayon::join(pictures, || rayon::join(result, fields));
+    let mut files = vec![("result.json", result), ("fields.vtu", fields)];
+    files.extend(pictures.into_iter().map(|(name, picture)| (name, picture.into_bytes())));
     files
 }
 

@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::fmt;
 use std::rc::Rc;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use nalgebra::DVector;
 
@@ -46,7 +46,7 @@ impl fmt::Debug for Shared {
 impl Shared {
     /// Lets go of all bodies factored so far.
     pub(in crate::answer) fn let_go(&self) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clear();
+        self.made().clear();
     }
 
     /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.
@@ -56,15 +56,19 @@ impl Shared {
         model: &Arc<Model>,
         nodes: BTreeSet<NodeId>,
     ) -> Option<Arc<Condensation>> {
-        let mut made = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = made.iter().find(|known| known.nodes == nodes && known.is_of(model)) {
+        let is_known = |known: &&Arc<Condensation>| known.nodes == nodes && known.is_of(model);
+        if let Some(known) = self.made().iter().find(is_known) {
             return Some(Arc::clone(known));
         }
         // Those of large bodies take much memory: of each model the last ones are kept.
-        made.retain(|known| !known.is_of(model));
+        self.made().retain(|known| !known.is_of(model));
         let condensation = Arc::new(Condensation::new(stiffness, model, nodes)?);
-        made.push(Arc::clone(&condensation));
+        self.made().push(Arc::clone(&condensation));
         Some(condensation)
+    }
+
+    fn made(&self) -> MutexGuard<'_, Vec<Arc<Condensation>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

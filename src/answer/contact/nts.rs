@@ -56,7 +56,8 @@ fn jumps(one: Option<&Pairing>, other: Option<&Pairing>) -> bool {
 }
 
 fn target<'a>(surfaces: &'a Surfaces, shape: &[Vector]) -> Outline<'a> {
-    Outline::new(&surfaces.target, &surfaces.undeformed.target, shape)
+    let [_, meet] = &surfaces.meet;
+    Outline::new(&surfaces.target, meet, &surfaces.undeformed.target, shape)
 }
 
 /// Returns what a contact node faces.
@@ -108,7 +109,8 @@ impl Surfaces {
     /// see it: a vertex of the target between two contact nodes may enter the contact body. On
     /// curved surfaces that lie flush it is of the size of the sagitta of an edge.
     pub fn deepest_target_node(&self, shape: &[Vector]) -> Option<(NodeId, f64)> {
-        let outline = Outline::new(&self.contact, &self.undeformed.contact, shape);
+        let [meet, _] = &self.meet;
+        let outline = Outline::new(&self.contact, meet, &self.undeformed.contact, shape);
         let nodes: BTreeSet<NodeId> = self.target.iter().flat_map(|edge| edge.nodes).collect();
         let depth = |node: NodeId| {
             let own = self.undeformed.target_nodes.get(&node).map(|normal| unit(*normal));

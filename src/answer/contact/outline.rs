@@ -30,12 +30,12 @@
 //! TVCG 11 (2005) 243-253 (the sum of the edges' normals has the right sign at a vertex).
 
 use std::cell::{Cell, RefCell};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
-use super::surface::{Edge, FACING, Placed};
-use crate::problem::model::{NodeId, unordered};
+use super::surface::{Edge, FACING, Meeting, Placed};
+use crate::problem::model::NodeId;
 use crate::problem::tree::{Bounds, Tree};
 
 /// The difference of two distances, over the size of the surface, below which they are equal: far
@@ -61,7 +61,7 @@ pub(super) struct Outline<'a> {
     /// The normal of each edge in the undeformed shape.
     undeformed: &'a [Vector],
     /// The edges at each node, an edge that is listed twice once.
-    at: HashMap<NodeId, Vec<usize>>,
+    at: &'a HashMap<NodeId, Vec<usize>>,
     /// The mean normal at each edge's two nodes, over the edges that meet there in a bend.
     normals: Vec<[Vector; 2]>,
     tree: Tree,
@@ -94,19 +94,17 @@ enum Part {
 
 impl<'a> Outline<'a> {
     /// Places edges in `shape`; `undeformed` contains the normal of each in the undeformed shape.
-    pub(super) fn new(edges: &'a [Edge], undeformed: &'a [Vector], shape: &[Vector]) -> Self {
+    pub(super) fn new(
+        edges: &'a [Edge],
+        Meeting { once, at }: &'a Meeting,
+        undeformed: &'a [Vector],
+        shape: &[Vector],
+    ) -> Self {
         let placed: Vec<Placed> = edges.iter().map(|edge| edge.place(shape)).collect();
-        let mut listed = HashSet::new();
-        let once: Vec<usize> =
-            (0..edges.len()).filter(|k| listed.insert(unordered(edges[*k].nodes))).collect();
-        let mut at: HashMap<NodeId, Vec<usize>> = HashMap::new();
-        for &k in &once {
-            edges[k].nodes.iter().for_each(|n| at.entry(*n).or_default().push(k));
-        }
-        let ends = |k: usize| (k, edges[k].nodes.map(|n| shape[n.index()]));
-        let tree = Tree::new(once.into_iter().map(ends));
+        let ends = |k: &usize| (*k, edges[*k].nodes.map(|n| shape[n.index()]));
+        let tree = Tree::new(once.iter().map(ends));
         let tie = TIE * tree.bounds().map_or(0.0, |all| all.larger_side());
-        let normals = normals(edges, &placed, &at);
+        let normals = normals(edges, &placed, at);
         Outline { edges, placed, undeformed, at, normals, tree, tie }
     }
 

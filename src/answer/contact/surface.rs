@@ -20,6 +20,8 @@ pub struct Surfaces {
     pub(super) contact: Vec<Edge>,
     /// The edges of the target surface, in the order of the model.
     pub(super) target: Vec<Edge>,
+    /// Which edges of the contact surface meet, and which of the target surface.
+    pub(super) meet: [Meeting; 2],
     /// The normals of the undeformed shape. An intermediate shape of the iterations may be folded,
     /// so that its normals do not decide which surfaces face each other.
     pub(super) undeformed: Normals,
@@ -44,6 +46,27 @@ pub(super) struct Edge {
     pub(super) id: Option<EdgeId>,
     /// Its two nodes, with the body on the left from the first to the second.
     pub(super) nodes: [NodeId; 2],
+}
+
+/// Which edges of a surface meet at its nodes.
+pub(super) struct Meeting {
+    /// The edges, one that is listed twice once.
+    pub(super) once: Vec<usize>,
+    /// Those at each node.
+    pub(super) at: HashMap<NodeId, Vec<usize>>,
+}
+
+impl Meeting {
+    fn of(edges: &[Edge]) -> Self {
+        let mut listed = HashSet::new();
+        let once: Vec<usize> =
+            (0..edges.len()).filter(|k| listed.insert(unordered(edges[*k].nodes))).collect();
+        let mut at: HashMap<NodeId, Vec<usize>> = HashMap::new();
+        for &k in &once {
+            edges[k].nodes.iter().for_each(|n| at.entry(*n).or_default().push(k));
+        }
+        Meeting { once, at }
+    }
 }
 
 /// An edge in a given shape.
@@ -111,7 +134,8 @@ impl Surfaces {
             contact_nodes: normals_at_nodes(&contact, &model.nodes),
             target_nodes: normals_at_nodes(&target, &model.nodes),
         };
-        Ok(Surfaces { nodes, contact, target, undeformed })
+        let meet = [&contact, &target].map(|edges| Meeting::of(edges));
+        Ok(Surfaces { nodes, contact, target, meet, undeformed })
     }
 
     /// Returns the entries of the contact surface, in order.

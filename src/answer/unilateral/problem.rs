@@ -49,6 +49,8 @@ pub(super) struct Problem<'a> {
     pub(super) bodies: Bodies,
     /// The whole matrix that was factored last.
     pub(super) last: Last,
+    /// The target that each contact node faces in the initial shape.
+    initial: Vec<Option<Pairing>>,
 }
 
 /// What a step of the load starts from, and the load at its end.
@@ -140,11 +142,12 @@ impl<'a> Problem<'a> {
             stiffness: Stiffness::new(model, |x| x),
             surfaces,
             closed: CLOSED * size(model),
-            supports: supports_of_target(model),
+            supports: supports_of_target(model, &model.restrained),
             friction: request.contact.friction.coefficient(),
             no_friction: Arc::new(DVector::zeros(model.dofs())),
             bodies: Bodies::new(model, &request.shared).expecting(&initial),
             last: Last::default(),
+            initial,
         })
     }
 
@@ -157,8 +160,10 @@ impl<'a> Problem<'a> {
     /// or in the initial shape.
     pub(super) fn place(&self, u: &DVector<f64>) -> Place {
         let shape = self.model.shape(u);
-        let measured = if self.is_current() { &shape } else { &self.model.nodes };
-        let pairings = self.surfaces.pairings(self.request.contact.coupling, measured);
+        let pairings = match self.is_current() {
+            true => self.surfaces.pairings(self.request.contact.coupling, &shape),
+            false => self.initial.clone(),
+        };
         Place { shape: Arc::new(shape), pairings }
     }
 
