@@ -1,5 +1,7 @@
 //! The answer of a run with all its digits, and how far it is from another.
 
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
 use dashu_ratio::RBig;
 
 use super::verdict::Verdict;
@@ -91,19 +93,47 @@ impl Answer {
     }
 }
 
-/// Compares `answer` with the exact run of `variant` on `scene`; `unilateral` has no exact run and
-/// is compared with `tied`, which is its answer where nothing opens.
-pub fn against_exact(
-    answer: &Answer,
-    scene: &SceneBuilder,
+/// Exact answers, each solved once for all methods that are compared with it.
+#[derive(Default)]
+pub struct Exacts(Mutex<Vec<Known>>);
+
+struct Known {
+    scene: SceneBuilder,
     variant: Variant,
-    quantity: Quantity,
-) -> Verdict {
-    let unilateral = variant == Variant::Unilateral;
-    let exact = if unilateral { Variant::Tied } else { variant };
-    match solve(scene, exact, ScalarName::Exact, None) {
-        Ok(exact) if unilateral && answer.in_contact != exact.in_contact => Verdict::Unknown,
-        Ok(exact) => answer.against(&exact, quantity),
-        Err(_) => Verdict::Wrong("exact refuses"),
+    answer: Result<Arc<Answer>, Verdict>,
+}
+
+impl Exacts {
+    /// Runs `variant` on `scene` in exact numbers; else returns how that is refused.
+    pub fn of(&self, scene: &SceneBuilder, variant: Variant) -> Result<Arc<Answer>, Verdict> {
+        let is_known = |known: &&Known| known.variant == variant && known.scene == *scene;
+        if let Some(known) = self.known().iter().find(is_known) {
+            return known.answer.clone();
+        }
+        let answer = solve(scene, variant, ScalarName::Exact, None);
+        let answer = answer.map(Arc::new).map_err(Verdict::from);
+        self.known().push(Known { scene: scene.clone(), variant, answer: answer.clone() });
+        answer
+    }
+
+    /// Compares `answer` with the exact run of `variant` on `scene`; `unilateral` has no exact run
+    /// and is compared with `tied`, which is its answer where nothing opens.
+    pub fn judge(
+        &self,
+        answer: &Answer,
+        scene: &SceneBuilder,
+        variant: Variant,
+        quantity: Quantity,
+    ) -> Verdict {
+        let unilateral = variant == Variant::Unilateral;
+        match self.of(scene, if unilateral { Variant::Tied } else { variant }) {
+            Ok(exact) if unilateral && answer.in_contact != exact.in_contact => Verdict::Unknown,
+            Ok(exact) => answer.against(&exact, quantity),
+            Err(_) => Verdict::Wrong("exact refuses"),
+        }
+    }
+
+    fn known(&self) -> MutexGuard<'_, Vec<Known>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

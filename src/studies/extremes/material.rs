@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::answer::{Answer, against_exact, solve};
+use super::answer::{Answer, solve};
 use super::blocks::{Blocks, BlocksOf};
 use super::methods::{DOUBLE, SINGLE, in_each_scalar, joined, power_of_two, run};
 use super::sweep::{Generator, Method, Sweep};
@@ -33,7 +33,7 @@ pub fn incompressible() -> Generator {
     }
     let against_lame = [4, 16].map(|radial| {
         let name = format!("f64, {radial} x {} mesh against Lame", 2 * radial);
-        Method::new(name, DOUBLE, move |rest| lame(nu(rest), radial)).down_to(1.0)
+        Method::new(name, DOUBLE, move |rest, _| lame(nu(rest), radial)).down_to(1.0)
     });
     Generator::new(
         "incompressible",
@@ -106,8 +106,8 @@ fn scaled(name: &str, scalar: ScalarName, solver: Option<Solver>) -> Method {
         let (e, pressure) = (e / unit, pressure / unit);
         Blocks { e: [e, 7.0 * e], pressure, ..Blocks::default() }.scene(Variant::Printed)
     };
-    Method::new(name, scalar, move |e| {
+    Method::new(name, scalar, move |e, exacts| {
         let answer = solve(&scene(e, power_of_two(e)), Variant::Printed, scalar, solver)?;
-        Ok(against_exact(&answer, &scene(e, 1.0), Variant::Printed, Answer::displacement))
+        Ok(exacts.judge(&answer, &scene(e, 1.0), Variant::Printed, Answer::displacement))
     })
 }

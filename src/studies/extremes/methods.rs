@@ -1,7 +1,9 @@
 //! What a generator tries on its blocks: a variant in scalars of every precision, and well-known
 //! remedies, applied to a scene from outside: the mirror keeps the printed formulas.
 
-use super::answer::{Answer, Quantity, against_exact, solve};
+use std::sync::Arc;
+
+use super::answer::{Answer, Quantity, solve};
 use super::blocks::BlocksOf;
 use super::sweep::Method;
 use crate::numbers::solve::{ScalarName, Solver};
@@ -40,10 +42,10 @@ pub fn run(
     quantity: Quantity,
     blocks: BlocksOf,
 ) -> Method {
-    Method::new(name, scalar, move |x| {
+    Method::new(name, scalar, move |x, exacts| {
         let scene = blocks(x).scene(variant);
         let answer = solve(&scene, variant, scalar, solver)?;
-        Ok(against_exact(&answer, &scene, variant, quantity))
+        Ok(exacts.judge(&answer, &scene, variant, quantity))
     })
 }
 
@@ -96,17 +98,19 @@ fn remedied(
     blocks: BlocksOf,
     change: fn(&mut SceneBuilder) -> f64,
 ) -> Method {
-    Method::new(format!("tied {scalar}, {name}"), scalar, move |x| {
+    Method::new(format!("tied {scalar}, {name}"), scalar, move |x, exacts| {
         let scene = blocks(x).scene(Variant::Tied);
         let mut changed = scene.clone();
         let unit = change(&mut changed);
-        let tied = |scene: &SceneBuilder, scalar| solve(scene, Variant::Tied, scalar, None);
-        let answer = tied(&changed, scalar)?;
-        // The scene itself is refused where its areas leave the range of f64; the changed one has
-        // the same exact answer.
-        let exact = tied(&scene, ScalarName::Exact)
-            .or_else(|_| tied(&changed, ScalarName::Exact).map(|exact| exact.times(unit)))?;
-        Ok(answer.times(unit).against(&exact, Answer::displacement))
+        let tied = |scalar| solve(&changed, Variant::Tied, scalar, None);
+        let answer = tied(scalar)?.times(unit);
+        let exact = match exacts.of(&scene, Variant::Tied) {
+            Ok(exact) => exact,
+            // The scene itself is refused where its areas leave the range of f64; the changed one
+            // has the same exact answer.
+            Err(_) => Arc::new(tied(ScalarName::Exact)?.times(unit)),
+        };
+        Ok(answer.against(&exact, Answer::displacement))
     })
 }
 

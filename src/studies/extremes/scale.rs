@@ -1,6 +1,8 @@
 //! Generators of size and place: coordinates far from the origin, lengths and loads of any size,
 //! slivers, many iterations.
 
+use std::sync::Arc;
+
 use super::answer::{Answer, solve};
 use super::blocks::{Blocks, BlocksOf};
 use super::methods::{
@@ -8,8 +10,6 @@ use super::methods::{
     shifted,
 };
 use super::sweep::{Generator, Method, Sweep};
-use super::verdict::Verdict;
-use crate::answer::error::Error;
 use crate::numbers::solve::ScalarName;
 use crate::problem::modelling::Variant;
 
@@ -22,8 +22,12 @@ pub fn offset() -> Generator {
         in_scalar(Variant::Printed, DOUBLE, once),
         shifted(SINGLE, twice),
         shifted(DOUBLE, twice),
-        Method::new("exact, but for the input's rounding", DOUBLE, |origin| {
-            beside_exact(&twice(origin), Variant::Tied, ScalarName::Exact, &twice(0.0))
+        Method::new("exact, but for the input's rounding", DOUBLE, |origin, exacts| {
+            let scene = |origin| twice(origin).scene(Variant::Tied);
+            let judge = |moved: Arc<Answer>| {
+                exacts.judge(&moved, &scene(0.0), Variant::Tied, Answer::displacement)
+            };
+            Ok(exacts.of(&scene(origin), Variant::Tied).map_or_else(|refused| refused, judge))
         }),
     ];
     Generator::new(
@@ -37,16 +41,6 @@ pub fn offset() -> Generator {
 }
 
 /// Compares `variant` in `scalar` on `blocks` with the exact `tied` run on others.
-fn beside_exact(
-    blocks: &Blocks,
-    variant: Variant,
-    scalar: ScalarName,
-    others: &Blocks,
-) -> Result<Verdict, Error> {
-    let answer = solve(&blocks.scene(variant), variant, scalar, None)?;
-    let exact = solve(&others.scene(Variant::Tied), Variant::Tied, ScalarName::Exact, None)?;
-    Ok(answer.against(&exact, Answer::displacement))
-}
 
 pub fn lengths() -> Generator {
     let blocks = |length| Blocks { length, c_tll: 1e-3 * length, ..Blocks::default() };
@@ -100,8 +94,10 @@ pub fn iterations() -> Generator {
         Blocks { iterations: steps.round() as usize, ..Blocks::default() }
     }
     let drift = |variant: Variant, scalar: ScalarName| {
-        Method::new(format!("{variant} {scalar}"), scalar, move |steps| {
-            beside_exact(&blocks(steps), variant, scalar, &blocks(1.0))
+        Method::new(format!("{variant} {scalar}"), scalar, move |steps, exacts| {
+            let answer = solve(&blocks(steps).scene(variant), variant, scalar, None)?;
+            let once = blocks(1.0).scene(Variant::Tied);
+            Ok(exacts.judge(&answer, &once, Variant::Tied, Answer::displacement))
         })
     };
     let stepped = SCALARS.map(|scalar| drift(Variant::Stepped, scalar));

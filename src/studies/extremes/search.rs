@@ -135,7 +135,7 @@ fn method<T: Scalar>(
     search: SearchOf,
     origin: Option<Origin>,
 ) -> Method {
-    Method::new(format!("{name} {scalar}"), scalar, move |x| {
+    Method::new(format!("{name} {scalar}"), scalar, move |x, _| {
         let search = search(x);
         scope(|| {
             let (found, exact) = match origin {

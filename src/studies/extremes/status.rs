@@ -123,7 +123,7 @@ pub fn tolerance() -> Generator {
 /// beside exact numbers, `unilateral`, which has none, beside itself.
 fn beside(name: &str, blocks: BlocksOf, others: BlocksOf) -> [Method; 2] {
     [(Variant::Tied, ScalarName::Exact), (Variant::Unilateral, DOUBLE)].map(|(variant, scalar)| {
-        Method::new(format!("{variant} f64, {name}"), DOUBLE, move |case| {
+        Method::new(format!("{variant} f64, {name}"), DOUBLE, move |case, _| {
             let answer = solve(&blocks(case).scene(variant), variant, DOUBLE, None)?;
             let other = solve(&others(case).scene(variant), variant, scalar, None)?;
             Ok(answer.displacement(&other))

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::answer::Exacts;
 use super::verdict::Verdict;
 use crate::answer::error::Error;
 use crate::numbers::solve::ScalarName;
@@ -34,15 +35,18 @@ pub struct Method {
     carried: f64,
     /// Fewer digits than these count as broken.
     least: f64,
-    measure: Box<dyn Fn(f64) -> Result<Verdict, Error> + Send + Sync>,
+    measure: Box<Measure>,
 }
+
+/// Solves the problem of a magnitude, and judges the answer.
+type Measure = dyn Fn(f64, &Exacts) -> Result<Verdict, Error> + Send + Sync;
 
 impl Method {
     /// A method in `scalar`; `measure` solves the problem of a magnitude and judges the answer.
     pub fn new(
         name: impl Into<String>,
         scalar: ScalarName,
-        measure: impl Fn(f64) -> Result<Verdict, Error> + Send + Sync + 'static,
+        measure: impl Fn(f64, &Exacts) -> Result<Verdict, Error> + Send + Sync + 'static,
     ) -> Self {
         let carried = match scalar {
             ScalarName::F32 => 7.0,
@@ -62,8 +66,8 @@ impl Method {
         Method { least, ..self }
     }
 
-    fn at(&self, magnitude: f64) -> Verdict {
-        (self.measure)(magnitude).unwrap_or_else(Verdict::from).at_most(self.carried)
+    fn at(&self, magnitude: f64, exacts: &Exacts) -> Verdict {
+        (self.measure)(magnitude, exacts).unwrap_or_else(Verdict::from).at_most(self.carried)
     }
 }
 
@@ -117,6 +121,16 @@ impl Generator {
         let points = sweep.points();
         let logarithmic = matches!(sweep, Sweep::Decades { .. });
         let of = |p: &i32| sweep.magnitude(f64::from(*p)) + if logarithmic { 0.0 } else { 1.0 };
+        let exacts = Exacts::default();
+        // One method after the other at each point, as they share its exact answer.
+        let at = |p: &i32| {
+            let magnitude = sweep.magnitude(f64::from(*p));
+            methods.iter().map(|method| method.at(magnitude, &exacts)).collect()
+        };
+        let verdicts: Vec<Vec<Verdict>> = points.par_iter().map(at).collect();
+        let column = |(k, method): (usize, &Method)| {
+            sweep.column(method, verdicts.iter().map(|row| row[k].clone()).collect(), &exacts)
+        };
         Measured {
             name,
             title,
@@ -124,7 +138,7 @@ impl Generator {
             labels: points.iter().map(|p| sweep.label(*p)).collect(),
             magnitudes: points.iter().map(of).collect(),
             logarithmic,
-            columns: methods.par_iter().map(|method| sweep.run(method)).collect(),
+            columns: methods.par_iter().enumerate().map(column).collect(),
         }
     }
 }
@@ -155,10 +169,10 @@ impl Sweep {
         }
     }
 
-    fn run(&self, method: &Method) -> Column {
+    /// Finds where a method breaks down that was judged at each point.
+    fn column(&self, method: &Method, verdicts: Vec<Verdict>, exacts: &Exacts) -> Column {
         let points = self.points();
-        let at = |point: f64| method.at(self.magnitude(point));
-        let verdicts: Vec<Verdict> = points.par_iter().map(|p| at(f64::from(*p))).collect();
+        let at = |point: f64| method.at(self.magnitude(point), exacts);
         let (below, above) = match self {
             Sweep::Cases(_) => (None, None),
             Sweep::Decades { .. } => {
