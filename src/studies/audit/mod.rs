@@ -79,18 +79,21 @@ pub fn steps() -> usize {
 pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
     case.prepare();
     watch();
-    let variants = variants::side_by_side(case);
-    watch();
-    let readings = readings::effects(case);
-    watch();
     let measured = |finding: &'static Finding| {
         let measured = finding.measure(case);
         watch();
         (finding, measured)
     };
-    let findings = FINDINGS.par_iter().map(measured).collect();
-    let claims = claims::judge(CLAIMS, case, places);
-    watch();
+    let findings = || FINDINGS.par_iter().map(measured).collect();
+    let readings = || watched(readings::effects(case), watch);
+    let variants = || watched(variants::side_by_side(case), watch);
+    let claims = || watched(claims::judge(CLAIMS, case, places), watch);
+    let friction = || case.model().target().map_or(Vec::new(), |_| friction(case));
+    // All at once: each alone would end with one long run on one core.
+    let ((readings, claims), (findings, (variants, friction))) = rayon::join(
+        || rayon::join(readings, claims),
+        || rayon::join(findings, || rayon::join(variants, friction)),
+    );
     Audit {
         claims,
         assumptions: assumptions(&case.scene),
@@ -99,8 +102,14 @@ pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
         variants,
         equilibrium: case.equilibrium().map(compared),
         reference: case.reference().map(compared),
-        friction: case.model().target().map_or(Vec::new(), |_| friction(case)),
+        friction,
     }
+}
+
+/// Returns what was computed, after a call of `watch`.
+fn watched<T>(computed: T, watch: &(dyn Fn() + Sync)) -> T {
+    watch();
+    computed
 }
 
 fn compared(solution: &Solution) -> Compared {

@@ -15,8 +15,9 @@ use crate::answer::{
     Request, Solution, Stiffness, equilibrium, max_displacement, over, solve, summaries,
 };
 
-/// Seconds beyond which a trial is not run again: the median of one is itself.
-pub const PATIENCE: f64 = 4.0;
+/// Seconds beyond which a trial is not run again: what interrupts a run is short beside it, and the
+/// median of one is itself.
+pub const PATIENCE: f64 = 0.25;
 
 #[derive(Clone, Debug)]
 pub struct Options {
@@ -32,7 +33,7 @@ pub fn measure(
     request: &Request,
     options: &Options,
     mut peak: impl FnMut(&Trial) -> Option<u64>,
-    mut watch: impl FnMut(&str),
+    mut watch: impl FnMut(&str) + Send,
 ) -> Result<Trade, Error> {
     let model = &request.scene.model;
     let reference = model.target().and_then(|_| equilibrium(request).ok());
