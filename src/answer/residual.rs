@@ -1,6 +1,8 @@
 //! How far a solution of Tᵀ K T q = f may be from the true one, K, T and f themselves being known
 //! within bounds: what it leaves of f is summed triangle by triangle, without the matrix.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 
 use super::elimination::Elimination;
@@ -11,7 +13,7 @@ use crate::problem::model::Dof;
 
 /// Returns a bound on the largest error of an entry of `q`, infinite where Tᵀ K T cannot be told from
 /// a singular matrix. `factors` are those of that matrix rounded to `f64`.
-pub(super) fn error_of_solution<V: Rounded>(
+pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
     (stiffness, t): (&Stiffness<WithBound<V>>, &Elimination<WithBound<V>>),
     factors: &dyn Factors<f64>,
     f: &DVector<WithBound<V>>,
@@ -26,18 +28,28 @@ pub(super) fn error_of_solution<V: Rounded>(
     };
     let moved: Vec<Moved> = rows.iter().map(of_row).collect();
     // K T q, and of each row of K T the sum of its entries' sizes, and of what they may be off.
-    let mut force = vec![Moved { u: zero, size: 0.0, off: 0.0 }; rows.len()];
-    stiffness.visit(|dofs, k| {
-        for (i, row) in dofs.iter().enumerate() {
-            let force = &mut force[row.index()];
-            for (j, column) in dofs.iter().enumerate() {
-                let (k, moved) = (k[(i, j)], &moved[column.index()]);
-                force.u += double(k) * moved.u;
-                force.size += size(k) * moved.size;
-                force.off += off(k) * moved.size + size(k) * moved.off;
+    let of_triangles = |triangles: Range<usize>| {
+        let mut force = vec![Moved { u: zero, size: 0.0, off: 0.0 }; rows.len()];
+        stiffness.visit(triangles, |dofs, k| {
+            for (i, row) in dofs.iter().enumerate() {
+                let force = &mut force[row.index()];
+                for (j, column) in dofs.iter().enumerate() {
+                    let (k, moved) = (k[(i, j)], &moved[column.index()]);
+                    force.u += double(k) * moved.u;
+                    force.size += size(k) * moved.size;
+                    force.off += off(k) * moved.size + size(k) * moved.off;
+                }
             }
-        }
-    });
+        });
+        force
+    };
+    let (all, half) = (stiffness.triangles(), stiffness.triangles() / 2);
+    let (mut force, other) = rayon::join(|| of_triangles(0..half), || of_triangles(half..all));
+    for (force, other) in force.iter_mut().zip(other) {
+        force.u += other.u;
+        force.size += other.size;
+        force.off += other.off;
+    }
     let mut rest = f.map(double);
     let mut spread = DVector::zeros(q.len());
     for (row, force) in rows.iter().zip(&force) {

@@ -1,6 +1,7 @@
 //! The stiffness without contact and restraints, by triangle, which `Km` adds up in a matrix.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use nalgebra::{DVector, SMatrix, SVector};
 
@@ -101,12 +102,19 @@ impl<T: Scalar> Stiffness<T> {
         SparseSymmetric::summed(Pattern::new(t.size(), places), entries)
     }
 
-    /// Visits each triangle: the degrees of freedom of its corners, x, y of each in turn, and its matrix,
-    /// force/length.
-    pub fn visit(&self, mut triangle: impl FnMut([Dof; 6], &SMatrix<T, 6, 6>)) {
-        for (i, element) in self.triangles.iter().enumerate() {
-            triangle(element.dofs(), &self.matrix(i));
-        }
+    /// Returns the number of triangles.
+    pub fn triangles(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Visits some triangles: the degrees of freedom of the corners, x, y of each in turn, and the
+    /// matrix, force/length.
+    pub fn visit(
+        &self,
+        triangles: Range<usize>,
+        mut visit: impl FnMut([Dof; 6], &SMatrix<T, 6, 6>),
+    ) {
+        triangles.for_each(|i| visit(self.triangles[i].dofs(), &self.matrix(i)));
     }
 
     /// Returns the stresses and strains of every triangle under displacements `u`.
