@@ -14,7 +14,7 @@ use faer::sparse::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_lower_triangular_transpose_in_place,
 };
 use faer::{Conj, MatMut, Par, Side};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::factors::Native;
 use super::symmetric::SparseSymmetric;
@@ -119,32 +119,30 @@ impl<T: Native> Cholesky<T> {
         pivots
     }
 
-    /// Returns the block of L from the row and column `from` on.
-    pub(super) fn last_block(&self, from: usize) -> DMatrix<T> {
-        let size = self.symbolic.nrows() - from;
-        let mut last = DMatrix::from_element(size, size, T::from_f64(0.0));
-        let mut keep = |i: usize, j: usize, l: &T| last[(i - from, j - from)] = *l;
+    /// Visits the entries of L from the row and column `from` on, columns in turn: row and column from
+    /// there, value.
+    pub(super) fn visit_last(&self, from: usize, mut visit: impl FnMut(usize, usize, T)) {
+        let mut visit = |i: usize, j: usize, l: &T| visit(i - from, j - from, *l);
         match self.lower() {
             Lower::Entries(l) => {
                 for j in from..l.ncols() {
-                    l.row_idx_of_col(j).zip(l.val_of_col(j)).for_each(|(i, l)| keep(i, j, l));
+                    l.row_idx_of_col(j).zip(l.val_of_col(j)).for_each(|(i, l)| visit(i, j, l));
                 }
             }
             Lower::Blocks(l) => {
-                for s in 0..l.symbolic().n_supernodes() {
+                let ends = l.symbolic().supernode_end();
+                for s in ends.partition_point(|end| *end <= from)..l.symbolic().n_supernodes() {
                     let supernode = l.supernode(s);
                     let (start, block) = (supernode.start(), supernode.val());
-                    let row = |i: usize| match i.checked_sub(block.ncols()) {
-                        None => start + i,
-                        Some(below) => supernode.pattern()[below],
-                    };
                     for j in from.saturating_sub(start)..block.ncols() {
-                        (j..block.nrows()).for_each(|i| keep(row(i), start + j, &block[(i, j)]));
+                        let rows = (start + j..start + block.ncols())
+                            .chain(supernode.pattern().iter().copied());
+                        let column = block.col(j).subrows(j, block.nrows() - j);
+                        rows.zip(column.iter()).for_each(|(i, l)| visit(i, start + j, l));
                     }
                 }
             }
         }
-        last
     }
 
     /// Solves L z = z in place; z is in the order of the factor.

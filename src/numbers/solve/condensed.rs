@@ -29,8 +29,8 @@ pub struct Condensed {
     factor: Cholesky<f64>,
     /// The equation at each place of the order: those inside, then those kept, as they were given.
     order: Vec<usize>,
-    /// The last block of the factor, k x k.
-    last: DMatrix<f64>,
+    /// The number of equations inside.
+    inside: usize,
     schur: DMatrix<f64>,
 }
 
@@ -53,7 +53,8 @@ impl Condensed {
         let raised = matrix.map_diagonal(|e, a| if place[e] >= inside { a + a } else { a });
         let factor = Cholesky::ordered(&raised, &order, &place)?;
         let factor = Some(factor).filter(|factor| factor.has_large_pivots(&raised.diagonal()))?;
-        let last = factor.last_block(inside);
+        let mut last = DMatrix::zeros(kept.len(), kept.len());
+        factor.visit_last(inside, |i, j, l| last[(i, j)] = l);
         let mut schur = square(&last);
         let diagonal = matrix.diagonal();
         for (k, e) in kept.iter().enumerate() {
@@ -62,7 +63,7 @@ impl Condensed {
                 return None;
             }
         }
-        Some(Condensed { factor, order, last, schur })
+        Some(Condensed { factor, order, inside, schur })
     }
 
     /// Returns S, in the order in which the kept equations were given.
@@ -74,7 +75,9 @@ impl Condensed {
     pub fn eliminate(&self, b: &DVector<f64>) -> Eliminated {
         let mut z: Vec<f64> = self.order.iter().map(|e| b[*e]).collect();
         self.factor.solve_lower(&mut z);
-        let kept = &self.last * DVector::from_column_slice(&z[self.inside()..]);
+        let mut kept = DVector::zeros(z.len() - self.inside);
+        let own = &z[self.inside..];
+        self.factor.visit_last(self.inside, |i, j, l| kept[i] += l * own[j]);
         Eliminated { z, kept }
     }
 
@@ -86,18 +89,15 @@ impl Condensed {
     /// Returns the solution on all equations from that on the kept ones.
     pub fn expand(&self, eliminated: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
         let mut x = eliminated.z.clone();
-        x[self.inside()..].copy_from_slice(self.last.tr_mul(kept).as_slice());
+        let own = &mut x[self.inside..];
+        own.fill(0.0);
+        self.factor.visit_last(self.inside, |i, j, l| own[j] += l * kept[i]);
         self.factor.solve_lower_transposed(&mut x);
         let mut solution = DVector::zeros(x.len());
         self.order.iter().zip(&x).for_each(|(e, x)| solution[*e] = *x);
         // What was given is returned to the bit.
-        self.order[self.inside()..].iter().zip(kept).for_each(|(e, x)| solution[*e] = *x);
+        self.order[self.inside..].iter().zip(kept).for_each(|(e, x)| solution[*e] = *x);
         solution
-    }
-
-    /// Returns the number of equations inside.
-    fn inside(&self) -> usize {
-        self.order.len() - self.last.nrows()
     }
 }
 
