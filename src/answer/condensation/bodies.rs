@@ -81,11 +81,9 @@ pub(in crate::answer) struct Bodies {
     current: RefCell<Option<Arc<Condensation>>>,
     /// The load that was eliminated last.
     loaded: RefCell<Option<Loaded>>,
-    /// The nodes to keep for the first contact state of large surfaces; none where only that state
-    /// shows which are bound.
-    expected: Vec<NodeId>,
-    /// Whether a contact state was asked for.
-    begun: Cell<bool>,
+    /// The nodes to keep for the first contact state of large surfaces, beside those that it binds;
+    /// none afterwards.
+    expected: RefCell<Vec<NodeId>>,
     /// Whether they cannot be, or need not, as there is no contact.
     impossible: Cell<bool>,
 }
@@ -124,19 +122,17 @@ impl Bodies {
             surfaces: surfaces(model),
             current: RefCell::default(),
             loaded: RefCell::default(),
-            expected: Vec::new(),
-            begun: Cell::new(false),
+            expected: RefCell::default(),
             impossible: Cell::new(!model.has_contact()),
         }
     }
 
     /// Expects that the entries of the contact surface with the least gaps come into contact; of few
     /// equations, those that the first state binds.
-    pub(in crate::answer) fn expecting(mut self, pairings: &[Option<Pairing>]) -> Self {
+    pub(in crate::answer) fn expecting(self, pairings: &[Option<Pairing>]) -> Self {
         let (part, least) = EXPECTED;
         let equations = self.model.free_dofs();
         if equations < least {
-            self.begun.set(true);
             return self;
         }
         let mut nearest: Vec<&Pairing> = pairings.iter().flatten().collect();
@@ -146,29 +142,25 @@ impl Bodies {
             let masters = p.masters.iter().map(|(master, _)| *master);
             std::iter::once(p.node).chain(masters).collect::<Vec<_>>()
         };
-        self.expected = nearest.iter().take(most as usize).flat_map(nodes).collect();
+        self.expected.replace(nearest.iter().take(most as usize).flat_map(nodes).collect());
         self
     }
 
     /// Returns the bodies condensed to the nodes of `constraints` and others; None where the whole
-    /// matrix is to be factored. On large surfaces of which nothing is expected the first state only
-    /// shows which nodes are bound.
+    /// matrix is to be factored.
     pub(in crate::answer) fn condensed(
         &self,
         stiffness: &Stiffness,
         constraints: &[Constraint],
     ) -> Option<Arc<Condensation>> {
-        let first = !self.begun.replace(true);
-        let unforeseen = first && !self.is_small() && self.expected.is_empty();
-        if self.impossible.get() || unforeseen {
+        if self.impossible.get() {
             return None;
         }
         let current = self.current.borrow().clone().filter(|c| c.has(constraints));
         if current.is_some() {
             return current;
         }
-        let expected: &[NodeId] = if first { &self.expected } else { &[] };
-        let nodes = self.nodes(constraints, expected);
+        let nodes = self.nodes(constraints, &self.expected.take());
         if nodes.len() > self.most() {
             return None;
         }
