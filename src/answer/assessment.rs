@@ -118,7 +118,7 @@ impl<'a> Assessment<'a> {
         let target = solution.model.target();
         let reference = target.map(|_| known(reference));
         let equilibrium = target.filter(|_| has_own).map(|_| known(equilibrium));
-        let path_change = half.map(|u| (u - &solution.u).amax());
+        let path_change = change(half, solution);
         let assessment = Assessment::measured(solution, reference, equilibrium);
         Assessment { estimates, path_change, ..assessment }
     }
@@ -131,8 +131,7 @@ impl<'a> Assessment<'a> {
     ) -> Self {
         let known = |other: Option<&'a Solution>| other.map(|other| Ok(Cow::Borrowed(other)));
         let estimates = ErrorEstimates::new(solution);
-        let half = half_as_many_steps(&solution.request);
-        let path_change = half.map(|u| (u - &solution.u).amax());
+        let path_change = change(half_as_many_steps(&solution.request), solution);
         let assessment = Assessment::measured(solution, known(reference), known(equilibrium));
         Assessment { estimates: Some(estimates), path_change, ..assessment }
     }
@@ -188,6 +187,11 @@ impl<'a> Assessment<'a> {
 /// Returns a solution without what only its own estimates need: large factors.
 fn without_factors(solution: Solution) -> Solution {
     Solution { factors: Kept::default(), ..solution }
+}
+
+/// Returns the largest difference of other displacements from those of a solution, length.
+fn change(other: Option<DVector<f64>>, solution: &Solution) -> Option<f64> {
+    other.map(|u| (u - &solution.u).amax())
 }
 
 /// Follows the path of a request's load in half as many steps; returns the displacements at its end.

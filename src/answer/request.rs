@@ -138,23 +138,17 @@ impl Request {
     /// The plane problem of R6 does not allow a Poisson's ratio, or under `unilateral` the nodes of
     /// the contact surface make no chain.
     pub fn model(&self) -> Result<Arc<Model>, InputError> {
-        let scene = &self.scene.model;
-        let nodes = match self.variant {
-            Variant::Unilateral => {
-                Some(contact::along(scene)?).filter(|n| *n != scene.contact.nodes)
-            }
-            _ => None,
-        };
-        if nodes.is_none() && self.tolerance.is_none() && door::is_as_it_stands(&self.reading) {
-            return Ok(Arc::clone(scene));
-        }
-        let mut model = (**scene).clone();
+        // What changes nothing leaves it shared.
+        let mut model = Arc::clone(&self.scene.model);
         if let Some(tolerance) = self.tolerance {
-            model.contact.tolerance = tolerance;
+            Arc::make_mut(&mut model).contact.tolerance = tolerance;
         }
-        if let Some(nodes) = nodes {
-            model.contact.nodes = nodes;
+        if self.variant == Variant::Unilateral {
+            let nodes = contact::along(&model)?;
+            if nodes != model.contact.nodes {
+                Arc::make_mut(&mut model).contact.nodes = nodes;
+            }
         }
-        Ok(Arc::new(door::under(model, &self.reading)?))
+        door::under(model, &self.reading)
     }
 }

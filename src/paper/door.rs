@@ -8,6 +8,8 @@
 //! ```
 #![allow(non_snake_case, reason = "the paper's own names")]
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::mathcad::array::{Column, Table};
@@ -22,24 +24,20 @@ use crate::problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
 /// The column of `EL` and `elem` where the nodes start.
 const IND_1: usize = 6;
 
-/// Returns `model` under a reading: R6 sets the plane problem, R8 the unit of the tolerance.
+/// Returns `model` under a reading: R6 sets the plane problem, R8 the unit of the tolerance. A model
+/// that the reading changes is no longer shared.
 /// Errors: the plane problem of R6 does not allow a Poisson's ratio.
-pub fn under(mut model: Model, reading: &Reading) -> Result<Model, InputError> {
+pub fn under(mut model: Arc<Model>, reading: &Reading) -> Result<Arc<Model>, InputError> {
     if let Some(plane) = reading.r6 {
-        model.plane = plane;
+        Arc::make_mut(&mut model).plane = plane;
         for triangle in &model.triangles {
             plane.check_poisson(triangle.material.nu, "--reading R6")?;
         }
     }
     if reading.r8 == ToleranceUnit::Metre {
-        model.contact.tolerance *= 1000.0;
+        Arc::make_mut(&mut model).contact.tolerance *= 1000.0;
     }
     Ok(model)
-}
-
-/// Returns whether a reading leaves every model as it stands.
-pub fn is_as_it_stands(reading: &Reading) -> bool {
-    reading.r6.is_none() && reading.r8 != ToleranceUnit::Metre
 }
 
 /// Returns the paper's tables of a model. Each number passes through `number`; `Ae` and `B` are

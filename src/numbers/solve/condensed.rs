@@ -44,8 +44,11 @@ pub struct Eliminated {
 
 impl Condensed {
     /// Condenses `matrix` to the equations `kept`; None where A_ii is not far from a singular matrix,
-    /// or S has lost its digits against A_kk.
+    /// or S has lost its digits against A_kk, and without equations.
     pub fn new(matrix: &SparseSymmetric, kept: &[usize]) -> Option<Self> {
+        if matrix.size() == 0 {
+            return None;
+        }
         let order = order(matrix, kept);
         let inside = order.len() - kept.len();
         let mut place = vec![0; order.len()];
