@@ -40,8 +40,6 @@ pub fn offset() -> Generator {
     )
 }
 
-/// Compares `variant` in `scalar` on `blocks` with the exact `tied` run on others.
-
 pub fn lengths() -> Generator {
     let blocks = |length| Blocks { length, c_tll: 1e-3 * length, ..Blocks::default() };
     of_any_size("lengths", "Lengths of any size", "length unit", blocks, length_scaled)
