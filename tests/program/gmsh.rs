@@ -289,6 +289,14 @@ fn both_byte_orders_are_read() {
     }
 }
 
+/// A physical tag of 0 is none, in version 4.1 too: of an entity's tags the others count.
+#[test]
+fn a_physical_tag_of_zero_is_none() {
+    let text = SMALL_4.replace("1 -7 0", "2 0 -7 0");
+    assert_ne!(text, SMALL_4);
+    assert_eq!(read(text.as_bytes()), Ok(small_4()));
+}
+
 /// The error of `text` with its first `from` replaced by `to`.
 fn error_of(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from:?} is not in the file");

@@ -43,8 +43,9 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Reads an entity's physical tags. Their number is limited, because each element of the entity
-    /// gets a copy: without a limit a hostile file of some kilobytes would take gigabytes.
+    /// Reads an entity's physical tags; 0 is none, as in format 2.2. Their number is limited, because
+    /// each element of the entity gets a copy: without a limit a hostile file of some kilobytes would
+    /// take gigabytes.
     fn physical_tags(&mut self) -> Result<Vec<usize>> {
         const MOST: usize = 32;
         let count = self.tokens.size("the number of physical tags")?;
@@ -54,7 +55,7 @@ impl Reader<'_> {
         }
         let tags: Result<BTreeSet<usize>> =
             (0..count).map(|_| self.tokens.int("a physical tag").map(magnitude)).collect();
-        Ok(tags?.into_iter().collect())
+        Ok(tags?.into_iter().filter(|tag| *tag != 0).collect())
     }
 
     /// Reads `$Nodes`: the totals, then the blocks.
