@@ -7,7 +7,7 @@ use nalgebra::DVector;
 
 use super::elimination::Elimination;
 use super::stiffness::Stiffness;
-use crate::numbers::scalar::{BoundedDouble, Rounded, Scalar, WithBound};
+use crate::numbers::scalar::{BoundedDouble, Rounded, WithBound};
 use crate::numbers::solve::{Factors, error_of_rest};
 use crate::problem::model::Dof;
 
@@ -22,9 +22,9 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
     let zero = BoundedDouble::new(V::ZERO.double(), 0.0);
     let rows: Vec<_> = (0..t.shift().len()).map(|e| t.row(Dof::new(e))).collect();
     let of_row = |row: &&[(usize, WithBound<V>)]| Moved {
-        u: row.iter().fold(zero, |sum, (p, w)| sum + double(*w) * double(exact(q[*p]))),
-        size: row.iter().map(|(_, w)| size(*w) + off(*w)).sum(),
-        off: row.iter().map(|(_, w)| off(*w)).sum(),
+        u: row.iter().fold(zero, |sum, (p, w)| sum + w.in_double() * exact(q[*p]).in_double()),
+        size: row.iter().map(|(_, w)| size(*w) + w.off()).sum(),
+        off: row.iter().map(|(_, w)| w.off()).sum(),
     };
     let moved: Vec<Moved> = rows.iter().map(of_row).collect();
     // K T q, and of each row of K T the sum of its entries' sizes, and of what they may be off.
@@ -35,9 +35,9 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
                 let force = &mut force[row.index()];
                 for (j, column) in dofs.iter().enumerate() {
                     let (k, moved) = (k[(i, j)], &moved[column.index()]);
-                    force.u += double(k) * moved.u;
+                    force.u += k.in_double() * moved.u;
                     force.size += size(k) * moved.size;
-                    force.off += off(k) * moved.size + size(k) * moved.off;
+                    force.off += k.off() * moved.size + size(k) * moved.off;
                 }
             }
         });
@@ -50,12 +50,12 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
         force.size += other.size;
         force.off += other.off;
     }
-    let mut rest = f.map(double);
+    let mut rest = f.map(WithBound::in_double);
     let mut spread = DVector::zeros(q.len());
     for (row, force) in rows.iter().zip(&force) {
         for (p, w) in row.iter() {
-            rest[*p] -= double(*w) * force.u;
-            spread[*p] += size(*w) * force.off + off(*w) * (force.size + force.off);
+            rest[*p] -= w.in_double() * force.u;
+            spread[*p] += size(*w) * force.off + w.off() * (force.size + force.off);
         }
     }
     error_of_rest(factors, &rest, &spread)
@@ -76,16 +76,6 @@ fn exact<V: Rounded>(x: V) -> WithBound<V> {
     WithBound::new(x, 0.0)
 }
 
-fn double<V: Rounded>(x: WithBound<V>) -> BoundedDouble {
-    BoundedDouble::new(x.value().double(), x.error())
-}
-
 fn size<V: Rounded>(x: WithBound<V>) -> f64 {
     x.value().to_f64().abs()
-}
-
-/// Returns how far a number, rounded to `f64`, may be from the true one.
-fn off<V: Rounded>(x: WithBound<V>) -> f64 {
-    let rounding = x.value().double() - x.value().to_f64().double();
-    x.error() + rounding.to_f64().abs()
 }

@@ -138,6 +138,17 @@ fn underflowing(value: f64, rounding: f64) -> f64 {
 }
 
 impl<V: Rounded> WithBound<V> {
+    /// Returns the same number and bound in double-double.
+    pub fn in_double(self) -> BoundedDouble {
+        WithBound::new(self.value.double(), self.error)
+    }
+
+    /// Returns how far its value, rounded to `f64`, may be from the true one.
+    pub fn off(self) -> f64 {
+        let rounding = self.value.double() - self.value.to_f64().double();
+        self.error + rounding.to_f64().abs()
+    }
+
     const ZERO: Self = WithBound { value: V::ZERO, error: 0.0 };
     const ONE: Self = WithBound { value: V::ONE, error: 0.0 };
 

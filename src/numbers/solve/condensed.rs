@@ -29,8 +29,6 @@ pub struct Condensed {
     factor: Cholesky<f64>,
     /// The equation at each place of the order: those inside, then those kept, as they were given.
     order: Vec<usize>,
-    /// The number of equations inside.
-    inside: usize,
     schur: DMatrix<f64>,
 }
 
@@ -66,7 +64,7 @@ impl Condensed {
                 return None;
             }
         }
-        Some(Condensed { factor, order, inside, schur })
+        Some(Condensed { factor, order, schur })
     }
 
     /// Returns S, in the order in which the kept equations were given.
@@ -78,10 +76,15 @@ impl Condensed {
     pub fn eliminate(&self, b: &DVector<f64>) -> Eliminated {
         let mut z: Vec<f64> = self.order.iter().map(|e| b[*e]).collect();
         self.factor.solve_lower(&mut z);
-        let mut kept = DVector::zeros(z.len() - self.inside);
-        let own = &z[self.inside..];
-        self.factor.visit_last(self.inside, |i, j, l| kept[i] += l * own[j]);
+        let mut kept = DVector::zeros(z.len() - self.inside());
+        let own = &z[self.inside()..];
+        self.factor.visit_last(self.inside(), |i, j, l| kept[i] += l * own[j]);
         Eliminated { z, kept }
+    }
+
+    /// Returns the number of equations inside.
+    fn inside(&self) -> usize {
+        self.order.len() - self.schur.nrows()
     }
 
     /// Returns a right-hand side that is 0 inside.
@@ -92,14 +95,14 @@ impl Condensed {
     /// Returns the solution on all equations from that on the kept ones.
     pub fn expand(&self, eliminated: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
         let mut x = eliminated.z.clone();
-        let own = &mut x[self.inside..];
+        let own = &mut x[self.inside()..];
         own.fill(0.0);
-        self.factor.visit_last(self.inside, |i, j, l| own[j] += l * kept[i]);
+        self.factor.visit_last(self.inside(), |i, j, l| own[j] += l * kept[i]);
         self.factor.solve_lower_transposed(&mut x);
         let mut solution = DVector::zeros(x.len());
         self.order.iter().zip(&x).for_each(|(e, x)| solution[*e] = *x);
         // What was given is returned to the bit.
-        self.order[self.inside..].iter().zip(kept).for_each(|(e, x)| solution[*e] = *x);
+        self.order[self.inside()..].iter().zip(kept).for_each(|(e, x)| solution[*e] = *x);
         solution
     }
 }

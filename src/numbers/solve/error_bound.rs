@@ -19,15 +19,13 @@ pub fn error_bound<V: Rounded>(
     b: &DVector<WithBound<V>>,
     x: &DVector<V>,
 ) -> f64 {
-    let double = |x: WithBound<V>| BoundedDouble::new(x.value().double(), x.error());
     let x = x.map(|x| BoundedDouble::new(x.double(), 0.0));
     // In double-double, which bounds its own rounding, the error of b and of A included.
-    let mut r = b.map(double);
+    let mut r = b.map(WithBound::in_double);
     let mut spread = DVector::zeros(x.len());
     for (i, j, a) in entries {
-        r[i] -= double(a) * x[j];
-        let rounding = a.value().double() - a.value().to_f64().double();
-        spread[i] += a.error() + rounding.to_f64().abs();
+        r[i] -= a.in_double() * x[j];
+        spread[i] += a.off();
     }
     error_of_rest(factors, &r, &spread)
 }
