@@ -58,6 +58,8 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
             spread[*p] += size(*w) * force.off + w.off() * (force.size + force.off);
         }
     }
+    // They are large, and the factors take their time.
+    drop((rows, moved, force));
     error_of_rest(factors, &rest, &spread)
 }
 

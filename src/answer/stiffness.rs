@@ -20,17 +20,26 @@ const KEPT: usize = 100_000;
 pub struct Stiffness<T = f64> {
     plane: Plane,
     dofs: usize,
+    materials: Vec<Elastic<T>>,
     triangles: Vec<Element<T>>,
     /// The matrix of each triangle, where they are few; else empty.
     matrices: Vec<SMatrix<T, 6, 6>>,
 }
 
-/// One triangle in the numbers of a run.
-struct Element<T> {
-    nodes: [NodeId; 3],
+/// A material in the numbers of a run.
+struct Elastic<T> {
     /// The elastic modulus, stress.
     e: T,
     nu: T,
+    /// Stress over strain, stress.
+    d: SMatrix<T, 3, 3>,
+}
+
+/// One triangle in the numbers of a run.
+struct Element<T> {
+    nodes: [NodeId; 3],
+    /// Its place in [`Stiffness::materials`].
+    material: u32,
     /// What the strain matrix is made of, 1/length.
     gradients: [[T; 2]; 3],
     /// The area times the thickness, length³.
@@ -40,28 +49,35 @@ struct Element<T> {
 impl<T: Scalar> Stiffness<T> {
     /// Computes the stiffness of every triangle in T from numbers that pass through `number`.
     pub fn new(model: &Model, number: impl Fn(f64) -> T) -> Self {
+        // One for each run of triangles of the same material.
+        let mut materials = Vec::new();
+        let mut last = None;
         let triangle = |id: TriangleId| {
             let material = model.triangle(id).material;
+            if last != Some(material) {
+                let [e, nu] = [material.e, material.nu].map(&number);
+                materials.push(Elastic { e, nu, d: D(model.plane, e, nu) });
+                last = Some(material);
+            }
             let corners = model.corners(id).map(|p| p.map(&number));
             Element {
                 nodes: model.triangle(id).nodes,
-                e: number(material.e),
-                nu: number(material.nu),
+                material: materials.len() as u32 - 1,
                 gradients: element::gradients(&corners),
                 volume: element::area(&corners) * number(model.thickness),
             }
         };
         let triangles: Vec<Element<T>> = model.triangle_ids().map(triangle).collect();
         let kept = if triangles.len() <= KEPT { triangles.len() } else { 0 };
-        let matrices = triangles[..kept].iter().map(|triangle| triangle.matrix(model.plane));
+        let matrices = triangles[..kept].iter().map(|triangle| triangle.matrix(&materials));
         let matrices = matrices.collect();
-        Stiffness { plane: model.plane, dofs: model.dofs(), triangles, matrices }
+        Stiffness { plane: model.plane, dofs: model.dofs(), materials, triangles, matrices }
     }
 
     /// Returns the matrix Ae·Bᵀ·D·B of a triangle, force/length.
     fn matrix(&self, i: usize) -> Cow<'_, SMatrix<T, 6, 6>> {
         let kept = self.matrices.get(i).map(Cow::Borrowed);
-        kept.unwrap_or_else(|| Cow::Owned(self.triangles[i].matrix(self.plane)))
+        kept.unwrap_or_else(|| Cow::Owned(self.triangles[i].matrix(&self.materials)))
     }
 
     /// Returns K u, the forces that keep the shape `u`, force.
@@ -119,14 +135,17 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Returns the stresses and strains of every triangle under displacements `u`.
     pub fn states(&self, u: &DVector<T>) -> Vec<State> {
-        let state =
-            |t: &Element<T>| State::new(self.plane, t.e, t.nu, &t.strain(), &t.displacements(u));
+        let state = |t: &Element<T>| {
+            let Elastic { e, nu, .. } = self.materials[t.material as usize];
+            State::new(self.plane, e, nu, &t.strain(), &t.displacements(u))
+        };
         self.triangles.iter().map(state).collect()
     }
 
     /// Returns sigma_x, sigma_y, tau_xy of every triangle under displacements `u`, stress.
     pub fn stresses(&self, u: &DVector<T>) -> Vec<SVector<T, 3>> {
-        let stress = |t: &Element<T>| D(self.plane, t.e, t.nu) * (t.strain() * t.displacements(u));
+        let d = |t: &Element<T>| self.materials[t.material as usize].d;
+        let stress = |t: &Element<T>| d(t) * (t.strain() * t.displacements(u));
         self.triangles.iter().map(stress).collect()
     }
 }
@@ -149,8 +168,8 @@ impl<T: Scalar> Element<T> {
         element::strain_matrix(&self.gradients)
     }
 
-    fn matrix(&self, plane: Plane) -> SMatrix<T, 6, 6> {
-        element::stiffness(&self.strain(), &D(plane, self.e, self.nu)) * self.volume
+    fn matrix(&self, materials: &[Elastic<T>]) -> SMatrix<T, 6, 6> {
+        element::stiffness(&self.strain(), &materials[self.material as usize].d) * self.volume
     }
 
     /// Returns the degrees of freedom of its corners: x, y of each corner in turn.

@@ -91,8 +91,9 @@ impl Discretisation {
     fn on(patches: Arc<Patches>, model: &Model, elements: &[State]) -> Self {
         let stresses: Vec<Stress> = elements.iter().map(|state| state.sigma).collect();
         let at_sites = recover(&patches, &stresses);
-        let known = |k: usize| patches.corners[k].iter().all(|&s| at_sites[s].is_some());
-        let corners = |k: usize| patches.corners[k].map(|s| at_sites[s].unwrap_or(stresses[k]));
+        let known = |k: usize| patches.corners[k].iter().all(|s| at_sites[*s as usize].is_some());
+        let corners =
+            |k: usize| patches.corners[k].map(|s| at_sites[s as usize].unwrap_or(stresses[k]));
         let triangles = || model.triangles.iter().enumerate();
         let recovered: Vec<[Stress; 3]> = (0..stresses.len()).map(corners).collect();
         let error = |k: usize| recovered[k].map(|s| s - stresses[k]);

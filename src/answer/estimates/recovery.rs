@@ -13,6 +13,7 @@ use std::collections::BTreeSet;
 use nalgebra::{Matrix2, SMatrix, Vector2, Vector3};
 
 use super::patches::Patches;
+use crate::problem::model::TriangleId;
 
 /// The stress components sigma_x, sigma_y, tau_xy.
 pub type Stress = Vector3<f64>;
@@ -29,38 +30,38 @@ const FARTHEST: usize = 8;
 /// site's material has no patch that fixes a slope.
 ///
 pub fn recover(patches: &Patches, stresses: &[Stress]) -> Vec<Option<Stress>> {
-    let own: Vec<Option<Linear>> = (0..patches.points.len())
-        .map(|site| {
-            let fit = || Linear::fit(patches, &patches.around[site], stresses);
-            patches.interior[site].then(fit).flatten()
-        })
-        .collect();
-    (0..patches.points.len())
-        .map(|site| match &own[site] {
-            Some(polynomial) => Some(polynomial.at(patches.points[site])),
-            None => nearest(patches, &own, site).or_else(|| enlarged(patches, stresses, site)),
-        })
-        .collect()
+    let recovered = |site: u32| match own(patches, stresses, site) {
+        Some(polynomial) => Some(polynomial.at(patches.points[site as usize])),
+        None => nearest(patches, stresses, site).or_else(|| enlarged(patches, stresses, site)),
+    };
+    (0..patches.points.len() as u32).map(recovered).collect()
+}
+
+/// Returns the polynomial of an interior site; None of others, and where its triangles fix no slope.
+fn own(patches: &Patches, stresses: &[Stress], site: u32) -> Option<Linear> {
+    let fit = || Linear::fit(patches, patches.around(site), stresses);
+    patches.interior[site as usize].then(fit).flatten()
 }
 
 /// Returns the mean at `site` of the polynomials of the nearest sites that have one.
-fn nearest(patches: &Patches, own: &[Option<Linear>], site: usize) -> Option<Stress> {
-    let read = |ring: &[usize]| {
-        let values: Vec<Stress> =
-            ring.iter().filter_map(|&s| Some(own[s].as_ref()?.at(patches.points[site]))).collect();
+fn nearest(patches: &Patches, stresses: &[Stress], site: u32) -> Option<Stress> {
+    let point = patches.points[site as usize];
+    let read = |ring: &[u32]| {
+        let value = |s: &u32| Some(own(patches, stresses, *s)?.at(point));
+        let values: Vec<Stress> = ring.iter().filter_map(value).collect();
         (!values.is_empty()).then(|| values.iter().sum::<Stress>() / values.len() as f64)
     };
     Rings::new(patches, site).take(FARTHEST).find_map(|ring| read(&ring))
 }
 
 /// Returns the value at `site` of the polynomial of the smallest patch of rings that fixes one.
-fn enlarged(patches: &Patches, stresses: &[Stress], site: usize) -> Option<Stress> {
-    let mut triangles: BTreeSet<usize> = patches.around[site].iter().copied().collect();
+fn enlarged(patches: &Patches, stresses: &[Stress], site: u32) -> Option<Stress> {
+    let mut triangles: BTreeSet<TriangleId> = patches.around(site).iter().copied().collect();
     for ring in Rings::new(patches, site) {
-        triangles.extend(ring.iter().flat_map(|&s| &patches.around[s]));
-        let members: Vec<usize> = triangles.iter().copied().collect();
+        triangles.extend(ring.iter().flat_map(|s| patches.around(*s)));
+        let members: Vec<TriangleId> = triangles.iter().copied().collect();
         if let Some(polynomial) = Linear::fit(patches, &members, stresses) {
-            return Some(polynomial.at(patches.points[site]));
+            return Some(polynomial.at(patches.points[site as usize]));
         }
     }
     None
@@ -69,25 +70,24 @@ fn enlarged(patches: &Patches, stresses: &[Stress], site: usize) -> Option<Stres
 /// The sites one edge away, two edges away, and so on.
 struct Rings<'a> {
     patches: &'a Patches,
-    seen: BTreeSet<usize>,
-    last: Vec<usize>,
+    seen: BTreeSet<u32>,
+    last: Vec<u32>,
 }
 
 impl<'a> Rings<'a> {
-    fn new(patches: &'a Patches, site: usize) -> Self {
+    fn new(patches: &'a Patches, site: u32) -> Self {
         Rings { patches, seen: BTreeSet::from([site]), last: vec![site] }
     }
 }
 
 impl Iterator for Rings<'_> {
-    type Item = Vec<usize>;
+    type Item = Vec<u32>;
 
-    fn next(&mut self) -> Option<Vec<usize>> {
-        let beyond: BTreeSet<usize> = self
+    fn next(&mut self) -> Option<Vec<u32>> {
+        let beyond: BTreeSet<u32> = self
             .last
             .iter()
-            .flat_map(|&s| &self.patches.neighbours[s])
-            .copied()
+            .flat_map(|s| self.patches.neighbours(*s))
             .filter(|s| !self.seen.contains(s))
             .collect();
         self.seen.extend(&beyond);
@@ -106,11 +106,11 @@ struct Linear {
 
 impl Linear {
     /// Fits by least squares at the centres of `triangles`; None where they lie on one line.
-    fn fit(patches: &Patches, triangles: &[usize], stresses: &[Stress]) -> Option<Self> {
+    fn fit(patches: &Patches, triangles: &[TriangleId], stresses: &[Stress]) -> Option<Self> {
         let count = triangles.len() as f64;
-        let centre = |t: &usize| Vector2::from(patches.centres[*t]);
+        let centre = |t: &TriangleId| Vector2::from(patches.centres[t.index()]);
         let origin = triangles.iter().map(centre).sum::<Vector2<f64>>() / count;
-        let mean = triangles.iter().map(|&t| stresses[t]).sum::<Stress>() / count;
+        let mean = triangles.iter().map(|t| stresses[t.index()]).sum::<Stress>() / count;
         let size = triangles.iter().map(|t| (centre(t) - origin).norm()).fold(0.0, f64::max);
         if size == 0.0 {
             return None;
@@ -120,7 +120,7 @@ impl Linear {
         for t in triangles {
             let d = (centre(t) - origin) / size;
             g += d * d.transpose();
-            h += (stresses[*t] - mean) * d.transpose();
+            h += (stresses[t.index()] - mean) * d.transpose();
         }
         let moments = g.symmetric_eigenvalues();
         if moments.min() <= COLLINEAR * moments.max() {

@@ -37,8 +37,9 @@ pub fn error_of_rest(
     spread: &DVector<f64>,
 ) -> f64 {
     let w = rest.map(|r| r.to_f64().abs() + r.error());
-    let rho = inverse_norm(factors, spread);
-    if rho < 1.0 { inverse_norm(factors, &w) / (1.0 - rho) } else { f64::INFINITY }
+    let norm = |of: &DVector<f64>| inverse_norm(factors, of);
+    let (rho, bound) = rayon::join(|| norm(spread), || norm(&w));
+    if rho < 1.0 { bound / (1.0 - rho) } else { f64::INFINITY }
 }
 
 /// Returns the largest entry of |A⁻¹| w, A symmetric and w >= 0: the 1-norm of diag(w) A⁻¹.
