@@ -9,7 +9,7 @@ use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
 use super::factors::LastFactors;
 use super::request::Request;
-use super::sparse::{MakeSparse, Sparse, State};
+use super::sparse::{MakeSparse, Sparse, State, takes_sparse};
 use super::stiffness::Stiffness;
 use super::support::{support, supports_of_target};
 use crate::error::InputError;
@@ -68,7 +68,7 @@ pub(super) struct Solved<T> {
 
 impl<'a, T: Precision> Equations<'a, T> {
     /// Prepares the equations of `request`. `load` is the whole load by degree of freedom, force;
-    /// `sparse` solves where sparse Cholesky is requested.
+    /// `sparse` solves where the solver takes a sparse matrix.
     ///
     /// # Errors
     /// The stiffness overflows.
@@ -90,7 +90,8 @@ impl<'a, T: Precision> Equations<'a, T> {
             true => T::zero(),
             false => load[e] / share,
         });
-        let sparse = sparse.filter(|_| request.solver() == Solver::SparseCholesky);
+        let is_sparse = takes_sparse(request.solver(), request.arithmetic.scalar);
+        let sparse = sparse.filter(|_| is_sparse);
         let assembly = match (request.variant, sparse) {
             (Variant::Printed, _) => Assembly::Printed,
             (_, Some(make)) => Assembly::Sparse(make(request, model)),

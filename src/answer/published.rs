@@ -35,8 +35,8 @@ use crate::problem::modelling::{Coupling, StatusRule, Variant};
 /// on meshes of 13 to 15,045 nodes.
 pub const BYTES_OF_A_NODE: f64 = 160.0;
 
-/// Solves a request for one of the variants that the paper describes. `sparse` solves where sparse
-/// Cholesky is requested; without it that solver gets a dense matrix.
+/// Solves a request for one of the variants that the paper describes. `sparse` solves where the solver
+/// takes a sparse matrix; without it that solver gets a dense one.
 ///
 /// # Errors
 /// The published algorithm fails as printed, a matrix is singular, or it does not fit in memory.

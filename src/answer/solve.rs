@@ -6,11 +6,11 @@ use super::error::Error;
 use super::published::published;
 use super::request::Request;
 use super::solution::{Solution, Step};
-use super::sparse::{Condensing, Sparse, Whole};
+use super::sparse::{Condensing, Iterating, Sparse, Whole};
 use super::unilateral::unilateral;
 use crate::error::InputError;
 use crate::numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
-use crate::numbers::solve::{Arithmetic, ScalarName, Solver, cost};
+use crate::numbers::solve::{Arithmetic, Iterates, ScalarName, Solver, cost};
 use crate::paper::listings::Which;
 use crate::paper::mirror::NodeTable;
 use crate::problem::element::State;
@@ -73,9 +73,11 @@ fn run(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Erro
             check_unilateral(request)?;
             unilateral(request, watch)?
         }
-        (_, ScalarName::F64) => published::<f64>(request, Some(condensing), watch)?,
-        (_, ScalarName::F32) => published::<f32>(request, Some(|_, _| Box::new(Whole)), watch)?,
-        (_, ScalarName::F64x2) => published::<F64x2>(request, Some(condensing), watch)?,
+        (_, ScalarName::F64) => published::<f64>(request, Some(sparse), watch)?,
+        (_, ScalarName::F32) => {
+            published::<f32>(request, Some(|request, _| or_iterating(request, || Whole)), watch)?
+        }
+        (_, ScalarName::F64x2) => published::<F64x2>(request, Some(sparse), watch)?,
         (_, ScalarName::Bounded) => published::<Bounded>(request, Some(condensing), watch)?,
         (_, ScalarName::BoundedDouble) => {
             published::<BoundedDouble>(request, Some(condensing), watch)?
@@ -84,6 +86,25 @@ fn run(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Erro
     };
     check_finite(&solution)?;
     Ok(solution)
+}
+
+/// Returns the solver that a request asks for: what iterates, or else what `direct` makes.
+fn or_iterating<T: Iterates, S: Sparse<T> + 'static>(
+    request: &Request,
+    direct: impl FnOnce() -> S,
+) -> Box<dyn Sparse<T>> {
+    let Arithmetic { tol, .. } = request.arithmetic;
+    match request.solver() {
+        solver @ (Solver::Cg | Solver::Refined) => Box::new(Iterating { solver, tol }),
+        _ => Box::new(direct()),
+    }
+}
+
+fn sparse<T: Iterates>(request: &Request, model: &Arc<Model>) -> Box<dyn Sparse<T>>
+where
+    Condensing: Sparse<T>,
+{
+    or_iterating(request, || Condensing::new(request, model))
 }
 
 fn condensing<T>(request: &Request, model: &Arc<Model>) -> Box<dyn Sparse<T>>

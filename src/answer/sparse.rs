@@ -12,7 +12,7 @@ use super::residual::error_of_solution;
 use super::stiffness::Stiffness;
 use crate::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar, WithBound};
 use crate::numbers::solve::{
-    Arithmetic, Factors, Field, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky,
+    Arithmetic, Factors, Field, Iterates, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky,
     SparseSymmetric, Unsolved, refine,
 };
 use crate::problem::model::Model;
@@ -52,6 +52,18 @@ impl<T: Native> Sparse<T> for Whole {
         let factors = SparseCholesky::new(state.stiffness.reduced(state.t))?;
         let x = factors.solve(state.f);
         Ok(Solved { residual: factors.residual(&x, state.f), x })
+    }
+}
+
+/// What solves the whole equations of each state to a tolerance.
+pub(super) struct Iterating {
+    pub(super) solver: Solver,
+    pub(super) tol: Option<f64>,
+}
+
+impl<T: Iterates> Sparse<T> for Iterating {
+    fn solve(&self, state: &State<T>) -> Result<Solved<T>, Unsolved> {
+        T::iterate(&state.stiffness.reduced(state.t), state.f, self.solver, self.tol)
     }
 }
 
@@ -161,10 +173,19 @@ fn in_double(
     }
 }
 
+/// Returns whether `solver` takes Tᵀ K T as a sparse matrix in numbers of a scalar.
+pub(super) fn takes_sparse(solver: Solver, scalar: ScalarName) -> bool {
+    use ScalarName::{Exact, F32, F64, F64x2};
+    match solver {
+        Solver::SparseCholesky => scalar != Exact,
+        Solver::Cg | Solver::Refined => matches!(scalar, F32 | F64 | F64x2),
+        Solver::DenseLu | Solver::DenseCholesky | Solver::SparseLu => false,
+    }
+}
+
 /// Returns the number of dense 2R x 2R matrices of the scalar in memory at once.
 pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
     let solver = arithmetic.solver(variant == Variant::Printed);
-    let sparse = solver == Solver::SparseCholesky && arithmetic.scalar != ScalarName::Exact;
     match (variant, solver) {
         (Variant::Unilateral, _) => 0,
         (Variant::Printed, Solver::DenseLu) => 3,
@@ -175,7 +196,7 @@ pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
         (Variant::Printed, Solver::DenseCholesky) => 2,
         (_, Solver::DenseCholesky) => 3,
         (Variant::Printed, _) => 1,
-        _ if sparse => 0,
+        _ if takes_sparse(solver, arithmetic.scalar) => 0,
         _ => 2,
     }
 }

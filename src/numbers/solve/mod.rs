@@ -43,7 +43,7 @@ pub use iterative::{NotConverged, conjugate_gradients, refine};
 pub use ldlt::Ldlt;
 pub use lifting::lift;
 pub use lu::solve_dense;
-pub use precision::{Precision, Solved, Unsolved};
+pub use precision::{Iterates, Precision, Solved, Unsolved};
 pub use sparse::{SparseCholesky, largest_motion};
 pub use sparse_lu::SparseLu;
 pub use square::SparseSquare;

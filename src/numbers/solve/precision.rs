@@ -77,18 +77,63 @@ pub trait Precision: Scalar {
     }
 }
 
+/// A scalar in which A x = b is solved to a tolerance, by products with A and factors in fewer digits.
+pub trait Iterates: Precision {
+    /// Solves by `cg` or `refined` to `tol`, A symmetric and positive definite.
+    /// Errors: the factors tell that A is singular, or the iteration did not converge.
+    fn iterate(
+        a: &SparseSymmetric<Self>,
+        b: &DVector<Self>,
+        by: Solver,
+        tol: Option<f64>,
+    ) -> Outcome<Self>;
+}
+
+impl Iterates for f64 {
+    fn iterate(
+        a: &SparseSymmetric<Self>,
+        b: &DVector<Self>,
+        by: Solver,
+        tol: Option<f64>,
+    ) -> Outcome<Self> {
+        let tol = tol.unwrap_or(TOL * f64::EPSILON);
+        if by == Solver::Refined { refined::<f32, f64>(a, b, tol) } else { by_gradients(a, b, tol) }
+    }
+}
+
+impl Iterates for f32 {
+    fn iterate(
+        a: &SparseSymmetric<Self>,
+        b: &DVector<Self>,
+        _: Solver,
+        tol: Option<f64>,
+    ) -> Outcome<Self> {
+        by_gradients(a, b, tol.unwrap_or(TOL * f64::from(f32::EPSILON)))
+    }
+}
+
+impl Iterates for F64x2 {
+    fn iterate(
+        a: &SparseSymmetric<Self>,
+        b: &DVector<Self>,
+        by: Solver,
+        tol: Option<f64>,
+    ) -> Outcome<Self> {
+        let tol = tol.unwrap_or(TOL * <F64x2 as Field>::EPSILON);
+        if by == Solver::Refined {
+            refined::<f64, F64x2>(a, b, tol)
+        } else {
+            by_gradients(a, b, tol)
+        }
+    }
+}
+
 /// The tolerance where none is given, in units of the scalar's epsilon.
 const TOL: f64 = 16.0;
 
 impl Precision for f64 {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
-        match by {
-            Solver::Refined => {
-                let tol = tol.unwrap_or(TOL * f64::EPSILON);
-                refined::<f32, f64>(&SparseSymmetric::of_lower(&a), b, tol)
-            }
-            _ => native(a, b, by, tol),
-        }
+        native(a, b, by, tol)
     }
 
     fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
@@ -160,11 +205,9 @@ fn with_bound<V: Rounded>(
 
 impl Precision for F64x2 {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
-        let tol = tol.unwrap_or(TOL * <F64x2 as Field>::EPSILON);
         let sparse = SparseSymmetric::of_lower(&a);
         let x = match by {
-            Solver::Refined => return refined::<f64, F64x2>(&sparse, b, tol),
-            Solver::Cg => conjugate_gradients(&sparse, b, tol)?,
+            Solver::Cg | Solver::Refined => return Self::iterate(&sparse, b, by, tol),
             Solver::DenseLu => {
                 DVector::from_vec(solve_dense(|i, j| a[(i, j)], b.as_slice().to_vec())?)
             }
@@ -205,8 +248,8 @@ impl Precision for Exact {
     }
 }
 
-/// Solves in a scalar of the machine by faer, or by conjugate gradients.
-fn native<T: Native + Precision>(
+/// Solves in a scalar of the machine by faer, or to a tolerance.
+fn native<T: Native + Iterates>(
     a: DMatrix<T>,
     b: &DVector<T>,
     by: Solver,
@@ -220,7 +263,7 @@ fn native<T: Native + Precision>(
     let sparse = SparseSymmetric::of_lower(&a);
     let x = match by {
         Solver::DenseCholesky => DenseCholesky::new(&a)?.solve(b),
-        Solver::Cg => conjugate_gradients(&sparse, b, tol.unwrap_or(TOL * T::EPSILON))?,
+        Solver::Cg | Solver::Refined => return T::iterate(&sparse, b, by, tol),
         _ => SparseCholesky::new(sparse.clone())?.solve(b),
     };
     Ok(Solved { residual: sparse.residual(&x, b), x })
@@ -229,6 +272,11 @@ fn native<T: Native + Precision>(
 fn solved<T: Native>(lu: &impl Lu<T>, b: &DVector<T>) -> Solved<T> {
     let x = lu.solve(b);
     Solved { residual: lu.residual(&x, b), x }
+}
+
+fn by_gradients<T: Scalar>(a: &SparseSymmetric<T>, b: &DVector<T>, tol: f64) -> Outcome<T> {
+    let x = conjugate_gradients(a, b, tol)?;
+    Ok(Solved { residual: a.residual(&x, b), x })
 }
 
 /// Solves by sparse Cholesky factors in L, refined by residuals in T.
