@@ -32,7 +32,7 @@ pub static GEOMETRY: LazyLock<Section> = LazyLock::new(|| {
     // Its runs are made once, by one test: see `Case::prepare`.
     LazyLock::force(&JUDGED);
     let strand = Scene::open("strand").expect("an embedded scene");
-    geometry(&Request::new(&strand), &RANGE, &mut |_| ())
+    geometry(&Request::new(&strand), &RANGE, &|_| ())
 });
 
 #[test]

@@ -96,11 +96,16 @@ impl Case {
             Variant::Printed => drop(self.run(*variant)),
             _ => drop(self.certain(*variant)),
         };
+        let unilateral = || {
+            let _ = self.certain(Variant::Unilateral);
+            // It may be that very run.
+            let _ = self.equilibrium();
+        };
         let finer = || {
             let _ = self.model().target().map(|_| self.finer());
         };
-        let others = || rayon::join(|| self.equilibrium(), finer);
-        rayon::join(others, || Variant::ALL.par_iter().for_each(run));
+        let published = || Variant::OF_THE_PAPER.par_iter().for_each(run);
+        rayon::join(|| rayon::join(unilateral, finer), published);
     }
 
     /// The reference solution; nothing without contact, and where it does not run.
@@ -113,6 +118,9 @@ impl Case {
     /// without contact, and where it does not run.
     pub fn equilibrium(&self) -> Option<&Solution> {
         self.model().target()?;
+        if self.request(Variant::Unilateral).is_same_equilibrium(&self.base.equilibrium()) {
+            return self.run(Variant::Unilateral).ok();
+        }
         self.equilibrium.get_or_init(|| equilibrium(&self.base).ok()).as_ref()
     }
 

@@ -9,7 +9,6 @@ use super::Case;
 use crate::answer::Request;
 use crate::choices;
 use crate::error::Result;
-use crate::numbers::solve::{Arithmetic, Solver};
 use crate::paper::mirror::{Reading, ToleranceUnit};
 use crate::problem::scene::Scene;
 use crate::studies::benchmark::Strand;
@@ -93,12 +92,10 @@ pub type Range = Vec<(Place, Arc<Case>)>;
 /// that is in the range of every parameter are made once.
 /// Errors: a value is outside what the generator allows.
 pub fn range(reading: Reading) -> Result<Range> {
-    // `printed` by dense LU, its own solver, would take most of the time.
-    let arithmetic = Arithmetic { solver: Some(Solver::SparseCholesky), ..Arithmetic::default() };
     let case = |(strand, r8): &(Strand, ToleranceUnit)| {
         let scene = strand.generate().and_then(|scene| scene.build())?;
-        let request = Request::new(&scene).arithmetic(arithmetic);
-        Ok(Arc::new(Case::of(request.reading(Reading { r8: *r8, ..reading }))))
+        let reading = Reading { r8: *r8, ..reading };
+        Ok(Arc::new(Case::of(Request::new(&scene).reading(reading))))
     };
     let own = (Strand::default(), ToleranceUnit::default());
     let own_case = case(&own)?;

@@ -35,23 +35,25 @@ impl Errors {
     }
 
     /// The errors of the solution of one trial against that of another, each with the trial's
-    /// setting: both are brought to one mesh. `scene` is the scene of both as it came.
+    /// setting: both are brought to one mesh. `scene` is the scene of both as it came, `meshes` are
+    /// its refined ones.
     pub(super) fn between(
         scene: &Scene,
+        meshes: &[Refined],
         (setting, solution): (Setting, &Solution),
         (best, truth): (Setting, &Solution),
-    ) -> Result<Self, InputError> {
-        Ok(match (setting, best) {
+    ) -> Self {
+        match (setting, best) {
             (Setting::Refined(coarse), Setting::Refined(fine)) => {
-                let meshes = meshes(scene, fine)?;
-                Errors::new(&prolonged(solution.clone(), &meshes[coarse..], truth), truth)
+                let solution = prolonged(solution.clone(), &meshes[coarse..fine], truth);
+                Errors::new(&solution, truth)
             }
             (Setting::Half, Setting::Own) => {
                 let half = symmetry::half(scene).expect("its half was run");
                 Errors::new(solution, &restricted(truth, &half, solution))
             }
             _ => Errors::new(solution, truth),
-        })
+        }
     }
 }
 

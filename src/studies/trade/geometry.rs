@@ -1,6 +1,6 @@
 //! The knob *geometry*: what the paper leaves open of its example, one thing at a time.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -25,18 +25,13 @@ pub fn places(request: &Request) -> Result<Range> {
 
 /// Measures every variant that carries load across, and judges every claim that rests on runs, at
 /// each of `places`; `watch` is called after each.
-pub fn geometry(
-    request: &Request,
-    places: &Range,
-    watch: &mut (impl FnMut(&str) + Send),
-) -> Section {
+pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync)) -> Section {
     let on_runs = |claim: &&Claim| claim.basis == Basis::Runs && !places.is_empty();
     let on_runs: Vec<Claim> = CLAIMS.iter().filter(on_runs).cloned().collect();
-    let watch = Mutex::new(watch);
     let of_place = |(place, case): &(Place, Arc<Case>)| {
         case.prepare();
         let rows: Vec<Row> = CARRYING.iter().map(|variant| row(*place, case, *variant)).collect();
-        watch.lock().unwrap_or_else(PoisonError::into_inner)(&label(*place));
+        watch(&label(*place));
         rows
     };
     let rows: Vec<Row> = places.par_iter().flat_map_iter(of_place).collect();

@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use rayon::prelude::*;
+
 use super::errors::{Errors, meshes, prolonged};
 use super::geometry::{geometry, places};
 use super::order::{Order, departure};
@@ -14,6 +16,7 @@ use crate::answer::estimates::{Certainty, certain};
 use crate::answer::{
     Request, Solution, Stiffness, equilibrium, max_displacement, over, solve, summaries,
 };
+use crate::problem::scene::{Refined, Scene};
 
 /// Seconds beyond which a trial is not run again: what interrupts a run is short beside it, and the
 /// median of one is itself.
@@ -27,34 +30,42 @@ pub struct Options {
 }
 
 /// Turns the knobs of `request` and measures what comes of each place. `peak` gives a trial's peak
-/// memory, `watch` is called after each run with what was run.
+/// memory, of several trials at once, `watch` is called after each run with what was run.
 /// Errors: the scene cannot be refined. A trial that fails is a row that says why.
 pub fn measure(
     request: &Request,
     options: &Options,
-    mut peak: impl FnMut(&Trial) -> Option<u64>,
-    mut watch: impl FnMut(&str) + Send,
+    peak: impl Fn(&Trial) -> Option<u64> + Sync,
+    watch: impl Fn(&str) + Sync,
 ) -> Result<Trade, Error> {
     let model = &request.scene.model;
     let reference = model.target().and_then(|_| equilibrium(request).ok());
     let mut sections = Vec::new();
     for knob in Knob::ALL.iter().filter(|knob| options.only.contains(knob)) {
         if *knob == Knob::Geometry {
-            sections.push(geometry(request, &places(request)?, &mut watch));
+            sections.push(geometry(request, &places(request)?, &watch));
             continue;
         }
         let trials = trials(request, *knob);
-        let runs = timed(request, &trials, options.runs, &mut watch)?;
+        let runs = timed(request, &trials, options.runs, &watch)?;
+        let meshes = match knob {
+            Knob::Mesh => meshes(&request.scene, trials.len() - 1)?,
+            _ => Vec::new(),
+        };
         let reference = reference.as_ref();
-        let bench = Bench { request, trials: &trials, runs: &runs, reference };
-        let mut rows = Vec::new();
-        for (place, trial) in trials.iter().enumerate() {
-            rows.push(bench.row(place, peak(trial))?);
+        let bench =
+            Bench { scene: &request.scene, trials: &trials, runs: &runs, meshes, reference };
+        let peak = |trial: &Trial| {
+            let bytes = peak(trial);
             watch("peak memory");
-        }
+            bytes
+        };
+        let peaks: Vec<Option<u64>> = trials.par_iter().map(peak).collect();
+        let rows = peaks.into_iter().enumerate().map(|(place, bytes)| bench.row(place, bytes));
+        let mut rows: Vec<Row> = rows.collect();
         mark_front(&mut rows);
         let (orders, ladder) =
-            if *knob == Knob::Mesh { bench.ladder()? } else { Default::default() };
+            if *knob == Knob::Mesh { bench.ladder() } else { Default::default() };
         let answers = words::answers(request, *knob, &rows, &orders, ladder.as_ref());
         let against = words::against(*knob);
         let claims = Vec::new();
@@ -94,18 +105,19 @@ fn timed(
     request: &Request,
     trials: &[Trial],
     rounds: usize,
-    watch: &mut impl FnMut(&str),
+    watch: &impl Fn(&str),
 ) -> Result<Vec<Run>, Error> {
+    let requests: Result<Vec<Request>, _> = trials.iter().map(|t| t.request(request)).collect();
+    let requests = requests?;
     let mut runs: Vec<Run> = Vec::new();
     for round in 0..rounds {
-        for (place, trial) in trials.iter().enumerate() {
+        for (place, (trial, request)) in trials.iter().zip(&requests).enumerate() {
             let again = runs.get(place).is_none_or(|run: &Run| {
                 run.solution.is_ok() && run.seconds.iter().all(|s| *s < PATIENCE)
             });
             if again {
-                let request = trial.request(request)?;
                 let start = Instant::now();
-                let solution = solve(&request, &mut |_| ());
+                let solution = solve(request, &mut |_| ());
                 let seconds = start.elapsed().as_secs_f64();
                 if round == 0 {
                     let (solution, certainty) = match solution {
@@ -139,18 +151,20 @@ fn light(mut solution: Solution) -> Solution {
 }
 
 struct Bench<'a> {
-    request: &'a Request,
+    scene: &'a Scene,
     trials: &'a [Trial],
     runs: &'a [Run],
+    /// The meshes of the knob *mesh* but the scene's own; none of another one.
+    meshes: Vec<Refined>,
     reference: Option<&'a Solution>,
 }
 
 impl Bench<'_> {
-    fn row(&self, place: usize, peak_bytes: Option<u64>) -> Result<Row, Error> {
+    fn row(&self, place: usize, peak_bytes: Option<u64>) -> Row {
         let (trial, run) = (&self.trials[place], &self.runs[place]);
         let solution = run.solution.as_ref().ok();
         let last = solution.and_then(|solution| solution.steps.last());
-        Ok(Row {
+        Row {
             label: trial.label.clone(),
             place: None,
             variant: trial.variant,
@@ -162,17 +176,17 @@ impl Bench<'_> {
             runs: run.seconds.len(),
             peak_bytes: peak_bytes.filter(|_| solution.is_some()),
             error: match trial.against {
-                Against::Trial(best) => self.between(place, self.best_that_ran(place, best))?,
+                Against::Trial(best) => self.between(place, self.best_that_ran(place, best)),
                 Against::Reference => {
                     solution.zip(self.reference).map(|(own, truth)| Errors::new(own, truth))
                 }
             },
-            change: self.between(place, self.unchanged(trial))?,
+            change: self.between(place, self.unchanged(trial)),
             certainty: run.certainty,
             own: trial.own,
             pareto: false,
             failure: run.solution.as_ref().err().cloned(),
-        })
+        }
     }
 
     /// `best`, or where it failed the last trial before it that did not.
@@ -192,30 +206,27 @@ impl Bench<'_> {
     }
 
     /// How far the run at `place` is from that at `best`; nothing where one of them failed.
-    fn between(&self, place: usize, best: Option<usize>) -> Result<Option<Errors>, Error> {
+    fn between(&self, place: usize, best: Option<usize>) -> Option<Errors> {
         let solution_of = |place: usize| {
             let solution = self.runs[place].solution.as_ref().ok()?;
             Some((self.trials[place].setting, solution))
         };
-        match (solution_of(place), best.and_then(solution_of)) {
-            (Some(own), Some(truth)) => Ok(Some(Errors::between(&self.request.scene, own, truth)?)),
-            _ => Ok(None),
-        }
+        let (own, truth) = (solution_of(place)?, solution_of(best?)?);
+        Some(Errors::between(self.scene, &self.meshes, own, truth))
     }
 
     /// Orders of convergence, from meshes each of half the element size of the one before, and what
     /// the ladder of them tells; nothing where one of them failed.
-    fn ladder(&self) -> Result<(Vec<Order>, Option<Ladder>), Error> {
+    fn ladder(&self) -> (Vec<Order>, Option<Ladder>) {
         let solutions: Vec<&Solution> =
             self.runs.iter().filter_map(|run| run.solution.as_ref().ok()).collect();
         let Some(&finest) = solutions.last().filter(|_| solutions.len() == self.runs.len()) else {
-            return Ok((Vec::new(), None));
+            return (Vec::new(), None);
         };
-        let meshes = meshes(&self.request.scene, solutions.len() - 1)?;
         let stiffness = Stiffness::new(&finest.model, |x| x);
         let levels = solutions.iter().enumerate();
         let on_finest: Vec<Solution> = levels
-            .map(|(level, solution)| prolonged((*solution).clone(), &meshes[level..], finest))
+            .map(|(level, solution)| prolonged((*solution).clone(), &self.meshes[level..], finest))
             .collect();
         let norm = stiffness.energy_norm(&finest.u);
         let between = |a: usize, b: usize| {
@@ -239,7 +250,7 @@ impl Bench<'_> {
             of_values("largest displacement", displacements),
             of_values("largest von Mises stress", on_finest.iter().map(stress).collect()),
         ];
-        Ok((orders, Some(ladder)))
+        (orders, Some(ladder))
     }
 }
 
