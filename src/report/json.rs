@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 use super::numbers::{NO_LIMIT, reason};
 use crate::paper::mirror::Pairs;
 use crate::problem::scene::{Scene, Units};
-use crate::studies::snapshot::{FORMAT, Input, VERSION};
+use crate::studies::snapshot::{FORMAT, VERSION};
 
 /// Writes a document on one line. Floats read back to the same bits; what is not finite is null. The
 /// field `nulls`, which an object with nulls has at its end, says of each field that is null
@@ -69,7 +69,7 @@ pub fn head(scene: &Scene) -> Map<String, Value> {
 }
 
 fn scene_head(scene: &Scene) -> SceneHead {
-    let Input { scene_sha256, mesh_sha256, .. } = Input::of(scene).expect("a file describes it");
+    let [scene_sha256, mesh_sha256] = scene.hashes().expect("a file describes it").clone();
     SceneHead { head: HEAD, units: scene.units.clone(), scene_sha256, mesh_sha256 }
 }
 

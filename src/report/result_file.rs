@@ -19,9 +19,10 @@ use crate::paper::mirror::Reading;
 use crate::plain;
 use crate::problem::model::{NodeId, Triangle};
 use crate::problem::modelling::{ContactModel, Variant};
+use crate::problem::scene::sha256;
 use crate::problem::scene::{Material, Units};
 use crate::studies::plan::Plan;
-use crate::studies::snapshot::{FORMAT, Input, VERSION, sha256};
+use crate::studies::snapshot::{FORMAT, VERSION};
 
 /// The most triangles whose mesh has its `u` and `elements` in `result.json` without being asked.
 pub const MOST_TRIANGLES: usize = 20_000;
@@ -221,12 +222,13 @@ impl ResultFile {
     pub fn new(solution: &Solution, assessment: &Assessment, plan: Option<&Plan>) -> Self {
         let request = &solution.request;
         let scene = &request.scene;
-        let input = Input::of(scene).ok();
+        let [scene_sha256, mesh_sha256] =
+            scene.hashes().cloned().map_or([None, None], |h| h.map(Some));
         let result = ResultFile {
             format: FORMAT,
             version: VERSION.into(),
-            scene_sha256: input.as_ref().map(|input| input.scene_sha256.clone()),
-            mesh_sha256: input.map(|input| input.mesh_sha256),
+            scene_sha256,
+            mesh_sha256,
             scene: scene.name.clone(),
             title: scene.title.clone(),
             variant: request.variant,

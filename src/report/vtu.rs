@@ -19,7 +19,7 @@ use crate::answer::contact::Status;
 use crate::answer::{Assessment, Solution};
 use crate::problem::element::{self, State};
 use crate::problem::model::Triangle;
-use crate::studies::snapshot::{Input, Options, VERSION};
+use crate::studies::snapshot::{Options, VERSION};
 use crate::xml::Element;
 
 /// VTK's number for a triangle of three nodes.
@@ -81,8 +81,7 @@ pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> V
         points.push(("contact_pressure", &units.stress, 1, &pressure));
         points.push(("contact_gap", &units.length, 1, &gap));
     }
-    let hashes = Input::of(scene).map(|input| [input.scene_sha256, input.mesh_sha256]);
-    let [scene_sha256, mesh_sha256] = hashes.unwrap_or_default();
+    let [scene_sha256, mesh_sha256] = scene.hashes().cloned().unwrap_or_default();
     let program = format!("plane-contact {VERSION}");
     let run = Options::of(&solution.request).name();
     let about: [About; 5] = [
@@ -135,8 +134,12 @@ pub fn document(
         .with(Element::with_text("AppendedData", "_").set("encoding", "raw"))
         .document();
     let (before, after) = text.rsplit_once('_').expect("the arrays follow it");
+    let mut file = arrays.bytes;
+    file.splice(0..0, before.bytes().chain(*b"_"));
     // Readers that look for the end of the arrays expect a line of its own.
-    [before.as_bytes(), b"_", &arrays.bytes, b"\n", after.as_bytes()].concat()
+    file.push(b'\n');
+    file.extend_from_slice(after.as_bytes());
+    file
 }
 
 /// Returns texts as a viewer reads them: the codes of their bytes, and 0 at the end.
@@ -175,12 +178,12 @@ impl Arrays {
     }
 
     fn cells(&mut self, triangles: &[[usize; 3]]) -> Element {
-        let corners = triangles.as_flattened().iter();
-        let corners = corners.flat_map(|corner| (*corner as i64).to_le_bytes());
-        let offsets = (1..=triangles.len()).flat_map(|count| (3 * count as i64).to_le_bytes());
+        let bytes = |number: usize| (number as i64).to_le_bytes();
+        let corners: Vec<_> = triangles.as_flattened().iter().map(|n| bytes(*n)).collect();
+        let offsets: Vec<_> = (1..=triangles.len()).map(|count| bytes(3 * count)).collect();
         Element::new("Cells")
-            .with(self.array("Int64", "connectivity", corners.collect()))
-            .with(self.array("Int64", "offsets", offsets.collect()))
+            .with(self.array("Int64", "connectivity", corners.into_flattened()))
+            .with(self.array("Int64", "offsets", offsets.into_flattened()))
             .with(self.array("UInt8", "types", vec![TRIANGLE; triangles.len()]))
     }
 
@@ -193,13 +196,13 @@ impl Arrays {
         );
         let third: &[f64] = if *components == 2 { &[0.0] } else { &[] };
         let rows = values.chunks(*components).flat_map(|row| row.iter().chain(third));
-        let bytes = rows.flat_map(|value| value.to_le_bytes()).collect();
+        let bytes: Vec<_> = rows.map(|value| value.to_le_bytes()).collect();
         let key = |unit: &str| {
             Element::with_text("InformationKey", unit)
                 .set("name", "UNITS_LABEL")
                 .set("location", "vtkDataArray")
         };
-        self.array("Float64", name, bytes)
+        self.array("Float64", name, bytes.into_flattened())
             .set("NumberOfComponents", (components + third.len()).to_string())
             .with_all((!unit.is_empty()).then(|| key(unit)))
     }

@@ -46,7 +46,7 @@ fn mesh(duct: f64, size: f64) -> Mesh {
 /// The elements of a group, in their order.
 fn group<'m>(mesh: &'m Mesh, name: &str) -> Vec<&'m [usize]> {
     let tag = mesh.names.iter().find(|n| n.name == name).expect("a group").tag;
-    let of = mesh.elements.iter().filter(|e| e.physical == [tag]);
+    let of = mesh.elements.iter().filter(|e| e.physical[..] == [tag]);
     of.map(|element| element.nodes.as_slice()).collect()
 }
 

@@ -84,9 +84,9 @@ fn small() -> Mesh {
     let element = |number, kind, physical: &[usize], geometric, nodes: &[usize]| Element {
         number,
         kind,
-        physical: physical.to_vec(),
+        physical: physical.into(),
         geometric,
-        nodes: nodes.to_vec(),
+        nodes: nodes.into(),
     };
     let name = |dim, tag, name: &str| PhysicalName { dim, tag, name: name.to_owned() };
     Mesh {
@@ -164,7 +164,7 @@ fn text_and_binary_are_the_same_mesh() {
 fn the_shared_group_of_4_1_stands_beside_each_blocks_own() {
     let mesh = read(&blocks("blocks-4.1-ascii")).unwrap();
     let of_kind = |kind| mesh.elements.iter().filter(move |element| element.kind == kind);
-    assert!(of_kind(2).all(|e| e.physical == [1, 3] || e.physical == [2, 3]));
+    assert!(of_kind(2).all(|e| e.physical[..] == [1, 3] || e.physical[..] == [2, 3]));
     assert!(of_kind(1).all(|e| e.physical.len() == 1));
 }
 

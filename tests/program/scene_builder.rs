@@ -92,7 +92,7 @@ fn triangles(inner: usize, outer: usize) -> Vec<Vec<usize>> {
     let a = mesh.row((0..=inner).map(|k| [place(k, inner), 0.0]));
     let b = mesh.row((0..=outer).map(|k| [place(k, outer), 1.0]));
     mesh.join("body", &a, &b);
-    mesh.finish().elements.into_iter().map(|e| e.nodes).collect()
+    mesh.finish().elements.into_iter().map(|e| e.nodes.to_vec()).collect()
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn edges_come_first_and_names_take_the_tags_that_are_free() {
     mesh.edges("left", &[3, 1]);
     mesh.edges("bottom", &[2, 3]);
     let mesh = mesh.finish();
-    let of = |e: &Element| (e.number, e.physical[0], e.nodes.clone());
+    let of = |e: &Element| (e.number, e.physical[0], e.nodes.to_vec());
     let elements: Vec<_> = mesh.elements.iter().map(of).collect();
     let expected =
         [(1, 1, vec![1, 2]), (2, 1, vec![2, 3]), (3, 3, vec![3, 1]), (4, 2, vec![1, 2, 3])];

@@ -22,6 +22,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::held::Held;
+use super::side_by_side::side_by_side;
 use super::solution::{Solution, max_displacement};
 use crate::numbers::largest::is_as_large;
 use crate::paper::decisions::Decision;
@@ -92,7 +93,7 @@ impl ErrorEstimates {
             (held, rounding, stress)
         };
         let of_mesh = || (Discretisation::new(model, &solution.elements), singular(solution));
-        let ((held, rounding, stress), (mesh, points)) = rayon::join(of_rounding, of_mesh);
+        let ((held, rounding, stress), (mesh, points)) = side_by_side(model, of_rounding, of_mesh);
         let arithmetic::Rounding { displacement, decisions, .. } = rounding;
         let bodies = model.bodies.iter().map(|body| {
             let states = &solution.elements;

@@ -97,7 +97,7 @@ fn line(cases: &Cases, case: usize, key: &str, row: &Row) -> String {
 fn key(cases: &Cases, case: usize) -> String {
     match cases.document(case) {
         Ok(document) => document.key(),
-        Err(_) => plane_contact::studies::snapshot::sha256(&cases.values(case)),
+        Err(_) => plane_contact::problem::scene::sha256(&cases.values(case)),
     }
 }
 

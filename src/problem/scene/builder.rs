@@ -157,14 +157,18 @@ impl SceneBuilder {
     /// # Errors
     /// The mesh, the description, or the two together are at fault.
     pub fn build(&self) -> Result<Scene> {
-        self.mesh.check()?;
-        let mut description = self.description.clone();
-        let dropped = self.mesh.orphans();
-        if dropped.is_empty() {
-            return Scene::assemble(&self.name, description, &self.mesh, dropped);
+        self.clone().into_scene()
+    }
+
+    /// Does the same, and lets go of the mesh.
+    pub(super) fn into_scene(self) -> Result<Scene> {
+        let SceneBuilder { name, mut mesh, mut description } = self;
+        mesh.check()?;
+        let dropped = mesh.orphans();
+        if !dropped.is_empty() {
+            mesh = orphans::drop(&mesh, &dropped, &mut description)?;
         }
-        let mesh = orphans::drop(&self.mesh, &dropped, &mut description)?;
-        Scene::assemble(&self.name, description, &mesh, dropped)
+        Scene::assemble(&name, description, mesh, dropped)
     }
 
     /// Checks the scene and writes it to `folder` as `scene.json` and a mesh file of its name.

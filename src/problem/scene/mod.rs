@@ -13,6 +13,7 @@ mod embedded;
 pub mod file;
 pub mod gmsh;
 mod groups;
+mod hashes;
 mod load;
 mod mesh;
 mod orphans;
@@ -23,7 +24,7 @@ pub mod surface;
 pub mod symmetry;
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DVector;
 
@@ -31,7 +32,8 @@ pub use builder::SceneBuilder;
 pub use description::{Axis, Contact, Description, Load, Material, Materials, Restraint, Units};
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use groups::GroupRef;
-pub use mesh::{Element, Mesh, MeshBuilder, Node, PhysicalName};
+pub use hashes::sha256;
+pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags};
 pub use refine::Refined;
 pub use scene_file::SceneFile;
 pub use surface::Surface;
@@ -60,7 +62,16 @@ pub struct Scene {
     /// The numbers, in the mesh file, of the dropped nodes, which belong to no triangle.
     pub dropped: Vec<usize>,
     /// The description and mesh from which it was built; None for half a scene.
-    source: Option<Arc<(Description, Mesh)>>,
+    source: Option<Arc<Source>>,
+}
+
+/// What a scene was built from.
+#[derive(Debug)]
+struct Source {
+    description: Description,
+    mesh: Mesh,
+    /// The SHA-256 of both, computed when it is first asked for.
+    hashes: OnceLock<[String; 2]>,
 }
 
 impl Scene {
@@ -87,18 +98,30 @@ impl Scene {
         text: &[u8],
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self> {
-        SceneBuilder::read(name, text, beside)?.build()
+        SceneBuilder::read(name, text, beside)?.into_scene()
     }
 
     /// Returns the description and the mesh from which the scene was built; None for half a scene.
     pub fn source(&self) -> Option<(&Description, &Mesh)> {
-        self.source.as_deref().map(|(description, mesh)| (description, mesh))
+        self.source.as_deref().map(|source| (&source.description, &source.mesh))
     }
 
-    fn assemble(name: &str, file: Description, mesh: &Mesh, dropped: Vec<usize>) -> Result<Self> {
-        check::numbers(&file)?;
-        let (materials, names) = check::materials(mesh, &file)?;
-        let restrained = check::restraints(mesh, &file)?;
+    /// Returns the SHA-256 of the description and that of the mesh, each as a snapshot has it, as JSON
+    /// without blanks; None for half a scene.
+    pub fn hashes(&self) -> Option<&[String; 2]> {
+        let Source { description, mesh, hashes } = self.source.as_deref()?;
+        Some(hashes.get_or_init(|| hashes::of_source(description, mesh)))
+    }
+
+    fn assemble(
+        name: &str,
+        description: Description,
+        mesh: Mesh,
+        dropped: Vec<usize>,
+    ) -> Result<Self> {
+        check::numbers(&description)?;
+        let (materials, names) = check::materials(&mesh, &description)?;
+        let restrained = check::restraints(&mesh, &description)?;
         let triangles: Vec<Triangle> = mesh
             .of_dimension(2)
             .zip(materials)
@@ -107,34 +130,35 @@ impl Scene {
         let edge = |edge: &Element| Edge { number: edge.number, nodes: nodes(edge) };
         let sides = Sides::new(triangles.iter().map(|triangle| triangle.nodes));
         let mut model = Model {
-            plane: file.plane,
-            thickness: file.thickness,
+            plane: description.plane,
+            thickness: description.thickness,
             nodes: mesh.nodes.iter().map(|node| [node.xyz[0], node.xyz[1]]).collect(),
             z: mesh.nodes[0].xyz[2],
             edges: mesh.of_dimension(1).map(edge).collect(),
-            contact: check::contact(mesh, &file)?,
+            contact: check::contact(&mesh, &description)?,
             forces: Vec::new(),
             load: DVector::zeros(2 * mesh.nodes.len()),
             stages: Vec::new(),
             bodies: model::bodies(mesh.nodes.len(), &triangles, &names),
-            rows: rows(mesh),
+            rows: rows(&mesh),
             triangles,
             sides,
             restrained,
         };
         check::restrained_bodies(&model)?;
-        (model.forces, model.load) = load::forces(mesh, &model, file.loads.iter().enumerate())?;
-        model.stages = load::stages(mesh, &model, &file.loads)?;
+        (model.forces, model.load) =
+            load::forces(&mesh, &model, description.loads.iter().enumerate())?;
+        model.stages = load::stages(&mesh, &model, &description.loads)?;
         Ok(Scene {
             name: name.into(),
-            title: file.title.clone(),
-            units: file.units.clone(),
+            title: description.title.clone(),
+            units: description.units.clone(),
             model: Arc::new(model),
-            iterations: file.iterations,
-            variant: file.variant,
-            contact: file.contact.as_ref().map_or(ContactModel::default(), Contact::model),
+            iterations: description.iterations,
+            variant: description.variant,
+            contact: description.contact.as_ref().map_or(ContactModel::default(), Contact::model),
             dropped,
-            source: Some(Arc::new((file, mesh.clone()))),
+            source: Some(Arc::new(Source { description, mesh, hashes: OnceLock::new() })),
         })
     }
 }

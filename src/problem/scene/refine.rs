@@ -12,7 +12,7 @@ use std::collections::HashMap;
 
 use super::Scene;
 use super::description::Description;
-use super::mesh::{Element, Mesh, Node};
+use super::mesh::{Element, Mesh, Node, NodeNumbers};
 use super::surface::Surface;
 use crate::error::Result;
 use crate::problem::model::NodeId;
@@ -31,7 +31,7 @@ impl Scene {
     /// node.
     pub fn refined(&self) -> Result<Option<Refined>> {
         let Some(source) = &self.source else { return Ok(None) };
-        let (file, mesh) = (&source.0, &source.1);
+        let (file, mesh) = (&source.description, &source.mesh);
         let halves = Halves::new(mesh);
         let (elements, children) = halves.elements(mesh);
         let mut nodes = mesh.nodes.clone();
@@ -42,7 +42,7 @@ impl Scene {
         }
         let finer = Mesh { nodes, elements, names: mesh.names.clone() };
         let file = halves.renumbered(file, &children);
-        let mut scene = Scene::assemble(&self.name, file, &finer, Vec::new())?;
+        let mut scene = Scene::assemble(&self.name, file, finer, Vec::new())?;
         (scene.variant, scene.contact) = (self.variant, self.contact);
         scene.iterations = self.iterations;
         let parents = halves.parents.into_iter().map(|ends| ends.map(NodeId::from_number));
@@ -97,15 +97,16 @@ impl Halves {
         (elements, children)
     }
 
-    fn split(&self, nodes: &[usize]) -> Vec<Vec<usize>> {
+    fn split(&self, nodes: &[usize]) -> Vec<NodeNumbers> {
         let half = |a, b| self.between(a, b).expect("every edge is halved");
         match *nodes {
             [a, b, c] => {
                 let [ab, bc, ca] = [half(a, b), half(b, c), half(c, a)];
-                vec![vec![a, ab, ca], vec![ab, b, bc], vec![ca, bc, c], vec![ab, bc, ca]]
+                let parts = [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]];
+                parts.map(NodeNumbers::from).to_vec()
             }
-            [a, b] => vec![vec![a, half(a, b)], vec![half(a, b), b]],
-            _ => vec![nodes.to_vec()],
+            [a, b] => [[a, half(a, b)], [half(a, b), b]].map(|ends| ends[..].into()).to_vec(),
+            _ => vec![nodes.into()],
         }
     }
 

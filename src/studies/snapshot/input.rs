@@ -2,11 +2,10 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 use crate::error::{InputError, Result};
 use crate::problem::scene::{
-    Description, Element, Mesh, Node, PhysicalName, Scene, SceneBuilder, Units, file,
+    Description, Element, Mesh, Node, PhysicalName, Scene, SceneBuilder, Units, file, sha256,
 };
 
 /// A scene as a snapshot has it: from it alone the scene is built again.
@@ -44,7 +43,7 @@ impl From<&Mesh> for Rows {
     fn from(mesh: &Mesh) -> Self {
         let node = |node: &Node| (node.number, node.xyz[0], node.xyz[1], node.xyz[2]);
         let element =
-            |e: &Element| (e.number, e.kind, e.physical.clone(), e.geometric, e.nodes.clone());
+            |e: &Element| (e.number, e.kind, e.physical.to_vec(), e.geometric, e.nodes.to_vec());
         Rows {
             groups: mesh.names.iter().map(|n| (n.dim, n.tag, n.name.clone())).collect(),
             nodes: mesh.nodes.iter().map(node).collect(),
@@ -68,19 +67,13 @@ impl Rows {
                 .map(|(number, kind, physical, geometric, nodes)| Element {
                     number,
                     kind,
-                    physical,
+                    physical: physical.into(),
                     geometric,
-                    nodes,
+                    nodes: nodes.into(),
                 })
                 .collect(),
         }
     }
-}
-
-/// Returns the SHA-256 of a document as JSON without blanks, in hexadecimal.
-pub fn sha256(document: &impl Serialize) -> String {
-    let text = serde_json::to_string(document).expect("a document has string keys");
-    Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 impl Input {
@@ -94,14 +87,9 @@ impl Input {
         })?;
         let description: &Description = description;
         let scene_value = serde_json::to_value(description).expect("a description is an object");
+        let [scene_sha256, mesh_sha256] = scene.hashes().expect("it has a source").clone();
         let mesh = Rows::from(mesh);
-        Ok(Input {
-            name: scene.name.clone(),
-            scene_sha256: sha256(&scene_value),
-            mesh_sha256: sha256(&mesh),
-            scene: scene_value,
-            mesh,
-        })
+        Ok(Input { name: scene.name.clone(), scene_sha256, mesh_sha256, scene: scene_value, mesh })
     }
 
     /// Returns the names of the scene's units.

@@ -42,7 +42,7 @@ pub use entries::Entries;
 pub use expected::{Expected, Origin};
 pub use explain::{Cause, Class, Explanation, Side, explain};
 pub use flip::Flip;
-pub use input::{Input, sha256};
+pub use input::Input;
 pub use numbers::{Numbers, Tolerance, Values, WITHOUT_BOUND};
 pub use options::Options;
 pub use record::{Bounds, record};

@@ -9,9 +9,10 @@ use serde_json::{Map, Value, json};
 use crate::answer::Request;
 use crate::error::{InputError, Result};
 use crate::plain::plain;
+use crate::problem::scene::sha256;
 use crate::problem::scene::{SceneBuilder, SceneFile, file};
 use crate::studies::benchmark::Kind;
-use crate::studies::snapshot::{Options, VERSION, sha256};
+use crate::studies::snapshot::{Options, VERSION};
 
 /// What a case runs.
 #[derive(Clone)]

@@ -4,7 +4,7 @@ use super::error::Result;
 use super::kinds::{kind, magnitude};
 use super::reader::Reader;
 use super::tokens::Encoding;
-use crate::problem::scene::mesh::Element;
+use crate::problem::scene::mesh::{Element, NodeNumbers};
 
 impl Reader<'_> {
     /// Reads `$Nodes`: a count, then `number x y z`.
@@ -57,13 +57,13 @@ impl Reader<'_> {
             }
         }
         let [physical, geometric] = first;
-        let nodes: Result<Vec<usize>> = (0..kind.nodes)
+        let nodes: Result<NodeNumbers> = (0..kind.nodes)
             .map(|_| self.tokens.int_from(1, "a node's number, 1 or more"))
             .collect();
         self.keep(Element {
             number,
             kind: kind.number,
-            physical: if physical == 0 { vec![] } else { vec![physical] },
+            physical: (physical != 0).then_some(physical).into_iter().collect(),
             geometric,
             nodes: nodes?,
         })

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use super::error::{Fault, Result};
 use super::kinds::{ENTITIES, kind, magnitude};
 use super::reader::Reader;
-use crate::problem::scene::mesh::Element;
+use crate::problem::scene::mesh::{Element, NodeNumbers};
 
 impl Reader<'_> {
     /// Reads `$Entities`: counts of points, curves, surfaces and volumes, then each of them.
@@ -119,10 +119,10 @@ impl Reader<'_> {
                 let fault = Fault::Dimension { element: number, found: kind.dim, expected: dim };
                 return Err(self.tokens.error(fault));
             }
-            let nodes: Result<Vec<usize>> = (0..kind.nodes)
+            let nodes: Result<NodeNumbers> = (0..kind.nodes)
                 .map(|_| self.tokens.size_from(1, "a node's number, 1 or more"))
                 .collect();
-            let (physical, geometric) = (physical.clone(), magnitude(tag));
+            let (physical, geometric) = (physical[..].into(), magnitude(tag));
             self.keep(Element { number, kind: kind.number, physical, geometric, nodes: nodes? })?;
         }
         Ok(())

@@ -134,9 +134,9 @@ fn add_groups<const N: usize>(
             mesh.elements.push(Element {
                 number: mesh.elements.len() + 1,
                 kind: KINDS[dim].number,
-                physical: vec![tag],
+                physical: [tag].into(),
                 geometric: tag,
-                nodes: nodes.to_vec(),
+                nodes: nodes[..].into(),
             });
         }
     }

@@ -12,6 +12,8 @@ mod tables;
 
 pub use builder::MeshBuilder;
 
+use smallvec::SmallVec;
+
 use crate::problem::element::Corners;
 
 /// Nodes and elements in ascending order of number.
@@ -39,10 +41,16 @@ pub struct Element {
     /// The element type of Gmsh: 15 point, 1 edge, 2 triangle.
     pub kind: usize,
     /// The tags of the physical groups to which it belongs, ascending.
-    pub physical: Vec<usize>,
+    pub physical: Tags,
     pub geometric: usize,
-    pub nodes: Vec<usize>,
+    pub nodes: NodeNumbers,
 }
+
+/// The tags of physical groups, of most elements one.
+pub type Tags = SmallVec<[usize; 1]>;
+
+/// The numbers of the nodes of an element.
+pub type NodeNumbers = SmallVec<[usize; 3]>;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhysicalName {

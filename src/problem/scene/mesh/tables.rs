@@ -45,6 +45,6 @@ fn element(row: &[usize]) -> Result<Element> {
     if nodes.len() != expected {
         return Err(bad(format!("type {kind} has {expected} nodes, not {}", nodes.len())));
     }
-    let physical = if physical == 0 { vec![] } else { vec![physical] };
-    Ok(Element { number, kind, physical, geometric, nodes: nodes.to_vec() })
+    let physical = (physical != 0).then_some(physical).into_iter().collect();
+    Ok(Element { number, kind, physical, geometric, nodes: nodes.into() })
 }

@@ -13,7 +13,6 @@ use fastrand::Rng;
 
 use crate::problem::element::Plane;
 use crate::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
-use crate::studies::snapshot::Input;
 
 /// The tolerance of the contact search, length: the text's c_tol.
 const C_TLL: f64 = 0.001;
@@ -43,8 +42,6 @@ impl Kind {
 pub struct Drawn {
     pub scene: Scene,
     pub touching: Vec<bool>,
-    /// The SHA-256 of the scene, and of its mesh.
-    pub hashes: [String; 2],
 }
 
 pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
@@ -53,8 +50,7 @@ pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
     let turned = rng.bool();
     let scene = scene(&surface, &stamp, kind, turned).build();
     let scene = scene.expect("a scene that is drawn is sound");
-    let Input { scene_sha256, mesh_sha256, .. } = Input::of(&scene).expect("it was built");
-    Drawn { scene, touching, hashes: [scene_sha256, mesh_sha256] }
+    Drawn { scene, touching }
 }
 
 /// A number between `low` and `high`.
@@ -103,7 +99,9 @@ fn stamp(rng: &mut Rng, surface: &[[f64; 2]], kind: Kind) -> (Vec<[f64; 2]>, Vec
     };
     let mut nodes: Vec<[f64; 2]> = Vec::new();
     let mut x = middle - width / 2.0;
-    while x < middle + width / 2.0 {
+    // One node alone would have no triangle, and a depth is measured over the target.
+    let is_over = |nodes: &[[f64; 2]]| nodes.last().is_some_and(|node| node[0] >= 0.0);
+    while x < middle + width / 2.0 || nodes.len() < 2 || !is_over(&nodes) {
         // Beside the target, but not within c_tll of its flank.
         let x_node = if x < 0.0 { x.min(-3.0 * C_TLL) } else { x };
         nodes.push([x_node, (x_node - middle).powi(2) / (2.0 * radius)]);

@@ -22,7 +22,7 @@ use crate::numbers::scalar::Scalar;
 use crate::paper::door;
 use crate::paper::mirror::{Reading, c_cnt};
 use crate::problem::modelling::StatusRule;
-use crate::studies::snapshot::sha256;
+use crate::problem::scene::sha256;
 use counted::{Counted, counting};
 use drawn::Drawn;
 pub use drawn::{Kind, draw};
@@ -84,7 +84,8 @@ pub fn measure(scenes: usize, seed: u64) -> Measurement {
         for k in 0..scenes {
             let above = if target == "both" { k % 2 == 1 } else { target == "above" };
             let scene = draw(&mut rng, Kind { edges, depth, above });
-            scenes_sha256 = sha256(&(&scenes_sha256, &scene.hashes));
+            let hashes = scene.scene.hashes().expect("it was built");
+            scenes_sha256 = sha256(&(&scenes_sha256, hashes));
             row.nodes += scene.touching.len();
             row.touching += scene.touching.iter().filter(|touching| **touching).count();
             row.rules.iter_mut().for_each(|score| score.add(&scene));
