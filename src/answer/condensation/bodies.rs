@@ -81,8 +81,8 @@ pub(in crate::answer) struct Bodies {
     current: RefCell<Option<Arc<Condensation>>>,
     /// The load that was eliminated last.
     loaded: RefCell<Option<Loaded>>,
-    /// The nodes to keep for the first contact state of large surfaces, beside those that it binds;
-    /// none afterwards.
+    /// The nodes to keep for the first contact state of large surfaces, beside those that it binds, the
+    /// nearest first; none afterwards.
     expected: RefCell<Vec<NodeId>>,
     /// Whether they cannot be, or need not, as there is no contact.
     impossible: Cell<bool>,
@@ -160,9 +160,15 @@ impl Bodies {
         if current.is_some() {
             return current;
         }
-        let nodes = self.nodes(constraints, &self.expected.take());
-        if nodes.len() > self.most() {
-            return None;
+        let mut expected = self.expected.take();
+        let mut nodes = self.nodes(constraints, &expected);
+        while nodes.len() > self.most() {
+            if expected.is_empty() {
+                return None;
+            }
+            // The nearer half.
+            expected.truncate(expected.len() / 2);
+            nodes = self.nodes(constraints, &expected);
         }
         self.loaded.take();
         self.current.take();
