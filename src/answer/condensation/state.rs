@@ -87,8 +87,8 @@ impl OnKept {
         &self.small.condensation
     }
 
-    /// Returns the displacements by degree of freedom under a load, length, and the relative residual
-    /// of the kept equations; None where their factors are too far from the matrix.
+    /// Returns the displacements of the kept equations under a load, length, and their relative residual;
+    /// None where the factors are too far from the matrix.
     pub(in crate::answer) fn displacements(
         &self,
         load: &Eliminated,
@@ -98,13 +98,19 @@ impl OnKept {
         let f = t.load(&(&load.kept - schur * &self.shift));
         let times = |q: &DVector<f64>| t.load(&(schur * t.expand(q)));
         let (q, residual) = refine(factors, times, condensation.kept_norm, &f).ok()?;
-        Some((condensation.expand(load, &(t.expand(&q) + &self.shift)), residual))
+        Some((t.expand(&q) + &self.shift, residual))
     }
 
-    /// Returns K u − f by degree of freedom, force; 0 but on the kept equations.
+    /// Returns the displacements by degree of freedom, length, from those of the kept equations.
+    pub(in crate::answer) fn expand(&self, load: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
+        self.small.condensation.expand(load, kept)
+    }
+
+    /// Returns K u − f by degree of freedom, force, for displacements of the kept equations; 0 but on
+    /// these.
     pub(in crate::answer) fn reaction(&self, u: &DVector<f64>, load: &Eliminated) -> DVector<f64> {
         let condensation = &self.small.condensation;
-        let force = condensation.condensed.schur() * condensation.part(u);
+        let force = condensation.condensed.schur() * u;
         condensation.whole(&(force - &load.kept))
     }
 
@@ -114,14 +120,13 @@ impl OnKept {
         self.small.response(load)
     }
 
-    /// Returns those displacements by degree of freedom, length, and the forces K u that keep them on
-    /// the kept equations.
+    /// Returns those displacements of the kept equations, length, and the forces K u that keep them, by
+    /// degree of freedom.
     pub(in crate::answer) fn under(&self, load: &DVector<f64>) -> [DVector<f64>; 2] {
         let condensation = &self.small.condensation;
-        let f = condensation.part(load);
-        let u = self.small.under(&f);
+        let u = self.small.under(&condensation.part(load));
         let force = condensation.whole(&(condensation.condensed.schur() * &u));
-        [condensation.expand(&condensation.condensed.on_kept(f), &u), force]
+        [u, force]
     }
 }
 

@@ -44,22 +44,28 @@ impl Problem<'_> {
         }
     }
 
-    /// Adds the forces of contact, and what friction does, to the displacements.
+    /// Adds the forces of contact, and what friction does, to the bodies' own displacements.
     fn moved(
         &self,
         place: &Place,
         statuses: &[Status],
         load: &DVector<f64>,
-        (u, residual): (DVector<f64>, f64),
+        (mut u, residual): (DVector<f64>, f64),
         bodies: &dyn Responds,
     ) -> Result<Solved, Error> {
-        let reaction = bodies.reaction(&u, load);
-        let forces = self.forces(place, statuses, &reaction);
-        let friction = Arc::clone(&self.no_friction);
-        let whole = bodies.are_whole();
-        let mut moved = Moved { u, forces, friction, feedback: 0.0, reaction, residual, whole };
-        self.slide(place, statuses, &mut moved, bodies)?;
-        Ok(Solved::Moved(moved))
+        let mut reaction = bodies.reaction(&u, load);
+        let mut forces = self.forces(place, statuses, &reaction);
+        let (mut friction, mut feedback) = (Arc::clone(&self.no_friction), 0.0);
+        if let Some(slide) = self.slide(place, statuses, &forces, bodies)? {
+            let [more, force] = bodies.under(&slide.friction).map_err(|_| jammed())?;
+            u += more;
+            reaction += force;
+            forces = self.forces(place, statuses, &(&reaction - &slide.friction));
+            slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
+            (friction, feedback) = (Arc::new(slide.friction), slide.feedback);
+        }
+        let (u, whole) = (bodies.expand(u, load), bodies.are_whole());
+        Ok(Solved::Moved(Moved { u, forces, friction, feedback, reaction, residual, whole }))
     }
 
     /// Returns the factors that were made last.
@@ -81,7 +87,8 @@ impl Problem<'_> {
         Solved::Free { dof: t.dof(singular.column), motion }
     }
 
-    /// Adds the friction of sliding nodes, whose size is μ times the normal forces that it leads to.
+    /// Returns the friction of sliding nodes, whose size is μ times the normal forces that it leads to,
+    /// from the `forces` without it; None where no node slides against friction.
     ///
     /// # Errors
     /// No size of the friction agrees with its normal forces.
@@ -89,9 +96,9 @@ impl Problem<'_> {
         &self,
         place: &Place,
         statuses: &[Status],
-        moved: &mut Moved,
+        forces: &[Force],
         bodies: &dyn Responds,
-    ) -> Result<(), NoEquilibrium> {
+    ) -> Result<Option<Slide>, NoEquilibrium> {
         let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
             .filter_map(|i| match statuses[i] {
                 Status::Slip(sense) if sense.sign() != 0.0 => {
@@ -101,11 +108,12 @@ impl Problem<'_> {
             })
             .collect();
         if sliding.is_empty() {
-            return Ok(());
+            return Ok(None);
         }
+        let dofs = self.model.dofs();
         let unit = Force { tangent: 1.0, ..Force::default() };
         let response = |(_, _, pairing): &(usize, f64, &Pairing)| {
-            let mut load = DVector::zeros(moved.u.len());
+            let mut load = DVector::zeros(dofs);
             forces::add(pairing, unit, 1.0, &mut load);
             let reaction = bodies.response(&load)?;
             Ok((load, reaction))
@@ -115,33 +123,26 @@ impl Problem<'_> {
         let n = sliding.len();
         let mut matrix = DMatrix::identity(n, n);
         for (column, (_, reaction)) in responses.iter().enumerate() {
-            let forces = self.forces(place, statuses, reaction);
+            let response = self.forces(place, statuses, reaction);
             for (row, (i, sign, _)) in sliding.iter().enumerate() {
-                matrix[(row, column)] += sign * self.friction * forces[*i].normal;
+                matrix[(row, column)] += sign * self.friction * response[*i].normal;
             }
         }
         let right = DVector::from_fn(n, |row, _| {
             let (i, sign, _) = sliding[row];
-            -sign * self.friction * moved.forces[i].normal
+            -sign * self.friction * forces[i].normal
         });
         let matrix = matrix.lu();
         let sizes = matrix.solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
         let sizes = sizes.ok_or_else(jammed)?;
         let rows = matrix.try_inverse().ok_or_else(jammed)?;
-        moved.feedback = rows.row_iter().map(|row| row.lp_norm(1)).fold(0.0, f64::max);
-        let mut friction = DVector::zeros(moved.u.len());
+        let feedback = rows.row_iter().map(|row| row.lp_norm(1)).fold(0.0, f64::max);
+        let mut friction = DVector::zeros(dofs);
         for ((load, _), size) in responses.iter().zip(&sizes) {
             friction.axpy(*size, load, 1.0);
         }
-        moved.friction = Arc::new(friction);
-        let [u, force] = bodies.under(&moved.friction).map_err(|_| jammed())?;
-        moved.reaction += force;
-        moved.u += u;
-        moved.forces = self.forces(place, statuses, &(&moved.reaction - &*moved.friction));
-        for ((i, _, _), size) in sliding.iter().zip(&sizes) {
-            moved.forces[*i].tangent = *size;
-        }
-        Ok(())
+        let sizes = sliding.iter().zip(&sizes).map(|((i, _, _), size)| (*i, *size)).collect();
+        Ok(Some(Slide { friction, sizes, feedback }))
     }
 
     /// Returns the forces of all entries; 0 where an entry is open.
@@ -165,6 +166,16 @@ impl Problem<'_> {
         }
         all
     }
+}
+
+/// What friction does to nodes that slide.
+struct Slide {
+    /// By degree of freedom, force.
+    friction: DVector<f64>,
+    /// The entries that slide, each with its force along the tangent.
+    sizes: Vec<(usize, f64)>,
+    /// See [`Moved::feedback`].
+    feedback: f64,
 }
 
 fn jammed() -> NoEquilibrium {

@@ -49,15 +49,17 @@ pub(super) trait Responds {
     /// Returns whether its equations are those of the whole bodies.
     fn are_whole(&self) -> bool;
 
-    /// Returns the displacements by degree of freedom, length, and the relative residual of their
-    /// equations.
+    /// Returns the displacements of its own equations, length, and their relative residual.
     ///
     /// # Errors
     /// The matrix is singular.
     fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular>;
 
-    /// Returns K u − f by degree of freedom, force, which is that of contact on the equations that
-    /// contact can bind.
+    /// Returns the displacements by degree of freedom, length, from its own under a load.
+    fn expand(&self, u: DVector<f64>, load: &DVector<f64>) -> DVector<f64>;
+
+    /// Returns K u − f by degree of freedom, force, for displacements of its own, which is that of contact
+    /// on the equations that contact can bind.
     fn reaction(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64>;
 
     /// Returns the same for the displacements under a load on the contact surface alone, without the
@@ -67,7 +69,7 @@ pub(super) trait Responds {
     /// The matrix is singular.
     fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular>;
 
-    /// Returns those displacements, and K u.
+    /// Returns those displacements of its own, and K u by degree of freedom.
     ///
     /// # Errors
     /// The matrix is singular.
@@ -99,6 +101,10 @@ impl Responds for OnSurface<'_> {
     fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
         let load = self.bodies.eliminated(&self.state, load);
         self.state.displacements(&load).ok_or(Singular { column: 0, pivot: f64::NAN })
+    }
+
+    fn expand(&self, u: DVector<f64>, load: &DVector<f64>) -> DVector<f64> {
+        self.state.expand(&self.bodies.eliminated(&self.state, load), &u)
     }
 
     fn reaction(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64> {
@@ -213,6 +219,10 @@ impl Responds for Reduced<'_> {
         let f = self.t.load(&(self.elastic.model.free_part(load) - shifted));
         let (q, residual) = self.solve(&f)?;
         Ok((self.t.expand(&q), residual))
+    }
+
+    fn expand(&self, u: DVector<f64>, _: &DVector<f64>) -> DVector<f64> {
+        u
     }
 
     fn reaction(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64> {

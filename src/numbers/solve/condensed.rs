@@ -87,11 +87,6 @@ impl Condensed {
         self.order.len() - self.schur.nrows()
     }
 
-    /// Returns a right-hand side that is 0 inside.
-    pub fn on_kept(&self, kept: DVector<f64>) -> Eliminated {
-        Eliminated { z: vec![0.0; self.order.len()], kept }
-    }
-
     /// Returns the solution on all equations from that on the kept ones.
     pub fn expand(&self, eliminated: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
         let mut x = eliminated.z.clone();
