@@ -136,7 +136,8 @@ impl<'a, T: Precision> Equations<'a, T> {
                     let solved = if let Some(edited) = edited {
                         T::solve(edited?.into_matrix(), &self.f, solver, tol)
                     } else if solver == Solver::SparseLu {
-                        T::solve_sparse(&Km(sheet, reading, &pairs.k_cnt)?, &self.f)
+                        let matrix = Km(sheet, reading, &pairs.k_cnt)?;
+                        T::solve_sparse(&matrix, &self.f, self.request.shared.known_lu())
                     } else {
                         let matrix = mirror::Km(sheet, reading, &pairs.k_cnt)?.into_matrix();
                         T::solve(matrix, &self.f, solver, tol)

@@ -33,7 +33,7 @@ pub struct Request {
     pub tolerance: Option<f64>,
     /// The edited listings that are executed in place of the paper's.
     pub edited: Vec<Edited>,
-    /// The bodies factored so far, shared with the requests that were made from this one.
+    /// What was factored so far, shared with the requests that were made from this one.
     pub(super) shared: Shared,
 }
 

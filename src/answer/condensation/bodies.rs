@@ -13,7 +13,7 @@ use super::state::OnKept;
 use crate::answer::contact::Pairing;
 use crate::answer::elimination::Constraint;
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::Eliminated;
+use crate::numbers::solve::{Eliminated, KnownLu};
 use crate::problem::model::{Model, NodeId};
 
 /// The number of nodes of both surfaces up to which all are kept.
@@ -33,20 +33,30 @@ const EXPECTED: (f64, usize) = (0.85, 10_000);
 /// the part of the number of bound nodes that comes on top.
 const MARGIN: (usize, f64) = (8, 0.1);
 
-/// The condensed bodies of a scene, shared by all that is asked of it: each is factored once.
+/// What was factored of a scene, shared by all that is asked of it: each is factored once.
 #[derive(Clone, Default)]
-pub struct Shared(Arc<Mutex<Vec<Arc<Condensation>>>>);
+pub struct Shared {
+    condensed: Arc<Mutex<Vec<Arc<Condensation>>>>,
+    /// The factors of `Km`.
+    known: Arc<KnownLu>,
+}
 
 impl fmt::Debug for Shared {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the condensed bodies")
+        f.write_str("what was factored")
     }
 }
 
 impl Shared {
-    /// Lets go of all bodies factored so far.
+    /// Lets go of all that was factored so far.
     pub(in crate::answer) fn let_go(&self) {
         self.made().clear();
+        self.known.let_go();
+    }
+
+    /// Returns the factors of `Km` so far.
+    pub(in crate::answer) fn known_lu(&self) -> &KnownLu {
+        &self.known
     }
 
     /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.
@@ -68,7 +78,7 @@ impl Shared {
     }
 
     fn made(&self) -> MutexGuard<'_, Vec<Arc<Condensation>>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.condensed.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -45,7 +45,7 @@ pub use lifting::lift;
 pub use lu::solve_dense;
 pub use precision::{Iterates, Precision, Solved, Unsolved};
 pub use sparse::{SparseCholesky, largest_motion};
-pub use sparse_lu::SparseLu;
+pub use sparse_lu::{KnownLu, SparseLu};
 pub use square::SparseSquare;
 pub use symbolic::FactorSize;
 pub use symmetric::{Pattern, SparseSymmetric};

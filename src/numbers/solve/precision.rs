@@ -22,7 +22,7 @@ use super::ldlt::Ldlt;
 use super::lifting::lift;
 use super::lu::solve_dense;
 use super::sparse::SparseCholesky;
-use super::sparse_lu::SparseLu;
+use super::sparse_lu::{KnownLu, SparseLu};
 use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::{
@@ -66,8 +66,9 @@ pub trait Precision: Scalar {
     /// Errors: tells that A is singular, or that an iteration did not converge.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self>;
 
-    /// Solves by `sparse-lu` from a matrix that is sparse already: the same digits.
-    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
+    /// Solves by `sparse-lu` from a matrix that is sparse already: the same digits. `known` has factors
+    /// that were made before.
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>, _known: &KnownLu) -> Outcome<Self> {
         Self::solve(a.dense(), b, Solver::SparseLu, None)
     }
 
@@ -136,8 +137,8 @@ impl Precision for f64 {
         native(a, b, by, tol)
     }
 
-    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
-        Ok(solved(&SparseLu::new(a)?, b))
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>, known: &KnownLu) -> Outcome<Self> {
+        Ok(solved(&*known.factors(a)?, b))
     }
 }
 
@@ -146,7 +147,7 @@ impl Precision for f32 {
         native(a, b, by, tol)
     }
 
-    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>, _: &KnownLu) -> Outcome<Self> {
         Ok(solved(&SparseLu::new(a)?, b))
     }
 }
@@ -157,7 +158,7 @@ impl Precision for Bounded {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         let a = SparseSquare::of(&a);
         if by == Solver::SparseLu {
-            return Self::solve_sparse(&a, b);
+            return Self::solve_sparse(&a, b, &KnownLu::default());
         }
         let (values, f) = (a.map(Scalar::to_f64).dense(), b.map(Scalar::to_f64));
         let (factors, solved): (Box<dyn Factors<f64>>, _) = match by {
@@ -174,10 +175,10 @@ impl Precision for Bounded {
         Ok(with_bound(&*factors, &a, b, solved))
     }
 
-    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
-        let factors = SparseLu::new(&a.map(Scalar::to_f64))?;
-        let solved = solved(&factors, &b.map(Scalar::to_f64));
-        Ok(with_bound(&factors, a, b, solved))
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>, known: &KnownLu) -> Outcome<Self> {
+        let factors = known.factors(&a.map(Scalar::to_f64))?;
+        let solved = solved(&*factors, &b.map(Scalar::to_f64));
+        Ok(with_bound(&*factors, a, b, solved))
     }
 }
 
@@ -257,7 +258,9 @@ fn native<T: Native + Iterates>(
 ) -> Outcome<T> {
     match by {
         Solver::DenseLu => return Ok(solved(&DenseLu::new(a)?, b)),
-        Solver::SparseLu => return T::solve_sparse(&SparseSquare::of(&a), b),
+        Solver::SparseLu => {
+            return T::solve_sparse(&SparseSquare::of(&a), b, &KnownLu::default());
+        }
         _ => (),
     }
     let sparse = SparseSymmetric::of_lower(&a);

@@ -1,5 +1,7 @@
 //! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
 
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
 use faer::Par;
 use faer::sparse::linalg::solvers::{self, SymbolicLu};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
@@ -41,6 +43,50 @@ impl<T: Native> SparseLu<T> {
             return Ok(lu);
         }
         judged(matrix).map_or(Ok(lu), Err)
+    }
+}
+
+/// The factors in `f64` that were made last: a run with bounds on its rounding factors the matrices of
+/// the run that it bounds.
+#[derive(Default)]
+pub struct KnownLu(Mutex<Vec<Arc<SparseLu>>>);
+
+impl KnownLu {
+    /// How many are kept.
+    const MOST: usize = 4;
+    /// The number of equations of the largest that are kept.
+    const LARGEST: usize = 10_000;
+
+    /// Returns the factors of `matrix`, which are made where they are not known.
+    /// Errors: those of [`SparseLu::new`].
+    pub fn factors(&self, matrix: &SparseSquare) -> Result<Arc<SparseLu>, Singular> {
+        let sparse = columns(matrix);
+        let is_known = |known: &&Arc<SparseLu>| {
+            let (a, b) = (known.matrix.symbolic(), sparse.symbolic());
+            a.col_ptr() == b.col_ptr()
+                && a.row_idx() == b.row_idx()
+                && known.matrix.val() == sparse.val()
+        };
+        if let Some(known) = self.made().iter().find(is_known) {
+            return Ok(Arc::clone(known));
+        }
+        let factors = Arc::new(SparseLu::new(matrix)?);
+        if matrix.size() <= Self::LARGEST {
+            let mut made = self.made();
+            made.push(Arc::clone(&factors));
+            let beyond = made.len().saturating_sub(Self::MOST);
+            made.drain(..beyond);
+        }
+        Ok(factors)
+    }
+
+    /// Lets go of all of them.
+    pub fn let_go(&self) {
+        self.made().clear();
+    }
+
+    fn made(&self) -> MutexGuard<'_, Vec<Arc<SparseLu>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

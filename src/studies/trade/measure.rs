@@ -20,7 +20,7 @@ use crate::problem::scene::{Refined, Scene};
 
 /// Seconds beyond which a trial is not run again: what interrupts a run is short beside it, and the
 /// median of one is itself.
-pub const PATIENCE: f64 = 0.25;
+pub const PATIENCE: f64 = 0.1;
 
 #[derive(Clone, Debug)]
 pub struct Options {
