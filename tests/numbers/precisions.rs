@@ -235,6 +235,15 @@ fn springs() -> impl Strategy<Value = (DMatrix<f64>, DVector<f64>)> {
     })
 }
 
+/// Over a norm without limit any residual is nothing.
+#[test]
+fn conjugate_gradients_do_not_begin_on_a_matrix_that_overflowed() {
+    let a = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, f64::INFINITY]));
+    let b = DVector::from_element(2, 1.0);
+    let stopped = conjugate_gradients(&SparseSymmetric::of_lower(&a), &b, 1e-6).unwrap_err();
+    assert_eq!((stopped.iterations, stopped.residual), (0, f64::INFINITY));
+}
+
 proptest! {
     #![proptest_config(fixed(256))]
 
