@@ -235,13 +235,15 @@ fn springs() -> impl Strategy<Value = (DMatrix<f64>, DVector<f64>)> {
     })
 }
 
-/// Over a norm without limit any residual is nothing.
+/// Over a norm without limit any residual is nothing, and the largest entry is never NaN.
 #[test]
-fn conjugate_gradients_do_not_begin_on_a_matrix_that_overflowed() {
-    let a = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, f64::INFINITY]));
-    let b = DVector::from_element(2, 1.0);
-    let stopped = conjugate_gradients(&SparseSymmetric::of_lower(&a), &b, 1e-6).unwrap_err();
-    assert_eq!((stopped.iterations, stopped.residual), (0, f64::INFINITY));
+fn conjugate_gradients_do_not_begin_where_numbers_overflowed() {
+    for (a, b) in [(f64::INFINITY, 1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY), (1.0, f64::NAN)] {
+        let a = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, a]));
+        let (a, b) = (SparseSymmetric::of_lower(&a), DVector::from_element(2, b));
+        let stopped = conjugate_gradients(&a, &b, 1e-6).unwrap_err();
+        assert_eq!((stopped.iterations, stopped.residual), (0, f64::INFINITY));
+    }
 }
 
 proptest! {

@@ -20,14 +20,15 @@ pub struct NotConverged {
 ///
 /// Source: Y. Saad, *Iterative methods for sparse linear systems*, 2nd ed., algorithm 9.1.
 /// Errors: stops at a diagonal entry or a direction along which A is not positive, after 20 n + 200
-/// iterations, and before the first where an entry of A is not finite: any x would leave nothing of it.
+/// iterations, and before the first where an entry of A or of b is not finite, for a norm does not tell.
 pub fn conjugate_gradients<T: Scalar>(
     a: &SparseSymmetric<T>,
     b: &DVector<T>,
     tol: f64,
 ) -> Result<DVector<T>, NotConverged> {
     let (norm, diagonal, limit) = (a.norm(), a.diagonal(), 20 * b.len() + 200);
-    if !norm.is_finite() {
+    let entries = a.entries().map(|(_, _, value)| value);
+    if !entries.chain(b.iter().copied()).all(Scalar::is_finite) {
         return Err(NotConverged { iterations: 0, residual: f64::INFINITY });
     }
     let precondition = |r: &DVector<T>| r.zip_map(&diagonal, |r, d| r / d);
