@@ -53,6 +53,12 @@ impl Request {
         }
     }
 
+    /// Returns the same request, for which nothing is factored yet.
+    #[must_use]
+    pub fn afresh(self) -> Self {
+        Request { shared: Shared::default(), ..self }
+    }
+
     /// Returns the same request with another variant.
     #[must_use]
     pub fn variant(self, variant: Variant) -> Self {

@@ -93,11 +93,8 @@ fn or_iterating<T: Iterates, S: Sparse<T> + 'static>(
     request: &Request,
     direct: impl FnOnce() -> S,
 ) -> Box<dyn Sparse<T>> {
-    let Arithmetic { tol, .. } = request.arithmetic;
-    match request.solver() {
-        solver @ (Solver::Cg | Solver::Refined) => Box::new(Iterating { solver, tol }),
-        _ => Box::new(direct()),
-    }
+    let (solver, tol) = (request.solver(), request.arithmetic.tol);
+    if solver.iterates() { Box::new(Iterating { solver, tol }) } else { Box::new(direct()) }
 }
 
 fn sparse<T: Iterates>(request: &Request, model: &Arc<Model>) -> Box<dyn Sparse<T>>

@@ -178,8 +178,7 @@ pub(super) fn takes_sparse(solver: Solver, scalar: ScalarName) -> bool {
     use ScalarName::{Exact, F32, F64, F64x2};
     match solver {
         Solver::SparseCholesky => scalar != Exact,
-        Solver::Cg | Solver::Refined => matches!(scalar, F32 | F64 | F64x2),
-        Solver::DenseLu | Solver::DenseCholesky | Solver::SparseLu => false,
+        _ => solver.iterates() && matches!(scalar, F32 | F64 | F64x2),
     }
 }
 

@@ -49,6 +49,13 @@ choices! {
     }
 }
 
+impl Solver {
+    /// Returns whether it comes nearer to the solution step by step, to a tolerance.
+    pub fn iterates(self) -> bool {
+        matches!(self, Solver::Cg | Solver::Refined)
+    }
+}
+
 /// In which numbers, by which solver, and to which tolerance a run computes; its docs are the
 /// command line's help.
 #[derive(
@@ -115,7 +122,7 @@ impl Arithmetic {
             return Err(InputError::new("--solver", what, format!("use {}", names.join(", "))));
         }
         match self.tol {
-            Some(_) if ![Cg, Refined].contains(&self.solver(true)) => {
+            Some(_) if !self.solver(true).iterates() => {
                 let what = format!("{} solves directly: it has no tolerance", self.solver(true));
                 Err(InputError::new("--tol", what, "leave it out, or use --solver cg or refined"))
             }

@@ -80,6 +80,13 @@ pub trait Precision: Scalar {
 
 /// A scalar in which A x = b is solved to a tolerance, by products with A and factors in fewer digits.
 pub trait Iterates: Precision {
+    /// The relative distance between neighbouring numbers.
+    const EPSILON: f64;
+
+    /// Solves by Cholesky factors in fewer digits, refined to `tol`; by `cg` where there are none.
+    /// Errors: the factors tell that A is singular, or the iteration did not converge.
+    fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self>;
+
     /// Solves by `cg` or `refined` to `tol`, A symmetric and positive definite.
     /// Errors: the factors tell that A is singular, or the iteration did not converge.
     fn iterate(
@@ -87,45 +94,36 @@ pub trait Iterates: Precision {
         b: &DVector<Self>,
         by: Solver,
         tol: Option<f64>,
-    ) -> Outcome<Self>;
+    ) -> Outcome<Self> {
+        let tol = tol.unwrap_or(TOL * Self::EPSILON);
+        match by {
+            Solver::Refined => Self::refined(a, b, tol),
+            _ => by_gradients(a, b, tol),
+        }
+    }
 }
 
 impl Iterates for f64 {
-    fn iterate(
-        a: &SparseSymmetric<Self>,
-        b: &DVector<Self>,
-        by: Solver,
-        tol: Option<f64>,
-    ) -> Outcome<Self> {
-        let tol = tol.unwrap_or(TOL * f64::EPSILON);
-        if by == Solver::Refined { refined::<f32, f64>(a, b, tol) } else { by_gradients(a, b, tol) }
+    const EPSILON: f64 = <f64 as Native>::EPSILON;
+
+    fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self> {
+        refined::<f32, f64>(a, b, tol)
     }
 }
 
 impl Iterates for f32 {
-    fn iterate(
-        a: &SparseSymmetric<Self>,
-        b: &DVector<Self>,
-        _: Solver,
-        tol: Option<f64>,
-    ) -> Outcome<Self> {
-        by_gradients(a, b, tol.unwrap_or(TOL * f64::from(f32::EPSILON)))
+    const EPSILON: f64 = <f32 as Native>::EPSILON;
+
+    fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self> {
+        by_gradients(a, b, tol)
     }
 }
 
 impl Iterates for F64x2 {
-    fn iterate(
-        a: &SparseSymmetric<Self>,
-        b: &DVector<Self>,
-        by: Solver,
-        tol: Option<f64>,
-    ) -> Outcome<Self> {
-        let tol = tol.unwrap_or(TOL * <F64x2 as Field>::EPSILON);
-        if by == Solver::Refined {
-            refined::<f64, F64x2>(a, b, tol)
-        } else {
-            by_gradients(a, b, tol)
-        }
+    const EPSILON: f64 = <F64x2 as Field>::EPSILON;
+
+    fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self> {
+        refined::<f64, F64x2>(a, b, tol)
     }
 }
 
@@ -208,7 +206,7 @@ impl Precision for F64x2 {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         let sparse = SparseSymmetric::of_lower(&a);
         let x = match by {
-            Solver::Cg | Solver::Refined => return Self::iterate(&sparse, b, by, tol),
+            by if by.iterates() => return Self::iterate(&sparse, b, by, tol),
             Solver::DenseLu => {
                 DVector::from_vec(solve_dense(|i, j| a[(i, j)], b.as_slice().to_vec())?)
             }
@@ -266,7 +264,7 @@ fn native<T: Native + Iterates>(
     let sparse = SparseSymmetric::of_lower(&a);
     let x = match by {
         Solver::DenseCholesky => DenseCholesky::new(&a)?.solve(b),
-        Solver::Cg | Solver::Refined => return T::iterate(&sparse, b, by, tol),
+        by if by.iterates() => return T::iterate(&sparse, b, by, tol),
         _ => SparseCholesky::new(sparse.clone())?.solve(b),
     };
     Ok(Solved { residual: sparse.residual(&x, b), x })

@@ -27,13 +27,20 @@ impl<T: Native> SparseLu<T> {
     /// Factors an n x n `matrix`, which should be symmetric but for rounding.
     /// Errors: those of [`DenseLu`], which judges a matrix that loads move far.
     pub fn new(matrix: &SparseSquare<T>) -> Result<Self, Singular> {
+        SparseLu::of_columns(columns(matrix), matrix)
+    }
+
+    /// Factors a matrix whose `columns` are known.
+    fn of_columns(
+        columns: SparseColMat<usize, T>,
+        matrix: &SparseSquare<T>,
+    ) -> Result<Self, Singular> {
         faer::set_global_parallelism(Par::Seq);
-        let sparse = columns(matrix);
-        let symbolic = SymbolicLu::try_new(sparse.symbolic()).expect("a pattern fits in memory");
-        let Ok(factors) = solvers::Lu::try_new_with_symbolic(symbolic, sparse.as_ref()) else {
+        let symbolic = SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory");
+        let Ok(factors) = solvers::Lu::try_new_with_symbolic(symbolic, columns.as_ref()) else {
             return Err(judged(matrix).expect("dense LU finds the pivot that is 0"));
         };
-        let lu = SparseLu { matrix: sparse, factors };
+        let lu = SparseLu { matrix: columns, factors };
         let n = matrix.size();
         let column = |j| lu.matrix.val_of_col(j).iter();
         let scale = DVector::from_fn(n, |j, _| T::from_f64(largest(column(j))));
@@ -70,7 +77,7 @@ impl KnownLu {
         if let Some(known) = self.made().iter().find(is_known) {
             return Ok(Arc::clone(known));
         }
-        let factors = Arc::new(SparseLu::new(matrix)?);
+        let factors = Arc::new(SparseLu::of_columns(sparse, matrix)?);
         if matrix.size() <= Self::LARGEST {
             let mut made = self.made();
             made.push(Arc::clone(&factors));

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::compare::{Difference, Kind, compare};
 use super::flip::{Flip, flip};
-use super::input::{ElementRow, Input, Rows};
+use super::input::Input;
 use super::options::Options;
 use super::place::{iteration, place};
 use super::record::{Bounds, record};
@@ -16,6 +16,7 @@ use crate::numbers::solve::{ScalarName, cost};
 use crate::paper::decisions::Decision;
 use crate::paper::mirror::NodeTable;
 use crate::problem::modelling::Variant;
+use crate::problem::scene::{Element, Mesh, PhysicalName};
 
 choices! {
     /// A kind of cause.
@@ -153,36 +154,36 @@ fn push(causes: &mut Vec<Cause>, class: Class, place: String, was: String, is: S
 }
 
 /// Collects the differences of two meshes: groups, then nodes, then elements.
-fn mesh(causes: &mut Vec<Cause>, old: &Rows, new: &Rows) {
+fn mesh(causes: &mut Vec<Cause>, old: &Mesh, new: &Mesh) {
     let mut add =
         |place: String, was: String, is: String| push(causes, Class::Input, place, was, is);
-    if old.groups != new.groups {
-        add("mesh groups".into(), format!("{:?}", old.groups), format!("{:?}", new.groups));
+    if old.names != new.names {
+        let [was, is] = [old, new].map(|mesh| {
+            let name = |n: &PhysicalName| (n.dim, n.tag, n.name.clone());
+            format!("{:?}", mesh.names.iter().map(name).collect::<Vec<_>>())
+        });
+        add("mesh groups".into(), was, is);
     }
     if old.nodes.len() != new.nodes.len() {
         add("mesh nodes".into(), old.nodes.len().to_string(), new.nodes.len().to_string());
     }
     for (was, is) in old.nodes.iter().zip(&new.nodes).filter(|(was, is)| was != is) {
-        let axes = [
-            ("number", was.0 as f64, is.0 as f64),
-            ("x", was.1, is.1),
-            ("y", was.2, is.2),
-            ("z", was.3, is.3),
-        ];
-        for (axis, a, b) in axes.into_iter().filter(|(_, a, b)| a != b) {
-            add(format!("mesh node {} {axis}", was.0), a.to_string(), b.to_string());
+        let axis = |k: usize| (["x", "y", "z"][k], was.xyz[k], is.xyz[k]);
+        let numbers = ("number", was.number as f64, is.number as f64);
+        let axes = std::iter::once(numbers).chain((0..3).map(axis));
+        for (axis, a, b) in axes.filter(|(_, a, b)| a != b) {
+            add(format!("mesh node {} {axis}", was.number), a.to_string(), b.to_string());
         }
     }
     if old.elements.len() != new.elements.len() {
         add("mesh elements".into(), old.elements.len().to_string(), new.elements.len().to_string());
     }
     for (was, is) in old.elements.iter().zip(&new.elements).filter(|(was, is)| was != is) {
-        let turned = was.4.iter().rev().eq(&is.4) && was.4.len() == 2;
-        let row = |element: &ElementRow| {
-            format!("{:?} of type {}, groups {:?}", element.4, element.1, element.2)
-        };
+        let turned = was.nodes.iter().rev().eq(&is.nodes) && was.nodes.len() == 2;
+        let row =
+            |e: &Element| format!("{:?} of type {}, groups {:?}", e.nodes, e.kind, e.physical);
         let word = if turned { " (turned round)" } else { "" };
-        add(format!("mesh elem {}", was.0), row(was), row(is) + word);
+        add(format!("mesh elem {}", was.number), row(was), row(is) + word);
     }
 }
 

@@ -4,9 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{InputError, Result};
-use crate::problem::scene::{
-    Description, Element, Mesh, Node, PhysicalName, Scene, SceneBuilder, Units, file, sha256,
-};
+use crate::problem::scene::{Description, Mesh, Scene, SceneBuilder, Units, file, sha256};
 
 /// A scene as a snapshot has it: from it alone the scene is built again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -21,59 +19,7 @@ pub struct Input {
     /// The fields of the scene file, without those of its mesh.
     #[schemars(with = "Description")]
     pub scene: serde_json::Value,
-    pub mesh: Rows,
-}
-
-/// A row of an element: number, type, physical tags, geometric tag, nodes.
-pub type ElementRow = (usize, usize, Vec<usize>, usize, Vec<usize>);
-
-/// A mesh as rows of numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Rows {
-    /// The named physical groups: dimension, tag, name.
-    pub groups: Vec<(usize, usize, String)>,
-    /// The nodes: number, x, y, z.
-    pub nodes: Vec<(usize, f64, f64, f64)>,
-    /// The points, edges and triangles.
-    pub elements: Vec<ElementRow>,
-}
-
-impl From<&Mesh> for Rows {
-    fn from(mesh: &Mesh) -> Self {
-        let node = |node: &Node| (node.number, node.xyz[0], node.xyz[1], node.xyz[2]);
-        let element =
-            |e: &Element| (e.number, e.kind, e.physical.to_vec(), e.geometric, e.nodes.to_vec());
-        Rows {
-            groups: mesh.names.iter().map(|n| (n.dim, n.tag, n.name.clone())).collect(),
-            nodes: mesh.nodes.iter().map(node).collect(),
-            elements: mesh.elements.iter().map(element).collect(),
-        }
-    }
-}
-
-impl Rows {
-    fn mesh(&self) -> Mesh {
-        let names = self.groups.iter().cloned();
-        let elements = self.elements.iter().cloned();
-        Mesh {
-            names: names.map(|(dim, tag, name)| PhysicalName { dim, tag, name }).collect(),
-            nodes: self
-                .nodes
-                .iter()
-                .map(|&(number, x, y, z)| Node { number, xyz: [x, y, z] })
-                .collect(),
-            elements: elements
-                .map(|(number, kind, physical, geometric, nodes)| Element {
-                    number,
-                    kind,
-                    physical: physical.into(),
-                    geometric,
-                    nodes: nodes.into(),
-                })
-                .collect(),
-        }
-    }
+    pub mesh: Mesh,
 }
 
 impl Input {
@@ -88,8 +34,13 @@ impl Input {
         let description: &Description = description;
         let scene_value = serde_json::to_value(description).expect("a description is an object");
         let [scene_sha256, mesh_sha256] = scene.hashes().expect("it has a source").clone();
-        let mesh = Rows::from(mesh);
-        Ok(Input { name: scene.name.clone(), scene_sha256, mesh_sha256, scene: scene_value, mesh })
+        Ok(Input {
+            name: scene.name.clone(),
+            scene_sha256,
+            mesh_sha256,
+            scene: scene_value,
+            mesh: mesh.clone(),
+        })
     }
 
     /// Returns the names of the scene's units.
@@ -117,6 +68,6 @@ impl Input {
             }
         }
         let description = file::parse(self.scene.to_string().as_bytes())?;
-        SceneBuilder { name: self.name.clone(), mesh: self.mesh.mesh(), description }.build()
+        SceneBuilder { name: self.name.clone(), mesh: self.mesh.clone(), description }.build()
     }
 }

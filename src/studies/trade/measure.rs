@@ -100,7 +100,8 @@ struct Run {
     certainty: Option<Certainty>,
 }
 
-/// Runs the trials in turn, `rounds` times.
+/// Runs the trials in turn, `rounds` times, each from the scene alone: a time includes every
+/// factorisation.
 fn timed(
     request: &Request,
     trials: &[Trial],
@@ -116,8 +117,9 @@ fn timed(
                 run.solution.is_ok() && run.seconds.iter().all(|s| *s < PATIENCE)
             });
             if again {
+                let request = request.clone().afresh();
                 let start = Instant::now();
-                let solution = solve(request, &mut |_| ());
+                let solution = solve(&request, &mut |_| ());
                 let seconds = start.elapsed().as_secs_f64();
                 if round == 0 {
                     let (solution, certainty) = match solution {
@@ -143,8 +145,9 @@ fn judges(knob: Knob) -> bool {
     matches!(knob, Knob::Tolerance | Knob::Iterations | Knob::Status | Knob::Coupling)
 }
 
-/// A solution without all steps but the last.
+/// A solution without its factors, and without all steps but the last.
 fn light(mut solution: Solution) -> Solution {
+    solution.let_go_of_factors();
     let before = solution.steps.len().saturating_sub(1);
     solution.steps.drain(..before);
     solution

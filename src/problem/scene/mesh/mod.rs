@@ -12,29 +12,56 @@ mod tables;
 
 pub use builder::MeshBuilder;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::problem::element::Corners;
 
-/// Nodes and elements in ascending order of number.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Nodes and elements in ascending order of number. As a document, of which the SHA-256 is taken, it
+/// is rows of numbers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Mesh {
-    pub nodes: Vec<Node>,
-    /// The points, edges and triangles. An element of two physical groups occurs twice in a Gmsh
-    /// file of version 2.2, under two numbers, and once, with two tags, in one of version 4.1.
-    pub elements: Vec<Element>,
+    /// The named physical groups: dimension, tag, name.
+    #[serde(rename = "groups")]
+    #[schemars(with = "Vec<(usize, usize, String)>")]
     pub names: Vec<PhysicalName>,
+    /// The nodes: number, x, y, z.
+    #[schemars(with = "Vec<(usize, f64, f64, f64)>")]
+    pub nodes: Vec<Node>,
+    /// The points, edges and triangles: number, type, physical tags, geometric tag, nodes. An element
+    /// of two physical groups occurs twice in a Gmsh file of version 2.2, under two numbers, and once,
+    /// with two tags, in one of version 4.1.
+    #[schemars(with = "Vec<(usize, usize, Vec<usize>, usize, Vec<usize>)>")]
+    pub elements: Vec<Element>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "NodeRow", into = "NodeRow")]
 pub struct Node {
     pub number: usize,
     /// The coordinates x, y, z, length.
     pub xyz: [f64; 3],
 }
 
+type NodeRow = (usize, f64, f64, f64);
+
+impl From<NodeRow> for Node {
+    fn from((number, x, y, z): NodeRow) -> Self {
+        Node { number, xyz: [x, y, z] }
+    }
+}
+
+impl From<Node> for NodeRow {
+    fn from(Node { number, xyz: [x, y, z] }: Node) -> Self {
+        (number, x, y, z)
+    }
+}
+
 /// An element of the mesh: a point, an edge or a triangle.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "ElementRow", into = "ElementRow")]
 pub struct Element {
     /// The number of the element: its row in `elem`.
     pub number: usize,
@@ -46,19 +73,46 @@ pub struct Element {
     pub nodes: NodeNumbers,
 }
 
+type ElementRow = (usize, usize, Tags, usize, NodeNumbers);
+
+impl From<ElementRow> for Element {
+    fn from((number, kind, physical, geometric, nodes): ElementRow) -> Self {
+        Element { number, kind, physical, geometric, nodes }
+    }
+}
+
+impl From<Element> for ElementRow {
+    fn from(Element { number, kind, physical, geometric, nodes }: Element) -> Self {
+        (number, kind, physical, geometric, nodes)
+    }
+}
+
 /// The tags of physical groups, of most elements one.
 pub type Tags = SmallVec<[usize; 1]>;
 
 /// The numbers of the nodes of an element.
 pub type NodeNumbers = SmallVec<[usize; 3]>;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "(usize, usize, String)", into = "(usize, usize, String)")]
 pub struct PhysicalName {
     /// The dimension of the group's elements: 0 points, 1 edges, 2 triangles. Tags of different
     /// dimensions are independent.
     pub dim: usize,
     pub tag: usize,
     pub name: String,
+}
+
+impl From<(usize, usize, String)> for PhysicalName {
+    fn from((dim, tag, name): (usize, usize, String)) -> Self {
+        PhysicalName { dim, tag, name }
+    }
+}
+
+impl From<PhysicalName> for (usize, usize, String) {
+    fn from(PhysicalName { dim, tag, name }: PhysicalName) -> Self {
+        (dim, tag, name)
+    }
 }
 
 pub struct Kind {
