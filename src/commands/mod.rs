@@ -26,7 +26,7 @@ pub mod trace;
 pub mod trade;
 pub mod verify;
 
-use std::io::Write;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -207,8 +207,14 @@ pub fn folder_name(start: String, request: &Request, more: &[String]) -> String 
 
 /// Prints to standard output; a reader that has gone away (`| head`) is no error.
 pub fn print(text: &str) -> Result<()> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(why) if why.kind() != std::io::ErrorKind::BrokenPipe => {
+    print_by(|out| out.write_all(text.as_bytes()))
+}
+
+/// Prints to standard output what `write` writes, as it comes.
+pub fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match write(&mut out).and_then(|()| out.flush()) {
+        Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
             let what = format!("cannot be written: {why}");
             let fix = "direct it to a place that can be written";
             Err(InputError::new("standard output", what, fix).into())

@@ -1,20 +1,22 @@
 //! `plane-contact trace`.
 
+use std::cell::OnceCell;
+
 use plane_contact::answer::Request;
 use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::paper::door::Call;
 use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::{Which, settings};
-use plane_contact::paper::mathcad::Listing;
+use plane_contact::paper::mathcad::{Failure, Listing};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::changes::changes;
-use plane_contact::report::trace::{self as report, Shown};
-use plane_contact::studies::audit::trace::{self, Trace};
+use plane_contact::report::trace::{self as report, Shown, Telling, Traced};
+use plane_contact::studies::audit::trace::{self, Product, Step};
 
-use super::{ReadingArg, print, print_fitted, told, width};
+use super::{ReadingArg, print, print_by, told, width};
 
 /// Execute a listing and show, line by line, what each statement read and wrote.
 #[derive(clap::Args)]
@@ -76,52 +78,52 @@ pub fn run(args: &Args) -> Result<u8> {
     let turns = turns(chosen.which, &model, &call, args.node)?;
     let wanted = |turn: usize| turns.contains(&turn);
     let settings = settings(&reading);
-    let trace = trace::trace(chosen.which, &chosen.listing, &settings, &call, wanted);
-    let failure = failure(&trace, &chosen, args);
+    let of = Traced { which: chosen.which, listing: &chosen.listing, scene: &scene, model: &model };
+    let execute = |each: &mut dyn FnMut(Step)| {
+        trace::follow(chosen.which, &chosen.listing, &settings, &call, wanted, each)
+    };
+    let blame = |failure: &Failure| chosen.blame(failure, &args.listing);
+    let outcome = OnceCell::new();
     if args.json {
-        let why = failure.as_ref().map(Into::into);
-        print(&report::json(&trace, &chosen.listing, &scene, why))?;
+        let why = |failure: &Failure| (&blame(failure)).into();
+        print_by(|out| report::write_json(out, &of, &execute, &outcome, &why))?;
         // The failure stands in the document: no other one follows.
-        return Ok(failure.as_ref().map_or(0, told));
+        let failure = outcome.get().and_then(|outcome| outcome.as_ref().err());
+        return Ok(failure.map_or(0, |failure| told(&blame(failure))));
     }
     let lines = args.lines.unwrap_or([1, usize::MAX]);
     let shown = Shown { summary: args.summary, lines, exact: args.exact, width: width() };
-    print_fitted(&report::text(&trace, &chosen.listing, &scene, &model, &shown))?;
-    finish(trace, failure, &chosen, args, &model, &call).map(|()| 0)
-}
-
-/// Returns why the listing stopped, and who is to blame.
-fn failure(trace: &Trace, chosen: &Chosen, args: &Args) -> Option<Error> {
-    let failure = trace.result.as_ref().err()?;
-    let fix = "correct the edited listing";
-    Some(match chosen.edited {
-        true => InputError::new(&args.listing, failure.to_string(), fix).into(),
-        false => failure.clone().into(),
-    })
-}
-
-/// Tells what an edit changed, or why the listing stopped.
-fn finish(
-    trace: Trace,
-    failure: Option<Error>,
-    chosen: &Chosen,
-    args: &Args,
-    model: &Model,
-    call: &Call,
-) -> Result<()> {
-    let reading = args.reading.reading;
-    match (trace.result, failure) {
-        (_, Some(failure)) => Err(failure),
-        (Ok(product), None) if chosen.edited => {
-            let printed = chosen.which.under(&reading);
-            match trace::run(chosen.which, &printed, &settings(&reading), call, &mut ()) {
-                Ok((printed, _)) => print(&changes(&printed, &product, model)),
-                Err(why) => {
-                    print(&format!("\nThe edited listing runs; as printed it fails: {why}\n"))
-                }
-            }
+    print_by(|out| {
+        let mut telling = Telling::new(out, of, &shown);
+        let outcome = outcome.get_or_init(|| execute(&mut |step| telling.step(step)));
+        telling.finish(outcome.as_ref().map_or(&[], |(_, output)| output))
+    })?;
+    match outcome.into_inner().expect("it is executed") {
+        Err(failure) => return Err(blame(&failure)),
+        Ok((product, _)) if chosen.edited => {
+            print(&edited(&product, chosen.which, args, &model, &call))?;
         }
-        _ => Ok(()),
+        Ok(_) => (),
+    }
+    Ok(0)
+}
+
+impl Chosen {
+    /// Returns who is to blame that the listing stopped.
+    fn blame(&self, failure: &Failure, name: &str) -> Error {
+        match self.edited {
+            true => InputError::new(name, failure.to_string(), "correct the edited listing").into(),
+            false => Box::new(failure.clone()).into(),
+        }
+    }
+}
+
+/// Tells what an edit changes of what its listing computes.
+fn edited(product: &Product, which: Which, args: &Args, model: &Model, call: &Call) -> String {
+    let reading = &args.reading.reading;
+    match trace::run(which, &which.under(reading), &settings(reading), call, &mut ()) {
+        Ok((printed, _)) => changes(&printed, product, model),
+        Err(why) => format!("\nThe edited listing runs; as printed it fails: {why}\n"),
     }
 }
 

@@ -1,7 +1,10 @@
 //! What several reports write as JSON.
 
+use std::io::{self, Write};
+
 use schemars::JsonSchema;
 use serde::Serialize;
+use serde_json::ser::{CompactFormatter, Formatter};
 use serde_json::{Map, Value};
 
 use super::numbers::{NO_LIMIT, reason};
@@ -58,6 +61,68 @@ pub fn headed(own: &impl Serialize) -> String {
 /// Writes a document on a scene, which a file describes, on one line behind its head.
 pub fn of_scene(scene: &Scene, own: &impl Serialize) -> String {
     line(&Headed { head: scene_head(scene), own })
+}
+
+/// Writes a document on a scene as [`of_scene`] does, each part of it as it is computed.
+///
+/// # Errors
+/// Something was not written.
+pub fn write_of_scene(mut out: impl Write, scene: &Scene, own: &impl Serialize) -> io::Result<()> {
+    let mut serializer = serde_json::Serializer::with_formatter(&mut out, Explaining::default());
+    Headed { head: scene_head(scene), own }.serialize(&mut serializer)?;
+    out.write_all(b"\n")
+}
+
+/// Writes without blanks, and at the end of the outermost object the reasons of its nulls.
+#[derive(Default)]
+struct Explaining {
+    /// The field of each object that is open.
+    fields: Vec<String>,
+    is_field: bool,
+    nulls: Map<String, Value>,
+}
+
+impl Formatter for Explaining {
+    fn begin_object<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.fields.push(String::new());
+        out.write_all(b"{")
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
+        self.fields.last_mut().expect("an object is open").clear();
+        self.is_field = true;
+        CompactFormatter.begin_object_key(out, first)
+    }
+
+    fn write_string_fragment<W: ?Sized + Write>(
+        &mut self,
+        out: &mut W,
+        text: &str,
+    ) -> io::Result<()> {
+        if let (true, Some(field)) = (self.is_field, self.fields.last_mut()) {
+            field.push_str(text);
+        }
+        out.write_all(text.as_bytes())
+    }
+
+    fn end_object_key<W: ?Sized + Write>(&mut self, _: &mut W) -> io::Result<()> {
+        self.is_field = false;
+        Ok(())
+    }
+
+    fn write_null<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        let field = self.fields.last().map_or("", String::as_str);
+        self.nulls.insert(field.into(), reason(field).into());
+        out.write_all(b"null")
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.fields.pop();
+        if self.fields.is_empty() && !self.nulls.is_empty() {
+            write!(out, ",\"nulls\":{}", Value::from(std::mem::take(&mut self.nulls)))?;
+        }
+        out.write_all(b"}")
+    }
 }
 
 /// Returns what a document on a scene, which a file describes, says of itself.

@@ -1,21 +1,25 @@
 //! A trace for people and for machines.
 
-use std::collections::BTreeSet;
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, Write};
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::ser::SerializeSeq;
+use serde::{Serialize, Serializer};
 use serde_json::Value as Json;
 
 use super::failure::Failure;
-use super::json::{Found, of_scene};
+use super::json::{Found, write_of_scene};
 use super::layout::{counted, filled, listed};
 use super::numbers::six_digits;
-use crate::paper::listings::Which;
-use crate::paper::mathcad::Listing;
+use super::printed::fitted;
+use crate::paper::listings::{self, Which};
 use crate::paper::mathcad::array::Table;
+use crate::paper::mathcad::{self, Listing};
 use crate::problem::model::{Model, NodeId, TriangleId};
 use crate::problem::scene::Scene;
-use crate::studies::audit::trace::{Access, Product, Step, Trace, text_of};
+use crate::studies::audit::trace::{Access, Product, Step, text_of};
 
 /// How much of a trace is shown, and how.
 pub struct Shown {
@@ -29,45 +33,167 @@ pub struct Shown {
     pub width: usize,
 }
 
-/// Writes the steps turn by turn, then those outside the turns, then what `trace()` wrote.
-pub fn text(
-    trace: &Trace,
-    listing: &Listing,
-    scene: &Scene,
-    model: &Model,
-    shown: &Shown,
-) -> String {
-    let turns: BTreeSet<usize> = trace.steps.iter().filter_map(|step| step.turn).collect();
-    let mut text = String::new();
-    for turn in turns {
-        text += &format!("\n{}\n", heading(trace.which, turn, scene, model));
-        let steps: Vec<&Step> = trace.steps.iter().filter(|s| s.turn == Some(turn)).collect();
-        let (mut steps, skipped) = without_missed_edges(trace.which, listing, &steps);
-        steps.retain(|step| shown.has(step));
-        text += &match shown.summary {
-            true => decisions(listing, &steps, shown),
-            false => steps.into_iter().map(|step| step_in_words(listing, step, shown)).collect(),
-        };
-        if skipped > 0 && shown.lines[0] <= 7 && shown.lines[1] >= 4 {
-            text += &format!(
-                "  (lines 4-7 for {}: the node is outside {})\n",
-                counted(skipped, "more edge", "more edges"),
-                if skipped == 1 { "its box" } else { "their boxes" }
-            );
+/// What is traced.
+#[derive(Clone, Copy)]
+pub struct Traced<'a> {
+    pub which: Which,
+    pub listing: &'a Listing,
+    pub scene: &'a Scene,
+    pub model: &'a Model,
+}
+
+/// Writes a trace for people as it is executed: turn by turn, then what is outside the turns, then
+/// what `trace()` wrote. What is held grows with the listing, not with the trace.
+pub struct Telling<'a, W> {
+    out: W,
+    of: Traced<'a>,
+    shown: &'a Shown,
+    turn: Option<Turn>,
+    /// The printed lines outside the turns, how often each was executed, and how it was last.
+    outside: Vec<(usize, usize, Step)>,
+    /// What went wrong when it was written; nothing is written after that.
+    failed: io::Result<()>,
+}
+
+/// A turn of the outer loop, as far as it is executed.
+struct Turn {
+    number: usize,
+    /// The statements for a target edge as long as they wrote no `ct`.
+    edge: Option<Vec<Step>>,
+    /// The target edges for which no `ct` was written.
+    skipped: usize,
+    /// What its conditions decided: a line, when it was first written, and how often.
+    decided: BTreeMap<String, (usize, usize)>,
+}
+
+/// The statements for one target edge that are kept at most; beyond it all of them are shown.
+const MOST_KEPT: usize = 10_000;
+
+impl<'a, W: Write> Telling<'a, W> {
+    pub fn new(out: W, of: Traced<'a>, shown: &'a Shown) -> Self {
+        Telling { out, of, shown, turn: None, outside: Vec::new(), failed: Ok(()) }
+    }
+
+    /// Writes a statement that was executed.
+    pub fn step(&mut self, step: Step) {
+        match step.turn {
+            None => self.outside(step),
+            Some(number) if self.failed.is_ok() => self.failed = self.in_turn(number, step),
+            Some(_) => (),
         }
     }
-    if !shown.summary {
-        text += &outside(trace, listing, shown);
+
+    /// Ends the trace; `output` is what `trace()` wrote.
+    ///
+    /// # Errors
+    /// Something was not written.
+    pub fn finish(mut self, output: &[String]) -> io::Result<()> {
+        std::mem::replace(&mut self.failed, Ok(()))?;
+        self.end_turn()?;
+        let outside = std::mem::take(&mut self.outside);
+        if !outside.is_empty() {
+            self.write("\noutside these\n")?;
+        }
+        for (line, times, last) in outside {
+            let text = executed_outside(self.of.listing, (line, times, &last), self.shown);
+            self.write(&text)?;
+        }
+        if output.is_empty() {
+            return Ok(());
+        }
+        self.write(&format!("\n{}", filled("trace() wrote: ", 4, self.shown.width, output, " | ")))
     }
-    if trace.is_cut {
-        let kept = trace.steps.len();
-        text += &format!("\n(only the first {kept} statements are shown)\n");
+
+    fn in_turn(&mut self, number: usize, step: Step) -> io::Result<()> {
+        let Traced { which, listing, scene, model } = self.of;
+        if self.turn.as_ref().is_none_or(|turn| turn.number != number) {
+            self.end_turn()?;
+            self.turn = Some(Turn::new(number));
+            self.write(&format!("\n{}\n", heading(which, number, scene, model)))?;
+        }
+        let turn = self.turn.as_mut().expect("it has begun");
+        for step in turn.shown_now(which, text_of(listing, step.line), step) {
+            self.tell(&step)?;
+        }
+        Ok(())
     }
-    if !trace.output.is_empty() {
-        text += "\n";
-        text += &filled("trace() wrote: ", 4, shown.width, &trace.output, " | ");
+
+    fn tell(&mut self, step: &Step) -> io::Result<()> {
+        if !self.shown.has(step) {
+            return Ok(());
+        }
+        if !self.shown.summary {
+            return self.write(&step_in_words(self.of.listing, step, self.shown));
+        }
+        if let (Some(turn), Some(held)) = (&mut self.turn, step.held) {
+            let line = decision(self.of.listing, step, held, self.shown);
+            let place = turn.decided.len();
+            turn.decided.entry(line).or_insert((place, 0)).1 += 1;
+        }
+        Ok(())
     }
-    text
+
+    fn outside(&mut self, step: Step) {
+        if self.shown.summary || !self.shown.has(&step) {
+            return;
+        }
+        match self.outside.iter_mut().find(|(line, _, _)| *line == step.line) {
+            Some((_, times, last)) => (*times, *last) = (*times + 1, step),
+            None => self.outside.push((step.line, 1, step)),
+        }
+    }
+
+    fn end_turn(&mut self) -> io::Result<()> {
+        let Some(mut turn) = self.turn.take() else { return Ok(()) };
+        turn.end_edge();
+        let mut decided: Vec<_> = turn.decided.into_iter().collect();
+        decided.sort_by_key(|(_, (place, _))| *place);
+        for (line, (_, times)) in decided {
+            self.write(&match times {
+                1 => line + "\n",
+                n => format!("{line}   ({n} times)\n"),
+            })?;
+        }
+        if turn.skipped == 0 || self.shown.lines[0] > 7 || self.shown.lines[1] < 4 {
+            return Ok(());
+        }
+        self.write(&format!(
+            "  (lines 4-7 for {}: the node is outside {})\n",
+            counted(turn.skipped, "more edge", "more edges"),
+            if turn.skipped == 1 { "its box" } else { "their boxes" }
+        ))
+    }
+
+    fn write(&mut self, text: &str) -> io::Result<()> {
+        match self.shown.width {
+            usize::MAX => self.out.write_all(text.as_bytes()),
+            width => self.out.write_all(fitted(text, width).as_bytes()),
+        }
+    }
+}
+
+impl Turn {
+    fn new(number: usize) -> Self {
+        Turn { number, edge: None, skipped: 0, decided: BTreeMap::new() }
+    }
+
+    /// Returns what is shown once `step` was executed: of `c_cnt` nothing for a target edge as long as
+    /// no `ct` was written.
+    fn shown_now(&mut self, which: Which, text: &str, step: Step) -> Vec<Step> {
+        if which == Which::CCnt && text.starts_with("for ") {
+            self.end_edge();
+            self.edge = text.contains("rows(trg)").then(Vec::new);
+        }
+        let Some(edge) = &mut self.edge else { return vec![step] };
+        let wrote_ct = step.writes.iter().any(|written| written.name.starts_with("ct["));
+        edge.push(step);
+        let is_shown = wrote_ct || edge.len() > MOST_KEPT;
+        if is_shown { self.edge.take().unwrap_or_default() } else { Vec::new() }
+    }
+
+    fn end_edge(&mut self) {
+        self.skipped += usize::from(self.edge.take().is_some());
+    }
 }
 
 impl Shown {
@@ -104,81 +230,31 @@ fn named(scene: &Scene, model: &Model, node: NodeId) -> String {
     }
 }
 
-/// Writes what each condition decided, and what followed: yes and what was written, or no and the
-/// first operand that is false. What happened more than once is counted.
-fn decisions(listing: &Listing, steps: &[&Step], shown: &Shown) -> String {
-    let mut lines: Vec<(String, usize)> = Vec::new();
-    for (step, held) in steps.iter().filter_map(|step| Some((step, step.held?))) {
-        let text = text_of(listing, step.line);
-        let condition = text.split_once("if ").map_or(text, |(_, condition)| condition);
-        let operands = step.operands.iter();
-        let failed = operands.into_iter().find(|(_, truth)| *truth == Some(false));
-        let failed = failed.map_or(condition, |(operand, _)| operand);
-        let told = match held {
-            true if step.writes.is_empty() => format!("yes  {condition}"),
-            true => format!("yes  {}", accesses(&step.writes, " ← ", shown).join(", ")),
-            false => format!("no   {failed} is false"),
-        };
-        let line = format!("  {:>2}  {told}", step.line);
-        match lines.iter_mut().find(|(other, _)| *other == line) {
-            Some((_, times)) => *times += 1,
-            None => lines.push((line, 1)),
-        }
-    }
-    let counted = |(line, times): (String, usize)| match times {
-        1 => line + "\n",
-        n => format!("{line}   ({n} times)\n"),
+/// Writes what a condition decided, and what followed: yes and what was written, or no and the first
+/// operand that is false.
+fn decision(listing: &Listing, step: &Step, held: bool, shown: &Shown) -> String {
+    let text = text_of(listing, step.line);
+    let condition = text.split_once("if ").map_or(text, |(_, condition)| condition);
+    let failed = step.operands.iter().find(|(_, truth)| *truth == Some(false));
+    let failed = failed.map_or(condition, |(operand, _)| operand);
+    let told = match held {
+        true if step.writes.is_empty() => format!("yes  {condition}"),
+        true => format!("yes  {}", accesses(&step.writes, " ← ", shown).join(", ")),
+        false => format!("no   {failed} is false"),
     };
-    lines.into_iter().map(counted).collect()
+    format!("  {:>2}  {told}", step.line)
 }
 
-/// Writes the lines outside the turns: how often each was executed, and what it wrote last.
-fn outside(trace: &Trace, listing: &Listing, shown: &Shown) -> String {
-    let mut lines: Vec<(usize, usize, &Step)> = Vec::new();
-    for step in trace.steps.iter().filter(|step| step.turn.is_none() && shown.has(step)) {
-        match lines.iter_mut().find(|(line, _, _)| *line == step.line) {
-            Some((_, times, last)) => (*times, *last) = (*times + 1, step),
-            None => lines.push((step.line, 1, step)),
-        }
-    }
-    if lines.is_empty() {
-        return String::new();
-    }
-    let in_words = |(line, times, last): (usize, usize, &Step)| {
-        let written = accesses(&last.writes, " ← ", shown).join(", ");
-        let last = if written.is_empty() { String::new() } else { format!(", last ⇒ {written}") };
-        let text =
-            format!("{}   ({}{last})", text_of(listing, line), counted(times, "time", "times"));
-        filled(&format!("  {line:>2}  "), 8, shown.width, text.split(' '), " ")
-    };
-    "\noutside these\n".to_string() + &lines.into_iter().map(in_words).collect::<String>()
-}
-
-/// Leaves out, for `c_cnt`, the turns over target edges that wrote no `ct`; counts them.
-fn without_missed_edges<'s>(
-    which: Which,
+/// Writes a line outside the turns: how often it was executed, and what it wrote last.
+fn executed_outside(
     listing: &Listing,
-    steps: &[&'s Step],
-) -> (Vec<&'s Step>, usize) {
-    if which == Which::Km {
-        return (steps.to_vec(), 0);
-    }
-    let (mut shown, mut skipped) = (Vec::new(), 0);
-    let over_edges = |s: &Step| text_of(listing, s.line).contains("rows(trg)");
-    let mut rest = steps;
-    while let Some(first) = rest.first() {
-        let next_loop = |s: &&Step| text_of(listing, s.line).starts_with("for ");
-        let end = rest[1..].iter().position(next_loop).map_or(rest.len(), |k| k + 1);
-        let (turn, after) = rest.split_at(end);
-        let wrote_ct = turn.iter().any(|s| s.writes.iter().any(|w| w.name.starts_with("ct[")));
-        if over_edges(first) && !wrote_ct {
-            skipped += 1;
-        } else {
-            shown.extend(turn);
-        }
-        rest = after;
-    }
-    (shown, skipped)
+    (line, times, last): (usize, usize, &Step),
+    shown: &Shown,
+) -> String {
+    let written = accesses(&last.writes, " ← ", shown).join(", ");
+    let last = if written.is_empty() { String::new() } else { format!(", last ⇒ {written}") };
+    let text = format!("{}   ({}{last})", text_of(listing, line), counted(times, "time", "times"));
+    filled(&format!("  {line:>2}  "), 8, shown.width, text.split(' '), " ")
 }
 
 /// Writes a printed line, what it read, and what it wrote.
@@ -243,13 +319,53 @@ pub struct Document<'a> {
     /// `c_cnt` or `Km`.
     listing: &'static str,
     /// The statements in order of execution.
-    steps: Vec<StepRow<'a>>,
+    #[schemars(with = "Vec<StepRow>")]
+    steps: Executing<'a>,
     /// What the listing's own `trace` wrote.
-    trace: &'a [String],
+    #[schemars(with = "Vec<String>")]
+    trace: Then<'a, Vec<String>>,
     /// What the listing computes; null where it failed.
-    result: Option<Computed>,
+    #[schemars(with = "Option<Computed>")]
+    result: Then<'a, Option<Computed>>,
     /// Why it failed; null where it did not.
-    failure: Option<Failure>,
+    #[schemars(with = "Option<Failure>")]
+    failure: Then<'a, Option<Failure>>,
+}
+
+/// Executes a listing, and hands over each statement.
+pub type Execute<'a> = dyn Fn(&mut dyn FnMut(Step)) -> listings::Traced<Product> + 'a;
+
+/// The statements of a listing, which is executed when they are written: none is kept.
+struct Executing<'a> {
+    listing: &'a Listing,
+    execute: &'a Execute<'a>,
+    outcome: &'a OnceCell<listings::Traced<Product>>,
+}
+
+impl Serialize for Executing<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut rows = serializer.serialize_seq(None)?;
+        let mut written = Ok(());
+        let outcome = (self.execute)(&mut |step| {
+            if written.is_ok() {
+                written = rows.serialize_element(&StepRow::new(&step, self.listing));
+            }
+        });
+        self.outcome.get_or_init(|| outcome);
+        written?;
+        rows.end()
+    }
+}
+
+/// What is known once the listing is executed.
+struct Then<'a, T>(&'a OnceCell<listings::Traced<Product>>, &'a Told<'a, T>);
+
+type Told<'a, T> = dyn Fn(&listings::Traced<Product>) -> T + 'a;
+
+impl<T: Serialize> Serialize for Then<'_, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        (self.1)(self.0.get().expect("the steps stand before it")).serialize(serializer)
+    }
 }
 
 /// A statement as it was executed.
@@ -293,17 +409,31 @@ impl From<&Product> for Computed {
     }
 }
 
-/// Returns a trace as JSON; `failure` is why the listing failed.
-pub fn json(trace: &Trace, listing: &Listing, scene: &Scene, failure: Option<Failure>) -> String {
+/// Writes a trace as JSON as it is executed, which leaves its `outcome`; `blame` says why the listing
+/// failed.
+///
+/// # Errors
+/// Something was not written.
+pub fn write_json(
+    out: impl Write,
+    of: &Traced,
+    execute: &Execute,
+    outcome: &OnceCell<listings::Traced<Product>>,
+    blame: &dyn Fn(&mathcad::Failure) -> Failure,
+) -> io::Result<()> {
     let document = Document {
-        scene: &scene.name,
-        listing: trace.which.name(),
-        steps: trace.steps.iter().map(|step| StepRow::new(step, listing)).collect(),
-        trace: &trace.output,
-        result: trace.result.as_ref().ok().map(Computed::from),
-        failure,
+        scene: &of.scene.name,
+        listing: of.which.name(),
+        steps: Executing { listing: of.listing, execute, outcome },
+        trace: Then(outcome, &|outcome| {
+            outcome.as_ref().map_or(Vec::new(), |(_, output)| output.clone())
+        }),
+        result: Then(outcome, &|outcome| {
+            outcome.as_ref().ok().map(|(product, _)| Computed::from(product))
+        }),
+        failure: Then(outcome, &|outcome| outcome.as_ref().err().map(|why| blame(why))),
     };
-    of_scene(scene, &document)
+    write_of_scene(out, of.scene, &document)
 }
 
 /// Returns the values of `of` that are not zero, each with its row and its column in `matrix`.

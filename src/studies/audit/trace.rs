@@ -58,7 +58,7 @@ pub struct Access {
     pub value: Json,
 }
 
-/// Statements kept at most: what comes after is executed, but not shown.
+/// Statements that a trace keeps at most: what comes after is executed, but not kept.
 const MOST_STEPS: usize = 200_000;
 
 /// Numbers that kept statements may have read and written, and one more for each name.
@@ -73,27 +73,42 @@ pub fn trace(
     call: &Call,
     wanted: impl Fn(usize) -> bool,
 ) -> Trace {
-    let mut steps = Vec::new();
-    let (mut turn, mut numbers) = (None, 0);
+    let (mut steps, mut numbers, mut is_cut) = (Vec::new(), 0, false);
+    let outcome = follow(which, listing, settings, call, wanted, |step| {
+        is_cut = steps.len() >= MOST_STEPS || numbers >= MOST_NUMBERS;
+        if !is_cut {
+            numbers += step.reads.iter().chain(&step.writes).map(Access::numbers).sum::<usize>();
+            steps.push(step);
+        }
+    });
+    let (result, output) = match outcome {
+        Ok((product, output)) => (Ok(product), output),
+        Err(failure) => (Err(failure), vec![]),
+    };
+    Trace { which, steps, is_cut, output, result }
+}
+
+/// Executes a listing as [`trace`] does, and hands over `each` statement of the turns that `wanted`
+/// asks for as it is executed: none is kept.
+pub fn follow(
+    which: Which,
+    listing: &Listing,
+    settings: &Settings,
+    call: &Call,
+    wanted: impl Fn(usize) -> bool,
+    mut each: impl FnMut(Step),
+) -> listings::Traced<Product> {
+    let mut turn = None;
     let mut recorder = Recorder::new(|done: &Executed| {
         let text = text_of(listing, done.line);
         if let Some(begun) = turn_begun(which, text, done) {
             turn = begun;
         }
-        let has_room = steps.len() < MOST_STEPS && numbers < MOST_NUMBERS;
-        if turn.is_none_or(&wanted) && has_room {
-            numbers += done.reads.iter().chain(&done.writes).map(shown).sum::<usize>();
-            steps.push(Step::new(turn, done));
+        if turn.is_none_or(&wanted) {
+            each(Step::new(turn, done));
         }
     });
-    let outcome = run(which, listing, settings, call, &mut recorder);
-    drop(recorder);
-    let (result, output) = match outcome {
-        Ok((product, output)) => (Ok(product), output),
-        Err(failure) => (Err(failure), vec![]),
-    };
-    let is_cut = steps.len() >= MOST_STEPS || numbers >= MOST_NUMBERS;
-    Trace { which, steps, is_cut, output, result }
+    run(which, listing, settings, call, &mut recorder)
 }
 
 /// Executes a listing and returns what it computes, with the lines that its own `trace` wrote.
@@ -158,11 +173,12 @@ impl Access {
         };
         Access { name, value: json(&named.value) }
     }
-}
 
-/// Returns what an access counts against [`MOST_NUMBERS`].
-fn shown(access: &Named) -> usize {
-    1 + if is_small(&access.value) { access.value.count() } else { 0 }
+    /// Returns the count of the numbers that it shows, and one more.
+    fn numbers(&self) -> usize {
+        let row = |row: &Json| row.as_array().map_or(1, Vec::len);
+        1 + self.value.as_array().map_or(0, |rows| rows.iter().map(row).sum())
+    }
 }
 
 /// Returns whether the entries of a value are shown.
