@@ -13,7 +13,7 @@ use super::sound;
 const MESH: &[u8] = include_bytes!("../../tests/program/gmsh/blocks-2.2-ascii.msh");
 
 pub fn hold(data: &[u8]) {
-    match Scene::build("fuzz", data, |_| Ok(MESH.to_vec())) {
+    match Scene::build("fuzz", data, |_| Ok(MESH.into())) {
         Err(error) => sound::input_error(&error),
         Ok(scene) => {
             reads_back(&scene);
@@ -26,7 +26,7 @@ pub fn hold(data: &[u8]) {
 fn reads_back(scene: &Scene) {
     let (description, mesh) = scene.source().expect("a file describes it");
     let text = file::write(description, "mesh.msh");
-    let beside = |_: &str| Ok(gmsh::write(mesh).into_bytes());
+    let beside = |_: &str| Ok(gmsh::write(mesh).into_bytes().into());
     let read = SceneBuilder::read("fuzz", text.as_bytes(), beside).expect("what was written");
     assert_eq!((&read.description, &read.mesh), (description, mesh));
     let kept = Input::of(scene).expect("a file describes it");

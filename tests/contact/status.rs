@@ -364,7 +364,7 @@ fn wider_duct(duct: f64) -> Scene {
     let (nodes, after) = rest.split_once("$EndNodes").unwrap();
     let moved: Vec<String> = nodes.lines().map(|line| moved(line, &block.nodes, duct)).collect();
     let mesh = format!("{before}$Nodes\n{}\n$EndNodes{after}", moved.join("\n"));
-    Scene::build("wide", &scene, |_| Ok(mesh.clone().into_bytes()))
+    Scene::build("wide", &scene, |_| Ok(mesh.clone().into_bytes().into()))
         .expect("the wider duct is sound")
 }
 

@@ -2,9 +2,10 @@
 //! damage.
 
 use std::fs;
+use std::io::{self, Read};
 
 use crate::common::random::fixed;
-use plane_contact::problem::scene::gmsh::{GmshError, read};
+use plane_contact::problem::scene::gmsh::{self, GmshError, Place};
 use plane_contact::problem::scene::{Element, Mesh, Node, PhysicalName};
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -179,6 +180,51 @@ fn windows_line_ends_and_a_missing_last_one_are_read() {
     assert_eq!(read(SMALL_2.replace('\n', "\r\n").as_bytes()), Ok(small()));
     assert_eq!(read(SMALL_4.replace('\n', "\r\n").as_bytes()), Ok(small_4()));
     assert_eq!(read(SMALL_2.trim_end().as_bytes()), Ok(small()));
+}
+
+fn read(file: &[u8]) -> Result<Mesh, GmshError> {
+    gmsh::read(file)
+}
+
+/// Only a part of a file is held: what stands before a token moves it over the end of one.
+#[test]
+fn a_token_may_begin_in_one_part_of_a_file_and_end_in_the_next() {
+    let part = 1 << 18;
+    for name in BLOCKS {
+        let plain = blocks(name);
+        let at = plain.windows(7).position(|window| window == b"$Nodes\n").unwrap();
+        let whole = read(&plain).unwrap();
+        for length in (part - plain.len() - 60..part + 20).step_by(7) {
+            let skipped = [b"$Long\n".to_vec(), vec![b'-'; length], b"\n$EndLong\n".to_vec()];
+            let longer = [&plain[..at], &skipped.concat(), &plain[at..]].concat();
+            assert_eq!(read(&longer).as_ref(), Ok(&whole), "{name}, after {length} bytes");
+        }
+    }
+    let faulty = SMALL_2.replace("20 1 0 0", "20 1 o 0");
+    for lines in [0, part / 2, part] {
+        let long = format!("$Long\n{}$EndLong\n$Nodes\n", "\n".repeat(lines));
+        let error = read(faulty.replace("$Nodes\n", &long).as_bytes()).unwrap_err();
+        assert_eq!(error.place, Place::Line(13 + lines), "{error}");
+    }
+}
+
+/// A file that breaks off, as on a disk that is taken away.
+#[test]
+fn what_cannot_be_read_on_is_told() {
+    struct Broken;
+    impl Read for Broken {
+        fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+            Err(io::Error::other("the disk is gone"))
+        }
+    }
+    let (start, _) = SMALL_2.split_once("10 0 0 0").unwrap();
+    for ends in ["", "10 0", "10 0 0 0\n20 1 0 0\n"] {
+        let begun = format!("{start}{ends}");
+        let error = gmsh::read(begun.as_bytes().chain(Broken)).unwrap_err().to_string();
+        assert!(error.ends_with("it cannot be read on: the disk is gone"), "{error}");
+    }
+    let error = gmsh::read(SMALL_2.as_bytes().chain(Broken)).unwrap_err().to_string();
+    assert!(error.ends_with("it cannot be read on: the disk is gone"), "{error}");
 }
 
 #[test]

@@ -107,7 +107,7 @@ fn one_side_changed_is_no_symmetry() {
     loaded["loads"].as_array_mut().unwrap().push(json!({ "on": "right", "traction": [0.0, 1.0] }));
     let mut held = strand.clone();
     held["restraints"].as_array_mut().unwrap().push(json!({ "on": "right", "fix": ["y"] }));
-    let beside = |_: &str| Ok(include_bytes!("../../golden/strand/strand.msh").to_vec());
+    let beside = |_: &str| Ok(include_bytes!("../../golden/strand/strand.msh")[..].into());
     let symmetric = |scene: &serde_json::Value| {
         let scene = Scene::build("strand", scene.to_string().as_bytes(), beside).unwrap();
         plan_of(&scene, Variant::Tied, None).half.is_some()

@@ -42,7 +42,7 @@ fn blocks() -> SceneBuilder {
 /// Reads the scene back from the two files as which it is written.
 fn read_back(scene: &SceneBuilder) -> SceneBuilder {
     let text = file::write(&scene.description, "m.msh");
-    let beside = |_: &str| Ok(gmsh::write(&scene.mesh).into_bytes());
+    let beside = |_: &str| Ok(gmsh::write(&scene.mesh).into_bytes().into());
     SceneBuilder::read(&scene.name, text.as_bytes(), beside).expect("the files are sound")
 }
 

@@ -350,8 +350,9 @@ fn a_name_belongs_to_one_group() {
         $Elements\n3\n1 1 2 1 1 1 2\n2 1 2 2 2 2 3\n3 2 2 3 1 1 2 3\n$EndElements\n";
     let scene = r#"{"mesh": "m.msh", "plane": "strain", "materials": {"body": {"E": 1, "nu": 0}},
         "restraints": [{"on": "top", "fix": ["x", "y"]}]}"#;
-    let read =
-        |mesh: String| Scene::build("test", scene.as_bytes(), move |_| Ok(mesh.clone().into()));
+    let read = |mesh: String| {
+        Scene::build("test", scene.as_bytes(), move |_| Ok(mesh.clone().into_bytes().into()))
+    };
     says(&read(mesh.into()).unwrap_err(), "physical groups", &["1 and 2 are both named \"top\""]);
     read(mesh.replacen("top", "base", 1)).expect("each name once");
 }

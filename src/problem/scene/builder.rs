@@ -5,6 +5,7 @@ use std::path::Path;
 use super::description::{Axis, Contact, Description, Load, Material, Restraint, Units};
 use super::groups::GroupRef;
 use super::mesh::Mesh;
+use super::source::FileBeside;
 use super::{Scene, file, gmsh, orphans, source};
 use crate::error::Result;
 use crate::files;
@@ -54,7 +55,7 @@ impl SceneBuilder {
     pub fn read(
         name: &str,
         text: &[u8],
-        beside: impl Fn(&str) -> Result<Vec<u8>, String>,
+        beside: impl Fn(&str) -> Result<FileBeside, String>,
     ) -> Result<Self> {
         let mut description = file::parse(text)?;
         let mesh = source::mesh(&mut description, beside)?;

@@ -36,6 +36,7 @@ pub use hashes::sha256;
 pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags};
 pub use refine::Refined;
 pub use scene_file::SceneFile;
+pub use source::FileBeside;
 pub use surface::Surface;
 
 use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
@@ -96,7 +97,7 @@ impl Scene {
     pub fn build(
         name: &str,
         text: &[u8],
-        beside: impl Fn(&str) -> Result<Vec<u8>, String>,
+        beside: impl Fn(&str) -> Result<FileBeside, String>,
     ) -> Result<Self> {
         SceneBuilder::read(name, text, beside)?.into_scene()
     }

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
+use super::source::FileBeside;
 use crate::error::{InputError, Result};
 use crate::files;
 use crate::numbers::solve::memory;
@@ -68,33 +69,33 @@ impl SceneFile {
         }
     }
 
-    /// Reads a file beside the scene file.
+    /// Opens a file beside the scene file.
     ///
     /// # Errors
-    /// Says why it cannot be read.
-    pub fn beside(&self, file: &str) -> Result<Vec<u8>, String> {
+    /// Says why it cannot be opened.
+    pub fn beside(&self, file: &str) -> Result<FileBeside, String> {
         match &self.files {
             Files::Embedded(embedded) => {
                 let found = embedded.files.iter().find(|(name, _)| *name == file);
-                found.map(|(_, bytes)| bytes.to_vec()).ok_or_else(|| "not embedded".to_string())
+                found.map(|(_, bytes)| (*bytes).into()).ok_or_else(|| "not embedded".to_string())
             }
-            Files::Folder(folder, _) => read_beside(&folder.join(file)),
+            Files::Folder(folder, _) => open_beside(&folder.join(file)),
         }
     }
 }
 
-/// The bytes of a mesh file's text and of the tables made of it, over the former.
-const WITH_TABLES: f64 = 3.0;
+/// The bytes of the tables that a mesh file makes, over those of the file.
+const TABLES: f64 = 2.0;
 
-/// Reads an ordinary file that fits in memory; a device would never end.
-fn read_beside(path: &Path) -> Result<Vec<u8>, String> {
+/// Opens an ordinary file whose tables fit in memory; a device would never end.
+fn open_beside(path: &Path) -> Result<FileBeside, String> {
     let metadata = std::fs::metadata(path).map_err(|why| why.to_string())?;
     if !metadata.is_file() {
         return Err("it is no ordinary file".into());
     }
-    let needed = WITH_TABLES * metadata.len() as f64;
-    memory::check_bytes(needed, "", "its text and tables", "").map_err(|why| why.what)?;
-    std::fs::read(path).map_err(|why| why.to_string())
+    let needed = TABLES * metadata.len() as f64;
+    memory::check_bytes(needed, "", "its tables", "").map_err(|why| why.what)?;
+    Ok(std::fs::File::open(path).map_err(|why| why.to_string())?.into())
 }
 
 /// Returns a scene's name: `strand` for `golden/strand/scene.json`, `plate` for `my/plate.json`.

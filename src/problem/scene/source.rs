@@ -1,9 +1,39 @@
 //! The source of a scene file's mesh: a Gmsh file beside it, or its own tables.
 
+use std::fs::File;
+use std::io::{self, Cursor, Read};
+
 use super::description::Description;
 use super::gmsh;
 use super::mesh::Mesh;
 use crate::error::{InputError, Result};
+
+/// A file beside a scene file, which is read once, as it comes.
+pub struct FileBeside(Box<dyn Read>);
+
+impl From<Vec<u8>> for FileBeside {
+    fn from(bytes: Vec<u8>) -> Self {
+        FileBeside(Box::new(Cursor::new(bytes)))
+    }
+}
+
+impl From<&'static [u8]> for FileBeside {
+    fn from(bytes: &'static [u8]) -> Self {
+        FileBeside(Box::new(bytes))
+    }
+}
+
+impl From<File> for FileBeside {
+    fn from(file: File) -> Self {
+        FileBeside(Box::new(file))
+    }
+}
+
+impl Read for FileBeside {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.0.read(buffer)
+    }
+}
 
 /// Takes the mesh out of the fields `mesh`, `node` and `elem` of a scene file; `beside` reads a file
 /// in the scene file's folder.
@@ -11,7 +41,7 @@ use crate::error::{InputError, Result};
 /// form.
 pub fn mesh(
     scene: &mut Description,
-    beside: impl Fn(&str) -> Result<Vec<u8>, String>,
+    beside: impl Fn(&str) -> Result<FileBeside, String>,
 ) -> Result<Mesh> {
     let name = match (scene.mesh.take(), scene.node.take(), scene.elements.take()) {
         (Some(name), None, None) => name,
@@ -22,11 +52,11 @@ pub fn mesh(
             return Err(InputError::new("fields mesh, node, elem", what, fix));
         }
     };
-    let bytes = beside(&name).map_err(|why| {
+    let file = beside(&name).map_err(|why| {
         let what = format!("the mesh file {name:?} cannot be read: {why}");
         InputError::new("field mesh", what, "the path is resolved beside the scene file")
     })?;
-    gmsh::read(&bytes).map_err(|error| {
+    gmsh::read(file).map_err(|error| {
         let fix = "save the mesh again from Gmsh";
         InputError::new(format!("mesh {name:?}"), error.to_string(), fix)
     })

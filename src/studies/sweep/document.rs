@@ -1,6 +1,7 @@
 //! The document of a case: the scene's fields, a generator's parameters and options, in which JSON
 //! pointers set values; and its key.
 
+use std::io::Read;
 use std::path::Path;
 
 use clap::{Command, FromArgMatches, Subcommand};
@@ -9,8 +10,7 @@ use serde_json::{Map, Value, json};
 use crate::answer::Request;
 use crate::error::{InputError, Result};
 use crate::plain::plain;
-use crate::problem::scene::sha256;
-use crate::problem::scene::{SceneBuilder, SceneFile, file};
+use crate::problem::scene::{FileBeside, SceneBuilder, SceneFile, file, sha256};
 use crate::studies::benchmark::Kind;
 use crate::studies::snapshot::{Options, VERSION};
 
@@ -45,7 +45,7 @@ impl Document {
                     InputError::new(scene, why.to_string(), fix)
                 })?;
                 let mesh = fields.get("mesh").and_then(Value::as_str);
-                let bytes = mesh.map(|mesh| file.beside(mesh)).transpose();
+                let bytes = mesh.map(|mesh| file.beside(mesh).and_then(read_all)).transpose();
                 let bytes = bytes.map_err(|why| {
                     let what = format!("the mesh file cannot be read: {why}");
                     InputError::new("field mesh", what, "the path is resolved beside the scene")
@@ -123,6 +123,13 @@ impl Document {
         });
         sha256(&parts)
     }
+}
+
+/// Reads a file to its end.
+fn read_all(mut file: FileBeside) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(|why| why.to_string())?;
+    Ok(bytes)
 }
 
 /// Returns the key of a scene under options.

@@ -32,6 +32,8 @@ impl fmt::Display for Place {
 
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Fault {
+    #[error("it cannot be read on: {why}")]
+    Broken { why: String },
     #[error("found {found}, expected {expected}")]
     Unexpected { found: String, expected: String },
     #[error(

@@ -1,6 +1,7 @@
 //! The sections of a file, and the parts that all versions of the format share.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::io::Read;
 
 use super::error::{Fault, GmshError, Result};
 use super::kinds::{ENTITIES, magnitude};
@@ -8,13 +9,13 @@ use super::numbered::Numbered;
 use super::tokens::Tokens;
 use crate::problem::scene::mesh::{Element, Mesh, Node, PhysicalName};
 
-/// Reads a mesh from the bytes of a `.msh` file.
+/// Reads a mesh from a `.msh` file, of which never more than a part is held.
 ///
 /// Nodes, elements and physical names are returned in ascending order; tags that are negative in
 /// the file (a reversed orientation) are returned positive.
 /// Errors: the first fault, with its line (text) or byte (binary).
-pub fn read(bytes: &[u8]) -> Result<Mesh, GmshError> {
-    let mut tokens = Tokens::new(bytes);
+pub fn read(file: impl Read) -> Result<Mesh, GmshError> {
+    let mut tokens = Tokens::new(file);
     tokens.keyword("$MeshFormat", "$MeshFormat, the first line of a Gmsh mesh (MSH 2.2 or 4.1)")?;
     let version = format(&mut tokens)?;
     tokens.keyword("$EndMeshFormat", "$EndMeshFormat")?;

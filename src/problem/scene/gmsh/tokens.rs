@@ -1,5 +1,7 @@
 //! The sequence of numbers and words in a file, the same for text and for binary.
 
+use std::borrow::Cow;
+use std::io::{self, Read};
 use std::str::FromStr;
 
 use super::error::{Fault, GmshError, Place, Result};
@@ -12,19 +14,91 @@ pub enum Encoding {
     BigEndian,
 }
 
-#[derive(Default)]
+/// The bytes that are read at a time.
+const PART: usize = 1 << 18;
+
+/// The bytes of the longest word or line; what is longer ends there.
+const LONGEST: usize = 1 << 16;
+
 pub struct Tokens<'a> {
-    bytes: &'a [u8],
+    source: Box<dyn Read + 'a>,
+    /// The part of the file that is held, of which the bytes from `at` on are not read yet.
+    held: Vec<u8>,
     at: usize,
-    /// The place where the last token began, which errors report.
+    /// The place in `held` where the last token began, which errors report.
     last: usize,
+    /// The bytes of the file before `held`, and the line ends among them.
+    before: [usize; 2],
+    /// Whether nothing follows `held`.
+    is_all: bool,
+    /// Why the file could not be read on.
+    broken: Option<String>,
     pub encoding: Encoding,
+}
+
+impl Default for Tokens<'_> {
+    fn default() -> Self {
+        Tokens::new(io::empty())
+    }
 }
 
 impl<'a> Tokens<'a> {
     /// Starts at the beginning of a file, which is text.
-    pub fn new(bytes: &'a [u8]) -> Self {
-        Tokens { bytes, at: 0, last: 0, encoding: Encoding::Text }
+    pub fn new(source: impl Read + 'a) -> Self {
+        Tokens {
+            source: Box::new(source),
+            held: Vec::new(),
+            at: 0,
+            last: 0,
+            before: [0; 2],
+            is_all: false,
+            broken: None,
+            encoding: Encoding::Text,
+        }
+    }
+
+    /// Begins a token: from here on the longest one is held, or the rest of the file.
+    fn begin(&mut self) {
+        if self.held.len() - self.at < LONGEST && !self.is_all {
+            self.read_on();
+        }
+        self.last = self.at;
+    }
+
+    /// Holds the next part of the file, and nothing that was read.
+    fn read_on(&mut self) {
+        let read = self.held.drain(..self.at);
+        let ends = read.as_slice().iter().filter(|byte| **byte == b'\n').count();
+        drop(read);
+        self.before = [self.before[0] + self.at, self.before[1] + ends];
+        self.at = 0;
+        let wanted = PART - self.held.len();
+        let got = (&mut self.source).take(wanted as u64).read_to_end(&mut self.held);
+        self.is_all = got.as_ref().map_or(true, |got| *got < wanted);
+        self.broken = got.err().map(|why| why.to_string());
+    }
+
+    /// Passes over blanks, and begins the token behind them.
+    fn begin_word(&mut self) {
+        loop {
+            self.begin();
+            self.at += run(&self.held[self.at..], u8::is_ascii_whitespace);
+            if self.at < self.held.len() || self.is_all {
+                break;
+            }
+        }
+        self.begin();
+    }
+
+    /// Returns the bytes of the last token.
+    fn token(&self) -> &[u8] {
+        &self.held[self.last..self.at]
+    }
+
+    /// Returns how many of the next bytes are `such`, at most those of the longest token.
+    fn run_of(&self, such: impl Fn(&u8) -> bool) -> usize {
+        let rest = &self.held[self.at..];
+        run(&rest[..rest.len().min(LONGEST)], such)
     }
 
     /// Reads the next whole number, which takes four bytes in a binary file.
@@ -75,8 +149,8 @@ impl<'a> Tokens<'a> {
 
     /// Reads the next `N` bytes.
     fn raw<const N: usize>(&mut self, expected: &str) -> Result<[u8; N]> {
-        self.last = self.at;
-        let Some(raw) = self.bytes[self.at..].first_chunk() else {
+        self.begin();
+        let Some(raw) = self.held[self.at..].first_chunk() else {
             return Err(self.unexpected("the end of the file", expected));
         };
         self.at += N;
@@ -85,36 +159,29 @@ impl<'a> Tokens<'a> {
 
     /// Reads the next word as a `T`.
     pub fn parse<T: FromStr>(&mut self, expected: &str) -> Result<T> {
-        let word = self.word();
-        let parsed = std::str::from_utf8(word)
-            .ok()
-            .filter(|word| !word.is_empty())
-            .and_then(|word| word.parse().ok());
-        parsed.ok_or_else(|| self.unexpected(shown(word), expected))
+        self.word();
+        let word = std::str::from_utf8(self.token()).ok().filter(|word| !word.is_empty());
+        let parsed = word.and_then(|word| word.parse().ok());
+        parsed.ok_or_else(|| self.unexpected(shown(self.token()), expected))
     }
 
     /// Reads the next word if it is up to nine digits, as most are; any number type holds them.
     fn digits(&mut self) -> Option<u32> {
-        let blanks = run(&self.bytes[self.at..], |byte| byte.is_ascii_whitespace());
-        let rest = &self.bytes[self.at + blanks..];
+        self.begin_word();
+        let rest = &self.held[self.at..];
         let length = run(rest, u8::is_ascii_digit);
         let ends = rest.get(length).is_none_or(u8::is_ascii_whitespace);
         if !(ends && (1..=9).contains(&length)) {
             return None;
         }
-        self.last = self.at + blanks;
-        self.at = self.last + length;
-        Some(rest[..length].iter().fold(0, |number, digit| 10 * number + u32::from(digit - b'0')))
+        self.at += length;
+        Some(self.token().iter().fold(0, |number, digit| 10 * number + u32::from(digit - b'0')))
     }
 
     /// Reads the next word, which ends at white space; empty at the end of the file.
-    fn word(&mut self) -> &'a [u8] {
-        self.at += run(&self.bytes[self.at..], |byte| byte.is_ascii_whitespace());
-        self.last = self.at;
-        let rest = &self.bytes[self.at..];
-        let word = &rest[..run(rest, |byte| !byte.is_ascii_whitespace())];
-        self.at += word.len();
-        word
+    fn word(&mut self) {
+        self.begin_word();
+        self.at += self.run_of(|byte| !byte.is_ascii_whitespace());
     }
 
     /// Reads a count with a line to itself, which is text in binary files too (2.2).
@@ -126,64 +193,74 @@ impl<'a> Tokens<'a> {
 
     /// Reads the text between the line's first and last quotation mark.
     pub fn quoted(&mut self, expected: &str) -> Result<String> {
-        let line = self.line();
-        let name = std::str::from_utf8(line)
-            .ok()
-            .and_then(|line| line.trim().strip_prefix('"')?.strip_suffix('"'));
-        name.map(str::to_owned).ok_or_else(|| {
-            let line = String::from_utf8_lossy(line);
-            self.unexpected(format!("{:?}", line.trim()), expected)
-        })
+        self.line();
+        let line = String::from_utf8_lossy(self.token());
+        let name = line.trim().strip_prefix('"').and_then(|line| line.strip_suffix('"'));
+        let name = name.filter(|_| matches!(line, Cow::Borrowed(_))).map(str::to_owned);
+        name.ok_or_else(|| self.unexpected(format!("{:?}", line.trim()), expected))
     }
 
     /// Reads the end of the line, with only blanks before it; the end of the file is accepted.
     pub fn line_end(&mut self) -> Result<()> {
-        let line = self.line().trim_ascii();
-        if !line.is_empty() {
-            return Err(self.unexpected(shown(line), "the end of the line"));
+        self.line();
+        match self.token().trim_ascii() {
+            [] => Ok(()),
+            line => Err(self.unexpected(shown(line), "the end of the line")),
         }
-        Ok(())
     }
 
-    fn line(&mut self) -> &'a [u8] {
-        self.last = self.at;
-        let rest = &self.bytes[self.at..];
-        let length = run(rest, |&byte| byte != b'\n');
-        self.at += rest.len().min(length + 1);
-        &rest[..length]
+    /// Reads the rest of the line, with its end.
+    fn line(&mut self) {
+        self.begin();
+        let length = self.run_of(|byte| *byte != b'\n') + 1;
+        self.at = self.held.len().min(self.at + length);
     }
 
     /// Reads the name of the section that begins here, without `$`; None at the file's end.
     pub fn section(&mut self) -> Result<Option<String>> {
-        let word = self.word();
-        if word.is_empty() {
+        self.word();
+        if self.token().is_empty() && self.broken.is_none() {
             return Ok(None);
         }
-        match std::str::from_utf8(word).ok().and_then(|word| word.strip_prefix('$')) {
-            Some(name) if !name.is_empty() && !name.starts_with("End") => {
+        let name = std::str::from_utf8(self.token()).ok().and_then(|word| word.strip_prefix('$'));
+        match name.filter(|name| !name.is_empty() && !name.starts_with("End")).map(str::to_owned) {
+            Some(name) => {
                 self.line_end()?;
-                Ok(Some(name.to_owned()))
+                Ok(Some(name))
             }
-            _ => Err(self.unexpected(shown(word), "the beginning of a section, such as $Nodes")),
+            None => {
+                let expected = "the beginning of a section, such as $Nodes";
+                Err(self.unexpected(shown(self.token()), expected))
+            }
         }
     }
 
     /// Reads the line `keyword`.
     pub fn keyword(&mut self, keyword: &str, expected: &str) -> Result<()> {
-        let word = self.word();
-        if word != keyword.as_bytes() {
-            return Err(self.unexpected(shown(word), expected));
+        self.word();
+        if self.token() != keyword.as_bytes() {
+            return Err(self.unexpected(shown(self.token()), expected));
         }
         self.line_end()
     }
 
     /// Skips to the next occurrence of `keyword`.
     pub fn skip_to(&mut self, keyword: &str) -> Result<()> {
-        self.last = self.bytes.len();
-        let mut windows = self.bytes[self.at..].windows(keyword.len());
-        let distance = windows.position(|window| window == keyword.as_bytes());
-        self.at += distance.ok_or_else(|| self.unexpected("the end of the file", keyword))?;
-        Ok(())
+        loop {
+            self.begin();
+            let rest = &self.held[self.at..];
+            let mut windows = rest.windows(keyword.len());
+            if let Some(distance) = windows.position(|window| window == keyword.as_bytes()) {
+                self.at += distance;
+                return Ok(());
+            }
+            if self.is_all {
+                self.last = self.held.len();
+                return Err(self.unexpected("the end of the file", keyword));
+            }
+            // It may begin in this part and end in the next one.
+            self.at = self.held.len() - (keyword.len() - 1);
+        }
     }
 
     /// Reads the byte order in which the next four bytes are the number 1.
@@ -201,14 +278,18 @@ impl<'a> Tokens<'a> {
         self.error(Fault::Unexpected { found: found.to_string(), expected: expected.to_string() })
     }
 
+    /// Returns an error at the last token; where the file could not be read on, that is the fault.
     pub fn error(&self, fault: Fault) -> GmshError {
+        let read = &self.held[..self.last];
+        let [bytes, ends] = self.before;
         let place = match self.encoding {
             Encoding::Text => {
-                let ends = self.bytes[..self.last].iter().filter(|&&byte| byte == b'\n');
-                Place::Line(1 + ends.count())
+                Place::Line(1 + ends + read.iter().filter(|byte| **byte == b'\n').count())
             }
-            _ => Place::Byte(self.last),
+            _ => Place::Byte(bytes + self.last),
         };
+        let broken = self.broken.as_ref().filter(|_| self.at == self.held.len());
+        let fault = broken.map_or(fault, |why| Fault::Broken { why: why.clone() });
         GmshError { place, fault }
     }
 }
