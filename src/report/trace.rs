@@ -19,7 +19,7 @@ use crate::paper::mathcad::array::Table;
 use crate::paper::mathcad::{self, Listing};
 use crate::problem::model::{Model, NodeId, TriangleId};
 use crate::problem::scene::Scene;
-use crate::studies::audit::trace::{Access, Product, Step, text_of};
+use crate::studies::audit::trace::{Access, Kept, Product, Step, text_of};
 
 /// How much of a trace is shown, and how.
 pub struct Shown {
@@ -42,12 +42,15 @@ pub struct Traced<'a> {
     pub model: &'a Model,
 }
 
-/// Writes a trace for people as it is executed: turn by turn, then what is outside the turns, then
-/// what `trace()` wrote. What is held grows with the listing, not with the trace.
+/// Writes a trace for people: turn by turn, then what is outside the turns, then what `trace()` wrote.
+/// A listing may loop twice over the same turns; a trace that is too long to be kept is written in the
+/// order of execution, so that what is held grows with the listing, not with the trace.
 pub struct Telling<'a, W> {
     out: W,
     of: Traced<'a>,
     shown: &'a Shown,
+    /// What was executed so far, as long as all of it is kept.
+    kept: Option<Kept>,
     turn: Option<Turn>,
     /// The printed lines outside the turns, how often each was executed, and how it was last.
     outside: Vec<(usize, usize, Step)>,
@@ -71,11 +74,23 @@ const MOST_KEPT: usize = 10_000;
 
 impl<'a, W: Write> Telling<'a, W> {
     pub fn new(out: W, of: Traced<'a>, shown: &'a Shown) -> Self {
-        Telling { out, of, shown, turn: None, outside: Vec::new(), failed: Ok(()) }
+        let kept = Some(Kept::default());
+        Telling { out, of, shown, kept, turn: None, outside: Vec::new(), failed: Ok(()) }
     }
 
-    /// Writes a statement that was executed.
+    /// Takes a statement that was executed.
     pub fn step(&mut self, step: Step) {
+        let Some(kept) = &mut self.kept else { return self.tell(step) };
+        let Err(step) = kept.keep(step) else { return };
+        let kept = self.kept.take().unwrap_or_default();
+        let many = kept.steps.len();
+        self.failed = self.write(&format!(
+            "(more than {many} statements: shown in the order of execution, not loop beside loop)\n"
+        ));
+        kept.steps.into_iter().chain([step]).for_each(|step| self.tell(step));
+    }
+
+    fn tell(&mut self, step: Step) {
         match step.turn {
             None => self.outside(step),
             Some(number) if self.failed.is_ok() => self.failed = self.in_turn(number, step),
@@ -88,6 +103,9 @@ impl<'a, W: Write> Telling<'a, W> {
     /// # Errors
     /// Something was not written.
     pub fn finish(mut self, output: &[String]) -> io::Result<()> {
+        let mut kept = self.kept.take().unwrap_or_default().steps;
+        kept.sort_by_key(|step| step.turn);
+        kept.into_iter().for_each(|step| self.tell(step));
         std::mem::replace(&mut self.failed, Ok(()))?;
         self.end_turn()?;
         let outside = std::mem::take(&mut self.outside);
@@ -113,12 +131,12 @@ impl<'a, W: Write> Telling<'a, W> {
         }
         let turn = self.turn.as_mut().expect("it has begun");
         for step in turn.shown_now(which, text_of(listing, step.line), step) {
-            self.tell(&step)?;
+            self.show(&step)?;
         }
         Ok(())
     }
 
-    fn tell(&mut self, step: &Step) -> io::Result<()> {
+    fn show(&mut self, step: &Step) -> io::Result<()> {
         if !self.shown.has(step) {
             return Ok(());
         }

@@ -204,7 +204,7 @@ fn a_token_may_begin_in_one_part_of_a_file_and_end_in_the_next() {
     for lines in [0, part / 2, part] {
         let long = format!("$Long\n{}$EndLong\n$Nodes\n", "\n".repeat(lines));
         let error = read(faulty.replace("$Nodes\n", &long).as_bytes()).unwrap_err();
-        assert_eq!(error.place, Place::Line(13 + lines), "{error}");
+        assert_eq!(error.place, Place::Line(15 + lines), "{error}");
     }
 }
 

@@ -68,7 +68,7 @@ fn a_mesh_file_beyond_the_memory_is_refused_before_it_is_read() {
     std::fs::write(folder.path().join("s.json"), scene.to_string()).expect("it is written");
     let mesh = std::fs::File::create(folder.path().join("large.msh")).expect("a file");
     mesh.set_len(2_000_000_000).expect("a length");
-    let words = ["large.msh", "its text and tables need 6.0 GB"];
+    let words = ["large.msh", "its tables need 6.0 GB"];
     refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &words);
 }
 
@@ -102,8 +102,8 @@ fn what_standard_error_cannot_take_changes_nothing() {
     assert!(!plain.stderr.is_empty() && plain.stdout == full.stdout && !full.stdout.is_empty());
 }
 
-/// Reads of arrays by the thousand are shown up to a limit, a trace of many long numbers is refused,
-/// and a listing of many lines has each of them at once.
+/// Reads of arrays by the thousand are written as they are executed, what `trace()` writes of many long
+/// numbers is refused, and a listing of many lines has each of them at once.
 #[test]
 fn hostile_listings_stay_within_the_memory_of_a_process() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -119,6 +119,7 @@ fn hostile_listings_stay_within_the_memory_of_a_process() {
     );
     listing("reads.txt", &many);
     listing("lines.txt", &"  a ← 1\n".repeat(900));
+    listing("long.txt", "  for i1 ∈ 1 .. 1000000\n    x ← i1\n");
     let long = format!("  v ← identity(2800)·0 + 1{}\n  trace(v)\n", "0".repeat(308));
     listing("trace.txt", &long);
     let run = |name: &str| {
@@ -129,8 +130,13 @@ fn hostile_listings_stay_within_the_memory_of_a_process() {
         (output.status.code(), text.concat())
     };
     let (code, text) = run("reads.txt");
-    assert!(code == Some(0) && text.contains("(only the first"), "{code:?}");
+    assert!(code == Some(0) && text.contains("shown in the order of execution"), "{code:?}");
+    assert!(text.contains("(4000 times, last ⇒ x ← 1)"), "each of them is counted");
     assert_eq!(run("lines.txt").0, Some(0));
+    let line =
+        "(ulimit -v 1000000; $P trace fig1 --listing long.txt --json || echo failed) | tail -c 400";
+    let end = String::from_utf8(shell(folder.path(), line).stdout).expect("UTF-8");
+    assert!(end.ends_with("}\n") && end.contains("\"failure\":null"), "{end}");
     let (code, text) = run("trace.txt");
     assert!(code == Some(2) && text.contains("The limit of"), "{code:?} {text}");
 }

@@ -85,7 +85,7 @@ impl SceneFile {
 }
 
 /// The bytes of the tables that a mesh file makes, over those of the file.
-const TABLES: f64 = 2.0;
+const TABLES: f64 = 3.0;
 
 /// Opens an ordinary file whose tables fit in memory; a device would never end.
 fn open_beside(path: &Path) -> Result<FileBeside, String> {

@@ -58,11 +58,31 @@ pub struct Access {
     pub value: Json,
 }
 
-/// Statements that a trace keeps at most: what comes after is executed, but not kept.
-const MOST_STEPS: usize = 200_000;
+/// Statements, as many as are kept at once.
+#[derive(Default)]
+pub struct Kept {
+    pub steps: Vec<Step>,
+    /// The numbers that they read and wrote, and one more for each name.
+    numbers: usize,
+}
 
-/// Numbers that kept statements may have read and written, and one more for each name.
-const MOST_NUMBERS: usize = 1 << 20;
+impl Kept {
+    const MOST_STEPS: usize = 200_000;
+    const MOST_NUMBERS: usize = 1 << 20;
+
+    /// Keeps a statement.
+    ///
+    /// # Errors
+    /// There is no room for it.
+    pub fn keep(&mut self, step: Step) -> Result<(), Step> {
+        if self.steps.len() >= Self::MOST_STEPS || self.numbers >= Self::MOST_NUMBERS {
+            return Err(step);
+        }
+        self.numbers += step.reads.iter().chain(&step.writes).map(Access::numbers).sum::<usize>();
+        self.steps.push(step);
+        Ok(())
+    }
+}
 
 /// Executes `listing` (as `which`) on the tables of `call`: `c_cnt` on the initial shape, `Km` on
 /// the contact pairs that were found. Only the turns that `wanted` asks for are kept.
@@ -73,19 +93,15 @@ pub fn trace(
     call: &Call,
     wanted: impl Fn(usize) -> bool,
 ) -> Trace {
-    let (mut steps, mut numbers, mut is_cut) = (Vec::new(), 0, false);
+    let (mut kept, mut is_cut) = (Kept::default(), false);
     let outcome = follow(which, listing, settings, call, wanted, |step| {
-        is_cut = steps.len() >= MOST_STEPS || numbers >= MOST_NUMBERS;
-        if !is_cut {
-            numbers += step.reads.iter().chain(&step.writes).map(Access::numbers).sum::<usize>();
-            steps.push(step);
-        }
+        is_cut |= kept.keep(step).is_err();
     });
     let (result, output) = match outcome {
         Ok((product, output)) => (Ok(product), output),
         Err(failure) => (Err(failure), vec![]),
     };
-    Trace { which, steps, is_cut, output, result }
+    Trace { which, steps: kept.steps, is_cut, output, result }
 }
 
 /// Executes a listing as [`trace`] does, and hands over `each` statement of the turns that `wanted`

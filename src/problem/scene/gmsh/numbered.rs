@@ -24,13 +24,19 @@ impl<T> Numbered<T> {
         // Most meshes number from 1 without a gap.
         let likely = self.ascending.get(number.wrapping_sub(1));
         likely.is_some_and(|(found, _)| *found == number)
-            || self.ascending.binary_search_by_key(&number, |(found, _)| *found).is_ok()
-            || self.others.contains_key(&number)
+            || !self.is_next(number)
+                && (self.ascending.binary_search_by_key(&number, |(found, _)| *found).is_ok()
+                    || self.others.contains_key(&number))
+    }
+
+    /// Returns whether a number is above all that are kept.
+    fn is_next(&self, number: usize) -> bool {
+        self.ascending.last().is_none_or(|(last, _)| *last < number)
     }
 
     /// Keeps an item, and returns whether its number was free.
     pub fn insert(&mut self, number: usize, item: T) -> bool {
-        if self.ascending.last().is_none_or(|(last, _)| *last < number) {
+        if self.is_next(number) {
             self.ascending.push((number, item));
             return true;
         }
