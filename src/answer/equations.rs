@@ -132,15 +132,17 @@ impl<'a, T: Precision> Equations<'a, T> {
             Assembly::Printed => {
                 let solved = T::sweep(|| {
                     let (sheet, reading) = (self.sheet, &self.request.reading);
+                    let held = |matrix| door::holding_dropped(self.model, matrix);
                     let edited = self.interpreter.and_then(|i| i.km(&pairs.k_cnt));
                     let solved = if let Some(edited) = edited {
-                        T::solve(edited?.into_matrix(), &self.f, solver, tol)
+                        T::solve(held(edited?.into_matrix()), &self.f, solver, tol)
                     } else if solver == Solver::SparseLu {
-                        let matrix = Km(sheet, reading, &pairs.k_cnt)?;
+                        let matrix =
+                            door::holding_dropped(self.model, Km(sheet, reading, &pairs.k_cnt)?);
                         T::solve_sparse(&matrix, &self.f, self.request.shared.known_lu())
                     } else {
                         let matrix = mirror::Km(sheet, reading, &pairs.k_cnt)?.into_matrix();
-                        T::solve(matrix, &self.f, solver, tol)
+                        T::solve(held(matrix), &self.f, solver, tol)
                     };
                     solved.map_err(|why| self.unsolved(why, pairs, k, Dof::new))
                 })?;

@@ -156,6 +156,11 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
         let fix = "make a coarser mesh: plane-contact mesh strand --size H";
         return Err(InputError::new(&scene.name, what, fix).into());
     }
+    if let Some(n) = model.dropped.first() {
+        let what =
+            format!("node {n} belongs to no triangle: Km as printed is singular (finding K4)");
+        return Err(InputError::new(&scene.name, what, "remove it from the mesh file").into());
+    }
     let sheet = door::worksheet(&model, |x| x);
     // Where the run stops, the worksheet has the listings alone.
     let run =

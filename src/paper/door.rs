@@ -8,6 +8,7 @@
 //! ```
 #![allow(non_snake_case, reason = "the paper's own names")]
 
+use std::ops::IndexMut;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
@@ -132,6 +133,18 @@ pub fn free_stiffness<T: Scalar>(
 ) -> Result<Table<T>, Failure> {
     let free = Worksheet { S: Column::filled(2 * sheet.R(), 0), ..sheet.clone() };
     Km(&free, reading, &Table::filled(sheet.R(), 4, T::zero()))
+}
+
+/// Returns the matrix of `Km` with 1 on the diagonal of the equations of dropped nodes, which have no
+/// entry there (finding K4): as `Km` does with the equations of restrained nodes.
+pub fn holding_dropped<T: Scalar, M>(model: &Model, mut matrix: M) -> M
+where
+    M: IndexMut<(usize, usize), Output = T>,
+{
+    for dof in model.dropped.iter().flat_map(|node| node.dofs()) {
+        matrix[(dof.index(), dof.index())] = T::one();
+    }
+    matrix
 }
 
 /// The status of a contact node, as `c_cnt` finds it.

@@ -75,7 +75,7 @@ pub struct ResultFile {
     /// The sum of all loads along x and y, force.
     pub load: [f64; 2],
     /// The numbers, in the mesh file, of the nodes that belong to no triangle and were dropped.
-    pub dropped: Vec<usize>,
+    pub dropped: Vec<NodeId>,
     /// What each iteration came to, in order.
     pub iterations: Vec<IterationRow>,
     /// The largest values of each body.
@@ -247,7 +247,7 @@ impl ResultFile {
             error_bound: solution.error_bound.and_then(known),
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
-            dropped: scene.dropped.clone(),
+            dropped: solution.model.dropped.clone(),
             iterations: solution.steps.iter().map(IterationRow::new).collect(),
             bodies: assessment.bodies.clone(),
             contact: solution.contact.clone(),

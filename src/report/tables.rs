@@ -117,13 +117,13 @@ fn arithmetic(solution: &Solution) -> String {
 
 /// Tells which nodes were dropped, by their numbers in the mesh file; nothing where none was.
 fn dropped(scene: &Scene) -> String {
-    if scene.dropped.is_empty() {
+    let Model { dropped, .. } = &*scene.model;
+    if dropped.is_empty() {
         return String::new();
     }
     format!(
-        "Dropped: nodes {} of the mesh belong to no triangle; \
-         the others are numbered anew, 1 to R\n",
-        listed(&scene.dropped)
+        "Dropped: nodes {} of the mesh belong to no triangle; no equation has them\n",
+        listed(dropped)
     )
 }
 

@@ -151,7 +151,7 @@ fn every_kind_is_a_sound_scene() {
         let benchmark = case.kind.generate().expect("the defaults are in range");
         let scene = benchmark.build().unwrap_or_else(|why| panic!("{}: {why}", benchmark.name));
         assert_eq!(scene.model.bodies.len(), case.areas.len());
-        assert!(scene.dropped.is_empty());
+        assert!(scene.model.dropped.is_empty());
         assert!(scene.model.total_load().iter().any(|f| *f != 0.0));
     }
 }

@@ -70,7 +70,7 @@ fn what_has_its_default_is_not_written() {
 fn a_scene_in_code_is_checked_like_a_file() {
     let scene = blocks();
     let built = scene.build().expect("the scene is sound");
-    assert_eq!((built.dropped.as_slice(), built.iterations), (&[1][..], 3));
+    assert_eq!((built.model.dropped[0].number(), built.iterations), (1, 3));
     let place = |scene: SceneBuilder| {
         let error = scene.build().expect_err("the scene is at fault");
         assert_eq!(error, read_back(&scene).build().unwrap_err());

@@ -8,7 +8,7 @@ use super::outline::{Faced, Outline};
 use super::pairing::{Pairing, Vector, unit};
 use super::surface::{Edge, Surfaces};
 use crate::error::InputError;
-use crate::problem::model::{Bounds, Model, NodeId};
+use crate::problem::model::{Model, NodeId};
 
 /// The initial penetration, over the longest contact edge beside the node, beyond which a scene is
 /// refused. An interference that is modelled, as of a press fit, is a small part of an edge; a node
@@ -126,7 +126,7 @@ impl Surfaces {
     /// Errors: a contact node lies deep in the target; the error names the deepest.
     pub fn check_initial_penetration(&self, model: &Model) -> Result<(), InputError> {
         let outline = target(self, &model.nodes);
-        let size = Bounds::of(&model.nodes).larger_side();
+        let size = model.bounds().larger_side();
         let longest = |node: NodeId| {
             let beside = self.contact.iter().filter(|edge: &&Edge| edge.nodes.contains(&node));
             beside.map(|edge| edge.place(&model.nodes).length).fold(0.0, f64::max)

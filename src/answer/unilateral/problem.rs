@@ -253,13 +253,9 @@ pub(super) fn violation(gaps: &[Option<f64>], statuses: &[Status]) -> f64 {
 
 /// Returns the larger extent of the model, or what its coordinates can resolve of it, length.
 fn size(model: &Model) -> f64 {
-    let [width, height] = [0, 1].map(|axis| {
-        let values = model.nodes.iter().map(|xy| xy[axis]);
-        let (least, most) =
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
-        most - least
-    });
+    let bounds = model.bounds();
     // A gap in the current shape is a difference of coordinates and has no digits below theirs.
-    let farthest = model.nodes.as_flattened().iter().map(|x| x.abs());
-    width.max(height).max(RESOLVED * farthest.fold(0.0, f64::max))
+    let farthest =
+        [bounds.low, bounds.high].as_flattened().iter().map(|x| x.abs()).fold(0.0, f64::max);
+    bounds.larger_side().max(RESOLVED * farthest)
 }

@@ -99,8 +99,12 @@ impl<'a> Motions<'a> {
             let sum = places.fold([0.0; 2], |[x, y], p| [x + p[0], y + p[1]]);
             middle.push(sum.map(|s| s / part.nodes.len() as f64));
         }
-        let far = |[x, y]: &[f64; 2]| (x - middle[0][0]).hypot(y - middle[0][1]);
-        let size = model.nodes.iter().map(far).fold(0.0, f64::max);
+        let far = |n: &NodeId| {
+            let [x, y] = model.at(*n);
+            (x - middle[0][0]).hypot(y - middle[0][1])
+        };
+        let nodes = model.bodies.iter().flat_map(|body| &body.nodes);
+        let size = nodes.map(far).fold(0.0, f64::max);
         Motions { model, body, middle, size }
     }
 

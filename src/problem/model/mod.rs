@@ -94,6 +94,9 @@ pub struct Model {
     pub edges: Vec<Edge>,
     /// Whether each degree of freedom is restrained to 0.
     pub restrained: Vec<bool>,
+    /// The nodes that belong to no triangle, ascending: no equation has them, and both of their degrees
+    /// of freedom count as restrained.
+    pub dropped: Vec<NodeId>,
     /// The parts of the load, as the scene states them.
     pub forces: Vec<Force>,
     /// The load by degree of freedom, restrained ones included, force, as `f64` adds it up.
@@ -117,6 +120,16 @@ impl Model {
     /// Returns every node, in order.
     pub fn node_ids(&self) -> impl DoubleEndedIterator<Item = NodeId> + Clone + use<> {
         NodeId::all(self.nodes.len())
+    }
+
+    /// Returns whether a node belongs to no triangle.
+    pub fn is_dropped(&self, node: NodeId) -> bool {
+        self.dropped.binary_search(&node).is_ok()
+    }
+
+    /// Returns the smallest box around the nodes of the triangles.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(self.bodies.iter().flat_map(|body| &body.nodes).map(|n| &self.nodes[n.index()]))
     }
 
     /// Returns every triangle, in order.

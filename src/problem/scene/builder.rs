@@ -10,6 +10,7 @@ use super::{Scene, file, gmsh, orphans, source};
 use crate::error::Result;
 use crate::files;
 use crate::problem::element::Plane;
+use crate::problem::model::NodeId;
 use crate::problem::modelling::Variant;
 
 /// A scene before it is checked, from code or from a scene file.
@@ -163,12 +164,13 @@ impl SceneBuilder {
 
     /// Does the same, and lets go of the mesh.
     pub(super) fn into_scene(self) -> Result<Scene> {
-        let SceneBuilder { name, mut mesh, mut description } = self;
+        let SceneBuilder { name, mut mesh, description } = self;
         mesh.check()?;
         let dropped = mesh.orphans();
         if !dropped.is_empty() {
-            mesh = orphans::drop(&mesh, &dropped, &mut description)?;
+            orphans::drop(&mut mesh, &dropped, &description)?;
         }
+        let dropped = dropped.into_iter().map(NodeId::from_number).collect();
         Scene::assemble(&name, description, mesh, dropped)
     }
 

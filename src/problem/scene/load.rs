@@ -71,7 +71,7 @@ fn parts(mesh: &Mesh, sides: &Sides, load: &Load, place: &str) -> Result<Vec<For
             traction: None,
             ..
         } => {
-            mesh.check_node(*n, place)?;
+            mesh.check_node(*n, &format!("{place}.node"))?;
             Ok(vec![Force::Node(NodeId::from_number(*n), *force)])
         }
         Load {

@@ -60,8 +60,6 @@ pub struct Scene {
     pub variant: Variant,
     /// The model of contact beyond what the paper prints.
     pub contact: ContactModel,
-    /// The numbers, in the mesh file, of the dropped nodes, which belong to no triangle.
-    pub dropped: Vec<usize>,
     /// The description and mesh from which it was built; None for half a scene.
     source: Option<Arc<Source>>,
 }
@@ -118,11 +116,12 @@ impl Scene {
         name: &str,
         description: Description,
         mesh: Mesh,
-        dropped: Vec<usize>,
+        dropped: Vec<NodeId>,
     ) -> Result<Self> {
         check::numbers(&description)?;
         let (materials, names) = check::materials(&mesh, &description)?;
-        let restrained = check::restraints(&mesh, &description)?;
+        let mut restrained = check::restraints(&mesh, &description)?;
+        dropped.iter().flat_map(|n| n.dofs()).for_each(|dof| restrained[dof.index()] = true);
         let triangles: Vec<Triangle> = mesh
             .of_dimension(2)
             .zip(materials)
@@ -145,6 +144,7 @@ impl Scene {
             triangles,
             sides,
             restrained,
+            dropped,
         };
         check::restrained_bodies(&model)?;
         (model.forces, model.load) =
@@ -158,7 +158,6 @@ impl Scene {
             iterations: description.iterations,
             variant: description.variant,
             contact: description.contact.as_ref().map_or(ContactModel::default(), Contact::model),
-            dropped,
             source: Some(Arc::new(Source { description, mesh, hashes: OnceLock::new() })),
         })
     }

@@ -1,14 +1,14 @@
 //! Nodes that belong to no triangle, which are refused or dropped.
 
 use super::description::Description;
-use super::mesh::{Mesh, new_number};
+use super::mesh::Mesh;
 use super::surface::Surface;
 use crate::error::{InputError, Result};
 
-/// Drops the nodes `dropped`, which belong to no triangle, where the description allows it, and
-/// renumbers the nodes that the description names.
-/// Errors: nodes may not be dropped, or the description names a dropped one.
-pub fn drop(mesh: &Mesh, dropped: &[usize], description: &mut Description) -> Result<Mesh> {
+/// Drops the nodes `dropped`, which belong to no triangle, with the points and edges on them. Every node
+/// keeps its number.
+/// Errors: the description does not allow it, or names a dropped node.
+pub fn drop(mesh: &mut Mesh, dropped: &[usize], description: &Description) -> Result<()> {
     if !description.drop_orphans {
         let what = format!(
             "nodes {} belong to no triangle (finding K4: Km would be singular)",
@@ -17,29 +17,25 @@ pub fn drop(mesh: &Mesh, dropped: &[usize], description: &mut Description) -> Re
         let fix = "remove them, or set \"drop_orphans\": true";
         return Err(InputError::new("the mesh's nodes", what, fix));
     }
-    let renumber = |n: &mut usize, place: &str| {
-        mesh.check_node(*n, place)?;
-        if dropped.binary_search(n).is_ok() {
+    let is_dropped = |n: &usize| dropped.binary_search(n).is_ok();
+    let named = |n: usize, place: String| {
+        if is_dropped(&n) {
             let what = format!("node {n} belongs to no triangle and was dropped");
             return Err(InputError::new(place, what, "name a node of a triangle"));
         }
-        *n = new_number(*n, dropped);
         Ok(())
     };
-    for (k, restraint) in description.restraints.iter_mut().enumerate() {
-        if let Some(n) = &mut restraint.node {
-            renumber(n, &format!("restraints[{k}].node"))?;
-        }
+    for (k, restraint) in description.restraints.iter().enumerate() {
+        restraint.node.map_or(Ok(()), |n| named(n, format!("restraints[{k}].node")))?;
     }
-    for (k, load) in description.loads.iter_mut().enumerate() {
-        if let Some(n) = &mut load.node {
-            renumber(n, &format!("loads[{k}].node"))?;
-        }
+    for (k, load) in description.loads.iter().enumerate() {
+        load.node.map_or(Ok(()), |n| named(n, format!("loads[{k}].node")))?;
     }
-    if let Some(Surface::Numbers(numbers)) = description.contact.as_mut().map(|c| &mut c.contact) {
-        numbers.iter_mut().try_for_each(|n| renumber(n, "contact.cnt"))?;
+    if let Some(Surface::Numbers(numbers)) = description.contact.as_ref().map(|c| &c.contact) {
+        numbers.iter().try_for_each(|n| named(*n, "contact.cnt".into()))?;
     }
-    Ok(mesh.without(dropped))
+    mesh.elements.retain(|element| !element.nodes.iter().any(is_dropped));
+    Ok(())
 }
 
 /// Returns at most ten numbers of a list, and how many more there are.

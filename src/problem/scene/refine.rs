@@ -42,7 +42,7 @@ impl Scene {
         }
         let finer = Mesh { nodes, elements, names: mesh.names.clone() };
         let file = halves.renumbered(file, &children);
-        let mut scene = Scene::assemble(&self.name, file, finer, Vec::new())?;
+        let mut scene = Scene::assemble(&self.name, file, finer, self.model.dropped.clone())?;
         (scene.variant, scene.contact) = (self.variant, self.contact);
         scene.iterations = self.iterations;
         let parents = halves.parents.into_iter().map(|ends| ends.map(NodeId::from_number));

@@ -11,8 +11,8 @@ use nalgebra::DVector;
 
 use super::Scene;
 use crate::problem::model::{
-    Body, Bounds, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Row, Sides,
-    Triangle, TriangleId, unordered,
+    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Row, Sides, Triangle,
+    TriangleId, unordered,
 };
 
 /// The largest distance of a node from its image, over the scene's size: meshes are rounded.
@@ -76,7 +76,7 @@ impl Images {
 impl<'a> Mirror<'a> {
     /// Finds the only possible line; None where a triangle lies across it.
     fn new(model: &'a Model) -> Option<Self> {
-        let all = Bounds::of(&model.nodes);
+        let all = model.bounds();
         let mirror = Mirror { model, at: all.centre()[0], place: PLACE * all.larger_side() };
         let across = |triangle: &Triangle| {
             let sides = triangle.nodes.map(|node| mirror.side(node));
@@ -101,11 +101,14 @@ impl<'a> Mirror<'a> {
     fn images(&self) -> Option<Images> {
         let cell = |x: f64| (x / (4.0 * self.place)).round() as i64;
         let mut cells: HashMap<[i64; 2], Vec<NodeId>> = HashMap::new();
-        for n in self.model.node_ids() {
+        for n in self.model.node_ids().filter(|n| !self.model.is_dropped(*n)) {
             cells.entry(self.model.at(n).map(cell)).or_default().push(n);
         }
         let body = |n: NodeId| self.model.bodies.iter().position(|b| b.has(n));
         let image = |n: NodeId| {
+            if self.model.is_dropped(n) {
+                return Some(n);
+            }
             let [x, y] = self.model.at(n);
             let [x, y] = [cell(2.0 * self.at - x), cell(y)];
             let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x + i, y + j]));
@@ -196,6 +199,7 @@ impl<'a> Restriction<'a> {
             bodies: bodies.filter(|body| !body.triangles.is_empty()).collect(),
             contact: self.contact(),
             rows: whole.rows.iter().filter_map(|row| self.row(row)).collect(),
+            dropped: Vec::new(),
             ..whole.clone()
         }
     }

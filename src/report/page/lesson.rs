@@ -14,6 +14,7 @@ use crate::problem::model::Model;
 use crate::problem::scene::Scene;
 use crate::report::audit::FindingRow;
 use crate::report::json;
+use crate::report::picture::points;
 use crate::studies::audit::findings::{Finding, Measured};
 use crate::studies::audit::trace::{Access, Step};
 use crate::studies::lesson::{Program, Run, figure_numbers};
@@ -171,7 +172,7 @@ fn mesh(model: &Model) -> Value {
     let restrained = model.node_ids().map(|node| model.restraints_of(node));
     let target = model.target().map(|target| target.nodes[0]);
     json!({
-        "nodes": model.nodes,
+        "nodes": points(model),
         "triangles": triangles.collect::<Vec<_>>(),
         "bodies": model.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
         "target": model.bodies.iter().position(|b| target.is_some_and(|node| b.has(node))),

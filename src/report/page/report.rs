@@ -15,7 +15,7 @@ use crate::answer::{Assessment, Detail, Solution, Step, Stiffness};
 use crate::problem::element::State;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::scene::Scene;
-use crate::report::picture::colour;
+use crate::report::picture::{colour, points};
 use crate::report::{ResultFile, audit as audit_report, json, pressure};
 use crate::studies::audit::Audit;
 use crate::studies::calculix::{Comparison, Fields};
@@ -103,7 +103,7 @@ fn mesh(model: &Model) -> Value {
         own.triangles.iter().for_each(|id| body[id.index()] = place.min(255) as u8);
     }
     json!({
-        "nodes": floats(model.nodes.as_flattened().iter().copied()),
+        "nodes": floats(points(model).as_flattened().iter().copied()),
         "triangles": base64(&indices),
         "body": base64(&body),
         "bodies": model.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),

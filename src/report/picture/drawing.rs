@@ -55,7 +55,7 @@ impl Drawing {
         let (region, region_names) = regions(model);
         Drawing {
             title: title.into(),
-            points: model.nodes.clone(),
+            points: points(model),
             triangles: model.triangles.iter().map(|t| t.nodes.map(NodeId::index)).collect(),
             region,
             region_names,
@@ -85,4 +85,12 @@ fn regions(model: &Model) -> (Vec<usize>, Vec<String>) {
         body.triangles.iter().for_each(|id| region[id.index()] = k);
     }
     (region, names)
+}
+
+/// Returns the points that are drawn: a dropped node, of which nothing is, stands at another one.
+pub fn points(model: &Model) -> Vec<[f64; 2]> {
+    let mut points = model.nodes.clone();
+    let other = model.triangles[0].nodes[0];
+    model.dropped.iter().for_each(|n| points[n.index()] = model.at(other));
+    points
 }

@@ -27,7 +27,7 @@ pub mod svg;
 pub mod view;
 
 pub use self::chart::{Axis, SERIES, Series, Style, chart};
-pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES};
+pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, points};
 
 use self::bodies::{draw_bodies, legend};
 use self::deformation::boundary_edges;
@@ -47,7 +47,9 @@ pub fn mesh(drawing: &Drawing) -> String {
     put_panels(&mut page, drawing, &drawing.points, |view| {
         let bodies = draw_bodies(drawing, &outline, view);
         match drawing.points.len() <= search::MOST_NODES {
-            true => group().with(bodies).with(search::numbers(&view.all(&drawing.points))),
+            true => group()
+                .with(bodies)
+                .with(search::numbers(&drawing.triangles, &view.all(&drawing.points))),
             false => bodies,
         }
     });

@@ -1,6 +1,8 @@
 //! The contact search of a small scene: the boxes of lines 5 to 7 of `c_cnt`, and Y of its line 10,
 //! with heights drawn larger than lengths, for gaps are small.
 
+use std::collections::BTreeSet;
+
 use super::page::{INNER, MARGIN, Page};
 use super::svg::{Anchor, DARK, Pixel, circle, group, line, path, rect, segments, text};
 use super::view::Bounds;
@@ -56,12 +58,14 @@ impl Search {
     }
 }
 
-/// Writes the number of each point beside it.
-pub fn numbers(pixels: &[Pixel]) -> Element {
-    let number = |(k, [x, y]): (usize, &Pixel)| {
+/// Writes the number of each point that is a corner of a triangle beside it.
+pub fn numbers(triangles: &[[usize; 3]], pixels: &[Pixel]) -> Element {
+    let number = |k: &usize| {
+        let [x, y] = pixels[*k];
         text([x + 5.0, y - 5.0], Anchor::Start, &(k + 1).to_string())
     };
-    group().fill(DARK).with_all(pixels.iter().enumerate().map(number))
+    let corners: BTreeSet<usize> = triangles.iter().flatten().copied().collect();
+    group().fill(DARK).with_all(corners.iter().map(number))
 }
 
 /// Puts a panel of the search on a page, with what its signs are; `edges` are those of the target, as

@@ -136,7 +136,7 @@ impl Plan {
             storage: if dense > 0 { Storage::Dense } else { Storage::Sparse },
             factors,
             condensed: condenses.then_some(condensed.equations),
-            orphans: scene.dropped.len(),
+            orphans: model.dropped.len(),
             half: half(scene).map(|half| HalfPlan { at: half.at, nodes: half.nodes.len() }),
         })
     }

@@ -153,27 +153,4 @@ impl Mesh {
         }
         (1..=used.len()).filter(|n| !used[n - 1]).collect()
     }
-
-    /// Returns the mesh without the nodes `dropped` and the points and edges on them, with the
-    /// other nodes numbered 1 to R again.
-    pub fn without(&self, dropped: &[usize]) -> Mesh {
-        let kept = |n: &usize| dropped.binary_search(n).is_err();
-        let mut mesh = self.clone();
-        mesh.elements.retain(|e| e.nodes.iter().all(kept));
-        mesh.nodes.retain(|node| kept(&node.number));
-        for element in &mut mesh.elements {
-            for n in &mut element.nodes {
-                *n = new_number(*n, dropped);
-            }
-        }
-        for (k, node) in mesh.nodes.iter_mut().enumerate() {
-            node.number = k + 1;
-        }
-        mesh
-    }
-}
-
-/// Returns the number of node `n` without the nodes `dropped`.
-pub fn new_number(n: usize, dropped: &[usize]) -> usize {
-    n - dropped.partition_point(|d| *d < n)
 }

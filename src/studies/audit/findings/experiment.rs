@@ -4,7 +4,7 @@
 use nalgebra::DMatrix;
 
 use super::{Measured, Outcome};
-use crate::paper::door::Call;
+use crate::paper::door::{self, Call};
 use crate::paper::mirror::{Failure, Reading};
 use crate::problem::element::area;
 use crate::problem::model::{EdgeId, Model, NodeId, TriangleId};
@@ -86,7 +86,7 @@ pub(super) fn c_cnt(model: &Model, shape: &Shape) -> Result<Call, Failure> {
 
 /// `Km` of the pairs found in a shape, under the default reading.
 pub(super) fn mjs(model: &Model, shape: &Shape) -> Result<DMatrix<f64>, Failure> {
-    c_cnt(model, shape)?.km(&Reading::default())
+    Ok(door::holding_dropped(model, c_cnt(model, shape)?.km(&Reading::default())?))
 }
 
 /// 1 where an entry is in contact, else 0: the listing's `dy`.
