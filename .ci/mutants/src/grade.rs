@@ -17,6 +17,9 @@ use crate::{Failure, Work};
 /// A test has this many times its own time, and some seconds on top.
 const SLOWER: f64 = 10.0;
 const SECONDS: f64 = 5.0;
+/// Of a test that takes longer than these seconds, or a quarter of the budget, only as much is run: most
+/// fail early or not at all.
+const BEGINNING: f64 = 2.0;
 /// The first process of a mutant has tests of this many seconds, each further one of twice as many.
 const FIRST_BATCH: f64 = 0.5;
 /// What is believed of a test before it ran: of how many mutants it catches how many, and how long
@@ -46,6 +49,13 @@ pub struct Graded {
     pub seconds: f64,
     /// How long its tests were allowed to take.
     budget: f64,
+}
+
+impl Graded {
+    /// The result of an earlier run.
+    pub fn earlier(name: &str, outcome: Outcome) -> Self {
+        Graded { name: name.to_owned(), outcome, by: None, seconds: 0.0, budget: 0.0 }
+    }
 }
 
 /// What the workers share.
@@ -103,22 +113,31 @@ pub fn read(work: &Work) -> Result<Vec<Graded>, Failure> {
     Ok(text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect())
 }
 
-/// Returns which tests that are not slow reach each place, the fastest first.
+/// Returns which tests reach each place, the fastest first.
 fn by_place(tests: &[Test]) -> BTreeMap<usize, Vec<usize>> {
     let mut reaching: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (k, test) in tests.iter().enumerate().filter(|(_, test)| !test.is_slow) {
+    for (k, test) in tests.iter().enumerate() {
         test.reached.iter().for_each(|place| reaching.entry(*place).or_default().push(k));
     }
     reaching
 }
 
 impl Bench<'_> {
+    /// Returns the seconds that are run of a longer test.
+    fn beginning(&self) -> f64 {
+        BEGINNING.max(self.budget / 4.0)
+    }
+
+    fn is_long(&self, test: usize) -> bool {
+        self.tests[test].seconds > self.beginning()
+    }
+
     fn one(&self, mutant: &Mutant, worker: usize) -> Result<(), Failure> {
         let start = Instant::now();
         let temporary = self.work.temporary(worker);
         tests::clear(&temporary)?;
         let mut outcome = (Outcome::Unreached, None);
-        let mut spent = 0.0;
+        let (mut spent, mut is_cut) = (0.0, false);
         for batch in self.batches(mutant) {
             if spent > self.budget {
                 outcome = (Outcome::Open, None);
@@ -129,6 +148,9 @@ impl Bench<'_> {
             self.learn(mutant, &batch, &end);
             match end {
                 End::Passed => spent += batch.iter().map(|k| self.tests[*k].seconds).sum::<f64>(),
+                End::TooLong(_) if self.is_long(batch[0]) => {
+                    (spent, is_cut) = (spent + self.beginning(), true);
+                }
                 End::Failed(by) => outcome = (Outcome::Caught, Some(by)),
                 End::TooLong(by) => outcome = (Outcome::Timeout, Some(by)),
             }
@@ -137,8 +159,7 @@ impl Bench<'_> {
             }
         }
         let (mut outcome, by) = outcome;
-        let by_slow = |test: &Test| test.is_slow && test.reached.contains(&mutant.first);
-        if outcome >= Outcome::Missed && self.tests.iter().any(by_slow) {
+        if outcome == Outcome::Missed && is_cut {
             outcome = Outcome::Open;
         }
         let seconds = start.elapsed().as_secs_f64();
@@ -153,6 +174,7 @@ impl Bench<'_> {
             let is_by = |name: &String| *name == self.tests[k].name;
             let (runs, caught) = match end {
                 End::Passed => (1.0, 0.0),
+                End::TooLong(_) if self.is_long(k) => (1.0, 0.0),
                 End::Failed(by) | End::TooLong(by) if is_by(by) => (1.0, 1.0),
                 _ => (0.0, 0.0),
             };
@@ -174,7 +196,7 @@ impl Bench<'_> {
                 caught / runs
             };
             let rate = rate(mutant.file.clone()) + rate(mutant.module());
-            rate / (self.tests[*k].seconds + START)
+            rate / (self.tests[*k].seconds.min(self.beginning()) + START)
         };
         // Positive numbers are in the order of their bits.
         reaching.sort_by_cached_key(|k| std::cmp::Reverse(pace(k).to_bits()));
@@ -183,6 +205,10 @@ impl Bench<'_> {
         let mut open: BTreeMap<_, (Vec<usize>, f64)> = BTreeMap::new();
         for k in reaching {
             let test = &self.tests[k];
+            if self.is_long(k) {
+                batches.push(vec![k]);
+                continue;
+            }
             let (batch, seconds) = open.entry(&test.binary).or_default();
             batch.push(k);
             *seconds += test.seconds;
@@ -201,7 +227,9 @@ impl Bench<'_> {
     fn run(&self, mutant: &Mutant, batch: &[usize], worker: usize) -> Result<End, Failure> {
         let names: Vec<&str> = batch.iter().map(|k| self.tests[*k].name.as_str()).collect();
         let slowest = batch.iter().map(|k| self.tests[*k].seconds).fold(0.0, f64::max);
-        let limit = Duration::from_secs_f64(SLOWER * slowest + SECONDS);
+        let is_long = self.is_long(batch[0]);
+        let limit = if is_long { self.beginning() } else { SLOWER * slowest + SECONDS };
+        let limit = Duration::from_secs_f64(limit);
         let binary = &self.tests[batch[0]].binary;
         let temporary = self.work.temporary(worker);
         let mut command = processes::command(self.work, binary, &names, &temporary);

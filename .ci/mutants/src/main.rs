@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod grade;
+mod kept;
 mod mutant;
 mod prepare;
 mod processes;
@@ -51,12 +52,14 @@ impl Work {
 
 fn run(arguments: &[String]) -> Result<(), Failure> {
     let [command, work, rest @ ..] = arguments else {
-        return Err("usage: prepare|reach|grade|table WORK [OPTIONS]".into());
+        return Err("usage: prepare|reach|take|grade|keep|table WORK [OPTIONS]".into());
     };
     let work = Work(std::path::absolute(work)?);
     match (command.as_str(), rest) {
         ("prepare", [list]) => prepare::prepare(&work, Path::new(list)),
         ("reach", [left_out]) => tests::reach(&work, Path::new(left_out)),
+        ("take", [kept]) => kept::take(&work, Path::new(kept)),
+        ("keep", [kept]) => kept::keep(&work, Path::new(kept)),
         ("grade", options) => grade::grade(&work, &select::Options::read(options)?),
         ("table", [reviewed]) => table::print(&work, Path::new(reviewed)),
         _ => Err(format!("{command}: unknown, or with other arguments").into()),

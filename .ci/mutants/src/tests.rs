@@ -13,7 +13,7 @@ use serde_json::Value;
 use crate::processes::{End, command, run};
 use crate::{Failure, Work};
 
-/// A test that takes longer than this is too slow to be run for each mutant.
+/// A test is ended after this: what it reaches until then is enough.
 const SLOW: Duration = Duration::from_secs(60);
 
 /// The package is optimised less than its dependencies, which takes less time to compile.
@@ -25,8 +25,6 @@ pub struct Test {
     pub name: String,
     /// How long it takes when no mutant is on and what it reaches is written down, in seconds.
     pub seconds: f64,
-    /// It was ended after [`SLOW`], and judges no mutant.
-    pub is_slow: bool,
     /// The places that it reaches, each by the number of its first mutant.
     pub reached: BTreeSet<usize>,
 }
@@ -92,9 +90,9 @@ fn alone(work: &Work, binary: &Path, name: &str) -> Result<Option<Test>, Failure
     let seconds = start.elapsed().as_secs_f64();
     let text = fs::read_to_string(&list).unwrap_or_default();
     let reached = text.lines().filter_map(|line| line.parse().ok()).collect();
-    let (passes, is_slow) = (!matches!(end, End::Failed(_)), matches!(end, End::TooLong(_)));
+    let passes = !matches!(end, End::Failed(_));
     println!("{seconds:7.2} s {name}{}", if passes { "" } else { " FAILS" });
-    let test = Test { binary: binary.to_owned(), name: name.to_owned(), seconds, is_slow, reached };
+    let test = Test { binary: binary.to_owned(), name: name.to_owned(), seconds, reached };
     Ok(passes.then_some(test))
 }
 

@@ -27,14 +27,21 @@ impl Sides {
                 Beside { triangle: TriangleId::new(index), nodes: [a, b], third }
             })
         };
-        let mut beside: Vec<Beside> = triangles.enumerate().flat_map(of_triangle).collect();
-        beside.sort_by_key(|one| unordered(one.nodes));
-        let mut starts = Vec::new();
-        for (at, one) in beside.iter().enumerate() {
-            let [lower, _] = unordered(one.nodes);
-            starts.resize(starts.len().max(lower.index() + 1), at as u32);
+        let given: Vec<Beside> = triangles.enumerate().flat_map(of_triangle).collect();
+        let lower = |one: &Beside| unordered(one.nodes)[0].index();
+        let nodes = given.iter().map(lower).max().map_or(0, |last| last + 1);
+        let mut starts = vec![0; nodes + 1];
+        given.iter().for_each(|one| starts[lower(one) + 1] += 1);
+        (0..nodes).for_each(|node| starts[node + 1] += starts[node]);
+        let (mut next, mut beside) = (starts.clone(), given.clone());
+        for one in given {
+            let at = &mut next[lower(&one)];
+            beside[*at as usize] = one;
+            *at += 1;
         }
-        starts.push(beside.len() as u32);
+        for ends in starts.windows(2) {
+            beside[ends[0] as usize..ends[1] as usize].sort_by_key(|one| unordered(one.nodes)[1]);
+        }
         Sides { starts, beside }
     }
 

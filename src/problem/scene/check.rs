@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use super::description::{Axis, Description};
-use super::mesh::Mesh;
+use super::mesh::{Element, Mesh};
 use super::{groups, surface};
 use crate::error::{InputError, Result};
 use crate::problem::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
@@ -24,7 +24,8 @@ pub fn numbers(file: &Description) -> Result<()> {
 /// Errors: a material is out of its range, a triangle has no material or two, or a group has no
 /// triangle.
 pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material>, Vec<Rc<str>>)> {
-    let mut of_element = HashMap::new();
+    let triangles: Vec<&Element> = mesh.of_dimension(2).collect();
+    let mut of_triangle: Vec<Option<(model::Material, Rc<str>)>> = vec![None; triangles.len()];
     for (group, material) in &file.materials.0 {
         let place = format!("materials.{}", group.text());
         if !(material.e > 0.0 && material.e.is_finite()) {
@@ -34,16 +35,21 @@ pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material
         }
         file.plane.check_poisson(material.nu, &format!("{place}.nu"))?;
         let name: Rc<str> = group.text().into();
-        for triangle in groups::members(mesh, 2, group, &place)? {
-            let number = triangle.number;
-            if let Some((_, other)) = of_element.insert(number, (*material, Rc::clone(&name))) {
+        let material = model::Material { e: material.e, nu: material.nu };
+        // Both are in the order of the mesh.
+        let mut places = triangles.iter().zip(&mut of_triangle);
+        for member in groups::members(mesh, 2, group, &place)? {
+            let own = places.find(|(triangle, _)| triangle.number == member.number);
+            let (_, own) = own.expect("a member is a triangle of the mesh");
+            if let Some((_, other)) = own.replace((material, Rc::clone(&name))) {
+                let number = member.number;
                 let what = format!("triangle {number} has two materials, {other} and {name}");
                 return Err(InputError::new(place, what, "give each triangle one material"));
             }
         }
     }
-    let found = mesh.of_dimension(2).map(|triangle| {
-        of_element.remove(&triangle.number).ok_or_else(|| {
+    let found = triangles.iter().zip(of_triangle).map(|(triangle, own)| {
+        own.ok_or_else(|| {
             let what = format!(
                 "triangle {} has no material (its physical groups: {:?})",
                 triangle.number, triangle.physical
@@ -51,8 +57,7 @@ pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material
             InputError::new("materials", what, "give each physical group of triangles a material")
         })
     });
-    let found = found.collect::<Result<Vec<_>, _>>()?.into_iter();
-    Ok(found.map(|(m, name)| (model::Material { e: m.e, nu: m.nu }, name)).unzip())
+    Ok(found.collect::<Result<Vec<_>, _>>()?.into_iter().unzip())
 }
 
 /// Returns whether each degree of freedom is restrained.

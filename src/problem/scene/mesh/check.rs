@@ -1,8 +1,6 @@
 //! The conditions on a mesh that every computation assumes.
 
-use std::collections::HashMap;
-
-use super::{Element, KINDS, Mesh, PhysicalName};
+use super::{Element, Mesh, PhysicalName};
 use crate::error::{InputError, Result};
 use crate::problem::element;
 
@@ -73,7 +71,6 @@ impl Mesh {
 
     fn check_elements(&self) -> Result<()> {
         let place = "the mesh's elements";
-        let mut triangles = HashMap::new();
         for (k, element) in self.elements.iter().enumerate() {
             let number = element.number;
             if k > 0 && self.elements[k - 1].number == number {
@@ -81,22 +78,25 @@ impl Mesh {
                 return Err(InputError::new(place, what, "give each element once"));
             }
             self.check_element(element)?;
-            if element.kind == KINDS[2].number {
-                let mut corners = [0, 1, 2].map(|k| element.nodes[k]);
-                corners.sort_unstable();
-                if let Some(first) = triangles.insert(corners, number) {
-                    let nodes = &element.nodes;
-                    let what =
-                        format!("triangles {first} and {number} have the same nodes {nodes:?}");
-                    let fix =
-                        "keep one: a triangle in two physical groups of Gmsh is written twice";
-                    return Err(InputError::new(place, what, fix));
-                }
-            }
         }
+        let mut triangles: Vec<([usize; 3], usize)> = self
+            .of_dimension(2)
+            .map(|triangle| {
+                let mut corners = [0, 1, 2].map(|k| triangle.nodes[k]);
+                corners.sort_unstable();
+                (corners, triangle.number)
+            })
+            .collect();
         if triangles.is_empty() {
             let fix = "in Gmsh, mesh the surfaces (-2) and save their physical groups";
             return Err(InputError::new(place, "the mesh has no triangle", fix));
+        }
+        triangles.sort_unstable();
+        let same = triangles.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        if let Some([(_, first), (nodes, second)]) = same.min_by_key(|pair| pair[1].1) {
+            let what = format!("triangles {first} and {second} have the same nodes {nodes:?}");
+            let fix = "keep one: a triangle in two physical groups of Gmsh is written twice";
+            return Err(InputError::new(place, what, fix));
         }
         Ok(())
     }
