@@ -185,6 +185,10 @@ fn a_tenth_as_written_and_as_stored() {
     assert_ne!(Exact::from_f64(0.1).to_rational(), Some(tenth));
     assert_eq!(F64x2::from_decimal(0.1).to_string(), "1e-1");
     assert_eq!(f64::from_decimal(0.1).to_bits(), 0.1_f64.to_bits());
+    // What is whole is stored as written, as far as a double has all whole numbers.
+    let error = |x: f64| Bounded::from_decimal(x).error();
+    assert_eq!((error(3.0), error(-7e14)), (0.0, 0.0));
+    assert!(error(0.1) > 0.0 && error(2.5) > 0.0 && error(2e15) > 0.0);
 }
 
 #[test]

@@ -2,10 +2,13 @@
 
 use std::ops::{Range, RangeInclusive};
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
+use plane_contact::numbers::scalar::{F64x2, Scalar};
 use plane_contact::numbers::solve::cost;
 use plane_contact::numbers::solve::memory::check;
-use plane_contact::numbers::solve::{FactorSize, Pattern, SparseCholesky, SparseSymmetric};
+use plane_contact::numbers::solve::{
+    FactorSize, Pattern, Precision, Singular, Solver, SparseCholesky, SparseSymmetric, Unsolved,
+};
 
 /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
 /// spring of stiffness `ground`.
@@ -27,6 +30,20 @@ fn an_unrestrained_chain_is_singular() {
     assert!(SparseCholesky::new(chain(5, 0.0)).is_err());
     assert!(SparseCholesky::new(chain(5, 1e-16)).is_err());
     assert!(SparseCholesky::new(chain(5, 1e-10)).is_ok());
+}
+
+/// The last pivot is that many epsilons of double-doubles beside a 1 in its column; less than 16 for each
+/// of the four equations count as 0.
+#[test]
+fn a_pivot_of_rounding_alone_is_singular_in_double_doubles() {
+    let solved = |epsilons: f64| {
+        let mut matrix = DMatrix::from_diagonal_element(4, 4, F64x2::from_f64(1.0));
+        matrix[(0, 3)] = F64x2::from_f64(1.0);
+        matrix[(3, 3)] = F64x2::from_f64(epsilons * f64::EPSILON * f64::EPSILON);
+        F64x2::solve(matrix, &DVector::zeros(4), Solver::DenseLu, None)
+    };
+    assert!(matches!(solved(60.0), Err(Unsolved::Singular(Singular { column: 3, .. }))));
+    assert!(solved(70.0).is_ok());
 }
 
 #[test]

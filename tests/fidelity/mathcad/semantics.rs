@@ -167,6 +167,15 @@ fn functions_of_arrays() {
     assert!(matches!(failure("ln(v − v)"), Cause::Domain { .. }));
 }
 
+/// Of four entries it is the difference of the products, not what an elimination leaves.
+#[test]
+fn a_determinant_of_two_rows_takes_no_quotient() {
+    for [a, b, c, d] in [[0.1, 0.3, 0.7, 0.9], [3.3, 0.1, 0.7, 1.9], [0.3, 1.7, 2.9, 0.7]] {
+        let matrix = format!("m ← ({a} {b}; {c} {d})\n|m|");
+        assert_eq!(value(&matrix), (a * d - b * c).to_string(), "{matrix}");
+    }
+}
+
 /// Ryu-ko/OKG 14334 (the sine of π), SunGrow Lab7_Var5 15 (what a cosine of 1e12 was added to).
 #[test]
 fn sines_and_cosines_are_those_of_x87() {
