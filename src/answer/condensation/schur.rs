@@ -42,10 +42,11 @@ impl Condensation {
         let dofs: Vec<Dof> = (0..free.size()).map(|column| free.dof(column)).collect();
         let equations: Vec<usize> = (0..dofs.len()).filter(|e| is_kept[dofs[*e].index()]).collect();
         let kept = equations.iter().map(|e| dofs[*e]).collect();
-        let condensed = Condensed::new(&matrix, &equations)?;
+        let norm = matrix.norm();
+        let condensed = Condensed::new(matrix, &equations)?;
         let outside = |(restrained, kept): (&bool, &bool)| *restrained || !kept;
         let is_outside = model.restrained.iter().zip(&is_kept).map(outside).collect();
-        let (model, norm) = (Arc::clone(model), matrix.norm());
+        let model = Arc::clone(model);
         let kept_norm = condensed.schur().column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
         Some(Condensation {
             model,

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use smallvec::SmallVec;
 
 use super::refinement::refine;
 use super::schur::Condensation;
@@ -12,6 +14,9 @@ use crate::numbers::solve::{DenseCholesky, Eliminated, Factors, largest_motion};
 /// The motion under loads of 1, both scaled to a unit diagonal, beyond which a state is left to the
 /// factors of its whole matrix, which tell a singular one.
 const LOOSE: f64 = 1e10;
+
+/// The columns of Tᵀ S T that are worth a thread.
+const AT_ONCE: usize = 256;
 
 /// Tᵀ S T under one contact state, factored.
 struct Small {
@@ -182,20 +187,29 @@ struct Rows {
 }
 
 impl Rows {
-    /// Returns Tᵀ S T of a dense S.
+    /// Returns the lower triangle of Tᵀ S T of a dense S.
     fn reduced(&self, s: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut product = DMatrix::zeros(s.nrows(), self.columns);
+        let mut of_column: Vec<SmallVec<[(usize, f64); 1]>> = vec![SmallVec::new(); self.columns];
         for (l, row) in self.rows.iter().enumerate() {
-            for (column, weight) in row {
-                product.column_mut(*column).axpy(*weight, &s.column(l), 1.0);
-            }
+            row.iter().for_each(|(column, weight)| of_column[*column].push((l, *weight)));
         }
         let mut reduced = DMatrix::zeros(self.columns, self.columns);
-        for (mut column, product) in reduced.column_iter_mut().zip(product.column_iter()) {
-            for (row, value) in self.rows.iter().zip(product.iter()) {
-                row.iter().for_each(|(r, weight)| column[*r] += weight * value);
-            }
-        }
+        let columns = reduced.as_mut_slice().par_chunks_mut(self.columns.max(1)).enumerate();
+        let columns = columns.with_min_len(AT_ONCE);
+        columns.for_each_init(
+            || DVector::zeros(s.nrows()),
+            |product, (c, column)| {
+                product.fill(0.0);
+                for (l, weight) in &of_column[c] {
+                    product.axpy(*weight, &s.column(*l), 1.0);
+                }
+                for (row, value) in self.rows.iter().zip(product.iter()) {
+                    for (r, weight) in row.iter().filter(|(r, _)| *r >= c) {
+                        column[*r] += weight * value;
+                    }
+                }
+            },
+        );
         reduced
     }
 

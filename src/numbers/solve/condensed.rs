@@ -26,45 +26,57 @@ use super::symmetric::SparseSymmetric;
 
 /// A symmetric matrix condensed to the equations that are kept.
 pub struct Condensed {
+    /// What no entry joins is factored apart.
+    parts: Vec<Part>,
+    schur: DMatrix<f64>,
+    /// The number of all equations.
+    size: usize,
+}
+
+/// A part of the matrix that no entry joins to the others, factored.
+struct Part {
     factor: Cholesky<f64>,
     /// The equation at each place of the order: those inside, then those kept, as they were given.
     order: Vec<usize>,
+    /// The places of the latter among all that are kept.
+    kept: Vec<usize>,
     schur: DMatrix<f64>,
 }
 
 /// A right-hand side b on which the equations inside were eliminated.
 pub struct Eliminated {
-    /// In the order of the factor: L⁻¹ b.
-    z: Vec<f64>,
+    /// In the order of the factor of each part: L⁻¹ b.
+    z: Vec<Vec<f64>>,
     /// b_k − A_ki A_ii⁻¹ b_i.
     pub kept: DVector<f64>,
 }
 
+/// The number of equations from which on both parts are solved at once.
+const AT_ONCE: usize = 20_000;
+
 impl Condensed {
     /// Condenses `matrix` to the equations `kept`; None where A_ii is not far from a singular matrix,
     /// or S has lost its digits against A_kk, and without equations.
-    pub fn new(matrix: &SparseSymmetric, kept: &[usize]) -> Option<Self> {
-        if matrix.size() == 0 {
-            return None;
-        }
-        let order = order(matrix, kept);
-        let inside = order.len() - kept.len();
-        let mut place = vec![0; order.len()];
-        order.iter().enumerate().for_each(|(k, e)| place[*e] = k);
-        let raised = matrix.map_diagonal(|e, a| if place[e] >= inside { a + a } else { a });
-        let factor = Cholesky::ordered(&raised, &order, &place)?;
-        let factor = Some(factor).filter(|factor| factor.has_large_pivots(&raised.diagonal()))?;
-        let mut last = DMatrix::zeros(kept.len(), kept.len());
-        factor.visit_last(inside, |i, j, l| last[(i, j)] = l);
-        let mut schur = square(&last);
-        let diagonal = matrix.diagonal();
-        for (k, e) in kept.iter().enumerate() {
-            schur[(k, k)] -= diagonal[*e];
-            if !is_large(schur[(k, k)], diagonal[*e]) {
-                return None;
+    pub fn new(matrix: SparseSymmetric, kept: &[usize]) -> Option<Self> {
+        let size = matrix.size();
+        let parts = match halves(&matrix).as_slice() {
+            [] => return None,
+            [one] => vec![Part::new(matrix, one, kept)?],
+            [one, other, ..] => {
+                let [a, b] = [one, other].map(|equations| matrix.part(equations));
+                drop(matrix);
+                let (one, other) =
+                    rayon::join(|| Part::new(a, one, kept), || Part::new(b, other, kept));
+                vec![one?, other?]
+            }
+        };
+        let mut schur = DMatrix::zeros(kept.len(), kept.len());
+        for part in &parts {
+            for (j, column) in part.kept.iter().zip(part.schur.column_iter()) {
+                part.kept.iter().zip(&column).for_each(|(i, s)| schur[(*i, *j)] = *s);
             }
         }
-        Some(Condensed { factor, order, schur })
+        Some(Condensed { parts, schur, size })
     }
 
     /// Returns S, in the order in which the kept equations were given.
@@ -74,32 +86,123 @@ impl Condensed {
 
     /// Eliminates the equations inside from a right-hand side.
     pub fn eliminate(&self, b: &DVector<f64>) -> Eliminated {
-        let mut z: Vec<f64> = self.order.iter().map(|e| b[*e]).collect();
-        self.factor.solve_lower(&mut z);
-        let mut kept = DVector::zeros(z.len() - self.inside());
-        let own = &z[self.inside()..];
-        self.factor.visit_last(self.inside(), |i, j, l| kept[i] += l * own[j]);
+        let (mut z, mut kept) = (Vec::new(), DVector::zeros(self.schur.nrows()));
+        for (part, (own, left)) in self.parts.iter().zip(self.each(|k| self.parts[k].eliminate(b)))
+        {
+            part.kept.iter().zip(&left).for_each(|(k, x)| kept[*k] = *x);
+            z.push(own);
+        }
         Eliminated { z, kept }
-    }
-
-    /// Returns the number of equations inside.
-    fn inside(&self) -> usize {
-        self.order.len() - self.schur.nrows()
     }
 
     /// Returns the solution on all equations from that on the kept ones.
     pub fn expand(&self, eliminated: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
-        let mut x = eliminated.z.clone();
-        let own = &mut x[self.inside()..];
-        own.fill(0.0);
-        self.factor.visit_last(self.inside(), |i, j, l| own[j] += l * kept[i]);
-        self.factor.solve_lower_transposed(&mut x);
-        let mut solution = DVector::zeros(x.len());
-        self.order.iter().zip(&x).for_each(|(e, x)| solution[*e] = *x);
-        // What was given is returned to the bit.
-        self.order[self.inside()..].iter().zip(kept).for_each(|(e, x)| solution[*e] = *x);
+        let mut solution = DVector::zeros(self.size);
+        let expanded = self.each(|k| self.parts[k].expand(&eliminated.z[k], kept));
+        for (part, x) in self.parts.iter().zip(expanded) {
+            part.order.iter().zip(&x).for_each(|(e, x)| solution[*e] = *x);
+        }
         solution
     }
+
+    /// Returns what `of` gives of the part at each place, of large ones at once.
+    fn each<R: Send>(&self, of: impl Fn(usize) -> R + Sync) -> Vec<R> {
+        if self.parts.len() == 2 && self.size >= AT_ONCE {
+            let (one, other) = rayon::join(|| of(0), || of(1));
+            return vec![one, other];
+        }
+        (0..self.parts.len()).map(of).collect()
+    }
+}
+
+impl Part {
+    /// Condenses `matrix`, which has the `equations` of the whole one, ascending, to those of them that
+    /// are `kept`.
+    fn new(matrix: SparseSymmetric, equations: &[usize], kept: &[usize]) -> Option<Self> {
+        let own: Vec<(usize, usize)> = kept
+            .iter()
+            .enumerate()
+            .filter_map(|(k, e)| Some((k, equations.binary_search(e).ok()?)))
+            .collect();
+        let (kept, own): (Vec<usize>, Vec<usize>) = own.into_iter().unzip();
+        let order = order(&matrix, &own);
+        let inside = order.len() - own.len();
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(k, e)| place[*e] = k);
+        let diagonal = matrix.diagonal();
+        let raised = matrix.map_diagonal(|e, a| if place[e] >= inside { a + a } else { a });
+        let factor = Cholesky::ordered(&raised, &order, &place)?;
+        let factor = Some(factor).filter(|factor| factor.has_large_pivots(&raised.diagonal()))?;
+        let mut last = DMatrix::zeros(own.len(), own.len());
+        factor.visit_last(inside, |i, j, l| last[(i, j)] = l);
+        let mut schur = square(&last);
+        for (k, e) in own.iter().enumerate() {
+            schur[(k, k)] -= diagonal[*e];
+            if !is_large(schur[(k, k)], diagonal[*e]) {
+                return None;
+            }
+        }
+        let order = order.into_iter().map(|e| equations[e]).collect();
+        Some(Part { factor, order, kept, schur })
+    }
+
+    /// Returns the number of equations inside.
+    fn inside(&self) -> usize {
+        self.order.len() - self.kept.len()
+    }
+
+    /// Returns L⁻¹ b in the order of the factor, and b_k − A_ki A_ii⁻¹ b_i.
+    fn eliminate(&self, b: &DVector<f64>) -> (Vec<f64>, DVector<f64>) {
+        let mut z: Vec<f64> = self.order.iter().map(|e| b[*e]).collect();
+        self.factor.solve_lower(&mut z);
+        let mut kept = DVector::zeros(self.kept.len());
+        let own = &z[self.inside()..];
+        self.factor.visit_last(self.inside(), |i, j, l| kept[i] += l * own[j]);
+        (z, kept)
+    }
+
+    /// Returns the solution in the order of the factor from that on all kept equations.
+    fn expand(&self, z: &[f64], kept: &DVector<f64>) -> Vec<f64> {
+        let mut x = z.to_vec();
+        let own = &mut x[self.inside()..];
+        own.fill(0.0);
+        self.factor.visit_last(self.inside(), |i, j, l| own[j] += l * kept[self.kept[i]]);
+        self.factor.solve_lower_transposed(&mut x);
+        // What was given is returned to the bit.
+        let own = &mut x[self.inside()..];
+        own.iter_mut().zip(&self.kept).for_each(|(x, k)| *x = kept[*k]);
+        x
+    }
+}
+
+/// Returns the equations in two parts that no entry joins, about as large as each other, each ascending;
+/// in one where all are joined, and none of a matrix without equations.
+fn halves(matrix: &SparseSymmetric) -> Vec<Vec<usize>> {
+    let mut lowest: Vec<usize> = (0..matrix.size()).collect();
+    fn find(lowest: &mut [usize], mut e: usize) -> usize {
+        while lowest[e] != e {
+            lowest[e] = lowest[lowest[e]];
+            e = lowest[e];
+        }
+        e
+    }
+    for (i, j, _) in matrix.entries() {
+        let [a, b] = [i, j].map(|e| find(&mut lowest, e));
+        lowest[a.max(b)] = a.min(b);
+    }
+    let of: Vec<usize> = (0..matrix.size()).map(|e| find(&mut lowest, e)).collect();
+    let mut sizes = vec![0; of.len()];
+    of.iter().for_each(|part| sizes[*part] += 1);
+    let mut joined: Vec<usize> = (0..of.len()).filter(|part| sizes[*part] > 0).collect();
+    joined.sort_by_key(|part| std::cmp::Reverse(sizes[*part]));
+    let (mut is_second, mut ahead) = (vec![false; of.len()], 0);
+    for part in joined {
+        // The smaller half takes the next one.
+        is_second[part] = ahead > 0;
+        ahead += if is_second[part] { -(sizes[part] as isize) } else { sizes[part] as isize };
+    }
+    let (second, first): (Vec<usize>, Vec<usize>) = (0..of.len()).partition(|e| is_second[of[*e]]);
+    [first, second].into_iter().filter(|half| !half.is_empty()).collect()
 }
 
 /// Returns the equations inside in an order of small fill, then those that are kept.

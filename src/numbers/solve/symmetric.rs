@@ -114,6 +114,21 @@ impl<T: Clone> SparseSymmetric<T> {
         self.pattern.column(j).map(|at| (self.pattern.rows[at], self.values[at].clone()))
     }
 
+    /// Returns the rows and columns of `equations`, ascending, which no entry joins to others.
+    pub(super) fn part(&self, equations: &[usize]) -> Self {
+        let mut place = vec![0; self.size()];
+        equations.iter().enumerate().for_each(|(k, e)| place[*e] = k);
+        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+        for j in equations {
+            for (i, value) in self.column(*j) {
+                rows.push(place[i]);
+                values.push(value);
+            }
+            starts.push(rows.len());
+        }
+        SparseSymmetric { pattern: Arc::new(Pattern { starts, rows }), values }
+    }
+
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> SparseSymmetric<U> {
         self.try_map(|a| Some(f(a))).expect("every entry has a value")
     }
@@ -164,18 +179,18 @@ impl<T: Scalar> SparseSymmetric<T> {
 
     /// Returns the matrix with each diagonal entry made 1 + `part` times as large.
     pub fn with_diagonal(&self, part: f64) -> Self {
-        self.map_diagonal(|_, a| a * T::from_f64(1.0 + part))
+        self.clone().map_diagonal(|_, a| a * T::from_f64(1.0 + part))
     }
 
     /// Returns the matrix with `f` of each row's diagonal entry.
-    pub(super) fn map_diagonal(&self, f: impl Fn(usize, T) -> T) -> Self {
-        let mut matrix = self.clone();
-        for (at, (i, j, value)) in self.entries().enumerate() {
-            if i == j {
-                matrix.values[at] = f(i, value);
+    pub(super) fn map_diagonal(mut self, f: impl Fn(usize, T) -> T) -> Self {
+        for j in 0..self.size() {
+            let at = self.pattern.starts[j];
+            if at < self.pattern.starts[j + 1] && self.pattern.rows[at] == j {
+                self.values[at] = f(j, self.values[at]);
             }
         }
-        matrix
+        self
     }
 
     /// Returns the largest row sum of |A|.
