@@ -106,18 +106,18 @@ pub fn run(args: &Args) -> Result<u8> {
     let with_estimates = !args.no_error_estimate;
     let own = || {
         let (solution, accuracy) = solve(args, &request)?;
-        let estimates = || with_estimates.then(|| ErrorEstimates::new(&solution));
-        let (estimates, plan) =
-            side_by_side(&request.scene.model, estimates, || Plan::new(&request));
+        let estimates = with_estimates.then(|| ErrorEstimates::new(&solution));
         if args.probe.is_empty() {
             solution.let_go_of_factors();
         }
-        Ok::<_, Error>((solution, accuracy, estimates, plan?))
+        Ok::<_, Error>((solution, accuracy, estimates))
     };
     // These do not wait for it.
+    let plan = || Plan::new(&request);
     let others = || Others::new(&request, with_estimates);
-    let (own, others) = side_by_side(&request.scene.model, own, others);
-    let (solution, accuracy, estimates, plan) = own?;
+    let model = &request.scene.model;
+    let ((own, plan), others) = side_by_side(model, || side_by_side(model, own, plan), others);
+    let ((solution, accuracy, estimates), plan) = (own?, plan?);
     let mut assessment = Assessment::beside(&solution, others, estimates);
     assessment.probe(&solution, &args.probe)?;
     solution.let_go_of_factors();
