@@ -33,9 +33,9 @@ const COUNTS: &str = "\
     nts 0 Same 4955\n\
     nts 0 NoAnswer 45\n\
     nts 0.3 Same 204\n\
-    nts 0.3 NoAnswer 1\n\
+    nts 0.3 NoAnswer 2\n\
     nts 0.3 Several 3\n\
-    nts 0.3 FoundOnce 2\n\
+    nts 0.3 FoundOnce 1\n\
     nts 0.3 OtherPath 6\n\
     nts stick Same 192\n\
     nts stick NoAnswer 18\n\
