@@ -4,15 +4,16 @@ use std::path::Path;
 
 use crate::common::program;
 use crate::common::tolerances::{CLOSEST_POINT, assert_near};
-use plane_contact::answer::contact::Surfaces;
+use nalgebra::DVector;
 use plane_contact::answer::contact::search::Closest;
 use plane_contact::answer::contact::status::{Target, TargetEdge, statuses};
+use plane_contact::answer::contact::{Pairing, Surfaces, reactions};
 use plane_contact::answer::{self, Constraint, Detail, Request, Solution, summaries};
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::door::{self, Call};
 use plane_contact::paper::mirror::{Cause, Failure, Pairs, Reading};
 use plane_contact::problem::element::Plane;
-use plane_contact::problem::model::{Model, NodeId};
+use plane_contact::problem::model::{EdgeId, Model, NodeId};
 use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::studies::audit::statuses::{Measurement, Row, measure};
@@ -502,4 +503,31 @@ fn the_command_prints_tables_or_json() {
     let svg = roxmltree::Document::parse(&svg).expect("the picture is XML");
     let points = svg.descendants().filter(|node| node.has_tag_name("circle")).count();
     assert_eq!(points, 36, "6 depths, 3 rules, 2 orientations");
+}
+
+/// Where a contact node is restrained along x, the restraint's part of its reaction is unknown unless
+/// its equation was eliminated, or the normal is vertical; along y likewise; and along both always.
+#[test]
+fn what_a_restraint_shares_is_no_force_of_contact() {
+    let mut model = (*Scene::open("fig1").unwrap().model).clone();
+    let node = model.contact.nodes[1];
+    let reaction = DVector::from_element(model.dofs(), 3.0);
+    let mut of = |restrained: [bool; 2], normal: [f64; 2], eliminated: bool| {
+        for (dof, is_restrained) in node.dofs().into_iter().zip(restrained) {
+            model.restrained[dof.index()] = is_restrained;
+        }
+        let (edge, masters) = (EdgeId::new(0), Vec::new());
+        let pairing = Pairing { node, edge, masters, normal, gap: 0.0, length: 1.0 };
+        reactions(&model, &[Some(pairing), None], &reaction, eliminated)
+    };
+    let (up, side, tilted) = ([0.0, 1.0], [1.0, 0.0], [0.6, 0.8]);
+    assert_eq!(of([false; 2], up, false), [[Some(3.0), Some(-3.0)], [None, None]]);
+    for (restrained, across, along) in [([true, false], up, side), ([false, true], side, up)] {
+        assert_eq!(of(restrained, across, false)[0][0], Some(3.0));
+        assert_eq!(of(restrained, tilted, false)[0], [None; 2]);
+        assert_eq!(of(restrained, along, false)[0], [None; 2]);
+        assert!(of(restrained, tilted, true)[0][0].is_some());
+        assert_eq!(of(restrained, along, true)[0][0], Some(0.0));
+    }
+    assert_eq!(of([true; 2], up, true)[0], [None; 2]);
 }
