@@ -23,6 +23,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::cholesky::{Cholesky, is_large};
 use super::symmetric::SparseSymmetric;
+use crate::numbers::joined::joined;
 
 /// A symmetric matrix condensed to the equations that are kept.
 pub struct Condensed {
@@ -178,25 +179,13 @@ impl Part {
 /// Returns the equations in two parts that no entry joins, about as large as each other, each ascending;
 /// in one where all are joined, and none of a matrix without equations.
 fn halves(matrix: &SparseSymmetric) -> Vec<Vec<usize>> {
-    let mut lowest: Vec<usize> = (0..matrix.size()).collect();
-    fn find(lowest: &mut [usize], mut e: usize) -> usize {
-        while lowest[e] != e {
-            lowest[e] = lowest[lowest[e]];
-            e = lowest[e];
-        }
-        e
-    }
-    for (i, j, _) in matrix.entries() {
-        let [a, b] = [i, j].map(|e| find(&mut lowest, e));
-        lowest[a.max(b)] = a.min(b);
-    }
-    let of: Vec<usize> = (0..matrix.size()).map(|e| find(&mut lowest, e)).collect();
+    let of = joined(matrix.size(), matrix.entries().map(|(i, j, _)| (i, j)));
     let mut sizes = vec![0; of.len()];
     of.iter().for_each(|part| sizes[*part] += 1);
-    let mut joined: Vec<usize> = (0..of.len()).filter(|part| sizes[*part] > 0).collect();
-    joined.sort_by_key(|part| std::cmp::Reverse(sizes[*part]));
+    let mut parts: Vec<usize> = (0..of.len()).filter(|part| sizes[*part] > 0).collect();
+    parts.sort_by_key(|part| std::cmp::Reverse(sizes[*part]));
     let (mut is_second, mut ahead) = (vec![false; of.len()], 0);
-    for part in joined {
+    for part in parts {
         // The smaller half takes the next one.
         is_second[part] = ahead > 0;
         ahead += if is_second[part] { -(sizes[part] as isize) } else { sizes[part] as isize };

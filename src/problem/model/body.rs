@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::ids::{NodeId, TriangleId};
 use super::{Model, Triangle};
+use crate::numbers::joined::joined;
 
 /// A part of the mesh that shares no node with another part.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,8 +29,12 @@ impl Body {
 /// Returns the bodies that `triangles` on `nodes` nodes form, by their lowest node. `material`
 /// names the material of each triangle.
 pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[Rc<str>]) -> Vec<Body> {
-    let lowest = lowest_nodes(nodes, triangles);
-    let mut found: Vec<(NodeId, Body)> = Vec::new();
+    let sides = triangles.iter().flat_map(|triangle| {
+        let [a, b, c] = triangle.nodes.map(NodeId::index);
+        [(a, b), (b, c)]
+    });
+    let lowest = joined(nodes, sides);
+    let mut found: Vec<(usize, Body)> = Vec::new();
     for (id, triangle) in TriangleId::all(triangles.len()).zip(triangles) {
         let key = lowest[triangle.nodes[0].index()];
         let at = found.iter().position(|(other, _)| *other == key).unwrap_or_else(|| {
@@ -42,31 +47,13 @@ pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[Rc<str>]) -> Vec
     found.sort_by_key(|(key, _)| *key);
     let mut bodies: Vec<Body> = found.into_iter().map(|(_, body)| body).collect();
     for body in &mut bodies {
-        body.name = joined(body.triangles.iter().map(|id| &material[id.index()]));
+        body.name = joined_names(body.triangles.iter().map(|id| &material[id.index()]));
     }
     number_equal_names(&mut bodies);
     bodies
 }
 
-fn lowest_nodes(nodes: usize, triangles: &[Triangle]) -> Vec<NodeId> {
-    let mut root: Vec<usize> = (0..nodes).collect();
-    fn lowest(root: &mut [usize], mut n: usize) -> usize {
-        while root[n] != n {
-            root[n] = root[root[n]];
-            n = root[n];
-        }
-        n
-    }
-    for triangle in triangles {
-        for pair in triangle.nodes.windows(2) {
-            let [a, b] = [pair[0], pair[1]].map(|n| lowest(&mut root, n.index()));
-            root[a.max(b)] = a.min(b);
-        }
-    }
-    (0..nodes).map(|n| NodeId::new(lowest(&mut root, n))).collect()
-}
-
-fn joined<'a>(names: impl Iterator<Item = &'a Rc<str>>) -> String {
+fn joined_names<'a>(names: impl Iterator<Item = &'a Rc<str>>) -> String {
     let mut distinct: Vec<&str> = Vec::new();
     for name in names {
         if !distinct.contains(&&**name) {
