@@ -12,16 +12,13 @@ use crate::paper::mathcad::observe::{Executed, Named};
 use crate::paper::mathcad::{Failure, Line, Listing, Observer, Recorder, Settings, Value};
 use crate::paper::mirror::Pairs;
 
+/// A listing executed, and what is kept of that.
 pub struct Trace {
-    /// Which of the paper's listings was executed, as printed or edited.
-    pub which: Which,
     /// Its statements in order of execution, each with the turn of the outer loop that it belongs
     /// to.
     pub steps: Vec<Step>,
     /// Whether there were more than are kept.
     pub is_cut: bool,
-    /// The lines that the listing's own `trace` wrote.
-    pub output: Vec<String>,
     pub result: Result<Product, Box<Failure>>,
 }
 
@@ -97,11 +94,7 @@ pub fn trace(
     let outcome = follow(which, listing, settings, call, wanted, |step| {
         is_cut |= kept.keep(step).is_err();
     });
-    let (result, output) = match outcome {
-        Ok((product, output)) => (Ok(product), output),
-        Err(failure) => (Err(failure), vec![]),
-    };
-    Trace { which, steps: kept.steps, is_cut, output, result }
+    Trace { steps: kept.steps, is_cut, result: outcome.map(|(product, _)| product) }
 }
 
 /// Executes a listing as [`trace`] does, and hands over `each` statement of the turns that `wanted`
