@@ -1,5 +1,6 @@
 //! What became of mutants in earlier runs, function by function: as long as its text is the same, a
-//! function is not graded again, so that a run of hours can be made in parts, on several machines.
+//! mutant that was noticed is not graded again, so that a run of hours can be made in parts, on several
+//! machines.
 //!
 //! A file of JSON: file, function and the hash of its text, and a letter for each of its mutants in the
 //! build, in order. It does not see that a test was weakened since: delete it to begin anew.
@@ -26,7 +27,7 @@ const UNGRADED: char = '-';
 /// Letters by file, and by function and hash.
 type Kept = BTreeMap<String, BTreeMap<String, String>>;
 
-/// Takes what is kept for results; those that were open are open to any budget.
+/// Takes the mutants that a test noticed for results; a test may have been added for every other one.
 pub fn take(work: &Work, kept: &Path) -> Result<(), Failure> {
     let kept = read(kept)?;
     let known = by_name(work)?;
@@ -35,7 +36,8 @@ pub fn take(work: &Work, kept: &Path) -> Result<(), Failure> {
         let letters = kept.get(&file).and_then(|functions| functions.get(&function));
         let letters = letters.filter(|letters| letters.len() == mutants.len());
         for (letter, mutant) in letters.into_iter().flat_map(|l| l.chars()).zip(&mutants) {
-            let outcome = LETTERS.iter().find(|(other, _)| *other == letter);
+            let is_noticed = |o: &Outcome| matches!(o, Outcome::Caught | Outcome::Timeout);
+            let outcome = LETTERS.iter().find(|(other, o)| *other == letter && is_noticed(o));
             if let (Some((_, outcome)), false) = (outcome, known.contains_key(&mutant.name)) {
                 append(&mut results, &Graded::earlier(&mutant.name, *outcome))?;
             }
