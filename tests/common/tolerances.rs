@@ -49,6 +49,17 @@ tolerances! {
         "yt is a difference of coordinates of order 10, each rounded at 2e-15: on the strand it \
          is 0 but for that where a stamp node lies on its target edge";
 
+    /// Recorded numbers of random scenes, relative to themselves.
+    RECORDED = 1e-7,
+        "the condition number of the small matrices is up to 1e7, and sums of several signs";
+
+    /// Recorded numbers, absolute.
+    RECORDED_FLOOR = 1e-9,
+        "gaps and residuals are 0 but for rounding; stresses are of order 100";
+
+    /// Recorded bounds on rounding, relative to themselves.
+    RECORDED_BOUND = 0.1, "they follow residuals, which are noise, to a small part";
+
     /// Displacements by Octave's solver against ours, relative to the largest.
     OCTAVE = 1e-12, "two LU factorisations of some 30 equations of condition 1e3 in f64";
 

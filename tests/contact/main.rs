@@ -19,6 +19,7 @@ mod friction;
 mod invariance;
 mod orders;
 mod quadratic_programme;
+mod recorded;
 mod status;
 mod tree;
 mod unilateral;

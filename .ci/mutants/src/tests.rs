@@ -5,6 +5,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
@@ -46,25 +47,37 @@ pub fn clear(temporary: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Runs every test by itself, but for those in the file `left_out`, and writes down what each
-/// reaches.
+/// Runs every test by itself, on every core one, but for those in the file `left_out` and those that
+/// ran before, and writes down what each reaches.
 pub fn reach(work: &Work, left_out: &Path) -> Result<(), Failure> {
     let left_out: Vec<LeftOut> = serde_json::from_str(&fs::read_to_string(left_out)?)?;
     let left_out: BTreeSet<&str> = left_out.iter().map(|test| test.test.as_str()).collect();
     let done: BTreeSet<_> = read(work)?.into_iter().map(|t| (t.binary, t.name)).collect();
-    let mut file = OpenOptions::new().create(true).append(true).open(work.tests())?;
-    let mut failed = Vec::new();
+    let mut left = Vec::new();
     for binary in binaries(work)? {
-        for name in names(&binary)? {
-            if left_out.contains(name.as_str()) || done.contains(&(binary.clone(), name.clone())) {
-                continue;
-            }
-            match alone(work, &binary, &name)? {
-                Some(test) => append(&mut file, &test)?,
-                None => failed.push(name),
+        let names = names(&binary)?.into_iter().filter(|name| !left_out.contains(name.as_str()));
+        left.extend(names.map(|name| (binary.clone(), name)).filter(|test| !done.contains(test)));
+    }
+    let file = Mutex::new(OpenOptions::new().create(true).append(true).open(work.tests())?);
+    let (queue, failed) = (Mutex::new(left.iter()), Mutex::new(Vec::new()));
+    let next = || queue.lock().expect("no worker panics").next();
+    let work_on = |worker: usize| -> Result<(), String> {
+        while let Some((binary, name)) = next() {
+            let test = alone(work, binary, name, worker).map_err(|why| format!("{name}: {why}"))?;
+            match test {
+                Some(test) => append(&mut file.lock().expect("no worker panics"), &test)
+                    .map_err(|why| why.to_string())?,
+                None => failed.lock().expect("no worker panics").push(name.as_str()),
             }
         }
-    }
+        Ok(())
+    };
+    std::thread::scope(|scope| {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let workers: Vec<_> = (0..cores).map(|k| scope.spawn(move || work_on(k))).collect();
+        workers.into_iter().try_for_each(|worker| worker.join().expect("no worker panics"))
+    })?;
+    let failed = failed.into_inner().expect("no worker panics");
     match failed.is_empty() {
         true => Ok(()),
         false => Err(format!("with no mutant on, these tests fail: {}", failed.join(", ")).into()),
@@ -79,10 +92,10 @@ pub fn append(file: &mut File, value: &impl Serialize) -> Result<(), Failure> {
 }
 
 /// Runs a test with no mutant on; returns nothing where it fails.
-fn alone(work: &Work, binary: &Path, name: &str) -> Result<Option<Test>, Failure> {
-    let temporary = work.temporary(0);
+fn alone(work: &Work, binary: &Path, name: &str, worker: usize) -> Result<Option<Test>, Failure> {
+    let temporary = work.temporary(worker);
     clear(&temporary)?;
-    let list = work.0.join("reached");
+    let list = work.0.join(format!("reached-{worker}"));
     let _ = fs::remove_file(&list);
     let start = Instant::now();
     let mut command = command(work, binary, &[name], &temporary);
