@@ -8,6 +8,7 @@ mod common {
     pub mod json;
     pub mod outcome;
     pub mod program;
+    pub mod recorded;
     pub mod tolerances;
 }
 

@@ -16,8 +16,7 @@ use plane_contact::problem::modelling::{
 use plane_contact::report::ResultFile;
 use serde_json::Value;
 
-use crate::common::golden::assert_golden_by;
-use crate::common::tolerances::{RECORDED, RECORDED_BOUND, RECORDED_FLOOR};
+use crate::common::recorded::assert_recorded;
 use crate::corners::Writing;
 use crate::drawn::{Kind, draw};
 
@@ -77,10 +76,10 @@ fn reading(rng: &mut Rng) -> Reading {
 
 /// Draws numbers in which a variant runs, and a solver that they offer.
 fn arithmetic(rng: &mut Rng, variant: Variant) -> Arithmetic {
-    use ScalarName::{Bounded, BoundedDouble, Exact, F32, F64, F64x2};
+    use ScalarName::{Bounded, BoundedDouble, Exact, F64, F64x2};
     let scalar = match variant {
         Variant::Unilateral => F64,
-        _ => one_of(rng, &[F64, F64, F64, F64x2, Bounded, BoundedDouble, F32, Exact]),
+        _ => one_of(rng, &[F64, F64, F64, F64x2, Bounded, BoundedDouble, Exact]),
     };
     let asked = Some(one_of(rng, Solver::ALL)).filter(|_| rng.bool());
     let of = |solver| Arithmetic { scalar, solver, inputs: Inputs::default(), tol: None };
@@ -203,35 +202,10 @@ fn fold(name: &str, value: &Value, folded: &mut BTreeMap<String, Folded>) {
     }
 }
 
-/// Words equal to the letter, floats within `RECORDED` of themselves, and bounds within
-/// `RECORDED_BOUND`.
-fn same(expected: &str, value: &str) -> bool {
-    let words = |text: &str| {
-        text.trim_end().split([' ', '\n', '=', ',']).map(str::to_owned).collect::<Vec<_>>()
-    };
-    let (expected, value) = (words(expected), words(value));
-    let is_other = |(e, v): &(&String, &String)| !same_word(e, v);
-    let other = expected.iter().zip(&value).find(is_other);
-    other.iter().for_each(|(e, v)| eprintln!("recorded {e:?}, found {v:?}"));
-    other.is_none() && expected.len() == value.len()
-}
-
-fn same_word(recorded: &str, found: &str) -> bool {
-    let number = |word: &str| word.trim_matches(['~', '(', ')', ';']).parse::<f64>().ok();
-    let within = |limit: f64, floor: f64| match (number(recorded), number(found)) {
-        (Some(r), Some(f)) => (r - f).abs() <= limit * r.abs() + floor,
-        _ => false,
-    };
-    let is_float = recorded.contains(['.', 'e']);
-    recorded == found
-        || recorded.starts_with('~') && within(RECORDED_BOUND.limit, 0.0)
-        || is_float && within(RECORDED.limit, RECORDED_FLOOR.limit)
-}
-
 fn record(kind: Kind) {
     let mut rng = Rng::with_seed(kind as u64);
     let runs: String = (0..RUNS).map(|_| run(&mut rng, kind)).collect();
-    assert_golden_by("recorded", &format!("{kind:?}").to_lowercase(), &runs, same);
+    assert_recorded(&format!("{kind:?}").to_lowercase(), &runs);
 }
 
 macro_rules! recorded {

@@ -10,6 +10,7 @@ mod common {
     pub mod outcome;
     pub mod program;
     pub mod random;
+    pub mod recorded;
     pub mod shipped;
     pub mod tolerances;
 }

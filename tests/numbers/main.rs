@@ -7,6 +7,7 @@ mod common {
     pub mod json;
     pub mod outcome;
     pub mod random;
+    pub mod recorded;
     pub mod shipped;
     pub mod tolerances;
 }
@@ -20,6 +21,7 @@ mod error_estimates;
 mod extremes;
 mod largest;
 mod precisions;
+mod recorded;
 mod scalars;
 mod singular;
 mod solvers;

@@ -6,6 +6,7 @@ mod notation;
 mod observers;
 mod package;
 mod paper;
+mod recorded;
 mod semantics;
 mod spelled;
 mod xmcd;

@@ -1,0 +1,37 @@
+//! Golden files of many numbers that nothing but a change of the program changes,
+//! `golden/recorded/<name>.snap`: words are exact, floats toleranced, each by itself.
+
+use super::golden::assert_golden_by;
+use super::tolerances::{RECORDED, RECORDED_BOUND, RECORDED_FLOOR};
+
+/// Compares `text` with `golden/recorded/<name>.snap`; `cargo insta review` (or INSTA_UPDATE=always)
+/// changes it. A float is a word with a point in it; behind `~` stands a bound, which may differ more.
+#[track_caller]
+pub fn assert_recorded(name: &str, text: &str) {
+    assert_golden_by("recorded", name, text, same);
+}
+
+fn same(recorded: &str, found: &str) -> bool {
+    let words = |text: &str| -> Vec<String> {
+        text.trim_end()
+            .split(|c: char| c.is_whitespace() || "=,()[]{};|".contains(c))
+            .map(String::from)
+            .collect()
+    };
+    let (recorded, found) = (words(recorded), words(found));
+    let other = recorded.iter().zip(&found).find(|(r, f)| !same_word(r, f));
+    other.iter().for_each(|(r, f)| eprintln!("recorded {r:?}, found {f:?}"));
+    other.is_none() && recorded.len() == found.len()
+}
+
+fn same_word(recorded: &str, found: &str) -> bool {
+    let number = |word: &str| word.trim_matches(['~', ';']).parse::<f64>().ok();
+    let within = |limit: f64, floor: f64| match (number(recorded), number(found)) {
+        (Some(r), Some(f)) => (r - f).abs() <= limit * r.abs() + floor,
+        _ => false,
+    };
+    let is_float = recorded.contains(['.', 'e']);
+    recorded == found
+        || recorded.starts_with('~') && within(RECORDED_BOUND.limit, 0.0)
+        || is_float && within(RECORDED.limit, RECORDED_FLOOR.limit)
+}

@@ -1,0 +1,251 @@
+//! What random programs come to, recorded: their values, traces and failures, as executed, and as
+//! written into a worksheet and read back.
+
+use std::fmt::Write;
+
+use fastrand::Rng;
+use plane_contact::paper::mathcad::xmcd::document::{self, Content};
+use plane_contact::paper::mathcad::xmcd::page;
+use plane_contact::paper::mathcad::{Array, Limits, Listing, Settings, Sheet, Value, json};
+
+use crate::common::recorded::assert_recorded;
+
+/// The number of programs of a golden file.
+const PROGRAMS: usize = 150;
+
+const FUNCTIONS: [&str; 21] = [
+    "sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "sinh", "cosh", "tanh",
+    "asinh", "acosh", "atanh", "exp", "ln", "floor", "ceil", "trunc", "√",
+];
+
+const SETTINGS: [&str; 8] = [
+    "",
+    "",
+    "",
+    "origin=0",
+    "zero-over-zero=0,exact-boolean=false",
+    "conjunction=eager,tiny=0",
+    "conjunction=left-to-right,last-if=0",
+    "descending=empty,origin=0",
+];
+
+fn one_of<T: Copy>(rng: &mut Rng, from: &[T]) -> T {
+    from[rng.usize(..from.len())]
+}
+
+/// An expression of a kind, but seldom of another.
+fn any(rng: &mut Rng, depth: usize, usual: fn(&mut Rng, usize) -> String) -> String {
+    let kinds = [number, column, matrix];
+    let kind = if rng.u8(..30) == 0 { one_of(rng, &kinds) } else { usual };
+    kind(rng, depth)
+}
+
+fn number(rng: &mut Rng, depth: usize) -> String {
+    let Some(depth) = depth.checked_sub(1) else {
+        let atoms = [
+            "0",
+            "1",
+            "2",
+            "3",
+            "0.5",
+            "1.75",
+            "10",
+            "1E-3",
+            "x",
+            "n",
+            "a",
+            "(−2)",
+            "v[2]",
+            "v[n − 1]",
+            "m[1,2]",
+            "m[n − 2,1]",
+            "s",
+        ];
+        return one_of(rng, &atoms).into();
+    };
+    let mut of = |kind: fn(&mut Rng, usize) -> String| any(rng, depth, kind);
+    let (p, q, r, v, m) = (of(number), of(number), of(number), of(column), of(matrix));
+    match rng.u8(..34) {
+        0..4 => format!("{p} + {q}"),
+        4..8 => format!("({p} − {q})·{r}"),
+        8..11 => format!("{p}·({q})"),
+        11..14 => format!("({p}) / ({q})"),
+        14 => format!("−({p})"),
+        15 => format!("|{p}| + |{v}|"),
+        16 => format!("|{m}|"),
+        17 => format!("({p})^{}", one_of(rng, &["2", "3", "(−1)", "0.5", "n"])),
+        18 => format!("√({},{p})", one_of(rng, &["2", "3", "n"])),
+        19 => {
+            format!("({} {p} ∧ {q} {} {r})", p.clone() + " <", one_of(rng, &["=", "≤", "≠", ">"]))
+        }
+        20 => format!("({p} ≥ {q} ∨ ¬({r} = 0))"),
+        21 => format!("({v})[{}]", one_of(rng, &["1", "2", "n", "0"])),
+        22 => format!("({m})[{},1]", one_of(rng, &["1", "2", "x"])),
+        23 => format!("{}({p}, {q})", one_of(rng, &["min", "max", "mod", "log"])),
+        24 => format!("{}({v}, {m})", one_of(rng, &["min", "max"])),
+        25 => format!("{}({m})", one_of(rng, &["rows", "cols", "length", "determinant"])),
+        26 => format!("{}({v})", one_of(rng, &["rows", "cols", "length", "∑"])),
+        27 => format!("∑(i ∈ {} .. 3, {p}·i)", one_of(rng, &["1", "2", "n", "4"])),
+        28 => format!("∏(i ∈ 1 .. {}, i + {p})", one_of(rng, &["1", "2", "n"])),
+        29 => format!("({v})·({})", v.clone()),
+        30 => format!("factorial({})", one_of(rng, &["0", "n", "5", "x"])),
+        _ => format!("{}({p})", one_of(rng, &FUNCTIONS)),
+    }
+}
+
+fn column(rng: &mut Rng, depth: usize) -> String {
+    let Some(depth) = depth.checked_sub(1) else {
+        return one_of(rng, &["v", "w", "(1 2 3)ᵀ", "(4; x; n)", "g(x)"]).into();
+    };
+    let mut of = |kind: fn(&mut Rng, usize) -> String| any(rng, depth, kind);
+    let (p, q, v, m) = (of(number), of(number), of(column), of(matrix));
+    match rng.u8(..12) {
+        0 | 1 => format!("({v} + {})", one_of(rng, &["v", "w", "1"])),
+        2 => format!("({v})·({p})"),
+        3 => format!("(({p})   ({q})   x)ᵀ"),
+        4 => format!("({p}; {q}; n)"),
+        5 => format!("(({v})ᵀ)ᵀ"),
+        6 => format!("({m})⟨{}⟩", one_of(rng, &["1", "2", "3"])),
+        7 => format!("stack({}, {v})", one_of(rng, &["v", "m", "w"])),
+        8 => format!("submatrix({v}, {}, 2, 1, 1)", one_of(rng, &["1", "2"])),
+        9 => format!("{}({v})", one_of(rng, &FUNCTIONS)),
+        10 => format!("lsolve({m}, (1; {p}))"),
+        _ => format!("({m})·(1; {p})"),
+    }
+}
+
+fn matrix(rng: &mut Rng, depth: usize) -> String {
+    let Some(depth) = depth.checked_sub(1) else {
+        return one_of(rng, &["m", "(1 2; 3 5)", "(x   0; n   1)", "identity(2)", "b"]).into();
+    };
+    let mut of = |kind: fn(&mut Rng, usize) -> String| any(rng, depth, kind);
+    let (p, q, v, m) = (of(number), of(number), of(column), of(matrix));
+    match rng.u8(..11) {
+        0 | 1 => format!("({m} − {})", one_of(rng, &["m", "identity(2)", "b"])),
+        2 => format!("({m})·({})", one_of(rng, &["m", "b", "2"])),
+        3 => format!("({m})ᵀ"),
+        4 => format!("({m})^(−1)"),
+        5 => format!("(({p})   ({q}); 1   n)"),
+        6 => format!("augment({v}, {})", one_of(rng, &["v", "w", "m"])),
+        7 => format!("submatrix({m}, 1, {}, 1, 2)", one_of(rng, &["1", "2", "3"])),
+        8 => format!("identity({})·({p})", one_of(rng, &["1", "2", "3"])),
+        9 => format!("stack({m}, {})", one_of(rng, &["m", "b"])),
+        _ => format!("({v})·({v})ᵀ"),
+    }
+}
+
+/// Writes statements at a level of blocks.
+fn statements(rng: &mut Rng, level: usize, text: &mut String) {
+    let indent = "  ".repeat(level + 1);
+    for _ in 0..rng.usize(1..4) {
+        let (p, q) = (any(rng, 2, number), any(rng, 1, number));
+        let guard = if rng.u8(..3) == 0 { format!(" if {q} > 1") } else { String::new() };
+        let k = one_of(rng, &["1", "2", "n", "4"]);
+        let (head, has_block) = match rng.u8(..if level < 2 { 19 } else { 13 }) {
+            0 | 1 => (format!("a ← {p}{guard}"), false),
+            2 => (format!("s ← s + {p}{guard}"), false),
+            3 => (format!("w ← {}", any(rng, 2, column)), false),
+            4 => (format!("b ← {}", any(rng, 2, matrix)), false),
+            5 => (format!("w[{k}] ← {p}{guard}"), false),
+            6 => (format!("b[{k},2] ← {p}"), false),
+            7 => (format!("c[{k}] ← {}", one_of(rng, &["v", "m", "\"text\"", "s", "w"])), false),
+            8 => (p, false),
+            9 => (format!("trace({p}, \"and\", {})", any(rng, 1, column)), false),
+            10 => (format!("return {p} if {q} > 2"), false),
+            11 => {
+                (one_of(rng, &["break if a > 3", "continue if s > 5", "c[1]", "c"]).into(), false)
+            }
+            12 => (format!("v[{k}] ← {p}{guard}"), false),
+            13 => {
+                (format!("for i ∈ {} .. {k}{guard}", one_of(rng, &["1", "2", "3", "1, 3"])), true)
+            }
+            14 => (format!("for e ∈ {}", any(rng, 1, column)), true),
+            15 => (format!("while a < {}", one_of(rng, &["3", "5"])), true),
+            16 | 17 => (format!("if {p} > {q}"), true),
+            _ => ("try".into(), true),
+        };
+        writeln!(text, "{indent}{head}").expect("a text has room");
+        if has_block {
+            statements(rng, level + 1, text);
+        }
+        let other = match &head {
+            head if head.starts_with("if") && rng.bool() => "otherwise",
+            head if head == "try" => "on error",
+            _ => continue,
+        };
+        writeln!(text, "{indent}{other}").expect("a text has room");
+        statements(rng, level + 1, text);
+    }
+}
+
+/// Executes a program and returns its value, trace and last values, or its failure.
+fn executed(listing: &Listing, settings: &Settings) -> String {
+    let limits = Limits { steps: 3_000, entries: 3_000, ..Limits::default() };
+    let mut sheet = Sheet::default();
+    sheet.define("v", Array::column(vec![1.0, 2.5, -3.0]));
+    sheet.define("w", Array::column(vec![2.0, 0.25, 4.0]));
+    sheet.define("m", Array::from_rows(2, vec![4.0, 1.0, 1.5, 3.0]));
+    sheet.define("b", Array::from_rows(2, vec![0.0, -1.0, 2.0, 1.0]));
+    sheet.define("a", Value::Number(1.0));
+    sheet.define("s", Value::Number(0.0));
+    let g = Listing::parse("g", "g(x) :=\n  trace(x)\n  (x   2   0)ᵀ\n").expect("a listing");
+    sheet.define_program(g.into());
+    match listing.runner_in(&sheet, settings, &limits).call(&[2.0.into(), 3.0.into()]) {
+        Ok(outcome) => {
+            let locals = outcome
+                .locals
+                .iter()
+                .map(|(name, value)| format!(" {name} = {}", json::write(value)));
+            let trace = outcome.trace_output.join(" | ");
+            format!("= {}  [{}] {}", json::write(&outcome.value), trace, locals.collect::<String>())
+        }
+        Err(failure) => format!("! {failure}"),
+    }
+}
+
+/// Returns a listing as a worksheet has it, read back as text.
+fn by_worksheet(listing: &Listing) -> String {
+    let written = page::listings(std::slice::from_ref(listing));
+    match &document::read(&written, "recorded").expect("a worksheet").regions[0].content {
+        Content::Function { text, .. } => text.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Returns what a random program comes to.
+fn program(rng: &mut Rng) -> String {
+    let mut text = "f(x,n) :=\n".to_owned();
+    statements(rng, 0, &mut text);
+    let asked = one_of(rng, &SETTINGS);
+    let settings: Settings = asked.parse().expect("settings");
+    let result = match Listing::parse("f", &text) {
+        Ok(listing) => {
+            let again = by_worksheet(&listing);
+            let again = if again == listing.to_string() { "the same".into() } else { again };
+            format!("{}\nas a worksheet: {again}", executed(&listing, &settings))
+        }
+        Err(error) => format!("no listing: {error}"),
+    };
+    format!("{asked} {text}{result}\n\n")
+}
+
+fn record(part: u64) {
+    let mut rng = Rng::with_seed(part);
+    let programs: String = (0..PROGRAMS).map(|_| program(&mut rng)).collect();
+    assert_recorded(&format!("programs-{part}"), &programs);
+}
+
+#[test]
+fn first_programs() {
+    record(1);
+}
+
+#[test]
+fn second_programs() {
+    record(2);
+}
+
+#[test]
+fn third_programs() {
+    record(3);
+}
