@@ -38,6 +38,7 @@ mod pictures;
 mod plan;
 mod printed;
 mod printed_numbers;
+mod recorded;
 mod result_file;
 mod scene_builder;
 mod scenes;
