@@ -58,7 +58,7 @@ tolerances! {
         "gaps and residuals are 0 but for rounding; stresses are of order 100";
 
     /// Recorded bounds on rounding, relative to themselves.
-    RECORDED_BOUND = 0.1, "they follow residuals, which are noise, to a small part";
+    RECORDED_BOUND = 0.5, "they follow residuals, which are noise, in part";
 
     /// Displacements by Octave's solver against ours, relative to the largest.
     OCTAVE = 1e-12, "two LU factorisations of some 30 equations of condition 1e3 in f64";

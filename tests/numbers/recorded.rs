@@ -88,9 +88,8 @@ fn operations<T: Scalar>(name: &str, rng: &mut Rng, out: &mut String) {
         }
         let (shared, over) = T::over_common(vec![x, y, z]);
         let shared: Vec<String> = shared.into_iter().map(text).collect();
-        let comparisons = || {
-            [x < y, x <= z, y > z, y == z, x == x, x.same(y), x.same(x), Scalar::is_finite(x / y)]
-        };
+        let comparisons =
+            || [x < y, x <= z, y > z, y == z, x.same(y), x.same(x), Scalar::is_finite(x / y)];
         let (found, unsure) = compared(comparisons);
         writeln!(out, "  hypot {:.9e} {:.9e}", Scalar::hypot(x, y), Scalar::hypot(z, T::zero()))
             .expect("room");
