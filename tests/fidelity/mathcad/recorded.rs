@@ -1,13 +1,17 @@
-//! What random programs come to, recorded: their values, traces and failures, as executed, and as
-//! written into a worksheet and read back.
+//! What random programs and edited worksheets come to, recorded: their values, traces and failures, as
+//! executed, and as written into a worksheet and read back.
 
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
+use std::path::Path;
 
 use fastrand::Rng;
+use plane_contact::paper::mathcad::worksheet::execute;
 use plane_contact::paper::mathcad::xmcd::document::{self, Content};
 use plane_contact::paper::mathcad::xmcd::page;
 use plane_contact::paper::mathcad::{Array, Limits, Listing, Settings, Sheet, Value, json};
 
+use crate::common::golden::assert_golden_by;
 use crate::common::recorded::assert_recorded;
 
 /// The number of programs of a golden file.
@@ -206,8 +210,12 @@ fn executed(listing: &Listing, settings: &Settings) -> String {
 /// Returns a listing as a worksheet has it, read back as text.
 fn by_worksheet(listing: &Listing) -> String {
     let written = page::listings(std::slice::from_ref(listing));
+    let sum = written.bytes().zip(1_u64..).map(|(byte, k)| u64::from(byte) * k).sum::<u64>();
     match &document::read(&written, "recorded").expect("a worksheet").regions[0].content {
-        Content::Function { text, .. } => text.clone(),
+        Content::Function { text, .. } if *text == listing.to_string() => {
+            format!("{sum}, the same")
+        }
+        Content::Function { text, .. } => format!("{sum}, {text}"),
         other => panic!("{other:?}"),
     }
 }
@@ -221,7 +229,6 @@ fn program(rng: &mut Rng) -> String {
     let result = match Listing::parse("f", &text) {
         Ok(listing) => {
             let again = by_worksheet(&listing);
-            let again = if again == listing.to_string() { "the same".into() } else { again };
             format!("{}\nas a worksheet: {again}", executed(&listing, &settings))
         }
         Err(error) => format!("no listing: {error}"),
@@ -248,4 +255,101 @@ fn second_programs() {
 #[test]
 fn third_programs() {
     record(3);
+}
+
+/// Sine, cosine and tangent beside the multiples of a quarter, where Mathcad's differ from a library's.
+#[test]
+fn angles() {
+    let mut text = String::new();
+    let functions = ["sin(x)", "cos(x)", "tan(x)", "cot(x)", "sec(x)", "csc(x)"];
+    let listings = functions.map(|f| Listing::parse("f", &format!("f(x) :=\n  {f}\n")).unwrap());
+    for k in [0, 1, 2, 3, 4, 5, 7, 10, 22, 1001, 65_536, 1_000_003] {
+        for x in [1.0, -1.0].map(|sign| sign * f64::from(k) * FRAC_PI_2) {
+            let of = |listing: &Listing| {
+                let mut run = listing.runner(&Settings::default(), &Limits::default());
+                match run.call(&[x.into()]) {
+                    Ok(outcome) => format!("{:.9e}", outcome.value.number().unwrap_or_default()),
+                    Err(failure) => failure.cause.to_string(),
+                }
+            };
+            writeln!(text, "{x}: {}", listings.each_ref().map(of).join(" ")).expect("room");
+        }
+    }
+    assert_golden_by("recorded", "angles", &text, |recorded, found| {
+        recorded.trim_end() == found.trim_end()
+    });
+}
+
+/// Changes a text, an attribute or an element of XML, and tells how.
+fn edited(rng: &mut Rng, xml: &str) -> (String, String) {
+    let find = |pattern: &str| -> Vec<(usize, usize)> {
+        let found =
+            xml.match_indices(pattern.chars().next().expect("a sign")).map(|(at, _)| at + 1);
+        let end = pattern.chars().last().expect("a sign");
+        found.filter_map(|at| xml[at..].find(end).map(|n| (at, at + n))).collect()
+    };
+    let texts: Vec<_> =
+        find("><").into_iter().filter(|(a, b)| !xml[*a..*b].trim().is_empty()).collect();
+    let (from, to, new) = match rng.u8(..3) {
+        0 => {
+            let (a, b) = one_of(rng, &find("\"\""));
+            (a, b, one_of(rng, &["0", "2", "x", "true", "false", "-1"]))
+        }
+        1 if find("</").len() > 4 => {
+            let (a, b) = one_of(rng, &find("<>"));
+            let is_alone = xml[a..b].ends_with('/');
+            (a - 1, if is_alone { b + 1 } else { a - 1 }, "")
+        }
+        _ => {
+            let (a, b) = one_of(rng, &texts);
+            (
+                a,
+                b,
+                one_of(rng, &["0", "1", "2", "3", "x", "v", "-3.5", "1e400", "ORIGIN", "min", ""]),
+            )
+        }
+    };
+    (
+        format!("{}{new}{}", &xml[..from], &xml[to..]),
+        format!("{from}: {} becomes {new}", &xml[from..to]),
+    )
+}
+
+#[test]
+fn edited_worksheets() {
+    let mut rng = Rng::with_seed(41);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus/worksheets");
+    let files =
+        std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let mut files: Vec<_> = files.collect();
+    files.sort();
+    let mut text = String::new();
+    for file in files {
+        let xml = std::fs::read_to_string(&file).expect("a worksheet");
+        let name = file.file_name().expect("a name").to_string_lossy().into_owned();
+        for k in 0..14 {
+            let (xml, how) =
+                if k == 0 { (xml.clone(), String::new()) } else { edited(&mut rng, &xml) };
+            writeln!(text, "{name} {how}").expect("room");
+            match document::read(&xml, "edited") {
+                Err(error) => writeln!(text, "  ! {error}").expect("room"),
+                Ok(sheet) => {
+                    let limits = Limits { steps: 3_000, entries: 3_000, ..Limits::default() };
+                    for region in execute(&sheet, &limits) {
+                        let value =
+                            region.value.as_ref().map(|value| json::write(value).to_string());
+                        let (inputs, value) = (region.inputs, value.unwrap_or_default());
+                        let name = format!("{} {}", region.id, region.tag);
+                        writeln!(
+                            text,
+                            "  {name} {:?} {inputs:?} {value}\n    {}",
+                            region.verdict, region.text
+                        )
+                        .expect("room");
+                    }
+                }
+            }
+        }
+    }
+    assert_recorded("worksheets", &text);
 }
