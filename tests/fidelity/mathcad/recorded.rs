@@ -6,10 +6,13 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fastrand::Rng;
+use plane_contact::paper::mathcad::failure::Fallible;
 use plane_contact::paper::mathcad::worksheet::execute;
-use plane_contact::paper::mathcad::xmcd::document::{self, Content};
-use plane_contact::paper::mathcad::xmcd::page;
-use plane_contact::paper::mathcad::{Array, Limits, Listing, Settings, Sheet, Value, json};
+use plane_contact::paper::mathcad::xmcd::page::Page;
+use plane_contact::paper::mathcad::xmcd::{document, write};
+use plane_contact::paper::mathcad::{
+    Array, Limits, Listing, Outcome, Settings, Sheet, Value, json,
+};
 
 use crate::common::golden::assert_golden_by;
 use crate::common::recorded::assert_recorded;
@@ -182,42 +185,92 @@ fn statements(rng: &mut Rng, level: usize, text: &mut String) {
     }
 }
 
-/// Executes a program and returns its value, trace and last values, or its failure.
-fn executed(listing: &Listing, settings: &Settings) -> String {
-    let limits = Limits { steps: 3_000, entries: 3_000, ..Limits::default() };
+/// What stands above a program: names and their values.
+fn above() -> [(&'static str, Array); 4] {
+    [
+        ("v", Array::column(vec![1.0, 2.5, -3.0])),
+        ("w", Array::column(vec![2.0, 0.25, 4.0])),
+        ("m", Array::from_rows(2, vec![4.0, 1.0, 1.5, 3.0])),
+        ("b", Array::from_rows(2, vec![0.0, -1.0, 2.0, 1.0])),
+    ]
+}
+
+/// And a function.
+const G: &str = "g(x) :=\n  trace(x)\n  (x   2   0)ᵀ\n";
+
+fn limits() -> Limits {
+    Limits { steps: 3_000, entries: 3_000, ..Limits::default() }
+}
+
+/// Executes a program.
+fn executed(listing: &Listing, settings: &Settings) -> Fallible<Outcome> {
     let mut sheet = Sheet::default();
-    sheet.define("v", Array::column(vec![1.0, 2.5, -3.0]));
-    sheet.define("w", Array::column(vec![2.0, 0.25, 4.0]));
-    sheet.define("m", Array::from_rows(2, vec![4.0, 1.0, 1.5, 3.0]));
-    sheet.define("b", Array::from_rows(2, vec![0.0, -1.0, 2.0, 1.0]));
+    for (name, value) in above() {
+        sheet.define(name, value);
+    }
     sheet.define("a", Value::Number(1.0));
     sheet.define("s", Value::Number(0.0));
-    let g = Listing::parse("g", "g(x) :=\n  trace(x)\n  (x   2   0)ᵀ\n").expect("a listing");
-    sheet.define_program(g.into());
-    match listing.runner_in(&sheet, settings, &limits).call(&[2.0.into(), 3.0.into()]) {
+    sheet.define_program(Listing::parse("g", G).expect("a listing").into());
+    listing.runner_in(&sheet, settings, &limits()).call(&[2.0.into(), 3.0.into()])
+}
+
+/// Returns the value of a program, its trace and last values, or its failure.
+fn told(outcome: &Fallible<Outcome>) -> String {
+    match outcome {
         Ok(outcome) => {
-            let locals = outcome
-                .locals
-                .iter()
-                .map(|(name, value)| format!(" {name} = {}", json::write(value)));
+            let last = |(name, value)| format!(" {name} = {}", json::write(value));
+            let locals: String = outcome.locals.iter().map(last).collect();
             let trace = outcome.trace_output.join(" | ");
-            format!("= {}  [{}] {}", json::write(&outcome.value), trace, locals.collect::<String>())
+            format!("= {}  [{trace}] {locals}", json::write(&outcome.value))
         }
         Err(failure) => format!("! {failure}"),
     }
 }
 
-/// Returns a listing as a worksheet has it, read back as text.
-fn by_worksheet(listing: &Listing) -> String {
-    let written = page::listings(std::slice::from_ref(listing));
-    let sum = written.bytes().zip(1_u64..).map(|(byte, k)| u64::from(byte) * k).sum::<u64>();
-    match &document::read(&written, "recorded").expect("a worksheet").regions[0].content {
-        Content::Function { text, .. } if *text == listing.to_string() => {
-            format!("{sum}, the same")
+/// Writes a program and what stands above it as a worksheet that saved the outcome with so many
+/// digits; reads it back and executes it. Returns what differs of it.
+fn by_worksheet(
+    listing: &Listing,
+    settings: &Settings,
+    outcome: &Fallible<Outcome>,
+    digits: usize,
+) -> String {
+    let mut page = Page::default();
+    page.heading("Recorded").text("A program.\nAnd what stands above it.");
+    above().into_iter().for_each(|(name, value)| {
+        page.define(name, write::matrix(&value), value.rows());
+    });
+    page.define("a", write::real(1.0), 1).define("s", write::real(0.0), 1);
+    page.program(&Listing::parse("g", G).expect("a listing")).program(listing);
+    let call = Listing::parse("e", "e() :=\n  f(2,3)\n").expect("a listing");
+    page.evaluate(write::expression(&call), 2, "asked");
+    let written = page.finish("recorded", settings);
+    let result = |saved: String| {
+        format!("<result xmlns=\"http://schemas.mathsoft.com/math30\">{saved}</result></ml:eval>")
+    };
+    let saved = match outcome.as_ref().map(|outcome| outcome.value.number()) {
+        Ok(Some(x)) => {
+            written.replace("</ml:eval>", &result(format!("<ml:real>{x:.digits$e}</ml:real>")))
         }
-        Content::Function { text, .. } => format!("{sum}, {text}"),
-        other => panic!("{other:?}"),
+        Ok(None) => written.replace("</ml:eval>", &result("<ml:str>text</ml:str>".into())),
+        Err(_) => written.replace("<ml:eval>", "<ml:eval error=\"This value is not defined.\">"),
+    };
+    let sum = written.bytes().zip(1_u64..).map(|(byte, k)| u64::from(byte) * k).sum::<u64>();
+    let sheet = document::read(&saved, "recorded").expect("a worksheet");
+    let mut text = format!("{sum} {:?}", sheet.settings == *settings);
+    let checked = execute(&sheet, &limits());
+    let of =
+        |name: &str| checked.iter().find(|region| region.text.starts_with(name)).expect("a region");
+    if of("f(").text.trim_end() != listing.to_string().trim_end() {
+        write!(text, "\n{}", of("f(").text).expect("room");
     }
+    let last = checked.last().expect("the evaluation");
+    write!(text, "\n{:?} {:?}", last.verdict, last.inputs).expect("room");
+    let (value, own) = (&last.value, outcome.as_ref().ok().map(|outcome| &outcome.value));
+    if value.as_ref().map(Value::to_string) != own.map(Value::to_string) {
+        write!(text, "\n{value:?}").expect("room");
+    }
+    text
 }
 
 /// Returns what a random program comes to.
@@ -228,8 +281,10 @@ fn program(rng: &mut Rng) -> String {
     let settings: Settings = asked.parse().expect("settings");
     let result = match Listing::parse("f", &text) {
         Ok(listing) => {
-            let again = by_worksheet(&listing);
-            format!("{}\nas a worksheet: {again}", executed(&listing, &settings))
+            let outcome = executed(&listing, &settings);
+            let digits = one_of(rng, &[17, 17, 12, 10, 6]);
+            let again = by_worksheet(&listing, &settings, &outcome, digits);
+            format!("{}\nas a worksheet: {again}", told(&outcome))
         }
         Err(error) => format!("no listing: {error}"),
     };
@@ -334,8 +389,7 @@ fn edited_worksheets() {
             match document::read(&xml, "edited") {
                 Err(error) => writeln!(text, "  ! {error}").expect("room"),
                 Ok(sheet) => {
-                    let limits = Limits { steps: 3_000, entries: 3_000, ..Limits::default() };
-                    for region in execute(&sheet, &limits) {
+                    for region in execute(&sheet, &limits()) {
                         let value =
                             region.value.as_ref().map(|value| json::write(value).to_string());
                         let (inputs, value) = (region.inputs, value.unwrap_or_default());
