@@ -7,7 +7,10 @@ use std::fmt::Write;
 
 use fastrand::Rng;
 use plane_contact::Error;
-use plane_contact::answer::{Assessment, Request, solve};
+use plane_contact::answer::contact::Pairing;
+use plane_contact::answer::estimates::arithmetic::rounding;
+use plane_contact::answer::estimates::singular;
+use plane_contact::answer::{Assessment, Detail, Published, Request, Solution, solve};
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
 use plane_contact::paper::mirror::{NodeTable, Reading, Schedule};
 use plane_contact::problem::modelling::{
@@ -15,7 +18,7 @@ use plane_contact::problem::modelling::{
 };
 use plane_contact::problem::scene::Axis;
 use plane_contact::report::ResultFile;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::common::recorded::assert_recorded;
 use crate::corners::{Bodies, Writing, grid};
@@ -181,12 +184,62 @@ fn fields(request: &Request) -> Result<BTreeMap<String, String>, Error> {
     let document = serde_json::to_value(&result).expect("a result is JSON");
     let mut folded = BTreeMap::new();
     fold("", &document, &mut folded);
+    fold("beside", &beside(&solution, &assessment), &mut folded);
     let mut groups: BTreeMap<String, String> = BTreeMap::new();
     for (name, field) in folded {
         let (group, short) = name.rsplit_once('.').unwrap_or(("", &name));
         *groups.entry(group.to_owned()).or_default() += &format!(" {short}={}", field.text(&name));
     }
     Ok(groups)
+}
+
+/// Returns what a run knows beside its result: how its contact states and its estimates came about.
+fn beside(solution: &Solution, assessment: &Assessment) -> Value {
+    let steps = solution.steps.iter().map(|step| match &step.detail {
+        Detail::Published(Published { pairs, .. }) => json!({
+            "bound": step.constraints.len(),
+            "ct": pairs.ct.as_slice(),
+            "weights": pairs.k_cnt.as_matrix().as_slice(),
+            "yt": pairs.yt.as_slice(),
+        }),
+        Detail::Unilateral(own) => json!({
+            "faces": own.pairings.iter().flatten().map(facing).collect::<Vec<_>>(),
+            "feedback": own.feedback,
+            "friction": own.friction.as_slice(),
+            "margin": own.margin,
+            "undetermined": own.undetermined,
+        }),
+    });
+    let rounding = rounding(solution);
+    let steps_bounds = rounding.steps.iter().flatten();
+    let bounds =
+        steps_bounds.map(|b| json!({ "yt_bound": b.yt, "u_bound": b.u, "w_bound": b.weights }));
+    let estimates = assessment.estimates.as_ref().expect("they were asked for");
+    let recovered =
+        estimates.mesh.recovered.iter().flatten().flat_map(|stress| stress.iter().copied());
+    let singular = singular(solution).into_iter().map(|point| {
+        let triangles = point.triangles.iter().map(|t| t.index()).collect::<Vec<_>>();
+        json!({ "node": point.node.index(), "cause": point.cause.to_string(), "triangles": triangles })
+    });
+    json!({
+        "energy_norm": estimates.mesh.energy_norm,
+        "indicators": estimates.mesh.indicators,
+        "recovered": recovered.collect::<Vec<_>>(),
+        "rounding": bounds.collect::<Vec<_>>(),
+        "singular": singular.collect::<Vec<_>>(),
+        "steps": steps.collect::<Vec<_>>(),
+        "stress_errors": estimates.mesh.stress_errors,
+        "unrecovered": estimates.mesh.unrecovered.len(),
+    })
+}
+
+fn facing(pairing: &Pairing) -> Value {
+    let [nodes, weights]: [Vec<Value>; 2] = [
+        pairing.masters.iter().map(|(node, _)| json!(node.index())).collect(),
+        pairing.masters.iter().map(|(_, weight)| json!(weight)).collect(),
+    ];
+    let Pairing { normal, gap, length, edge, .. } = pairing;
+    json!({ "edge": edge.index(), "gap": gap, "length": length, "nodes": nodes, "normal": normal, "weights": weights })
 }
 
 /// The values of a field, over all elements of its arrays: a sum of numbers of which each has a weight

@@ -23,8 +23,9 @@ const BEGINNING: f64 = 2.0;
 /// The first process of a mutant has tests of this many seconds, each further one of twice as many.
 const FIRST_BATCH: f64 = 0.5;
 /// What is believed of a test before it ran: of how many mutants it catches how many, and how long
-/// its process takes to start, in seconds.
+/// its process takes to start, in seconds. Tests that record many numbers notice most.
 const BELIEF: [f64; 2] = [10.0, 0.5];
+const BELIEF_RECORDED: [f64; 2] = [10.0, 5.0];
 const START: f64 = 0.1;
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -128,6 +129,11 @@ impl Bench<'_> {
         BEGINNING.max(self.budget / 4.0)
     }
 
+    /// Returns for how many mutants a test was run, and how many it caught, as is believed before.
+    fn belief(&self, test: usize) -> [f64; 2] {
+        if self.tests[test].name.contains("recorded::") { BELIEF_RECORDED } else { BELIEF }
+    }
+
     fn is_long(&self, test: usize) -> bool {
         self.tests[test].seconds > self.beginning()
     }
@@ -179,7 +185,7 @@ impl Bench<'_> {
                 _ => (0.0, 0.0),
             };
             for place in [mutant.file.clone(), mutant.module()] {
-                let of_test = known.entry((place, k)).or_insert(BELIEF);
+                let of_test = known.entry((place, k)).or_insert(self.belief(k));
                 *of_test = [of_test[0] + runs, of_test[1] + caught];
             }
         }
@@ -192,7 +198,7 @@ impl Bench<'_> {
         let known = self.known.lock().expect("no worker panics");
         let pace = |k: &usize| {
             let rate = |place: String| {
-                let [runs, caught] = *known.get(&(place, *k)).unwrap_or(&BELIEF);
+                let [runs, caught] = *known.get(&(place, *k)).unwrap_or(&self.belief(*k));
                 caught / runs
             };
             let rate = rate(mutant.file.clone()) + rate(mutant.module());
