@@ -3,7 +3,7 @@
 use super::spelled::spelled;
 use super::{failure, program};
 use crate::common::random::fixed;
-use plane_contact::paper::mathcad::{Array, Cause, Limits, Listing, Settings, Value};
+use plane_contact::paper::mathcad::{Array, Cause, Limits, Listing, Settings, Sheet, Value};
 use proptest::prelude::*;
 
 fn refusal(body: &str) -> String {
@@ -116,6 +116,107 @@ fn an_inverse_counts_its_unit_columns() {
     assert_eq!(determinant.expect("one elimination is within the limit").value, Value::Number(1.0));
     let steps = Cause::Limit { limit: 70_000, of: "steps" };
     assert_eq!(under(&limits, "a ← identity(96)\na^−1"), steps);
+}
+
+/// A listing that needs exactly what a limit allows runs; with one less it does not.
+#[test]
+fn limits_are_reached_exactly() {
+    let steps = |steps| Limits { steps, ..Limits::default() };
+    let entries = |entries| Limits { entries, ..Limits::default() };
+    // Beside the turns, a statement each, an array that grows at its end takes a step an entry.
+    let growing = "for i ∈ 1 .. 200\n  a[i] ← i";
+    // Two statements, 96² numbers and an elimination.
+    let elimination = "a ← identity(96)\n|a|";
+    // x, i and ten copies of v; the worksheet's own v.
+    let nested = "for i ∈ 1 .. 10\n  a[i] ← v";
+    // x and the two arguments.
+    let arguments = "max(identity(20), identity(20))";
+    // x, i and the name that is written over each time.
+    let over = "for i ∈ 1 .. 50\n  y ← i";
+    let over_array = "for i ∈ 1 .. 50\n  y ← 7\n  y[1] ← 1";
+    // A text of 800 characters, written in as many and kept twice.
+    let traced = format!("trace(\"{}\")", "a".repeat(800));
+    // The product of a column and a row has 30² entries; x and the column are held.
+    let product = "a[30] ← 1\na·aᵀ";
+    for (lines, enough, one_less) in [
+        (growing, steps(601), steps(600)),
+        (elimination, steps(2 + 9_216 + 27_648), steps(2 + 9_216 + 27_647)),
+        (nested, entries(1 + 3 + 1 + 30), entries(1 + 3 + 1 + 29)),
+        (arguments, entries(1 + 400 + 400), entries(1 + 400 + 399)),
+        (over, entries(3), entries(2)),
+        (over_array, entries(3), entries(2)),
+        (&traced, entries(1 + 202), entries(1 + 201)),
+        (product, entries(1 + 30 + 900), entries(1 + 30 + 899)),
+    ] {
+        let run = |limits: &Limits| {
+            let listing = program(lines);
+            let mut worksheet = listing.runner(&Settings::default(), limits);
+            if lines == nested {
+                worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
+            }
+            worksheet.call(&[5.0.into()]).map(drop).map_err(|failure| failure.cause)
+        };
+        assert_eq!(run(&enough), Ok(()), "{lines}");
+        assert!(matches!(run(&one_less), Err(Cause::Limit { .. })), "{lines}");
+    }
+}
+
+/// Calls count the blocks and expressions that lead to them: here `g(x)` within a statement of f, and
+/// a statement, a block and a name in g.
+#[test]
+fn calls_within_calls_count_their_levels() {
+    let f = Listing::parse("f", "f(x) :=\n  g(x)").unwrap();
+    let mut sheet = Sheet::default();
+    sheet.define_program(Listing::parse("g", "g(x) :=\n  if x\n    x").unwrap().into());
+    let run = |calls| {
+        let limits = Limits { calls, ..Limits::default() };
+        let outcome = f.runner_in(&sheet, &Settings::default(), &limits).call(&[5.0.into()]);
+        outcome.map(|outcome| outcome.value).map_err(|failure| failure.cause)
+    };
+    assert_eq!(run(6), Ok(5.0.into()));
+    assert_eq!(run(5), Err(Cause::Limit { limit: 5, of: "levels of calls" }));
+    assert_eq!(run(4), Err(Cause::Limit { limit: 4, of: "levels of calls" }));
+}
+
+/// Arrays within arrays, one deeper each turn.
+#[test]
+fn arrays_nest_less_deep_than_the_limit() {
+    let limits = Limits { depth: 8, ..Limits::default() };
+    let nesting = |turns: u32| {
+        let listing = program(&format!("a[1] ← v\nfor i ∈ 1 .. {turns}\n  a[1] ← a"));
+        let mut worksheet = listing.runner(&Settings::default(), &limits);
+        worksheet.define("v", Array::column(vec![1.0]));
+        worksheet.call(&[5.0.into()]).map(drop).map_err(|failure| failure.cause)
+    };
+    assert_eq!(nesting(7), Ok(()));
+    assert_eq!(nesting(8), Err(Cause::Limit { limit: 8, of: "arrays within arrays" }));
+}
+
+/// What reaches a limit is read, what goes beyond it is refused.
+#[test]
+fn listings_reach_their_limits_exactly() {
+    let refused = |body: &str, limits: &Limits| {
+        let listing = Listing::parse_within("f", &format!("f(x) :=\n{body}"), limits);
+        listing.err().map(|error| error.message)
+    };
+    let characters = Limits { characters: 7, ..Limits::default() };
+    assert_eq!(refused("  x + 123", &characters), None);
+    let longer = "found 8 characters, expected at most 7";
+    assert_eq!(refused("  x + 1234", &characters), Some(longer.into()));
+    let lines = Limits { lines: 3, ..Limits::default() };
+    assert_eq!(refused("  x\n  x", &lines), None);
+    let more = "found 4 lines, expected at most 3";
+    assert_eq!(refused("  x\n  x\n  x", &lines), Some(more.into()));
+    let depth = |depth| Limits { depth, ..Limits::default() };
+    assert_eq!(refused("  1 + (1)", &depth(3)), None);
+    let deeper = "found operators and brackets more than 2 deep";
+    assert_eq!(refused("  1 + (1)", &depth(2)), Some(deeper.into()));
+    assert_eq!(refused("  g(g())", &depth(2)), None);
+    let brackets = "found brackets more than 2 deep";
+    assert_eq!(refused("  g(g(g()))", &depth(2)), Some(brackets.into()));
+    let blocks = "  if 1\n    if 1\n      1";
+    assert_eq!(refused(blocks, &depth(3)), None);
+    assert_eq!(refused(blocks, &depth(2)), Some("found blocks more than 2 deep".into()));
 }
 
 #[test]

@@ -7,8 +7,10 @@ mod observers;
 mod package;
 mod paper;
 mod recorded;
+mod regions;
 mod semantics;
 mod spelled;
+mod values;
 mod xmcd;
 
 use plane_contact::paper::mathcad::failure::Fallible;

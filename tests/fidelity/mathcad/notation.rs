@@ -149,6 +149,16 @@ fn a_try_without_its_other_block_is_refused() {
 fn a_program_takes_names_from_its_worksheet() {
     let text = "f(x) :=\n  try\n    y ← a + x\n  on error\n    y ← g(b)\n  y";
     assert_eq!(Listing::parse("f", text).unwrap().free_names(), ["a", "g", "b"]);
+    let free = |body: &str| {
+        let listing = Listing::parse("f", &format!("f(x) :=\n{body}")).unwrap();
+        listing.free_names().into_iter().map(String::from).collect::<Vec<_>>()
+    };
+    assert_eq!(free("  ∑(i ∈ a .. b, i·c)"), ["∑", "a", "b", "c"], "not the variable of a sum");
+    assert_eq!(free("  i + ∑(i ∈ 1 .. 2, x)"), ["i", "∑"], "but a name outside the sum");
+    let spans = "  for i ∈ a, b .. c\n    for j ∈ v\n      x\n  i + j";
+    assert_eq!(free(spans), ["a", "b", "c", "v"], "the ranges of loops, not their variables");
+    let guards = "  y[a] ← 1 if b\n  while c\n    break if d\n  return e if g";
+    assert_eq!(free(guards), ["a", "b", "c", "d", "e", "g"]);
 }
 
 #[test]
@@ -158,14 +168,36 @@ fn errors_say_what_was_expected() {
     assert_eq!(message("  for 1 ∈ 1 .. 2\n    x"), "found `1`, expected a name");
     assert_eq!(message("  for i ∈ 1 .. 2"), "expected an indented line below");
     assert_eq!(message("  x ← 1\n      x"), "found 6 spaces of indentation, expected 2");
+    let deeper = "  if x\n        x";
+    assert_eq!(message(deeper), "found 8 spaces of indentation, expected 4");
     assert_eq!(message("   x"), "found an odd space, expected two for each level");
     assert_eq!(message("  x\nx"), "found a line beside the header, expected it indented");
     assert_eq!(message("  x ? 1"), "found \"?\", which is no part of the notation");
     let open = "found a string without its second quotation mark";
     assert_eq!(message("  x ← \"abc"), open);
     assert_eq!(message("  x ← \""), open);
+    assert_eq!(message("  x § 1"), "found \"§\", which is no part of the notation");
     assert_eq!(message("  \tx"), "found \"\\t\", which is no part of the notation");
     assert_eq!(message(&format!("  {}", "9".repeat(400))), "found a number too large");
+}
+
+/// The space that separates elements of a row is none within the brackets of a call.
+#[test]
+fn errors_point_at_the_space_between_elements() {
+    let error = refused("f(x) :=\n  max(1   2)");
+    assert_eq!((error.line, error.column), (2, 8));
+    assert!(error.message.starts_with("found the space between two elements"), "{error}");
+}
+
+/// A full stop or an `e` behind a number belongs to it only if digits follow.
+#[test]
+fn numbers_end_where_no_digit_follows() {
+    assert_eq!(value("for i ∈ 1..3\n  i"), "3");
+    assert_eq!(value("(1.5   2e3   2E+1   2e-1   5E−1)"), "1.5 2000 20 0.2 0.5");
+    for line in ["2e", "2E+", "2e−"] {
+        let message = refused(&format!("f(x) :=\n  {line}")).message;
+        assert!(message.starts_with("found a name, expected"), "{line}: {message}");
+    }
 }
 
 #[test]
@@ -196,6 +228,8 @@ fn an_edit_keeps_printed_numbers() {
     let edited = edit.apply(&listing).unwrap();
     assert_eq!(edit.reason, "Because.\n");
     assert_eq!(edited.lines().iter().map(|line| line.printed).collect::<Vec<_>>(), [1, 2, 3, 2, 4]);
+    let in_file: Vec<_> = edited.lines().iter().map(|line| line.in_file).collect();
+    assert_eq!(in_file, [1, 3, 4, 5, 4], "those of the edit where it has the line");
     assert_eq!(edited.to_string(), "f(x) :=\n  y ← x\n  for i ∈ 1 .. 2\n    y ← y + 1\n  z\n");
 }
 

@@ -39,6 +39,14 @@ fn the_recorder_hands_over_each_statement() {
     assert_eq!(shown, expected);
 }
 
+/// A statement that reads nothing and writes nothing is handed over too, the last one included.
+#[test]
+fn the_recorder_hands_over_statements_without_names() {
+    let mut shown = vec![];
+    observe("1\nx\n2\n3", &mut Recorder::new(|executed| shown.push(show(executed))));
+    assert_eq!(shown, ["2", "3 x[]=5", "4", "5"]);
+}
+
 #[test]
 fn coverage_counts_lines_and_conditions() {
     let mut coverage = Coverage::default();

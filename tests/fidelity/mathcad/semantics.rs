@@ -43,6 +43,11 @@ fn reading_outside_is_an_error() {
     assert!(matches!(failure("m[1,3]"), Cause::IndexOutside { cols: 2, .. }));
     assert!(matches!(failure("m[1]"), Cause::IndexOutside { .. }), "a matrix takes two subscripts");
     assert!(matches!(failure("m[1] ← 0"), Cause::IndexOutside { .. }), "also in writing");
+    let of_its_own = "a[2,2] ← 1\na[1] ← 5";
+    assert!(matches!(failure(of_its_own), Cause::IndexOutside { .. }), "to the program's own");
+    assert!(matches!(failure("a[1,2] ← v\na[1]"), Cause::IndexOutside { .. }), "of arrays too");
+    let (_, huge) = failure_under(&with(|s| s.origin = -1), "v[1E19]");
+    assert!(matches!(huge, Cause::IndexOutside { .. }), "however far outside");
     let below = Cause::IndexBelowOrigin {
         name: "v".into(),
         subscripts: Subscripts { row: 0.0, col: None },
@@ -137,6 +142,14 @@ fn comparisons() {
     let relative = with(|s| s.exact_boolean = false);
     assert_eq!(value_under(&relative, close), "1 0 0 1 0 1", "to 1e-12");
     assert_eq!(value_under(&relative, "(0 = 0   1 = −1   1 = 1.0001)"), "1 0 0");
+    // The mean is that of both numbers, far from 1 too.
+    for (x, same) in [("1000.0000000007", "1"), ("1000.0000000015", "0")] {
+        let lines = format!("({x} = 1000   1000 = {x}   {x} ≠ 1000)");
+        let expected = format!("{same} {same} {}", u8::from(same == "0"));
+        assert_eq!(value_under(&relative, &lines), expected, "{x}");
+    }
+    let just = "(1000000000000.5 = 999999999999.5   1000000000000.4 = 999999999999.6)";
+    assert_eq!(value_under(&relative, just), "0 1", "a difference of 1e-12 of the mean is one");
 }
 
 /// Snelast 153 (0.8 at α = 15; taken from the left, `30 < α` = 0 would be below 60).
@@ -225,6 +238,8 @@ fn tiny_numbers_compare_as_zero_if_asked_to() {
     let tiny = format!("y ← 1 / 1{}\n(y = 0   y > 0)", "0".repeat(308));
     assert_eq!(value(&tiny), "0 1");
     assert_eq!(value_under(&with(|s| s.tiny_is_zero = true), &tiny), "1 0");
+    let limit = "(1E-307 = 0   9E-308 = 0   −1E-307 = 0   −9E-308 = 0   1E-306 = 2E-306)";
+    assert_eq!(value_under(&with(|s| s.tiny_is_zero = true), limit), "0 1 0 1 0");
 }
 
 #[test]
@@ -391,8 +406,31 @@ fn functions_of_matrices() {
     assert!(matches!(failure("lsolve(m·0, (1; 1))"), Cause::Singular));
     assert!(matches!(failure("lsolve(m, v)"), Cause::Sizes { .. }));
     assert!(matches!(failure("augment(m, v)"), Cause::Sizes { .. }));
-    assert!(matches!(failure("submatrix(m, 1, 3, 1, 1)"), Cause::IndexOutside { .. }));
+    for part in ["1, 3, 1, 1", "1, 1, 1, 3", "2, 1, 1, 1", "1, 1, 2, 1", "2, 1, 2, 1"] {
+        let failure = failure(&format!("submatrix(m, {part})"));
+        assert!(matches!(failure, Cause::IndexOutside { .. }), "{part}");
+    }
     assert!(matches!(failure("m⟨0⟩"), Cause::IndexBelowOrigin { .. }));
+}
+
+/// The pivot of a column is its largest entry; of equal ones it is the first, which decides how the
+/// result rounds.
+#[test]
+fn of_equal_pivots_the_first_is_taken() {
+    assert_eq!(value("|(0.2 0.6 0.1; 0.2 0.1 0.9; 0.1 0.7 0.4)|"), "-0.099");
+    assert_eq!(value("|(0.2 0.1 0.9; 0.2 0.6 0.1; 0.1 0.7 0.4)|"), "0.09899999999999999");
+}
+
+/// An array without entries has no determinant and no inverse.
+#[test]
+fn an_empty_array_is_no_square_matrix() {
+    for body in ["|a|", "a^(−1)", "determinant(a)"] {
+        let listing = program(body);
+        let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+        worksheet.define("a", Array::default());
+        let cause = worksheet.call(&[5.0.into()]).unwrap_err().cause;
+        assert!(matches!(cause, Cause::Kind { expected: "a square matrix", .. }), "{body}");
+    }
 }
 
 #[test]
@@ -404,6 +442,7 @@ fn powers_roots_and_elementary_functions() {
     assert_eq!(value("√(2 + 3)"), "2.23606797749979", "precedence 15");
     assert_eq!(value("√(5, 32)"), "2", "advanced 21");
     assert_eq!(value("√(3, −8)"), "-2", "an odd root");
+    assert_eq!(value("(√(3, 0)   √(2, 0)   0^0   0^1)"), "0 0 1 0", "none of these is −0");
     assert!(matches!(failure("√(2, −4)"), Cause::Complex { .. }), "an even one");
     assert_eq!(value("log(8, 2)"), "3", "advanced 22");
     assert_eq!(value("factorial(x)"), "120", "advanced 20");
@@ -452,6 +491,10 @@ fn ranges_with_a_step() {
     assert_eq!(third, "0.30000000000000004");
     assert_eq!(value("for i ∈ 1, 3 .. 8\n  y ← 10·y + i"), "1357");
     assert_eq!(value("for i ∈ 9, 6 .. 1\n  y ← 10·y + i\ny"), "963");
+    let near = value("for i ∈ 0, 1000 .. 999.9999999995\n  y ← i\ny");
+    assert_eq!(near, "1000", "its end is passed by what is 1e-12 of a step");
+    let near = value("for i ∈ 0, 1000 .. 999.999999998\n  y ← i\ny");
+    assert_eq!(near, "0", "and by no more");
     assert_eq!(value("for i ∈ 5, 7 .. 5\n  y ← 10·y + i\ny"), "5", "its start is its end");
     assert!(matches!(failure("for i ∈ 6, 7 .. 5\n  i"), Cause::Range { .. }));
     assert!(matches!(failure("for i ∈ 6, 6 .. 6\n  i"), Cause::Range { .. }), "without a step");

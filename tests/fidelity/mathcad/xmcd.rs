@@ -356,13 +356,17 @@ fn an_empty_operator_is_named() {
 /// A solve block begins with the word Given; an equation within it defines nothing.
 #[test]
 fn a_solve_block_is_named() {
-    let region = |inside: &str| format!("<region><math>{inside}</math></region>");
+    let region = |id: &str, inside: &str| {
+        format!("<region region-id=\"{id}\"><math>{inside}</math></region>")
+    };
     let equation = "<apply><equal/><id>x</id><real>1</real></apply>";
-    let regions = [region("<id>Given</id>"), region(equation), region("<id>Gives</id>")];
+    let regions =
+        [region("1", "<id>Given</id>"), region("2", equation), region("3", "<id>Gives</id>")];
     let text = format!("<worksheet><regions>{}</regions></worksheet>", regions.concat());
     let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
     let verdicts: Vec<_> = checked.iter().map(|checked| &checked.verdict).collect();
     assert_eq!(verdicts, [&Verdict::Beyond("a solve block".into())]);
+    assert_eq!(checked[0].id, "1", "the region of the word");
 }
 
 #[test]

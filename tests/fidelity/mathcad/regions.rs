@@ -1,0 +1,313 @@
+//! What a worksheet's regions say, in the elements of its file: constructs that are named, names that
+//! change what they stand for, operators within operators.
+
+use fastrand::Rng;
+use plane_contact::paper::mathcad::worksheet::{Checked, Verdict, execute};
+use plane_contact::paper::mathcad::xmcd::document::{self, Content};
+use plane_contact::paper::mathcad::xmcd::write;
+use plane_contact::paper::mathcad::{Limits, Listing, Value};
+
+fn worksheet(regions: &str) -> document::Worksheet {
+    let text = format!("<worksheet><regions>{regions}</regions></worksheet>");
+    document::read(&text, "sheet").unwrap()
+}
+
+/// Executes regions of these elements, which are called 0, 1, 2, ...
+fn executed(regions: &[String]) -> Vec<Checked> {
+    let region = |(k, inside): (usize, &String)| {
+        format!("<region region-id=\"{k}\"><math>{inside}</math></region>")
+    };
+    let regions: String = regions.iter().enumerate().map(region).collect();
+    let sheet = worksheet(&regions);
+    execute(&sheet, &Limits::default())
+}
+
+fn define(left: &str, right: &str) -> String {
+    format!("<define>{left}{right}</define>")
+}
+
+/// An evaluation, with the number that Mathcad saved.
+fn eval(expression: &str, saved: Option<f64>) -> String {
+    let saved = saved.map(|x| format!("<result>{}</result>", real(x))).unwrap_or_default();
+    format!("<eval>{expression}{saved}</eval>")
+}
+
+fn apply(operator: &str, operands: &[&str]) -> String {
+    format!("<apply><{operator}/>{}</apply>", operands.concat())
+}
+
+fn id(name: &str) -> String {
+    format!("<id>{name}</id>")
+}
+
+fn real(x: f64) -> String {
+    format!("<real>{x}</real>")
+}
+
+fn matrix(rows: usize, cols: usize, entries: &[String]) -> String {
+    format!("<matrix rows=\"{rows}\" cols=\"{cols}\">{}</matrix>", entries.concat())
+}
+
+fn beyond(words: &str) -> Verdict {
+    Verdict::Beyond(words.into())
+}
+
+fn verdicts(checked: &[Checked]) -> Vec<Verdict> {
+    checked.iter().map(|checked| checked.verdict.clone()).collect()
+}
+
+/// Each with the words that name it; nothing is half understood.
+#[test]
+fn constructs_beyond_the_interpreter_are_named() {
+    let [one, a, b] = [real(1.0), id("a"), id("b")];
+    let lambda = format!("<lambda><boundVars>{a}</boundVars>{b}</lambda>");
+    let three = [one.clone(), one.clone(), one.clone()];
+    for (expression, words) in [
+        (apply("summation", &[&a]), "`summation`"),
+        (apply("summation", &[&lambda]), "`summation`"),
+        (apply("product", &[&a, "<bounds/>"]), "`product`"),
+        (matrix(2, 2, &three), "a matrix that is not full"),
+        (matrix(1, 2, &three), "a matrix that is not full"),
+        (matrix(0, 0, &[]), "a matrix that is not full"),
+        (matrix(3, 0, &[]), "a matrix that is not full"),
+        (format!("<matrix rows=\"3\">{}</matrix>", three.concat()), "a matrix without its size"),
+        ("<str>a \"b\"</str>".into(), "`str`"),
+        ("<str>a\nb</str>".into(), "`str`"),
+        ("<real>1e999</real>".into(), "the number \"1e999\""),
+    ] {
+        let checked = executed(&[eval(&expression, None)]);
+        assert_eq!(checked[0].verdict, beyond(words), "{expression}");
+    }
+    let symbolic = executed(&[format!("<symEval>{a}</symEval>")]);
+    assert_eq!(verdicts(&symbolic), [beyond("symbolics")]);
+    // Of a saved result too.
+    for entries in [&three[..2], &[one.clone(), one.clone(), one.clone(), one.clone(), one]] {
+        let result = format!("<result>{}</result>", matrix(2, 2, entries));
+        let checked = executed(&[format!("<eval>{}{result}</eval>", real(2.0))]);
+        assert_eq!(checked[0].verdict, beyond("a matrix that is not full"));
+    }
+}
+
+/// A definition of several names at once leaves each of them unknown.
+#[test]
+fn several_names_at_once_are_all_unknown() {
+    let names = matrix(1, 2, &[id("a"), id("b")]);
+    let values = matrix(1, 2, &[real(1.0), real(2.0)]);
+    let checked = executed(&[
+        define(&id("a"), &real(7.0)),
+        define(&names, &values),
+        eval(&id("a"), None),
+        eval(&id("b"), None),
+    ]);
+    let construct = "a definition of several names at once";
+    let expected = [
+        Verdict::NothingSaved,
+        beyond(construct),
+        beyond(&format!("it rests on a: {construct}")),
+        beyond(&format!("it rests on b: {construct}")),
+    ];
+    assert_eq!(verdicts(&checked), expected);
+    assert_eq!(checked[1].text, "a := ..., b := ...");
+}
+
+/// What a name stood for is gone: a range, a function, a construct beyond the interpreter.
+#[test]
+fn a_name_defined_anew_is_what_it_was_defined_as() {
+    let range = format!("<range>{}{}</range>", real(1.0), real(3.0));
+    let function = format!("<function>{}<boundVars>{}</boundVars></function>", id("y"), id("t"));
+    let call = format!("<apply>{}{}</apply>", id("y"), real(4.0));
+    let integral = apply("integral", &[&id("t")]);
+    let checked = executed(&[
+        define(&id("y"), &range),
+        eval(&id("y"), None),
+        define(&id("y"), &real(5.0)),
+        eval(&id("y"), None),
+        define(&function, &id("t")),
+        eval(&call, None),
+        define(&id("y"), &integral),
+        eval(&id("y"), None),
+        eval(&call, None),
+        define(&id("y"), &real(6.0)),
+        eval(&id("y"), None),
+        eval(&call, None),
+    ]);
+    let values: Vec<_> =
+        checked.iter().filter_map(|c| Some(c.value.as_ref()?.to_string())).collect();
+    assert_eq!(values, ["1; 2; 3", "5", "5", "4", "6", "6"], "each definition is a value too");
+    let rests = beyond("it rests on y: an integral");
+    assert_eq!(verdicts(&checked)[6..9], [beyond("an integral"), rests.clone(), rests]);
+    assert_eq!(checked[11].verdict, beyond("`y`"), "it is a function no more");
+}
+
+/// The saved value of a definition that is beyond the interpreter goes on; that of a name that
+/// nothing defines does not, for it may be a unit.
+#[test]
+fn a_saved_value_goes_on_only_where_a_name_is_defined() {
+    let integral = apply("integral", &[&id("t")]);
+    let checked = executed(&[
+        define(&id("y"), &eval(&integral, Some(4.0))),
+        eval(&id("y"), Some(4.0)),
+        eval(&id("kg"), Some(2.0)),
+        eval(&id("kg"), Some(2.0)),
+    ]);
+    let expected = [beyond("an integral"), Verdict::Same, beyond("`kg`"), beyond("`kg`")];
+    assert_eq!(verdicts(&checked), expected);
+    assert_eq!(checked[1].inputs.iter().collect::<Vec<_>>(), ["0"]);
+    let too_many = format!("<apply>{}{}{}</apply>", id("sin"), real(1.0), real(2.0));
+    let words = "This function has 1 arguments; 2 were given.";
+    assert_eq!(verdicts(&executed(&[eval(&too_many, None)])), [Verdict::Fails(words.into())]);
+}
+
+/// Areas within areas are looked into, but not without end.
+#[test]
+fn areas_are_entered_thirty_deep() {
+    let nested = |depth: usize| {
+        let math = format!("<region><math>{}</math></region>", eval(&real(1.0), None));
+        let [open, close] = ["<region><area>", "</area></region>"].map(|tag| tag.repeat(depth));
+        worksheet(&format!("{open}{math}{close}")).regions
+    };
+    assert!(matches!(nested(30)[..], [document::Region { content: Content::Evaluation(_), .. }]));
+    assert!(matches!(nested(31)[..], [document::Region { content: Content::Silent, .. }]));
+}
+
+/// The elements of a region stand at most 299 deep, the text of the innermost included.
+#[test]
+fn regions_are_read_three_hundred_deep() {
+    let deep = |parens: usize| {
+        let [open, close] = ["<parens>", "</parens>"].map(|tag| tag.repeat(parens));
+        match &executed(&[eval(&format!("{open}{}{close}", real(1.0)), None)])[0].verdict {
+            Verdict::Beyond(words) => words.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(deep(296), "its size or form: found brackets more than 64 deep");
+    assert_eq!(deep(297), "an expression nested too deeply");
+    assert_eq!(deep(2_000), "an expression nested too deeply");
+}
+
+#[test]
+fn files_are_read_up_to_their_largest_size() {
+    let [open, close] = ["<worksheet>", "</worksheet>"];
+    let mut text = open.to_owned() + &" ".repeat(document::LARGEST - open.len() - close.len());
+    text += close;
+    assert_eq!(document::read(&text, "sheet").unwrap().regions.len(), 0);
+    text += " ";
+    assert!(document::read(&text, "sheet").is_err());
+}
+
+/// `x on error y` of an assignment, under a condition.
+#[test]
+fn an_attempt_under_a_condition_is_a_block() {
+    let attempt =
+        format!("<tryCatch>{}{}</tryCatch>", apply("div", &[&real(1.0), &id("a")]), id("a"));
+    let assign = format!("<localDefine>{}{attempt}</localDefine>", id("y"));
+    let body = format!("<program><ifThen>{}{assign}</ifThen>{}</program>", id("a"), id("y"));
+    let function = format!("<function>{}<boundVars>{}</boundVars></function>", id("f"), id("a"));
+    let call = |x: f64| eval(&format!("<apply>{}{}</apply>", id("f"), real(x)), None);
+    let checked = executed(&[define(&function, &body), call(4.0), call(0.0)]);
+    let text = "f(a) :=\n  if a\n    try\n      y ← 1 / a\n    on error\n      y ← a\n  y\n";
+    assert_eq!(checked[0].text, text);
+    let values: Vec<_> = checked.iter().filter_map(|c| c.value.clone()).collect();
+    assert_eq!(values, [Value::Number(0.25), Value::Number(0.0)]);
+}
+
+/// Elements of a row stand close if each is a name, a number, an entry of a name or in brackets.
+#[test]
+fn rows_stand_apart_where_an_element_has_something_behind() {
+    let [a, one] = [id("a"), real(1.0)];
+    let transposed = apply("transpose", &[&a]);
+    let in_brackets = format!("<parens>{transposed}</parens>");
+    for (element, row) in [
+        (a.clone(), "(a 1)"),
+        (apply("indexer", &[&a, &one]), "(a[1] 1)"),
+        (apply("indexer", &[&in_brackets, &one]), "((aᵀ)[1]   1)"),
+        (apply("matcol", &[&a, &one]), "(a⟨1⟩   1)"),
+        (transposed, "(aᵀ   1)"),
+        (in_brackets, "((aᵀ) 1)"),
+        (apply("pow", &[&a, &one]), "(a^1   1)"),
+        (apply("neg", &[&a]), "(−a   1)"),
+        (real(-2.0), "(−2   1)"),
+    ] {
+        let checked = executed(&[eval(&matrix(1, 2, &[element, one.clone()]), None)]);
+        assert_eq!(checked[0].text, format!("{row} ="));
+    }
+}
+
+/// In the worksheet parentheses stand only where Mathcad shows them: not in a fraction or an
+/// exponent, but round what a transpose or a subscript stands behind.
+#[test]
+fn parentheses_are_written_as_mathcad_shows_them() {
+    for (text, parentheses) in [
+        ("(¬a) / 2", 0),
+        ("(a < b) / 2", 0),
+        ("(a + b) / (a·b)", 0),
+        ("(−a) / (−b)", 2),
+        ("a^(−b)", 1),
+        ("a^(−b^2)", 0),
+        ("a^(b^2)", 0),
+        ("a^(b[1])", 1),
+        ("a^(bᵀ)", 1),
+        ("a[1]ᵀ", 1),
+        ("aᵀ", 0),
+        ("aᵀ[1,2]", 1),
+        ("a⟨1⟩[2]", 1),
+        ("a[1][2]", 1),
+        ("a[1]⟨2⟩", 1),
+        ("(a)[1]", 1),
+        ("(1 2)ᵀ", 0),
+    ] {
+        let listing = Listing::parse("f", &format!("_() :=\n  {text}\n")).unwrap();
+        let written = write::expression(&listing).document();
+        assert_eq!(written.matches("<ml:parens>").count(), parentheses, "{text}: {written}");
+    }
+}
+
+/// A random expression of numbers without parentheses, and what it comes to, if anything.
+fn tree(rng: &mut Rng, depth: usize) -> (String, Option<f64>) {
+    let Some(depth) = depth.checked_sub(1) else {
+        let x = [-2.0, -1.0, 0.0, 0.5, 1.0, 2.0, 3.0][rng.usize(..7)];
+        return (real(x), Some(x));
+    };
+    let below = rng.usize(..=depth);
+    let [(a, x), (b, y)] = [tree(rng, depth), tree(rng, below)];
+    let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+    let truth = |truth: bool| if truth { 1.0 } else { 0.0 };
+    let both = |f: fn(f64, f64) -> f64| x.zip(y).and_then(|(x, y)| finite(f(x, y)));
+    let [any, all] = [[x, y].map(|x| x.is_some_and(|x| x != 0.0)), [x, y].map(|x| x == Some(0.0))];
+    let (operator, value) = match rng.u8(..12) {
+        0 => ("plus", both(|x, y| x + y)),
+        1 => ("minus", both(|x, y| x - y)),
+        2 => ("mult", both(|x, y| x * y)),
+        3 => ("div", both(|x, y| x / y)),
+        4 => ("pow", both(f64::powf)),
+        // One operand may decide though the other fails.
+        5 if any.contains(&true) => ("or", Some(1.0)),
+        5 => ("or", both(|_, _| 0.0)),
+        6 if all.contains(&true) => ("and", Some(0.0)),
+        6 => ("and", both(|_, _| 1.0)),
+        7 => ("lessThan", both(|x, y| if x < y { 1.0 } else { 0.0 })),
+        8 => ("equal", both(|x, y| if x == y { 1.0 } else { 0.0 })),
+        9 => return (apply("not", &[&a]), x.map(|x| truth(x == 0.0))),
+        10 => return (apply("absval", &[&a]), x.map(f64::abs)),
+        _ => return (apply("neg", &[&a]), x.map(|x| -x)),
+    };
+    // A comparison on the left of another would be a chain.
+    let is_chain = ["lessThan", "equal"].contains(&operator)
+        && ["<apply><lessThan/>", "<apply><equal/>"].iter().any(|head| a.starts_with(head));
+    let a = if is_chain { format!("<parens>{a}</parens>") } else { a };
+    (apply(operator, &[&a, &b]), value)
+}
+
+/// The elements say what is an operand of what; the text gets the parentheses that it needs for that.
+#[test]
+fn operators_within_operators_need_no_parentheses() {
+    let mut rng = Rng::with_seed(7);
+    let (trees, values): (Vec<_>, Vec<_>) = (0..600).map(|k| tree(&mut rng, 1 + k % 5)).unzip();
+    let regions: Vec<_> = trees.iter().map(|tree| eval(tree, None)).collect();
+    let checked = executed(&regions);
+    assert!(values.iter().filter(|value| value.is_some()).count() > 300);
+    for ((checked, value), tree) in checked.iter().zip(values).zip(trees) {
+        let found = checked.value.as_ref().and_then(Value::number);
+        assert_eq!(found, value, "{} {tree}: {:?}", checked.text, checked.verdict);
+    }
+}
