@@ -161,8 +161,8 @@ fn limits_are_reached_exactly() {
     }
 }
 
-/// Calls count the blocks and expressions that lead to them: here `g(x)` within a statement of f, and
-/// a statement, a block and a name in g.
+/// Calls count the blocks and expressions that lead to them: here `g(x)` within a statement of f,
+/// and a statement, a block and a name in g.
 #[test]
 fn calls_within_calls_count_their_levels() {
     let f = Listing::parse("f", "f(x) :=\n  g(x)").unwrap();

@@ -1,5 +1,5 @@
-//! What a worksheet's regions say, in the elements of its file: constructs that are named, names that
-//! change what they stand for, operators within operators.
+//! What a worksheet's regions say, in the elements of its file: constructs that are named, names
+//! that change what they stand for, operators within operators.
 
 use fastrand::Rng;
 use plane_contact::paper::mathcad::worksheet::{Checked, Verdict, execute};
@@ -298,7 +298,7 @@ fn tree(rng: &mut Rng, depth: usize) -> (String, Option<f64>) {
     (apply(operator, &[&a, &b]), value)
 }
 
-/// The elements say what is an operand of what; the text gets the parentheses that it needs for that.
+/// The elements say what is an operand of what; the text gets the parentheses that it needs.
 #[test]
 fn operators_within_operators_need_no_parentheses() {
     let mut rng = Rng::with_seed(7);
