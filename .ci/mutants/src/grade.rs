@@ -206,27 +206,30 @@ impl Bench<'_> {
         };
         // Positive numbers are in the order of their bits.
         reaching.sort_by_cached_key(|k| std::cmp::Reverse(pace(k).to_bits()));
+        // With each group the place of its first test in that order, so that a group that is never
+        // full waits for no slower test.
         let mut batches = Vec::new();
         let mut room = FIRST_BATCH;
-        let mut open: BTreeMap<_, (Vec<usize>, f64)> = BTreeMap::new();
-        for k in reaching {
+        let mut open: BTreeMap<_, (usize, Vec<usize>, f64)> = BTreeMap::new();
+        for (place, k) in reaching.into_iter().enumerate() {
             let test = &self.tests[k];
             if self.is_long(k) {
-                batches.push(vec![k]);
+                batches.push((place, vec![k]));
                 continue;
             }
-            let (batch, seconds) = open.entry(&test.binary).or_default();
+            let (first, batch, seconds) =
+                open.entry(&test.binary).or_insert_with(|| (place, vec![], 0.0));
             batch.push(k);
             *seconds += test.seconds;
             if *seconds > room {
-                batches.push(std::mem::take(batch));
-                *seconds = 0.0;
+                batches.push((*first, std::mem::take(batch)));
+                open.remove(&test.binary);
                 room = (2.0 * room).min(self.budget / 4.0);
             }
         }
-        batches
-            .extend(open.into_values().map(|(batch, _)| batch).filter(|batch| !batch.is_empty()));
-        batches
+        batches.extend(open.into_values().map(|(first, batch, _)| (first, batch)));
+        batches.sort_by_key(|(first, _)| *first);
+        batches.into_iter().map(|(_, batch)| batch).collect()
     }
 
     /// Runs tests of one binary with a mutant on, until the first of them fails.
