@@ -65,7 +65,11 @@ impl<O: Observer> Run<'_, '_, O> {
             Some(Function::Determinant) => one(arguments).and_then(matrices::determinant),
             Some(Function::Submatrix) => submatrix(arguments, self.settings.origin),
             Some(Function::Sum) => one(arguments).and_then(total),
-            _ => Err(Cause::Arguments { expected: 3, found: arguments.len() }),
+            // ∏ alone.
+            _ => Err(Cause::Function {
+                name: self.listing.names.name(slot).into(),
+                message: "it multiplies over a range, as ∏(i ∈ 1 .. 3, v[i])".into(),
+            }),
         };
         result.map_err(|cause| self.fail(span, cause))
     }

@@ -42,10 +42,6 @@ impl<T: Clone + Default> Grid<T> {
         Grid { rows: entries.len(), cols: 1, entries }
     }
 
-    pub fn row(entries: Vec<T>) -> Self {
-        Grid { rows: 1, cols: entries.len(), entries }
-    }
-
     /// Makes an array of `cols` columns, at least one, from its entries row by row.
     pub fn from_rows(cols: usize, entries: Vec<T>) -> Self {
         Grid { rows: entries.len() / cols, cols, entries }

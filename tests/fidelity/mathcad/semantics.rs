@@ -397,6 +397,7 @@ fn functions_of_matrices() {
     assert_eq!(value("|(0 1 0; 1 0 0; 0 0 1)|"), "-1", "a row exchanged");
     assert_eq!(value("∑((1; 2; 3))"), "6", "advanced 18");
     assert_eq!(value("∏(i ∈ 1 .. 5, i)"), "120", "advanced 19");
+    assert!(failure("∏(v)").to_string().contains("it multiplies over a range"));
     assert_eq!(value("∑(i ∈ 1 .. x, i)"), "15", "core 12");
     assert_eq!(value("i ← 9\n∑(i ∈ 1 .. 2, i)·10 + i"), "39", "its variable is its own");
     assert_eq!(value("(2 1; 1 1)^−1"), "1 -1; -1 2");

@@ -229,11 +229,7 @@ fn definition(node: Math<'_, '_>) -> Result<Content, Beyond> {
 
 /// Reads an array of numbers that are spelled out.
 fn table(node: Math<'_, '_>) -> Option<Value> {
-    let numbers = node.tag() == "matrix" && node.parts().all(|entry| entry.tag() == "real");
-    match saved_value(node) {
-        Ok(value @ Value::Array(_)) if numbers => Some(value),
-        _ => None,
-    }
+    saved_value(node).ok().filter(|value| matches!(value, Value::Array(_)))
 }
 
 fn saved(node: Node<'_, '_>) -> Saved {
