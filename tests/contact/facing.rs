@@ -204,3 +204,37 @@ fn nodes_pull_by_more_than_rounding() {
     }
     assert_eq!(pulling(&[node(0, Some(0.0), true)]), []);
 }
+
+/// Two edges of the target over each other: only where they are as far as each other from the contact
+/// edge may rounding decide which one it covers.
+#[test]
+fn two_target_edges_as_near_as_each_other_are_told() {
+    let nodes_of = |height: f64| {
+        let mut nodes = vec![[0.1, -1.0], [1.3, -1.0], [1.3, 0.0], [0.1, 0.0]];
+        nodes.extend([[1.1, -1.0], [2.3, -1.0], [2.3, height], [1.1, height]]);
+        nodes.extend([[0.7, 0.1], [1.7, 0.1], [1.7, 1.1], [0.7, 1.1]]);
+        nodes
+    };
+    let quad = |n: usize| [[n, n + 1, n + 2], [n, n + 2, n + 3]];
+    for (height, unsure) in [(0.0, vec![8, 9]), (0.05, vec![]), (-0.05, vec![])] {
+        let both = vec![Axis::X, Axis::Y];
+        let bodies = Bodies {
+            nodes: nodes_of(height),
+            triangles: [[quad(0), quad(4)].concat(), quad(8).into()],
+            moduli: [(1e3, 0.2); 2],
+            contact: vec![8, 9],
+            target: vec![[2, 3], [6, 7]],
+            restrained: [0, 1, 4, 5, 10, 11].map(|node| (node, both.clone())).into(),
+            loads: vec![(11, [0.0, -1.0])],
+        };
+        let scene = bodies.modelled(&Writing::default(), ContactModel::default()).build();
+        let model = scene.expect("a sound scene").model;
+        let surfaces = Surfaces::new(&model).expect("edges of the outline");
+        let shape: Vec<[Bounded; 2]> =
+            model.nodes.iter().map(|p| p.map(Bounded::from_decimal)).collect();
+        let mut found: Vec<usize> =
+            surfaces.mortar(&shape).unsure.iter().map(|(node, _)| node.index()).collect();
+        found.dedup();
+        assert_eq!(found, unsure, "{height}");
+    }
+}

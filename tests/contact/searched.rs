@@ -2,10 +2,15 @@
 //! little holds, under strong friction and several stages, and with surfaces of many nodes.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use fastrand::Rng;
 use plane_contact::answer::contact::{Sense, Status};
-use plane_contact::answer::{Detail, Request, Solution, Unilateral, Uniqueness, solve};
+use plane_contact::answer::{
+    Detail, Request, Solution, Unilateral, Uniqueness, kept_equations, solve,
+};
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::model::Model;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use plane_contact::problem::scene::{Axis, SceneBuilder};
 use serde_json::json;
@@ -79,6 +84,7 @@ fn of(solution: &Solution, watched: usize) -> String {
     let fields = json!({
         "all": all,
         "cycles": cycles,
+        "factors": format!("{:?}", solution.factors),
         "feedback": own.iter().map(|own| own.feedback).collect::<Vec<_>>(),
         "forces": forces,
         "rubs": own[own.len() - 1].friction.as_slice(),
@@ -314,4 +320,134 @@ const MANY: [u64; 8] = [1, 3, 4, 6, 10, 12, 13, 15];
 #[test]
 fn surfaces_of_many_nodes() {
     record("many-nodes", &MANY, many);
+}
+
+/// A square on the left end of a short target, both held along x on the left side, whose top carries
+/// 2; its right lower corner stands `gap` higher.
+fn on_the_left(gap: f64, friction: f64, loads: &[(usize, [f64; 2])]) -> (Bodies, ContactModel) {
+    let mut nodes: Vec<[f64; 2]> =
+        [-1.0, 0.0].iter().flat_map(|y| [0.0, 1.0, 2.5].map(|x| [x, *y])).collect();
+    nodes.extend([[0.0, 0.0], [1.0, gap], [0.0, 1.0], [1.0, 1.0]]);
+    let both = vec![Axis::X, Axis::Y];
+    let mut restrained: Vec<_> = (0..3).map(|n| (n, both.clone())).collect();
+    restrained.extend([3, 6, 8].map(|n| (n, vec![Axis::X])));
+    let bodies = Bodies {
+        nodes,
+        triangles: [grid(0, 3, 2), grid(6, 2, 2)],
+        moduli: [(1e3, 0.2), (1e3, 0.3)],
+        contact: vec![6, 7],
+        target: vec![[3, 4], [4, 5]],
+        restrained,
+        loads: [&[(8, [0.0, -1.0]), (9, [0.0, -1.0])], loads].concat(),
+    };
+    let geometry = Geometry::Initial;
+    let friction = Friction::new(friction).unwrap();
+    (bodies, ContactModel { geometry, friction, load_steps: 1, ..ContactModel::default() })
+}
+
+fn solved(bodies: &Bodies, model: ContactModel, turns: usize) -> Solution {
+    let scene = bodies.modelled(&Writing { turns, ..Writing::default() }, model).build();
+    solve(&Request::new(&scene.expect("a sound scene")), &mut |_| ()).expect("it rests")
+}
+
+#[test]
+fn friction_does_not_act_on_a_line_of_symmetry() {
+    for turns in 0..4 {
+        for coupling in Coupling::ALL {
+            let (mut bodies, model) = on_the_left(0.0, 5.0, &[]);
+            let model = ContactModel { coupling: *coupling, ..model };
+            let status = |bodies: &Bodies| solved(bodies, model, turns).contact[0].status;
+            assert_eq!(status(&bodies), Some(Status::Slip(Sense::Free)));
+            bodies.restrained.retain(|(node, _)| *node != 3);
+            let free = status(&bodies);
+            assert!(free == Some(Status::Stick) || *coupling == Coupling::Mortar, "{free:?}");
+        }
+    }
+}
+
+/// Gaps count as closed up to a half of a millionth of a millionth of the scene's size, which is 2.5.
+#[test]
+fn the_first_state_takes_the_nodes_that_touch() {
+    for (gap, closed) in [(1e-12, 2), (2e-12, 1), (1e-11, 1), (1e-10, 1)] {
+        let (bodies, model) = on_the_left(gap, 0.0, &[]);
+        assert_eq!(solved(&bodies, model, 0).steps[0].in_contact, closed, "{gap}");
+    }
+}
+
+/// The target's supports take what the square passes to a restrained surface, and what acts on
+/// themselves.
+#[test]
+fn supports_take_the_load_that_acts_on_them() {
+    for supports in [0..3, 3..6] {
+        for load in [0.0, -1.0, 0.5] {
+            let node = supports.start + 1;
+            let (mut bodies, model) = on_the_left(0.0, 0.0, &[(node, [0.0, load])]);
+            bodies.restrained.retain(|(node, _)| *node > 5);
+            let both = vec![Axis::X, Axis::Y];
+            bodies.restrained.extend(supports.clone().map(|n| (n, both.clone())));
+            let force = solved(&bodies, model, 0).last().target_force;
+            assert!((force - (2.0 - load)).abs() < 1e-11, "{force} under {load}");
+        }
+    }
+}
+
+/// Bodies that share what was factored are solved as if each were alone.
+#[test]
+fn what_was_factored_serves_the_same_bodies_alone() {
+    let (bodies, model) = on_the_left(0.0, 0.3, &[(9, [0.5, 0.0])]);
+    let scene = bodies.modelled(&Writing::default(), model).build().expect("a sound scene");
+    let changes: [fn(&mut Model); 5] = [
+        |model| model.plane = Plane::Stress,
+        |model| model.thickness *= 2.0,
+        |model| model.restrained[8 * 2 + 1] = true,
+        |model| model.nodes[9][0] += 0.25,
+        |model| model.triangles.swap(0, 1),
+    ];
+    let digest = |solution: &Solution| {
+        let steps = solution.steps.iter();
+        steps.map(|step| (step.max_displacement, step.target_force)).collect::<Vec<_>>()
+    };
+    for change in changes {
+        let mut request = Request::new(&scene);
+        solve(&request, &mut |_| ()).expect("it rests");
+        let mut other = scene.clone();
+        change(Arc::make_mut(&mut other.model));
+        let alone = solve(&Request::new(&other), &mut |_| ()).expect("it rests");
+        request.scene = other;
+        let shared = solve(&request, &mut |_| ()).expect("it rests");
+        assert_eq!(digest(&shared), digest(&alone));
+    }
+}
+
+/// Of surfaces of up to 64 nodes all are kept, of larger ones those near the contact: a tenth more
+/// than the nodes that come to it, eight on either side, on both surfaces.
+#[test]
+fn the_equations_that_are_kept_are_those_near_the_contact() {
+    let (bodies, model) = on_the_left(0.0, 0.0, &[]);
+    let scene = bodies.modelled(&Writing::default(), model).build().expect("a sound scene");
+    assert_eq!(kept_equations(&scene.model, 1), 8);
+    let (scene, _) = many(&mut Rng::with_seed(MANY[0]));
+    let large = scene.build().expect("a sound scene").model;
+    let kept = [0, 1, 9, 10, 20, 100].map(|near| kept_equations(&large, near));
+    let surfaces = large.contact.nodes.len() + large.contact.target.len() + 1;
+    let all = 2 * surfaces;
+    assert_eq!(kept, [64, 68, 100, 108, 152, 504].map(|kept| all.min(kept)));
+}
+
+/// Why a search ended is told with the part of the load that it had come to.
+#[test]
+fn the_load_without_an_equilibrium_is_told() {
+    let end = |stage: usize, steps: usize| {
+        let (bodies, model) = on_the_left(0.0, 0.5, &[]);
+        let mut bodies = bodies;
+        bodies.restrained.retain(|(node, _)| *node < 3);
+        let model = ContactModel { load_steps: steps, ..model };
+        let scene = bodies.modelled(&Writing::default(), model).force(10, [3.0, 0.0]);
+        let request = Request::new(&scene.in_stage(stage).build().expect("a sound scene"));
+        let why = solve(&request, &mut |_| ()).expect_err("it slides away").to_string();
+        why.rsplit_once(" (on the way to ").map_or(String::new(), |(_, end)| end.to_owned())
+    };
+    assert_eq!(end(1, 1), "");
+    assert_eq!(end(1, 2), "0.5 times the load)");
+    assert_eq!(end(2, 1), "2 times the load of 2 stages)");
 }
