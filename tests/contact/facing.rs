@@ -77,7 +77,7 @@ fn upper_nodes(bodies: &Bodies) -> usize {
 
 fn record(name: &str, seed: u64, bodies: impl Fn(&mut Rng, usize) -> Bodies, moves: &[[f64; 2]]) {
     let mut rng = Rng::with_seed(seed);
-    let mut one = |k: usize| {
+    let one = |k: usize| {
         let bodies = bodies(&mut rng, k);
         let writing = Writing {
             turns: rng.usize(..4),
@@ -89,7 +89,7 @@ fn record(name: &str, seed: u64, bodies: impl Fn(&mut Rng, usize) -> Bodies, mov
         };
         line(&bodies, &writing, one_of(&mut rng, moves))
     };
-    assert_recorded(name, &(0..SHAPES).map(|k| one(k)).collect::<String>());
+    assert_recorded(name, &(0..SHAPES).map(one).collect::<String>());
 }
 
 /// Every move keeps nodes over nodes and middles of edges, where comparisons are ties.
@@ -174,8 +174,8 @@ fn closest_points_on_whole_numbers_are_as_recorded() {
     assert_recorded("closest", &text);
 }
 
-/// A pull counts beyond a hundred thousand millionth of the largest force, pressing or pulling, of a
-/// node in contact whose force is known.
+/// A pull counts beyond a hundred thousand millionth of the largest force, pressing or pulling, of
+/// a node in contact whose force is known.
 #[test]
 fn nodes_pull_by_more_than_rounding() {
     let node = |k: usize, force: Option<f64>, in_contact: bool| ContactNode {
@@ -205,8 +205,8 @@ fn nodes_pull_by_more_than_rounding() {
     assert_eq!(pulling(&[node(0, Some(0.0), true)]), []);
 }
 
-/// Two edges of the target over each other: only where they are as far as each other from the contact
-/// edge may rounding decide which one it covers.
+/// Two edges of the target over each other: only where they are as far as each other from the
+/// contact edge may rounding decide which one it covers.
 #[test]
 fn two_target_edges_as_near_as_each_other_are_told() {
     let nodes_of = |height: f64| {

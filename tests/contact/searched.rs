@@ -1,5 +1,5 @@
-//! How `unilateral` finds its equilibrium, or why it says that there is none, recorded: of bodies that
-//! little holds, under strong friction and several stages, and with surfaces of many nodes.
+//! How `unilateral` finds its equilibrium, or why it says that there is none, recorded: of bodies
+//! that little holds, under strong friction and several stages, and with surfaces of many nodes.
 
 use std::fmt::Write;
 use std::sync::Arc;
@@ -134,7 +134,8 @@ fn record(name: &str, seeds: &[u64], one: impl Fn(&mut Rng) -> (SceneBuilder, Co
 /// them tip, slide or leave.
 fn loose(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
     let k = rng.usize(..16);
-    let mut bodies = if k % 2 == 0 { regular(rng) } else { draw(rng, KINDS[k / 2 % 8]).bodies };
+    let mut bodies =
+        if k.is_multiple_of(2) { regular(rng) } else { draw(rng, KINDS[k / 2 % 8]).bodies };
     let first = *bodies.triangles[1].iter().flatten().min().expect("it has triangles");
     bodies.restrained.retain(|(node, _)| *node < first);
     let last = bodies.nodes.len() - 1;
@@ -237,7 +238,8 @@ const SQUARES: [u64; 150] = [
 /// Friction that is strong, pushes to either side in a second stage, ties.
 fn rubbing(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
     let k = rng.usize(..16);
-    let bodies = if k % 2 == 0 { regular(rng) } else { draw(rng, KINDS[k / 2 % 8]).bodies };
+    let bodies =
+        if k.is_multiple_of(2) { regular(rng) } else { draw(rng, KINDS[k / 2 % 8]).bodies };
     let model = model(rng, &[0.3, 0.7, 1.5, 4.0]);
     let (node, [_, force]) = bodies.loads[bodies.loads.len() - 1];
     let push = one_of(rng, &[0.3, 1.0, -1.0, -3.0]) * force;
@@ -322,8 +324,8 @@ fn surfaces_of_many_nodes() {
     record("many-nodes", &MANY, many);
 }
 
-/// A square on the left end of a short target, both held along x on the left side, whose top carries
-/// 2; its right lower corner stands `gap` higher.
+/// A square on the left end of a short target, both held along x on the left side, whose top
+/// carries 2; its right lower corner stands `gap` higher.
 fn on_the_left(gap: f64, friction: f64, loads: &[(usize, [f64; 2])]) -> (Bodies, ContactModel) {
     let mut nodes: Vec<[f64; 2]> =
         [-1.0, 0.0].iter().flat_map(|y| [0.0, 1.0, 2.5].map(|x| [x, *y])).collect();
@@ -365,12 +367,18 @@ fn friction_does_not_act_on_a_line_of_symmetry() {
     }
 }
 
-/// Gaps count as closed up to a half of a millionth of a millionth of the scene's size, which is 2.5.
+/// Gaps count as closed up to a half of a millionth of a millionth of the scene's size, which is
+/// 2.5; far from the origin up to four units in the last place of the coordinates there.
 #[test]
 fn the_first_state_takes_the_nodes_that_touch() {
-    for (gap, closed) in [(1e-12, 2), (2e-12, 1), (1e-11, 1), (1e-10, 1)] {
+    let near = [(0.0, 1e-12, 2), (0.0, 2e-12, 1), (0.0, 1e-11, 1), (0.0, 1e-10, 1)];
+    let far = [(1e6, 5e-10, 2), (1e6, 2e-9, 1)];
+    for (x, gap, closed) in near.into_iter().chain(far) {
         let (bodies, model) = on_the_left(gap, 0.0, &[]);
-        assert_eq!(solved(&bodies, model, 0).steps[0].in_contact, closed, "{gap}");
+        let writing = Writing { shift: [x, 0.0], ..Writing::default() };
+        let scene = bodies.modelled(&writing, model).build().expect("a sound scene");
+        let solution = solve(&Request::new(&scene), &mut |_| ()).expect("it rests");
+        assert_eq!(solution.steps[0].in_contact, closed, "{gap} at {x}");
     }
 }
 
