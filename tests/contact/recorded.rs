@@ -55,7 +55,7 @@ const BOUNDS: [&str; 2] = ["arithmetic", "bound"];
 
 /// Two blocks on a grid of whole numbers: nodes stand over nodes, ends over ends, as far apart as the
 /// tolerance or not at all, and many comparisons are ties.
-fn regular(rng: &mut Rng) -> Bodies {
+pub fn regular(rng: &mut Rng) -> Bodies {
     let (below, above) = (rng.usize(3..8), rng.usize(2..6));
     let (from, step) = (one_of(rng, &[0.0, 1.0, 0.5]), one_of(rng, &[1.0, 0.5, 1.5]));
     let gap = one_of(rng, &[0.0, 0.0, 0.0, 0.001, -0.001, 0.01]);
@@ -96,7 +96,7 @@ fn regular(rng: &mut Rng) -> Bodies {
     }
 }
 
-fn one_of<T: Copy>(rng: &mut Rng, from: &[T]) -> T {
+pub fn one_of<T: Copy>(rng: &mut Rng, from: &[T]) -> T {
     from[rng.usize(..from.len())]
 }
 
@@ -185,12 +185,23 @@ fn fields(request: &Request) -> Result<BTreeMap<String, String>, Error> {
     let mut folded = BTreeMap::new();
     fold("", &document, &mut folded);
     fold("beside", &beside(&solution, &assessment), &mut folded);
+    Ok(by_group(folded))
+}
+
+fn by_group(folded: BTreeMap<String, Folded>) -> BTreeMap<String, String> {
     let mut groups: BTreeMap<String, String> = BTreeMap::new();
     for (name, field) in folded {
         let (group, short) = name.rsplit_once('.').unwrap_or(("", &name));
         *groups.entry(group.to_owned()).or_default() += &format!(" {short}={}", field.text(&name));
     }
-    Ok(groups)
+    groups
+}
+
+/// Returns a line of every field of an object without objects in it, arrays folded into a number.
+pub fn folded(document: &Value) -> String {
+    let mut folded = BTreeMap::new();
+    fold("", document, &mut folded);
+    by_group(folded).remove("").unwrap_or_default()
 }
 
 /// Returns what a run knows beside its result: how its contact states and its estimates came about.
@@ -233,7 +244,7 @@ fn beside(solution: &Solution, assessment: &Assessment) -> Value {
     })
 }
 
-fn facing(pairing: &Pairing) -> Value {
+pub fn facing(pairing: &Pairing) -> Value {
     let [nodes, weights]: [Vec<Value>; 2] = [
         pairing.masters.iter().map(|(node, _)| json!(node.index())).collect(),
         pairing.masters.iter().map(|(_, weight)| json!(weight)).collect(),

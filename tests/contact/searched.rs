@@ -1,0 +1,461 @@
+//! How `unilateral` finds its equilibrium, or why it says that there is none, recorded: of bodies
+//! that little holds, under strong friction and several stages, and with surfaces of many nodes.
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use fastrand::Rng;
+use plane_contact::answer::contact::{Sense, Status};
+use plane_contact::answer::{
+    Detail, Request, Solution, Unilateral, Uniqueness, kept_equations, solve,
+};
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::model::Model;
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
+use plane_contact::problem::scene::{Axis, SceneBuilder};
+use serde_json::json;
+
+use crate::common::recorded::assert_recorded;
+use crate::corners::{Bodies, Writing, grid};
+use crate::drawn::{KINDS, draw};
+use crate::recorded::{folded, one_of, regular};
+
+/// Returns the line of a run: its statuses at the end, and what led there; or why it has none.
+fn line(scene: &SceneBuilder) -> String {
+    let scene = match scene.build() {
+        Ok(scene) => scene,
+        Err(why) => return format!("{}\n", why.what),
+    };
+    let mut watched = 0;
+    match solve(&Request::new(&scene), &mut |_| watched += 1) {
+        Ok(solution) => of(&solution, watched),
+        Err(why) => format!("exit status {} after {watched}: {why}\n", why.exit_status()),
+    }
+}
+
+fn letter(status: &Status) -> char {
+    match status {
+        Status::Open => 'o',
+        Status::Stick => 's',
+        Status::Slip(Sense::Forward) => 'f',
+        Status::Slip(Sense::Backward) => 'b',
+        Status::Slip(Sense::Free) => 'c',
+    }
+}
+
+fn of(solution: &Solution, watched: usize) -> String {
+    let own: Vec<&Unilateral> = solution
+        .steps
+        .iter()
+        .map(|step| match &step.detail {
+            Detail::Unilateral(own) => own,
+            Detail::Published(_) => unreachable!("unilateral was asked for"),
+        })
+        .collect();
+    let statuses: String = own[own.len() - 1].statuses.iter().map(letter).collect();
+    let all: Vec<u32> =
+        own.iter().flat_map(|own| &own.statuses).map(|status| letter(status) as u32).collect();
+    let loads: Vec<f64> = own.iter().map(|own| own.load + 0.25).collect();
+    let open: Vec<bool> = own.iter().flat_map(|own| own.undetermined.clone()).collect();
+    let cycles: Vec<usize> = solution
+        .steps
+        .iter()
+        .filter_map(|step| step.cycle.as_ref())
+        .flat_map(|cycle| [cycle.length].into_iter().chain(cycle.members.clone()))
+        .collect();
+    let forces: Vec<Option<f64>> = solution.contact.iter().map(|node| node.force).collect();
+    let gaps: Vec<f64> = solution.contact.iter().map(|node| node.gap).collect();
+    let equilibrium = solution.equilibrium.as_ref().expect("it is one");
+    let halved = equilibrium.path.as_ref().map(|path| path.halved);
+    let unique = match &equilibrium.uniqueness {
+        Uniqueness::Unique => json!("unique"),
+        Uniqueness::Indifferent { node } => json!(["indifferent", node.index()]),
+        Uniqueness::Tried { states, all, others } => {
+            let others: Vec<_> = others
+                .iter()
+                .map(|other| json!([other.stick.len(), other.slip.len(), other.change]))
+                .collect();
+            json!([states, all, others])
+        }
+    };
+    let unseen = equilibrium.unseen.map(|(node, depth)| json!([node.index(), depth]));
+    let scale = solution.u.amax();
+    let margins: Vec<f64> = own.iter().map(|own| own.margin.min(9.5)).collect();
+    let fields = json!({
+        "all": all,
+        "cycles": cycles,
+        "factors": format!("{:?}", solution.factors),
+        "feedback": own.iter().map(|own| own.feedback).collect::<Vec<_>>(),
+        "forces": forces,
+        "rubs": own[own.len() - 1].friction.as_slice(),
+        "gaps": gaps,
+        "halved": halved,
+        "loads": loads,
+        "margins": margins,
+        "open": open,
+        "shape": equilibrium.shape_change <= 1e-8 * scale,
+        "targets": solution.steps.iter().map(|step| step.target_force).collect::<Vec<_>>(),
+        "u": solution.u.as_slice(),
+        "unique": unique,
+        "unseen": unseen,
+        "violations": own.iter().map(|own| own.violation).collect::<Vec<_>>(),
+    });
+    format!("{statuses} {} {watched}{}\n", solution.factored, folded(&fields))
+}
+
+fn model(rng: &mut Rng, friction: &[f64]) -> ContactModel {
+    ContactModel {
+        coupling: one_of(rng, Coupling::ALL),
+        friction: Friction::new(one_of(rng, friction)).unwrap(),
+        geometry: one_of(rng, Geometry::ALL),
+        load_steps: one_of(rng, &[1, 2, 3]),
+        ..ContactModel::default()
+    }
+}
+
+/// Returns the words for a model, and the line of a run.
+fn run(scene: &SceneBuilder, model: ContactModel, text: &mut String) {
+    let ContactModel { coupling, friction, geometry, load_steps, .. } = model;
+    let line = line(scene);
+    write!(text, "{coupling} {friction} {geometry} {load_steps} {line}").expect("room");
+}
+
+/// Records the runs of some seeds.
+fn record(name: &str, seeds: &[u64], one: impl Fn(&mut Rng) -> (SceneBuilder, ContactModel)) {
+    let mut text = String::new();
+    for seed in seeds {
+        let (scene, model) = one(&mut Rng::with_seed(*seed));
+        run(&scene, model, &mut text);
+    }
+    assert_recorded(name, &text);
+}
+
+/// A body that one restraint or none holds beside the target, and forces in any direction: most of
+/// them tip, slide or leave.
+fn loose(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
+    let k = rng.usize(..16);
+    let mut bodies =
+        if k.is_multiple_of(2) { regular(rng) } else { draw(rng, KINDS[k / 2 % 8]).bodies };
+    let first = *bodies.triangles[1].iter().flatten().min().expect("it has triangles");
+    bodies.restrained.retain(|(node, _)| *node < first);
+    let last = bodies.nodes.len() - 1;
+    let node = first + rng.usize(..=last - first);
+    match rng.u8(..4) {
+        0 => {}
+        1 => bodies.restrained.push((node, vec![Axis::Y])),
+        _ => bodies.restrained.push((node, vec![Axis::X])),
+    }
+    let (arm, across) = (one_of(rng, &[0.0, 0.0, 0.4, 2.0]), one_of(rng, &[0.0, 0.0, 0.3, -1.0]));
+    let (sign, count) = (one_of(rng, &[1.0, 1.0, -1.0]), bodies.loads.len());
+    for (k, (_, [fx, fy])) in bodies.loads.iter_mut().enumerate() {
+        *fy *= sign * (1.0 + arm * (2.0 * k as f64 / count as f64 - 1.0));
+        *fx = across * *fy;
+    }
+    let writing = Writing {
+        shift: one_of(rng, &[[0.0, 0.0], [50.0, -30.0]]),
+        turns: rng.usize(..4),
+        scale: one_of(rng, &[1.0, 8.0]),
+        ..Writing::default()
+    };
+    let model = model(rng, &[0.0, 0.0, 0.5, f64::INFINITY]);
+    (bodies.modelled(&writing, model), model)
+}
+
+/// Seeds of runs that take milliseconds: a search without success takes hundreds of iterations.
+const QUICK: [u64; 66] = [
+    0, 1, 3, 6, 8, 9, 10, 14, 19, 20, 21, 23, 24, 25, 28, 29, 31, 33, 36, 37, 39, 40, 41, 43, 44,
+    52, 54, 55, 56, 58, 59, 60, 62, 66, 69, 72, 75, 82, 85, 87, 88, 89, 90, 91, 93, 97, 99, 100,
+    102, 104, 107, 109, 110, 111, 114, 116, 118, 121, 122, 124, 125, 127, 131, 133, 134, 137,
+];
+
+#[test]
+fn loose_bodies() {
+    record("loose", &QUICK, loose);
+}
+
+/// A square that one restraint or none holds over a short target, and forces on its top in any
+/// direction: it falls, tips, slides or leaves, or rests.
+fn square(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
+    let left = one_of(rng, &[0.0, 0.4, 1.2, 1.9]);
+    let gap = one_of(rng, &[0.0, 0.0, 0.1]);
+    let mut nodes: Vec<[f64; 2]> =
+        [-1.0, 0.0].iter().flat_map(|y| [0.0, 1.0, 2.5].map(|x| [x, *y])).collect();
+    let width = one_of(rng, &[1.0, 1.5]);
+    for y in [gap, gap + 1.0] {
+        nodes.extend([[left, y], [left + width, y]]);
+    }
+    let both = vec![Axis::X, Axis::Y];
+    let mut restrained: Vec<_> = (0..3).map(|n| (n, both.clone())).collect();
+    let node = 6 + rng.usize(..4);
+    match rng.u8(..4) {
+        0 => {}
+        1 => restrained.push((node, vec![Axis::Y])),
+        2 => restrained.push((node, vec![Axis::X])),
+        _ => restrained.push((node, both)),
+    }
+    let force = |rng: &mut Rng| {
+        let across = one_of(rng, &[0.0, 0.0, 0.3, -0.3, 1.0]);
+        [across, one_of(rng, &[-1.0, -1.0, -0.2, 0.0, 0.5])]
+    };
+    let loads = [8, 9].map(|n| (n, force(rng))).into();
+    let bodies = Bodies {
+        nodes,
+        triangles: [grid(0, 3, 2), grid(6, 2, 2)],
+        moduli: [(1e3, 0.2), (1e3, 0.3)],
+        contact: vec![6, 7],
+        target: vec![[3, 4], [4, 5]],
+        restrained,
+        loads,
+    };
+    let writing = Writing {
+        shift: one_of(rng, &[[0.0, 0.0], [50.0, -30.0]]),
+        turns: rng.usize(..4),
+        scale: one_of(rng, &[1.0, 8.0]),
+        ..Writing::default()
+    };
+    let geometry = Geometry::Initial;
+    let model = ContactModel { geometry, ..model(rng, &[0.0, 0.0, 0.0, 0.5]) };
+    (bodies.modelled(&writing, model), model)
+}
+
+#[test]
+fn squares_that_little_holds() {
+    record("squares", &SQUARES, square);
+}
+
+/// Seeds of few runs that take longer than a millisecond.
+const SQUARES: [u64; 150] = [
+    0, 2, 3, 4, 6, 8, 10, 11, 12, 13, 14, 16, 18, 19, 20, 21, 22, 23, 25, 26, 28, 29, 30, 33, 34,
+    36, 37, 38, 39, 41, 42, 43, 44, 45, 46, 47, 48, 49, 51, 52, 54, 55, 56, 57, 58, 59, 60, 62, 64,
+    66, 67, 68, 69, 70, 71, 72, 74, 76, 77, 79, 81, 82, 83, 84, 85, 88, 89, 90, 91, 94, 95, 96, 97,
+    99, 100, 102, 104, 105, 106, 107, 108, 111, 112, 113, 118, 121, 123, 126, 130, 131, 133, 135,
+    138, 142, 146, 149, 151, 152, 153, 155, 161, 164, 167, 169, 172, 174, 176, 180, 181, 186, 188,
+    189, 192, 193, 195, 199, 201, 203, 208, 213, 217, 220, 227, 237, 240, 261, 267, 290, 371, 382,
+    415, 427, 430, 451, 543, 550, 574, 601, 605, 613, 615, 678, 692, 725, 753, 768, 769, 771, 775,
+    847,
+];
+
+/// Friction that is strong, pushes to either side in a second stage, ties.
+fn rubbing(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
+    let k = rng.usize(..16);
+    let bodies =
+        if k.is_multiple_of(2) { regular(rng) } else { draw(rng, KINDS[k / 2 % 8]).bodies };
+    let model = model(rng, &[0.3, 0.7, 1.5, 4.0]);
+    let (node, [_, force]) = bodies.loads[bodies.loads.len() - 1];
+    let push = one_of(rng, &[0.3, 1.0, -1.0, -3.0]) * force;
+    let lift = one_of(rng, &[0.0, 0.0, -0.5, -1.5]) * force;
+    let scene = bodies
+        .modelled(&Writing::default(), model)
+        .force(node + 1, [push, lift])
+        .in_stage(one_of(rng, &[1, 2, 3]));
+    (scene, model)
+}
+
+/// Seeds of runs in which the active set finds no equilibrium, and Lemke's method is tried.
+const COMPLEMENTARY: [u64; 25] = [
+    8, 13, 63, 108, 138, 271, 296, 343, 386, 458, 697, 772, 795, 838, 843, 942, 946, 971, 977,
+    1015, 1019, 1041, 1065, 1119, 1128,
+];
+
+/// Seeds of other runs that take milliseconds.
+const RUBBING: [u64; 50] = [
+    0, 3, 4, 5, 6, 11, 12, 17, 18, 19, 20, 21, 22, 24, 25, 27, 30, 31, 32, 33, 34, 35, 36, 37, 38,
+    40, 41, 42, 45, 46, 47, 49, 51, 53, 54, 55, 56, 58, 59, 60, 62, 65, 66, 67, 68, 69, 72, 75, 76,
+    77,
+];
+
+#[test]
+fn bodies_whose_active_set_returns() {
+    record("complementary", &COMPLEMENTARY, rubbing);
+}
+
+#[test]
+fn rubbing_bodies() {
+    record("rubbing", &RUBBING, rubbing);
+}
+
+/// Surfaces of many nodes, which are not all kept where the bodies are condensed: a round or a wavy
+/// one over a flat one, clamped, guided or hinged.
+fn many(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
+    let (below, above) = (rng.usize(30..60), rng.usize(36..70));
+    let (waves, rise) = (one_of(rng, &[0.0, 3.0, 8.0]), one_of(rng, &[0.02, 0.002, 0.0]));
+    let middle = one_of(rng, &[0.5, 0.2]);
+    let across = |k: usize, n: usize| k as f64 / (n - 1) as f64;
+    let surface = |x: f64| {
+        let round = (x - middle) * (x - middle);
+        rise * if waves > 0.0 { 1.0 + (waves * std::f64::consts::TAU * x).cos() } else { round }
+    };
+    let mut nodes = Vec::new();
+    for y in [-0.2, 0.0] {
+        nodes.extend((0..below).map(|k| [1.2 * across(k, below) - 0.1, y]));
+    }
+    let first = nodes.len();
+    nodes.extend((0..above).map(|k| [across(k, above), surface(across(k, above))]));
+    nodes.extend((0..above).map(|k| [across(k, above), 0.2]));
+    let both = vec![Axis::X, Axis::Y];
+    let mut restrained: Vec<_> = (0..below).map(|n| (n, both.clone())).collect();
+    let (left, right) = (first + above, nodes.len() - 1);
+    match rng.u8(..3) {
+        0 => restrained.push((left + above / 2, vec![Axis::X])),
+        1 => restrained.extend([left, right].map(|n| (n, vec![Axis::X]))),
+        _ => restrained.extend([left, right].map(|n| (n, both.clone()))),
+    }
+    let force = -one_of(rng, &[0.3, 3.0]) / above as f64;
+    let side = one_of(rng, &[0.0, 0.3]);
+    let loads = (left..=right).map(|n| (n, [side * force, force])).collect();
+    let bodies = Bodies {
+        nodes,
+        triangles: [grid(0, below, 2), grid(first, above, 2)],
+        moduli: [(1e3, 0.2), (1e3, 0.3)],
+        contact: (first..first + above).collect(),
+        target: (0..below - 1).map(|k| [below + k, below + k + 1]).collect(),
+        restrained,
+        loads,
+    };
+    let model = model(rng, &[0.0, 0.2, 0.6, f64::INFINITY]);
+    (bodies.modelled(&Writing::default(), model), model)
+}
+
+/// Seeds of runs that take milliseconds.
+const MANY: [u64; 8] = [1, 3, 4, 6, 10, 12, 13, 15];
+
+#[test]
+fn surfaces_of_many_nodes() {
+    record("many-nodes", &MANY, many);
+}
+
+/// A square on the left end of a short target, both held along x on the left side, whose top
+/// carries 2; its right lower corner stands `gap` higher.
+fn on_the_left(gap: f64, friction: f64, loads: &[(usize, [f64; 2])]) -> (Bodies, ContactModel) {
+    let mut nodes: Vec<[f64; 2]> =
+        [-1.0, 0.0].iter().flat_map(|y| [0.0, 1.0, 2.5].map(|x| [x, *y])).collect();
+    nodes.extend([[0.0, 0.0], [1.0, gap], [0.0, 1.0], [1.0, 1.0]]);
+    let both = vec![Axis::X, Axis::Y];
+    let mut restrained: Vec<_> = (0..3).map(|n| (n, both.clone())).collect();
+    restrained.extend([3, 6, 8].map(|n| (n, vec![Axis::X])));
+    let bodies = Bodies {
+        nodes,
+        triangles: [grid(0, 3, 2), grid(6, 2, 2)],
+        moduli: [(1e3, 0.2), (1e3, 0.3)],
+        contact: vec![6, 7],
+        target: vec![[3, 4], [4, 5]],
+        restrained,
+        loads: [&[(8, [0.0, -1.0]), (9, [0.0, -1.0])], loads].concat(),
+    };
+    let geometry = Geometry::Initial;
+    let friction = Friction::new(friction).unwrap();
+    (bodies, ContactModel { geometry, friction, load_steps: 1, ..ContactModel::default() })
+}
+
+fn solved(bodies: &Bodies, model: ContactModel, turns: usize) -> Solution {
+    let scene = bodies.modelled(&Writing { turns, ..Writing::default() }, model).build();
+    solve(&Request::new(&scene.expect("a sound scene")), &mut |_| ()).expect("it rests")
+}
+
+#[test]
+fn friction_does_not_act_on_a_line_of_symmetry() {
+    for turns in 0..4 {
+        for coupling in Coupling::ALL {
+            let (mut bodies, model) = on_the_left(0.0, 5.0, &[]);
+            let model = ContactModel { coupling: *coupling, ..model };
+            let status = |bodies: &Bodies| solved(bodies, model, turns).contact[0].status;
+            assert_eq!(status(&bodies), Some(Status::Slip(Sense::Free)));
+            bodies.restrained.retain(|(node, _)| *node != 3);
+            let free = status(&bodies);
+            assert!(free == Some(Status::Stick) || *coupling == Coupling::Mortar, "{free:?}");
+        }
+    }
+}
+
+/// Gaps count as closed up to a half of a millionth of a millionth of the scene's size, which is
+/// 2.5; far from the origin up to four units in the last place of the coordinates there.
+#[test]
+fn the_first_state_takes_the_nodes_that_touch() {
+    let near = [(0.0, 1e-12, 2), (0.0, 2e-12, 1), (0.0, 1e-11, 1), (0.0, 1e-10, 1)];
+    let far = [(1e6, 5e-10, 2), (1e6, 2e-9, 1)];
+    for (x, gap, closed) in near.into_iter().chain(far) {
+        let (bodies, model) = on_the_left(gap, 0.0, &[]);
+        let writing = Writing { shift: [x, 0.0], ..Writing::default() };
+        let scene = bodies.modelled(&writing, model).build().expect("a sound scene");
+        let solution = solve(&Request::new(&scene), &mut |_| ()).expect("it rests");
+        assert_eq!(solution.steps[0].in_contact, closed, "{gap} at {x}");
+    }
+}
+
+/// The target's supports take what the square passes to a restrained surface, and what acts on
+/// themselves.
+#[test]
+fn supports_take_the_load_that_acts_on_them() {
+    for supports in [0..3, 3..6] {
+        for load in [0.0, -1.0, 0.5] {
+            let node = supports.start + 1;
+            let (mut bodies, model) = on_the_left(0.0, 0.0, &[(node, [0.0, load])]);
+            bodies.restrained.retain(|(node, _)| *node > 5);
+            let both = vec![Axis::X, Axis::Y];
+            bodies.restrained.extend(supports.clone().map(|n| (n, both.clone())));
+            let force = solved(&bodies, model, 0).last().target_force;
+            assert!((force - (2.0 - load)).abs() < 1e-11, "{force} under {load}");
+        }
+    }
+}
+
+/// Bodies that share what was factored are solved as if each were alone.
+#[test]
+fn what_was_factored_serves_the_same_bodies_alone() {
+    let (bodies, model) = on_the_left(0.0, 0.3, &[(9, [0.5, 0.0])]);
+    let scene = bodies.modelled(&Writing::default(), model).build().expect("a sound scene");
+    let changes: [fn(&mut Model); 5] = [
+        |model| model.plane = Plane::Stress,
+        |model| model.thickness *= 2.0,
+        |model| model.restrained[8 * 2 + 1] = true,
+        |model| model.nodes[9][0] += 0.25,
+        |model| model.triangles.swap(0, 1),
+    ];
+    let digest = |solution: &Solution| {
+        let steps = solution.steps.iter();
+        steps.map(|step| (step.max_displacement, step.target_force)).collect::<Vec<_>>()
+    };
+    for change in changes {
+        let mut request = Request::new(&scene);
+        solve(&request, &mut |_| ()).expect("it rests");
+        let mut other = scene.clone();
+        change(Arc::make_mut(&mut other.model));
+        let alone = solve(&Request::new(&other), &mut |_| ()).expect("it rests");
+        request.scene = other;
+        let shared = solve(&request, &mut |_| ()).expect("it rests");
+        assert_eq!(digest(&shared), digest(&alone));
+    }
+}
+
+/// Of surfaces of up to 64 nodes all are kept, of larger ones those near the contact: a tenth more
+/// than the nodes that come to it, eight on either side, on both surfaces.
+#[test]
+fn the_equations_that_are_kept_are_those_near_the_contact() {
+    let (bodies, model) = on_the_left(0.0, 0.0, &[]);
+    let scene = bodies.modelled(&Writing::default(), model).build().expect("a sound scene");
+    assert_eq!(kept_equations(&scene.model, 1), 8);
+    let (scene, _) = many(&mut Rng::with_seed(MANY[0]));
+    let large = scene.build().expect("a sound scene").model;
+    let kept = [0, 1, 9, 10, 20, 100].map(|near| kept_equations(&large, near));
+    let surfaces = large.contact.nodes.len() + large.contact.target.len() + 1;
+    let all = 2 * surfaces;
+    assert_eq!(kept, [64, 68, 100, 108, 152, 504].map(|kept| all.min(kept)));
+}
+
+/// Why a search ended is told with the part of the load that it had come to.
+#[test]
+fn the_load_without_an_equilibrium_is_told() {
+    let end = |stage: usize, steps: usize| {
+        let (bodies, model) = on_the_left(0.0, 0.5, &[]);
+        let mut bodies = bodies;
+        bodies.restrained.retain(|(node, _)| *node < 3);
+        let model = ContactModel { load_steps: steps, ..model };
+        let scene = bodies.modelled(&Writing::default(), model).force(10, [3.0, 0.0]);
+        let request = Request::new(&scene.in_stage(stage).build().expect("a sound scene"));
+        let why = solve(&request, &mut |_| ()).expect_err("it slides away").to_string();
+        why.rsplit_once(" (on the way to ").map_or(String::new(), |(_, end)| end.to_owned())
+    };
+    assert_eq!(end(1, 1), "");
+    assert_eq!(end(1, 2), "0.5 times the load)");
+    assert_eq!(end(2, 1), "2 times the load of 2 stages)");
+}
