@@ -384,8 +384,8 @@ fn listing_and_mirror_agree_on_random_scenes() {
     }
 }
 
-/// `Km` of tables of mates and weights that no search finds: two mates of a node, one of them or none,
-/// at any node and with weights that may be 0; under every way to place its loops.
+/// `Km` of tables of mates and weights that no search finds: two mates of a node, one of them or
+/// none, at any node and with weights that may be 0; under every way to place its loops.
 #[test]
 fn listing_and_mirror_agree_on_any_mates() {
     let weights = || select(vec![0.0, 0.5, 1.0, -0.25, 3.0]);
@@ -461,8 +461,8 @@ fn over_an_edge(at: [f64; 2], c_tll: f64) -> Worksheet<f64> {
     }
 }
 
-/// Line 7 takes an edge up to the tolerance, line 16 a distance below it; a failure names the row that
-/// it stands at.
+/// Line 7 takes an edge up to the tolerance, line 16 a distance below it; a failure names the row
+/// that it stands at.
 #[test]
 fn c_cnt_of_one_node_over_one_edge() {
     let reading = Reading { r4: Conjunction::Guarded, ..Reading::default() };
@@ -504,8 +504,8 @@ fn c_cnt_of_one_node_over_one_edge() {
     }
 }
 
-/// In numbers with a bound, the rows of `trg` that are left out are those that line 7 surely does not
-/// take: the same comparisons are left open.
+/// In numbers with a bound, the rows of `trg` that are left out are those that line 7 surely does
+/// not take: the same comparisons are left open.
 #[test]
 fn edges_within_the_bounds_of_a_node_are_looked_at() {
     let reading = Reading { r4: Conjunction::Guarded, ..Reading::default() };

@@ -214,8 +214,8 @@ fn poisson_ratios_up_to_the_bounds_of_each_plane_problem() {
     }
 }
 
-/// What lies across the plane, where nu is 1/4: a quarter of the sum of two stresses, and a third of
-/// the sum of two strains, negative.
+/// What lies across the plane, where nu is 1/4: a quarter of the sum of two stresses, and a third
+/// of the sum of two strains, negative.
 #[test]
 fn what_lies_across_the_plane() {
     let two = Vector3::new(2.0, 4.0, 7.0);
@@ -246,8 +246,9 @@ fn von_mises_values_of_simple_strains() {
     }
 }
 
-/// By the formula of the stress, the von Mises strain of a bar that is pulled by e is e itself, that
-/// of a block which only strains along x is e / (1 + nu), and that of a shear g is √3/2 g / (1 + nu).
+/// By the formula of the stress, the von Mises strain of a bar that is pulled by e is e itself,
+/// that of a block which only strains along x is e / (1 + nu), and that of a shear g is
+/// √3/2 g / (1 + nu).
 #[test]
 fn von_mises_strains_by_the_formula_of_the_stress() {
     let (nu, e) = (0.25, 1e-3);

@@ -253,8 +253,8 @@ fn the_bounds_of_each_step_hold() {
     assert!(held > 20, "only {held} steps could be compared");
 }
 
-/// Where each displacement is known to d, each strain is known to the sum of |B| d, each stress to that
-/// times D, and the von Mises stress to the von Mises value of these, all of one sign.
+/// Where each displacement is known to d, each strain is known to the sum of |B| d, each stress to
+/// that times D, and the von Mises stress to the von Mises value of these, all of one sign.
 #[test]
 fn the_bar_of_a_stress_has_its_closed_form() {
     for plane in ["strain", "stress"] {
@@ -281,8 +281,8 @@ fn the_bar_of_a_stress_has_its_closed_form() {
     }
 }
 
-/// Lengths, stresses and thickness in other units, by powers of 2: what is estimated comes out in these
-/// units to the last bit, and what has no unit stays.
+/// Lengths, stresses and thickness in other units: what is estimated comes out in these units, and
+/// what has no unit stays.
 #[test]
 fn estimates_have_their_units() {
     for variant in [Variant::Tied, Variant::Unilateral] {
@@ -296,22 +296,8 @@ fn estimates_have_their_units() {
             for material in json["materials"].as_object_mut().unwrap().values_mut() {
                 material["E"] = (stress * material["E"].as_f64().unwrap()).into();
             }
-            for load in json["loads"].as_array_mut().unwrap() {
-                if let Some(p) = load["pressure"].as_f64() {
-                    load["pressure"] = (stress * p).into();
-                }
-                if let Some([x, y]) =
-                    load["traction"].as_array().map(|t| [0, 1].map(|k| t[k].as_f64().unwrap()))
-                {
-                    load["traction"] = vec![stress * x, stress * y].into();
-                }
-                if let Some([x, y]) =
-                    load["force"].as_array().map(|t| [0, 1].map(|k| t[k].as_f64().unwrap()))
-                {
-                    let force = stress * length * thickness;
-                    load["force"] = vec![force * x, force * y].into();
-                }
-            }
+            let pressure = &mut json["loads"][0]["pressure"];
+            *pressure = (stress * pressure.as_f64().unwrap()).into();
             json["thickness"] = thickness.into();
             let tolerance = &mut json["contact"]["c_tll"];
             *tolerance = (length * tolerance.as_f64().unwrap()).into();

@@ -229,7 +229,8 @@ fn numbers_may_come_in_any_order() {
         let nodes: String = numbers.iter().map(|n| format!("{n} {n} 0 0\n")).collect();
         let count = numbers.len();
         format!(
-            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n{nodes}$EndNodes\n$Elements\n0\n$EndElements\n"
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n{nodes}$EndNodes\n\
+             $Elements\n0\n$EndElements\n"
         )
     };
     let found = |numbers: &[usize]| {

@@ -1,12 +1,14 @@
-//! What a scene is built into: bodies and how they are held, loads of edges, identifiers and boxes; and
-//! what is refused at the edges of what a mesh and a load may be.
+//! What a scene is built into: bodies and how they are held, loads of edges, identifiers and
+//! boxes; and what is refused at the edges of what a mesh and a load may be.
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
 use nalgebra::DVector;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::{Bounds, Dof, EdgeId, Model, NodeId, TriangleId, freedom};
-use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder, file};
+use plane_contact::problem::scene::{
+    Axis, Contact, MeshBuilder, Scene, SceneBuilder, file, symmetry,
+};
 use serde_json::{Value, json};
 
 /// Builds square blocks of the side 2, each of a material of the given name, side by side with
@@ -29,7 +31,7 @@ fn blocks(names: &[&str]) -> SceneBuilder {
     distinct.into_iter().fold(scene, |scene, name| scene.material(name, 1000.0, 0.25))
 }
 
-/// Holds the first three blocks.
+/// Fixes the lower side of the first `blocks` blocks.
 fn held(scene: SceneBuilder, blocks: usize) -> SceneBuilder {
     (0..blocks).fold(scene, |s, k| s.restrain(format!("bottom {k}"), &[Axis::X, Axis::Y]))
 }
@@ -75,11 +77,14 @@ fn bodies_have_their_own_nodes_and_triangles() {
     assert!(scene.model.target().is_none() && !scene.model.has_contact());
 }
 
+/// Which directions of which nodes are restrained.
+type Restraints<'a> = &'a [(usize, &'a [Axis])];
+
 /// A body at (1, 5) is held where no motion is left: turning is one as well.
 #[test]
 fn what_restraints_leave_free() {
     use Axis::{X, Y};
-    let cases: [(&[(usize, &[Axis])], Option<&str>); 14] = [
+    let cases: [(Restraints, Option<&str>); 14] = [
         (&[], Some("move in x")),
         (&[(1, &[Y]), (2, &[Y])], Some("move in x")),
         (&[(1, &[X]), (4, &[X])], Some("move in y")),
@@ -107,7 +112,7 @@ fn what_restraints_leave_free() {
             }
         }
         // Sizes and places change nothing.
-        for (scale, shift) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, -2.0), (1.0, 1e3)] {
+        for (scale, shift) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, -2.0), (1.0, 1e7)] {
             let mut moved = model.clone();
             moved.nodes = model.nodes.iter().map(|p| p.map(|x| scale * x + shift)).collect();
             let found = freedom(&moved, &moved.bodies[0].nodes);
@@ -341,5 +346,27 @@ fn fields_with_another_value_are_written() {
     assert!(written(&scene.clone().thickness(2.5)).contains("\n  \"thickness\": 2.5"));
     assert!(written(&scene.clone().iterations(7)).contains("\n  \"iterations\": 7"));
     assert!(!written(&scene.clone().iterations(20)).contains("iterations"));
+    let steps = |load_steps: usize| {
+        let contact = Contact { load_steps, ..Contact::new("top 0", "bottom 0", 0.5) };
+        written(&scene.clone().contact(contact))
+    };
+    assert!(steps(3).contains("\"load_steps\":3"), "{}", steps(3));
+    assert!(!steps(16).contains("load_steps"), "{}", steps(16));
     assert!(!written(&scene.thickness(1.0)).contains("thickness"));
+}
+
+/// Both surfaces are their own images, or there is no half.
+#[test]
+fn a_half_needs_symmetric_surfaces() {
+    let has_half = |change: &dyn Fn(&mut Value)| {
+        let mut scene = scene_json("two-blocks");
+        scene["contact"]["cnt"] = json!([10, 11, 12]);
+        scene["contact"]["trg"] = json!([3, 4]);
+        change(&mut scene);
+        symmetry::half(&build(&scene).expect("a sound scene")).is_some()
+    };
+    assert!(has_half(&|_| ()));
+    assert!(!has_half(&|scene| scene["contact"]["cnt"] = json!([10, 11])));
+    assert!(!has_half(&|scene| scene["contact"]["trg"] = json!([4])));
+    assert!(has_half(&|scene| scene["contact"]["cnt"] = json!([11])));
 }
