@@ -6,9 +6,7 @@ use crate::common::json::build;
 use nalgebra::DVector;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::{Bounds, Dof, EdgeId, Model, NodeId, TriangleId, freedom};
-use plane_contact::problem::scene::{
-    Axis, Contact, MeshBuilder, Scene, SceneBuilder, file, symmetry,
-};
+use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder, file};
 use serde_json::{Value, json};
 
 /// Builds square blocks of the side 2, each of a material of the given name, side by side with
@@ -353,20 +351,4 @@ fn fields_with_another_value_are_written() {
     assert!(steps(3).contains("\"load_steps\":3"), "{}", steps(3));
     assert!(!steps(16).contains("load_steps"), "{}", steps(16));
     assert!(!written(&scene.thickness(1.0)).contains("thickness"));
-}
-
-/// Both surfaces are their own images, or there is no half.
-#[test]
-fn a_half_needs_symmetric_surfaces() {
-    let has_half = |change: &dyn Fn(&mut Value)| {
-        let mut scene = scene_json("two-blocks");
-        scene["contact"]["cnt"] = json!([10, 11, 12]);
-        scene["contact"]["trg"] = json!([3, 4]);
-        change(&mut scene);
-        symmetry::half(&build(&scene).expect("a sound scene")).is_some()
-    };
-    assert!(has_half(&|_| ()));
-    assert!(!has_half(&|scene| scene["contact"]["cnt"] = json!([10, 11])));
-    assert!(!has_half(&|scene| scene["contact"]["trg"] = json!([4])));
-    assert!(has_half(&|scene| scene["contact"]["cnt"] = json!([11])));
 }
