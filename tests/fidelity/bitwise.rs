@@ -8,6 +8,7 @@
 use crate::common::random::fixed;
 use nalgebra::SMatrix;
 use plane_contact::answer::Request;
+use plane_contact::numbers::scalar::{Bounded, Scalar, compared};
 use plane_contact::numbers::solve::SparseSquare;
 use plane_contact::paper::door;
 use plane_contact::paper::exports::{self, Export};
@@ -380,6 +381,164 @@ fn listing_and_mirror_agree_on_random_scenes() {
         "Km: line 23 Overflow",
     ] {
         assert!(seen.borrow().contains_key(what), "no scene gave {what:?}: {:#?}", seen.borrow());
+    }
+}
+
+/// `Km` of tables of mates and weights that no search finds: two mates of a node, one of them or
+/// none, at any node and with weights that may be 0; under every way to place its loops.
+#[test]
+fn listing_and_mirror_agree_on_any_mates() {
+    let weights = || select(vec![0.0, 0.5, 1.0, -0.25, 3.0]);
+    let mates = prop::collection::vec((0..8_usize, weights(), 0..8_usize, weights()), 16);
+    let mut runner = proptest::test_runner::TestRunner::new(fixed(16));
+    let drawn = (draw(), reading(), mates);
+    let result = runner.run(&drawn, |(draw, reading, mates)| {
+        let draw = Draw { modulus: 3e4, scale: 1.0, degenerate: false, ..draw };
+        let (sheet, _) = worksheet(&draw);
+        let k_cnt = Table::from_fn(sheet.R(), 4, |n, j| {
+            let (a, first, b, second) = mates[n % mates.len()];
+            // A mate of 0 is none.
+            let mate = |mate: usize| if mate > sheet.R() { 0.0 } else { mate as f64 };
+            [mate(a), first, mate(b), second][j - 1]
+        });
+        for r3 in Wedge::ALL {
+            let reading = Reading { r3: *r3, ..reading };
+            let flat = |m: Table<f64>| bits(m.as_matrix().iter().copied());
+            let mirror = Km(&sheet, &reading, &k_cnt).map(flat).map_err(mirror_stop);
+            let (which, settings) = (Which::Km.under(&reading), settings(&reading));
+            let listing = listings::km(&which, &settings, &sheet, &k_cnt, &mut ());
+            let listing = listing.map(|(m, _)| flat(m)).map_err(|f| listing_stop(&f));
+            prop_assert_eq!(&mirror, &listing);
+            let near = near::Km(&sheet, &reading, &k_cnt).map_err(mirror_stop);
+            let near = near.map(|m: SparseSquare| bits(m.dense().iter().copied()));
+            prop_assert_eq!(&mirror, &near);
+        }
+        Ok(())
+    });
+    result.unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// A few of the random scenes, which the listing takes longer for.
+#[test]
+fn listing_and_mirror_agree_on_some_random_scenes() {
+    let mut config = fixed(24);
+    config.rng_seed = proptest::test_runner::RngSeed::Fixed(77);
+    let mut runner = proptest::test_runner::TestRunner::new(config);
+    let result = runner.run(&(draw(), reading()), |(draw, reading)| {
+        // The usual numbers, in which most runs come to their end.
+        let draw = Draw { modulus: 3e4, scale: 1.0, degenerate: false, ..draw };
+        let (sheet, node_n) = worksheet(&draw);
+        for r1 in LoopPlace::ALL {
+            let reading = Reading { r1: *r1, r4: Conjunction::Guarded, ..reading };
+            agree(&sheet, &node_n, &reading)?;
+        }
+        Ok(())
+    });
+    result.unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// One horizontal target edge from (0, 0) to (1, 0) and a contact node at `at`.
+fn over_an_edge(at: [f64; 2], c_tll: f64) -> Worksheet<f64> {
+    let points = [[0.0, 0.0], [1.0, 0.0], at, [0.0, -1.0]];
+    Worksheet {
+        node: Table::from_fn(4, 4, |n, j| match j {
+            1 => n as f64,
+            4 => 0.0,
+            _ => points[n - 1][j - 2],
+        }),
+        elem: Table::from_fn(1, 8, |_, j| [1, 1, 2, 1, 1, 1, 2, 0][j - 1]),
+        EL: Table::from_fn(1, 8, |_, j| [2, 2, 2, 1, 1, 1, 4, 2][j - 1]),
+        trg: Column::from_vec(vec![1]),
+        cnt: Column::from_vec(vec![3]),
+        c_tll,
+        ind_1: 6,
+        S: Column::filled(8, 0),
+        Ae: Column::filled(1, 1.0),
+        B: Column::filled(1, SMatrix::zeros()),
+        E: Column::filled(1, 1.0),
+        nu: Column::filled(1, 0.0),
+        plane: Plane::Strain,
+    }
+}
+
+/// Line 7 takes an edge up to the tolerance, line 16 a distance below it; a failure names the row
+/// that it stands at.
+#[test]
+fn c_cnt_of_one_node_over_one_edge() {
+    let reading = Reading { r4: Conjunction::Guarded, ..Reading::default() };
+    for find in [c_cnt, near::c_cnt] {
+        let pairs = |at| {
+            let sheet = over_an_edge(at, 0.25);
+            find(&sheet, &reading, &sheet.node).expect("it runs")
+        };
+        let found = |at| {
+            let Pairs { ct, yt, dy, .. } = pairs(at);
+            (ct[1], yt[1], dy[1])
+        };
+        assert_eq!(found([0.5, 0.125]), (1, -0.125, 1));
+        assert_eq!(found([0.5, -0.125]), (1, 0.125, 1));
+        // At the tolerance it faces the edge, and does not touch it.
+        assert_eq!(found([0.5, 0.25]), (1, -0.25, 0));
+        assert_eq!(found([1.25, 0.0]), (1, 0.0, 1));
+        assert_eq!(found([-0.25, -0.25]), (1, 0.25, 0));
+        for beyond in [[0.5, 0.3], [0.5, -0.3], [1.3, 0.0], [-0.3, 0.0]] {
+            assert_eq!(found(beyond), (0, 0.0, 0), "{beyond:?}");
+        }
+        let touching = pairs([0.75, 0.0]).k_cnt;
+        let expected = [[3.0, 0.25, 0.0, 0.0], [3.0, 0.75, 0.0, 0.0], [1.0, 0.25, 2.0, 0.75]];
+        for (n, row) in (1..).zip(expected) {
+            assert_eq!([1, 2, 3, 4].map(|j| touching[(n, j)]), row, "node {n}");
+        }
+        let words = |place: [f64; 2], c_tll: f64| {
+            let mut sheet = over_an_edge([0.5, 0.0], c_tll);
+            (sheet.node[(2, 2)], sheet.node[(2, 3)]) = (place[0], place[1]);
+            find(&sheet, &reading, &sheet.node).expect_err("it fails").to_string()
+        };
+        // A box that overflows, and an edge of which both ends stand over each other.
+        let box_fails = words([f64::MAX, 0.0], f64::MAX);
+        assert!(box_fails.starts_with("c_cnt, line 5: "), "{box_fails}");
+        assert!(box_fails.contains("i1 = 1, trg[i2] = 1, value = "), "{box_fails}");
+        let vertical = words([0.0, 1.0], 1.0);
+        assert!(vertical.starts_with("c_cnt, line 10: "), "{vertical}");
+        assert!(vertical.contains("i1 = 1, ct[i1] = 1, numerator = 1, "), "{vertical}");
+    }
+}
+
+/// In numbers with a bound, the rows of `trg` that are left out are those that line 7 surely does
+/// not take: the same comparisons are left open.
+#[test]
+fn edges_within_the_bounds_of_a_node_are_looked_at() {
+    let reading = Reading { r4: Conjunction::Guarded, ..Reading::default() };
+    for k in 0..40 {
+        let at = [-0.5 + 0.05 * f64::from(k), 0.5 - 0.025 * f64::from(k)];
+        for error in [[0.0, 0.2], [0.2, 0.0], [0.1, 0.1]] {
+            let sheet = over_an_edge(at, 0.25);
+            let of = |n: usize, x: f64| Bounded::new(x, error[usize::from(n == 3)]);
+            let node = Table::from_fn(4, 4, |n, j| of(n, sheet.node[(n, j)]));
+            let sheet = Worksheet {
+                node: node.clone(),
+                elem: sheet.elem,
+                EL: sheet.EL,
+                trg: sheet.trg,
+                cnt: sheet.cnt,
+                c_tll: Bounded::from_f64(sheet.c_tll),
+                ind_1: sheet.ind_1,
+                S: sheet.S,
+                Ae: sheet.Ae.map(Bounded::from_f64),
+                B: Column::filled(1, SMatrix::zeros()),
+                E: sheet.E.map(Bounded::from_f64),
+                nu: sheet.nu.map(Bounded::from_f64),
+                plane: sheet.plane,
+            };
+            let all = compared(|| c_cnt(&sheet, &reading, &node));
+            let near = compared(|| near::c_cnt(&sheet, &reading, &node));
+            assert_eq!(near.1, all.1, "{at:?} {error:?}");
+            assert_eq!(near.0.is_ok(), all.0.is_ok(), "{at:?} {error:?}");
+            if let (Ok(near), Ok(all)) = (near.0, all.0) {
+                let [near, all] = [near, all].map(|pairs| pair_bits(&pairs.map(|x| x.to_f64())));
+                assert_eq!(near, all, "{at:?} {error:?}");
+            }
+        }
     }
 }
 

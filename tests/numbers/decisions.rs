@@ -7,6 +7,7 @@ use crate::common::embedded::scene_json;
 use crate::common::json::build;
 use crate::common::random::fixed;
 use plane_contact::answer::estimates::arithmetic::rounding;
+use plane_contact::answer::estimates::{Certainty, certain};
 use plane_contact::answer::{Detail, Request, Solution, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::paper::decisions::Decision;
@@ -261,4 +262,33 @@ fn what_rounding_decides_of_mortar_is_said() {
         one.condition == "a comparison of mortar's integrals" && one.node.number() == 5
     };
     assert!(!left.is_empty() && left.iter().all(of_mortar), "{left:?}");
+}
+
+/// Where rounding decides in `f64` and not in double-doubles, the latter's run is taken; where it
+/// decides nothing, the run itself; under `unilateral` there are no other numbers.
+#[test]
+fn a_run_is_repeated_where_rounding_decides() {
+    let contact = json!({ "cnt": [5, 6], "trg": [1], "c_tll": 0.1, "coupling": "mortar" });
+    let taken = |x: f64, scalar: ScalarName| {
+        let stamp = [[x, 0.0], [x + 1.0, 0.0], [x, 1.0]];
+        let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
+        let request = block_and_stamp(stamp, &contact, Variant::Stepped).arithmetic(arithmetic);
+        let (solution, how) = certain(solve(&request, &mut |_| ()).expect("it runs"));
+        (solution.request.arithmetic.scalar, how)
+    };
+    let limit = 0.95_f64.sqrt();
+    assert_eq!(taken(0.9, ScalarName::F64), (ScalarName::F64, Certainty::Certain));
+    assert_eq!(taken(limit, ScalarName::F64x2), (ScalarName::F64x2, Certainty::Certain));
+    let again = (ScalarName::BoundedDouble, Certainty::InDoubleDouble);
+    assert_eq!(taken(limit, ScalarName::F64), again);
+    let contact = json!({
+        "cnt": [5], "trg": [1], "c_tll": 0.1, "friction": 0, "geometry": "initial"
+    });
+    let of_part = |x: f64| {
+        let stamp = [[x, 0.0], [2.0, 1.0], [0.0, 1.0]];
+        let solution = solve(&block_and_stamp(stamp, &contact, Variant::Unilateral), &mut |_| ());
+        certain(solution.expect("there is an equilibrium")).1
+    };
+    assert_eq!(of_part(1.0), Certainty::Certain);
+    assert_eq!(of_part(1.050000001), Certainty::Unknown);
 }

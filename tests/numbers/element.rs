@@ -3,11 +3,14 @@
 
 use crate::common::random::fixed;
 use crate::common::tolerances::{ELEMENT, PATCH, RIGID, assert_near};
-use nalgebra::{DVector, Matrix3, SVector};
+use nalgebra::{DVector, Matrix3, SVector, Vector3};
 use plane_contact::answer::Stiffness;
 use plane_contact::numbers::scalar::{Bounded, Scalar};
 use plane_contact::problem::element::Plane;
-use plane_contact::problem::element::{B, Corners, D, State, area, stiffness};
+use plane_contact::problem::element::{
+    B, Corners, D, State, area, gradients, out_of_plane_strain, out_of_plane_stress, stiffness,
+    von_mises_strain_by_stress_formula,
+};
 use plane_contact::problem::model::Dof;
 use plane_contact::studies::benchmark::Cook;
 use proptest::prelude::*;
@@ -167,4 +170,92 @@ fn von_mises_values_of_uniaxial_stress() {
     assert_near("von Mises stress", state.von_mises_stress, s, s, &ELEMENT);
     let strain = 2.0 / 3.0 * (1.0 + nu) * s / E;
     assert_near("von Mises strain", state.von_mises_strain, strain, strain, &ELEMENT);
+}
+
+/// In numbers that `f64` holds: twice the area of the triangle is 8.
+#[test]
+fn a_triangle_in_whole_numbers() {
+    let p = [[1.0, 2.0], [3.0, 2.0], [1.0, 6.0]];
+    assert_eq!(area(&p), 4.0);
+    assert_eq!(area(&[p[0], p[2], p[1]]), -4.0, "clockwise");
+    assert_eq!(gradients(&p), [[-0.5, -0.25], [0.5, 0.0], [0.0, 0.25]]);
+    let turned = p.map(|[x, y]| [y, -x]);
+    assert_eq!(gradients(&turned), gradients(&p).map(|[x, y]| [y, -x]), "by a right angle");
+    // nu = 1/4 in plane strain: E / ((1 + nu) (1 − 2 nu)) = 10 · 1.6 = 16.
+    let d = D(Plane::Strain, 10.0, 0.25);
+    assert_eq!(d, Matrix3::new(12.0, 4.0, 0.0, 4.0, 12.0, 0.0, 0.0, 0.0, 4.0));
+    // nu = 1/2 in plane stress: E / (1 − nu²) = 12 / 0.75 = 16.
+    let d = D(Plane::Stress, 12.0, 0.5);
+    assert_eq!(d, Matrix3::new(16.0, 8.0, 0.0, 8.0, 16.0, 0.0, 0.0, 0.0, 4.0));
+    assert_eq!(stiffness(&B(&p), &d), B(&p).transpose() * d * B(&p));
+}
+
+#[test]
+fn poisson_ratios_up_to_the_bounds_of_each_plane_problem() {
+    use Plane::{Strain, Stress};
+    let sound = [
+        (Strain, (-1.0_f64).next_up()),
+        (Strain, 0.0),
+        (Strain, 0.5_f64.next_down()),
+        (Stress, (-1.0_f64).next_up()),
+        (Stress, 0.5),
+        (Stress, 1.0_f64.next_down()),
+    ];
+    for (plane, nu) in sound {
+        assert!(plane.check_poisson(nu, "here").is_ok(), "{plane:?} {nu}");
+    }
+    for (plane, nu) in [(Strain, -1.0), (Strain, 0.5), (Strain, 0.7), (Stress, -1.5), (Stress, 1.0)]
+    {
+        let error = plane.check_poisson(nu, "here").expect_err("outside");
+        assert_eq!(error.place, "here", "{plane:?} {nu}");
+    }
+    for plane in Plane::ALL {
+        assert!(plane.check_poisson(f64::NAN, "here").is_err(), "{plane:?}");
+    }
+}
+
+/// What lies across the plane, where nu is 1/4: a quarter of the sum of two stresses, and a third
+/// of the sum of two strains, negative.
+#[test]
+fn what_lies_across_the_plane() {
+    let two = Vector3::new(2.0, 4.0, 7.0);
+    assert_eq!(out_of_plane_stress(Plane::Strain, 0.25, &two), 1.5);
+    assert_eq!(out_of_plane_stress(Plane::Stress, 0.25, &two), 0.0);
+    assert_eq!(out_of_plane_strain(Plane::Strain, 0.25, &two), 0.0);
+    assert_near("strain", out_of_plane_strain(Plane::Stress, 0.25, &two), -2.0, 2.0, &ELEMENT);
+}
+
+/// Von Mises values in closed form: of equal strains e along x and y in plane strain the stress is
+/// E e / (1 + nu) and the strain 2/3 e; of a shear g they are √3 G g and g / √3.
+#[test]
+fn von_mises_values_of_simple_strains() {
+    let (E, nu, e) = (1000.0, 0.25, 1e-3);
+    let p = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+    let state = |plane, g| State::new(plane, E, nu, &B(&p), &linear(&p, [0.3, -0.2], g));
+    let equal = state(Plane::Strain, [[e, 0.0], [0.0, e]]);
+    let stress = E * e / (1.0 + nu);
+    assert_near("stress", equal.von_mises_stress, stress, stress, &ELEMENT);
+    assert_near("strain", equal.von_mises_strain, 2.0 / 3.0 * e, e, &ELEMENT);
+    for plane in [Plane::Strain, Plane::Stress] {
+        let shear = state(plane, [[0.0, e], [0.0, 0.0]]);
+        let stress = 3.0_f64.sqrt() * E / (2.0 * (1.0 + nu)) * e;
+        assert_near("shear stress", shear.von_mises_stress, stress, stress, &ELEMENT);
+        assert_near("shear strain", shear.von_mises_strain, e / 3.0_f64.sqrt(), e, &ELEMENT);
+        let still = state(plane, [[0.0; 2]; 2]);
+        assert_eq!([still.von_mises_stress, still.von_mises_strain], [0.0; 2]);
+    }
+}
+
+/// By the formula of the stress, the von Mises strain of a bar that is pulled by e is e itself,
+/// that of a block which only strains along x is e / (1 + nu), and that of a shear g is
+/// √3/2 g / (1 + nu).
+#[test]
+fn von_mises_strains_by_the_formula_of_the_stress() {
+    let (nu, e) = (0.25, 1e-3);
+    let of = |plane, x: [f64; 3]| von_mises_strain_by_stress_formula(plane, nu, &x.into());
+    assert_near("bar", of(Plane::Stress, [e, -nu * e, 0.0]), e, e, &ELEMENT);
+    assert_near("block", of(Plane::Strain, [e, 0.0, 0.0]), e / (1.0 + nu), e, &ELEMENT);
+    let shear = 0.75_f64.sqrt() * e / (1.0 + nu);
+    assert_near("shear", of(Plane::Stress, [0.0, 0.0, e]), shear, shear, &ELEMENT);
+    assert_eq!(of(Plane::Strain, [0.0; 3]), 0.0);
 }

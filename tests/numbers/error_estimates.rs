@@ -1,15 +1,20 @@
 //! The bounds on rounding: true bounds, and not absurdly wide ones, on every setting; the numbers
 //! of `unilateral` beside exact ones.
 
+use crate::common::embedded::scene_json;
+use crate::common::json::build;
 use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{ROUNDING_BOUND_WIDTH, Tolerance};
 use dashu_ratio::RBig;
 use nalgebra::DVector;
+use plane_contact::answer::estimates::ErrorEstimates;
 use plane_contact::answer::estimates::arithmetic::{self, bounded, stress_bounds};
-use plane_contact::answer::{Constraint, Detail, Elimination, Request, Solution, Stiffness, solve};
+use plane_contact::answer::{
+    Constraint, Detail, Elimination, Request, Solution, Step, Stiffness, solve,
+};
 use plane_contact::numbers::scalar::{Exact, Scalar, scope};
 use plane_contact::numbers::solve::{Arithmetic, Ldlt, ScalarName, Solver};
-use plane_contact::problem::element::{B, State};
+use plane_contact::problem::element::{B, D, State};
 use plane_contact::problem::model::Triangle;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
@@ -182,5 +187,167 @@ fn the_bar_of_a_stress_holds_what_a_moved_node_does_to_it() {
             let change = (state.von_mises_stress - before.von_mises_stress).abs();
             assert!(change <= bound, "triangle {n}: {change:e}, bound {bound:e}");
         }
+    }
+}
+
+/// The bounds of each step hold beside the same run in exact numbers, in which their own tell how
+/// far the writing as `f64` may be off.
+#[test]
+fn the_bounds_of_each_step_hold() {
+    let mut held = 0;
+    for name in ["fig1", "two-blocks"] {
+        for variant in [Variant::Tied, Variant::Stepped, Variant::Printed] {
+            let mut request = Request::new(&Scene::open(name).unwrap()).variant(variant);
+            request.iterations = 3;
+            let run = |scalar| {
+                let request = request.clone().arithmetic(in_scalar(scalar, None));
+                solve(&request, &mut |_| ()).ok()
+            };
+            let Some(exact) = run(ScalarName::Exact) else { continue };
+            let written = arithmetic::rounding(&exact);
+            assert_eq!(written.displacement, exact.u.amax() * (f64::EPSILON / 2.0), "{name}");
+            assert_eq!(written.decisions, Some(Vec::new()), "{name}");
+            let half = |x: f64| x * (f64::EPSILON / 2.0);
+            let sizes = |step: &Step| {
+                let Detail::Published(own) = &step.detail else {
+                    unreachable!("a paper's variant")
+                };
+                let yt = own.pairs.yt.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                [yt, own.pairs.k_cnt.as_matrix().amax(), step.max_displacement]
+            };
+            for (step, bounds) in exact.steps.iter().zip(&written.steps) {
+                let bounds = bounds.as_ref().expect("exact numbers have them");
+                assert_eq!([bounds.yt, bounds.weights, bounds.u], sizes(step).map(half), "{name}");
+            }
+            for scalar in [ScalarName::F32, ScalarName::F64, ScalarName::F64x2] {
+                let Some(solution) = run(scalar) else { continue };
+                let found = arithmetic::rounding(&solution);
+                let what = format!("{name}, {variant}, {scalar}");
+                if scalar == ScalarName::F64x2 && found.displacement.is_finite() {
+                    let unit = f64::EPSILON / 2.0 * solution.u.amax();
+                    let bound = found.displacement;
+                    assert!(bound >= unit && bound < 2.0 * unit, "{what}: {bound:e}, {unit:e}");
+                }
+                let pairs = solution.steps.iter().zip(&exact.steps).zip(&found.steps);
+                for ((own, exact), bounds) in pairs {
+                    let Some(bounds) = bounds else { continue };
+                    let (Detail::Published(a), Detail::Published(b)) = (&own.detail, &exact.detail)
+                    else {
+                        unreachable!("a paper's variant")
+                    };
+                    let [yt, weights, u] = sizes(exact).map(half);
+                    let far = (a.pairs.yt.iter().zip(b.pairs.yt.iter()))
+                        .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+                    assert!(far <= bounds.yt + yt, "{what}: yt {far:e} {bounds:?}");
+                    let far = (a.pairs.k_cnt.as_matrix() - b.pairs.k_cnt.as_matrix()).amax();
+                    assert!(far <= bounds.weights + weights, "{what}: weights {far:e} {bounds:?}");
+                    let far = (own.max_displacement - exact.max_displacement).abs();
+                    assert!(far <= bounds.u + u, "{what}: |u| {far:e} {bounds:?}");
+                    let sums = [bounds.yt, bounds.weights, bounds.u];
+                    assert!(sums.iter().all(|bound| *bound >= 0.0), "{what}: {bounds:?}");
+                    held += 1;
+                }
+            }
+        }
+    }
+    assert!(held > 20, "only {held} steps could be compared");
+}
+
+/// Where each displacement is known to d, each strain is known to the sum of |B| d, each stress to
+/// that times D, and the von Mises stress to the von Mises value of these, all of one sign.
+#[test]
+fn the_bar_of_a_stress_has_its_closed_form() {
+    for plane in ["strain", "stress"] {
+        let mut json = scene_json("fig1");
+        json["plane"] = plane.into();
+        let scene = build(&json).expect("a sound scene");
+        let solution = solve(&Request::new(&scene).variant(Variant::Tied), &mut |_| ()).unwrap();
+        let model = &*solution.model;
+        let d = solution.u.amax();
+        let [wide, none] = [d, 0.0].map(|d| stress_bounds(&solution, &bounded(&solution.model), d));
+        for id in model.triangle_ids() {
+            let (material, b) = (model.triangle(id).material, B(&model.corners(id)));
+            let strains = b.abs() * nalgebra::SVector::<f64, 6>::repeat(d);
+            let [x, y, xy]: [f64; 3] = (D(model.plane, material.e, material.nu) * strains).into();
+            let z = if plane == "strain" { material.nu * (x + y) } else { 0.0 };
+            let squares = (x + y).powi(2) + (y + z).powi(2) + (z + x).powi(2);
+            let expected = (squares / 2.0 + 3.0 * xy * xy).sqrt();
+            let found = wide[id.index()];
+            assert!(found >= expected && found < 1.001 * expected, "{id}: {found} {expected}");
+            let rounding = 16.0 * f64::EPSILON * solution.elements[id.index()].von_mises_stress;
+            assert!(none[id.index()] >= rounding, "{id}: {:e} {rounding:e}", none[id.index()]);
+            assert!(none[id.index()] < 1e-6 * expected, "{id}: {:e}", none[id.index()]);
+        }
+    }
+}
+
+/// Lengths, stresses and thickness in other units: what is estimated comes out in these units, and
+/// what has no unit stays.
+#[test]
+fn estimates_have_their_units() {
+    for variant in [Variant::Tied, Variant::Unilateral] {
+        let estimates = |length: f64, stress: f64, thickness: f64| {
+            let mut json = scene_json("two-blocks");
+            for node in json["node"].as_array_mut().unwrap() {
+                for k in [1, 2] {
+                    node[k] = (length * node[k].as_f64().unwrap()).into();
+                }
+            }
+            for material in json["materials"].as_object_mut().unwrap().values_mut() {
+                material["E"] = (stress * material["E"].as_f64().unwrap()).into();
+            }
+            let pressure = &mut json["loads"][0]["pressure"];
+            *pressure = (stress * pressure.as_f64().unwrap()).into();
+            json["thickness"] = thickness.into();
+            let tolerance = &mut json["contact"]["c_tll"];
+            *tolerance = (length * tolerance.as_f64().unwrap()).into();
+            let scene = build(&json).expect("a sound scene");
+            let solution = solve(&Request::new(&scene).variant(variant), &mut |_| ()).unwrap();
+            ErrorEstimates::new(&solution)
+        };
+        let plain = estimates(1.0, 1.0, 1.0);
+        assert!(plain.displacement_mesh > 0.0 && plain.mesh.total() > 0.0, "{variant}");
+        for [length, stress, thickness] in [[2.0, 1.0, 1.0], [1.0, 4.0, 1.0], [1.0, 1.0, 4.0]] {
+            let other = estimates(length, stress, thickness);
+            let what = format!("{variant}, {length} {stress} {thickness}");
+            let same = |a: f64, b: f64| {
+                assert!(a == b || (a - b).abs() <= 1e-9 * b.abs(), "{what}: {a:e} {b:e}");
+            };
+            same(other.displacement_mesh, length * plain.displacement_mesh);
+            same(other.mesh.relative(), plain.mesh.relative());
+            // The root of an energy: stress · length² · thickness.
+            let root = (stress * length * length * thickness).sqrt();
+            same(other.mesh.total(), root * plain.mesh.total());
+            same(other.mesh.energy_norm, root * plain.mesh.energy_norm);
+            for (a, b) in other.bodies.iter().zip(&plain.bodies) {
+                same(a.value, stress * b.value);
+                same(a.mesh, stress * b.mesh);
+                same(a.recovered, stress * b.recovered);
+            }
+            let maps = [&other, &plain].map(|estimates| estimates.mesh.error_map());
+            maps[0].iter().zip(&maps[1]).for_each(|(a, b)| same(*a, *b));
+            let mean = maps[1].iter().map(|x| x * x).sum::<f64>() / maps[1].len() as f64;
+            same(mean.sqrt(), plain.mesh.relative());
+        }
+    }
+}
+
+/// Nothing loads the blocks: there is no error, and no division by nothing.
+#[test]
+fn what_is_not_loaded_has_no_error() {
+    let mut json = scene_json("two-blocks");
+    json["loads"] = serde_json::json!([]);
+    let scene = build(&json).expect("a sound scene");
+    let solution = solve(&Request::new(&scene).variant(Variant::Tied), &mut |_| ()).unwrap();
+    let found = ErrorEstimates::new(&solution);
+    assert_eq!(
+        (found.mesh.total(), found.mesh.relative(), found.mesh.energy_norm),
+        (0.0, 0.0, 0.0)
+    );
+    assert!(found.mesh.error_map().iter().all(|part| *part == 0.0));
+    assert_eq!((found.displacement_mesh, found.unlimited), (0.0, None));
+    for body in &found.bodies {
+        assert_eq!([body.value, body.recovered, body.mesh], [0.0; 3]);
+        assert_eq!(body.no_limit, None);
     }
 }

@@ -89,6 +89,9 @@ fn single_nodes_that_hold_a_force_have_no_limit() {
         .restrain_node(node([4, 0]), &[Axis::Y]);
     let pressed = square.force(node([2, 4]), [0.0, -1.0]);
     assert_eq!(found(pressed.clone(), Cause::Support), nodes(&[[0, 0], [4, 0]]));
+    // Half a force that pulls up at one of them leaves it nothing to hold.
+    let pulled = pressed.clone().force(node([0, 0]), [0.0, 0.5]);
+    assert_eq!(found(pulled, Cause::Support), nodes(&[[4, 0]]));
     let squeezed = pressed.force(node([2, 0]), [0.0, 1.0]);
     assert_eq!(found(squeezed, Cause::Support), [0; 0]);
 }

@@ -208,6 +208,72 @@ fn a_token_may_begin_in_one_part_of_a_file_and_end_in_the_next() {
     }
 }
 
+/// Lines before a token count wherever the parts of the file end; a comment may end in any place.
+#[test]
+fn lines_are_counted_from_the_beginning_of_the_file() {
+    let part = 1 << 18;
+    let faulty = SMALL_2.replace("20 1 0 0", "20 1 o 0");
+    for width in [1, 60, 1000, part - 300, part + 5] {
+        let line = format!("{}\n", "-".repeat(width));
+        let lines = 2 * part / width + 1;
+        let long = format!("$Long\n{}$EndLong\n$Nodes\n", line.repeat(lines));
+        let error = read(faulty.replace("$Nodes\n", &long).as_bytes()).unwrap_err();
+        assert_eq!(error.place, Place::Line(15 + lines), "{width}: {error}");
+    }
+}
+
+/// Numbers in any order, each once: the items ascend.
+#[test]
+fn numbers_may_come_in_any_order() {
+    let text = |numbers: &[usize]| {
+        let nodes: String = numbers.iter().map(|n| format!("{n} {n} 0 0\n")).collect();
+        let count = numbers.len();
+        format!(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n{nodes}$EndNodes\n\
+             $Elements\n0\n$EndElements\n"
+        )
+    };
+    let found = |numbers: &[usize]| {
+        let mesh = read(text(numbers).as_bytes());
+        mesh.map(|mesh| mesh.nodes.iter().map(|node| node.number).collect::<Vec<_>>())
+            .map_err(|error| error.to_string())
+    };
+    let orders: [&[usize]; 6] =
+        [&[1, 2, 3, 4], &[4, 3, 2, 1], &[2, 1, 4, 3], &[3, 4, 1, 2], &[7, 1, 9, 8, 2], &[5]];
+    for numbers in orders {
+        let mut sorted = numbers.to_vec();
+        sorted.sort_unstable();
+        assert_eq!(found(numbers), Ok(sorted), "{numbers:?}");
+        for again in numbers {
+            let error = found(&[numbers, &[*again]].concat()).unwrap_err();
+            assert!(error.contains(&format!("node {again}")), "{error}");
+        }
+    }
+}
+
+/// The largest number that is read, and the first that is not.
+#[test]
+fn dimensions_and_tags_at_their_bounds() {
+    let named =
+        |dim: usize| read(SMALL_2.replace("1 7 \"base\"", &format!("{dim} 7 \"base\"")).as_bytes());
+    assert!([0, 1, 2, 3].iter().all(|dim| named(*dim).is_ok()));
+    assert!(named(4).is_err());
+    let tags = |count: usize| {
+        let tags: String = (1..=count).map(|tag| format!(" {tag}")).collect();
+        read(SMALL_4.replace(" 1 1 1 -3", &format!(" {count}{tags} 1 -3")).as_bytes())
+    };
+    let tagged = tags(32).expect("as many as are allowed");
+    assert_eq!(tagged.elements[1].physical[..], (1..=32).collect::<Vec<_>>());
+    assert!(tags(33).unwrap_err().to_string().contains("at most 32 physical groups"));
+    let block = |dim: usize| {
+        let volume = SMALL_4.replace("0 1 1 0\n", "0 1 1 1\n");
+        let volume = volume.replace("$EndEntities", "4 0 0 0 1 1 1 0 0\n$EndEntities");
+        read(volume.replace("2 4 0 1\n30", &format!("{dim} 4 0 1\n30")).as_bytes())
+    };
+    assert!([2, 3].iter().all(|dim| block(*dim).is_ok()), "{:?}", block(3));
+    assert!(block(4).is_err());
+}
+
 /// A file that breaks off, as on a disk that is taken away.
 #[test]
 fn what_cannot_be_read_on_is_told() {

@@ -31,6 +31,7 @@ mod hostile;
 mod limits;
 mod mathcad;
 mod mistakes;
+mod models;
 #[path = "../../fuzz/oracles/mod.rs"]
 mod oracles;
 mod pages;
