@@ -103,7 +103,12 @@ fn a_kill_leaves_the_old_files_or_the_new_ones() {
     let mut random = fastrand::Rng::with_seed(16);
     let (mut died, mut changed, mut slowest) = (0, 0, Duration::ZERO);
     let mut before = files(&folder.path().join("o"));
-    for k in 0..kills {
+    // On a busy machine runs may end before their kill comes: then there are more.
+    for k in 0.. {
+        if k >= kills && died > 0 {
+            break;
+        }
+        assert!(k < 20 * kills, "every run ended before its kill");
         let (signal, number) = [("KILL", 9), ("TERM", 15), ("INT", 2)][k as usize % 3];
         let other = usize::from(before == expected[0]);
         let left = staged(folder.path());
@@ -132,7 +137,6 @@ fn a_kill_leaves_the_old_files_or_the_new_ones() {
         before = now;
     }
     println!("{kills} kills, {died} in the middle, {changed} after the files; at most {slowest:?}");
-    assert!(died > 0);
     assert!(run(folder.path(), RUNS[0]).status.success());
     assert_eq!(files(&folder.path().join("o")), expected[0]);
     assert_eq!(staged(folder.path()), [""; 0], "the next run removes what kills left");
