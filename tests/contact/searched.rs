@@ -173,17 +173,32 @@ fn loose_bodies() {
     record("loose", &QUICK, loose);
 }
 
+/// Two squares, the target, whose six nodes are the first, and one body of four nodes, row by row,
+/// over them.
+fn square_over_two(
+    upper: [[[f64; 2]; 2]; 2],
+    restrained: Vec<(usize, Vec<Axis>)>,
+    loads: Vec<(usize, [f64; 2])>,
+) -> Bodies {
+    let lower = [-1.0, 0.0].iter().flat_map(|y| [0.0, 1.0, 2.5].map(|x| [x, *y]));
+    Bodies {
+        nodes: lower.chain(upper.into_iter().flatten()).collect(),
+        triangles: [grid(0, 3, 2), grid(6, 2, 2)],
+        moduli: [(1e3, 0.2), (1e3, 0.3)],
+        contact: vec![6, 7],
+        target: vec![[3, 4], [4, 5]],
+        restrained,
+        loads,
+    }
+}
+
 /// A square that one restraint or none holds over a short target, and forces on its top in any
 /// direction: it falls, tips, slides or leaves, or rests.
 fn square(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
     let left = one_of(rng, &[0.0, 0.4, 1.2, 1.9]);
     let gap = one_of(rng, &[0.0, 0.0, 0.1]);
-    let mut nodes: Vec<[f64; 2]> =
-        [-1.0, 0.0].iter().flat_map(|y| [0.0, 1.0, 2.5].map(|x| [x, *y])).collect();
     let width = one_of(rng, &[1.0, 1.5]);
-    for y in [gap, gap + 1.0] {
-        nodes.extend([[left, y], [left + width, y]]);
-    }
+    let upper = [gap, gap + 1.0].map(|y| [[left, y], [left + width, y]]);
     let both = vec![Axis::X, Axis::Y];
     let mut restrained: Vec<_> = (0..3).map(|n| (n, both.clone())).collect();
     let node = 6 + rng.usize(..4);
@@ -198,15 +213,7 @@ fn square(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
         [across, one_of(rng, &[-1.0, -1.0, -0.2, 0.0, 0.5])]
     };
     let loads = [8, 9].map(|n| (n, force(rng))).into();
-    let bodies = Bodies {
-        nodes,
-        triangles: [grid(0, 3, 2), grid(6, 2, 2)],
-        moduli: [(1e3, 0.2), (1e3, 0.3)],
-        contact: vec![6, 7],
-        target: vec![[3, 4], [4, 5]],
-        restrained,
-        loads,
-    };
+    let bodies = square_over_two(upper, restrained, loads);
     let writing = Writing {
         shift: one_of(rng, &[[0.0, 0.0], [50.0, -30.0]]),
         turns: rng.usize(..4),
@@ -327,21 +334,12 @@ fn surfaces_of_many_nodes() {
 /// A square on the left end of a short target, both held along x on the left side, whose top
 /// carries 2; its right lower corner stands `gap` higher.
 fn on_the_left(gap: f64, friction: f64, loads: &[(usize, [f64; 2])]) -> (Bodies, ContactModel) {
-    let mut nodes: Vec<[f64; 2]> =
-        [-1.0, 0.0].iter().flat_map(|y| [0.0, 1.0, 2.5].map(|x| [x, *y])).collect();
-    nodes.extend([[0.0, 0.0], [1.0, gap], [0.0, 1.0], [1.0, 1.0]]);
+    let upper = [[[0.0, 0.0], [1.0, gap]], [[0.0, 1.0], [1.0, 1.0]]];
     let both = vec![Axis::X, Axis::Y];
     let mut restrained: Vec<_> = (0..3).map(|n| (n, both.clone())).collect();
     restrained.extend([3, 6, 8].map(|n| (n, vec![Axis::X])));
-    let bodies = Bodies {
-        nodes,
-        triangles: [grid(0, 3, 2), grid(6, 2, 2)],
-        moduli: [(1e3, 0.2), (1e3, 0.3)],
-        contact: vec![6, 7],
-        target: vec![[3, 4], [4, 5]],
-        restrained,
-        loads: [&[(8, [0.0, -1.0]), (9, [0.0, -1.0])], loads].concat(),
-    };
+    let loads = [&[(8, [0.0, -1.0]), (9, [0.0, -1.0])], loads].concat();
+    let bodies = square_over_two(upper, restrained, loads);
     let geometry = Geometry::Initial;
     let friction = Friction::new(friction).unwrap();
     (bodies, ContactModel { geometry, friction, load_steps: 1, ..ContactModel::default() })

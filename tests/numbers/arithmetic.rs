@@ -6,7 +6,7 @@ use crate::common::tolerances::{DOUBLE_DOUBLE, Tolerance};
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
 use plane_contact::answer::Request;
-use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Scalar, rational, scope};
+use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Rounded, Scalar, rational, scope};
 use plane_contact::paper::door;
 use plane_contact::paper::mathcad::array::Column;
 use plane_contact::paper::mirror::{Cause, Failure, Reading, c_cnt};
@@ -254,4 +254,52 @@ fn the_mirror_fails_at_the_same_line_in_every_scalar() {
         }
     }
     assert!(failures > 0, "the scenes are here to fail");
+}
+
+#[test]
+fn infinities_and_nans_go_through_double_doubles_as_through_f64() {
+    let special = [0.0, 1.0, -2.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, f64::MAX, f64::MIN];
+    for (x, y) in special.iter().flat_map(|x| special.map(|y| (*x, y))) {
+        let (a, b) = (F64x2::from_f64(x), F64x2::from_f64(y));
+        let results = [(a + b, x + y), (a - b, x - y), (a * b, x * y), (a / b, x / y)];
+        for (k, (value, plain)) in results.into_iter().enumerate() {
+            let value = value.to_f64();
+            assert!(value == plain || value.is_nan() && plain.is_nan(), "{k}: {x} {y} {value}");
+        }
+    }
+}
+
+/// A divisor that may be 0 bounds nothing, be it 0 itself, or 1 ± 1, or 1 ± 2.
+#[test]
+fn what_is_divided_by_what_may_be_zero_has_no_bound() {
+    let exact = |x: f64| Bounded::new(x, 0.0);
+    let one = Bounded::new(1.0, 1.0 - 8.0 * f64::EPSILON);
+    assert_eq!(one.error(), 1.0, "its own rounding is added");
+    for divisor in [exact(0.0), one, Bounded::new(1.0, 2.0), Bounded::new(-1.0, f64::INFINITY)] {
+        for x in [0.0, 1.0] {
+            assert_eq!((exact(x) / divisor).error(), f64::INFINITY, "{x} {divisor:?}");
+        }
+    }
+    assert_eq!((exact(0.0) / Bounded::new(1.0, 0.5)).error(), 0.0);
+    assert!(!Scalar::is_finite(exact(1.0) / exact(0.0)) && Scalar::is_finite(one));
+}
+
+/// At 1e-280 a quotient does not underflow yet.
+#[test]
+fn rounding_errors_at_the_limit_of_underflow() {
+    let [small, one] = [1e-280, 1.0].map(F64x2::from_f64);
+    let error = F64x2::of_quotient(small, one, small);
+    assert!(0.0 < error && error < 1e-305, "{error:e}");
+    let below = F64x2::from_f64(0.9e-280);
+    assert!(F64x2::of_quotient(below, one, below) > 0.9e-300);
+    assert!(f64::of_product(1e-280, 1.0, 1e-280) == 0.0);
+    assert!(f64::of_product(0.9e-280, 1.0, 0.9e-280) > 0.9e-300);
+}
+
+#[test]
+fn numbers_are_read_and_written_as_they_are() {
+    let half = RBig::from(1) / RBig::from(2);
+    assert_eq!((0.5_f64.to_rational(), 0.5_f32.to_rational()), (Some(half.clone()), Some(half)));
+    assert_eq!((f64::INFINITY.to_rational(), f64::NAN.to_rational()), (None, None));
+    scope(|| assert_eq!(Exact::from_f64(0.5).to_string(), "0.5"));
 }

@@ -25,4 +25,5 @@ mod recorded;
 mod scalars;
 mod singular;
 mod solvers;
+mod systems;
 mod tolerances;

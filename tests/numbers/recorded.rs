@@ -6,15 +6,14 @@ use std::fmt::Write;
 use fastrand::Rng;
 use nalgebra::{DMatrix, DVector};
 use plane_contact::numbers::scalar::{
-    Bounded, BoundedDouble, Exact, F64x2, Scalar, WithBound, compared, scope,
+    Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, compared, scope,
 };
 use plane_contact::numbers::solve::{
     Arithmetic, Condensed, FactorSize, Inputs, Pattern, Precision, ScalarName, Solver,
     SparseCholesky, SparseSquare, SparseSymmetric, cost, inverse_norm, largest_motion, memory,
 };
 
-use crate::common::golden::assert_golden_by;
-use crate::common::recorded::assert_recorded;
+use crate::common::recorded::{assert_recorded, assert_recorded_exactly};
 
 /// Numbers at which operations turn, beside random ones.
 const SPECIAL: [f64; 14] = [
@@ -112,9 +111,7 @@ fn operations_of_every_scalar() {
     operations::<BoundedDouble>("f64x2-bounded", &mut rng, &mut out);
     scope(|| operations::<Exact>("exact", &mut rng, &mut out));
     // IEEE 754 rounds the same everywhere.
-    assert_golden_by("recorded", "scalars", &out, |recorded, found| {
-        recorded.trim_end() == found.trim_end()
-    });
+    assert_recorded_exactly("scalars", &out);
 }
 
 /// Springs between neighbours of a grid, its first row held by the ground; `shift` off the diagonal
@@ -276,6 +273,10 @@ fn sparse_matrices() {
     assert_recorded("matrices", &out);
 }
 
+fn of_two<V: Rounded>(x: WithBound<V>, y: WithBound<V>) -> [WithBound<V>; 6] {
+    [x + y, x - y, x * y, x / y, Scalar::abs(x).root(), Scalar::length(x, y)]
+}
+
 /// Numbers with bounds that were given.
 #[test]
 fn bounds() {
@@ -292,31 +293,15 @@ fn bounds() {
         let (single, double) = (WithBound::new(x, ex), WithBound::new(F64x2::from_f64(x), ex));
         let (other, wide) = (WithBound::new(y, ey), WithBound::new(F64x2::from_f64(y), ey));
         writeln!(out, "{x:.6e} ±{ex:.6e} {y:.6e} ±{ey:.6e}").expect("room");
-        for z in [
-            single + other,
-            single - other,
-            single * other,
-            single / other,
-            single.abs().root(),
-            Bounded::length(single, other),
-        ] {
+        for z in of_two(single, other) {
             writeln!(out, "  {} off {:.5e} double {}", text(z), z.off(), text(z.in_double()))
                 .expect("room");
         }
-        for z in [
-            double + wide,
-            double - wide,
-            double * wide,
-            double / wide,
-            double.abs().root(),
-            BoundedDouble::length(double, wide),
-        ] {
+        for z in of_two(double, wide) {
             writeln!(out, "  {} off {:.5e}", text(z), z.off()).expect("room");
         }
         let (_, unsure) = compared(|| [single < other, single == other, double > wide]);
         writeln!(out, "  {unsure:?}").expect("room");
     }
-    assert_golden_by("recorded", "bounds", &out, |recorded, found| {
-        recorded.trim_end() == found.trim_end()
-    });
+    assert_recorded_exactly("bounds", &out);
 }

@@ -9,6 +9,7 @@ mod common {
     pub mod json;
     pub mod program;
     pub mod random;
+    pub mod recorded;
     pub mod recovery;
     pub mod tolerances;
     pub mod tools;

@@ -10,7 +10,7 @@ use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder, gm
 use serde_json::{Value, json};
 
 use crate::common::embedded::scene_json;
-use crate::common::golden::assert_golden_by;
+use crate::common::recorded::assert_recorded_exactly;
 
 /// The number of edited scenes and of edits of each mesh file.
 const SCENES: usize = 240;
@@ -175,11 +175,7 @@ fn edited_scenes() {
         let read = read(Scene::build("edited", json.as_bytes(), beside));
         writeln!(text, "{}\n{read}", edits.join(", ")).expect("room");
     }
-    assert_golden_by("recorded", "scenes", &text, same);
-}
-
-fn same(recorded: &str, found: &str) -> bool {
-    recorded.trim_end() == found.trim_end()
+    assert_recorded_exactly("scenes", &text);
 }
 
 #[test]
@@ -203,7 +199,7 @@ fn edited_mesh_files() {
             writeln!(text, "{name}: {how}\n  {read}").expect("room");
         }
     }
-    assert_golden_by("recorded", "mesh-files", &text, same);
+    assert_recorded_exactly("mesh-files", &text);
 }
 
 /// Changes a line or a word of a text.
@@ -302,5 +298,5 @@ fn symmetric_scenes() {
         let scene = symmetric(&mut rng).build();
         writeln!(text, "{k}\n{}", read(scene)).expect("room");
     }
-    assert_golden_by("recorded", "symmetric", &text, same);
+    assert_recorded_exactly("symmetric", &text);
 }

@@ -87,8 +87,9 @@ impl F64x2 {
         match (hi.is_finite() && lo.is_finite(), plain.is_finite()) {
             (true, _) => F64x2 { hi, lo },
             // The last rounding passed the largest f64.
-            (false, true) => F64x2 { hi: f64::INFINITY.copysign(plain), lo: 0.0 },
-            (false, false) => F64x2 { hi: plain, lo: 0.0 },
+            (false, true) if plain != 0.0 => F64x2 { hi: f64::INFINITY.copysign(plain), lo: 0.0 },
+            // So it is of what is divided by infinity, too.
+            (false, _) => F64x2 { hi: plain, lo: 0.0 },
         }
     }
 }

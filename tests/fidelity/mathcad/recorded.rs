@@ -14,8 +14,7 @@ use plane_contact::paper::mathcad::{
     Array, Limits, Listing, Outcome, Settings, Sheet, Value, json,
 };
 
-use crate::common::golden::assert_golden_by;
-use crate::common::recorded::assert_recorded;
+use crate::common::recorded::{assert_recorded, assert_recorded_exactly};
 
 /// The number of programs of a golden file.
 const PROGRAMS: usize = 150;
@@ -331,9 +330,7 @@ fn angles() {
         };
         writeln!(text, "{x}: {}", listings.each_ref().map(of).join(" ")).expect("room");
     }
-    assert_golden_by("recorded", "angles", &text, |recorded, found| {
-        recorded.trim_end() == found.trim_end()
-    });
+    assert_recorded_exactly("angles", &text);
 }
 
 /// Changes a text, an attribute or an element of XML, and tells how.
