@@ -1,5 +1,7 @@
 //! The passages of README.md.
 
+use std::collections::BTreeMap;
+
 use plane_contact::Request;
 use plane_contact::answer::{Assessment, Measured, Solution};
 use plane_contact::numbers::solve::{ScalarName, Solver};
@@ -25,7 +27,7 @@ use crate::common::tolerances::{BALANCE, CATTANEO, COMPLEMENTARITY, PUNCH, SHEAR
 pub const PASSAGES: Passages = Passages {
     computed: &[
         evidence, example, variants, claims, calculix, defaults, patches, hertz, plates,
-        tolerances, c_tol, iterations, statuses, halves, arithmetic, extremes,
+        tolerances, c_tol, iterations, statuses, halves, arithmetic, extremes, mutants,
     ],
     given: &[
         ("eq. (1)", "the number of an equation of the paper"),
@@ -77,6 +79,7 @@ pub const PASSAGES: Passages = Passages {
         ("| 6 | - |", "as above"),
         ("0 where restrained, else 1", "the meaning of a value, its definition"),
         ("2R x 2R", "the shape of a symbol, its definition"),
+        ("as of 23 November 2026", "a date"),
         ("MIT or Apache-2.0", "the name of a licence"),
         ("length³; 1/length; stress", "a unit"),
     ],
@@ -495,4 +498,15 @@ fn extremes() -> Vec<String> {
             at("steep-edge:", "yt 7e-4 off the edge f64", below)
         ),
     ]
+}
+
+/// What `.ci/mutants/kept.json` has: a letter for each mutant, `-` where it is not graded.
+fn mutants() -> Vec<String> {
+    let kept: BTreeMap<String, BTreeMap<String, String>> =
+        serde_json::from_str(include_str!("../../../.ci/mutants/kept.json")).expect("JSON");
+    let letters = || kept.values().flat_map(BTreeMap::values).flat_map(|letters| letters.chars());
+    let count = |of: &str| letters().filter(|letter| of.contains(*letter)).count();
+    let (noticed, graded) = (count("ct"), count("ctmuo"));
+    let part = 100.0 * noticed as f64 / graded as f64;
+    vec![format!("of {graded} such mutants the tests notice {noticed}, {part:.1} %")]
 }
