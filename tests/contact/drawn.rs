@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use fastrand::Rng;
 use plane_contact::problem::scene::Axis;
 
+use crate::common::draws::one_of;
 use crate::corners::{Bodies, grid};
 
 /// What a scene shows.
@@ -68,11 +69,6 @@ impl Drawn {
 /// A number between two.
 fn between(rng: &mut Rng, least: f64, most: f64) -> f64 {
     least + (most - least) * rng.f64()
-}
-
-/// One of few.
-fn one_of<T: Copy>(rng: &mut Rng, from: &[T]) -> T {
-    from[rng.usize(..from.len())]
 }
 
 /// `n` numbers from `least` to `most`, evenly or unevenly spaced.

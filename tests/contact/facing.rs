@@ -12,10 +12,11 @@ use plane_contact::problem::modelling::{ContactModel, Coupling};
 use plane_contact::problem::scene::Axis;
 use serde_json::{Value, json};
 
+use crate::common::draws::one_of;
 use crate::common::recorded::assert_recorded;
 use crate::corners::{Bodies, Writing, grid};
 use crate::drawn::{KINDS, draw};
-use crate::recorded::{facing, folded, one_of, regular};
+use crate::recorded::{facing, folded, regular};
 
 /// The number of shapes of each record.
 const SHAPES: usize = 64;

@@ -2,6 +2,7 @@
 
 #[path = "../common"]
 mod common {
+    pub mod draws;
     pub mod embedded;
     pub mod golden;
     pub mod golden_floats;

@@ -20,6 +20,7 @@ use plane_contact::problem::scene::Axis;
 use plane_contact::report::ResultFile;
 use serde_json::{Value, json};
 
+use crate::common::draws::one_of;
 use crate::common::recorded::assert_recorded;
 use crate::corners::{Bodies, Writing, grid};
 use crate::drawn::{Kind, draw};
@@ -94,10 +95,6 @@ pub fn regular(rng: &mut Rng) -> Bodies {
         restrained,
         loads,
     }
-}
-
-pub fn one_of<T: Copy>(rng: &mut Rng, from: &[T]) -> T {
-    from[rng.usize(..from.len())]
 }
 
 fn model(rng: &mut Rng) -> ContactModel {
@@ -230,7 +227,8 @@ fn beside(solution: &Solution, assessment: &Assessment) -> Value {
         estimates.mesh.recovered.iter().flatten().flat_map(|stress| stress.iter().copied());
     let singular = singular(solution).into_iter().map(|point| {
         let triangles = point.triangles.iter().map(|t| t.index()).collect::<Vec<_>>();
-        json!({ "node": point.node.index(), "cause": point.cause.to_string(), "triangles": triangles })
+        let cause = point.cause.to_string();
+        json!({ "node": point.node.index(), "cause": cause, "triangles": triangles })
     });
     json!({
         "energy_norm": estimates.mesh.energy_norm,
@@ -245,12 +243,17 @@ fn beside(solution: &Solution, assessment: &Assessment) -> Value {
 }
 
 pub fn facing(pairing: &Pairing) -> Value {
-    let [nodes, weights]: [Vec<Value>; 2] = [
-        pairing.masters.iter().map(|(node, _)| json!(node.index())).collect(),
-        pairing.masters.iter().map(|(_, weight)| json!(weight)).collect(),
-    ];
-    let Pairing { normal, gap, length, edge, .. } = pairing;
-    json!({ "edge": edge.index(), "gap": gap, "length": length, "nodes": nodes, "normal": normal, "weights": weights })
+    let Pairing { masters, normal, gap, length, edge, .. } = pairing;
+    let masters = masters.iter().map(|(node, weight)| (node.index(), *weight));
+    let (nodes, weights): (Vec<usize>, Vec<f64>) = masters.unzip();
+    json!({
+        "edge": edge.index(),
+        "gap": gap,
+        "length": length,
+        "nodes": nodes,
+        "normal": normal,
+        "weights": weights,
+    })
 }
 
 /// The values of a field, over all elements of its arrays: a sum of numbers of which each has a weight

@@ -15,10 +15,11 @@ use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geomet
 use plane_contact::problem::scene::{Axis, SceneBuilder};
 use serde_json::json;
 
+use crate::common::draws::one_of;
 use crate::common::recorded::assert_recorded;
 use crate::corners::{Bodies, Writing, grid};
 use crate::drawn::{KINDS, draw};
-use crate::recorded::{folded, one_of, regular};
+use crate::recorded::{folded, regular};
 
 /// Returns the line of a run: its statuses at the end, and what led there; or why it has none.
 fn line(scene: &SceneBuilder) -> String {

@@ -3,6 +3,7 @@
 #[path = "../common"]
 mod common {
     pub mod coverage;
+    pub mod draws;
     pub mod embedded;
     pub mod golden;
     pub mod golden_floats;

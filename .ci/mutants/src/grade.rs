@@ -12,6 +12,7 @@ use crate::mutant::Mutant;
 use crate::processes::{self, End};
 use crate::select::Options;
 use crate::tests::{self, Test};
+use crate::workers::share;
 use crate::{Failure, Work};
 
 /// A test has this many times its own time, and some seconds on top.
@@ -82,7 +83,7 @@ pub fn grade(work: &Work, options: &Options) -> Result<(), Failure> {
     if chosen.is_empty() || tests.is_empty() {
         return Err("there is nothing to grade".into());
     }
-    let mut left = chosen.iter().copied().filter(|mutant| !done.contains(&mutant.name));
+    let left = chosen.iter().copied().filter(|mutant| !done.contains(&mutant.name));
     println!("{} mutants chosen, {} to grade", chosen.len(), left.clone().count());
     let results = OpenOptions::new().create(true).append(true).open(work.results())?;
     let bench = Bench {
@@ -93,19 +94,9 @@ pub fn grade(work: &Work, options: &Options) -> Result<(), Failure> {
         results: Mutex::new(results),
         known: Mutex::default(),
     };
-    let queue = Mutex::new(&mut left);
-    let next = || queue.lock().expect("no worker panics").next();
-    std::thread::scope(|scope| {
-        let work = |worker: usize| -> Result<(), String> {
-            while let Some(mutant) = next() {
-                bench.one(mutant, worker).map_err(|why| format!("{}: {why}", mutant.name))?;
-            }
-            Ok(())
-        };
-        let workers: Vec<_> = (1..=options.jobs).map(|k| scope.spawn(move || work(k))).collect();
-        workers.into_iter().try_for_each(|worker| worker.join().expect("no worker panics"))
-    })?;
-    Ok(())
+    share(left, options.jobs, |mutant, worker| {
+        bench.one(mutant, worker).map_err(|why| format!("{}: {why}", mutant.name).into())
+    })
 }
 
 /// Returns the results so far.

@@ -11,6 +11,7 @@ mod select;
 mod sites;
 mod table;
 mod tests;
+mod workers;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::processes::{End, command, run};
+use crate::workers::share;
 use crate::{Failure, Work};
 
 /// A test is ended after this: what it reaches until then is enough.
@@ -59,23 +60,14 @@ pub fn reach(work: &Work, left_out: &Path) -> Result<(), Failure> {
         left.extend(names.map(|name| (binary.clone(), name)).filter(|test| !done.contains(test)));
     }
     let file = Mutex::new(OpenOptions::new().create(true).append(true).open(work.tests())?);
-    let (queue, failed) = (Mutex::new(left.iter()), Mutex::new(Vec::new()));
-    let next = || queue.lock().expect("no worker panics").next();
-    let work_on = |worker: usize| -> Result<(), String> {
-        while let Some((binary, name)) = next() {
-            let test = alone(work, binary, name, worker).map_err(|why| format!("{name}: {why}"))?;
-            match test {
-                Some(test) => append(&mut file.lock().expect("no worker panics"), &test)
-                    .map_err(|why| why.to_string())?,
-                None => failed.lock().expect("no worker panics").push(name.as_str()),
-            }
+    let failed = Mutex::new(Vec::new());
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    share(left.iter(), cores, |(binary, name), worker| {
+        match alone(work, binary, name, worker)? {
+            Some(test) => append(&mut file.lock().expect("no worker panics"), &test)?,
+            None => failed.lock().expect("no worker panics").push(name.as_str()),
         }
         Ok(())
-    };
-    std::thread::scope(|scope| {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let workers: Vec<_> = (0..cores).map(|k| scope.spawn(move || work_on(k))).collect();
-        workers.into_iter().try_for_each(|worker| worker.join().expect("no worker panics"))
     })?;
     let failed = failed.into_inner().expect("no worker panics");
     match failed.is_empty() {

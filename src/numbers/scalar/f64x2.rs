@@ -88,7 +88,7 @@ impl F64x2 {
             (true, _) => F64x2 { hi, lo },
             // The last rounding passed the largest f64.
             (false, true) if plain != 0.0 => F64x2 { hi: f64::INFINITY.copysign(plain), lo: 0.0 },
-            // So it is of what is divided by infinity, too.
+            // Also where f64 has the result and the way to its error does not: x / ∞ is 0.
             (false, _) => F64x2 { hi: plain, lo: 0.0 },
         }
     }

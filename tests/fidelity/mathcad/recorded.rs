@@ -14,6 +14,7 @@ use plane_contact::paper::mathcad::{
     Array, Limits, Listing, Outcome, Settings, Sheet, Value, json,
 };
 
+use crate::common::draws::one_of;
 use crate::common::recorded::{assert_recorded, assert_recorded_exactly};
 
 /// The number of programs of a golden file.
@@ -34,10 +35,6 @@ const SETTINGS: [&str; 8] = [
     "conjunction=left-to-right,last-if=0",
     "descending=empty,origin=0",
 ];
-
-fn one_of<T: Copy>(rng: &mut Rng, from: &[T]) -> T {
-    from[rng.usize(..from.len())]
-}
 
 /// An expression of a kind, but seldom of another.
 fn any(rng: &mut Rng, depth: usize, usual: fn(&mut Rng, usize) -> String) -> String {
