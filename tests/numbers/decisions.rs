@@ -237,16 +237,21 @@ fn the_part_of_the_target_that_a_node_faces_is_looked_at() {
     assert!(found.displacement.is_infinite(), "a bound as if it held");
 }
 
+/// A stamp that mortar binds, whose contact edge of length 1 starts at `x`.
+fn bound_by_mortar(x: f64, scalar: ScalarName) -> Request {
+    let contact = json!({ "cnt": [5, 6], "trg": [1], "c_tll": 0.1, "coupling": "mortar" });
+    let stamp = [[x, 0.0], [x + 1.0, 0.0], [x, 1.0]];
+    let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
+    block_and_stamp(stamp, &contact, Variant::Stepped).arithmetic(arithmetic)
+}
+
 /// The contact edge of length 1 starts at x. Its first node is covered by s − s²/2 of its half, where
 /// s = 1 − x: by 5 %, which is the limit, at x = √0.95. In f64 rounding decides there whether mortar
 /// binds the node, in f64x2 it does not.
 #[test]
 fn what_rounding_decides_of_mortar_is_said() {
-    let contact = json!({ "cnt": [5, 6], "trg": [1], "c_tll": 0.1, "coupling": "mortar" });
     let left = |x: f64, scalar: ScalarName| {
-        let stamp = [[x, 0.0], [x + 1.0, 0.0], [x, 1.0]];
-        let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
-        let request = block_and_stamp(stamp, &contact, Variant::Stepped).arithmetic(arithmetic);
+        let request = bound_by_mortar(x, scalar);
         let found = rounding(&solve(&request, &mut |_| ()).expect("it runs"));
         let left = found.decisions.expect("it is looked at");
         assert_eq!(found.displacement.is_finite(), left.is_empty(), "{x}");
@@ -268,11 +273,8 @@ fn what_rounding_decides_of_mortar_is_said() {
 /// decides nothing, the run itself; under `unilateral` there are no other numbers.
 #[test]
 fn a_run_is_repeated_where_rounding_decides() {
-    let contact = json!({ "cnt": [5, 6], "trg": [1], "c_tll": 0.1, "coupling": "mortar" });
     let taken = |x: f64, scalar: ScalarName| {
-        let stamp = [[x, 0.0], [x + 1.0, 0.0], [x, 1.0]];
-        let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
-        let request = block_and_stamp(stamp, &contact, Variant::Stepped).arithmetic(arithmetic);
+        let request = bound_by_mortar(x, scalar);
         let (solution, how) = certain(solve(&request, &mut |_| ()).expect("it runs"));
         (solution.request.arithmetic.scalar, how)
     };
