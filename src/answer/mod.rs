@@ -1,7 +1,7 @@
 //! The answer: a request, its solution, and the estimated errors of its numbers.
 
 mod assessment;
-mod condensation;
+pub mod condensation;
 pub mod contact;
 mod distance;
 mod elimination;

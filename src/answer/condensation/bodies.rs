@@ -83,7 +83,7 @@ impl Shared {
 }
 
 /// The bodies of a run, condensed when a contact state first needs it.
-pub(in crate::answer) struct Bodies {
+pub struct Bodies {
     model: Arc<Model>,
     shared: Shared,
     /// The contact surface and the nodes of the target surface, each in its order.
@@ -125,7 +125,7 @@ pub fn kept_equations(model: &Model, near: usize) -> usize {
 }
 
 impl Bodies {
-    pub(in crate::answer) fn new(model: &Arc<Model>, shared: &Shared) -> Self {
+    pub fn new(model: &Arc<Model>, shared: &Shared) -> Self {
         Bodies {
             model: Arc::clone(model),
             shared: shared.clone(),
@@ -139,7 +139,7 @@ impl Bodies {
 
     /// Expects that the entries of the contact surface with the least gaps come into contact; of few
     /// equations, those that the first state binds.
-    pub(in crate::answer) fn expecting(self, pairings: &[Option<Pairing>]) -> Self {
+    pub fn expecting(self, pairings: &[Option<Pairing>]) -> Self {
         let (part, least) = EXPECTED;
         let equations = self.model.free_dofs();
         if equations < least {
@@ -158,7 +158,7 @@ impl Bodies {
 
     /// Returns the bodies condensed to the nodes of `constraints` and others; None where the whole
     /// matrix is to be factored.
-    pub(in crate::answer) fn condensed(
+    pub fn condensed(
         &self,
         stiffness: &Stiffness,
         constraints: &[Constraint],
@@ -208,7 +208,7 @@ impl Bodies {
     }
 
     /// Returns the condensed bodies that served last; None where there are none.
-    pub(in crate::answer) fn last(&self) -> Option<Arc<Condensation>> {
+    pub fn last(&self) -> Option<Arc<Condensation>> {
         self.current.borrow().clone()
     }
 

@@ -18,7 +18,8 @@ mod schur;
 mod state;
 
 pub use bodies::kept_equations;
-pub(super) use bodies::{Bodies, Shared};
+pub use bodies::{Bodies, Shared};
+pub use refinement::refine;
 pub(super) use refinement::refined;
 pub use schur::Condensation;
 pub(super) use state::{Bound, OnKept};

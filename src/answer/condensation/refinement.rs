@@ -31,7 +31,7 @@ pub(in crate::answer) fn refined(
 }
 
 /// Solves A q = `f`, where `times` multiplies by A, whose norm is `norm`.
-pub(super) fn refine(
+pub fn refine(
     factors: &dyn Factors<f64>,
     times: impl Fn(&DVector<f64>) -> DVector<f64>,
     norm: f64,

@@ -13,7 +13,8 @@ use crate::problem::model::{Dof, Model, NodeId};
 /// The stiffness condensed to some nodes.
 pub struct Condensation {
     model: Arc<Model>,
-    pub(super) nodes: BTreeSet<NodeId>,
+    /// The kept nodes.
+    pub nodes: BTreeSet<NodeId>,
     pub(super) condensed: Condensed,
     /// The degree of freedom of each equation of the unconstrained bodies.
     pub(super) dofs: Vec<Dof>,
@@ -30,11 +31,8 @@ pub struct Condensation {
 }
 
 impl Condensation {
-    pub(super) fn new(
-        stiffness: &Stiffness,
-        model: &Arc<Model>,
-        nodes: BTreeSet<NodeId>,
-    ) -> Option<Self> {
+    /// Condenses the bodies of `model` to `nodes`; None where they cannot be.
+    pub fn new(stiffness: &Stiffness, model: &Arc<Model>, nodes: BTreeSet<NodeId>) -> Option<Self> {
         let free = Elimination::new(&model.restrained, &[]);
         let matrix: SparseSymmetric = stiffness.reduced(&free);
         let mut is_kept = vec![false; model.dofs()];
@@ -88,7 +86,7 @@ impl Condensation {
     }
 
     /// Returns whether it is that of the bodies of `model`.
-    pub(super) fn is_of(&self, model: &Model) -> bool {
+    pub fn is_of(&self, model: &Model) -> bool {
         let (own, other) = (&*self.model, model);
         own.plane == other.plane
             && own.thickness == other.thickness
@@ -98,7 +96,7 @@ impl Condensation {
     }
 
     /// Returns whether it keeps every node that `constraints` name.
-    pub(in crate::answer) fn has(&self, constraints: &[Constraint]) -> bool {
+    pub fn has(&self, constraints: &[Constraint]) -> bool {
         let mut nodes = constraints.iter().flat_map(Constraint::nodes);
         nodes.all(|node| self.is_kept[node.dofs()[0].index()])
     }

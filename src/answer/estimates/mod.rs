@@ -15,7 +15,7 @@ mod dual;
 mod patches;
 mod recovery;
 mod singular;
-mod ties;
+pub mod ties;
 
 use nalgebra::DVector;
 use schemars::JsonSchema;
