@@ -236,11 +236,9 @@ impl Bodies {
             let at: Vec<usize> =
                 (0..surface.len()).filter(|i| bound.contains(&surface[*i])).collect();
             let margin = MARGIN.0 + (MARGIN.1 * at.len() as f64) as usize;
-            let mut from = 0;
             for i in at {
-                let last = (i + margin).min(surface.len() - 1);
-                nodes.extend(surface.get(from.max(i.saturating_sub(margin))..=last).unwrap_or(&[]));
-                from = last + 1;
+                let end = (i + margin + 1).min(surface.len());
+                nodes.extend(&surface[i.saturating_sub(margin)..end]);
             }
         }
         nodes

@@ -6,7 +6,7 @@
 //! Source: J. D. Dixon, *Exact solution of linear equations using P-adic expansions*, Numer. Math.
 //! 40 (1982) 137-141.
 
-use dashu_base::{Abs, BitTest};
+use dashu_base::BitTest;
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 
@@ -168,13 +168,9 @@ fn combined(digits: &[u64], powers: &[IBig]) -> IBig {
     combined(low, powers) + combined(high, powers) * &powers[k]
 }
 
-/// Returns numerator and denominator, both below 2^`length`, of the fraction that is `value` modulo
-/// `modulus`: Euclid's algorithm, stopped halfway.
+/// Returns numerator and denominator, both below 2^`length` but for their signs, of the fraction that is
+/// `value` modulo `modulus`: Euclid's algorithm, stopped halfway.
 fn fraction(value: IBig, modulus: &IBig, length: usize) -> (IBig, IBig) {
-    let negative = &value - modulus;
-    if value.bit_len() > length && (&negative).abs().bit_len() <= length {
-        return (negative, IBig::ONE);
-    }
     let (mut last, mut rest) = (modulus.clone(), value);
     let (mut last_factor, mut factor) = (IBig::ZERO, IBig::ONE);
     while rest.bit_len() > length {
@@ -184,5 +180,5 @@ fn fraction(value: IBig, modulus: &IBig, length: usize) -> (IBig, IBig) {
         (last, rest) = (rest, next);
         (last_factor, factor) = (factor, next_factor);
     }
-    if factor < IBig::ZERO { (-rest, -factor) } else { (rest, factor) }
+    (rest, factor)
 }

@@ -254,7 +254,8 @@ fn and(
             if values.contains(&Ok(false)) {
                 return Ok(false);
             }
-            values.into_iter().try_fold(true, |all, value| Ok(value? && all))
+            values.into_iter().try_for_each(|value| value.map(drop))?;
+            Ok(true)
         }
     }
 }

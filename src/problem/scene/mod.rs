@@ -137,7 +137,7 @@ impl Scene {
             edges: mesh.of_dimension(1).map(edge).collect(),
             contact: check::contact(&mesh, &description)?,
             forces: Vec::new(),
-            load: DVector::zeros(2 * mesh.nodes.len()),
+            load: DVector::zeros(0),
             stages: Vec::new(),
             bodies: model::bodies(mesh.nodes.len(), &triangles, &names),
             rows: rows(&mesh),
