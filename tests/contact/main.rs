@@ -15,6 +15,7 @@ mod common {
 
 mod calculix;
 mod calculix_files;
+mod condensed;
 mod corners;
 mod drawn;
 mod facing;
@@ -25,5 +26,6 @@ mod quadratic_programme;
 mod recorded;
 mod searched;
 mod status;
+mod ties;
 mod tree;
 mod unilateral;

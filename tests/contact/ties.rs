@@ -1,0 +1,175 @@
+//! What rounding may decide under `unilateral`, looked at with displacements that are known much
+//! worse than those of a run: every condition then has its margin and its bound, which are recorded.
+
+use fastrand::Rng;
+use plane_contact::answer::estimates::arithmetic::bounded;
+use plane_contact::answer::estimates::ties::{Looking, State};
+use plane_contact::answer::{Detail, Request, Solution, Step, solve};
+use plane_contact::numbers::scalar::{Bounded, Scalar};
+use plane_contact::paper::decisions::Decision;
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
+use plane_contact::problem::scene::{Axis, SceneBuilder};
+use serde_json::{Value, json};
+
+use crate::common::draws::one_of;
+use crate::common::recorded::assert_recorded;
+use crate::corners::{Bodies, Writing, blocks};
+use crate::drawn::{KINDS, draw};
+use crate::recorded::{folded, regular};
+
+/// Returns an equilibrium of `bodies`; None where there is none.
+fn equilibrium(bodies: &Bodies, contact: ContactModel) -> Option<Solution> {
+    solved(bodies.modelled(&Writing::default(), contact))
+}
+
+fn solved(scene: SceneBuilder) -> Option<Solution> {
+    let scene = scene.build().expect("a sound scene");
+    solve(&Request::new(&scene).variant(Variant::Unilateral), &mut |_| ()).ok()
+}
+
+fn model(rng: &mut Rng) -> ContactModel {
+    ContactModel {
+        coupling: one_of(rng, Coupling::ALL),
+        friction: Friction::new(one_of(rng, &[0.0, 0.2, 1.0, f64::INFINITY])).unwrap(),
+        geometry: one_of(rng, Geometry::ALL),
+        load_steps: one_of(rng, &[1, 3]),
+        ..ContactModel::default()
+    }
+}
+
+/// Looks at a step as if it had ended with the displacements of the whole run, which were known within
+/// `part` of the largest, and half of which were there before.
+fn looked_at(solution: &Solution, step: &Step, part: f64) -> (Vec<Decision>, bool) {
+    let Detail::Unilateral(detail) = &step.detail else { panic!("an equilibrium") };
+    let error = part * solution.u.amax();
+    let [before, u] = [0.5, 1.0].map(|scale| solution.u.map(|u| Bounded::new(scale * u, error)));
+    let stiffness = bounded(&solution.model);
+    let mut looking = Looking::new(solution, &stiffness);
+    let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
+    looking.at(&State { step, load, before: &before, u: &u });
+    (looking.decisions, looking.only_ties)
+}
+
+fn written(decisions: &[Decision]) -> Value {
+    let one = |decision: &Decision| {
+        json!({
+            "node": decision.node.index(),
+            "condition": decision.condition,
+            "margin": decision.margin,
+            "within": decision.bound,
+        })
+    };
+    decisions.iter().map(one).collect()
+}
+
+/// Returns what a step leaves open.
+fn record(solution: &Solution, step: &Step) -> String {
+    let line = |part: f64| {
+        let (decisions, only_ties) = looked_at(solution, step, part);
+        format!("  {} {only_ties}{}\n", decisions.len(), folded(&written(&decisions)))
+    };
+    [1e-3, 0.03, 0.3].map(line).concat()
+}
+
+/// The same step as the first of a run, after which a node lies deep in the target.
+fn first(step: &Step, violation: f64) -> Step {
+    let mut step = Step { k: 1, ..step.clone() };
+    let Detail::Unilateral(detail) = &mut step.detail else { panic!("an equilibrium") };
+    detail.violation = violation;
+    step
+}
+
+/// A contact node is loaded; one is restrained along x or along y, or none is.
+#[test]
+fn what_every_step_of_random_runs_leaves_open() {
+    let mut rng = Rng::with_seed(71);
+    let mut text = String::new();
+    for k in 0..48 {
+        let bodies =
+            if k % 3 == 0 { regular(&mut rng) } else { draw(&mut rng, KINDS[k % 8]).bodies };
+        let contact = model(&mut rng);
+        let nodes = [0; 2].map(|_| one_of(&mut rng, &bodies.contact) + 1);
+        let scene = bodies.modelled(&Writing::default(), contact).force(nodes[0], [3.0, -2.0]);
+        let scene = match rng.u8(..4) {
+            0 => scene.restrain_node(nodes[1], &[Axis::X]),
+            1 => scene.restrain_node(nodes[1], &[Axis::Y]),
+            _ => scene,
+        };
+        let ContactModel { coupling, friction, geometry, load_steps, .. } = contact;
+        text += &format!("{coupling} {friction} {geometry} {load_steps}\n");
+        let Some(solution) = solved(scene) else { continue };
+        text += &solution.steps.iter().map(|step| record(&solution, step)).collect::<String>();
+        text += &record(&solution, &first(solution.last(), solution.u.amax()));
+    }
+    assert_recorded("ties", &text);
+}
+
+/// A step is far from other decisions where its forces are, its nodes face what they would also face a
+/// little elsewhere, and friction rests on no force that restraints share; never the first one.
+#[test]
+fn steps_that_are_far_from_other_decisions() {
+    let mut rng = Rng::with_seed(72);
+    let mut text = String::new();
+    for _ in 0..24 {
+        let contact = model(&mut rng);
+        let Some(solution) = equilibrium(&regular(&mut rng), contact) else { continue };
+        let stiffness = bounded(&solution.model);
+        let looking = Looking::new(&solution, &stiffness);
+        let is_far = |k: usize, margin: f64, shared: bool, displacement: f64| {
+            let mut step = solution.last().clone();
+            (step.k, step.max_displacement) = (k, displacement);
+            let Detail::Unilateral(detail) = &mut step.detail else { panic!("an equilibrium") };
+            (detail.margin, detail.undetermined[0]) = (margin, shared);
+            looking.is_far(&step)
+        };
+        let cases = [
+            (1, 1.0, false, 0.0),
+            (2, 1.0, false, 0.0),
+            (2, 1e-6, false, 0.0),
+            (2, 1e-7, false, 0.0),
+            (2, 1.0, true, 0.0),
+            (2, 1.0, false, 1e-3),
+            (2, 1.0, false, 1e3),
+            (2, 1.0, false, 2e5),
+            (2, 1.0, false, 4e6),
+        ];
+        let far = cases.map(|(k, margin, shared, moved)| is_far(k, margin, shared, moved));
+        assert!(!far[0] && !far[2] && !far[3], "{contact:?}");
+        let ContactModel { coupling, friction, geometry, .. } = contact;
+        text += &format!("{coupling} {friction} {geometry} {far:?}\n");
+    }
+    assert_recorded("far-steps", &text);
+}
+
+/// Under friction the active set gives way to Lemke's method after a hundred contact states of a step
+/// of the load; states of other steps do not count.
+#[test]
+fn contact_states_beyond_patience_are_left_to_lemke() {
+    let with = |friction: f64, halved: usize, states: usize, before: usize| {
+        let contact = ContactModel {
+            friction: Friction::new(friction).unwrap(),
+            load_steps: 2,
+            ..ContactModel::default()
+        };
+        let mut solution = equilibrium(&blocks(), contact).expect("an equilibrium");
+        let last = solution.last().clone();
+        let mut first = last.clone();
+        let Detail::Unilateral(detail) = &mut first.detail else { panic!("an equilibrium") };
+        detail.load = 0.5;
+        solution.steps = vec![first; before];
+        solution.steps.extend(vec![last; states]);
+        let path = &mut solution.equilibrium.as_mut().expect("an equilibrium").path;
+        path.iter_mut().for_each(|path| path.halved = halved);
+        let stiffness = bounded(&solution.model);
+        let mut looking = Looking::new(&solution, &stiffness);
+        looking.searches();
+        assert_eq!(looking.decisions.is_empty(), looking.only_ties);
+        looking.decisions.len()
+    };
+    assert_eq!(with(0.2, 0, 100, 0), 0);
+    assert_eq!(with(0.2, 0, 101, 0), 1);
+    assert_eq!(with(0.2, 0, 60, 60), 0);
+    assert_eq!(with(0.2, 1, 1, 0), 1);
+    assert_eq!(with(0.0, 1, 101, 0), 0);
+    assert_eq!(with(f64::INFINITY, 1, 101, 0), 0);
+}
