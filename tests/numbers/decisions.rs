@@ -9,7 +9,7 @@ use crate::common::random::fixed;
 use plane_contact::answer::estimates::arithmetic::rounding;
 use plane_contact::answer::estimates::{Certainty, certain};
 use plane_contact::answer::{Detail, Request, Solution, solve};
-use plane_contact::numbers::solve::{Arithmetic, ScalarName};
+use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
 use plane_contact::paper::decisions::Decision;
 use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::Scene;
@@ -283,6 +283,18 @@ fn a_run_is_repeated_where_rounding_decides() {
     assert_eq!(taken(limit, ScalarName::F64x2), (ScalarName::F64x2, Certainty::Certain));
     let again = (ScalarName::BoundedDouble, Certainty::InDoubleDouble);
     assert_eq!(taken(limit, ScalarName::F64), again);
+    // The solver and its tolerance are those of the first run alone.
+    for (solver, tol) in [(Solver::SparseLu, None), (Solver::Cg, Some(1e-13))] {
+        let arithmetic = Arithmetic { solver: Some(solver), tol, ..Arithmetic::default() };
+        let request = bound_by_mortar(limit, ScalarName::F64).arithmetic(arithmetic);
+        let (_, how) = certain(solve(&request, &mut |_| ()).expect("it runs"));
+        assert_eq!(how, Certainty::InDoubleDouble, "{solver}");
+    }
+    // The gap is the tolerance in every number.
+    let tie = json!({ "cnt": [5], "trg": [1], "c_tll": 0.1 });
+    let request = block_and_stamp([[0.3, 0.1], [2.0, 1.0], [0.0, 1.0]], &tie, Variant::Tied);
+    let (_, how) = certain(solve(&request, &mut |_| ()).expect("it runs"));
+    assert_eq!(how, Certainty::Unknown);
     let contact = json!({
         "cnt": [5], "trg": [1], "c_tll": 0.1, "friction": 0, "geometry": "initial"
     });

@@ -17,7 +17,7 @@ use fields::{CANTILEVER, CONSTANT, Field, KIRSCH, LAME, LINEAR, polynomial};
 use meshes::{BODY, Cut, Grid, annulus, beam, holed_plate, mesh, rectangle};
 use nalgebra::{Matrix3, Vector2, Vector3};
 use plane_contact::answer::estimates::discretisation::{
-    Discretisation, LargestVonMises, compliance, root_of_squares, von_mises,
+    Discretisation, LargestVonMises, SAFETY, compliance, root_of_squares, von_mises,
 };
 use plane_contact::answer::{self, Request, Solution};
 use plane_contact::problem::element::{D, Plane, State};
@@ -352,6 +352,23 @@ fn error_map_of_the_strand() {
         println!("{}: {peak:?}, eta {:.3}", body.name, found.relative());
         assert!(peak.error > 0.0 && body.triangles.contains(&peak.at));
     }
+}
+
+/// A triangle that shares no node with that of the largest stress counts with what it may have beyond
+/// that stress.
+#[test]
+fn a_far_triangle_counts_beyond_the_largest_stress() {
+    let (_, solution) = solve_embedded("fig1", Variant::Tied);
+    let mut found = estimate(&solution);
+    found.stress_errors.fill(0.0);
+    let peak = largest(&found, &solution);
+    let nodes = |id: TriangleId| solution.model.triangle(id).nodes;
+    let is_far = |id: &TriangleId| nodes(*id).iter().all(|node| !nodes(peak.at).contains(node));
+    let far = solution.model.triangle_ids().find(is_far).expect("of another body");
+    let below = peak.value - solution.elements[far.index()].von_mises_stress;
+    found.stress_errors[far.index()] = 3.0 * below;
+    let error = largest(&found, &solution).error;
+    assert_near("error", error, SAFETY * 2.0 * below, 1.0, &CONSTANT_FIELD);
 }
 
 /// Hooke's law and its inverse cancel each other.

@@ -245,6 +245,10 @@ fn the_bounds_of_each_step_hold() {
                     assert!(far <= bounds.u + u, "{what}: |u| {far:e} {bounds:?}");
                     let sums = [bounds.yt, bounds.weights, bounds.u];
                     assert!(sums.iter().all(|bound| *bound >= 0.0), "{what}: {bounds:?}");
+                    let is_written = bounds.weights >= weights && bounds.u >= u;
+                    assert!(scalar != ScalarName::F64x2 || is_written, "{what}: {bounds:?}");
+                    let is_narrow = scalar == ScalarName::F32 || bounds.weights < 1e-9;
+                    assert!(is_narrow, "{what}: {bounds:?}");
                     held += 1;
                 }
             }
@@ -278,6 +282,11 @@ fn the_bar_of_a_stress_has_its_closed_form() {
             assert!(none[id.index()] >= rounding, "{id}: {:e} {rounding:e}", none[id.index()]);
             assert!(none[id.index()] < 1e-6 * expected, "{id}: {:e}", none[id.index()]);
         }
+        // The rounding of a von Mises stress that is far beyond all others.
+        let mut far = solution.clone();
+        far.elements[0].von_mises_stress = 1e20;
+        let bound = stress_bounds(&far, &bounded(model), 0.0)[0];
+        assert!((bound / (16.0 * f64::EPSILON * 1e20) - 1.0).abs() < 1e-9, "{bound:e}");
     }
 }
 

@@ -72,6 +72,7 @@ fn forces_on_single_free_nodes_have_no_limit() {
     let loaded = |scene| found(scene, Cause::Load);
     let top = |x| node([x, 4]);
     assert_eq!(loaded(square().force(top(2), [0.0, -1.0])), [top(2)]);
+    assert_eq!(loaded(square().force(top(2), [1.0, 0.0])), [top(2)]);
     let edge = square().force(top(2), [0.0, -1.0]).force(top(3), [0.0, -1.0]);
     assert_eq!(loaded(edge), [0; 0], "a traction on an edge");
     let back = square().force(top(2), [0.0, -1.0]).force(top(2), [0.0, 1.0]);
@@ -87,12 +88,13 @@ fn single_nodes_that_hold_a_force_have_no_limit() {
     let square = cells(Plane::Strain, |place| place, |_| 0)
         .restrain_node(node([0, 0]), &[Axis::X, Axis::Y])
         .restrain_node(node([4, 0]), &[Axis::Y]);
-    let pressed = square.force(node([2, 4]), [0.0, -1.0]);
+    assert_eq!(found(square.clone(), Cause::Support), [0; 0], "nothing to hold");
+    let pressed = square.force(node([2, 4]), [0.0, -1e-4]);
     assert_eq!(found(pressed.clone(), Cause::Support), nodes(&[[0, 0], [4, 0]]));
     // Half a force that pulls up at one of them leaves it nothing to hold.
-    let pulled = pressed.clone().force(node([0, 0]), [0.0, 0.5]);
+    let pulled = pressed.clone().force(node([0, 0]), [0.0, 0.5e-4]);
     assert_eq!(found(pulled, Cause::Support), nodes(&[[4, 0]]));
-    let squeezed = pressed.force(node([2, 0]), [0.0, 1.0]);
+    let squeezed = pressed.force(node([2, 0]), [0.0, 1e-4]);
     assert_eq!(found(squeezed, Cause::Support), [0; 0]);
 }
 
@@ -109,6 +111,31 @@ fn the_end_of_a_fixed_edge_has_a_limit_in_a_sharp_corner() {
         assert_eq!(ends(limit - 2.0), nodes(&[[4, 0]]), "{plane:?}: the other angle is obtuse");
         assert_eq!(ends(limit + 2.0), nodes(&[[0, 0], [4, 0]]), "{plane:?}");
     }
+}
+
+/// The lowest row is held in one direction, the middle node in the other. Where a side can move along
+/// itself, the stress has a limit up to 90° and half of what chords turn; another one is fixed.
+#[test]
+fn the_end_of_a_side_that_can_move_along_itself_has_a_limit_up_to_a_right_angle() {
+    let ends = |along: Axis, across: Axis, at: &dyn Fn([f64; 2]) -> [f64; 2]| {
+        let cells = cells(Plane::Strain, at, |_| 0).restrain_node(node([2, 2]), &[across]);
+        let row = (0..5).fold(cells, |scene, x| scene.restrain_node(node([x, 0]), &[along]));
+        found(row.force(node([2, 4]), [1.0, 1.0]), Cause::Restraint)
+    };
+    let leaning =
+        |degrees: f64| ends(Axis::Y, Axis::X, &|[x, y]| [x + y / degrees.to_radians().tan(), y]);
+    assert_eq!(leaning(100.0), [0; 0]);
+    assert_eq!(leaning(110.0), [node([0, 0])]);
+    let both = nodes(&[[0, 0], [4, 0]]);
+    assert_eq!(ends(Axis::X, Axis::Y, &|[x, y]| [x - y, x + y]), both, "a slope of 45°");
+    // At half of 60° a side along no axis is fixed.
+    let slope = std::f64::consts::PI / 6.0;
+    let steep = ends(Axis::X, Axis::Y, &|[x, y]| [slope * x - y, x + slope * y]);
+    assert!(steep.contains(&node([0, 0])), "{steep:?}");
+    let flat = ends(Axis::Y, Axis::X, &|[x, y]| [x - slope * y, slope * x + y]);
+    assert!(flat.contains(&node([0, 0])), "{flat:?}");
+    let flatter = ends(Axis::Y, Axis::X, &|[x, y]| [x - 0.5 * y, 0.5 * x + y]);
+    assert_eq!(flatter, [0; 0]);
 }
 
 /// An interface of two materials ends at the outline and turns inside; where it is straight, the
