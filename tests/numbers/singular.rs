@@ -3,7 +3,7 @@
 
 use plane_contact::answer::estimates::{Cause, singular};
 use plane_contact::problem::element::Plane;
-use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::modelling::{Friction, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 use plane_contact::{Request, solve};
 
@@ -205,4 +205,39 @@ fn contact_ends_at_the_edge_of_a_narrower_body() {
     assert_eq!(edges([1.0, 0.0]), [0]);
     assert_eq!(edges([0.0, 1.0]), [3]);
     assert_eq!(edges([1.0, 1.0]), [0, 3]);
+}
+
+/// A tip of 90° is an edge where contact ends although the surface goes on, and so is the end of a
+/// surface on a straight side.
+#[test]
+fn contact_ends_at_tips_and_where_the_surface_does() {
+    let edges = |bottom: [f64; 5], entries: std::ops::Range<usize>| {
+        let mut mesh = MeshBuilder::default();
+        let lower = [-1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        let xs = [0.0, 1.0, 2.0, 3.0, 4.0];
+        let rows = [0.0, 1.0].map(|y| mesh.row(lower.map(|x| [x, y])));
+        let contact = mesh.row(xs.into_iter().zip(bottom).map(|(x, y)| [x, 1.0 + y]));
+        let top = mesh.row(xs.map(|x| [x, 5.0]));
+        mesh.join("lower", &rows[0], &rows[1]);
+        mesh.join("upper", &contact, &top);
+        mesh.edges("bottom", &rows[0]);
+        mesh.edges("target", &rows[1]);
+        mesh.edges("top", &top);
+        let scene = SceneBuilder::new("tip", mesh.finish(), Plane::Strain)
+            .material("lower", 1000.0, 0.0)
+            .material("upper", 1000.0, 0.0)
+            .restrain("bottom", &[Axis::X, Axis::Y])
+            .restrain("top", &[Axis::X, Axis::Y])
+            .contact(Contact {
+                friction: Friction::NONE,
+                ..Contact::new(contact[entries].to_vec(), "target", 0.01)
+            })
+            .variant(Variant::Unilateral);
+        let pressed = contact.iter().fold(scene, |scene, n| scene.force(*n, [0.0, -0.1]));
+        found(pressed, Cause::Edge).into_iter().map(|n| n - contact[0]).collect::<Vec<_>>()
+    };
+    assert_eq!(edges([2.0, 1.0, 0.0, 1.0, 2.0], 0..5), [2]);
+    // A bend of less than 30° is a chord of a curve.
+    assert_eq!(edges([0.4, 0.2, 0.0, 0.2, 0.4], 0..5), [0; 0]);
+    assert_eq!(edges([0.0; 5], 1..4), [1, 3]);
 }
