@@ -18,6 +18,7 @@ mod calculix_files;
 mod condensed;
 mod corners;
 mod drawn;
+mod faced;
 mod facing;
 mod friction;
 mod invariance;

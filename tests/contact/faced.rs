@@ -1,0 +1,363 @@
+//! What contact nodes face at the limits of the rules, worked out by hand: which edges count, how
+//! little of an edge, the nearest of two, a surface's end, its bends and its tips.
+
+use std::f64::consts::FRAC_PI_8;
+
+use plane_contact::answer::contact::{Pairing, Surfaces};
+use plane_contact::numbers::scalar::{Bounded, F64x2, Scalar};
+use plane_contact::problem::model::{Model, NodeId};
+use plane_contact::problem::modelling::{ContactModel, Coupling};
+use plane_contact::problem::scene::Axis;
+
+use crate::common::tolerances::{CLOSEST_POINT, assert_near};
+use crate::corners::{Bodies, Writing};
+
+type Chain<'a> = &'a [[f64; 2]];
+
+/// Surfaces along chains of points with the body on the left, a triangle at each edge: the target's
+/// nodes are numbered from 0, chain by chain, then the contact surface's, then the others.
+fn model(target: &[Chain], contact: Chain) -> Model {
+    let mut nodes: Vec<[f64; 2]> = Vec::new();
+    let mut edges = |chain: Chain| {
+        let first = nodes.len();
+        nodes.extend(chain);
+        (first..nodes.len() - 1).map(|n| [n, n + 1]).collect::<Vec<_>>()
+    };
+    let target: Vec<[usize; 2]> = target.iter().flat_map(|chain| edges(chain)).collect();
+    let contact = edges(contact);
+    let mut inner = |&[a, b]: &[usize; 2]| {
+        let ([ax, ay], [bx, by]) = (nodes[a], nodes[b]);
+        nodes.push([(ax + bx - (by - ay)) / 2.0, (ay + by + bx - ax) / 2.0]);
+        [a, b, nodes.len() - 1]
+    };
+    let triangles = [&target, &contact].map(|edges| edges.iter().map(&mut inner).collect());
+    let held = (0..nodes.len()).map(|n| (n, vec![Axis::X, Axis::Y])).collect();
+    let bodies = Bodies {
+        nodes,
+        triangles,
+        moduli: [(1.0, 0.0); 2],
+        contact: (contact[0][0]..=contact[contact.len() - 1][1]).collect(),
+        target,
+        restrained: held,
+        loads: Vec::new(),
+    };
+    let scene = bodies.modelled(&Writing::default(), ContactModel::default()).build();
+    (*scene.expect("the scene is sound").model).clone()
+}
+
+fn faced(model: &Model, coupling: Coupling) -> Vec<Option<Pairing>> {
+    Surfaces::new(model).expect("edges of the outline").pairings(coupling, &model.nodes)
+}
+
+/// The nodes of the target that a contact node is bound to.
+fn masters(pairing: Option<&Pairing>) -> Vec<usize> {
+    let masters = pairing.into_iter().flat_map(|pairing| &pairing.masters);
+    masters.map(|(node, _)| node.index()).collect()
+}
+
+/// The contact surface of most tests: an edge of length 1, whose body lies above.
+const UNIT: Chain = &[[0.0, 0.0], [1.0, 0.0]];
+
+/// A cosine of −0.1 between the normals still faces under mortar.
+#[test]
+fn edges_face_each_other_down_to_a_cosine_of_a_tenth() {
+    for (height, faces) in [(99.0_f64.sqrt(), true), (9.9, true), (10.0, false)] {
+        let model = model(&[&[[1.0, -height], [0.0, 0.0]]], UNIT);
+        let found = faced(&model, Coupling::Mortar);
+        assert_eq!(found.iter().all(Option::is_some), faces, "{height}");
+    }
+}
+
+/// Of edges that are not beside a contact edge not even their direction is compared.
+#[test]
+fn rounding_decides_nothing_about_edges_that_are_not_beside() {
+    let steep = |x: f64| [[x + 1.0, -(99.0_f64.sqrt())], [x, 0.0]];
+    let flat: [Chain; 2] = [&[[3.0, -0.5], [0.5, -0.5]], &[[0.5, -0.5], [-2.0, -0.5]]];
+    let unsure = |from: f64| {
+        let steep = [from, from + 2.0, from + 4.0].map(steep);
+        let target: Vec<Chain> = flat.into_iter().chain(steep.iter().map(|s| &s[..])).collect();
+        unsure(&model(&target, UNIT))
+    };
+    assert_eq!(unsure(5.0), 0);
+    assert!(unsure(0.0) > 0, "beside the contact edge it is");
+}
+
+/// A number near `guess` for which `is_wanted` holds to the last bit.
+fn near(guess: f64, is_wanted: impl Fn(f64) -> bool) -> f64 {
+    let mut around = (0..4096).map(|k| f64::from_bits(guess.to_bits() - 2048 + k));
+    around.find(|x| is_wanted(*x)).expect("one of them is")
+}
+
+/// A part of a contact edge, and the edge's length, over which it is 1e-12 to the last bit.
+fn rounding() -> (f64, f64) {
+    let part = 2.0_f64.powi(-40);
+    (part, near(part / 1e-12, |length| part / length == 1e-12))
+}
+
+/// How many comparisons rounding may decide.
+fn unsure(model: &Model) -> usize {
+    let shape: Vec<[Bounded; 2]> =
+        model.nodes.iter().map(|p| p.map(Bounded::from_decimal)).collect();
+    Surfaces::new(model).expect("edges of the outline").mortar(&shape).unsure.len()
+}
+
+/// Which of two target edges is nearer is asked where both cover more than such a part.
+#[test]
+fn the_order_of_edges_that_overlap_by_rounding_is_not_asked() {
+    let (part, length) = rounding();
+    let unsure = |overlap: f64, depth: f64| {
+        let left = [[part + overlap, -0.25], [-1.0, -0.25]];
+        let right = [[2.0, -depth], [part, -depth]];
+        unsure(&model(&[&left, &right], &[[0.0, 0.0], [length, 0.0]]))
+    };
+    assert_eq!(unsure(part, 0.25), unsure(part, 0.5));
+    assert!(unsure(2.0 * part, 0.25) > unsure(2.0 * part, 0.5));
+}
+
+/// A part of a contact edge of a millionth of a millionth, which rounding may leave, covers
+/// nothing: neither an edge that reaches so far, nor one that is free so far beside a nearer one.
+#[test]
+fn a_part_of_an_edge_that_is_rounding_does_not_count() {
+    let (sliver, length) = rounding();
+    let contact = [[0.0, 0.0], [length, 0.0]];
+    for (target, expected) in [
+        ([[[sliver, -0.25], [-1.0, -0.25]], [[2.0, -0.5], [sliver, -0.5]]], vec![2, 3]),
+        ([[[2.0, -0.25], [sliver, -0.25]], [[2.0, -0.5], [-1.0, -0.5]]], vec![0, 1]),
+        ([[[2.0, -0.5], [sliver, -0.5]], [[2.0, -0.25], [-1.0, -0.25]]], vec![2, 3]),
+    ] {
+        let model = model(&[&target[0], &target[1]], &contact);
+        for pairing in &faced(&model, Coupling::Mortar) {
+            assert_eq!(masters(pairing.as_ref()), expected);
+        }
+    }
+}
+
+/// Of two target edges a contact edge covers the one that is nearer along its own normal, in the
+/// middle of what both face.
+#[test]
+fn of_two_target_edges_the_nearer_one_counts() {
+    let flat = |depth: f64| [[1.0, -depth], [0.0, -depth]];
+    let sloped = |left: f64, right: f64| [[1.0, -right], [0.0, -left]];
+    for (one, other, nearer) in [
+        (flat(0.5), sloped(0.1, 0.7), 1),
+        (flat(0.5), sloped(0.7, 0.1), 1),
+        (flat(0.5), sloped(0.3, 0.9), 0),
+        (flat(0.5), sloped(0.9, 0.3), 0),
+        // Steep: its distance across itself is less than that along the contact edge's normal.
+        (flat(0.5), sloped(0.1, 1.1), 0),
+        (flat(0.5), sloped(1.1, 0.1), 0),
+    ] {
+        for (edges, nearer) in [([one, other], nearer), ([other, one], 1 - nearer)] {
+            let model = model(&[&edges[0], &edges[1]], UNIT);
+            let expected = vec![2 * nearer, 2 * nearer + 1];
+            for pairing in &faced(&model, Coupling::Mortar) {
+                assert_eq!(masters(pairing.as_ref()), expected, "{edges:?}");
+            }
+        }
+    }
+}
+
+/// Where the distances agree in all digits of `f64`, those that wider numbers have decide.
+#[test]
+fn the_nearer_of_two_target_edges_is_found_in_all_digits() {
+    let edge = [[1.0, -0.5], [0.0, -0.5]];
+    let model = model(&[&edge, &edge], UNIT);
+    let surfaces = Surfaces::new(&model).expect("edges of the outline");
+    for nearer in [0, 1] {
+        let mut shape: Vec<[F64x2; 2]> =
+            model.nodes.iter().map(|p| p.map(F64x2::from_f64)).collect();
+        for node in [2 * nearer, 2 * nearer + 1] {
+            shape[node][1] += F64x2::from_f64(1e-25);
+        }
+        let found = surfaces.mortar(&shape).pairings;
+        let masters = found[0].as_ref().expect("it is covered").masters.clone();
+        let masters: Vec<usize> = masters.iter().map(|(node, _)| node.index()).collect();
+        assert_eq!(masters, [2 * nearer, 2 * nearer + 1]);
+    }
+}
+
+/// Two target edges as near as each other: the one that is named first counts.
+#[test]
+fn of_two_target_edges_as_near_as_each_other_the_first_counts() {
+    let edge = [[1.0, -0.5], [0.0, -0.5]];
+    let found = faced(&model(&[&edge, &edge], UNIT), Coupling::Mortar);
+    assert_eq!(masters(found[0].as_ref()), [0, 1]);
+}
+
+/// Of target edges that a node covers equally the first is named.
+#[test]
+fn of_edges_that_a_node_covers_equally_the_first_is_named() {
+    let model = model(&[&[[2.0, -0.5], [0.5, -0.5], [-1.0, -0.5]]], UNIT);
+    for pairing in faced(&model, Coupling::Mortar) {
+        let pairing = pairing.expect("it is covered");
+        assert_eq!((pairing.edge, pairing.masters.len()), (model.contact.target[0], 3));
+    }
+}
+
+/// A nearer target edge leaves a farther one the rest of the contact edge alone: what both cover
+/// counts once.
+#[test]
+fn what_two_target_edges_cover_counts_once() {
+    let near: Chain = &[[2.0, -0.1], [0.5, -0.1]];
+    let far: Chain = &[[2.0, -0.3], [-1.0, -0.3]];
+    for target in [[near, far], [far, near]] {
+        for pairing in faced(&model(&target, UNIT), Coupling::Mortar) {
+            let pairing = pairing.expect("it is covered");
+            assert_near("length", pairing.length, 0.5, 1.0, &CLOSEST_POINT);
+            let sum = pairing.masters.iter().map(|(_, weight)| weight).sum();
+            assert_near("weights", sum, 1.0, 1.0, &CLOSEST_POINT);
+        }
+    }
+}
+
+/// A node rests on the last edge's line as far as a twentieth of the edge past its end.
+#[test]
+fn a_node_hangs_over_the_end_by_a_twentieth_of_the_last_edge() {
+    for (x, rests) in [(1.05, true), (1.0501, false)] {
+        for right in [1.0, -1.0] {
+            let target = [[1.0, 0.0], [0.0, 0.0]].map(|[x, y]| [right * x, y]);
+            let contact = [[0.5, 0.0], [x, 0.0]].map(|[x, y]| [right * x, y]);
+            let (target, contact) = match right {
+                1.0 => (target, contact),
+                _ => ([target[1], target[0]], [contact[1], contact[0]]),
+            };
+            let found = faced(&model(&[&target], &contact), Coupling::Nts);
+            let last = if right == 1.0 { 1 } else { 0 };
+            assert_eq!(found[last].is_some(), rests, "{x}");
+            assert!(found[1 - last].is_some());
+        }
+    }
+}
+
+/// One edge alone has no tip: where it did not face a node in the undeformed shape, it never does.
+#[test]
+fn an_edge_alone_has_no_tip() {
+    let model = model(&[&[[0.0, -1.0], [0.0, 0.0]]], UNIT);
+    let mut shape = model.nodes.clone();
+    (shape[0], shape[1]) = ([1.5, 0.25], [-0.5, 0.25]);
+    let surfaces = Surfaces::new(&model).expect("edges of the outline");
+    assert_eq!(surfaces.pairings(Coupling::Nts, &shape), [None, None]);
+}
+
+/// A single contact node, which faces every edge, at `p`.
+fn alone(target: &[Chain], p: [f64; 2]) -> Pairing {
+    let mut model = model(target, &[p, [p[0] + 1.0, p[1]]]);
+    model.contact.nodes.truncate(1);
+    faced(&model, Coupling::Nts).remove(0).expect("it faces every edge")
+}
+
+/// At a vertex the edge whose line is farther from the node is named; of those as far as each other,
+/// up to the tolerance and with it, that with the lower nodes, in whichever order they are listed.
+#[test]
+fn the_edge_at_a_vertex_does_not_depend_on_the_order_of_the_edges() {
+    let corner = [[0.0, -1.0], [0.0, 0.0], [-1.0, 0.0]];
+    let [flank, top] = [0, 1];
+    for (x, y, edge) in [
+        (0.0, 0.0, flank),
+        (0.0, 0.5e-9, flank),
+        (0.0, 1e-9, flank),
+        (1e-9, 0.0, flank),
+        (0.2, 0.1, flank),
+        (0.1, 0.2, top),
+    ] {
+        let model = |reversed: bool| {
+            let mut model = model(&[&corner], &[[x, y], [x + 1.0, y]]);
+            model.contact.nodes.truncate(1);
+            if reversed {
+                model.contact.target.reverse();
+            }
+            model
+        };
+        for model in [false, true].map(model) {
+            let found = faced(&model, Coupling::Nts).remove(0).expect("it faces every edge");
+            assert_eq!(found.edge.index(), edge, "{x}, {y}");
+            assert_eq!(found.masters, [(NodeId::new(1), 1.0)]);
+        }
+    }
+}
+
+/// Where the normals of two edges have a cosine of 0.866 they meet in a corner: beside it the
+/// normal is the edge's own, and over it the vertex alone is faced. With a larger cosine they meet
+/// in a bend: the normal turns, and over it the end of an edge is faced.
+#[test]
+fn edges_meet_in_a_corner_up_to_the_limit_of_a_bend() {
+    for (cosine, turns) in [(0.866_f64, false), (0.86601, true)] {
+        let [start, end] = [[1.0, 0.0], [0.0, 0.0]];
+        // A length of 1 to the last bit.
+        let rise = (1.0 - cosine * cosine).sqrt();
+        assert_eq!(cosine.hypot(rise), 1.0);
+        let pairing = alone(&[&[start, end, [-cosine, -rise]]], [0.25, 0.125]);
+        assert_eq!(masters(Some(&pairing)), [0, 1]);
+        assert_eq!(pairing.normal != [0.0, 1.0], turns, "{cosine}");
+        let over = alone(&[&[start, end, [-cosine, -rise]]], [-rise / 4.0, (1.0 + cosine) / 4.0]);
+        assert_eq!(masters(Some(&over)).len(), if turns { 2 } else { 1 }, "{cosine}");
+    }
+}
+
+/// Around a node an octagon is looked at: a limit between two parts of the target nearer than the
+/// radius is found in whichever direction, one beyond the octagon in none.
+#[test]
+fn what_a_node_faces_otherwise_is_found_in_every_direction() {
+    let radius = 1e-3;
+    for degrees in (0..360).step_by(15) {
+        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+        let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
+        // A notch, whose limit is the line through its ground; the node stands beside that line.
+        let notch = [[1.0, 1.0], [0.0, 0.0], [-1.0, 1.0]].map(turn);
+        for (away, is_found) in [(0.99, true), (1.1, false)] {
+            let p = turn([away * radius, 0.5]);
+            let mut model = model(&[&notch], &[p, [p[0] + 1.0, p[1]]]);
+            model.contact.nodes.truncate(1);
+            let surfaces = Surfaces::new(&model).expect("edges of the outline");
+            let found = surfaces.facing_otherwise(&model.nodes, radius);
+            assert_eq!(!found.is_empty(), is_found, "{degrees} degrees, {away} radii");
+        }
+    }
+}
+
+/// A change of weights or normals of a hundredth is still no other part of the target.
+#[test]
+fn a_change_of_a_hundredth_is_not_another_part() {
+    let otherwise = |target: Chain, p: [f64; 2], radius: f64| {
+        let mut model = model(&[target], &[[p[0] + 1.0, p[1]], p]);
+        model.contact.nodes.remove(0);
+        let surfaces = Surfaces::new(&model).expect("edges of the outline");
+        surfaces.facing_otherwise(&model.nodes, radius).len()
+    };
+    let (radius, outside) = (0.01, 0.01 / FRAC_PI_8.cos());
+    // Along an edge, of whose weights the second changes by a hundredth and the first by less.
+    let length = 100.0 * outside;
+    let from = near(0.3 * outside, |from| {
+        let (from, to) = (from / length, (from + outside) / length);
+        to - from == 0.01 && (1.0 - from) - (1.0 - to) < 0.01
+    });
+    let edge = [[0.0, 0.0], [length, 0.0]];
+    assert_eq!(otherwise(&edge, [from, -0.5], radius), 0);
+    assert!(otherwise(&edge, [from, -0.5], 1.01 * radius) > 0);
+    // Around a vertex, where the normal turns.
+    let away = near(outside * 9999.0_f64.sqrt(), |away| outside / outside.hypot(away) == 0.01);
+    let tip: Chain = &[[1.0, -1.0], [0.0, 0.0], [-1.0, -1.0]];
+    assert_eq!(otherwise(tip, [0.0, away], radius), 0);
+    assert!(otherwise(tip, [0.0, away], 1.01 * radius) > 0);
+}
+
+/// A node may lie as deep in the target as a hundredth of the scene's size, which is 4, or as half
+/// its contact edge.
+#[test]
+fn a_scene_is_refused_beyond_a_hundredth_of_its_size_and_half_a_contact_edge() {
+    for (edge, depth, is_refused) in [
+        (0.0625, 0.04, false),
+        (0.0625, 0.041, true),
+        (0.0625, 0.035, false),
+        (0.5, 0.25, false),
+        (0.5, 0.26, true),
+        (0.5, 0.041, false),
+    ] {
+        let target: Chain = &[[4.0, 0.0], [0.0, 0.0]];
+        let contact = [[2.0, -depth], [2.0 + edge, -depth]];
+        let model = model(&[target], &contact);
+        let surfaces = Surfaces::new(&model).expect("edges of the outline");
+        let refused = surfaces.check_initial_penetration(&model).is_err();
+        assert_eq!(refused, is_refused, "{depth} beside {edge}");
+    }
+}
