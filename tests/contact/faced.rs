@@ -16,7 +16,7 @@ type Chain<'a> = &'a [[f64; 2]];
 
 /// Surfaces along chains of points with the body on the left, a triangle at each edge: the target's
 /// nodes are numbered from 0, chain by chain, then the contact surface's, then the others.
-fn model(target: &[Chain], contact: Chain) -> Model {
+pub fn model(target: &[Chain], contact: Chain) -> Model {
     let mut nodes: Vec<[f64; 2]> = Vec::new();
     let mut edges = |chain: Chain| {
         let first = nodes.len();

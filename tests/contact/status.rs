@@ -4,10 +4,11 @@ use std::path::Path;
 
 use crate::common::program;
 use crate::common::tolerances::{CLOSEST_POINT, assert_near};
+use crate::faced;
 use nalgebra::DVector;
 use plane_contact::answer::contact::search::Closest;
 use plane_contact::answer::contact::status::{Target, TargetEdge, statuses};
-use plane_contact::answer::contact::{Pairing, Surfaces, reactions};
+use plane_contact::answer::contact::{Pairing, Surfaces, Traction, reactions};
 use plane_contact::answer::{self, Constraint, Detail, Request, Solution, summaries};
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::door::{self, Call};
@@ -253,6 +254,46 @@ fn the_closest_point() {
             let past = nearest.past_square(&closest).sqrt();
             assert_near("beyond", past, beyond, 1.0, &CLOSEST_POINT);
         }
+    }
+}
+
+/// What lies past the end of the surface is a length, whatever the length of the last edge.
+#[test]
+fn past_the_end_lengths_are_measured() {
+    let model = model(&[[-2.0, 0.0], [0.0, 0.0], [2.0, 0.0]], &[[9.0, 9.0]], UPRIGHT);
+    for (x, beyond) in [(2.5, 0.5), (-5.0, 3.0), (2.0, 0.0), (0.0, 0.0)] {
+        let (edge, closest) = nearest(&model, &model.nodes, [x, 0.25]).unwrap();
+        assert_eq!(edge.past_square(&closest), beyond * beyond, "{x}");
+    }
+}
+
+/// By projection a node on the line of an edge, but not near the edge, is not in contact, even where
+/// a folded surface has no free end there.
+#[test]
+fn on_the_line_of_an_edge_but_beyond_it_is_not_in_contact_by_projection() {
+    let model = model(FLAT, &[[0.5, 0.0]], UPRIGHT);
+    let folded = mapped(&model, |[x, y]| [if y == 0.0 && x.abs() == 1.0 { -1.0 } else { x }, y]);
+    assert_eq!(dy(StatusRule::Projection, &model, &folded), [0]);
+}
+
+/// Intersection asks the listing for edges and distances alone: where R4 lets its sign rule fail, it
+/// does not, and the weights' shape is the one that R5 names.
+#[test]
+fn intersection_keeps_every_reading_but_that_of_the_sign_rule() {
+    let of = |model: &Model, shape: &[[f64; 2]], rule: StatusRule, reading: &str| {
+        let (sheet, node_n) = (door::worksheet(model, |x| x), door::node_n(model, shape));
+        let found = statuses(rule, model, &sheet, &reading.parse().unwrap(), &node_n);
+        found.map(|found| found[0].in_contact).map_err(|failure| failure.line)
+    };
+    let above = model(FLAT, &[[0.3, 0.0005]], UPRIGHT);
+    for (reading, line) in [("R4=eager", 17), ("R4=left-to-right", 18)] {
+        assert_eq!(of(&above, &above.nodes, StatusRule::Signs, reading), Err(line));
+        assert_eq!(of(&above, &above.nodes, StatusRule::Intersection, reading), Ok(true));
+    }
+    let upright = model(&[[2.0, 1.0], [2.0, -1.0]], &[[2.0005, 0.3]], UPRIGHT);
+    let level = mapped(&upright, |[x, y]| [-y, x]);
+    for (reading, expected) in [("", Err(22)), ("R5=node_n", Ok(true))] {
+        assert_eq!(of(&upright, &level, StatusRule::Intersection, reading), expected, "{reading}");
     }
 }
 
@@ -530,4 +571,42 @@ fn what_a_restraint_shares_is_no_force_of_contact() {
         assert_eq!(of(restrained, along, true)[0][0], Some(0.0));
     }
     assert_eq!(of([true; 2], up, true)[0], [None; 2]);
+    // A normal so far from the axis is not along it.
+    let short = 1.0 - 1e-9;
+    assert_eq!(of([true, false], [0.0, short], false)[0], [None; 2]);
+    assert_eq!(of([false, true], [short, 0.0], false)[0], [None; 2]);
+}
+
+/// A stress is a force over the length of the node, a half here, and the thickness; the friction
+/// needed is told of nodes that press by more than a hundred thousand millionth of the largest force.
+#[test]
+fn tractions_on_two_nodes_by_hand() {
+    let mut model = faced::model(&[&[[1.0, 0.0], [0.0, 0.0]]], &[[0.0, 0.0], [1.0, 0.0]]);
+    model.thickness = 4.0;
+    let surfaces = Surfaces::new(&model).unwrap();
+    let pairings = surfaces.pairings(Coupling::Nts, &model.nodes);
+    let of = |forces: [[f64; 2]; 2], in_contact: bool| {
+        let traction = Traction {
+            model: &model,
+            surfaces: &surfaces,
+            measured_in: &model.nodes,
+            pairings: &pairings,
+            gaps: &[Some(0.0); 2],
+            in_contact: &[in_contact; 2],
+            statuses: None,
+            forces: &forces.map(|force| force.map(Some)),
+        };
+        traction.nodes()
+    };
+    let node = &of([[6.0, -3.0], [0.0, 0.0]], true)[0];
+    assert_eq!(
+        (node.pressure, node.shear, node.friction_needed),
+        (Some(3.0), Some(-1.5), Some(0.5))
+    );
+    assert_eq!(of([[6.0, -3.0], [0.0, 0.0]], false)[0].friction_needed, None);
+    for largest in [1e3, 1e-3] {
+        let of = |part: f64| of([[largest, 0.0], [part * largest, 0.0]], true)[1].friction_needed;
+        assert_eq!((of(1e-11), of(1.1e-11)), (None, Some(0.0)), "{largest}");
+    }
+    assert_eq!(of([[0.0, 0.0]; 2], true)[0].friction_needed, None);
 }
