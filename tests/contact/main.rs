@@ -22,6 +22,7 @@ mod faced;
 mod facing;
 mod friction;
 mod invariance;
+mod limits;
 mod orders;
 mod quadratic_programme;
 mod recorded;

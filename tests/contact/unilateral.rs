@@ -195,7 +195,7 @@ fn the_reference_is_at_no_distance_from_itself() {
 ///  |   |
 ///  1---2
 /// ```
-fn stacked(load: [f64; 2], held: &[Axis], friction: Friction) -> SceneBuilder {
+pub fn stacked(load: [f64; 2], held: &[Axis], friction: Friction) -> SceneBuilder {
     let mut mesh = MeshBuilder::default();
     mesh.row([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
     mesh.row([[0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]);
@@ -214,7 +214,7 @@ fn stacked(load: [f64; 2], held: &[Axis], friction: Friction) -> SceneBuilder {
     if held.is_empty() { scene } else { scene.restrain_node(5, held).restrain_node(8, held) }
 }
 
-fn solved(scene: &SceneBuilder) -> Result<Solution, Error> {
+pub fn solved(scene: &SceneBuilder) -> Result<Solution, Error> {
     let scene = scene.build().expect("the scene is sound");
     answer::solve(&Request::new(&scene).variant(Variant::Unilateral), &mut |_| ())
 }
@@ -332,12 +332,12 @@ fn a_target_node_that_node_to_segment_does_not_see_is_reported() {
 }
 
 /// Small displacements.
-fn flat(contact: &mut Contact) {
+pub fn flat(contact: &mut Contact) {
     contact.geometry = Geometry::Initial;
 }
 
 /// `scene` with its contact changed.
-fn with(mut scene: SceneBuilder, change: impl FnOnce(&mut Contact)) -> SceneBuilder {
+pub fn with(mut scene: SceneBuilder, change: impl FnOnce(&mut Contact)) -> SceneBuilder {
     change(scene.description.contact.as_mut().expect("the scene has contact"));
     scene
 }
