@@ -69,6 +69,25 @@ proptest! {
         prop_assert!(furthest <= root.error() && root.error() < 3.0 * furthest, "{:?}", root);
     }
 
+    /// The quotients of the ends of two intervals are within the bound of the quotient, in exact
+    /// numbers.
+    #[test]
+    fn the_bound_of_a_quotient_holds_the_quotients_about_it(
+        x in float(20),
+        y in float(20),
+        part in 0.01..0.99_f64,
+    ) {
+        let [x, y] = [x, y].map(|value| Bounded::new(value, value.abs() * part));
+        let quotient = x / y;
+        let number = |x: f64| RBig::try_from(x).expect("finite");
+        let ends = |x: Bounded| [-1.0, 1.0].map(|s| number(x.value()) + number(s * x.error()));
+        let bound = number(quotient.error());
+        for (p, q) in ends(x).iter().flat_map(|p| ends(y).map(|q| (p.clone(), q))) {
+            let off = p / q - number(quotient.value());
+            prop_assert!(-&bound <= off && off <= bound, "{:?} {:?}", x, y);
+        }
+    }
+
     #[test]
     fn double_double_survives_cancellation(
         x in double_double(3),
@@ -269,6 +288,33 @@ fn infinities_and_nans_go_through_double_doubles_as_through_f64() {
     }
 }
 
+/// Half a unit of the largest double, in two parts that its high half does not feel.
+#[test]
+fn a_sum_that_overflows_only_with_its_low_halves_is_infinite() {
+    for sign in [1.0, -1.0] {
+        let [most, quarter] = [f64::MAX, 2_f64.powi(969)].map(|x| F64x2::from_f64(sign * x));
+        let below = most + quarter;
+        assert_eq!(below.halves(), [sign * f64::MAX, sign * 2_f64.powi(969)]);
+        assert_eq!((below + quarter).halves(), [sign * f64::INFINITY, 0.0]);
+    }
+}
+
+/// The root has the slope 1/2 at 1, and at most 1 on the way from 0: what it passes on is rounded up as
+/// what is divided by 1.
+#[test]
+fn the_bound_of_a_root_covers_its_own_roundings() {
+    let x = Bounded::new(1.0, 8.0);
+    assert!(x.root().error() > (x / Bounded::new(1.0, 0.0)).error());
+}
+
+#[test]
+fn of_two_zeros_the_first_is_the_larger_and_the_smaller() {
+    for [x, y] in [[0.0_f64, -0.0], [-0.0, 0.0]] {
+        assert_eq!(Scalar::max(x, y).to_bits(), x.to_bits());
+        assert_eq!(Scalar::min(x, y).to_bits(), x.to_bits());
+    }
+}
+
 /// A divisor that may be 0 bounds nothing, be it 0 itself, or 1 ± 1, or 1 ± 2.
 #[test]
 fn what_is_divided_by_what_may_be_zero_has_no_bound() {
@@ -292,6 +338,9 @@ fn rounding_errors_at_the_limit_of_underflow() {
     assert!(0.0 < error && error < 1e-305, "{error:e}");
     let below = F64x2::from_f64(0.9e-280);
     assert!(F64x2::of_quotient(below, one, below) > 0.9e-300);
+    // What underflows in the rest counts as much more in the quotient.
+    let [tiny, divisor] = [1e-290, 1e-10].map(F64x2::from_f64);
+    assert!(F64x2::of_quotient(tiny, divisor, small) >= 0.9e-290);
     assert!(f64::of_product(1e-280, 1.0, 1e-280) == 0.0);
     assert!(f64::of_product(0.9e-280, 1.0, 0.9e-280) > 0.9e-300);
 }
@@ -302,4 +351,6 @@ fn numbers_are_read_and_written_as_they_are() {
     assert_eq!((0.5_f64.to_rational(), 0.5_f32.to_rational()), (Some(half.clone()), Some(half)));
     assert_eq!((f64::INFINITY.to_rational(), f64::NAN.to_rational()), (None, None));
     scope(|| assert_eq!(Exact::from_f64(0.5).to_string(), "0.5"));
+    scope(|| assert_eq!(format!("{:?}", Exact::from_f64(0.5)), "1/2"));
+    assert_eq!(format!("{:?}", Exact::from_f64(f64::NAN)), "undefined");
 }

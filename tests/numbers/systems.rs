@@ -1,6 +1,7 @@
 //! Linear systems at the edges: residuals, bounds on errors, iterations that stop, digits modulo a
 //! prime, and matrices that are nearly singular.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashu_ratio::RBig;
@@ -192,38 +193,69 @@ fn what_little_holds_is_not_condensed() {
     }
 }
 
+/// The second pivot is 11111111, and 1e-8 of its entry too: it is no larger than what may be left of one.
+#[test]
+fn a_pivot_of_the_least_part_is_not_large() {
+    let condensed = |more: f64| {
+        let entry = 1_111_111_100_000_000.0 + more;
+        let entries = [(0, 0, 1.0), (1, 0, 33_333_333.0), (1, 1, entry), (2, 2, 1.0)];
+        Condensed::new(SparseSymmetric::new(3, entries.into_iter()), &[2]).is_some()
+    };
+    assert_eq!([0.0, 1.0].map(condensed), [false, true]);
+}
+
+/// Compares the condensation of a matrix, and a solution by it, with elimination.
+#[track_caller]
+fn condensed_as_by_elimination(dense: &DMatrix<f64>, kept: &[usize]) {
+    let n = dense.nrows();
+    let b = DVector::from_fn(n, |i, _| (i % 11) as f64 - 4.0);
+    let condensed = Condensed::new(SparseSymmetric::of_lower(dense), kept).expect("it is held");
+    let inside: Vec<usize> = (0..n).filter(|e| !kept.contains(e)).collect();
+    let block = |rows: &[usize], columns: &[usize]| dense.select_rows(rows).select_columns(columns);
+    let factors = block(&inside, &inside).cholesky().expect("it is held");
+    let joining = block(&inside, kept);
+    let schur = block(kept, kept) - joining.transpose() * factors.solve(&joining);
+    assert!((condensed.schur() - &schur).amax() < 1e-11);
+    let eliminated = condensed.eliminate(&b);
+    let left = b.select_rows(kept) - joining.transpose() * factors.solve(&b.select_rows(&inside));
+    assert!((&eliminated.kept - &left).amax() < 1e-11);
+    let moved = schur.cholesky().expect("it is held").solve(&eliminated.kept);
+    let solution = condensed.expand(&eliminated, &moved);
+    assert!((dense * solution - &b).amax() < 1e-11);
+}
+
 /// Two full blocks and equations that both reach: factors of several dense blocks. What is kept
 /// stands anywhere.
 #[test]
 fn full_blocks_are_condensed_as_by_elimination() {
-    let (n, ends) = (260, 105);
+    let (n, ends) = (450, 200);
     let reaches = |block: usize, k: usize| k >= 2 * ends || k / ends == block;
     let dense = DMatrix::from_fn(n, n, |i, j| {
         let joined = (0..2).any(|block| reaches(block, i) && reaches(block, j));
         let apart = 1.0 / (1.0 + i.abs_diff(j) as f64);
         if i == j { 40.0 + (i % 7) as f64 } else { f64::from(joined) * apart }
     });
-    let b = DVector::from_fn(n, |i, _| (i % 11) as f64 - 4.0);
-    for kept in [vec![250, 3, 100, 207, 251, 110], (0..60).map(|k| 4 * k + 1).collect()] {
-        let condensed =
-            Condensed::new(SparseSymmetric::of_lower(&dense), &kept).expect("it is held");
-        let inside: Vec<usize> = (0..n).filter(|e| !kept.contains(e)).collect();
-        let block =
-            |rows: &[usize], columns: &[usize]| dense.select_rows(rows).select_columns(columns);
-        let factors = block(&inside, &inside).cholesky().expect("it is held");
-        let joining = block(&inside, &kept);
-        let schur = block(&kept, &kept) - joining.transpose() * factors.solve(&joining);
-        assert!((condensed.schur() - &schur).amax() < 1e-11);
-        let eliminated = condensed.eliminate(&b);
-        let left =
-            b.select_rows(&kept) - joining.transpose() * factors.solve(&b.select_rows(&inside));
-        assert!((&eliminated.kept - &left).amax() < 1e-11);
-        let moved = schur.cholesky().expect("it is held").solve(&eliminated.kept);
-        let solution = condensed.expand(&eliminated, &moved);
-        assert!((&dense * solution - &b).amax() < 1e-11);
+    for kept in [vec![440, 3, 190, 397, 441, 210], (0..60).map(|k| 7 * k + 1).collect()] {
+        condensed_as_by_elimination(&dense, &kept);
     }
+    let b = DVector::from_fn(n, |i, _| (i % 11) as f64 - 4.0);
     let cholesky = SparseCholesky::new(SparseSymmetric::of_lower(&dense)).expect("it is held");
     assert!((&dense * cholesky.solve(&b) - &b).amax() < 1e-11);
+}
+
+/// A full block, and a chain from it whose equations are all kept, in an order in which neighbours stand
+/// apart.
+#[test]
+fn a_chain_is_kept_beside_a_full_block() {
+    let (full, n) = (240, 400);
+    let dense = DMatrix::from_fn(n, n, |i, j| match i.abs_diff(j) {
+        0 => 40.0 + (i % 7) as f64,
+        1 => 1.0,
+        apart if i.max(j) < full => 1.0 / (1.0 + apart as f64),
+        _ => 0.0,
+    });
+    let kept: Vec<usize> = (0..n - full).map(|k| full + 77 * k % (n - full)).collect();
+    condensed_as_by_elimination(&dense, &kept);
 }
 
 /// Chains of springs of stiffness 1, each held at its first equation and pulled at its last one, which
@@ -279,6 +311,58 @@ fn sparse_lu_refuses_what_dense_lu_does() {
     assert_eq!(factored(1e-12), (false, false));
 }
 
+/// Dense LU takes the second pivot, 4e-14 beside a 1, for 0: it is below 16 epsilons for each of 16
+/// equations. A load moves the matrix 1e7 times as far as it is large, or 5e10 times.
+#[test]
+fn dense_lu_judges_only_what_loads_move_far() {
+    let factored = |last: f64| {
+        let mut matrix = SparseSquare::zeros(16);
+        (0..16).for_each(|k| matrix[(k, k)] = 1.0);
+        (matrix[(0, 1)], matrix[(1, 0)]) = (1.0, 1.0);
+        (matrix[(1, 2)], matrix[(2, 1)]) = (4e-14, 4e-14);
+        matrix[(2, 2)] = last;
+        let dense = f64::solve(matrix.dense(), &DVector::zeros(16), Solver::DenseLu, None);
+        assert!(dense.is_err(), "{last}");
+        SparseLu::new(&matrix).is_ok()
+    };
+    assert_eq!([0.0, 4e-17].map(factored), [true, false]);
+}
+
+#[test]
+fn factors_are_made_once_for_each_of_the_last_four_matrices() {
+    let known = KnownLu::default();
+    let factors = |n: usize, value: f64| {
+        let mut matrix = SparseSquare::zeros(n);
+        (0..n).for_each(|k| matrix[(k, k)] = value);
+        known.factors(&matrix).expect("it is not singular")
+    };
+    let first = factors(2, 1.0);
+    let three = [2.0, 3.0, 4.0].map(|value| factors(2, value));
+    assert!(Arc::ptr_eq(&first, &factors(2, 1.0)));
+    factors(2, 5.0);
+    assert!(!Arc::ptr_eq(&first, &factors(2, 1.0)), "four are kept");
+    assert!(Arc::ptr_eq(&three[2], &factors(2, 4.0)));
+    known.let_go();
+    assert!(!Arc::ptr_eq(&three[2], &factors(2, 4.0)), "none are kept");
+    let is_kept = |n| Arc::ptr_eq(&factors(n, 1.0), &factors(n, 1.0));
+    assert_eq!([10_000, 10_001].map(is_kept), [true, false]);
+}
+
+/// The same rows and values in the same order, but other numbers of them in each column.
+#[test]
+fn factors_are_known_by_every_column() {
+    let known = KnownLu::default();
+    let solved = |places: [(usize, usize); 4]| {
+        let mut matrix = SparseSquare::zeros(3);
+        places.iter().for_each(|at| matrix[*at] = 1.0);
+        f64::solve_sparse(&matrix, &dvector![1.0, 2.0, 4.0], &known).unwrap().x
+    };
+    for _ in 0..2 {
+        assert_eq!(solved([(0, 0), (1, 1), (2, 1), (1, 2)]), dvector![1.0, 4.0, -2.0]);
+        assert_eq!(solved([(0, 0), (1, 0), (2, 1), (1, 2)]), dvector![1.0, 4.0, 1.0]);
+    }
+}
+
 #[test]
 fn factors_are_known_by_every_place_and_value() {
     let known = KnownLu::default();
@@ -302,6 +386,39 @@ fn the_largest_pivot_of_a_column_is_taken() {
     let b = dvector![3.0, 2.0].map(F64x2::from_f64);
     let solved = F64x2::solve(matrix, &b, Solver::DenseLu, None).unwrap();
     assert_eq!([solved.x[0].to_f64(), solved.x[1].to_f64()], [2.0, 3.0]);
+}
+
+/// What the first row says of the first unknown is exact; the second one would round it.
+#[test]
+fn of_pivots_of_one_size_the_first_is_taken() {
+    let number = F64x2::from_f64;
+    for d in 3..20 {
+        let part = number(1.0) / number(f64::from(d));
+        let matrix = DMatrix::from_row_slice(2, 2, &[number(1.0), number(0.0), number(1.0), part]);
+        let b = dvector![number(1.0), number(1e10) / number(7.0)];
+        let solved = F64x2::solve(matrix, &b, Solver::DenseLu, None).unwrap();
+        assert_eq!(solved.x[0], number(1.0), "{d}");
+    }
+}
+
+#[test]
+fn a_column_of_zeros_is_singular_in_double_doubles() {
+    let matrix = DMatrix::from_diagonal(&dvector![1.0, 0.0, 2.0]).map(F64x2::from_f64);
+    let b = DVector::from_element(3, F64x2::from_f64(1.0));
+    for solver in [Solver::DenseLu, Solver::SparseCholesky] {
+        let unsolved = F64x2::solve(matrix.clone(), &b, solver, None).map(|_| ()).unwrap_err();
+        assert_eq!(unsolved, Unsolved::Singular(Singular { column: 1, pivot: 0.0 }), "{solver}");
+    }
+}
+
+#[test]
+fn factors_tell_a_singular_matrix_and_an_iteration_that_it_stopped() {
+    let matrix = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
+    let unsolved = |solver| {
+        f64::solve(matrix.clone(), &dvector![1.0, 1.0], solver, None).map(|_| ()).unwrap_err()
+    };
+    assert!(matches!(unsolved(Solver::SparseCholesky), Unsolved::Singular(_)));
+    assert!(matches!(unsolved(Solver::Cg), Unsolved::NotConverged(_)));
 }
 
 /// In a column of numbers of 2^20, or of its inverse, so is the pivot that counts as 0.
