@@ -504,16 +504,46 @@ fn c_cnt_of_one_node_over_one_edge() {
     }
 }
 
+/// On a line that rises from (0, 0) to (1, 1), without a tolerance: a node on it is not below it,
+/// beside one that the line passes above.
+#[test]
+fn a_node_on_the_line_is_not_below_it() {
+    let mut sheet = over_an_edge([0.5, 0.5], 0.0);
+    sheet.node[(2, 3)] = 1.0;
+    (sheet.node[(4, 2)], sheet.node[(4, 3)]) = (0.5, 0.25);
+    for (nodes, yt) in [([3, 4], [0.0, 0.25]), ([4, 3], [0.25, 0.0])] {
+        sheet.cnt = Column::from_vec(nodes.to_vec());
+        let reading = Reading { r4: Conjunction::Guarded, ..Reading::default() };
+        let pairs = c_cnt(&sheet, &reading, &sheet.node).expect("it runs");
+        assert_eq!([1, 2].map(|k| (pairs.ct[k], pairs.yt[k], pairs.dy[k])), yt.map(|y| (1, y, 0)));
+    }
+}
+
+/// Read from left to right, line 18 asks for yt[0] where the line passes below the first node, and
+/// only there.
+#[test]
+fn line_18_fails_at_the_first_node_below_its_line() {
+    let reading = Reading { r4: Conjunction::LeftToRight, ..Reading::default() };
+    let found = |at: [f64; 2]| {
+        let sheet = over_an_edge(at, 0.25);
+        c_cnt(&sheet, &reading, &sheet.node).map(|pairs| pairs.dy[1]).map_err(|why| why.to_string())
+    };
+    assert_eq!([[0.5, 0.0], [0.5, -0.125], [2.0, 0.0]].map(found), [Ok(1), Ok(1), Ok(0)]);
+    let failure = found([0.5, 0.125]).expect_err("it fails");
+    assert!(failure.starts_with("c_cnt, line 18: "), "{failure}");
+    assert!(failure.contains("i1 = 1, ct[i1] = 1, index of yt = 0, rows(yt) = 1"), "{failure}");
+}
+
 /// In numbers with a bound, the rows of `trg` that are left out are those that line 7 surely does
 /// not take: the same comparisons are left open.
 #[test]
 fn edges_within_the_bounds_of_a_node_are_looked_at() {
     let reading = Reading { r4: Conjunction::Guarded, ..Reading::default() };
-    for k in 0..40 {
+    for (k, size) in (0..40).flat_map(|k| [(k, 1.0), (k, 100.0)]) {
         let at = [-0.5 + 0.05 * f64::from(k), 0.5 - 0.025 * f64::from(k)];
         for error in [[0.0, 0.2], [0.2, 0.0], [0.1, 0.1]] {
             let sheet = over_an_edge(at, 0.25);
-            let of = |n: usize, x: f64| Bounded::new(x, error[usize::from(n == 3)]);
+            let of = |n: usize, x: f64| Bounded::new(size * x, size * error[usize::from(n == 3)]);
             let node = Table::from_fn(4, 4, |n, j| of(n, sheet.node[(n, j)]));
             let sheet = Worksheet {
                 node: node.clone(),
@@ -521,7 +551,7 @@ fn edges_within_the_bounds_of_a_node_are_looked_at() {
                 EL: sheet.EL,
                 trg: sheet.trg,
                 cnt: sheet.cnt,
-                c_tll: Bounded::from_f64(sheet.c_tll),
+                c_tll: Bounded::from_f64(size * sheet.c_tll),
                 ind_1: sheet.ind_1,
                 S: sheet.S,
                 Ae: sheet.Ae.map(Bounded::from_f64),
@@ -532,11 +562,11 @@ fn edges_within_the_bounds_of_a_node_are_looked_at() {
             };
             let all = compared(|| c_cnt(&sheet, &reading, &node));
             let near = compared(|| near::c_cnt(&sheet, &reading, &node));
-            assert_eq!(near.1, all.1, "{at:?} {error:?}");
-            assert_eq!(near.0.is_ok(), all.0.is_ok(), "{at:?} {error:?}");
+            assert_eq!(near.1, all.1, "{at:?} {size} {error:?}");
+            assert_eq!(near.0.is_ok(), all.0.is_ok(), "{at:?} {size} {error:?}");
             if let (Ok(near), Ok(all)) = (near.0, all.0) {
                 let [near, all] = [near, all].map(|pairs| pair_bits(&pairs.map(|x| x.to_f64())));
-                assert_eq!(near, all, "{at:?} {error:?}");
+                assert_eq!(near, all, "{at:?} {size} {error:?}");
             }
         }
     }

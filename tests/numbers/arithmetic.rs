@@ -299,8 +299,8 @@ fn a_sum_that_overflows_only_with_its_low_halves_is_infinite() {
     }
 }
 
-/// The root has the slope 1/2 at 1, and at most 1 on the way from 0: what it passes on is rounded up as
-/// what is divided by 1.
+/// Between 0 and 1 the slope of the root is 1: what it passes on is rounded up as what is divided
+/// by 1.
 #[test]
 fn the_bound_of_a_root_covers_its_own_roundings() {
     let x = Bounded::new(1.0, 8.0);

@@ -193,7 +193,7 @@ fn what_little_holds_is_not_condensed() {
     }
 }
 
-/// The second pivot is 11111111, and 1e-8 of its entry too: it is no larger than what may be left of one.
+/// The second pivot is 11111111, and 1e-8 of its entry too: that is what may be left of one.
 #[test]
 fn a_pivot_of_the_least_part_is_not_large() {
     let condensed = |more: f64| {
@@ -243,8 +243,8 @@ fn full_blocks_are_condensed_as_by_elimination() {
     assert!((&dense * cholesky.solve(&b) - &b).amax() < 1e-11);
 }
 
-/// A full block, and a chain from it whose equations are all kept, in an order in which neighbours stand
-/// apart.
+/// A full block, and a chain from it whose equations are all kept, in an order in which neighbours
+/// stand apart.
 #[test]
 fn a_chain_is_kept_beside_a_full_block() {
     let (full, n) = (240, 400);

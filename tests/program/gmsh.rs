@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::io::{self, Read};
+use std::mem;
 
 use crate::common::random::fixed;
 use plane_contact::problem::scene::gmsh::{self, GmshError, Place};
@@ -222,6 +223,16 @@ fn lines_are_counted_from_the_beginning_of_the_file() {
     }
 }
 
+/// Blanks that fill more than a part of the file, between sections and between numbers.
+#[test]
+fn blanks_have_no_bound() {
+    for (before, token) in [("$EndPhysicalNames\n", "$Nodes"), ("30 ", "0 1 0")] {
+        let blanks = format!("{before}{}{token}", "\n".repeat(600_000));
+        let apart = SMALL_2.replacen(&format!("{before}{token}"), &blanks, 1);
+        assert!(apart.len() > 600_000 && read(apart.as_bytes()) == Ok(small()), "{token}");
+    }
+}
+
 /// Numbers in any order, each once: the items ascend.
 #[test]
 fn numbers_may_come_in_any_order() {
@@ -274,22 +285,29 @@ fn dimensions_and_tags_at_their_bounds() {
     assert!(block(4).is_err());
 }
 
-/// A file that breaks off, as on a disk that is taken away.
+/// A file that breaks off, as on a disk that is taken away; that it ends behind that is no news.
 #[test]
 fn what_cannot_be_read_on_is_told() {
-    struct Broken;
+    #[derive(Default)]
+    struct Broken {
+        has_failed: bool,
+    }
     impl Read for Broken {
         fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
-            Err(io::Error::other("the disk is gone"))
+            match mem::replace(&mut self.has_failed, true) {
+                false => Err(io::Error::other("the disk is gone")),
+                true => Ok(0),
+            }
         }
     }
+    let broken = Broken::default;
     let (start, _) = SMALL_2.split_once("10 0 0 0").unwrap();
     for ends in ["", "10 0", "10 0 0 0\n20 1 0 0\n"] {
         let begun = format!("{start}{ends}");
-        let error = gmsh::read(begun.as_bytes().chain(Broken)).unwrap_err().to_string();
+        let error = gmsh::read(begun.as_bytes().chain(broken())).unwrap_err().to_string();
         assert!(error.ends_with("it cannot be read on: the disk is gone"), "{error}");
     }
-    let error = gmsh::read(SMALL_2.as_bytes().chain(Broken)).unwrap_err().to_string();
+    let error = gmsh::read(SMALL_2.as_bytes().chain(broken())).unwrap_err().to_string();
     assert!(error.ends_with("it cannot be read on: the disk is gone"), "{error}");
 }
 
@@ -448,6 +466,10 @@ fn faults_of_2_2_are_named_with_their_line() {
         ("$EndNodes\n", "$EndNodes\nmore\n",
          "line 15: found \"more\", expected the beginning of a section, such as $Nodes"),
         ("$Nodes", "$nodes", "line 21: found the end of the file, expected $Endnodes"),
+        ("$EndNodes\n", "$EndNodes\n$EndNodes\n",
+         "line 15: found \"$EndNodes\", expected the beginning of a section, such as $Nodes"),
+        ("$EndNodes\n", "$EndNodes\n$\n",
+         "line 15: found \"$\", expected the beginning of a section, such as $Nodes"),
         ("9 2 2 1 4 10", "9 3 2 1 4 10",
          "line 17: element 9 is a four-node quadrangle; only points, two-node edges and three-node \
           triangles can be read: in Gmsh set Mesh.RecombineAll = 0 and Mesh.ElementOrder = 1, and \
@@ -508,12 +530,18 @@ fn missing_and_repeated_sections_are_named() {
 
 #[test]
 fn a_binary_fault_is_named_with_its_byte() {
-    let mut file = Writer { big: true, bytes: Vec::new() };
-    file.small_2();
-    let at = file.bytes.windows(7).position(|window| window == b"$Nodes\n").unwrap() + 9;
-    file.bytes[at..at + 4].fill(0);
-    let error = read(&file.bytes).unwrap_err().to_string();
-    assert_eq!(error, format!("byte {at}: found 0, expected a node's number, 1 or more"));
+    // The second is in the third part of its file.
+    for skipped in [0, 600_000] {
+        let mut file = Writer { big: true, bytes: Vec::new() };
+        file.small_2();
+        let nodes = file.bytes.windows(7).position(|window| window == b"$Nodes\n").unwrap();
+        let section = format!("$Long\n{}\n$EndLong\n", "-".repeat(skipped));
+        file.bytes.splice(nodes..nodes, section.bytes());
+        let at = nodes + section.len() + 9;
+        file.bytes[at..at + 4].fill(0);
+        let error = read(&file.bytes).unwrap_err().to_string();
+        assert_eq!(error, format!("byte {at}: found 0, expected a node's number, 1 or more"));
+    }
 }
 
 #[test]

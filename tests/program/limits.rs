@@ -48,6 +48,17 @@ fn memory_that_a_process_may_not_have_is_refused_with_what_is_needed() {
     refused(folder, "ulimit -v 1500000; $P solve long.json", &words);
 }
 
+/// Of 1.055 GB, 5 MB at least are the program's already.
+#[test]
+fn what_the_program_takes_itself_is_not_free() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = shell(folder.path(), "ulimit -v 1030273; $P mesh cook --n 2000");
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    let free = error.split(" GB are free").next().and_then(|before| before.rsplit(' ').next());
+    let free: f64 = free.and_then(|number| number.parse().ok()).expect(&error);
+    assert!(free <= 1.0, "{error}");
+}
+
 #[test]
 fn what_has_no_end_is_not_read() {
     let folder = tempfile::tempdir().expect("a folder");

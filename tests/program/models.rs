@@ -119,6 +119,19 @@ fn what_restraints_leave_free() {
     }
 }
 
+/// Two restraints along y, `apart` on a body of the size √2, and one along x: turning has the
+/// eigenvalue apart²/4, beside one of 2. A part of 1e-12 counts as none.
+#[test]
+fn restraints_beside_each_other_leave_a_body_free_to_turn() {
+    let mut model = Model::clone(&held(blocks(&["a"]), 1).build().expect("sound").model);
+    model.restrained = vec![true, true, false, true, false, false, false, false];
+    let mut found = |apart: f64| {
+        model.nodes = vec![[0.0, 0.0], [apart, 0.0], [1.0, 1.0], [-1.0, -1.0]];
+        freedom(&model, &model.bodies[0].nodes)
+    };
+    assert_eq!([2e-6, 4e-6].map(&mut found), [Some("rotate"), None]);
+}
+
 #[test]
 fn a_body_that_can_move_is_refused() {
     let what = |scene: SceneBuilder| scene.build().expect_err("it is refused").what;

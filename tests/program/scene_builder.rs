@@ -4,8 +4,9 @@ use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::{Coupling, Friction, Geometry, StatusRule, Variant};
 use plane_contact::problem::scene::surface::chain;
 use plane_contact::problem::scene::{
-    Axis, Contact, Element, Mesh, MeshBuilder, SceneBuilder, file, gmsh,
+    Axis, Contact, Element, Mesh, MeshBuilder, SceneBuilder, SceneFile, file, gmsh,
 };
+use serde_json::json;
 
 /// Two blocks on each other, with node 1 apart from both.
 fn blocks() -> SceneBuilder {
@@ -106,6 +107,22 @@ fn a_row_of_half_the_segments_takes_three_triangles_a_segment() {
 }
 
 #[test]
+fn the_last_triangle_may_stand_on_the_outer_row() {
+    assert_eq!(triangles(1, 3), [[1, 4, 3], [1, 5, 4], [1, 2, 5], [2, 6, 5]]);
+}
+
+/// What does not run counter-clockwise is turned, though nothing makes it a triangle.
+#[test]
+fn a_triangle_without_area_is_refused() {
+    let mut mesh = MeshBuilder::default();
+    let row = mesh.row([0.0, 1.0, 2.0].map(|x| [x, 0.0]));
+    mesh.join("body", &row[..2], &row[2..]);
+    let scene = SceneBuilder::new("flat", mesh.finish(), Plane::Strain).material("body", 1.0, 0.0);
+    let error = scene.build().expect_err("it is refused");
+    assert_eq!(error.what, "triangle 1 (nodes [1, 3, 2]) has the area 0");
+}
+
+#[test]
 fn a_row_of_one_node_is_the_tip_of_a_fan() {
     assert_eq!(triangles(2, 0), [[1, 2, 4], [2, 3, 4]]);
 }
@@ -126,6 +143,33 @@ fn edges_come_first_and_names_take_the_tags_that_are_free() {
     assert_eq!(elements, expected);
     let names: Vec<_> = mesh.names.iter().map(|n| (n.dim, n.tag, n.name.as_str())).collect();
     assert_eq!(names, [(1, 1, "bottom"), (1, 3, "left")]);
+}
+
+#[test]
+fn a_mesh_as_a_document_is_rows_of_numbers() {
+    let mut mesh = MeshBuilder::default();
+    mesh.row([[0.0, 0.5], [1.0, 0.0], [0.0, 1.0]]);
+    mesh.edges("bottom", &[1, 2]);
+    mesh.triangles(7, [[1, 2, 3]]);
+    let mesh = mesh.finish();
+    let document = json!({
+        "groups": [[1, 1, "bottom"]],
+        "nodes": [[1, 0.0, 0.5, 0.0], [2, 1.0, 0.0, 0.0], [3, 0.0, 1.0, 0.0]],
+        "elements": [[1, 1, [1], 1, [1, 2]], [2, 2, [7], 7, [1, 2, 3]]],
+    });
+    assert_eq!(serde_json::to_value(&mesh).expect("a document"), document);
+    assert_eq!(serde_json::from_value::<Mesh>(document).expect("a mesh"), mesh);
+}
+
+#[test]
+fn a_scene_is_named_by_its_file_or_by_its_folder() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("mine")).expect("a folder");
+    for file in ["mine/scene.json", "mine/plate.json"] {
+        std::fs::write(folder.path().join(file), "{}").expect("it is written");
+    }
+    let name = |path: &str| SceneFile::read(path, folder.path()).expect("it is there").name;
+    assert_eq!(["mine", "mine/scene.json", "mine/plate.json"].map(name), ["mine", "mine", "plate"]);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use plane_contact::paper::door;
 use plane_contact::paper::mirror::Worksheet;
 use plane_contact::problem::model::{NodeId, TriangleId};
 use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::Scene;
+use plane_contact::problem::scene::{Materials, Scene};
 use serde_json::{Value, json};
 
 /// What is said of `fig1` once `change` has been made.
@@ -110,10 +110,20 @@ fn fields() {
     says(&e, "loads[0].on", &["where the name or the tag of a physical group is expected"]);
     let e = refused(|s| s["materials"]["1"]["G"] = json!(1));
     says(&e, "materials.1", &["unknown field `G`, expected `E` or `nu`"]);
+    let e = refused(|s| s["materials"] = json!([]));
+    says(&e, "materials", &["a list where an object is expected"]);
     let e = refused(|s| drop(s.as_object_mut().unwrap().remove("materials")));
     says(&e, "the scene file", &["missing field `materials`"]);
     let e = refused(|s| s["variant"] = json!("glued"));
     says(&e, "variant", &["\"glued\" is none of stepped, tied, printed"]);
+}
+
+/// Those of a scene file are looked at before; these are read by themselves.
+#[test]
+fn materials_that_are_no_object() {
+    let error = serde_json::from_value::<Materials>(json!([])).unwrap_err().to_string();
+    let expected = r#"an object whose keys are physical groups, such as {"block": {"E": 3e4, "#;
+    assert!(error.contains(expected), "{error}");
 }
 
 #[test]

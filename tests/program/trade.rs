@@ -10,11 +10,11 @@ use plane_contact::answer::estimates::Certainty;
 use plane_contact::answer::{Request, Solution, distance, equilibrium, max_displacement, solve};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
-use plane_contact::problem::element;
+use plane_contact::problem::element::{self, Plane};
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::Scene;
 use plane_contact::problem::scene::symmetry::half;
+use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::report::trade as report;
 use plane_contact::studies::audit::range::{Parameter, Place};
 use plane_contact::studies::benchmark::{Annulus, Strand};
@@ -312,6 +312,84 @@ fn what_is_not_symmetric_has_no_half() {
     };
     assert!(none(&flipped), "a diagonal");
     assert!(half(&open("fig1")).is_none());
+}
+
+/// Images are off by 4 in 1e10, across the borders of the cells in which they are looked for.
+#[test]
+fn images_are_found_where_coordinates_are_large_and_rounded() {
+    let scene = json!({
+        "plane": "strain",
+        "node": [
+            [1, -5e9, 0.0, 0.0], [2, -40018.0, 0.0, 0.0], [3, 0.0, 0.0, 0.0],
+            [4, 40022.0, 0.0, 0.0], [5, 5e9, 0.0, 0.0],
+            [6, -5e9, 40018.0, 0.0], [7, 0.0, 5e9, 0.0], [8, 5e9, 40022.0, 0.0]
+        ],
+        "elem": [
+            [1, 1, 2, 11, 1, 1, 2], [2, 1, 2, 11, 1, 2, 3],
+            [3, 1, 2, 11, 1, 3, 4], [4, 1, 2, 11, 1, 4, 5],
+            [5, 2, 2, 1, 1, 1, 2, 6], [6, 2, 2, 1, 1, 2, 7, 6], [7, 2, 2, 1, 1, 2, 3, 7],
+            [8, 2, 2, 1, 1, 4, 5, 8], [9, 2, 2, 1, 1, 4, 8, 7], [10, 2, 2, 1, 1, 3, 4, 7]
+        ],
+        "materials": { "1": { "E": 1000.0, "nu": 0.3 } },
+        "restraints": [{ "on": 11, "fix": ["x", "y"] }]
+    });
+    let half = half(&build(&scene).unwrap()).expect("the scene is symmetric");
+    assert_eq!(half.nodes, [3, 4, 5, 7, 8].map(NodeId::from_number));
+    assert_eq!((half.at, half.departure), (0.0, 4.0));
+}
+
+#[test]
+fn loads_are_compared_by_their_size() {
+    let is_symmetric = |left: f64, right: f64| {
+        let force = |node: usize, y: f64| json!({ "node": node, "force": [0.0, y] });
+        let loads = |s: &mut Value| s["loads"] = json!([force(4, left), force(6, right)]);
+        half(&square(0.0, loads).unwrap()).is_some()
+    };
+    for size in [1e-6, 1.0, 1e6] {
+        assert!(is_symmetric(size, size * (1.0 + 1e-10)), "{size}");
+        assert!(!is_symmetric(size, size * (1.0 + 1e-8)), "{size}");
+    }
+}
+
+/// One square on another: nodes 7 to 9 of the upper one stand on edges 1 and 2 of the lower one.
+#[test]
+fn both_surfaces_must_be_their_own_image() {
+    let mut mesh = MeshBuilder::default();
+    let rows: [[usize; 3]; 4] =
+        [0.0, 2.0, 2.0, 4.0].map(|y| [-1.0, 0.0, 1.0].map(|x| mesh.node([x, y])));
+    for [below, above] in [[0, 1], [2, 3]] {
+        let ([a, b, c], [d, e, f]) = (rows[below], rows[above]);
+        mesh.triangles("body", [[a, b, e], [a, e, d], [b, c, e], [c, f, e]]);
+    }
+    mesh.edges("target", &rows[1]);
+    mesh.edges("bottom", &rows[0]);
+    let scene = SceneBuilder::new("squares", mesh.finish(), Plane::Strain)
+        .material("body", 1000.0, 0.3)
+        .restrain("bottom", &[Axis::X, Axis::Y])
+        .restrain_node(11, &[Axis::X, Axis::Y])
+        .restrain_node(10, &[Axis::Y])
+        .restrain_node(12, &[Axis::Y]);
+    let is_symmetric = |nodes: &[usize], edges: &[usize]| {
+        let contact = Contact::new(nodes.to_vec(), edges.to_vec(), 0.001);
+        half(&scene.clone().contact(contact).build().expect("a sound scene")).is_some()
+    };
+    assert!(is_symmetric(&[7, 8, 9], &[1, 2]));
+    assert!(!is_symmetric(&[7, 8], &[1, 2]));
+    assert!(!is_symmetric(&[7, 8, 9], &[1]));
+}
+
+#[test]
+fn half_a_scene_has_no_dropped_node() {
+    let orphan = |s: &mut Value| {
+        let nodes = s["node"].as_array_mut().expect("a list");
+        nodes.push(json!([7, 0.25, 1.0, 0.0]));
+        s["drop_orphans"] = json!(true);
+    };
+    let scene = square(0.0, orphan).unwrap();
+    assert_eq!(scene.model.dropped, [NodeId::from_number(7)]);
+    let half = half(&scene).expect("the scene is symmetric");
+    assert!(half.scene.model.dropped.is_empty());
+    assert_eq!(half.nodes, [2, 3, 5, 6].map(NodeId::from_number));
 }
 
 #[test]
