@@ -90,8 +90,9 @@ fn corners<T: Scalar>(sheet: &Worksheet<T>, node_n: &Table<T>, i2: usize) -> [[f
     let at = |end: usize, column: usize| node_n[(elem[(trg[i2], end)], column)];
     let ends = [2, 3].map(|column| {
         let [a, b] = [at(6, column) - *c_tll, at(7, column) + *c_tll];
-        let [low, high] = if a < b { [a, b] } else { [b, a] };
-        [(low.to_f64() - room(low)).next_down(), (high.to_f64() + room(high)).next_up()]
+        let (x, y, room) = (a.to_f64(), b.to_f64(), room(a).max(room(b)));
+        let [low, high] = if x < y { [x, y] } else { [y, x] };
+        [(low - room).next_down(), (high + room).next_up()]
     });
     [0, 1].map(|end| ends.map(|span| span[end]))
 }

@@ -4,13 +4,14 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use dashu_int::IBig;
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 use plane_contact::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar};
 use plane_contact::numbers::solve::{
     Arithmetic, Condensed, Factors, KnownLu, NotConverged, Precision, ScalarName, Singular, Solver,
     SparseCholesky, SparseLu, SparseSquare, SparseSymmetric, Unsolved, conjugate_gradients,
-    error_bound, error_of_rest, inverse_norm, lift, refine,
+    error_bound, error_of_rest, inverse_norm, lift, refine, solve_dense,
 };
 
 /// Makes a vector of its entries.
@@ -399,6 +400,14 @@ fn of_pivots_of_one_size_the_first_is_taken() {
         let solved = F64x2::solve(matrix, &b, Solver::DenseLu, None).unwrap();
         assert_eq!(solved.x[0], number(1.0), "{d}");
     }
+}
+
+/// Its size as an `f64` is infinite.
+#[test]
+fn an_exact_number_beyond_every_float_is_a_pivot() {
+    let large = RBig::from(IBig::from(10).pow(600));
+    let solved = solve_dense(|_, _| large.clone(), vec![&large * &large]);
+    assert_eq!(solved, Ok(vec![large]));
 }
 
 #[test]

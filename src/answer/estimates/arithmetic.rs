@@ -8,6 +8,7 @@
 //! weights unchanged; where the way to it counts, so is that of each iteration.
 
 use nalgebra::{DVector, SVector};
+use rayon::prelude::*;
 
 use super::ties::{Looking, State};
 use crate::answer::held::Held;
@@ -265,12 +266,11 @@ pub fn stress_bounds(
 ) -> Vec<f64> {
     let model = &*solution.model;
     let u = solution.u.map(|u| Bounded::new(u, displacement));
-    let stresses = stiffness.stresses(&u);
-    let triangles = model.triangles.iter().zip(&stresses).zip(&solution.elements);
+    let triangles = model.triangles.par_iter().zip(&solution.elements).enumerate();
     triangles
-        .map(|((triangle, stress), state)| {
+        .map(|(i, (triangle, state))| {
             let rounding = ROUNDINGS * f64::EPSILON / 2.0 * state.von_mises_stress;
-            von_mises_bound(model, triangle.material.nu, stress) + rounding
+            von_mises_bound(model, triangle.material.nu, &stiffness.stress(i, &u)) + rounding
         })
         .collect()
 }

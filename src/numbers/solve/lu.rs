@@ -19,7 +19,8 @@ pub fn solve_dense<F: Field>(
         let size = |i: usize, rows: &[Vec<F>]| rows[i][k].size();
         let candidates = (k..n).filter(|&i| !rows[i][k].vanishes());
         let best = candidates.reduce(|a, i| if size(i, &rows) > size(a, &rows) { i } else { a });
-        let least = 16.0 * n as f64 * F::EPSILON * largest.column(k).max();
+        // Of exact numbers it is 0, also where the largest is beyond every f64.
+        let least = (16.0 * n as f64 * F::EPSILON * largest.column(k).max()).max(0.0);
         let pivot = best.map_or(0.0, |i| size(i, &rows));
         let Some(best) = best.filter(|_| pivot >= least) else {
             return Err(Singular { column: k, pivot });
