@@ -24,7 +24,9 @@ const BEGINNING: f64 = 2.0;
 /// The first process of a mutant has tests of this many seconds, each further one of twice as many.
 const FIRST_BATCH: f64 = 0.5;
 /// What is believed of a test before it ran: of how many mutants it catches how many, and how long
-/// its process takes to start, in seconds. Tests that record many numbers notice most.
+/// its process takes to start, in seconds. Tests that record many numbers notice most, and those that
+/// reach fewer places than so many were written for them.
+const FEW: f64 = 500.0;
 const BELIEF: [f64; 2] = [10.0, 0.5];
 const BELIEF_RECORDED: [f64; 2] = [10.0, 5.0];
 const START: f64 = 0.1;
@@ -122,7 +124,9 @@ impl Bench<'_> {
 
     /// Returns for how many mutants a test was run, and how many it caught, as is believed before.
     fn belief(&self, test: usize) -> [f64; 2] {
-        if self.tests[test].name.contains("recorded::") { BELIEF_RECORDED } else { BELIEF }
+        let Test { name, reached, .. } = &self.tests[test];
+        let [runs, caught] = if name.contains("recorded::") { BELIEF_RECORDED } else { BELIEF };
+        [runs, caught * (FEW / reached.len() as f64).sqrt()]
     }
 
     fn is_long(&self, test: usize) -> bool {
