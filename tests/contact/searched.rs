@@ -162,11 +162,12 @@ fn loose(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
     (bodies.modelled(&writing, model), model)
 }
 
-/// Seeds of runs that take milliseconds: a search without success takes hundreds of iterations.
-const QUICK: [u64; 66] = [
-    0, 1, 3, 6, 8, 9, 10, 14, 19, 20, 21, 23, 24, 25, 28, 29, 31, 33, 36, 37, 39, 40, 41, 43, 44,
-    52, 54, 55, 56, 58, 59, 60, 62, 66, 69, 72, 75, 82, 85, 87, 88, 89, 90, 91, 93, 97, 99, 100,
-    102, 104, 107, 109, 110, 111, 114, 116, 118, 121, 122, 124, 125, 127, 131, 133, 134, 137,
+/// Seeds of runs that take milliseconds, as a search without success takes hundreds of iterations; and
+/// one in which no node may slide, so that Lemke's method is not tried.
+const QUICK: [u64; 67] = [
+    0, 1, 3, 6, 8, 9, 10, 14, 19, 20, 21, 22, 23, 24, 25, 28, 29, 31, 33, 36, 37, 39, 40, 41, 43,
+    44, 52, 54, 55, 56, 58, 59, 60, 62, 66, 69, 72, 75, 82, 85, 87, 88, 89, 90, 91, 93, 97, 99,
+    100, 102, 104, 107, 109, 110, 111, 114, 116, 118, 121, 122, 124, 125, 127, 131, 133, 134, 137,
 ];
 
 #[test]
@@ -232,15 +233,15 @@ fn squares_that_little_holds() {
 }
 
 /// Seeds of few runs that take longer than a millisecond.
-const SQUARES: [u64; 150] = [
-    0, 2, 3, 4, 6, 8, 10, 11, 12, 13, 14, 16, 18, 19, 20, 21, 22, 23, 25, 26, 28, 29, 30, 33, 34,
-    36, 37, 38, 39, 41, 42, 43, 44, 45, 46, 47, 48, 49, 51, 52, 54, 55, 56, 57, 58, 59, 60, 62, 64,
-    66, 67, 68, 69, 70, 71, 72, 74, 76, 77, 79, 81, 82, 83, 84, 85, 88, 89, 90, 91, 94, 95, 96, 97,
-    99, 100, 102, 104, 105, 106, 107, 108, 111, 112, 113, 118, 121, 123, 126, 130, 131, 133, 135,
-    138, 142, 146, 149, 151, 152, 153, 155, 161, 164, 167, 169, 172, 174, 176, 180, 181, 186, 188,
-    189, 192, 193, 195, 199, 201, 203, 208, 213, 217, 220, 227, 237, 240, 261, 267, 290, 371, 382,
-    415, 427, 430, 451, 543, 550, 574, 601, 605, 613, 615, 678, 692, 725, 753, 768, 769, 771, 775,
-    847,
+const SQUARES: [u64; 151] = [
+    0, 2, 3, 4, 6, 8, 10, 11, 12, 13, 14, 16, 18, 19, 20, 21, 22, 23, 25, 26, 28, 29, 30, 31, 33,
+    34, 36, 37, 38, 39, 41, 42, 43, 44, 45, 46, 47, 48, 49, 51, 52, 54, 55, 56, 57, 58, 59, 60, 62,
+    64, 66, 67, 68, 69, 70, 71, 72, 74, 76, 77, 79, 81, 82, 83, 84, 85, 88, 89, 90, 91, 94, 95, 96,
+    97, 99, 100, 102, 104, 105, 106, 107, 108, 111, 112, 113, 118, 121, 123, 126, 130, 131, 133,
+    135, 138, 142, 146, 149, 151, 152, 153, 155, 161, 164, 167, 169, 172, 174, 176, 180, 181, 186,
+    188, 189, 192, 193, 195, 199, 201, 203, 208, 213, 217, 220, 227, 237, 240, 261, 267, 290, 371,
+    382, 415, 427, 430, 451, 543, 550, 574, 601, 605, 613, 615, 678, 692, 725, 753, 768, 769, 771,
+    775, 847,
 ];
 
 /// Friction that is strong, pushes to either side in a second stage, ties.
@@ -266,10 +267,10 @@ const COMPLEMENTARY: [u64; 25] = [
 ];
 
 /// Seeds of other runs that take milliseconds.
-const RUBBING: [u64; 50] = [
+const RUBBING: [u64; 51] = [
     0, 3, 4, 5, 6, 11, 12, 17, 18, 19, 20, 21, 22, 24, 25, 27, 30, 31, 32, 33, 34, 35, 36, 37, 38,
     40, 41, 42, 45, 46, 47, 49, 51, 53, 54, 55, 56, 58, 59, 60, 62, 65, 66, 67, 68, 69, 72, 75, 76,
-    77,
+    77, 303,
 ];
 
 #[test]
@@ -280,6 +281,27 @@ fn bodies_whose_active_set_returns() {
 #[test]
 fn rubbing_bodies() {
     record("rubbing", &RUBBING, rubbing);
+}
+
+/// The units of length and force change no contact state and no iteration; powers of two change no
+/// digit.
+#[test]
+fn units_change_nothing_of_a_search() {
+    let words = |scene: &SceneBuilder| {
+        let line = line(scene);
+        line.split_whitespace().take(6).map(str::to_owned).collect::<Vec<_>>()
+    };
+    for seed in [3, 4, 45, 118, 134, 151, 281, 290] {
+        let (scene, _) = rubbing(&mut Rng::with_seed(seed));
+        for (length, force) in [(-30, 0), (30, 0), (0, -30), (0, 30)] {
+            let (length, force) = (2.0_f64.powi(length), 2.0_f64.powi(force));
+            let mut other = scene.clone();
+            other.mesh.nodes.iter_mut().flat_map(|node| &mut node.xyz).for_each(|x| *x *= length);
+            other.description.loads.iter_mut().for_each(|load| load.scale(length * force));
+            other.description.materials.0.iter_mut().for_each(|(_, own)| own.e *= force);
+            assert_eq!(words(&other), words(&scene), "{seed}: {length} {force}");
+        }
+    }
 }
 
 /// Surfaces of many nodes, which are not all kept where the bodies are condensed: a round or a wavy

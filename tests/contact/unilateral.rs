@@ -298,7 +298,25 @@ fn moduli_that_are_too_far_apart_are_no_missing_restraint() {
     scene.description.materials.0[1].1.e = 1e20;
     let error = solved(&scene).unwrap_err();
     assert_eq!(error.exit_status(), 2);
-    assert!(error.to_string().contains("the moduli are 1e17 apart"), "{error}");
+    let text = error.to_string();
+    assert!(text.contains("the moduli are 1e17 apart"), "{text}");
+    assert!(text.contains("choose moduli that are closer"), "{text}");
+}
+
+/// Where a block is so thin that its stiffness is as far from the other's, moduli are to blame beyond
+/// a million apart, and the mesh up to that.
+#[test]
+fn moduli_are_too_far_apart_beyond_a_million() {
+    for (e, fix) in [(1e9, "choose other units"), (1.001e9, "choose moduli that are closer")] {
+        let mut scene = stacked([0.0, -1.0], &[Axis::X], Friction::NONE);
+        scene.description.materials.0[1].1.e = e;
+        for node in &mut scene.mesh.nodes {
+            let y = node.xyz[1] - 1.0;
+            node.xyz[1] = if y > 0.0 { 1e-11 } else { y };
+        }
+        let text = solved(&scene).expect_err("it is singular").to_string();
+        assert!(text.contains("the moduli are 1e6 apart") && text.contains(fix), "{text}");
+    }
 }
 
 /// A target node between two contact nodes stands 0.03 above the others: node to segment lets it
@@ -465,10 +483,8 @@ fn a_gap_over_a_ridge_closes() {
 }
 
 /// A square on a longer target whose surface falls away from the middle, loaded right of where it
-/// first touches: it tips over that node until another one touches. The nodes left of it, with gaps
-/// as small, would pull.
-#[test]
-fn a_body_that_tips_comes_to_rest_on_the_side_that_it_tips_to() {
+/// first touches.
+fn tipping(load: f64) -> SceneBuilder {
     let surface = |x: f64| 1.0 - 0.05 * (x - 0.4) * (x - 0.4);
     let mut mesh = MeshBuilder::default();
     for k in 0..=10 {
@@ -493,15 +509,36 @@ fn a_body_that_tips_comes_to_rest_on_the_side_that_it_tips_to() {
         .material("lower", 1e5, 0.3)
         .material("upper", 1e5, 0.3)
         .restrain_node(24, &[Axis::X])
-        .force(28, [0.0, -0.5])
-        .force(32, [0.0, -0.5])
+        .force(28, [0.0, -load])
+        .force(32, [0.0, -load])
         .contact(Contact { friction: Friction::NONE, ..contact });
-    let scene = (0..=10).fold(scene, |scene, k| scene.restrain_node(2 * k + 1, BOTH));
+    (0..=10).fold(scene, |scene, k| scene.restrain_node(2 * k + 1, BOTH))
+}
+
+/// It tips over that node until another one touches. The nodes left of it, with gaps as small, would
+/// pull.
+#[test]
+fn a_body_that_tips_comes_to_rest_on_the_side_that_it_tips_to() {
+    let scene = tipping(0.5);
     for coupling in Coupling::ALL {
         let solution = solved(&modelled(scene.clone(), (*coupling, Geometry::Initial))).unwrap();
         assert!(solution.in_contact().all(|c| c.gap >= -1e-11 && force(c) >= 0.0));
         let right = solution.in_contact().filter(|c| c.arc > 0.5).count();
         assert!(right > 0, "it rests on its right side too");
+    }
+}
+
+/// The node that closes next is the one that the load brings to the target first, however small the
+/// load: not the nearest.
+#[test]
+fn a_body_that_is_not_held_closes_the_node_that_it_tips_to() {
+    for load in [0.5, 2e-8] {
+        let scene = modelled(tipping(load), (Coupling::Nts, Geometry::Initial));
+        let Detail::Unilateral(first) = &solved(&scene).unwrap().steps[0].detail else {
+            unreachable!("unilateral was asked for")
+        };
+        let found = (0..5).filter(|i| first.statuses[*i].is_closed());
+        assert_eq!(found.collect::<Vec<_>>(), [2, 4], "{load}");
     }
 }
 
