@@ -270,3 +270,26 @@ fn a_target_node_is_reported_beyond_a_thousandth_of_the_size() {
         assert_eq!(unseen.is_some(), is_reported, "{height}");
     }
 }
+
+/// A block over one of which a thousand nodes are held, without friction, turned by any angle.
+#[test]
+fn that_a_body_can_slide_is_seen_beside_many_restraints() {
+    let lower = |y: f64| (0..500).map(move |k| [f64::from(k) / 10.0, y]);
+    let mut nodes: Vec<[f64; 2]> = lower(-1.0).chain(lower(0.0)).collect();
+    let first = nodes.len();
+    nodes.extend([[20.03, 0.0], [21.03, 0.0], [20.03, 1.0], [21.03, 1.0]]);
+    let bodies = Bodies {
+        nodes,
+        triangles: [grid(0, first / 2, 2), grid(first, 2, 2)],
+        moduli: [(1e3, 0.0); 2],
+        contact: vec![first, first + 1],
+        target: (first / 2..first - 1).map(|n| [n, n + 1]).collect(),
+        restrained: (0..first).map(|n| (n, BOTH.into())).collect(),
+        loads: [first + 2, first + 3].map(|n| (n, [0.0, -1.0])).into(),
+    };
+    for degrees in [10.0, 20.0, 35.0, 50.0, 65.0] {
+        let writing = Writing { degrees, ..Writing::default() };
+        let text = solved(&bodies.modelled(&writing, in_one_step(0.0))).expect_err("it slides");
+        assert!(text.to_string().contains("with every contact node in contact"), "{text}");
+    }
+}
