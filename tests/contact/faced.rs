@@ -246,8 +246,8 @@ fn alone(target: &[Chain], p: [f64; 2]) -> Pairing {
     faced(&model, Coupling::Nts).remove(0).expect("it faces every edge")
 }
 
-/// At a vertex the edge whose line is farther from the node is named; of those as far as each other,
-/// up to the tolerance and with it, that with the lower nodes, in whichever order they are listed.
+/// At a vertex the edge whose line is farther from the node is named; of those as far, up to the
+/// tolerance and with it, that with the lower nodes, in whichever order they are listed.
 #[test]
 fn the_edge_at_a_vertex_does_not_depend_on_the_order_of_the_edges() {
     let corner = [[0.0, -1.0], [0.0, 0.0], [-1.0, 0.0]];

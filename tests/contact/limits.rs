@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use plane_contact::answer::contact::{Sense, Status};
-use plane_contact::answer::{Detail, Solution, Step, Unilateral, Uniqueness};
+use plane_contact::answer::{self, Detail, Request, Solution, Step, Unilateral, Uniqueness};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use plane_contact::problem::scene::{Axis, SceneBuilder};
 
@@ -112,15 +112,48 @@ fn of_a_large_model_fewer_contact_states_are_tried() {
     }
 }
 
-/// Without a load nothing sticks, nor slides in a sense of its own, and nothing but what touches is in
-/// contact.
+/// Without a load and friction nothing sticks, nor slides in a sense of its own.
 #[test]
-fn without_a_load_and_friction_nodes_touch_without_a_sense() {
+fn without_a_load_and_friction_nodes_slide_in_no_sense() {
     let scene = with(stacked([0.0, 0.0], &[Axis::X], Friction::NONE), flat);
     let solution = solved(&scene).unwrap();
     for node in &solution.contact {
         assert_eq!(node.status, Some(Status::Slip(Sense::Free)));
     }
+}
+
+/// Without a load no motion brings a node to the target: the nearest one closes where a body is not
+/// held.
+#[test]
+fn without_a_load_the_nearest_node_closes() {
+    let bodies = Bodies {
+        nodes: [
+            [-1.0, -1.0],
+            [3.0, -1.0],
+            [-1.0, 0.0],
+            [3.0, 0.0],
+            [0.0, 0.5],
+            [1.0, 0.125],
+            [2.0, 0.0],
+            [1.0, 1.0],
+        ]
+        .into(),
+        triangles: [grid(0, 2, 2), vec![[4, 5, 7], [5, 6, 7]]],
+        moduli: [(1e3, 0.0); 2],
+        contact: vec![4, 5, 6],
+        target: vec![[2, 3]],
+        restrained: [(0, BOTH), (1, BOTH), (7, &[Axis::X][..])].map(|(n, a)| (n, a.into())).into(),
+        loads: Vec::new(),
+    };
+    let scene = bodies.modelled(&Writing::default(), in_one_step(0.0)).build();
+    let request = Request::new(&scene.expect("a sound scene"));
+    let mut first = None;
+    let _ = answer::solve(&request, &mut |step| {
+        first.get_or_insert_with(|| own(step).statuses.clone());
+    });
+    let first = first.expect("there is an iteration");
+    let closed: Vec<bool> = first.iter().map(|status| status.is_closed()).collect();
+    assert_eq!(closed, [false, true, true]);
 }
 
 /// A body that is lifted off is found to be, by however small a force.
