@@ -88,6 +88,8 @@ fn a_step_is_divided_sixteen_times() {
         let solution = solved(&hanging(&gaps, in_one_step(0.5))).expect("they rest");
         assert_eq!(solution.in_contact().count(), gaps.len());
         assert_eq!(stops(&solution), expected, "{count}");
+        let numbers = solution.steps.iter().map(|step| step.k);
+        assert!(numbers.eq(1..=solution.steps.len()), "iterations count from 1");
     }
 }
 

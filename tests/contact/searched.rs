@@ -162,8 +162,8 @@ fn loose(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
     (bodies.modelled(&writing, model), model)
 }
 
-/// Seeds of runs that take milliseconds, as a search without success takes hundreds of iterations; and
-/// one in which no node may slide, so that Lemke's method is not tried.
+/// Seeds of runs that take milliseconds, as a search without success takes hundreds of iterations;
+/// and one in which no node may slide, so that Lemke's method is not tried.
 const QUICK: [u64; 67] = [
     0, 1, 3, 6, 8, 9, 10, 14, 19, 20, 21, 22, 23, 24, 25, 28, 29, 31, 33, 36, 37, 39, 40, 41, 43,
     44, 52, 54, 55, 56, 58, 59, 60, 62, 66, 69, 72, 75, 82, 85, 87, 88, 89, 90, 91, 93, 97, 99,

@@ -267,8 +267,8 @@ fn past_the_end_lengths_are_measured() {
     }
 }
 
-/// By projection a node on the line of an edge, but not near the edge, is not in contact, even where
-/// a folded surface has no free end there.
+/// By projection a node on the line of an edge, but not near the edge, is not in contact, even
+/// where a folded surface has no free end there.
 #[test]
 fn on_the_line_of_an_edge_but_beyond_it_is_not_in_contact_by_projection() {
     let model = model(FLAT, &[[0.5, 0.0]], UPRIGHT);
@@ -276,8 +276,8 @@ fn on_the_line_of_an_edge_but_beyond_it_is_not_in_contact_by_projection() {
     assert_eq!(dy(StatusRule::Projection, &model, &folded), [0]);
 }
 
-/// Intersection asks the listing for edges and distances alone: where R4 lets its sign rule fail, it
-/// does not, and the weights' shape is the one that R5 names.
+/// Intersection asks the listing for edges and distances alone: where R4 lets its sign rule fail,
+/// it does not, and the weights' shape is the one that R5 names.
 #[test]
 fn intersection_keeps_every_reading_but_that_of_the_sign_rule() {
     let of = |model: &Model, shape: &[[f64; 2]], rule: StatusRule, reading: &str| {
@@ -578,7 +578,7 @@ fn what_a_restraint_shares_is_no_force_of_contact() {
 }
 
 /// A stress is a force over the length of the node, a half here, and the thickness; the friction
-/// needed is told of nodes that press by more than a hundred thousand millionth of the largest force.
+/// needed is told of nodes that press by more than a hundred thousand millionth of the largest.
 #[test]
 fn tractions_on_two_nodes_by_hand() {
     let mut model = faced::model(&[&[[1.0, 0.0], [0.0, 0.0]]], &[[0.0, 0.0], [1.0, 0.0]]);

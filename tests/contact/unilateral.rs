@@ -303,8 +303,8 @@ fn moduli_that_are_too_far_apart_are_no_missing_restraint() {
     assert!(text.contains("choose moduli that are closer"), "{text}");
 }
 
-/// Where a block is so thin that its stiffness is as far from the other's, moduli are to blame beyond
-/// a million apart, and the mesh up to that.
+/// Where a block is so thin that its stiffness is far from the other's, moduli are to blame beyond a
+/// million apart, and the mesh up to that.
 #[test]
 fn moduli_are_too_far_apart_beyond_a_million() {
     for (e, fix) in [(1e9, "choose other units"), (1.001e9, "choose moduli that are closer")] {
@@ -515,8 +515,8 @@ fn tipping(load: f64) -> SceneBuilder {
     (0..=10).fold(scene, |scene, k| scene.restrain_node(2 * k + 1, BOTH))
 }
 
-/// It tips over that node until another one touches. The nodes left of it, with gaps as small, would
-/// pull.
+/// It tips over that node until another one touches. The nodes left of it, with gaps as small,
+/// would pull.
 #[test]
 fn a_body_that_tips_comes_to_rest_on_the_side_that_it_tips_to() {
     let scene = tipping(0.5);
