@@ -72,14 +72,15 @@ fn edges_face_each_other_down_to_a_cosine_of_a_tenth() {
 #[test]
 fn rounding_decides_nothing_about_edges_that_are_not_beside() {
     let steep = |x: f64| [[x + 1.0, -(99.0_f64.sqrt())], [x, 0.0]];
-    let flat: [Chain; 2] = [&[[3.0, -0.5], [0.5, -0.5]], &[[0.5, -0.5], [-2.0, -0.5]]];
-    let unsure = |from: f64| {
-        let steep = [from, from + 2.0, from + 4.0].map(steep);
-        let target: Vec<Chain> = flat.into_iter().chain(steep.iter().map(|s| &s[..])).collect();
+    let flat = [[3.0, 5.0], [0.5, 3.0], [-0.4, 0.5]].map(|[a, b]| [[b, -0.5], [a, -0.5]]);
+    let unsure = |from: [f64; 3]| {
+        let steep = from.map(steep);
+        let target: Vec<Chain> = flat.iter().chain(&steep).map(|edge| &edge[..]).collect();
         unsure(&model(&target, UNIT))
     };
-    assert_eq!(unsure(5.0), 0);
-    assert!(unsure(0.0) > 0, "beside the contact edge it is");
+    assert_eq!(unsure([5.0, 7.0, 9.0]), 0);
+    assert!(unsure([0.0, 2.0, 4.0]) > 0, "beside the contact edge it is");
+    assert!(unsure([-5.0, -3.0, -1.0]) > 0, "where it ends may be beside too");
 }
 
 /// A number near `guess` for which `is_wanted` holds to the last bit.

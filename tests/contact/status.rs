@@ -267,6 +267,19 @@ fn past_the_end_lengths_are_measured() {
     }
 }
 
+/// Past the end of the surface a node faces no edge by projection; how far it is is told.
+#[test]
+fn past_the_end_the_distance_by_projection_is_told() {
+    for (point, distance) in [([1.4, 0.3], -0.5), ([1.4, -0.3], 0.5)] {
+        let model = model(FLAT, &[point], UPRIGHT);
+        let (sheet, node_n) = (door::worksheet(&model, |x| x), door::node_n(&model, &model.nodes));
+        let found = statuses(StatusRule::Projection, &model, &sheet, &Reading::default(), &node_n);
+        let found = &found.expect("projection computes no line of the listing")[0];
+        assert_eq!((found.edge, found.in_contact), (None, false));
+        assert_near("distance", found.distance, distance, 1.0, &CLOSEST_POINT);
+    }
+}
+
 /// By projection a node on the line of an edge, but not near the edge, is not in contact, even
 /// where a folded surface has no free end there.
 #[test]
