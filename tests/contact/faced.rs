@@ -362,3 +362,22 @@ fn a_scene_is_refused_beyond_a_hundredth_of_its_size_and_half_a_contact_edge() {
         assert_eq!(refused, is_refused, "{depth} beside {edge}");
     }
 }
+
+/// What a node in the middle of a tip's flank faces does not depend on which way the edge is gone along.
+#[test]
+fn a_tip_is_found_from_the_middle_of_either_flank() {
+    let found = [1.0, -1.0].map(|mirror: f64| {
+        let mut target = [[0.0, 0.0], [0.0, 40.0], [-1.0, 10.0]].map(|[x, y]| [mirror * x, y]);
+        let mut contact = [[-0.05, 20.0], [0.95, 20.0]].map(|[x, y]| [mirror * x, y]);
+        if mirror < 0.0 {
+            target.reverse();
+            contact.reverse();
+        }
+        let mut found = faced(&model(&[&target], &contact), Coupling::Nts);
+        if mirror < 0.0 {
+            found.reverse();
+        }
+        found.iter().map(Option::is_some).collect::<Vec<_>>()
+    });
+    assert_eq!(found[0], found[1]);
+}

@@ -328,3 +328,50 @@ fn that_a_body_can_slide_is_seen_beside_many_restraints() {
         assert!(text.to_string().contains("with every contact node in contact"), "{text}");
     }
 }
+
+/// Known: a node that closes at the very beginning of a step hides later ones, where the step should be
+/// divided too. Divided there, the zone of stick that is compared with Cattaneo's came out worse on a
+/// coarse mesh, by 8.9 % and not 3.3 %, and on finer ones as well as before: why is not known yet.
+#[test]
+fn a_node_that_closes_at_the_beginning_hides_a_later_one() {
+    let fall = fall();
+    for (first, expected) in [(0.0, 2), (0.0002, 1)] {
+        let gaps = [0.0, first * fall, 0.5 * fall];
+        let solution = solved(&hanging(&gaps, in_one_step(0.5))).expect("they rest");
+        assert_eq!(stops(&solution), expected, "{first}");
+    }
+}
+
+/// Where no node may slide, one that carries nothing but rounding does not either.
+#[test]
+fn a_node_that_carries_rounding_does_not_slide_under_stick() {
+    let nodes = [
+        [0.0, -1.0],
+        [5.0, -1.0],
+        [0.0, 0.0],
+        [5.0, 0.0],
+        [1.0, 0.0],
+        [2.0, 0.0],
+        [1.0, 1.0],
+        [2.0, 1.0],
+        [3.1, 0.1],
+        [4.2, 0.1],
+        [3.1, 1.1],
+        [4.2, 1.1],
+    ];
+    let bodies = Bodies {
+        nodes: nodes.into(),
+        triangles: [grid(0, 2, 2), [grid(4, 2, 2), grid(8, 2, 2)].concat()],
+        moduli: [(1e3, 0.0); 2],
+        contact: vec![4, 5, 8, 9],
+        target: vec![[2, 3]],
+        restrained: (0..4).map(|n| (n, BOTH.into())).collect(),
+        loads: vec![(6, [0.0, -1.0]), (7, [0.0, -1.0])],
+    };
+    for degrees in 0..12 {
+        let writing = Writing { degrees: 7.0 * f64::from(degrees), ..Writing::default() };
+        let model = ContactModel { friction: Friction::STICK, ..in_one_step(0.0) };
+        let solution = solved(&bodies.modelled(&writing, model)).expect("it sticks");
+        assert_eq!(solution.in_contact().count(), 4);
+    }
+}

@@ -187,7 +187,10 @@ impl Facing<'_> {
         if self.faces_edge(k) {
             return Some((outline.placed[k].outside(p).abs(), Part::Edge(k)));
         }
-        self.in_tip(v).then(|| (self.distance(v), Part::Tip(v)))
+        // From the middle of an edge both of its ends are as near.
+        let ends = edge.nodes.into_iter().filter(|end| *end == v || xi == 0.5);
+        let tip = ends.filter(|end| self.in_tip(*end)).min()?;
+        Some((self.distance(tip), Part::Tip(tip)))
     }
 
     fn distance(&self, v: NodeId) -> f64 {

@@ -18,7 +18,8 @@ const HALVINGS: usize = 6;
 /// How often a step of the path is divided where nodes close in it.
 const CLOSINGS: usize = 16;
 
-/// The part of a step, at either end, within which a node closes that does not divide it.
+/// The part of a step, at either end, within which the first node closes that does not divide it; later
+/// ones do not then either.
 const AT_THE_END: f64 = 1e-3;
 
 /// A point of the path: what the next step starts from.

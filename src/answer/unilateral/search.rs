@@ -200,7 +200,11 @@ impl Problem<'_> {
                 Status::Open => Status::Open,
                 _ if normal < -PULL * largest => Status::Open,
                 _ if undetermined && gap > self.closed => Status::Open,
-                Status::Stick if tangent.abs() > self.friction * normal * (1.0 + CONE) => {
+                // Where no node may slide, none does that carries less than nothing by rounding.
+                Status::Stick
+                    if self.friction.is_finite()
+                        && tangent.abs() > self.friction * normal * (1.0 + CONE) =>
+                {
                     Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
                 }
                 Status::Slip(sense)
