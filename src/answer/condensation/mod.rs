@@ -6,11 +6,11 @@
 //! ```
 //!
 //! Kept are all nodes of small surfaces, else those that a state binds and their neighbours; when a
-//! state binds others, the bodies are condensed anew ([`bodies`]). Where that cannot be done or
+//! state binds others, the bodies are condensed anew (`bodies`). Where that cannot be done or
 //! trusted, a state has no such factors: its whole matrix is to be factored.
 //!
-//! The search for a contact state goes on with S alone ([`OnKept`]); where every digit counts, the
-//! factors of Tᵀ S T serve to refine the solution of the whole equations ([`Bound`]).
+//! The search for a contact state goes on with S alone (`OnKept`); where every digit counts, the
+//! factors of Tᵀ S T serve to refine the solution of the whole equations (`Bound`).
 
 mod bodies;
 mod refinement;
