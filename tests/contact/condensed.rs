@@ -122,6 +122,7 @@ fn of_small_surfaces_every_node_is_kept_and_the_factors_are_shared() {
     let model = two_blocks();
     let stiffness = Stiffness::new(&model, |x| x);
     let shared = Shared::default();
+    assert_eq!(format!("{shared:?}"), "what was factored");
     let bodies = Condensing::new(&model, &shared);
     assert!(bodies.last().is_none());
     let made = bodies.condensed(&stiffness, &[]).expect("both blocks are held");
