@@ -144,14 +144,9 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Returns sigma_x, sigma_y, tau_xy of every triangle under displacements `u`, stress.
     pub fn stresses(&self, u: &DVector<T>) -> Vec<SVector<T, 3>> {
-        (0..self.triangles.len()).map(|i| self.stress(i, u)).collect()
-    }
-
-    /// Returns sigma_x, sigma_y, tau_xy of triangle `i` under displacements `u`, stress.
-    pub fn stress(&self, i: usize, u: &DVector<T>) -> SVector<T, 3> {
-        let triangle = &self.triangles[i];
-        let d = self.materials[triangle.material as usize].d;
-        d * (triangle.strain() * triangle.displacements(u))
+        let d = |t: &Element<T>| self.materials[t.material as usize].d;
+        let stress = |t: &Element<T>| d(t) * (t.strain() * t.displacements(u));
+        self.triangles.iter().map(stress).collect()
     }
 }
 

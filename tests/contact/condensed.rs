@@ -60,7 +60,7 @@ fn refinement_ends_where_it_brings_no_more() {
     assert_eq!(refined(&[1000.0, 150.0, 30.0, 5.0, 0.5]), (Ok(at(1185.0, 0.5)), 5));
 }
 
-/// With factors of 10/11 of x = 1, the rest is a tenth of the last.
+/// Where each solution is nine tenths of the right one, the rest is a tenth of the last.
 #[test]
 fn refinement_solves_by_factors_of_nearly_the_right_matrix() {
     let rests = RefCell::new(Vec::new());
@@ -76,8 +76,8 @@ fn refinement_solves_by_factors_of_nearly_the_right_matrix() {
     let far = refine(&Part(0.5), |q| q.clone(), 1.0, &DVector::from_element(1, 1.0));
     assert!(far.is_err());
     // What is infinite over what is infinite is no number.
-    let infinite = |x: f64| DVector::from_element(1, x / 0.0);
-    assert!(refine(&Part(1.0), |_| infinite(-1.0), f64::INFINITY, &infinite(1.0)).is_err());
+    let infinite = DVector::from_element(1, f64::INFINITY);
+    assert!(refine(&Part(1.0), |_| -&infinite, f64::INFINITY, &infinite).is_err());
 }
 
 fn two_blocks() -> Arc<Model> {
@@ -171,7 +171,7 @@ fn strips() -> Arc<Model> {
     scene.expect("a sound scene").model
 }
 
-/// Returns how many contact nodes and how many target nodes are kept, first to last.
+/// Returns the places of the contact nodes and of the target nodes that are kept, in their rows.
 fn kept(made: &Condensation) -> [Vec<usize>; 2] {
     let of = |first: usize| {
         let places = made.nodes.iter().map(|node| node.index());

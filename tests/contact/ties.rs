@@ -4,11 +4,11 @@
 use fastrand::Rng;
 use plane_contact::answer::estimates::arithmetic::bounded;
 use plane_contact::answer::estimates::ties::{Looking, State};
-use plane_contact::answer::{Detail, Request, Solution, Step, solve};
+use plane_contact::answer::{Detail, Solution, Step, Unilateral};
 use plane_contact::numbers::scalar::{Bounded, Scalar};
 use plane_contact::paper::decisions::Decision;
-use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
-use plane_contact::problem::scene::{Axis, SceneBuilder};
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
+use plane_contact::problem::scene::Axis;
 use serde_json::{Value, json};
 
 use crate::common::draws::one_of;
@@ -16,15 +16,18 @@ use crate::common::recorded::assert_recorded;
 use crate::corners::{Bodies, Writing, blocks};
 use crate::drawn::{KINDS, draw};
 use crate::recorded::{folded, regular};
+use crate::unilateral::solved;
 
 /// Returns an equilibrium of `bodies`; None where there is none.
 fn equilibrium(bodies: &Bodies, contact: ContactModel) -> Option<Solution> {
-    solved(bodies.modelled(&Writing::default(), contact))
+    solved(&bodies.modelled(&Writing::default(), contact)).ok()
 }
 
-fn solved(scene: SceneBuilder) -> Option<Solution> {
-    let scene = scene.build().expect("a sound scene");
-    solve(&Request::new(&scene).variant(Variant::Unilateral), &mut |_| ()).ok()
+fn own(step: &mut Step) -> &mut Unilateral {
+    match &mut step.detail {
+        Detail::Unilateral(own) => own,
+        Detail::Published(_) => unreachable!("unilateral was asked for"),
+    }
 }
 
 fn model(rng: &mut Rng) -> ContactModel {
@@ -70,8 +73,7 @@ fn left_open(solution: &Solution, step: &Step) -> Vec<Value> {
 /// The same step as the first of a run, after which a node lies deep in the target.
 fn first(step: &Step, violation: f64) -> Step {
     let mut step = Step { k: 1, ..step.clone() };
-    let Detail::Unilateral(detail) = &mut step.detail else { panic!("an equilibrium") };
-    detail.violation = violation;
+    own(&mut step).violation = violation;
     step
 }
 
@@ -93,7 +95,7 @@ fn record(name: &str, seed: u64) {
             1 => scene.restrain_node(held, &[Axis::Y]),
             _ => scene,
         };
-        let Some(solution) = solved(scene) else { continue };
+        let Ok(solution) = solved(&scene) else { continue };
         let last = first(solution.last(), solution.u.amax());
         let steps = solution.steps.iter().chain([&last]);
         let all: Vec<Value> = steps.flat_map(|step| left_open(&solution, step)).collect();
@@ -137,8 +139,8 @@ fn steps_that_are_far_from_other_decisions() {
         let is_far = |k: usize, margin: f64, shared: bool, displacement: f64| {
             let mut step = solution.last().clone();
             (step.k, step.max_displacement) = (k, displacement);
-            let Detail::Unilateral(detail) = &mut step.detail else { panic!("an equilibrium") };
-            (detail.margin, detail.undetermined[0]) = (margin, shared);
+            let own = own(&mut step);
+            (own.margin, own.undetermined[0]) = (margin, shared);
             looking.is_far(&step)
         };
         let cases = [
@@ -173,8 +175,7 @@ fn contact_states_beyond_patience_are_left_to_lemke() {
         let mut solution = equilibrium(&blocks(), contact).expect("an equilibrium");
         let last = solution.last().clone();
         let mut first = last.clone();
-        let Detail::Unilateral(detail) = &mut first.detail else { panic!("an equilibrium") };
-        detail.load = 0.5;
+        own(&mut first).load = 0.5;
         solution.steps = vec![first; before];
         solution.steps.extend(vec![last; states]);
         let path = &mut solution.equilibrium.as_mut().expect("an equilibrium").path;

@@ -24,12 +24,12 @@ const BEGINNING: f64 = 2.0;
 /// The first process of a mutant has tests of this many seconds, each further one of twice as many.
 const FIRST_BATCH: f64 = 0.5;
 /// What is believed of a test before it ran: of how many mutants it catches how many, and how long
-/// its process takes to start, in seconds. Tests that record many numbers notice most, and those that
-/// reach fewer places than so many were written for them.
-const FEW: f64 = 500.0;
+/// its process takes to start, in seconds. Tests that record many numbers notice most.
 const BELIEF: [f64; 2] = [10.0, 0.5];
 const BELIEF_RECORDED: [f64; 2] = [10.0, 5.0];
 const START: f64 = 0.1;
+/// A test that reaches fewer places than these is believed to catch more of them: it was written for them.
+const FEW: f64 = 500.0;
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

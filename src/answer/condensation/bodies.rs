@@ -125,6 +125,7 @@ pub fn kept_equations(model: &Model, near: usize) -> usize {
 }
 
 impl Bodies {
+    /// Takes the bodies of `model`, of which `shared` may have factors.
     pub fn new(model: &Arc<Model>, shared: &Shared) -> Self {
         Bodies {
             model: Arc::clone(model),

@@ -17,8 +17,7 @@ mod refinement;
 mod schur;
 mod state;
 
-pub use bodies::kept_equations;
-pub use bodies::{Bodies, Shared};
+pub use bodies::{Bodies, Shared, kept_equations};
 pub use refinement::refine;
 pub(super) use refinement::refined;
 pub use schur::Condensation;

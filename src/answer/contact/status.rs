@@ -47,8 +47,8 @@ use crate::problem::modelling::StatusRule;
 /// but where `c_cnt` found no edge for a node in contact, the edge is the nearest one. Under
 /// *projection* the edge is the nearest one, None past the surface's end, and the distance is minus
 /// the signed distance to it: > 0 inside the target.
-/// Errors: the lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 under
-/// *intersection*.
+/// Errors: the lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 and the weights of 22
+/// under *intersection*.
 pub fn statuses<T: Scalar>(
     rule: StatusRule,
     model: &Model,

@@ -8,7 +8,6 @@
 //! weights unchanged; where the way to it counts, so is that of each iteration.
 
 use nalgebra::{DVector, SVector};
-use rayon::prelude::*;
 
 use super::ties::{Looking, State};
 use crate::answer::held::Held;
@@ -266,11 +265,12 @@ pub fn stress_bounds(
 ) -> Vec<f64> {
     let model = &*solution.model;
     let u = solution.u.map(|u| Bounded::new(u, displacement));
-    let triangles = model.triangles.par_iter().zip(&solution.elements).enumerate();
+    let stresses = stiffness.stresses(&u);
+    let triangles = model.triangles.iter().zip(&stresses).zip(&solution.elements);
     triangles
-        .map(|(i, (triangle, state))| {
+        .map(|((triangle, stress), state)| {
             let rounding = ROUNDINGS * f64::EPSILON / 2.0 * state.von_mises_stress;
-            von_mises_bound(model, triangle.material.nu, &stiffness.stress(i, &u)) + rounding
+            von_mises_bound(model, triangle.material.nu, stress) + rounding
         })
         .collect()
 }
