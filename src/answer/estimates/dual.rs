@@ -22,7 +22,7 @@ use super::recovery::Stress;
 use crate::answer::Solution;
 use crate::answer::held::Held;
 use crate::problem::element::{self, State};
-use crate::problem::model::{Model, TriangleId};
+use crate::problem::model::{Model, NodeId, TriangleId};
 
 /// The bodies as they are held at the end of a run, ready to be pushed by one more force.
 pub struct Dual<'a> {
@@ -66,18 +66,16 @@ impl<'a> Dual<'a> {
 
     /// Returns the estimated error of the largest displacement |u| of a node, length.
     pub fn error_of_largest(&self, u: &DVector<f64>) -> f64 {
-        let size = |[x, y]: [f64; 2]| x.hypot(y);
-        let larger = |a, b| if size(b) > size(a) { b } else { a };
-        let Some(largest) = self.model.node_ids().map(|node| node.of(u)).reduce(larger) else {
-            return 0.0;
+        let size = |node: NodeId| {
+            let [x, y] = node.of(u);
+            x.hypot(y)
         };
-        if size(largest) == 0.0 {
-            return 0.0;
-        }
-        let node = self.model.node_ids().find(|node| node.of(u) == largest).expect("one of them");
+        // Of several the first.
+        let largest = self.model.node_ids().rev().max_by(|a, b| size(*a).total_cmp(&size(*b)));
+        let Some(node) = largest.filter(|node| size(*node) != 0.0) else { return 0.0 };
         let mut force = DVector::zeros(u.len());
-        for (dof, component) in node.dofs().into_iter().zip(largest) {
-            force[dof.index()] = component / size(largest);
+        for (dof, component) in node.dofs().into_iter().zip(node.of(u)) {
+            force[dof.index()] = component / size(node);
         }
         self.error(&force)
     }
