@@ -8,9 +8,10 @@ use crate::common::json::build;
 use crate::common::random::fixed;
 use plane_contact::answer::estimates::arithmetic::rounding;
 use plane_contact::answer::estimates::{Certainty, certain};
-use plane_contact::answer::{Detail, Request, Solution, solve};
+use plane_contact::answer::{Detail, Request, Solution, Step, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
 use plane_contact::paper::decisions::Decision;
+use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::Scene;
 use proptest::prelude::*;
@@ -243,6 +244,73 @@ fn bound_by_mortar(x: f64, scalar: ScalarName) -> Request {
     let stamp = [[x, 0.0], [x + 1.0, 0.0], [x, 1.0]];
     let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
     block_and_stamp(stamp, &contact, Variant::Stepped).arithmetic(arithmetic)
+}
+
+/// A gap of 0.1 is below a tolerance of 0.1 + 1e-10, beyond any rounding of an `f64`; as `f32` the
+/// two are one number.
+#[test]
+fn a_status_that_is_another_one_in_more_digits_is_said() {
+    let contact = json!({ "cnt": [5], "trg": [1], "c_tll": 0.1000000001 });
+    let found = |scalar: ScalarName| {
+        let request =
+            block_and_stamp([[0.3, 0.1], [2.0, 1.0], [0.0, 1.0]], &contact, Variant::Tied);
+        let request = request.arithmetic(Arithmetic { scalar, ..Arithmetic::default() });
+        rounding(&solve(&request, &mut |_| ()).expect("it runs"))
+    };
+    assert_eq!(found(ScalarName::F64).decisions, Some(Vec::new()));
+    let found = found(ScalarName::F32);
+    let other = Decision {
+        iteration: 1,
+        node: NodeId::from_number(5),
+        condition: "the edge or status is another one in f64-bounded".into(),
+        margin: None,
+        bound: None,
+    };
+    assert_eq!(found.decisions, Some(vec![other]));
+    assert!(found.displacement.is_infinite());
+}
+
+/// Nodes 5 and 8 of a stamp whose other nodes are fixed, as is the target. The first stage presses
+/// both and pushes 5 by as much, beyond its friction: it sticks, then slides. The second one pushes
+/// 8 alone, which sticks, then slides; 5 stays where it is, so that its slip, which counts from
+/// there, is 0.
+#[test]
+fn slips_count_from_the_step_of_the_load_before_the_last() {
+    let fixed = [1, 2, 3, 4, 6, 7, 9].map(|node| json!({ "node": node, "fix": ["x", "y"] }));
+    let scene = build(&json!({
+        "plane": "strain",
+        "node": [
+            [1, -1.0, 0.0, 0.0], [2, 2.0, 0.0, 0.0], [3, -1.0, -1.0, 0.0], [4, 2.0, -1.0, 0.0],
+            [5, 0.0, 0.0, 0.0], [6, 0.0, 1.0, 0.0], [7, 1.0, 1.0, 0.0], [8, 1.0, 0.0, 0.0],
+            [9, 0.5, 0.5, 0.0]
+        ],
+        "elem": [
+            [1, 1, 2, 10, 10, 1, 2], [2, 2, 2, 1, 1, 1, 3, 2], [3, 2, 2, 1, 1, 3, 4, 2],
+            [4, 2, 2, 2, 2, 5, 9, 6], [5, 2, 2, 2, 2, 9, 7, 6], [6, 2, 2, 2, 2, 8, 7, 9]
+        ],
+        "materials": { "1": { "E": 4.0, "nu": 0.0 }, "2": { "E": 4.0, "nu": 0.0 } },
+        "restraints": fixed,
+        "loads": [
+            { "node": 5, "force": [0.2, -0.2] }, { "node": 8, "force": [0.0, -0.2] },
+            { "node": 8, "force": [0.2, 0.0], "stage": 2 }
+        ],
+        "contact": {
+            "cnt": [5, 9, 8], "trg": [1], "c_tll": 0.1,
+            "friction": 0.2, "geometry": "initial", "load_steps": 1
+        }
+    }));
+    let request = Request::new(&scene.expect("it is sound")).variant(Variant::Unilateral);
+    let solution = solve(&request, &mut |_| ()).expect("there is an equilibrium");
+    let load = |step: &Step| match &step.detail {
+        Detail::Unilateral(own) => own.load,
+        Detail::Published(_) => unreachable!("unilateral was asked for"),
+    };
+    assert_eq!(solution.steps.iter().map(load).collect::<Vec<_>>(), [1.0, 1.0, 2.0, 2.0]);
+    let found = rounding(&solution);
+    let left = found.decisions.expect("it is looked at");
+    let left: Vec<_> = left.iter().map(|d| (d.iteration, d.node.number(), &*d.condition)).collect();
+    assert_eq!(left, [(4, 5, "slips without slip: slip > 0")]);
+    assert!(found.displacement.is_finite(), "it may as well stick: displacements stay");
 }
 
 /// The contact edge of length 1 starts at x. Its first node is covered by s − s²/2 of its half, where
