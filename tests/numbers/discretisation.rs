@@ -338,6 +338,24 @@ fn the_error_of_a_lone_triangle_is_unknown() {
     assert_eq!(estimate(1), f64::INFINITY);
 }
 
+/// A rectangle of 2 by 2 s, cut by its diagonals: the centres of the triangles stand 2/3 from the
+/// node in the middle along x and 2/3 s along y, so that their second moments are as 1 to s². Below
+/// 1e-10 they count as those of points on one line, which fix no slope.
+#[test]
+fn centres_on_one_line_fix_no_slope() {
+    let unrecovered = |s: f64| {
+        let points = [[-1.0, -s], [1.0, -s], [1.0, s], [-1.0, s], [0.0, 0.0]];
+        let triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+        let scene = SceneBuilder::new("flat", mesh(&points, &triangles).finish(), Plane::Strain)
+            .material(BODY, 1.0, 0.0)
+            .force(5, [1.0, 0.0])
+            .iterations(1);
+        let scene = (1..=4).fold(scene, |s, n| s.restrain_node(n, &[Axis::X, Axis::Y]));
+        estimate(&solve(&scene.build().expect("a sound scene"))).unrecovered.len()
+    };
+    assert_eq!([0.9e-5, 1.1e-5].map(unrecovered), [4, 0]);
+}
+
 /// The quadratic mean of the map is the relative error; on the paper's own example, whose bodies
 /// share no node.
 #[test]

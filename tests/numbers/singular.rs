@@ -239,5 +239,12 @@ fn contact_ends_at_tips_and_where_the_surface_does() {
     assert_eq!(edges([2.0, 1.0, 0.0, 1.0, 2.0], 0..5), [2]);
     // A bend of less than 30° is a chord of a curve.
     assert_eq!(edges([0.4, 0.2, 0.0, 0.2, 0.4], 0..5), [0; 0]);
+    // So is one of just 30°, and one of 31° is a corner; node 4 is the end of the surface.
+    let bend = |degrees: f64| {
+        let slope = degrees.to_radians().tan();
+        edges([2.0 * slope, slope, 0.0, 0.0, 0.0], 0..5)
+    };
+    assert_eq!(bend(30.0), [4]);
+    assert_eq!(bend(31.0), [2, 4]);
     assert_eq!(edges([0.0; 5], 1..4), [1, 3]);
 }
