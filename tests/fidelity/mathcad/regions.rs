@@ -195,6 +195,14 @@ fn files_are_read_up_to_their_largest_size() {
     assert!(document::read(&text, "sheet").is_err());
 }
 
+/// The document, its root, and 2^23 times an element and a text: two nodes beyond 2^24.
+#[test]
+fn files_of_too_many_nodes_are_refused() {
+    let text = format!("<worksheet>{}</worksheet>", "<a/> ".repeat(1 << 23));
+    let why = document::read(&text, "sheet").unwrap_err().to_string();
+    assert!(why.contains("the file is no XML: nodes limit reached"), "{why}");
+}
+
 /// `x on error y` of an assignment, under a condition.
 #[test]
 fn an_attempt_under_a_condition_is_a_block() {
