@@ -200,11 +200,8 @@ impl Problem<'_> {
                 Status::Open => Status::Open,
                 _ if normal < -PULL * largest => Status::Open,
                 _ if undetermined && gap > self.closed => Status::Open,
-                // Where no node may slide, none does that carries less than nothing by rounding.
-                Status::Stick
-                    if self.friction.is_finite()
-                        && tangent.abs() > self.friction * normal * (1.0 + CONE) =>
-                {
+                // A normal force may be less than nothing by rounding.
+                Status::Stick if tangent.abs() > self.friction * normal.abs() * (1.0 + CONE) => {
                     Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
                 }
                 Status::Slip(sense)
