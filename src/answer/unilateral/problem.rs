@@ -200,8 +200,8 @@ impl<'a> Problem<'a> {
             (status, _) => status,
         };
         let statuses: Vec<Status> = (0..last.statuses.len()).map(touching).collect();
-        let reaction = &last.moved.reaction - &*last.moved.friction;
-        let forces = self.forces(place, &statuses, &reaction);
+        // Whether they are determined does not depend on how large they are.
+        let forces = self.forces(place, &statuses, &last.moved.reaction);
         forces.iter().map(|force| force.undetermined).collect()
     }
 
