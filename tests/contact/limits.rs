@@ -8,6 +8,7 @@ use plane_contact::answer::{self, Detail, Request, Solution, Step, Unilateral, U
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use plane_contact::problem::scene::{Axis, SceneBuilder};
 
+use crate::common::tolerances::{BALANCE, assert_near};
 use crate::corners::{Bodies, Writing, grid};
 use crate::unilateral::{flat, solved, stacked, with};
 
@@ -180,32 +181,104 @@ fn a_target_that_falls_away_has_no_equilibrium() {
     assert!(solved(&scene.force(2, [0.0, 1.0])).is_ok(), "the body above holds it");
 }
 
-/// A block that is lifted off, beside a held fan: `count` contact nodes.
-fn lifted(count: usize) -> SceneBuilder {
+/// A unit square on a held block, and beside it a strip that is held along its upper side and
+/// touches nothing: `count` contact nodes. Nodes 4 and 5 are the square's lower ones, 6 and 7 its
+/// upper ones; `guided` ones move along y.
+fn beside_a_strip(
+    count: usize,
+    guided: &[usize],
+    load: (usize, [f64; 2]),
+    mu: f64,
+) -> SceneBuilder {
     let mut nodes = vec![[0.0, -1.0], [4.0, -1.0], [0.0, 0.0], [4.0, 0.0]];
-    nodes.extend([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [3.0, 2.0]]);
-    nodes.extend((0..count - 2).map(|k| [2.0 + 2.0 * k as f64 / (count - 3) as f64, 1.0]));
-    let fan = 9..7 + count;
-    let held = [0, 1].into_iter().chain(8..7 + count).map(|n| (n, BOTH.into()));
-    let triangles = fan.clone().skip(1).map(|n| [n - 1, n, 8]);
+    nodes.extend([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
+    let row = |y: f64| (2..count).map(move |k| [2.0 + k as f64 / count as f64, y]);
+    nodes.extend(row(0.01).chain(row(0.02)));
+    let (lower, upper) = (8..6 + count, 6 + count..nodes.len());
+    let held = [0, 1, 2, 3].into_iter().chain(upper).map(|n| (n, BOTH.into()));
     let bodies = Bodies {
         nodes,
-        triangles: [grid(0, 2, 2), triangles.chain(grid(4, 2, 2)).collect()],
+        triangles: [grid(0, 2, 2), [grid(4, 2, 2), grid(8, count - 2, 2)].concat()],
         moduli: [(1e3, 0.0); 2],
-        contact: [4, 5].into_iter().chain(fan).collect(),
+        contact: [4, 5].into_iter().chain(lower).collect(),
         target: vec![[2, 3]],
-        restrained: held.chain([4, 6].map(|n| (n, vec![Axis::X]))).collect(),
-        loads: vec![(6, [0.0, 1.0])],
+        restrained: held.chain(guided.iter().map(|n| (*n, vec![Axis::X]))).collect(),
+        loads: vec![load],
     };
-    bodies.modelled(&Writing::default(), in_one_step(0.0))
+    bodies.modelled(&Writing::default(), in_one_step(mu))
 }
 
 /// Up to 150 contact nodes the motion that nothing opposes is looked for.
 #[test]
 fn why_a_body_has_no_equilibrium_is_told_of_up_to_150_contact_nodes() {
     for (count, is_told) in [(150, true), (151, false)] {
-        let text = solved(&lifted(count)).expect_err("nothing holds it").to_string();
+        let lifted = beside_a_strip(count, &[4, 6], (6, [0.0, 1.0]), 0.0);
+        let text = solved(&lifted).expect_err("nothing holds it").to_string();
         assert_eq!(text.starts_with("there is no equilibrium: the load moves"), is_told, "{text}");
+    }
+}
+
+/// Under friction an equilibrium that only Lemke's method finds is found of up to 150 contact
+/// nodes. The square stands on its lower right corner, which carries the whole load of 1 along y.
+/// As that acts above it, and the guide is as high as the load, the moments leave the corner no
+/// friction.
+#[test]
+fn lemkes_method_is_tried_of_up_to_150_contact_nodes() {
+    let scene = |count: usize| beside_a_strip(count, &[6], (7, [2.0, -1.0]), 0.3);
+    let solution = solved(&scene(150)).expect("it stands on a corner");
+    let [corner] = solution.in_contact().collect::<Vec<_>>()[..] else { panic!("not on a corner") };
+    assert_near("force", corner.force.expect("it is determined"), 1.0, 1.0, &BALANCE);
+    assert_near("friction", corner.friction_needed.expect("it presses"), 0.0, 1.0, &BALANCE);
+    let text = solved(&scene(151)).expect_err("Lemke's method is not tried").to_string();
+    assert!(text.starts_with("no contact state in equilibrium was found"), "{text}");
+}
+
+/// A block that a force lifts off its target turns about its upper left corner: the 200 nodes
+/// beside that one are guided along y, which leaves the same motion, and is so many restraints that
+/// the stiffness of what they leave is no exact 0.
+#[test]
+fn a_body_that_turns_beside_many_restraints_is_told() {
+    for height in [0.7, 1.3, 2.3] {
+        let mut nodes = vec![[0.0, -1.0], [2.0, -1.0], [0.0, 0.0], [2.0, 0.0]];
+        nodes.extend([[0.5, 0.0], [1.0, 0.0]]);
+        nodes.extend((0..=200).map(|k| [f64::from(k) / 200.0, height]));
+        let fan = (7..nodes.len()).map(|n| [4, n, n - 1]);
+        let both = [0, 1, 2, 3, 6].map(|n| (n, BOTH.into()));
+        let guided = (7..nodes.len()).map(|n| (n, vec![Axis::X]));
+        let bodies = Bodies {
+            triangles: [grid(0, 2, 2), fan.chain([[4, 5, nodes.len() - 1]]).collect()],
+            moduli: [(1e3, 0.0); 2],
+            contact: vec![4, 5],
+            target: vec![[2, 3]],
+            restrained: both.into_iter().chain(guided).collect(),
+            loads: vec![(5, [0.0, 1.0])],
+            nodes,
+        };
+        let scene = bodies.modelled(&Writing::default(), in_one_step(0.0));
+        let text = solved(&scene).expect_err("nothing holds it").to_string();
+        assert!(text.starts_with("there is no equilibrium: the load moves node"), "{text}");
+    }
+}
+
+/// The left corner of a block under a force of its own, which nothing else moves: it sticks up to
+/// half its normal force, opens where it pulls, and a pull that is rounding beside the force on
+/// another block neither opens nor moves it.
+#[test]
+fn a_node_sticks_up_to_its_friction_but_for_rounding() {
+    let (forward, backward) = (Status::Slip(Sense::Forward), Status::Slip(Sense::Backward));
+    for (load, expected) in [
+        ([0.5, -1.0], Status::Stick),
+        ([0.5 * (1.0 + 5e-13), -1.0], Status::Stick),
+        ([0.5 * (1.0 + 2e-12), -1.0], backward),
+        ([-0.5 * (1.0 + 5e-13), -1.0], Status::Stick),
+        ([-0.5 * (1.0 + 2e-12), -1.0], forward),
+        ([0.0, 5e-12], Status::Stick),
+        ([0.0, 2e-11], Status::Open),
+    ] {
+        let mut scene = hanging(&[0.0; 2], in_one_step(0.5));
+        scene.description.loads.clear();
+        let solution = solved(&scene.force(5, load).force(10, [0.0, -1.0])).expect("it hangs");
+        assert_eq!(solution.contact[0].status, Some(expected), "{load:?}");
     }
 }
 
