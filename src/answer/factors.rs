@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::DVector;
 
-use super::condensation::Condensation;
+use super::condensation::{Bound, Condensation};
 use super::elimination::{Constraint, Elimination, Motion};
 use super::stiffness::Stiffness;
 use crate::numbers::solve::{Factors, Singular, SparseCholesky};
@@ -20,8 +20,8 @@ pub enum LastFactors {
     /// None are known.
     #[default]
     Unknown,
-    /// Those of the condensed bodies.
-    Condensed(Arc<Condensation>),
+    /// Those of the condensed bodies, and of their last contact state where that was factored.
+    Condensed(Arc<Condensation>, Option<Arc<Bound>>),
     /// Those of the whole matrix.
     Whole(Arc<Whole>),
 }
@@ -30,7 +30,7 @@ impl fmt::Debug for LastFactors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             LastFactors::Unknown => "unknown",
-            LastFactors::Condensed(_) => "condensed",
+            LastFactors::Condensed(..) => "condensed",
             LastFactors::Whole(_) => "whole",
         })
     }

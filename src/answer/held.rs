@@ -24,7 +24,7 @@ pub(super) struct Held {
 
 /// The factors of the contact state, or of nearly the same one.
 enum Made {
-    Condensed(Bound),
+    Condensed(Arc<Bound>),
     Whole(Arc<Whole>),
 }
 
@@ -45,8 +45,12 @@ impl Held {
         };
         let stiffness = Stiffness::new(model, |x| x);
         let known = match &solution.factors.known() {
-            LastFactors::Condensed(bodies) if bodies.has(constraints) => {
-                Bound::new(Arc::clone(bodies), &t).map(Made::Condensed)
+            LastFactors::Condensed(_, Some(bound)) if bound.is_of(constraints) => {
+                Some(Made::Condensed(Arc::clone(bound)))
+            }
+            LastFactors::Condensed(bodies, _) if bodies.has(constraints) => {
+                let bound = Bound::new(Arc::clone(bodies), &t, constraints);
+                bound.map(|bound| Made::Condensed(Arc::new(bound)))
             }
             LastFactors::Whole(whole) if whole.is_nearly_of(constraints) => {
                 Some(Made::Whole(Arc::clone(whole)))
@@ -61,7 +65,7 @@ impl Held {
     /// Returns the factors of Tᵀ K T, or of nearly that matrix.
     pub(super) fn factors(&self) -> &dyn Factors<f64> {
         match &self.factors {
-            Made::Condensed(bound) => bound,
+            Made::Condensed(bound) => &**bound,
             Made::Whole(whole) => &**whole,
         }
     }

@@ -81,12 +81,11 @@ impl Condensing {
     }
 
     /// Returns T of a state in `f64`, and its factors.
-    fn factors<T: Scalar>(&self, state: &State<T>) -> (Elimination, Option<Bound>) {
+    fn factors<T: Scalar>(&self, state: &State<T>) -> (Elimination, Option<Arc<Bound>>) {
         let constraints: Vec<Constraint> =
             state.constraints.iter().map(|c| c.map(Scalar::to_f64)).collect();
         let t = Elimination::new(&state.model.restrained, &constraints);
-        let condensed = self.bodies.condensed(&self.stiffness, &constraints);
-        let bound = condensed.and_then(|condensed| Bound::new(condensed, &t));
+        let bound = self.bodies.bound(&self.stiffness, &t, &constraints);
         (t, bound)
     }
 }
@@ -94,7 +93,7 @@ impl Condensing {
 impl Sparse<f64> for Condensing {
     fn solve(&self, state: &State<f64>) -> Result<Solved<f64>, Unsolved> {
         let (t, bound) = self.factors(state);
-        let refined = |bound: Bound| {
+        let refined = |bound: Arc<Bound>| {
             let norm = bound.norm();
             let (x, residual) = refined(&self.stiffness, &t, (&bound, norm), state.f).ok()?;
             Some(Solved { x, residual })
@@ -103,7 +102,7 @@ impl Sparse<f64> for Condensing {
     }
 
     fn last_factors(&self) -> LastFactors {
-        self.bodies.last().map_or(LastFactors::Unknown, LastFactors::Condensed)
+        self.bodies.last_factors()
     }
 }
 
@@ -112,7 +111,7 @@ impl Sparse<Bounded> for Condensing {
     fn solve(&self, state: &State<Bounded>) -> Result<Solved<Bounded>, Unsolved> {
         let f = state.f.map(Scalar::to_f64);
         let (t, bound) = self.factors(state);
-        let refined = |bound: Bound| {
+        let refined = |bound: Arc<Bound>| {
             let (x, residual) = refined(&self.stiffness, &t, (&bound, bound.norm()), &f).ok()?;
             Some((bound, x, residual))
         };
@@ -159,8 +158,8 @@ impl Sparse<BoundedDouble> for Condensing {
 fn in_double(
     matrix: &SparseSymmetric<F64x2>,
     f: &DVector<F64x2>,
-    factors: Option<Bound>,
-) -> Result<(DVector<F64x2>, Option<Bound>), Unsolved> {
+    factors: Option<Arc<Bound>>,
+) -> Result<(DVector<F64x2>, Option<Arc<Bound>>), Unsolved> {
     /// The relative residual at which refinement ends, in units of the scalar's epsilon.
     const TOL: f64 = 4.0;
     let refined = factors.and_then(|factors| {

@@ -116,7 +116,7 @@ pub fn run(args: &Args) -> Result<u8> {
     let plan = || Plan::new(&request);
     let others = || Others::new(&request, with_estimates);
     let model = &request.scene.model;
-    let ((own, plan), others) = side_by_side(model, || side_by_side(model, own, plan), others);
+    let ((own, plan), others) = side_by_side(model, || rayon::join(own, plan), others);
     let ((solution, accuracy, estimates), plan) = (own?, plan?);
     let mut assessment = Assessment::beside(&solution, others, estimates);
     assessment.probe(&solution, &args.probe)?;

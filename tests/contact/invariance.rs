@@ -26,17 +26,16 @@ const RUBBING_IMAGES: usize = 3;
 const COUNTS: &str = "\
     mortar 0 Same 4990\n\
     mortar 0 NoAnswer 10\n\
-    mortar 0.3 Same 214\n\
-    mortar 0.3 OtherPath 2\n\
+    mortar 0.3 Same 215\n\
+    mortar 0.3 OtherPath 1\n\
     mortar stick Same 201\n\
     mortar stick NoAnswer 15\n\
     nts 0 Same 4955\n\
     nts 0 NoAnswer 45\n\
-    nts 0.3 Same 204\n\
-    nts 0.3 NoAnswer 2\n\
+    nts 0.3 Same 209\n\
     nts 0.3 Several 3\n\
     nts 0.3 FoundOnce 1\n\
-    nts 0.3 OtherPath 6\n\
+    nts 0.3 OtherPath 3\n\
     nts stick Same 192\n\
     nts stick NoAnswer 18\n\
     nts stick Several 6\n";

@@ -8,10 +8,12 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use nalgebra::DVector;
 
+use super::gaps::Gaps;
 use super::schur::Condensation;
-use super::state::OnKept;
+use super::state::{Bound, OnKept};
 use crate::answer::contact::Pairing;
-use crate::answer::elimination::Constraint;
+use crate::answer::elimination::{Constraint, Elimination};
+use crate::answer::factors::LastFactors;
 use crate::answer::stiffness::Stiffness;
 use crate::numbers::solve::{Eliminated, KnownLu};
 use crate::problem::model::{Model, NodeId};
@@ -89,6 +91,13 @@ pub struct Bodies {
     /// The contact surface and the nodes of the target surface, each in its order.
     surfaces: [Vec<NodeId>; 2],
     current: RefCell<Option<Arc<Condensation>>>,
+    /// What each contact node faces in every state, and whether states hold slips too; None where that
+    /// is not known.
+    facing: Option<(Vec<Option<Pairing>>, bool)>,
+    /// The condensed bodies in terms of its gaps and slips; None where they cannot be.
+    gaps: RefCell<Option<(Arc<Condensation>, Option<Arc<Gaps>>)>>,
+    /// The state of the whole bodies that was factored last.
+    bound: RefCell<Option<Arc<Bound>>>,
     /// The load that was eliminated last.
     loaded: RefCell<Option<Loaded>>,
     /// The nodes to keep for the first contact state of large surfaces, beside those that it binds, the
@@ -132,6 +141,9 @@ impl Bodies {
             shared: shared.clone(),
             surfaces: surfaces(model),
             current: RefCell::default(),
+            facing: None,
+            gaps: RefCell::default(),
+            bound: RefCell::default(),
             loaded: RefCell::default(),
             expected: RefCell::default(),
             impossible: Cell::new(!model.has_contact()),
@@ -155,6 +167,54 @@ impl Bodies {
         };
         self.expected.replace(nearest.iter().take(most as usize).flat_map(nodes).collect());
         self
+    }
+
+    /// Takes it that in every state the contact nodes face what they do in `pairings`; whether states
+    /// hold slips too.
+    pub(in crate::answer) fn facing(self, pairings: &[Option<Pairing>], stick: bool) -> Self {
+        Bodies { facing: Some((pairings.to_vec(), stick)), ..self }
+    }
+
+    /// Factors the contact state that `constraints` impose on the condensed bodies; None where the
+    /// whole matrix is to be factored.
+    pub(in crate::answer) fn state(
+        &self,
+        stiffness: &Stiffness,
+        constraints: &[Constraint],
+    ) -> Option<OnKept> {
+        let condensation = self.condensed(stiffness, constraints)?;
+        let gaps = self.gaps(&condensation);
+        OnKept::new(condensation, gaps.as_ref(), constraints)
+    }
+
+    /// Factors the contact state T of the whole bodies that `constraints` impose; None where the whole
+    /// matrix is to be factored.
+    pub(in crate::answer) fn bound(
+        &self,
+        stiffness: &Stiffness,
+        t: &Elimination,
+        constraints: &[Constraint],
+    ) -> Option<Arc<Bound>> {
+        let last = self.bound.borrow().clone().filter(|bound| bound.is_of(constraints));
+        if last.is_some() {
+            return last;
+        }
+        let condensation = self.condensed(stiffness, constraints)?;
+        let bound = Arc::new(Bound::new(condensation, t, constraints)?);
+        // They are large, and the search for the state is over.
+        self.gaps.take();
+        self.bound.replace(Some(Arc::clone(&bound)));
+        Some(bound)
+    }
+
+    /// Returns the condensed bodies in terms of gaps and slips; None where they cannot be.
+    fn gaps(&self, condensation: &Arc<Condensation>) -> Option<Arc<Gaps>> {
+        let (pairings, stick) = self.facing.as_ref()?;
+        let mut last = self.gaps.borrow_mut();
+        let known = last.take().filter(|(of, _)| Arc::ptr_eq(of, condensation));
+        let make = || Gaps::new(condensation, pairings, *stick).map(Arc::new);
+        let (_, gaps) = last.insert(known.unwrap_or_else(|| (Arc::clone(condensation), make())));
+        gaps.clone()
     }
 
     /// Returns the bodies condensed to the nodes of `constraints` and others; None where the whole
@@ -182,6 +242,8 @@ impl Bodies {
             nodes = self.nodes(constraints, &expected);
         }
         self.loaded.take();
+        self.gaps.take();
+        self.bound.take();
         self.current.take();
         let made = self.shared.condensed(stiffness, &self.model, nodes);
         self.impossible.set(made.is_none());
@@ -211,6 +273,13 @@ impl Bodies {
     /// Returns the condensed bodies that served last; None where there are none.
     pub fn last(&self) -> Option<Arc<Condensation>> {
         self.current.borrow().clone()
+    }
+
+    /// Returns the factors that served last.
+    pub(in crate::answer) fn last_factors(&self) -> LastFactors {
+        self.last().map_or(LastFactors::Unknown, |condensed| {
+            LastFactors::Condensed(condensed, self.bound.borrow().clone())
+        })
     }
 
     fn is_small(&self) -> bool {

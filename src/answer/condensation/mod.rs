@@ -9,11 +9,14 @@
 //! state binds others, the bodies are condensed anew (`bodies`). Where that cannot be done or
 //! trusted, a state has no such factors: its whole matrix is to be factored.
 //!
-//! The search for a contact state goes on with S alone (`OnKept`); where every digit counts, the
-//! factors of Tᵀ S T serve to refine the solution of the whole equations (`Bound`).
+//! The search for a contact state goes on with S alone (`OnKept`), where it can be in terms of gaps and
+//! slips, of which a state holds some: then all else is eliminated once (`gaps`). Where every digit
+//! counts, the factors of Tᵀ S T serve to refine the solution of the whole equations (`Bound`).
 
 mod bodies;
+mod gaps;
 mod refinement;
+mod rows;
 mod schur;
 mod state;
 
@@ -21,4 +24,5 @@ pub use bodies::{Bodies, Shared, kept_equations};
 pub use refinement::refine;
 pub(super) use refinement::refined;
 pub use schur::Condensation;
-pub(super) use state::{Bound, OnKept};
+pub use state::Bound;
+pub(super) use state::OnKept;

@@ -7,8 +7,17 @@ use nalgebra::DVector;
 
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::{Condensed, Eliminated, SparseSymmetric};
+use crate::numbers::solve::{Condensed, Eliminated, Factors, SparseSymmetric, largest_motion};
 use crate::problem::model::{Dof, Model, NodeId};
+
+/// The motion under loads of 1, both scaled to a unit diagonal, beyond which a state is left to the
+/// factors of its whole matrix, which tell a singular one.
+const LOOSE: f64 = 1e10;
+
+/// Returns whether factors of a matrix with this diagonal are those of bodies that are held.
+pub(super) fn holds(factors: &impl Factors<f64>, diagonal: &DVector<f64>) -> bool {
+    largest_motion(factors, diagonal) < LOOSE
+}
 
 /// The stiffness condensed to some nodes.
 pub struct Condensation {
@@ -98,6 +107,11 @@ impl Condensation {
     /// Returns whether it keeps every node that `constraints` name.
     pub fn has(&self, constraints: &[Constraint]) -> bool {
         let mut nodes = constraints.iter().flat_map(Constraint::nodes);
-        nodes.all(|node| self.is_kept[node.dofs()[0].index()])
+        nodes.all(|node| self.keeps(node))
+    }
+
+    /// Returns whether it keeps a node.
+    pub(super) fn keeps(&self, node: NodeId) -> bool {
+        self.is_kept[node.dofs()[0].index()]
     }
 }

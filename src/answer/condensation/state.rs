@@ -2,30 +2,21 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
-use smallvec::SmallVec;
+use nalgebra::DVector;
 
+use super::gaps::{Gaps, Held};
 use super::refinement::refine;
-use super::schur::Condensation;
+use super::rows::Rows;
+use super::schur::{Condensation, holds};
 use crate::answer::elimination::{Constraint, Elimination};
-use crate::numbers::solve::{DenseCholesky, Eliminated, Factors, largest_motion};
-
-/// The motion under loads of 1, both scaled to a unit diagonal, beyond which a state is left to the
-/// factors of its whole matrix, which tell a singular one.
-const LOOSE: f64 = 1e10;
-
-/// The columns of Tᵀ S T that are worth a thread.
-const AT_ONCE: usize = 256;
+use crate::numbers::solve::{DenseCholesky, Eliminated, Factors};
 
 /// Tᵀ S T under one contact state, factored.
 struct Small {
     condensation: Arc<Condensation>,
-    /// The equation of the state for each column of `t`.
-    columns: Vec<usize>,
     /// The rows of T of the kept degrees of freedom.
     t: Rows,
-    factors: DenseCholesky<f64>,
+    factors: Box<dyn Factors<f64> + Send>,
 }
 
 /// The bodies under one contact state, in terms of what is kept of them.
@@ -36,15 +27,20 @@ pub(in crate::answer) struct OnKept {
 }
 
 /// The factors of Tᵀ K T under one contact state.
-pub(in crate::answer) struct Bound {
+pub struct Bound {
     small: Small,
+    /// The equation of the state for each column of T.
+    columns: Vec<usize>,
     /// The equation of the bodies and that of the state for each degree of freedom inside.
     inside: Vec<(usize, usize)>,
+    /// What made T.
+    constraints: Vec<Constraint>,
 }
 
 impl Small {
-    /// Factors Tᵀ S T; None where that is singular or nearly so.
-    fn new(condensation: Arc<Condensation>, all: &Elimination) -> Option<Self> {
+    /// Factors Tᵀ S T, and says which equation of the state each column of T is; None where that is
+    /// singular or nearly so.
+    fn new(condensation: Arc<Condensation>, all: &Elimination) -> Option<(Self, Vec<usize>)> {
         let mut column_of = vec![usize::MAX; all.size()];
         let mut columns = Vec::new();
         for (column, _) in condensation.kept.iter().flat_map(|dof| all.row(*dof)) {
@@ -58,8 +54,8 @@ impl Small {
         let t = Rows { rows: rows.collect(), columns: columns.len() };
         let matrix = t.reduced(condensation.condensed.schur());
         let factors = DenseCholesky::new(&matrix).ok()?;
-        let motion = largest_motion(&factors, &matrix.diagonal());
-        (motion < LOOSE).then_some(Small { condensation, columns, t, factors })
+        holds(&factors, &matrix.diagonal())
+            .then(|| (Small { condensation, t, factors: Box::new(factors) }, columns))
     }
 
     /// Returns the displacements of the kept equations under a load on them, without shift.
@@ -77,14 +73,21 @@ impl Small {
 }
 
 impl OnKept {
-    /// Factors a contact state on the kept equations; None where it is singular or nearly so.
-    pub(in crate::answer) fn new(
+    /// Factors a contact state on the kept equations, in terms of `gaps` where it can be; None where it is
+    /// singular or nearly so.
+    pub(super) fn new(
         condensation: Arc<Condensation>,
+        gaps: Option<&Arc<Gaps>>,
         constraints: &[Constraint],
     ) -> Option<Self> {
+        if let Some(Held { t, shift, factors }) = gaps.and_then(|gaps| gaps.held(constraints)) {
+            let small = Small { condensation, t, factors: Box::new(factors) };
+            return Some(OnKept { small, shift });
+        }
         let t = Elimination::closing(&condensation.is_outside, constraints);
         let shift = condensation.part(t.shift());
-        Some(OnKept { small: Small::new(condensation, &t)?, shift })
+        let (small, _) = Small::new(condensation, &t)?;
+        Some(OnKept { small, shift })
     }
 
     /// Returns the condensed bodies.
@@ -98,11 +101,11 @@ impl OnKept {
         &self,
         load: &Eliminated,
     ) -> Option<(DVector<f64>, f64)> {
-        let Small { condensation, t, factors, .. } = &self.small;
+        let Small { condensation, t, factors } = &self.small;
         let schur = condensation.condensed.schur();
         let f = t.load(&(&load.kept - schur * &self.shift));
         let times = |q: &DVector<f64>| t.load(&(schur * t.expand(q)));
-        let (q, residual) = refine(factors, times, condensation.kept_norm, &f).ok()?;
+        let (q, residual) = refine(&**factors, times, condensation.kept_norm, &f).ok()?;
         Some((t.expand(&q) + &self.shift, residual))
     }
 
@@ -136,10 +139,12 @@ impl OnKept {
 }
 
 impl Bound {
-    /// Factors Tᵀ S T; None where that is singular or nearly so.
+    /// Factors Tᵀ S T of a T that was built from `constraints`; None where that is singular or nearly
+    /// so.
     pub(in crate::answer) fn new(
         condensation: Arc<Condensation>,
         all: &Elimination,
+        constraints: &[Constraint],
     ) -> Option<Self> {
         let mut inside = Vec::with_capacity(condensation.dofs.len());
         for (e, dof) in condensation.dofs.iter().enumerate() {
@@ -148,13 +153,19 @@ impl Bound {
                 inside.push((e, column));
             }
         }
-        Some(Bound { small: Small::new(condensation, all)?, inside })
+        let (small, columns) = Small::new(condensation, all)?;
+        Some(Bound { small, columns, inside, constraints: constraints.to_vec() })
     }
 
     /// Returns K u − f by degree of freedom under a load `f` on kept nodes alone, force, where u are
     /// the displacements without the shift of the constraints; 0 but on the kept equations.
     pub(in crate::answer) fn response(&self, load: &DVector<f64>) -> DVector<f64> {
         self.small.response(load)
+    }
+
+    /// Returns whether its T was built from just these constraints.
+    pub(in crate::answer) fn is_of(&self, constraints: &[Constraint]) -> bool {
+        self.constraints == constraints
     }
 
     /// Returns the largest row sum of |K| without constraints, force/length.
@@ -165,7 +176,7 @@ impl Bound {
 
 impl Factors<f64> for Bound {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        let Small { condensation, columns, t, factors } = &self.small;
+        let Bound { small: Small { condensation, t, factors }, columns, .. } = self;
         let condensed = &condensation.condensed;
         let mut load = DVector::zeros(condensation.dofs.len());
         self.inside.iter().for_each(|(e, column)| load[*e] = b[*column]);
@@ -177,54 +188,5 @@ impl Factors<f64> for Bound {
         self.inside.iter().for_each(|(e, column)| x[*column] = u[*e]);
         columns.iter().zip(&q).for_each(|(column, q)| x[*column] = *q);
         x
-    }
-}
-
-/// Rows of few entries: column and weight.
-struct Rows {
-    rows: Vec<Vec<(usize, f64)>>,
-    columns: usize,
-}
-
-impl Rows {
-    /// Returns the lower triangle of Tᵀ S T of a dense S.
-    fn reduced(&self, s: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut of_column: Vec<SmallVec<[(usize, f64); 1]>> = vec![SmallVec::new(); self.columns];
-        for (l, row) in self.rows.iter().enumerate() {
-            row.iter().for_each(|(column, weight)| of_column[*column].push((l, *weight)));
-        }
-        let mut reduced = DMatrix::zeros(self.columns, self.columns);
-        let columns = reduced.as_mut_slice().par_chunks_mut(self.columns.max(1)).enumerate();
-        let columns = columns.with_min_len(AT_ONCE);
-        columns.for_each_init(
-            || DVector::zeros(s.nrows()),
-            |product, (c, column)| {
-                product.fill(0.0);
-                for (l, weight) in &of_column[c] {
-                    product.axpy(*weight, &s.column(*l), 1.0);
-                }
-                for (row, value) in self.rows.iter().zip(product.iter()) {
-                    for (r, weight) in row.iter().filter(|(r, _)| *r >= c) {
-                        column[*r] += weight * value;
-                    }
-                }
-            },
-        );
-        reduced
-    }
-
-    /// Returns Tᵀ f.
-    fn load(&self, f: &DVector<f64>) -> DVector<f64> {
-        let mut load = DVector::zeros(self.columns);
-        for (row, f) in self.rows.iter().zip(f) {
-            row.iter().for_each(|(column, weight)| load[*column] += weight * f);
-        }
-        load
-    }
-
-    /// Returns T q.
-    fn expand(&self, q: &DVector<f64>) -> DVector<f64> {
-        let of_row = |row: &Vec<(usize, f64)>| row.iter().map(|(column, w)| w * q[*column]).sum();
-        DVector::from_iterator(self.rows.len(), self.rows.iter().map(of_row))
     }
 }

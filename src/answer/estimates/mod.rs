@@ -22,7 +22,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::held::Held;
-use super::side_by_side::side_by_side;
 use super::solution::{Solution, max_displacement};
 use crate::numbers::largest::is_as_large;
 use crate::paper::decisions::Decision;
@@ -86,15 +85,13 @@ impl ErrorEstimates {
     /// Estimates the errors of a run.
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
-        let of_rounding = || {
-            let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
-            let rounding = arithmetic::rounding_of(solution, held.as_ref(), &bounded);
-            let stress = arithmetic::stress_bounds(solution, &bounded, rounding.displacement);
-            (held, rounding, stress)
-        };
-        let of_mesh = || (Discretisation::new(model, &solution.elements), singular(solution));
-        let ((held, rounding, stress), (mesh, points)) = side_by_side(model, of_rounding, of_mesh);
+        let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
+        let rounding = arithmetic::rounding_of(solution, held.as_ref(), &bounded);
         let arithmetic::Rounding { displacement, decisions, .. } = rounding;
+        let of_stress = || arithmetic::stress_bounds(solution, &bounded, displacement);
+        let of_mesh = || (Discretisation::new(model, &solution.elements), singular(solution));
+        let (stress, (mesh, points)) = rayon::join(of_stress, of_mesh);
+        drop(bounded);
         let bodies = model.bodies.iter().map(|body| {
             let states = &solution.elements;
             let largest = mesh.largest_von_mises(model, states, &body.triangles);

@@ -70,11 +70,7 @@ impl Problem<'_> {
 
     /// Returns the factors that were made last.
     pub(super) fn last_factors(&self) -> LastFactors {
-        match (self.last.made(), self.bodies.last()) {
-            (Some(whole), _) => LastFactors::Whole(whole),
-            (None, Some(condensed)) => LastFactors::Condensed(condensed),
-            (None, None) => LastFactors::Unknown,
-        }
+        self.last.made().map_or_else(|| self.bodies.last_factors(), LastFactors::Whole)
     }
 
     fn elastic(&self) -> Elastic<'_> {

@@ -136,6 +136,12 @@ impl<'a> Problem<'a> {
         let surfaces = Surfaces::new(model)?;
         surfaces.check_initial_penetration(model)?;
         let initial = surfaces.pairings(request.contact.coupling, &model.nodes);
+        let friction = request.contact.friction.coefficient();
+        let bodies = Bodies::new(model, &request.shared).expecting(&initial);
+        let bodies = match request.contact.geometry {
+            Geometry::Initial => bodies.facing(&initial, friction > 0.0),
+            Geometry::Current => bodies,
+        };
         Ok(Problem {
             request,
             model,
@@ -143,9 +149,9 @@ impl<'a> Problem<'a> {
             surfaces,
             closed: CLOSED * size(model),
             supports: supports_of_target(model, &model.restrained),
-            friction: request.contact.friction.coefficient(),
+            friction,
             no_friction: Arc::new(DVector::zeros(model.dofs())),
-            bodies: Bodies::new(model, &request.shared).expecting(&initial),
+            bodies,
             last: Last::default(),
             initial,
         })

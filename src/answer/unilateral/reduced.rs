@@ -85,8 +85,7 @@ pub(super) struct OnSurface<'a> {
 impl<'a> OnSurface<'a> {
     /// Factors the equations on the condensed bodies; None where that cannot be.
     pub(super) fn new(elastic: Elastic<'a>, constraints: &[Constraint]) -> Option<Self> {
-        let condensed = elastic.bodies.condensed(elastic.stiffness, constraints)?;
-        let state = OnKept::new(condensed, constraints)?;
+        let state = elastic.bodies.state(elastic.stiffness, constraints)?;
         // Those of a whole matrix are large, and not needed any more.
         elastic.last.0.take();
         Some(OnSurface { bodies: elastic.bodies, state })
@@ -130,7 +129,7 @@ pub(super) struct Reduced<'a> {
 
 /// The factors of the reduced equations.
 enum Made {
-    Condensed(Bound),
+    Condensed(Arc<Bound>),
     /// Those of the whole matrix, or of nearly the same one.
     Whole {
         held: Vec<Held>,
@@ -150,8 +149,7 @@ impl<'a> Reduced<'a> {
         constraints: &'a [Constraint],
         statuses: &[Status],
     ) -> Result<Self, Singular> {
-        let condensed = elastic.bodies.condensed(elastic.stiffness, constraints);
-        if let Some(bound) = condensed.and_then(|condensed| Bound::new(condensed, t)) {
+        if let Some(bound) = elastic.bodies.bound(elastic.stiffness, t, constraints) {
             // Those of a whole matrix are large, and not needed any more.
             elastic.last.0.take();
             return Ok(Reduced { elastic, t, constraints, made: Made::Condensed(bound) });
@@ -185,7 +183,7 @@ impl<'a> Reduced<'a> {
         let by_whole = |made: &Whole| by(made, made.norm());
         let whole = || Whole::new(stiffness, self.t, self.constraints);
         match &self.made {
-            Made::Condensed(bound) => match by(bound, bound.norm()) {
+            Made::Condensed(bound) => match by(&**bound, bound.norm()) {
                 Ok(solved) => Ok(solved),
                 Err(_) => by_whole(&whole()?).or_else(Ok),
             },

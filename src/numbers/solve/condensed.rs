@@ -41,7 +41,6 @@ struct Part {
     order: Vec<usize>,
     /// The places of the latter among all that are kept.
     kept: Vec<usize>,
-    schur: DMatrix<f64>,
 }
 
 /// A right-hand side b on which the equations inside were eliminated.
@@ -72,11 +71,12 @@ impl Condensed {
             }
         };
         let mut schur = DMatrix::zeros(kept.len(), kept.len());
-        for part in &parts {
-            for (j, column) in part.kept.iter().zip(part.schur.column_iter()) {
+        for (part, own) in &parts {
+            for (j, column) in part.kept.iter().zip(own.column_iter()) {
                 part.kept.iter().zip(&column).for_each(|(i, s)| schur[(*i, *j)] = *s);
             }
         }
+        let parts = parts.into_iter().map(|(part, _)| part).collect();
         Some(Condensed { parts, schur, size })
     }
 
@@ -118,8 +118,12 @@ impl Condensed {
 
 impl Part {
     /// Condenses `matrix`, which has the `equations` of the whole one, ascending, to those of them that
-    /// are `kept`.
-    fn new(matrix: SparseSymmetric, equations: &[usize], kept: &[usize]) -> Option<Self> {
+    /// are `kept`; returns the part, and what is left on these.
+    fn new(
+        matrix: SparseSymmetric,
+        equations: &[usize],
+        kept: &[usize],
+    ) -> Option<(Self, DMatrix<f64>)> {
         let own: Vec<(usize, usize)> = kept
             .iter()
             .enumerate()
@@ -144,7 +148,7 @@ impl Part {
             }
         }
         let order = order.into_iter().map(|e| equations[e]).collect();
-        Some(Part { factor, order, kept, schur })
+        Some((Part { factor, order, kept }, schur))
     }
 
     /// Returns the number of equations inside.

@@ -75,6 +75,11 @@ impl<T: Native> DenseCholesky<T> {
             None => Ok(DenseCholesky { factors }),
         }
     }
+
+    /// Returns the lower triangle L of the factors.
+    pub(super) fn lower(&self) -> MatRef<'_, T> {
+        self.factors.L()
+    }
 }
 
 impl<T: Native> Factors<T> for DenseCholesky<T> {

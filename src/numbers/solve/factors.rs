@@ -1,5 +1,7 @@
 //! What the factorisations of a matrix share.
 
+use std::sync::Arc;
+
 use faer::MatRef;
 use faer::linalg::solvers::Solve;
 use faer::traits::RealField;
@@ -25,6 +27,12 @@ impl Native for f32 {
 pub trait Factors<T>: Sync {
     /// Returns the solution x of A x = `b`.
     fn solve(&self, b: &DVector<T>) -> DVector<T>;
+}
+
+impl<T, F: Factors<T> + Send> Factors<T> for Arc<F> {
+    fn solve(&self, b: &DVector<T>) -> DVector<T> {
+        (**self).solve(b)
+    }
 }
 
 /// LU factors of a matrix that they keep.

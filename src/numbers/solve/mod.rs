@@ -4,7 +4,8 @@
 //! |---|---|
 //! | `arithmetic` | the scalar and the solver that are asked for |
 //! | [`memory`], [`cost`], `symbolic` | what a solution needs: memory, time, entries of factors |
-//! | `factors`, `dense` | what factorisations share; faer's of dense matrices |
+//! | `factors`, `dense`, `dense_condensed` | what factorisations share; faer's of dense matrices; one that
+//!   leaves the last equations over |
 //! | `error_bound` | how far a solution may be from the true one |
 //! | `symmetric`, `cholesky` | sparse symmetric matrices; faer's factor of one |
 //! | `sparse`, `condensed`, `iterative` | factors that tell a singular matrix; those that leave a few
@@ -18,6 +19,7 @@ mod cholesky;
 mod condensed;
 pub mod cost;
 mod dense;
+mod dense_condensed;
 mod error_bound;
 mod factors;
 mod field;
@@ -36,6 +38,7 @@ mod symmetric;
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
 pub use condensed::{Condensed, Eliminated};
 pub use dense::{DenseCholesky, DenseLu};
+pub use dense_condensed::DenseCondensed;
 pub use error_bound::{error_bound, error_of_rest, inverse_norm};
 pub use factors::{Factors, Native, Singular, backward_error};
 pub use field::Field;

@@ -1,0 +1,246 @@
+//! The condensed bodies in terms of the gaps and slips of contact nodes: what no contact state holds is
+//! eliminated once, and a state is a small matrix on the gaps and slips that it leaves free.
+//!
+//! ```text
+//!   u_i = g n + s t + Σ w_ij u_j     at a contact node i that faces the nodes j
+//!   u = M y                          y: all else, then gaps g, and with friction slips s
+//!   Tᵀ S T                           Mᵀ S M without what a state holds; T the columns of M that are left
+//! ```
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::rows::Rows;
+use super::schur::{Condensation, holds};
+use crate::answer::contact::Pairing;
+use crate::answer::elimination::{Constraint, Motion};
+use crate::numbers::solve::{DenseCholesky, DenseCondensed, Factors};
+use crate::problem::model::{Dof, NodeId};
+
+/// The component of a normal beyond which a node's one free motion makes its gap.
+const STEEP: f64 = 0.5;
+
+/// The condensed bodies in terms of gaps and slips.
+pub(super) struct Gaps {
+    candidates: BTreeMap<NodeId, Candidate>,
+    /// M, a row for each kept equation.
+    m: Rows,
+    /// Mᵀ S M condensed to the gaps and slips.
+    condensed: DenseCondensed,
+    /// The diagonal of Mᵀ S M at the gaps and slips.
+    diagonal: DVector<f64>,
+}
+
+/// A contact node whose gap, or gap and slip, a state may hold.
+struct Candidate {
+    pairing: Pairing,
+    /// The columns of M.
+    gap: usize,
+    slip: Option<usize>,
+}
+
+/// A state: the columns of M that it leaves free, and the rest of the displacements.
+pub(super) struct Held {
+    /// The columns of M that are free.
+    pub(super) t: Rows,
+    /// The displacements of the kept equations where all that is free is 0, length.
+    pub(super) shift: DVector<f64>,
+    pub(super) factors: FreeGaps,
+}
+
+/// The factors of Mᵀ S M without what a state holds.
+pub(super) struct FreeGaps {
+    gaps: Arc<Gaps>,
+    /// The places of those that are free among the gaps and slips.
+    free: Vec<usize>,
+    /// None where none is.
+    factors: Option<DenseCholesky<f64>>,
+}
+
+/// The motions of a contact node that its gap and slip make: both, or the gap alone, by its one free
+/// degree of freedom.
+#[derive(Clone, Copy)]
+enum Own {
+    Both,
+    Along(Dof),
+}
+
+impl Gaps {
+    /// Takes as unknowns the gaps of `pairings`, and where they may `stick` also their slips; None where
+    /// what is left is singular or nearly so, and where a node that faces others is faced itself.
+    pub(super) fn new(
+        condensation: &Condensation,
+        pairings: &[Option<Pairing>],
+        stick: bool,
+    ) -> Option<Self> {
+        let mut column: BTreeMap<Dof, usize> = BTreeMap::new();
+        let free = |dof: Dof| condensation.kept.binary_search(&dof).is_ok();
+        let facing: Vec<(&Pairing, Own)> = pairings
+            .iter()
+            .flatten()
+            .filter(|p| {
+                condensation.keeps(p.node) && p.masters.iter().all(|(m, _)| condensation.keeps(*m))
+            })
+            .filter_map(|p| Some((p, own(p, p.node.dofs().map(free))?)))
+            .collect();
+        let nodes: BTreeSet<NodeId> = facing.iter().map(|(pairing, _)| pairing.node).collect();
+        if facing.iter().any(|(p, _)| p.masters.iter().any(|(master, _)| nodes.contains(master))) {
+            return None;
+        }
+        for dof in condensation.kept.iter().filter(|dof| !nodes.contains(&dof.node())) {
+            column.insert(*dof, column.len());
+        }
+        let mut columns = column.len();
+        let mut next = || {
+            columns += 1;
+            columns - 1
+        };
+        // Slips that no state holds come before all gaps.
+        let slips: Vec<Option<usize>> = facing
+            .iter()
+            .map(|(_, own)| (!stick && matches!(own, Own::Both)).then(&mut next))
+            .collect();
+        let first = slips.iter().flatten().count() + column.len();
+        let mut candidates = BTreeMap::new();
+        let mut rows: BTreeMap<Dof, Vec<(usize, f64)>> =
+            column.iter().map(|(dof, column)| (*dof, vec![(*column, 1.0)])).collect();
+        for ((pairing, own), slip) in facing.into_iter().zip(slips) {
+            let gap = next();
+            let held = (stick && matches!(own, Own::Both)).then(&mut next);
+            for (dof, row) in moved(pairing, own, gap, slip.or(held), &column) {
+                rows.insert(dof, row);
+            }
+            candidates
+                .insert(pairing.node, Candidate { pairing: pairing.clone(), gap, slip: held });
+        }
+        let m = Rows { rows: rows.into_values().collect(), columns };
+        let matrix = m.reduced(condensation.condensed.schur());
+        let condensed = DenseCondensed::new(&matrix, first)?;
+        let diagonal = matrix.diagonal();
+        holds(condensed.first(), &diagonal.rows(0, first).into_owned()).then_some(Gaps {
+            candidates,
+            m,
+            condensed,
+            diagonal: diagonal.rows(first, columns - first).into_owned(),
+        })
+    }
+
+    /// Returns the number of columns before those of gaps and slips.
+    fn first(&self) -> usize {
+        self.m.columns - self.diagonal.len()
+    }
+
+    /// Factors the state that `constraints` impose; None where it is singular or nearly so, and where
+    /// it holds something else.
+    pub(super) fn held(self: &Arc<Self>, constraints: &[Constraint]) -> Option<Held> {
+        let mut values = vec![None; self.m.columns];
+        for constraint in constraints {
+            let Candidate { pairing, gap, slip } = self.candidates.get(&constraint.node)?;
+            let [nx, ny] = pairing.normal;
+            if pairing.masters != constraint.masters {
+                return None;
+            }
+            match constraint.motion {
+                Motion::Along(normal, _) if normal != pairing.normal => return None,
+                Motion::Along(_, shift) => values[*gap] = Some(shift),
+                Motion::Both([x, y]) => {
+                    values[(*slip)?] = Some(nx * y - ny * x);
+                    values[*gap] = Some(nx * x + ny * y);
+                }
+            }
+        }
+        let shift = DVector::from_iterator(values.len(), values.iter().map(|v| v.unwrap_or(0.0)));
+        let first = self.first();
+        let free: Vec<usize> =
+            (0..self.diagonal.len()).filter(|k| values[first + k].is_none()).collect();
+        let mut place: Vec<Option<usize>> = (0..first).map(Some).collect();
+        place.resize(values.len(), None);
+        free.iter().enumerate().for_each(|(new, k)| place[first + k] = Some(first + new));
+        let t = self.m.left(&place, first + free.len());
+        let factors = FreeGaps::new(Arc::clone(self), free)?;
+        Some(Held { t, shift: self.m.expand(&shift), factors })
+    }
+}
+
+impl FreeGaps {
+    fn new(gaps: Arc<Gaps>, free: Vec<usize>) -> Option<Self> {
+        if free.is_empty() {
+            return Some(FreeGaps { gaps, free, factors: None });
+        }
+        let (n, schur) = (free.len(), gaps.condensed.schur());
+        let matrix =
+            DMatrix::from_fn(n, n, |i, j| if i < j { 0.0 } else { schur[(free[i], free[j])] });
+        let factors = DenseCholesky::new(&matrix).ok()?;
+        holds(&factors, &gaps.diagonal.select_rows(&free)).then_some(FreeGaps {
+            gaps,
+            free,
+            factors: Some(factors),
+        })
+    }
+}
+
+impl Factors<f64> for FreeGaps {
+    fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
+        let first = self.gaps.first();
+        let mut last = DVector::zeros(self.gaps.diagonal.len());
+        self.free.iter().zip(b.iter().skip(first)).for_each(|(k, b)| last[*k] = *b);
+        let [z, left] = self.gaps.condensed.eliminate(b.rows(0, first).into_owned(), last.clone());
+        let free = match &self.factors {
+            Some(factors) => factors.solve(&left.select_rows(&self.free)),
+            None => DVector::zeros(0),
+        };
+        last.fill(0.0);
+        self.free.iter().zip(&free).for_each(|(k, x)| last[*k] = *x);
+        let x = self.gaps.condensed.expand(z, &last);
+        DVector::from_iterator(b.len(), x.iter().chain(&free).copied())
+    }
+}
+
+/// Returns what the gap and slip of a pairing move, of whose node each degree of freedom is `free` or
+/// not; None where that does not make every gap.
+fn own(pairing: &Pairing, free: [bool; 2]) -> Option<Own> {
+    let [x, y] = pairing.node.dofs();
+    match free {
+        [true, true] => Some(Own::Both),
+        [true, false] if pairing.normal[0].abs() >= STEEP => Some(Own::Along(x)),
+        [false, true] if pairing.normal[1].abs() >= STEEP => Some(Own::Along(y)),
+        _ => None,
+    }
+}
+
+/// Returns the rows of M of a pairing's node: its gap, its slip, and the motion of what it faces,
+/// whose free degrees of freedom have a `column`.
+fn moved(
+    pairing: &Pairing,
+    own: Own,
+    gap: usize,
+    slip: Option<usize>,
+    column: &BTreeMap<Dof, usize>,
+) -> Vec<(Dof, Vec<(usize, f64)>)> {
+    let [nx, ny] = pairing.normal;
+    let target = |weight_of: &dyn Fn(Dof) -> f64| -> Vec<(usize, f64)> {
+        let dofs = pairing.masters.iter().flat_map(|(m, w)| m.dofs().map(|dof| (dof, *w)));
+        dofs.filter_map(|(dof, w)| Some((*column.get(&dof)?, w * weight_of(dof))))
+            .filter(|(_, w)| *w != 0.0)
+            .collect()
+    };
+    match own {
+        Own::Both => {
+            let along = pairing.node.dofs().into_iter().zip([[nx, -ny], [ny, nx]]);
+            along
+                .map(|(dof, [n, t])| {
+                    let own = [Some((gap, n)), slip.map(|slip| (slip, t))];
+                    let of_dof = |other: Dof| f64::from(other.direction() == dof.direction());
+                    (dof, own.into_iter().flatten().chain(target(&of_dof)).collect())
+                })
+                .collect()
+        }
+        Own::Along(dof) => {
+            let n = pairing.normal[dof.direction()];
+            let along = |other: Dof| pairing.normal[other.direction()] / n;
+            vec![(dof, std::iter::once((gap, 1.0 / n)).chain(target(&along)).collect())]
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! A matrix T of few entries a row, and the products with it.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use smallvec::SmallVec;
+
+/// The columns of Tᵀ S T that are worth a thread.
+const AT_ONCE: usize = 256;
+
+/// Rows of few entries: column and weight.
+pub(super) struct Rows {
+    pub(super) rows: Vec<Vec<(usize, f64)>>,
+    pub(super) columns: usize,
+}
+
+impl Rows {
+    /// Returns the lower triangle of Tᵀ S T of a dense S.
+    pub(super) fn reduced(&self, s: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut of_column: Vec<SmallVec<[(usize, f64); 1]>> = vec![SmallVec::new(); self.columns];
+        for (l, row) in self.rows.iter().enumerate() {
+            row.iter().for_each(|(column, weight)| of_column[*column].push((l, *weight)));
+        }
+        let mut reduced = DMatrix::zeros(self.columns, self.columns);
+        let columns = reduced.as_mut_slice().par_chunks_mut(self.columns.max(1)).enumerate();
+        let columns = columns.with_min_len(AT_ONCE);
+        columns.for_each_init(
+            || DVector::zeros(s.nrows()),
+            |product, (c, column)| {
+                product.fill(0.0);
+                for (l, weight) in &of_column[c] {
+                    product.axpy(*weight, &s.column(*l), 1.0);
+                }
+                for (row, value) in self.rows.iter().zip(product.iter()) {
+                    for (r, weight) in row.iter().filter(|(r, _)| *r >= c) {
+                        column[*r] += weight * value;
+                    }
+                }
+            },
+        );
+        reduced
+    }
+
+    /// Returns Tᵀ f.
+    pub(super) fn load(&self, f: &DVector<f64>) -> DVector<f64> {
+        let mut load = DVector::zeros(self.columns);
+        for (row, f) in self.rows.iter().zip(f) {
+            row.iter().for_each(|(column, weight)| load[*column] += weight * f);
+        }
+        load
+    }
+
+    /// Returns T q.
+    pub(super) fn expand(&self, q: &DVector<f64>) -> DVector<f64> {
+        let of_row = |row: &Vec<(usize, f64)>| row.iter().map(|(column, w)| w * q[*column]).sum();
+        DVector::from_iterator(self.rows.len(), self.rows.iter().map(of_row))
+    }
+
+    /// Returns the columns that `place` gives one among those that are left, of which there are `columns`.
+    pub(super) fn left(&self, place: &[Option<usize>], columns: usize) -> Rows {
+        let entry = |(column, weight): &(usize, f64)| Some((place[*column]?, *weight));
+        let rows = self.rows.iter().map(|row| row.iter().filter_map(entry).collect());
+        Rows { rows: rows.collect(), columns }
+    }
+}
