@@ -21,6 +21,7 @@ mod drawn;
 mod faced;
 mod facing;
 mod friction;
+mod gaps;
 mod invariance;
 mod limits;
 mod orders;

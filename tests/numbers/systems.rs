@@ -9,10 +9,13 @@ use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 use plane_contact::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar};
 use plane_contact::numbers::solve::{
-    Arithmetic, Condensed, Factors, KnownLu, NotConverged, Precision, ScalarName, Singular, Solver,
-    SparseCholesky, SparseLu, SparseSquare, SparseSymmetric, Unsolved, conjugate_gradients,
-    error_bound, error_of_rest, inverse_norm, lift, refine, solve_dense,
+    Arithmetic, Condensed, DenseCholesky, DenseCondensed, Factors, KnownLu, NotConverged,
+    Precision, ScalarName, Singular, Solver, SparseCholesky, SparseLu, SparseSquare,
+    SparseSymmetric, Unsolved, conjugate_gradients, error_bound, error_of_rest, inverse_norm, lift,
+    refine, solve_dense,
 };
+
+use crate::common::tolerances::{TWO_PARTS, assert_near};
 
 /// Makes a vector of its entries.
 macro_rules! dvector {
@@ -463,4 +466,34 @@ fn only_plain_doubles_are_the_default() {
     assert!(!Arithmetic { scalar: ScalarName::F32, ..default }.is_default());
     assert!(!Arithmetic { solver: Some(Solver::SparseCholesky), ..default }.is_default());
     assert!(!Arithmetic { tol: Some(1e-9), ..default }.is_default());
+}
+
+/// Condensed to its last equations, and these solved, a system has the solution that it has whole: of
+/// more columns than are computed together, of few, and without first or last ones.
+#[test]
+fn a_dense_system_is_solved_in_two_parts() {
+    for (first, last) in [(130, 300), (300, 130), (3, 2), (1, 64), (0, 5), (5, 0)] {
+        let n = first + last;
+        let entry = |i: usize, j: usize| ((i * j + i + j) % 11) as f64 / 11.0;
+        let matrix = DMatrix::from_fn(n, n, |i, j| match i == j {
+            true => n as f64 + i as f64,
+            false => entry(i.max(j), i.min(j)),
+        });
+        // Above the diagonal nothing is read.
+        let read = DMatrix::from_fn(n, n, |i, j| if i < j { f64::NAN } else { matrix[(i, j)] });
+        let expected = DVector::from_fn(n, |i, _| (i as f64 * 0.7).sin());
+        let b = &matrix * &expected;
+        let condensed = DenseCondensed::new(&read, first).expect("it is positive definite");
+        let part = |from: usize, count: usize| b.rows(from, count).into_owned();
+        let [z, left] = condensed.eliminate(part(0, first), part(first, last));
+        let schur = condensed.schur().view((0, 0), (last, last)).into_owned();
+        let own = DenseCholesky::new(&schur).expect("so is what is left").solve(&left);
+        let found = condensed.expand(z, &own);
+        for (x, expected) in found.iter().chain(&own).zip(&expected) {
+            assert_near("solution", *x, *expected, 1.0, &TWO_PARTS);
+        }
+    }
+    let indefinite = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, -1.0, 1.0]));
+    assert!(DenseCondensed::new(&indefinite, 1).is_some());
+    assert!(DenseCondensed::new(&indefinite, 2).is_none());
 }

@@ -94,8 +94,8 @@ pub struct Bodies {
     /// What each contact node faces in every state, and whether states hold slips too; None where that
     /// is not known.
     facing: Option<(Vec<Option<Pairing>>, bool)>,
-    /// The condensed bodies in terms of its gaps and slips; None where they cannot be.
-    gaps: RefCell<Option<(Arc<Condensation>, Option<Arc<Gaps>>)>>,
+    /// The condensed bodies in terms of gaps and slips, once that was tried; None where they cannot be.
+    gaps: RefCell<Option<Option<Arc<Gaps>>>>,
     /// The state of the whole bodies that was factored last.
     bound: RefCell<Option<Arc<Bound>>>,
     /// The load that was eliminated last.
@@ -171,17 +171,13 @@ impl Bodies {
 
     /// Takes it that in every state the contact nodes face what they do in `pairings`; whether states
     /// hold slips too.
-    pub(in crate::answer) fn facing(self, pairings: &[Option<Pairing>], stick: bool) -> Self {
+    pub fn facing(self, pairings: &[Option<Pairing>], stick: bool) -> Self {
         Bodies { facing: Some((pairings.to_vec(), stick)), ..self }
     }
 
     /// Factors the contact state that `constraints` impose on the condensed bodies; None where the
     /// whole matrix is to be factored.
-    pub(in crate::answer) fn state(
-        &self,
-        stiffness: &Stiffness,
-        constraints: &[Constraint],
-    ) -> Option<OnKept> {
+    pub fn state(&self, stiffness: &Stiffness, constraints: &[Constraint]) -> Option<OnKept> {
         let condensation = self.condensed(stiffness, constraints)?;
         let gaps = self.gaps(&condensation);
         OnKept::new(condensation, gaps.as_ref(), constraints)
@@ -208,13 +204,10 @@ impl Bodies {
     }
 
     /// Returns the condensed bodies in terms of gaps and slips; None where they cannot be.
-    fn gaps(&self, condensation: &Arc<Condensation>) -> Option<Arc<Gaps>> {
+    fn gaps(&self, condensation: &Condensation) -> Option<Arc<Gaps>> {
         let (pairings, stick) = self.facing.as_ref()?;
-        let mut last = self.gaps.borrow_mut();
-        let known = last.take().filter(|(of, _)| Arc::ptr_eq(of, condensation));
         let make = || Gaps::new(condensation, pairings, *stick).map(Arc::new);
-        let (_, gaps) = last.insert(known.unwrap_or_else(|| (Arc::clone(condensation), make())));
-        gaps.clone()
+        self.gaps.borrow_mut().get_or_insert_with(make).clone()
     }
 
     /// Returns the bodies condensed to the nodes of `constraints` and others; None where the whole
@@ -252,11 +245,7 @@ impl Bodies {
     }
 
     /// Returns what is left of a load by degree of freedom on the kept equations of a state.
-    pub(in crate::answer) fn eliminated(
-        &self,
-        state: &OnKept,
-        load: &DVector<f64>,
-    ) -> Rc<Eliminated> {
+    pub fn eliminated(&self, state: &OnKept, load: &DVector<f64>) -> Rc<Eliminated> {
         let condensation = state.condensation();
         let mut last = self.loaded.borrow_mut();
         let known = last

@@ -23,7 +23,7 @@ use crate::problem::model::{Dof, NodeId};
 const STEEP: f64 = 0.5;
 
 /// The condensed bodies in terms of gaps and slips.
-pub(super) struct Gaps {
+pub struct Gaps {
     candidates: BTreeMap<NodeId, Candidate>,
     /// M, a row for each kept equation.
     m: Rows,
@@ -42,7 +42,7 @@ struct Candidate {
 }
 
 /// A state: the columns of M that it leaves free, and the rest of the displacements.
-pub(super) struct Held {
+pub struct Held {
     /// The columns of M that are free.
     pub(super) t: Rows,
     /// The displacements of the kept equations where all that is free is 0, length.
@@ -70,51 +70,33 @@ enum Own {
 impl Gaps {
     /// Takes as unknowns the gaps of `pairings`, and where they may `stick` also their slips; None where
     /// what is left is singular or nearly so, and where a node that faces others is faced itself.
-    pub(super) fn new(
+    pub fn new(
         condensation: &Condensation,
         pairings: &[Option<Pairing>],
         stick: bool,
     ) -> Option<Self> {
-        let mut column: BTreeMap<Dof, usize> = BTreeMap::new();
-        let free = |dof: Dof| condensation.kept.binary_search(&dof).is_ok();
-        let facing: Vec<(&Pairing, Own)> = pairings
-            .iter()
-            .flatten()
-            .filter(|p| {
-                condensation.keeps(p.node) && p.masters.iter().all(|(m, _)| condensation.keeps(*m))
-            })
-            .filter_map(|p| Some((p, own(p, p.node.dofs().map(free))?)))
-            .collect();
+        let facing = candidates(condensation, pairings)?;
         let nodes: BTreeSet<NodeId> = facing.iter().map(|(pairing, _)| pairing.node).collect();
-        if facing.iter().any(|(p, _)| p.masters.iter().any(|(master, _)| nodes.contains(master))) {
-            return None;
-        }
-        for dof in condensation.kept.iter().filter(|dof| !nodes.contains(&dof.node())) {
-            column.insert(*dof, column.len());
-        }
-        let mut columns = column.len();
-        let mut next = || {
-            columns += 1;
-            columns - 1
+        let others = condensation.kept.iter().filter(|dof| !nodes.contains(&dof.node()));
+        let column: BTreeMap<Dof, usize> = others.copied().zip(0..).collect();
+        let mut columns = column.len()..;
+        let mut slips = |may_be: bool| -> Vec<Option<usize>> {
+            let of = |(_, own): &(_, Own)| may_be && matches!(own, Own::Both);
+            facing.iter().map(|candidate| of(candidate).then(|| columns.next()).flatten()).collect()
         };
-        // Slips that no state holds come before all gaps.
-        let slips: Vec<Option<usize>> = facing
-            .iter()
-            .map(|(_, own)| (!stick && matches!(own, Own::Both)).then(&mut next))
-            .collect();
-        let first = slips.iter().flatten().count() + column.len();
-        let mut candidates = BTreeMap::new();
+        // Slips that no state holds come before all that some state holds.
+        let (loose, held) = (slips(!stick), slips(stick));
+        let gaps: Vec<usize> = columns.by_ref().take(facing.len()).collect();
+        let first = column.len() + loose.iter().flatten().count();
         let mut rows: BTreeMap<Dof, Vec<(usize, f64)>> =
             column.iter().map(|(dof, column)| (*dof, vec![(*column, 1.0)])).collect();
-        for ((pairing, own), slip) in facing.into_iter().zip(slips) {
-            let gap = next();
-            let held = (stick && matches!(own, Own::Both)).then(&mut next);
-            for (dof, row) in moved(pairing, own, gap, slip.or(held), &column) {
-                rows.insert(dof, row);
-            }
-            candidates
-                .insert(pairing.node, Candidate { pairing: pairing.clone(), gap, slip: held });
+        let mut candidates = BTreeMap::new();
+        for (k, (pairing, own)) in facing.into_iter().enumerate() {
+            let (pairing, gap, slip) = (pairing.clone(), gaps[k], held[k]);
+            rows.extend(moved(&pairing, own, gap, slip.or(loose[k]), &column));
+            candidates.insert(pairing.node, Candidate { pairing, gap, slip });
         }
+        let columns = first + held.iter().flatten().count() + gaps.len();
         let m = Rows { rows: rows.into_values().collect(), columns };
         let matrix = m.reduced(condensation.condensed.schur());
         let condensed = DenseCondensed::new(&matrix, first)?;
@@ -134,7 +116,7 @@ impl Gaps {
 
     /// Factors the state that `constraints` impose; None where it is singular or nearly so, and where
     /// it holds something else.
-    pub(super) fn held(self: &Arc<Self>, constraints: &[Constraint]) -> Option<Held> {
+    pub fn held(self: &Arc<Self>, constraints: &[Constraint]) -> Option<Held> {
         let mut values = vec![None; self.m.columns];
         for constraint in constraints {
             let Candidate { pairing, gap, slip } = self.candidates.get(&constraint.node)?;
@@ -196,6 +178,24 @@ impl Factors<f64> for FreeGaps {
         let x = self.gaps.condensed.expand(z, &last);
         DVector::from_iterator(b.len(), x.iter().chain(&free).copied())
     }
+}
+
+/// Returns the pairings whose nodes' gaps can be unknowns; None where a node that faces others is faced
+/// itself.
+fn candidates<'a>(
+    condensation: &Condensation,
+    pairings: &'a [Option<Pairing>],
+) -> Option<Vec<(&'a Pairing, Own)>> {
+    let is_free = |dof: Dof| condensation.kept.binary_search(&dof).is_ok();
+    let masters = |p: &'a Pairing| p.masters.iter().map(|(master, _)| *master);
+    let is_kept =
+        |p: &&'a Pairing| std::iter::once(p.node).chain(masters(p)).all(|n| condensation.keeps(n));
+    let kept = pairings.iter().flatten().filter(is_kept);
+    let own = |p: &'a Pairing| Some((p, own(p, p.node.dofs().map(is_free))?));
+    let found: Vec<(&Pairing, Own)> = kept.filter_map(own).collect();
+    let nodes: BTreeSet<NodeId> = found.iter().map(|(pairing, _)| pairing.node).collect();
+    let is_faced = found.iter().any(|(p, _)| masters(p).any(|master| nodes.contains(&master)));
+    (!is_faced).then_some(found)
 }
 
 /// Returns what the gap and slip of a pairing move, of whose node each degree of freedom is `free` or

@@ -21,8 +21,8 @@ mod schur;
 mod state;
 
 pub use bodies::{Bodies, Shared, kept_equations};
+pub use gaps::Gaps;
 pub use refinement::refine;
 pub(super) use refinement::refined;
 pub use schur::Condensation;
-pub use state::Bound;
-pub(super) use state::OnKept;
+pub use state::{Bound, OnKept};

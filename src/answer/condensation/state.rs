@@ -20,7 +20,7 @@ struct Small {
 }
 
 /// The bodies under one contact state, in terms of what is kept of them.
-pub(in crate::answer) struct OnKept {
+pub struct OnKept {
     small: Small,
     /// s on the kept equations, length.
     shift: DVector<f64>,
@@ -97,10 +97,7 @@ impl OnKept {
 
     /// Returns the displacements of the kept equations under a load, length, and their relative residual;
     /// None where the factors are too far from the matrix.
-    pub(in crate::answer) fn displacements(
-        &self,
-        load: &Eliminated,
-    ) -> Option<(DVector<f64>, f64)> {
+    pub fn displacements(&self, load: &Eliminated) -> Option<(DVector<f64>, f64)> {
         let Small { condensation, t, factors } = &self.small;
         let schur = condensation.condensed.schur();
         let f = t.load(&(&load.kept - schur * &self.shift));
