@@ -295,9 +295,11 @@ impl Bodies {
             let at: Vec<usize> =
                 (0..surface.len()).filter(|i| bound.contains(&surface[*i])).collect();
             let margin = MARGIN.0 + (MARGIN.1 * at.len() as f64) as usize;
+            let mut done = 0;
             for i in at {
                 let end = (i + margin + 1).min(surface.len());
-                nodes.extend(&surface[i.saturating_sub(margin)..end]);
+                nodes.extend(&surface[i.saturating_sub(margin).max(done)..end]);
+                done = end;
             }
         }
         nodes
