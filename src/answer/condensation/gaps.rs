@@ -36,7 +36,7 @@ pub struct Gaps {
 /// A contact node whose gap, or gap and slip, a state may hold.
 struct Candidate {
     pairing: Pairing,
-    /// The columns of M.
+    /// Their columns of M; None of a slip that no state holds.
     gap: usize,
     slip: Option<usize>,
 }
@@ -55,8 +55,7 @@ pub(super) struct FreeGaps {
     gaps: Arc<Gaps>,
     /// The places of those that are free among the gaps and slips.
     free: Vec<usize>,
-    /// None where none is.
-    factors: Option<DenseCholesky<f64>>,
+    factors: DenseCholesky<f64>,
 }
 
 /// The motions of a contact node that its gap and slip make: both, or the gap alone, by its one free
@@ -148,18 +147,11 @@ impl Gaps {
 
 impl FreeGaps {
     fn new(gaps: Arc<Gaps>, free: Vec<usize>) -> Option<Self> {
-        if free.is_empty() {
-            return Some(FreeGaps { gaps, free, factors: None });
-        }
         let (n, schur) = (free.len(), gaps.condensed.schur());
-        let matrix =
-            DMatrix::from_fn(n, n, |i, j| if i < j { 0.0 } else { schur[(free[i], free[j])] });
+        let matrix = DMatrix::from_fn(n, n, |i, j| schur[(free[i], free[j])]);
         let factors = DenseCholesky::new(&matrix).ok()?;
-        holds(&factors, &gaps.diagonal.select_rows(&free)).then_some(FreeGaps {
-            gaps,
-            free,
-            factors: Some(factors),
-        })
+        let is_held = holds(&factors, &gaps.diagonal.select_rows(&free));
+        is_held.then_some(FreeGaps { gaps, free, factors })
     }
 }
 
@@ -169,10 +161,7 @@ impl Factors<f64> for FreeGaps {
         let mut last = DVector::zeros(self.gaps.diagonal.len());
         self.free.iter().zip(b.iter().skip(first)).for_each(|(k, b)| last[*k] = *b);
         let [z, left] = self.gaps.condensed.eliminate(b.rows(0, first).into_owned(), last.clone());
-        let free = match &self.factors {
-            Some(factors) => factors.solve(&left.select_rows(&self.free)),
-            None => DVector::zeros(0),
-        };
+        let free = self.factors.solve(&left.select_rows(&self.free));
         last.fill(0.0);
         self.free.iter().zip(&free).for_each(|(k, x)| last[*k] = *x);
         let x = self.gaps.condensed.expand(z, &last);
