@@ -13,10 +13,10 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_lower_triangular_transpose_in_place,
 };
-use faer::{Conj, MatMut, Par, Side};
+use faer::{Conj, Par, Side};
 use nalgebra::DVector;
 
-use super::factors::Native;
+use super::factors::{Native, column};
 use super::symmetric::SparseSymmetric;
 
 /// Returns whether a pivot is more than what rounding may leave of its diagonal entry `a`, even in a
@@ -187,10 +187,4 @@ fn with_scratch<T: Native>(
 ) {
     let scratch = factor.symbolic().solve_in_place_scratch::<T>(1, Par::Seq);
     solve(MemStack::new(&mut MemBuffer::new(scratch)));
-}
-
-/// A vector as faer takes it.
-fn column<T>(x: &mut [T]) -> MatMut<'_, T> {
-    let n = x.len();
-    MatMut::from_column_major_slice_mut(x, n, 1)
 }

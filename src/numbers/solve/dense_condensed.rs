@@ -15,6 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::dense::DenseCholesky;
+use super::factors::column;
 
 /// The columns that are computed together, whatever the number of threads.
 const STRIP: usize = 64;
@@ -67,7 +68,7 @@ impl DenseCondensed {
     /// is left of the last one.
     pub fn eliminate(&self, first: DVector<f64>, last: DVector<f64>) -> [DVector<f64>; 2] {
         let mut z = first;
-        solve_lower_triangular_in_place(self.first.lower(), column(&mut z), Par::Seq);
+        solve_lower_triangular_in_place(self.first.lower(), column(z.as_mut_slice()), Par::Seq);
         let last = last - self.across.tr_mul(&z);
         [z, last]
     }
@@ -76,7 +77,7 @@ impl DenseCondensed {
     pub fn expand(&self, z: DVector<f64>, last: &DVector<f64>) -> DVector<f64> {
         let mut x = z - &self.across * last;
         let upper = self.first.lower().transpose();
-        solve_upper_triangular_in_place(upper, column(&mut x), Par::Seq);
+        solve_upper_triangular_in_place(upper, column(x.as_mut_slice()), Par::Seq);
         x
     }
 
@@ -84,10 +85,4 @@ impl DenseCondensed {
     pub fn first(&self) -> &DenseCholesky<f64> {
         &self.first
     }
-}
-
-/// A vector as faer takes it.
-fn column(x: &mut DVector<f64>) -> MatMut<'_, f64> {
-    let n = x.len();
-    MatMut::from_column_major_slice_mut(x.as_mut_slice(), n, 1)
 }

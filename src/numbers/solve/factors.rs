@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use faer::MatRef;
 use faer::linalg::solvers::Solve;
 use faer::traits::RealField;
+use faer::{MatMut, MatRef};
 use nalgebra::DVector;
 
 use crate::numbers::scalar::Scalar;
@@ -53,6 +53,12 @@ pub struct Singular {
 pub fn solve<T: Native>(factors: &impl Solve<T>, b: &DVector<T>) -> DVector<T> {
     let x = factors.solve(MatRef::from_column_major_slice(b.as_slice(), b.len(), 1));
     DVector::from_fn(b.len(), |i, _| x[(i, 0)])
+}
+
+/// A vector as faer takes it.
+pub fn column<T>(x: &mut [T]) -> MatMut<'_, T> {
+    let n = x.len();
+    MatMut::from_column_major_slice_mut(x, n, 1)
 }
 
 /// Returns the largest |x|, NaN left out.
