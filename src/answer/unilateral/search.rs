@@ -152,12 +152,16 @@ impl Problem<'_> {
     ) -> Result<Iteration, Error> {
         let mut statuses = start.unwrap_or_else(|| self.first(place, setting.before));
         let limit = PATIENCE + self.model.contact.nodes.len();
-        for _ in 0..limit {
+        let mut against = String::new();
+        for k in 1..=limit {
             let iteration = self.iteration(place, statuses, setting, memory)?;
             watch(place, &iteration);
             let wanted = self.wanted(place, &iteration, setting, memory.iterations == 1);
             if wanted == iteration.statuses {
                 return Ok(iteration);
+            }
+            if k == limit {
+                against = self.against(&iteration, &wanted);
             }
             statuses = memory.next(&iteration.statuses, wanted);
         }
@@ -166,10 +170,27 @@ impl Problem<'_> {
             false => "",
         };
         let what = format!(
-            "no contact state in equilibrium was found in {limit} iterations{}{never_slides}",
+            "no contact state in equilibrium was found in {limit} iterations{}{against}{never_slides}",
             memory.returned()
         );
         Err(NoEquilibrium { what }.into())
+    }
+
+    /// Says why an iteration asks for other statuses, of the first node that is to change.
+    fn against(&self, iteration: &Iteration, wanted: &[Status]) -> String {
+        let change = (0..wanted.len()).find(|&i| wanted[i] != iteration.statuses[i]);
+        let Some(i) = change else { return String::new() };
+        let why = match (iteration.statuses[i], wanted[i]) {
+            (Status::Open, _) => {
+                let depth = iteration.gaps[i].map_or(0.0, |gap| -gap);
+                format!("is open and {depth:.1e} inside the target")
+            }
+            (_, Status::Open) => {
+                format!("is closed by a force of {:.1e}", iteration.moved.forces[i].normal)
+            }
+            _ => "slides or sticks against its friction".into(),
+        };
+        format!("; in the last, node {} {why}", self.model.contact.nodes[i])
     }
 
     fn first(&self, place: &Place, u: &DVector<f64>) -> Vec<Status> {
