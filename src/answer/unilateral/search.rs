@@ -181,14 +181,9 @@ impl Problem<'_> {
         let change = (0..wanted.len()).find(|&i| wanted[i] != iteration.statuses[i]);
         let Some(i) = change else { return String::new() };
         let why = match (iteration.statuses[i], wanted[i]) {
-            (Status::Open, _) => {
-                let depth = iteration.gaps[i].map_or(0.0, |gap| -gap);
-                format!("is open and {depth:.1e} inside the target")
-            }
-            (_, Status::Open) => {
-                format!("is closed by a force of {:.1e}", iteration.moved.forces[i].normal)
-            }
-            _ => "slides or sticks against its friction".into(),
+            (Status::Open, _) => "is open inside the target",
+            (_, Status::Open) => "is closed and pulls",
+            _ => "slides or sticks against its friction",
         };
         format!("; in the last, node {} {why}", self.model.contact.nodes[i])
     }
