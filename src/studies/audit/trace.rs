@@ -42,7 +42,7 @@ pub struct Step {
     pub held: Option<bool>,
     /// The operands of an `∧`, each with its truth; none where it failed or was not evaluated.
     pub operands: Vec<(String, Option<bool>)>,
-    /// What was read, in order.
+    /// What was read, in order, each value of a name once.
     pub reads: Vec<Access>,
     /// What was written, in order.
     pub writes: Vec<Access>,
@@ -160,15 +160,21 @@ fn turn_begun(which: Which, text: &str, done: &Executed) -> Option<Option<usize>
 
 impl Step {
     fn new(turn: Option<usize>, done: &Executed) -> Self {
-        let all = |named: &[Named]| named.iter().map(Access::new).collect();
+        // A long line may read the same array a hundred times.
+        let mut reads: Vec<&Named> = Vec::new();
+        for read in &done.reads {
+            if !reads.contains(&read) {
+                reads.push(read);
+            }
+        }
         Step {
             turn,
             line: done.line,
             in_file: done.in_file,
             held: done.held,
             operands: done.operands.clone(),
-            reads: all(&done.reads),
-            writes: all(&done.writes),
+            reads: reads.into_iter().map(Access::new).collect(),
+            writes: done.writes.iter().map(Access::new).collect(),
         }
     }
 }
