@@ -31,7 +31,9 @@ pub fn hold(data: &[u8]) {
     };
     is_written(&solution);
     match request.variant {
-        Variant::Unilateral => assert_eq!(pulling(&solution.contact), []),
+        Variant::Unilateral => {
+            assert_eq!(pulling(&solution.contact, solution.model.load.amax()), []);
+        }
         _ => is_confirmed(&solution),
     }
 }

@@ -200,10 +200,12 @@ fn nodes_pull_by_more_than_rounding() {
             node(4, None, true),
             node(5, part(0.5), true),
         ];
-        let found: Vec<usize> = pulling(&surface).iter().map(|node| node.index()).collect();
+        let found: Vec<usize> = pulling(&surface, 0.0).iter().map(|node| node.index()).collect();
         assert_eq!(found, if largest < 0.0 { vec![0, 2] } else { vec![2] });
     }
-    assert_eq!(pulling(&[node(0, Some(0.0), true)]), []);
+    assert_eq!(pulling(&[node(0, Some(0.0), true)], 0.0), []);
+    let little = [node(0, Some(-1e-12), true)];
+    assert_eq!([0.0, 0.09, 0.11].map(|load| pulling(&little, load).len()), [1, 1, 0]);
 }
 
 /// Two edges of the target over each other: only where they are as far as each other from the

@@ -42,12 +42,12 @@ pub struct ContactNode {
     pub friction_needed: Option<f64>,
 }
 
-/// The force over the largest of a surface below which it is rounding.
+/// The force over the largest of a surface, or of the load, below which it is rounding.
 const ROUNDING: f64 = 1e-11;
 
-/// Returns the nodes in contact that pull by more than rounding.
-pub fn pulling(surface: &[ContactNode]) -> Vec<NodeId> {
-    let least = ROUNDING * largest(surface.iter().map(|node| node.force));
+/// Returns the nodes in contact that pull by more than rounding; the largest force of the load is `load`.
+pub fn pulling(surface: &[ContactNode], load: f64) -> Vec<NodeId> {
+    let least = ROUNDING * largest(surface.iter().map(|node| node.force)).max(load);
     let pulls = |node: &&ContactNode| node.force.is_some_and(|force| force < -least);
     surface.iter().filter(|node| node.in_contact).filter(pulls).map(|node| node.node).collect()
 }

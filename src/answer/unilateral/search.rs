@@ -31,7 +31,7 @@ const STALLED: f64 = 1e-8;
 /// The number of shapes in which contact is measured before the search ends.
 const SHAPES: usize = 60;
 
-/// The part of the largest force below which a pull is rounding.
+/// The part of the largest force, the loads among them, below which a pull is rounding.
 const PULL: f64 = 1e-11;
 
 impl Problem<'_> {
@@ -205,7 +205,8 @@ impl Problem<'_> {
         let growth = first && setting.statuses.is_none();
         let deep = if growth { FIRST_GROWTH * iteration.violation } else { 0.0 }.max(self.closed);
         let rounding = CONE * iteration.moved.u.amax();
-        let largest = iteration.moved.forces.iter().map(|f| f.normal).fold(0.0, f64::max);
+        let forces = iteration.moved.forces.iter().map(|f| f.normal);
+        let largest = forces.fold(setting.load.amax(), f64::max);
         let status = |i: usize| {
             let (Some(pairing), Some(gap)) = (&place.pairings[i], iteration.gaps[i]) else {
                 return Status::Open;

@@ -78,6 +78,6 @@ fn end(case: &Case, solution: &Solution) -> End {
         bodies: summaries(solution),
         distance: case.equilibrium().map(|other| distance(solution, other)),
         friction_needed: needed.reduce(f64::max),
-        pulling: pulling(&solution.contact),
+        pulling: pulling(&solution.contact, solution.model.load.amax()),
     }
 }
