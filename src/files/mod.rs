@@ -30,10 +30,18 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// # Errors
 /// They cannot be read, or there are more.
 pub fn read_from(source: impl Read) -> io::Result<Vec<u8>> {
+    read_up_to(source, MOST)
+}
+
+/// Reads up to `most` bytes to their end.
+///
+/// # Errors
+/// They cannot be read, or there are more.
+pub fn read_up_to(source: impl Read, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    source.take(MOST + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MOST {
-        let why = format!("it has more than {MOST} bytes");
+    source.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let why = format!("it has more than {most} bytes");
         return Err(io::Error::new(io::ErrorKind::FileTooLarge, why));
     }
     Ok(bytes)

@@ -69,6 +69,27 @@ fn what_has_no_end_is_not_read() {
     refused(folder.path(), "$P solve - < /dev/zero", &["standard input", "more than"]);
 }
 
+/// A program in the place of `ccx` that prints without end is ended, though it would sleep then.
+#[test]
+fn what_a_program_prints_without_end_is_not_kept() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let ccx = folder.path().join("ccx");
+    let id = folder.path().join("id");
+    let script = format!("#!/bin/sh\necho $$ >'{}'; yes; sleep 60\n", id.display());
+    std::fs::write(&ccx, script).expect("it is written");
+    std::fs::set_permissions(&ccx, std::fs::Permissions::from_mode(0o755)).expect("executable");
+    for ccx in ["yes", "./ccx"] {
+        let line =
+            format!("ulimit -v 1000000; $P compare fig1 --with calculix --ccx {ccx} --out o");
+        let words =
+            format!("{ccx} was ended, as its output cannot be read: it has more than 16777216");
+        refused(folder.path(), &line, &[&words, "name its program with --ccx"]);
+    }
+    let id = std::fs::read_to_string(id).expect("a number");
+    assert!(!Path::new("/proc").join(id.trim()).exists(), "it is still there");
+}
+
 /// A file of 2 GB without a byte on the disk.
 #[test]
 fn a_mesh_file_beyond_the_memory_is_refused_before_it_is_read() {

@@ -1,19 +1,23 @@
 //! Runs of `ccx`, each in a temporary folder.
 
+use std::io::{self, PipeReader};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Child, Command, ExitStatus, Stdio};
 
 use super::deck::deck;
 use super::fields::Fields;
 use super::problem::{Part, Problem};
 use super::results::parse;
 use crate::error::{InputError, Result};
-use crate::files::Staged;
+use crate::files::{self, Staged};
 use crate::problem::model::Model;
 use crate::problem::scene::Scene;
 
 /// How many of the last lines of a failed run are shown.
 const TAIL: usize = 12;
+
+/// The bytes that a run may print.
+const PRINTED: u64 = 1 << 24;
 
 /// What a run of `ccx` computed.
 pub struct Ran {
@@ -44,10 +48,9 @@ fn print(program: &str, deck: &str) -> Result<String> {
     };
     let folder = Staged::new(&std::env::temp_dir()).map_err(no_folder)?;
     std::fs::write(folder.path().join("job.inp"), deck).map_err(no_folder)?;
-    let output = start(program, &["job"], folder.path())?;
-    let text = text(&output);
-    if !output.status.success() || text.contains("*ERROR") {
-        return Err(failed(program, &format!("failed ({})", output.status), &text));
+    let (status, text) = ended(program, &["job"], folder.path())?;
+    if !status.success() || text.contains("*ERROR") {
+        return Err(failed(program, &format!("failed ({status})"), &text));
     }
     std::fs::read_to_string(folder.path().join("job.dat"))
         .map_err(|why| failed(program, &format!("left no results ({why})"), &text))
@@ -55,24 +58,40 @@ fn print(program: &str, deck: &str) -> Result<String> {
 
 /// The last word of `ccx -v`: "This is Version 2.20".
 fn version(program: &str) -> Result<String> {
-    let output = start(program, &["-v"], Path::new("."))?;
-    Ok(text(&output).split_whitespace().last().unwrap_or("unknown").to_string())
+    let (_, text) = ended(program, &["-v"], Path::new("."))?;
+    Ok(text.split_whitespace().last().unwrap_or("unknown").to_string())
 }
 
-/// Starts `program` on one thread: with several, sums come in any order.
-fn start(program: &str, args: &[&str], folder: &Path) -> Result<Output> {
-    let mut command = Command::new(program);
-    command.args(args).current_dir(folder).env("OMP_NUM_THREADS", "1");
-    command.output().map_err(|why| {
-        let what = format!("{program} cannot be started: {why}");
+/// Runs `program` to its end, and returns how it ended and what it printed; one that prints without
+/// end is killed.
+fn ended(program: &str, args: &[&str], folder: &Path) -> Result<(ExitStatus, String)> {
+    let fault = |what: String| {
         let fix = "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name \
                    its program with --ccx";
         InputError::new("ccx", what, fix)
-    })
+    };
+    let (mut child, output) = start(program, args, folder)
+        .map_err(|why| fault(format!("{program} cannot be started: {why}")))?;
+    let printed = files::read_up_to(output, PRINTED);
+    if printed.is_err() {
+        // One that has ended by itself cannot be killed.
+        let _ = child.kill();
+    }
+    let status = child.wait();
+    let read = printed.and_then(|bytes| Ok((status?, bytes)));
+    let (status, bytes) = read.map_err(|why| {
+        fault(format!("{program} was ended, as its output cannot be read: {why}"))
+    })?;
+    Ok((status, String::from_utf8_lossy(&bytes).into_owned()))
 }
 
-fn text(output: &Output) -> String {
-    [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes)).concat()
+/// Starts `program` on one thread: with several, sums come in any order. Both of its outputs come
+/// in one.
+fn start(program: &str, args: &[&str], folder: &Path) -> io::Result<(Child, PipeReader)> {
+    let (output, input) = io::pipe()?;
+    let mut command = Command::new(program);
+    command.args(args).current_dir(folder).env("OMP_NUM_THREADS", "1").stdin(Stdio::null());
+    Ok((command.stdout(input.try_clone()?).stderr(input).spawn()?, output))
 }
 
 fn failed(program: &str, how: &str, output: &str) -> InputError {
