@@ -70,16 +70,18 @@ pub fn run(args: &Args) -> Result<()> {
     Ok(())
 }
 
-/// Writes a snapshot; an existing file with another content is kept.
+/// Writes a snapshot; an existing file with another content is kept. What is no ordinary file (a
+/// pipe, a device) has no content.
 fn write_new(file: &Path, text: &str) -> Result<()> {
-    match std::fs::read(file) {
-        Ok(there) if there != text.as_bytes() => {
-            let what = "there is another snapshot";
-            let fix = "see what differs by `plane-contact verify`, take new values by `accept`, or \
-                       delete the file";
-            Err(InputError::new(file.display().to_string(), what, fix).into())
-        }
-        Ok(_) => Ok(()),
-        Err(_) => Ok(files::write(file, text)?),
+    if !file.is_file() {
+        return Ok(files::write(file, text)?);
     }
+    let what = match files::read(file) {
+        Ok(there) if there == text.as_bytes() => return Ok(()),
+        Ok(_) => "there is another snapshot".into(),
+        Err(why) => format!("the file that is there cannot be read: {why}"),
+    };
+    let fix = "see what differs by `plane-contact verify`, take new values by `accept`, or delete \
+               the file";
+    Err(InputError::new(file.display().to_string(), what, fix).into())
 }

@@ -67,6 +67,20 @@ fn what_has_no_end_is_not_read() {
         refused(folder.path(), &format!("$P {command} /dev/zero"), &words);
     }
     refused(folder.path(), "$P solve - < /dev/zero", &["standard input", "more than"]);
+    // What is no file has no snapshot and no rows that are kept.
+    let sweep = r#"{"format": 1, "scene": "fig1", "list": []}"#;
+    std::fs::write(folder.path().join("sweep.json"), sweep).expect("it is written");
+    for (command, device) in
+        [("record fig1", "null"), ("record fig1", "zero"), ("sweep sweep.json", "zero")]
+    {
+        let line = format!("ln -sf /dev/{device} to; ulimit -v 3000000; $P {command} --out to");
+        assert_eq!(shell(folder.path(), &line).status.code(), Some(0), "{line}");
+    }
+    let kept = std::fs::File::create(folder.path().join("long.json")).expect("a file");
+    kept.set_len(300_000_000).expect("a length");
+    let words = ["long.json", "there cannot be read", "more than 268435456 bytes"];
+    refused(folder.path(), "$P record fig1 --out long.json", &words);
+    assert_eq!(kept.metadata().expect("a file").len(), 300_000_000);
 }
 
 /// A program in the place of `ccx` that prints without end is ended, though it would sleep then.

@@ -248,6 +248,16 @@ fn a_second_sweep_of_the_same_rows_is_refused() {
     assert!(status == 2 && errors.contains("another sweep writes these rows"), "{errors}");
 }
 
+/// Rows for which there is no file leave none beside it either.
+#[test]
+fn rows_that_would_be_a_folder_are_refused_and_leave_nothing() {
+    let folder = folder(&of_fig1(4));
+    let (status, _, errors) = ran(folder.path(), &["sweep", "sweep.json", "--out", "."]);
+    assert!(status == 2 && errors.contains("it is a folder"), "{errors}");
+    let left = std::fs::read_dir(folder.path()).expect("a folder").count();
+    assert_eq!(left, 1, "the sweep alone");
+}
+
 /// A row that cannot be written is worth another try: the exit status says so to an engine.
 #[cfg(target_os = "linux")]
 #[test]

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::studies::sweep::Row;
 use serde_json::{Value, json};
 
@@ -27,6 +28,9 @@ impl Journal {
     /// # Errors
     /// It cannot be written, or another sweep writes it.
     pub fn open(out: &Path) -> Result<Self> {
+        if out.is_dir() {
+            return Err(fault(out, &"it is a folder").into());
+        }
         let mut name = out.as_os_str().to_owned();
         name.push(".journal");
         let path = PathBuf::from(name);
@@ -46,18 +50,15 @@ impl Journal {
         Ok(Journal { path, file })
     }
 
-    /// Returns the rows that are known, by key: those of `out`, and those of the journal.
+    /// Returns the rows that are known, by key: those of `out`, and those of the journal. What is no
+    /// ordinary file (a pipe, a device) has none.
     ///
     /// # Errors
     /// A file cannot be read.
     pub fn known(&mut self, out: &Path) -> Result<HashMap<String, Row>> {
         let mut known = HashMap::new();
-        for path in [out, &self.path] {
-            match std::fs::read(path) {
-                Ok(text) => known.extend(rows(&text)),
-                Err(why) if why.kind() == std::io::ErrorKind::NotFound => {}
-                Err(why) => return Err(fault(path, &why).into()),
-            }
+        for path in [out, &self.path].into_iter().filter(|path| path.is_file()) {
+            known.extend(rows(&std::fs::read(path).map_err(|why| fault(path, &why))?));
         }
         // What an interruption cut off must not run into the next line.
         let torn =
@@ -111,7 +112,7 @@ pub fn in_folder(folder: &Path) -> Result<Vec<(String, Row)>> {
     for entry in std::fs::read_dir(folder).map_err(|why| fault(folder, &why))? {
         let path = entry.map_err(|why| fault(folder, &why))?.path();
         if path.extension().is_some_and(|extension| extension == "json") {
-            found.extend(rows(&std::fs::read(&path).map_err(|why| fault(&path, &why))?));
+            found.extend(rows(&files::read(&path).map_err(|why| fault(&path, &why))?));
         }
     }
     Ok(found)
