@@ -81,7 +81,7 @@ fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
     std::fs::create_dir_all(folder)?;
     let _undisturbed = staged::registry();
     let mut file = staged::file(folder)?;
-    file.write_all(content)?;
+    file.as_file_mut().write_all(content)?;
     file.persist(path).map_err(|failed| failed.error)?;
     Ok(())
 }

@@ -3,7 +3,7 @@
 //!
 //! Each is locked as long as its process lives. Whoever finds one without a lock may remove it.
 
-use std::fs::{File, Permissions};
+use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -47,7 +47,7 @@ impl Staged {
         let mut folders = registry();
         let _alone = locked(home);
         remove_left(home);
-        let path = builder(0o777).tempdir_in(home).map_err(unnamed)?.keep();
+        let path = make(home, |path| std::fs::create_dir(path))?.into_temp_path().keep()?;
         folders.push(path.clone());
         Ok(Staged { _alive: locked(&path), path })
     }
@@ -70,15 +70,10 @@ impl Drop for Staged {
 pub(super) fn file(home: &Path) -> io::Result<NamedTempFile> {
     let _alone = locked(home);
     remove_left(home);
-    let file = builder(0o666).tempfile_in(home).map_err(unnamed)?;
+    let file = make(home, |path| File::create_new(path))?;
     // Where files cannot be locked, nothing is removed that was left.
     let _ = file.as_file().try_lock();
     Ok(file)
-}
-
-/// Returns an error without the name of what is temporary, which no two runs share.
-fn unnamed(why: io::Error) -> io::Error {
-    why.kind().into()
 }
 
 /// Waits for the lock of a folder; None where it has none.
@@ -100,15 +95,9 @@ fn remove_left(home: &Path) {
     }
 }
 
-/// Names what is temporary, with the permissions that other files and folders have; those of
-/// tempfile are the owner's alone.
-fn builder(mode: u32) -> Builder<'static, 'static> {
-    let mut builder = Builder::new();
-    builder.prefix(PREFIX);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(Permissions::from_mode(mode));
-    }
-    builder
+/// Makes what is temporary in `home`, with the permissions and the errors of other files and
+/// folders: those that tempfile makes are the owner's alone, and its errors hold names that no two
+/// runs share.
+fn make<T>(home: &Path, new: impl Fn(&Path) -> io::Result<T>) -> io::Result<NamedTempFile<T>> {
+    Builder::new().prefix(PREFIX).make_in(home, new)
 }
