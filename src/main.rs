@@ -69,7 +69,7 @@ enum Command {
 
 fn main() -> ExitCode {
     #[cfg(unix)]
-    end_by_signals();
+    heed_signals();
     let done = |()| 0;
     // Every command that prints JSON has this option.
     let json = std::env::args_os().any(|arg| arg == "--json");
@@ -122,14 +122,27 @@ fn main() -> ExitCode {
     }
 }
 
-/// Has SIGINT and SIGTERM end the process as they do by themselves, once nothing temporary is left.
+/// Has SIGINT and SIGTERM end the process as they do by themselves, once nothing temporary is left;
+/// and has a file that may not grow further be an error of its writing, not the end of the process.
 #[cfg(unix)]
-fn end_by_signals() {
-    use signal_hook::consts::{SIGINT, SIGTERM};
-    use signal_hook::{iterator::Signals, low_level::emulate_default_handler};
-    let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+fn heed_signals() {
+    use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
+    use signal_hook::{flag, iterator::Signals, low_level::emulate_default_handler};
+    let _ = flag::register(SIGXFSZ, Default::default());
+    let ending = [SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
+    let Ok(mut signals) = Signals::new(ending) else { return };
     let end = |signal| files::abandon(|| emulate_default_handler(signal).unwrap_or_default());
     std::thread::spawn(move || signals.forever().for_each(end));
+}
+
+/// Returns whether a signal is ignored from the start, as SIGINT is in the background of a shell's
+/// script. Only Linux says so.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let set = ignored.and_then(|digits| u64::from_str_radix(digits.trim(), 16).ok());
+    set.is_some_and(|set| set >> (signal - 1) & 1 == 1)
 }
 
 /// Returns a fault of the command line.

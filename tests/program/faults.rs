@@ -74,8 +74,10 @@ fn whole(folder: &Path) -> ([Files; 2], Duration) {
     (found, longest)
 }
 
+/// Starts the program so that it heeds SIGINT, also where the tests run in the background.
 fn start(folder: &Path, args: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_plane-contact"))
+    Command::new("env")
+        .args(["--default-signal=INT", env!("CARGO_BIN_EXE_plane-contact")])
         .args(args)
         .current_dir(folder)
         .stdout(Stdio::null())
@@ -237,7 +239,7 @@ fn what_cannot_be_written_leaves_the_old_files() {
         (format!("{solve} file/o"), ["file/o", "file is a file"]),
         (format!("{solve} p"), ["where: ", "result.json is a folder in it"]),
         (format!("{solve} /proc/o"), ["/proc/o", "No such file or directory (os error 2)"]),
-        (format!("trap '' XFSZ; ulimit -f 8; {solve} o"), ["where: ", "File too large"]),
+        (format!("ulimit -f 8; {solve} o"), ["where: ", "File too large (os error 27)"]),
     ] {
         refused(folder.path(), &line, &words);
         refused(folder.path(), &line, &["fix:   choose another place"]);
@@ -250,6 +252,38 @@ fn what_cannot_be_written_leaves_the_old_files() {
     assert_eq!(staged(folder.path()), [""; 0]);
     let gone = "mkdir q && cd q && rm -r ../q && $P solve fig1 --out o";
     refused(folder.path(), gone, &["cannot be written"]);
+}
+
+/// The system ends a process whose file grows beyond a limit, unless the process heeds its signal.
+#[test]
+fn a_file_that_may_not_grow_is_named_and_leaves_nothing() {
+    let folder = TempDir::new().expect("a folder");
+    let sweep =
+        r#"{"format": 1, "scene": "fig1", "grid": {"/options/variant": ["tied", "stepped"]}}"#;
+    std::fs::write(folder.path().join("sweep.json"), sweep).expect("it is written");
+    for (command, file) in [
+        ("audit fig1 --out", "a"),
+        ("mesh cook --n 50 --out", "m"),
+        ("record fig1 --out", "r.json"),
+        ("lesson fig1 --out", "page.html"),
+        ("report fig1 --out", "report.html"),
+        ("sweep sweep.json --out", "rows.jsonl"),
+        ("km fig1 >", "standard output"),
+    ] {
+        let out = file.replace(' ', "-");
+        let line = format!("ulimit -f 1; $P {command} {out}");
+        refused(folder.path(), &line, &[&format!("where: {file}"), "too large (os error 27)\n"]);
+    }
+    assert_eq!(staged(folder.path()), [""; 0]);
+}
+
+/// A job in the background of a shell's script is not ended by the key that ends the script.
+#[test]
+fn an_interrupt_that_is_ignored_stays_so() {
+    let folder = TempDir::new().expect("a folder");
+    let kills = "sleep 0.3; kill -INT $!; sleep 0.3; kill -TERM $!; wait $!";
+    let line = format!("mkfifo f; trap '' INT; $P solve f & {kills}");
+    assert_eq!(shell(folder.path(), &line).status.code(), Some(128 + 15));
 }
 
 /// A disk that is mounted for reading alone, where a user may mount one.
