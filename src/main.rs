@@ -75,12 +75,14 @@ fn main() -> ExitCode {
     let json = std::env::args_os().any(|arg| arg == "--json");
     let command = match Cli::try_parse() {
         Ok(Cli { command }) => command,
-        Err(why) => {
-            if json && why.use_stderr() {
+        Err(why) if why.use_stderr() => {
+            if json {
                 let _ = commands::print(&failure(&usage(&why)));
             }
             why.exit()
         }
+        // What was asked for is help, or the version.
+        Err(why) => return ended(commands::print_by(|_| why.print()).map(done), json),
     };
     let result = match command {
         Command::Record(args) => commands::record::run(&args).map(done),
@@ -111,6 +113,11 @@ fn main() -> ExitCode {
         Command::Extremes(args) => commands::extremes::run(&args).map(done),
         Command::Schema(args) => commands::schema::run(&args).map(done),
     };
+    ended(result, json)
+}
+
+/// Returns the exit status of what was done, once an error is said.
+fn ended(result: Result<u8, Error>, json: bool) -> ExitCode {
     match result {
         Ok(status) => ExitCode::from(status),
         Err(error) => {

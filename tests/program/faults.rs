@@ -317,5 +317,9 @@ fn a_poor_environment_changes_nothing_but_the_width() {
         assert_eq!(shell(folder.path(), &line).status.code(), Some(0), "{line}");
         assert_eq!(files(&folder.path().join("o")), expected, "{line}");
     }
-    refused(folder.path(), &format!("{solve} >/dev/full"), &["standard output", "No space left"]);
+    for command in [solve, "$P --help", "$P solve --help", "$P --version"] {
+        let line = format!("{command} >/dev/full");
+        refused(folder.path(), &line, &["standard output", "No space left"]);
+    }
+    assert_eq!(shell(folder.path(), "$P --help | true").status.code(), Some(0));
 }
