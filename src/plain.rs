@@ -53,6 +53,9 @@ pub fn plain(error: &impl Display) -> String {
     if let Some(at) = text.strip_prefix("trailing characters ") {
         return format!("the list is too long, {at}");
     }
+    if let Some(rest) = text.strip_prefix("unknown variant ") {
+        return format!("unknown value {rest}");
+    }
     let starts = ["invalid type: ", "invalid value: ", "invalid "];
     let Some(rest) = starts.iter().find_map(|start| text.strip_prefix(start)) else { return text };
     let Some((found, expected)) = rest.split_once(", expected ") else { return text };

@@ -5,6 +5,7 @@ use std::path::Path;
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::plain::plain;
 use plane_contact::report::answers::{self as report, Marked};
 use plane_contact::studies::lesson::exercise::{ANSWERS, Answers};
 
@@ -34,6 +35,6 @@ fn marked(file: &Path) -> Result<Marked> {
         InputError::new(&name, what, "give files as the page of an exercise saves them")
     };
     let text = files::read(file).map_err(|why| fault(why.to_string()))?;
-    let answers: Answers = serde_json::from_slice(&text).map_err(|why| fault(why.to_string()))?;
+    let answers: Answers = serde_json::from_slice(&text).map_err(|why| fault(plain(&why)))?;
     Ok(Marked { file: name, marks: answers.marks(), answers })
 }

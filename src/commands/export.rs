@@ -153,7 +153,7 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
     if model.nodes.len() > MOST_NODES {
         let what =
             format!("the scene has {} nodes, at most {MOST_NODES} are written", model.nodes.len());
-        let fix = "make a coarser mesh: plane-contact mesh strand --size H";
+        let fix = "make a coarser mesh";
         return Err(InputError::new(&scene.name, what, fix).into());
     }
     if let Some(n) = model.dropped.first() {

@@ -38,9 +38,10 @@ use plane_contact::files;
 use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{
-    ContactModel, Coupling, Friction, Geometry, StatusRule, Variant,
+    ContactModel, Coupling, Friction, Geometry, StatusRule, Variant, check_iterations,
+    check_tolerance,
 };
-use plane_contact::problem::scene::{Scene, SceneBuilder};
+use plane_contact::problem::scene::{Load, Scene, SceneBuilder};
 use plane_contact::report::printed;
 
 /// The option that all commands share.
@@ -150,15 +151,25 @@ impl SceneArgs {
             return Ok(scene);
         };
         let (mut description, mesh) = (description.clone(), mesh.clone());
+        let at = |option: &'static str| move |why| InputError { place: option.into(), ..why };
         if let Some(tolerance) = self.c_tll {
+            check_tolerance(tolerance).map_err(at("--c-tll"))?;
             let contact = description.contact.as_mut().ok_or_else(|| {
                 InputError::new("--c-tll", "the scene has no contact", "leave it out")
             })?;
             contact.tolerance = tolerance;
         }
-        description.iterations = self.iterations.unwrap_or(description.iterations);
+        if let Some(iterations) = self.iterations {
+            check_iterations(iterations).map_err(at("--iterations"))?;
+            description.iterations = iterations;
+        }
         if let Some(factor) = self.load_factor {
             description.loads.iter_mut().for_each(|load| load.scale(factor));
+            if !description.loads.iter().all(Load::is_finite) {
+                let what = format!("{factor:e} times the loads is no finite number");
+                let fix = "give a number such as 0.5";
+                return Err(InputError::new("--load-factor", what, fix).into());
+            }
         }
         Ok(SceneBuilder { name: scene.name.clone(), mesh, description }.build()?)
     }

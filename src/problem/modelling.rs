@@ -165,7 +165,8 @@ pub fn check_tolerance(tolerance: f64) -> Result<()> {
     if tolerance >= 0.0 && tolerance.is_finite() {
         return Ok(());
     }
-    let what = format!("c_tll = {tolerance} is negative");
+    let fault = if tolerance.is_finite() { "negative" } else { "no finite number" };
+    let what = format!("c_tll = {tolerance} is {fault}");
     Err(InputError::new("contact.c_tll", what, "give 0 or more; the paper's is 0.001"))
 }
 

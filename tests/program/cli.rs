@@ -329,6 +329,24 @@ fn bad_input_is_exit_status_2_and_loses_no_file() {
 /// A link is written through, a pipe is written to: neither is replaced.
 #[cfg(unix)]
 #[test]
+fn a_change_of_a_scene_is_named_by_its_option() {
+    let folder = TempDir::new().unwrap();
+    for (change, what) in [
+        ("--c-tll=nan", "NaN is no finite number"),
+        ("--c-tll=inf", "inf is no finite number"),
+        ("--c-tll=-1", "c_tll = -1 is negative"),
+        ("--load-factor=nan", "NaN times the loads is no finite number"),
+        ("--load-factor=inf", "inf times the loads is no finite number"),
+        ("--load-factor=1e308", "1e308 times the loads is no finite number"),
+        ("--iterations=0", "0 iterations are outside"),
+    ] {
+        let option = change.split('=').next().unwrap();
+        let place = format!("where: {option}\n");
+        fails(folder.path(), &["solve", "fig1", change], 2, &[what, &place]);
+    }
+}
+
+#[test]
 fn links_and_pipes_stay_what_they_are() {
     let folder = TempDir::new().unwrap();
     let at = |name: &str| folder.path().join(name);

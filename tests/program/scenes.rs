@@ -105,7 +105,7 @@ fn fields() {
     let e = refused(|s| s["plane"] = json!("strian"));
     says(&e, "plane", &["\"strian\" is none of strain, stress"]);
     let e = refused(|s| s["restraints"][1]["fix"] = json!(["z"]));
-    says(&e, "restraints[1].fix[0]", &["unknown variant `z`, expected `x` or `y`"]);
+    says(&e, "restraints[1].fix[0]", &["unknown value `z`, expected `x` or `y`"]);
     let e = refused(|s| s["loads"][0]["on"] = json!([1]));
     says(&e, "loads[0].on", &["where the name or the tag of a physical group is expected"]);
     let e = refused(|s| s["materials"]["1"]["G"] = json!(1));
@@ -157,6 +157,18 @@ fn meshes() {
     says(&e, "triangles", &["triangle 10 (nodes [1, 2, 10]) runs clockwise", "area is -0.5"]);
     let e = refused(|s| s["node"][9] = json!([10, 2.0, 0.04, 0.0]));
     says(&e, "triangles", &["triangle 10 (nodes [1, 10, 2])", "area"]);
+    assert_eq!(e.fix, "move or merge its nodes");
+    for (factor, size) in [(1e160, "large"), (1e-170, "small")] {
+        let e = refused(|s| {
+            for node in s["node"].as_array_mut().unwrap() {
+                (1..3).for_each(|k| node[k] = json!(node[k].as_f64().unwrap() * factor));
+            }
+        });
+        says(&e, "triangles", &[&format!("has an area too {size} to represent")]);
+        assert_eq!(e.fix, "choose other units");
+    }
+    let e = refused(|s| s["node"][1][1] = json!(-1e200));
+    says(&e, "triangles", &["runs clockwise: its area is -", "e199"]);
     let e = refused(|s| push(&mut s["elem"], json!([19, 2, 2, 1, 1, 10, 2, 1])));
     says(&e, "elements", &["triangles 10 and 19 have the same nodes"]);
     let e = refused(|s| push(&mut s["elem"], json!([19, 1, 2, 1, 1, 2, 2])));

@@ -194,6 +194,12 @@ impl Load {
         let vectors = [&mut self.traction, &mut self.force].into_iter().flatten().flatten();
         vectors.chain(&mut self.pressure).for_each(|x| *x *= factor);
     }
+
+    /// Returns whether all its numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        let vectors = [self.traction, self.force].into_iter().flatten().flatten();
+        vectors.chain(self.pressure).all(f64::is_finite)
+    }
 }
 
 /// The two contact surfaces, the tolerance between them, and how contact is modelled.

@@ -2,7 +2,7 @@
 
 use super::{Element, Mesh, PhysicalName};
 use crate::error::{InputError, Result};
-use crate::problem::element;
+use crate::problem::element::{self, Corners};
 
 /// The largest tag that a Gmsh file can hold.
 const LARGEST_TAG: usize = i32::MAX as usize;
@@ -134,18 +134,26 @@ impl Mesh {
         if area > 0.0 && area.is_finite() {
             return Ok(());
         }
-        let (number, nodes) = (triangle.number, &triangle.nodes);
         let (what, fix) = if area < 0.0 {
-            (
-                format!("triangle {number} (nodes {nodes:?}) runs clockwise: its area is {area}"),
-                "list its nodes counter-clockwise (in Gmsh: ReverseMesh Surface)",
-            )
+            // Debug writes a large number with its exponent.
+            let what = format!("runs clockwise: its area is {area:?}");
+            (what, "list its nodes counter-clockwise (in Gmsh: ReverseMesh Surface)")
+        } else if area == 0.0 && is_flat(&self.corners(triangle)) {
+            ("has the area 0".into(), "move or merge its nodes")
         } else {
-            (
-                format!("triangle {number} (nodes {nodes:?}) has the area {area}"),
-                "move or merge its nodes",
-            )
+            let size = if area == 0.0 { "small" } else { "large" };
+            (format!("has an area too {size} to represent"), "choose other units")
         };
+        let what = format!("triangle {} (nodes {:?}) {what}", triangle.number, triangle.nodes);
         Err(InputError::new("the mesh's triangles", what, fix))
     }
+}
+
+/// Returns whether a triangle has no area in any units: once its longest side along x or y is 1.
+fn is_flat(corners: &Corners<f64>) -> bool {
+    let along = |k: usize| corners.map(|p| p[k] - corners[0][k]);
+    let sides = [along(0), along(1)];
+    let longest = sides.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
+    longest == 0.0
+        || element::area(&[0, 1, 2].map(|j| [0, 1].map(|k| sides[k][j] / longest))) == 0.0
 }
