@@ -57,7 +57,7 @@ impl Element {
 }
 
 /// Returns `text` for a place between tags or quotes. What XML 1.0 forbids becomes U+FFFD.
-fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let is_plain = |byte: u8| matches!(byte, b' '..=b'~') && !b"&<>\"".contains(&byte);
     if text.bytes().all(is_plain) {
         return text.into();

@@ -207,3 +207,43 @@ fn an_absurd_result_of_calculix_is_refused() {
     assert_eq!(output.status.code(), Some(2), "{error}");
     assert!(error.contains("-1e308") && error.contains("is not understood"), "{error}");
 }
+
+/// Characters that colour, ring, delete, clear the screen and turn the text around.
+const CONTROLS: &str = "\u{1b}[31m\u{7}\u{8}\u{9b}2J\u{202e}\u{2066}";
+
+/// Files that a scene's title goes into are of their format, whatever the title is.
+#[test]
+fn files_are_valid_whatever_a_title_is() {
+    let folder = TempDir::new().expect("a folder");
+    let mut scene = crate::common::embedded::scene_json("fig1");
+    scene["title"] = format!("a{CONTROLS}<&>\nquit()").into();
+    std::fs::write(folder.path().join("s.json"), scene.to_string()).expect("it is written");
+    std::fs::copy(folder.path().join("s.json"), folder.path().join("a\nb.json")).expect("a copy");
+    for args in [
+        &["solve", "s.json", "--out", "."][..],
+        &["export", "s.json", "--to", "mathcad", "--out", "s.xmcd"],
+        &["export", "s.json", "--to", "octave", "--out", "s.m"],
+        &["km", "a\nb.json", "--matrix-market", "s.mtx"],
+        &["report", "s.json", "--no-audit", "--variant", "tied", "--out", "s.html"],
+    ] {
+        assert_eq!(run(folder.path(), args).status.code(), Some(0), "{args:?}");
+    }
+    let text = |name: &str| {
+        let bytes = std::fs::read(folder.path().join(name)).expect(name);
+        String::from_utf8_lossy(&bytes).into_owned()
+    };
+    for name in ["mesh.svg", "von_mises_stress.svg", "pressure.svg", "s.xmcd"] {
+        roxmltree::Document::parse(&text(name)).unwrap_or_else(|why| panic!("{name}: {why}"));
+    }
+    let vtu = text("fields.vtu");
+    let (head, _) = vtu.split_once("<AppendedData").expect("arrays follow the XML");
+    roxmltree::Document::parse(&format!("{head}</VTKFile>")).expect("XML before the arrays");
+    let forbidden = |c: char| c < ' ' && !"\n\t\r".contains(c);
+    assert!(!text("s.html").contains(forbidden));
+    assert!(text("s.mtx").lines().nth(2).is_some_and(|sizes| sizes.starts_with("26 26 ")));
+    let octave = text("s.m");
+    assert!(
+        octave.lines().nth(1).is_some_and(|line| line.starts_with("% The listings")),
+        "{octave}"
+    );
+}

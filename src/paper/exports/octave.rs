@@ -91,7 +91,8 @@ pub fn program(export: &Export, name: &str) -> String {
     let mut text = format!(
         "% {}\n% The listings of A. M. Filipov and M. V. Khomenko as printed, for Octave and MATLAB.\n\
          % Readings: {}. Run: {name}\n",
-        export.title,
+        // One line, whatever it holds.
+        export.title.split_whitespace().collect::<Vec<_>>().join(" "),
         match export.reading.to_string() {
             given if given.is_empty() => "all by default".into(),
             given => given,

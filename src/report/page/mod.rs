@@ -10,6 +10,8 @@ pub mod report;
 
 use serde_json::Value;
 
+use crate::xml::escape;
+
 /// The style and the script that all pages share.
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
@@ -36,17 +38,12 @@ impl Page<'_> {
              <title>{}</title>\n<style>\n{STYLE}{}</style>\n</head>\n<body>\n{}\
              <script type=\"application/json\" id=\"data\">{}</script>\n\
              <script type=\"module\">\n\"use strict\";\n{script}</script>\n</body>\n</html>\n",
-            escaped(self.title),
+            escape(self.title),
             self.style,
             self.body,
             in_script(self.data),
         )
     }
-}
-
-/// Returns text for a place between tags.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// Returns JSON for a place within `<script>`, which `</script>` or `<!--` in a text would end.
