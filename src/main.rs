@@ -79,7 +79,7 @@ fn main() -> ExitCode {
             if json {
                 let _ = commands::print(&failure(&usage(&why)));
             }
-            why.exit()
+            return commands::no_command(&why);
         }
         // What was asked for is help, or the version.
         Err(why) => return ended(commands::print_by(|_| why.print()).map(done), json),

@@ -9,7 +9,7 @@ use plane_contact::report::snapshot as report;
 use plane_contact::studies::snapshot::{Chosen, accept, verify};
 
 use super::verify::read;
-use super::{print, waiting};
+use super::{print_fitted, waiting};
 
 /// Take new values into a snapshot, with a reason.
 #[derive(clap::Args)]
@@ -49,5 +49,5 @@ pub fn run(args: &Args) -> Result<()> {
     let (entry, reason, failing) = (args.entry.as_deref(), &args.reason[..], args.failing);
     let accepted = accept(&mut snapshot, &verified, Chosen { entry, reason, failing })?;
     files::write(&args.file, &report::file(&snapshot))?;
-    print(&report::accepted(&accepted))
+    print_fitted(&report::accepted(&accepted))
 }

@@ -9,7 +9,7 @@ use plane_contact::plain::plain;
 use plane_contact::report::answers::{self as report, Marked};
 use plane_contact::studies::lesson::exercise::{ANSWERS, Answers};
 
-use super::print;
+use super::print_either;
 
 /// Returns whether a file has answers: the kind that it names.
 pub fn are_in(file: &Path) -> bool {
@@ -24,7 +24,7 @@ pub fn are_in(file: &Path) -> bool {
 /// Marks the answers of files; returns whether all are right.
 pub fn verify(files: &[impl AsRef<Path>], json: bool) -> Result<bool> {
     let marked = files.iter().map(|file| marked(file.as_ref())).collect::<Result<Vec<_>>>()?;
-    print(&if json { report::json(&marked) } else { report::text(&marked) })?;
+    print_either(json, || report::json(&marked), || report::text(&marked))?;
     Ok(marked.iter().all(Marked::is_right))
 }
 

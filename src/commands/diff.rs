@@ -13,7 +13,7 @@ use plane_contact::report::snapshot::{self as report, Checked};
 use plane_contact::studies::snapshot::{Bounds, Snapshot, difference};
 
 use super::verify::{DIFFERS, read};
-use super::{print, waiting};
+use super::{print_either, waiting};
 
 /// Compare two snapshots, or a scene under two sets of options.
 #[derive(clap::Args)]
@@ -73,7 +73,7 @@ pub fn run(args: &Args) -> Result<u8> {
     })?;
     let file = format!("{} and {}", names[0], names[1]);
     let checked = [Checked { file, verified: difference(&sides[0], &sides[1]) }];
-    print(&if args.json { report::json(&checked) } else { report::text(&checked) })?;
+    print_either(args.json, || report::json(&checked), || report::text(&checked))?;
     let verified = &checked[0].verified;
     if let (Some(folder), Some((old, run))) = (&args.out, first_pair(&sides[0], verified)) {
         let written = report::difference_files(folder, &verified.input.build()?, [old, run])?;

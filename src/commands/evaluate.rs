@@ -10,7 +10,7 @@ use plane_contact::paper::mathcad::{Limits, Listing, Outcome, Settings, Sheet, V
 use plane_contact::plain::plain;
 use plane_contact::report::evaluation as report;
 
-use super::{print, told};
+use super::{print, print_fitted, told};
 
 /// Run a program in the notation of the listings.
 #[derive(clap::Args)]
@@ -68,7 +68,7 @@ pub fn run(args: &Args) -> Result<u8> {
         Ok(outcome) if args.json => {
             return print(&report::json(&outcome)).map(|()| 0);
         }
-        Ok(outcome) => return print(&shown(&outcome)).map(|()| 0),
+        Ok(outcome) => return print_fitted(&shown(&outcome)).map(|()| 0),
         Err(failure) => failure,
     };
     let fix = "correct the program or its inputs";

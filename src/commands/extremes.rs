@@ -8,7 +8,7 @@ use plane_contact::files;
 use plane_contact::report::extremes as report;
 use plane_contact::studies::extremes::{Generator, generators, measure};
 
-use super::{TablesArgs, folder, print, waiting};
+use super::{TablesArgs, folder, print, print_fitted, waiting};
 
 /// Sweep magnitudes until something breaks down, every answer compared with exact numbers.
 #[derive(clap::Args)]
@@ -43,7 +43,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let chosen = chosen(generators(), &args.names)?;
     if args.list {
-        return print(&report::list(&chosen));
+        return print_fitted(&report::list(&chosen));
     }
     let measured = waiting("sweeping", || measure(&chosen));
     let (text, json) = (report::text(&measured), report::json(&measured));

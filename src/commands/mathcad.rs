@@ -9,7 +9,7 @@ use plane_contact::paper::exports::probe;
 use plane_contact::paper::mathcad::{Limits, worksheet, xmcd::document};
 use plane_contact::report::worksheet as report;
 
-use super::{print, waiting};
+use super::{print_either, waiting};
 
 /// Execute a worksheet of Mathcad 13 to 15 beside the results that it saved.
 #[derive(clap::Args)]
@@ -36,10 +36,8 @@ pub fn run(args: &Args) -> Result<()> {
     let sheet = open(&args.file)?;
     let checked = waiting("executing", || worksheet::execute(&sheet, &limits()));
     let decided = probe::decided(&sheet, &checked);
-    match args.json {
-        true => print(&report::json(&args.file.display().to_string(), &checked, &decided)),
-        false => print(&report::text(&checked, &decided)),
-    }
+    let json = || report::json(&args.file.display().to_string(), &checked, &decided);
+    print_either(args.json, json, || report::text(&checked, &decided))
 }
 
 /// Reads a worksheet's file.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use plane_contact::answer::error::Result;
 use plane_contact::studies::benchmark::Kind;
 
-use super::{folder, print};
+use super::{folder, print_fitted};
 
 /// Generate a mesh and its scene: a benchmark, or the paper's example.
 #[derive(clap::Args)]
@@ -33,7 +33,7 @@ pub fn run(args: &Args) -> Result<()> {
     let (nodes, triangles) = (mesh.nodes.len(), mesh.of_dimension(2).count());
     let groups: Vec<&str> =
         mesh.names.iter().filter(|n| n.dim == 1).map(|n| n.name.as_str()).collect();
-    print(&format!(
+    print_fitted(&format!(
         "{nodes} nodes, {triangles} triangles, edges {}\nWritten to {}\n",
         groups.join(", "),
         out.display()

@@ -28,6 +28,7 @@ pub mod verify;
 
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -216,7 +217,8 @@ pub fn folder_name(start: String, request: &Request, more: &[String]) -> String 
     name
 }
 
-/// Prints to standard output; a reader that has gone away (`| head`) is no error.
+/// Prints a document or a file to standard output, as it is; a reader that has gone away (`| head`)
+/// is no error. Text for people goes through [`print_fitted`].
 pub fn print(text: &str) -> Result<()> {
     print_by(|out| out.write_all(text.as_bytes()))
 }
@@ -252,9 +254,23 @@ pub fn say_written(folder: &Path, written: bool) {
     });
 }
 
-/// Writes to standard error; where that cannot be written, results and exit status are as if it could.
+/// Writes to standard error, for people; where that cannot be written, results and exit status are as
+/// if it could.
 pub fn tell(text: &str) {
-    let _ = std::io::stderr().write_all(text.as_bytes());
+    let _ = std::io::stderr().write_all(printed::fitted(text, width()).as_bytes());
+}
+
+/// Shows the help that was asked for, with the styles of a terminal where it fits, or says why a
+/// command line is none; returns the exit status.
+pub fn no_command(why: &clap::Error) -> ExitCode {
+    let text = why.render().to_string();
+    if why.use_stderr() {
+        tell(&text);
+        return ExitCode::from(2);
+    }
+    let fits = text.lines().all(|line| line.chars().count() <= width());
+    let _ = if fits { why.print() } else { print_fitted(&text).map_err(io::Error::other) };
+    ExitCode::SUCCESS
 }
 
 /// Says on standard error why a command that printed its document fails, and returns the exit status.
@@ -298,16 +314,23 @@ impl TablesArgs {
     }
 }
 
-/// Prints a text for people, its tables and lines fitted to the terminal.
+/// Prints a text for people: its tables and lines fitted to the terminal, and nothing in it that
+/// commands one.
 pub fn print_fitted(text: &str) -> Result<()> {
-    match width() {
-        usize::MAX => print(text),
-        width => print(&printed::fitted(text, width)),
-    }
+    print(&printed::fitted(text, width()))
+}
+
+/// Prints a document, or in its place the text for people.
+pub fn print_either(
+    json: bool,
+    document: impl FnOnce() -> String,
+    text: impl FnOnce() -> String,
+) -> Result<()> {
+    if json { print(&document()) } else { print_fitted(&text()) }
 }
 
 /// Returns the characters of a line: those of the terminal; where there is none, of the variable
-/// COLUMNS, else any number, so that files and pipes have whole lines.
+/// COLUMNS, else any number, so that files and pipes have whole lines. Below 40 they are 40.
 pub fn width() -> usize {
     let columns = || std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
     let terminal = terminal_size::terminal_size().map(|(width, _)| width.0.into());

@@ -11,7 +11,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot as report;
 use plane_contact::studies::snapshot::{Bounds, Snapshot};
 
-use super::{ModelArgs, ReadingArg, print, waiting};
+use super::{ModelArgs, ReadingArg, print_fitted, waiting};
 
 /// Record what a scene gives, to be verified later: a regression snapshot.
 #[derive(clap::Args)]
@@ -65,7 +65,7 @@ pub fn run(args: &Args) -> Result<()> {
             .clone()
             .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
         write_new(&file, &report::file(&snapshot))?;
-        print(&(report::recorded(&snapshot) + &format!("Written to {}\n", file.display())))?;
+        print_fitted(&(report::recorded(&snapshot) + &format!("Written to {}\n", file.display())))?;
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ use plane_contact::studies::audit::findings::FINDINGS;
 use plane_contact::studies::benchmark::Kind;
 use plane_contact::suggestion::did_you_mean;
 
-use super::{print, print_fitted};
+use super::print_fitted;
 
 /// List the scenes that are part of the program, the findings' own, and the generators.
 #[derive(clap::Args)]
@@ -63,7 +63,7 @@ pub fn run_scene(args: &SceneArgs) -> Result<()> {
     written.push(("scene.json", scene.scene));
     files::write_all(&folder, "scene", &written)?;
     let folder = folder.display();
-    print(&format!("Written to {folder}; plane-contact solve {folder} runs it\n"))
+    print_fitted(&format!("Written to {folder}; plane-contact solve {folder} runs it\n"))
 }
 
 /// The scene of that name, or of the finding of that name.

@@ -4,7 +4,7 @@ use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::report::schema::SCHEMAS;
 
-use super::print;
+use super::{print, print_fitted};
 
 /// Print the JSON Schema of a file, or of what a command prints under --json.
 #[derive(clap::Args)]
@@ -33,7 +33,7 @@ pub fn run(args: &Args) -> Result<()> {
                 schema.commands.iter().map(|c| format!(", {c} --json")).collect();
             format!("{:<10}{}{commands}\n", schema.name, schema.of)
         };
-        return print(&SCHEMAS.iter().map(line).collect::<String>());
+        return print_fitted(&SCHEMAS.iter().map(line).collect::<String>());
     };
     let asked = |commands: &[&str]| commands.contains(&name.as_str());
     let schema = SCHEMAS.iter().find(|schema| schema.name == name || asked(schema.commands));

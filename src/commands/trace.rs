@@ -16,7 +16,7 @@ use plane_contact::report::changes::changes;
 use plane_contact::report::trace::{self as report, Shown, Telling, Traced};
 use plane_contact::studies::audit::trace::{self, Product, Step};
 
-use super::{ReadingArg, print, print_by, told, width};
+use super::{ReadingArg, print_by, print_fitted, told, width};
 
 /// Execute a listing and show, line by line, what each statement read and wrote.
 #[derive(clap::Args)]
@@ -101,7 +101,7 @@ pub fn run(args: &Args) -> Result<u8> {
     match outcome.into_inner().expect("it is executed") {
         Err(failure) => return Err(blame(&failure)),
         Ok((product, _)) if chosen.edited => {
-            print(&edited(&product, chosen.which, args, &model, &call))?;
+            print_fitted(&edited(&product, chosen.which, args, &model, &call))?;
         }
         Ok(_) => (),
     }

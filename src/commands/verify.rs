@@ -9,7 +9,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, Checked};
 use plane_contact::studies::snapshot::{self, Snapshot};
 
-use super::{answers, print, progress};
+use super::{answers, print_either, progress};
 
 /// The exit status where what was compared differs, or nothing was compared.
 pub const DIFFERS: u8 = 1;
@@ -61,7 +61,7 @@ pub fn run(args: &Args) -> Result<u8> {
     if let Some(file) = &args.report {
         files::write(file, &report::markdown(&checked))?;
     }
-    print(&if args.json { report::json(&checked) } else { report::text(&checked) })?;
+    print_either(args.json, || report::json(&checked), || report::text(&checked))?;
     let is_same = checked.iter().all(|checked| checked.verified.is_same());
     Ok(if is_same { 0 } else { DIFFERS })
 }
@@ -123,7 +123,7 @@ pub fn run_explain(args: &ExplainArgs) -> Result<u8> {
     let checked = check(std::slice::from_ref(&args.file), scene.as_ref())?;
     let snapshot = read(&args.file)?;
     let verified = &checked[0].verified;
-    print(&if args.json { report::json(&checked) } else { report::text(&checked) })?;
+    print_either(args.json, || report::json(&checked), || report::text(&checked))?;
     let differing = verified.runs.iter().find(|run| !run.differences.is_empty());
     if let (Some(folder), Some(run)) = (&args.out, differing) {
         let old = snapshot.runs.get(&run.name).expect("the run was read from there");

@@ -23,7 +23,7 @@ pub fn list(generators: &[Generator]) -> String {
     Table::of(generators)
         .column("generator", |generator| generator.name)
         .column("what is swept", |generator| generator.magnitude)
-        .column("", |generator| generator.title)
+        .column("title", |generator| generator.title)
         .text()
 }
 

@@ -1,4 +1,5 @@
-//! What a command prints, fitted to a width, and its tables as CSV.
+//! What a command prints for people: without what commands a terminal, fitted to a width; and its
+//! tables as CSV.
 //!
 //! A table is what `layout` lays out: a heading, a rule of hyphens that shows where
 //! the columns stand, and the rows under it. All other lines are prose.
@@ -18,9 +19,11 @@ struct Printed<'t> {
     lines: Vec<&'t str>,
 }
 
-/// Returns the text with no line longer than `width` characters, but for words that are: a table that
-/// is wider becomes a record a row, and prose is broken between words.
+/// Returns the text as it is shown: what commands a terminal becomes U+FFFD, and no line is longer
+/// than `width` characters, but for words that are: a table that is wider becomes a record a row, and
+/// prose is broken between words.
 pub fn fitted(text: &str, width: usize) -> String {
+    let text = text.replace(commands_a_terminal, "\u{fffd}");
     let part = |part| match part {
         Part::Prose(line) => prose(line, width),
         Part::Table(table) if table.lines.iter().all(|line| length(line) <= width) => {
@@ -28,7 +31,14 @@ pub fn fitted(text: &str, width: usize) -> String {
         }
         Part::Table(table) => table.records(width),
     };
-    parts(text).into_iter().map(part).collect()
+    parts(&text).into_iter().map(part).collect()
+}
+
+/// Whether a character is a control character that is not of a line's layout, or changes the
+/// direction of the text behind it.
+fn commands_a_terminal(c: char) -> bool {
+    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || c.is_control() && !['\n', '\t'].contains(&c)
 }
 
 /// Returns the tables of a text as CSV (RFC 4180), each with a name made of the line above it.
@@ -123,18 +133,30 @@ fn prose(line: &str, width: usize) -> String {
 }
 
 impl Printed<'_> {
-    /// Writes a record a row: its first cell, then a line for each other cell with its heading.
+    /// Writes a record a row: its first cell, then each other cell beside its heading, or behind it
+    /// where that would be too wide.
     fn records(&self, width: usize) -> String {
         let headings = self.head.iter().skip(1).map(|heading| length(heading)).max().unwrap_or(0);
+        let beside = self.records_by(width, |heading, cell| {
+            let start = format!("    {heading:<headings$}  ");
+            filled(&start, headings + 6, width, cell.split(' '), " ")
+        });
+        if beside.lines().all(|line| length(line) <= width) {
+            return beside;
+        }
+        self.records_by(width, |heading, cell| {
+            let words = format!("{heading}: {cell}");
+            prose(&format!("    {}", words.trim_start_matches(": ")), width)
+        })
+    }
+
+    /// Writes a record a row: its first cell, then what `line` makes of a heading and another cell.
+    fn records_by(&self, width: usize, line: impl Fn(&str, &str) -> String) -> String {
         let record = |row: &Vec<String>| {
             let first = format!("{} {}", self.head[0], row[0]);
             let first = filled("  ", 4, width, first.trim().split(' '), " ");
             let cells = self.head.iter().zip(row).skip(1).filter(|(_, cell)| !cell.is_empty());
-            let lines = cells.map(|(heading, cell)| {
-                let start = format!("    {heading:<headings$}  ");
-                filled(&start, headings + 6, width, cell.split(' '), " ")
-            });
-            first + &lines.collect::<String>()
+            first + &cells.map(|(heading, cell)| line(heading, cell)).collect::<String>()
         };
         self.rows.iter().map(record).collect()
     }

@@ -183,10 +183,7 @@ impl<'a, W: Write> Telling<'a, W> {
     }
 
     fn write(&mut self, text: &str) -> io::Result<()> {
-        match self.shown.width {
-            usize::MAX => self.out.write_all(text.as_bytes()),
-            width => self.out.write_all(fitted(text, width).as_bytes()),
-        }
+        self.out.write_all(fitted(text, self.shown.width).as_bytes())
     }
 }
 

@@ -211,6 +211,60 @@ fn an_absurd_result_of_calculix_is_refused() {
 /// Characters that colour, ring, delete, clear the screen and turn the text around.
 const CONTROLS: &str = "\u{1b}[31m\u{7}\u{8}\u{9b}2J\u{202e}\u{2066}";
 
+#[track_caller]
+fn commands_no_terminal(what: &str, text: &str) {
+    let harmful = |c: char| (c.is_control() && c != '\n') || "\u{202e}\u{2066}".contains(c);
+    assert!(!text.contains(harmful), "{what}: {text:?}");
+}
+
+/// A title, the name of a group and the name of a file reach a terminal without what commands it;
+/// JSON keeps the title.
+#[test]
+fn no_name_of_a_scene_commands_a_terminal() {
+    let folder = TempDir::new().expect("a folder");
+    let said = |args: &[&str]| {
+        let output = run(folder.path(), args);
+        [output.stdout, output.stderr].map(|text| String::from_utf8(text).expect("UTF-8")).concat()
+    };
+    let mut scene = crate::common::embedded::scene_json("fig1");
+    let title = format!("a{CONTROLS}zz");
+    scene["title"] = title.as_str().into();
+    let write = |name: &str, scene: &Value| {
+        std::fs::write(folder.path().join(name), scene.to_string()).expect("it is written");
+    };
+    write("s.json", &scene);
+    let name = format!("n{CONTROLS}.json");
+    write(&name, &scene);
+    for args in [
+        &["solve", "s.json", "--out", "o"][..],
+        &["audit", "s.json"],
+        &["solve", &name, "--out", "o"],
+        &["trace", &name, "--lines", "1-2"],
+        &["record", &name, "--out", "snapshot.json"],
+        &["verify", "snapshot.json", "--scene", "fig1"],
+        &["solve", "s.json", "--out", &title],
+        &["solve", &title],
+        &["verify", &title],
+        &["solve", "s.json", &format!("--{title}")],
+        &["solve", "s.json", "--variant", &title],
+    ] {
+        commands_no_terminal(&args.join(" "), &said(args));
+    }
+    let snapshot = std::fs::read(folder.path().join("snapshot.json")).expect("it was recorded");
+    let json: Value = serde_json::from_slice(&snapshot).expect("JSON");
+    assert_eq!(json["input"]["scene"]["title"], title.as_str());
+    let group = format!("g{CONTROLS}");
+    scene["materials"][group.as_str()] = json!({ "E": 1, "nu": 0 });
+    write("g.json", &scene);
+    let text = said(&["solve", "g.json"]);
+    assert!(text.contains("where: g.json: materials.g"), "{text}");
+    commands_no_terminal("a material", &text);
+    let failure: Value =
+        serde_json::from_slice(&run(folder.path(), &["solve", "g.json", "--json"]).stdout)
+            .expect("JSON");
+    assert_eq!(failure["failure"]["where"], format!("g.json: materials.{group}"));
+}
+
 /// Files that a scene's title goes into are of their format, whatever the title is.
 #[test]
 fn files_are_valid_whatever_a_title_is() {

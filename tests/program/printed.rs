@@ -6,6 +6,7 @@ use plane_contact::report::printed::{fitted, tables};
 use tempfile::TempDir;
 
 use crate::common::program::run;
+use crate::texts::commands;
 
 fn printed(folder: &Path, args: &[&str]) -> String {
     String::from_utf8(run(folder, args).stdout).expect("UTF-8")
@@ -38,6 +39,27 @@ fn tables_turn_to_records() {
     row of the table
 ";
     assert_eq!(fitted(TEXT, 25), narrow);
+}
+
+/// A heading too long to have cells beside it.
+#[test]
+fn cells_stand_behind_headings_where_they_do_not_fit_beside_them() {
+    let wide = "  id  what the listing does that the text does not say
+  --  ------------------------------------------------
+  C1  a node on a corner is found twice
+";
+    let narrow = "  id C1
+    what the listing does that the text
+      does not say: a node on a corner
+      is found twice
+";
+    assert_eq!(fitted(wide, 40), narrow);
+}
+
+#[test]
+fn nothing_printed_commands_a_terminal() {
+    let controls = "\u{1b}[31m \u{7} \r \u{7f} \u{9b} \u{202e} \u{2066}";
+    assert_eq!(fitted(&format!("a\t{controls} é\n"), 80), "a\t�[31m � � � � � � é\n");
 }
 
 #[test]
@@ -78,6 +100,95 @@ fn every_table_fits() {
         .expect("it starts");
     assert!(longest(&String::from_utf8(narrow.stdout).expect("UTF-8")) <= 80);
     assert!(String::from_utf8(narrow.stderr).expect("UTF-8").starts_with("auditing fig1"));
+}
+
+const FACTORIAL: &str = "fact(n) :=
+  trace(n)
+  return 1 if n ≤ 1
+  n·fact(n − 1)
+";
+
+/// Every text for people, of commands that end well and of others, in an order in which the files of
+/// one are those of the next.
+const TEXTS: &[&str] = &[
+    "solve fig1 --no-pictures",
+    "solve fig1 --variant printed --no-pictures --probe 0.5,-0.5",
+    "solve fig1 --variant unilateral --accuracy 1e-3",
+    "solve fig1 --variant tied --c-cnt c_cnt.txt",
+    "audit fig1",
+    "audit --finding C4",
+    "plan fig1",
+    "c-cnt fig1",
+    "scenes",
+    "trace fig1",
+    "trace fig1 --summary",
+    "trace fig1 --listing Km --node 7",
+    "trace fig1 --reading R4=left-to-right",
+    "trace fig1 --listing c_cnt.txt",
+    "extremes --list",
+    "extremes offset",
+    "statuses --scenes 3",
+    "trade fig1 --runs 1 --only solver",
+    "mesh blocks",
+    "scene fig1",
+    "record fig1",
+    "verify out/fig1.snapshot.json",
+    "verify out/fig1.snapshot.json --scene two-blocks",
+    "explain out/fig1.snapshot.json --scene two-blocks",
+    "diff fig1 --variant tied,stepped",
+    "accept out/fig1.snapshot.json --scene two-blocks --reason because",
+    "sweep sweep.json",
+    "key fig1",
+    "evaluate fact.txt --call fact(3)",
+    "evaluate fact.txt --call g(3)",
+    "evaluate wrong.txt --call f(1)",
+    "mathcad w.xmcd",
+    "lesson fig1",
+    "report fig1 --no-audit --variant tied",
+    "schema",
+    "solve nosuch",
+    "solve fig1 --varient x",
+    "verify fact.txt",
+];
+
+/// Runs the program where lines have `columns` characters; returns both of its outputs.
+fn in_columns(folder: &Path, columns: &str, args: &[&str]) -> String {
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_plane-contact"))
+        .args(args)
+        .env("COLUMNS", columns)
+        .current_dir(folder)
+        .output()
+        .expect("it starts");
+    [output.stdout, output.stderr].map(|text| String::from_utf8(text).expect("UTF-8")).concat()
+}
+
+#[test]
+fn every_text_fits_forty_columns_but_for_longer_words() {
+    let folder = TempDir::new().expect("a folder");
+    let at = folder.path();
+    let listing = include_str!("../../listings/c_cnt.txt").replace('<', "≤");
+    let sweep = r#"{"format":1,"scene":"fig1","list":[{"/scene/contact/c_tll":0.002}]}"#;
+    let wrong = FACTORIAL.replace("n·fact", "n·(fact");
+    for (name, text) in [
+        ("c_cnt.txt", listing.as_str()),
+        ("fact.txt", FACTORIAL),
+        ("wrong.txt", wrong.as_str()),
+        ("sweep.json", sweep),
+    ] {
+        std::fs::write(at.join(name), text).expect("it is written");
+    }
+    run(at, &["export", "fig1", "--to", "mathcad", "--out", "w.xmcd"]);
+    let helps = commands().into_iter().map(|command| format!("{command} --help"));
+    for line in TEXTS.iter().map(|line| line.to_string()).chain(["--help".into()]).chain(helps) {
+        let args: Vec<&str> = line.split(' ').collect();
+        let text = in_columns(at, "40", &args);
+        assert!(!text.is_empty(), "{line}");
+        let fits = |line: &str| line.chars().count() <= 40 || !line.trim().contains(' ');
+        let wide: Vec<&str> = text.lines().filter(|line| !fits(line)).collect();
+        assert!(wide.is_empty(), "{line}: {wide:#?}");
+    }
+    let fewer = ["20", "40"].map(|columns| in_columns(at, columns, &["c-cnt", "fig1"]));
+    assert_eq!(fewer[0], fewer[1]);
 }
 
 #[test]

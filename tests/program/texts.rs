@@ -123,7 +123,7 @@ fn help() {
 }
 
 /// The commands, as the first page of help lists them.
-fn commands() -> Vec<String> {
+pub fn commands() -> Vec<String> {
     let page = printed(&["--help"]);
     let list = page.split("Commands:").nth(1).expect("a list of commands");
     let lines = list.lines().skip(1).take_while(|line| !line.is_empty());

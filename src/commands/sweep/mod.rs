@@ -18,7 +18,7 @@ use plane_contact::studies::sweep::{Cases, Row, Sweep, key_of, row};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-use super::{RunArgs, print, tell};
+use super::{RunArgs, print, print_fitted, tell};
 use journal::Journal;
 
 /// Run a scene under many values of its fields and of options.
@@ -131,7 +131,7 @@ fn whole(args: &Args, cases: &Cases) -> Result<u8> {
     journal.remove();
     let status = |key: &String| known[key].get("exit_status").and_then(Value::as_i64);
     let failed = keys.iter().filter(|key| status(key) != Some(0)).count();
-    print(&format!(
+    print_fitted(&format!(
         "{} cases: {ran} ran, {failed} failed\nWritten to {}\n",
         cases.len(),
         out.display()

@@ -54,6 +54,7 @@ pub const PASSAGES: Passages = Passages {
         ("n = 2 .. 64", "the meshes of a benchmark"),
         ("LE1, 8² .. 64²", "as above"),
         ("limit 92.7", "the published number of a benchmark"),
+        ("(or `COLUMNS`) from 40 characters up", "held by tests/program/printed.rs"),
         ("in at most 20 iterations under one load", "held by tests/contact/unilateral.rs"),
         ("at 1 − 2nu =", "a formula"),
         ("| c_cnt 14: weights", "lines of the listings"),
