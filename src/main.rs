@@ -79,10 +79,11 @@ fn main() -> ExitCode {
             if json {
                 let _ = commands::print(&failure(&usage(&why)));
             }
-            return commands::no_command(&why);
+            commands::tell(&why.render().to_string());
+            return ExitCode::from(2);
         }
         // What was asked for is help, or the version.
-        Err(why) => return ended(commands::print_by(|_| why.print()).map(done), json),
+        Err(why) => return ended(commands::help(&why).map(done), json),
     };
     let result = match command {
         Command::Record(args) => commands::record::run(&args).map(done),

@@ -28,7 +28,6 @@ pub mod verify;
 
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -260,17 +259,11 @@ pub fn tell(text: &str) {
     let _ = std::io::stderr().write_all(printed::fitted(text, width()).as_bytes());
 }
 
-/// Shows the help that was asked for, with the styles of a terminal where it fits, or says why a
-/// command line is none; returns the exit status.
-pub fn no_command(why: &clap::Error) -> ExitCode {
-    let text = why.render().to_string();
-    if why.use_stderr() {
-        tell(&text);
-        return ExitCode::from(2);
-    }
+/// Shows the help that was asked for, with the styles of a terminal where it fits.
+pub fn help(asked: &clap::Error) -> Result<()> {
+    let text = asked.render().to_string();
     let fits = text.lines().all(|line| line.chars().count() <= width());
-    let _ = if fits { why.print() } else { print_fitted(&text).map_err(io::Error::other) };
-    ExitCode::SUCCESS
+    if fits { print_by(|_| asked.print()) } else { print_fitted(&text) }
 }
 
 /// Says on standard error why a command that printed its document fails, and returns the exit status.
