@@ -6,7 +6,7 @@ use plane_contact::problem::scene::gmsh::{read, write};
 use super::sound;
 
 pub fn hold(data: &[u8]) {
-    let mut mesh = match read(data) {
+    let mut mesh = match read(data, data.len()) {
         Ok(mesh) => mesh,
         Err(error) => return assert!(!error.to_string().is_empty()),
     };
@@ -15,6 +15,7 @@ pub fn hold(data: &[u8]) {
     }
     // The format that is written stores one physical group.
     mesh.elements.iter_mut().for_each(|element| element.physical.truncate(1));
-    let again = read(write(&mesh).as_bytes());
+    let written = write(&mesh);
+    let again = read(written.as_bytes(), written.len());
     assert_eq!(again.as_ref(), Ok(&mesh));
 }

@@ -184,7 +184,7 @@ fn windows_line_ends_and_a_missing_last_one_are_read() {
 }
 
 fn read(file: &[u8]) -> Result<Mesh, GmshError> {
-    gmsh::read(file)
+    gmsh::read(file, file.len())
 }
 
 /// Only a part of a file is held: what stands before a token moves it over the end of one.
@@ -304,10 +304,12 @@ fn what_cannot_be_read_on_is_told() {
     let (start, _) = SMALL_2.split_once("10 0 0 0").unwrap();
     for ends in ["", "10 0", "10 0 0 0\n20 1 0 0\n"] {
         let begun = format!("{start}{ends}");
-        let error = gmsh::read(begun.as_bytes().chain(broken())).unwrap_err().to_string();
+        let error =
+            gmsh::read(begun.as_bytes().chain(broken()), begun.len()).unwrap_err().to_string();
         assert!(error.ends_with("it cannot be read on: the disk is gone"), "{error}");
     }
-    let error = gmsh::read(SMALL_2.as_bytes().chain(broken())).unwrap_err().to_string();
+    let error =
+        gmsh::read(SMALL_2.as_bytes().chain(broken()), SMALL_2.len()).unwrap_err().to_string();
     assert!(error.ends_with("it cannot be read on: the disk is gone"), "{error}");
 }
 

@@ -104,18 +104,47 @@ fn what_a_program_prints_without_end_is_not_kept() {
     assert!(!Path::new("/proc").join(id.trim()).exists(), "it is still there");
 }
 
-/// A file of 2 GB without a byte on the disk.
-#[test]
-fn a_mesh_file_beyond_the_memory_is_refused_before_it_is_read() {
-    let folder = tempfile::tempdir().expect("a folder");
+/// Writes a scene whose mesh file has a header for 100 million nodes and is `length` bytes long, with
+/// nothing else on the disk.
+fn scene_of_many_nodes(folder: &Path, length: u64) {
     let mut scene = scene_json("fig1");
     scene.as_object_mut().expect("an object").retain(|field, _| field != "node" && field != "elem");
     scene["mesh"] = "large.msh".into();
-    std::fs::write(folder.path().join("s.json"), scene.to_string()).expect("it is written");
-    let mesh = std::fs::File::create(folder.path().join("large.msh")).expect("a file");
-    mesh.set_len(2_000_000_000).expect("a length");
-    let words = ["large.msh", "its tables need 6.0 GB"];
+    std::fs::write(folder.join("s.json"), scene.to_string()).expect("it is written");
+    let header = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n100000000\n";
+    std::fs::write(folder.join("large.msh"), header).expect("it is written");
+    let mesh = std::fs::File::options().write(true).open(folder.join("large.msh"));
+    mesh.and_then(|mesh| mesh.set_len(length)).expect("a length");
+}
+
+/// What it needs is foreseen from its header.
+#[test]
+fn a_mesh_file_beyond_the_memory_is_refused_before_it_is_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    scene_of_many_nodes(folder.path(), 2_000_000_000);
+    let words = ["large.msh", "line 5: 100000000 nodes need 13.0 GB", "a coarser mesh"];
     refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &words);
+}
+
+#[test]
+fn what_a_file_is_too_short_for_is_not_foreseen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    scene_of_many_nodes(folder.path(), 5000);
+    refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &["line 6", "a node's number"]);
+}
+
+/// It is refused by its elements or by its plan under the smaller limits, and runs under the largest.
+#[test]
+fn a_mesh_is_read_within_the_memory_or_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cook = shell(folder.path(), "$P mesh cook --n 300 --out cook");
+    assert_eq!(cook.status.code(), Some(0));
+    for (limit, expected) in [80_000, 100_000, 120_000, 2_000_000].into_iter().zip([2, 2, 2, 0]) {
+        let line = format!("ulimit -v {limit}; $P plan cook/scene.json --json");
+        let output = shell(folder.path(), &line);
+        assert_eq!(output.status.code(), Some(expected), "{limit}: {output:?}");
+        assert!(output.stdout.ends_with(b"}\n"), "{limit}: {output:?}");
+    }
 }
 
 #[test]

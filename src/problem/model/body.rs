@@ -1,7 +1,5 @@
 //! Bodies, which are the parts of a mesh that share no node, and whether each is restrained.
 
-use std::rc::Rc;
-
 use nalgebra::{Matrix3, Vector3};
 
 use super::ids::{NodeId, TriangleId};
@@ -28,7 +26,11 @@ impl Body {
 
 /// Returns the bodies that `triangles` on `nodes` nodes form, by their lowest node. `material`
 /// names the material of each triangle.
-pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[Rc<str>]) -> Vec<Body> {
+pub fn bodies<'a>(
+    nodes: usize,
+    triangles: &[Triangle],
+    material: impl Fn(TriangleId) -> &'a str,
+) -> Vec<Body> {
     let sides = triangles.iter().flat_map(|triangle| {
         let [a, b, c] = triangle.nodes.map(NodeId::index);
         [(a, b), (b, c)]
@@ -47,16 +49,16 @@ pub fn bodies(nodes: usize, triangles: &[Triangle], material: &[Rc<str>]) -> Vec
     found.sort_by_key(|(key, _)| *key);
     let mut bodies: Vec<Body> = found.into_iter().map(|(_, body)| body).collect();
     for body in &mut bodies {
-        body.name = joined_names(body.triangles.iter().map(|id| &material[id.index()]));
+        body.name = joined_names(body.triangles.iter().map(|id| material(*id)));
     }
     number_equal_names(&mut bodies);
     bodies
 }
 
-fn joined_names<'a>(names: impl Iterator<Item = &'a Rc<str>>) -> String {
+fn joined_names<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let mut distinct: Vec<&str> = Vec::new();
     for name in names {
-        if !distinct.contains(&&**name) {
+        if !distinct.contains(&name) {
             distinct.push(name);
         }
     }

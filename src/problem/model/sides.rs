@@ -20,20 +20,22 @@ pub struct Beside {
 
 impl Sides {
     /// Collects the sides of `triangles`, each given by its nodes counter-clockwise.
-    pub fn new(triangles: impl Iterator<Item = [NodeId; 3]>) -> Self {
+    pub fn new(triangles: impl Iterator<Item = [NodeId; 3]> + Clone) -> Self {
         let of_triangle = |(index, corners): (usize, [NodeId; 3])| {
             [0, 1, 2].map(|k| {
                 let [a, b, third] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| corners[k]);
                 Beside { triangle: TriangleId::new(index), nodes: [a, b], third }
             })
         };
-        let given: Vec<Beside> = triangles.enumerate().flat_map(of_triangle).collect();
+        // They are gone through three times, so that only one list of them is held.
+        let given = triangles.enumerate().flat_map(of_triangle);
         let lower = |one: &Beside| unordered(one.nodes)[0].index();
-        let nodes = given.iter().map(lower).max().map_or(0, |last| last + 1);
+        let nodes = given.clone().map(|one| lower(&one)).max().map_or(0, |last| last + 1);
         let mut starts = vec![0; nodes + 1];
-        given.iter().for_each(|one| starts[lower(one) + 1] += 1);
+        given.clone().for_each(|one| starts[lower(&one) + 1] += 1);
         (0..nodes).for_each(|node| starts[node + 1] += starts[node]);
-        let (mut next, mut beside) = (starts.clone(), given.clone());
+        let Some(first) = given.clone().next() else { return Sides::default() };
+        let (mut next, mut beside) = (starts.clone(), vec![first; starts[nodes] as usize]);
         for one in given {
             let at = &mut next[lower(&one)];
             beside[*at as usize] = one;

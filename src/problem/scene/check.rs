@@ -1,10 +1,9 @@
 //! Checks of a scene file against its mesh: materials, restraints, contact surfaces, bodies.
 
 use std::collections::{HashMap, HashSet};
-use std::rc::Rc;
 
 use super::description::{Axis, Description};
-use super::mesh::{Element, Mesh};
+use super::mesh::Mesh;
 use super::{groups, surface};
 use crate::error::{InputError, Result};
 use crate::problem::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
@@ -20,13 +19,12 @@ pub fn numbers(file: &Description) -> Result<()> {
     check_iterations(file.iterations)
 }
 
-/// Returns each triangle's material and the name of its group, in the order of `EL`.
+/// Returns the place of each triangle's material in the scene file, in the order of `EL`.
 /// Errors: a material is out of its range, a triangle has no material or two, or a group has no
 /// triangle.
-pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material>, Vec<Rc<str>>)> {
-    let triangles: Vec<&Element> = mesh.of_dimension(2).collect();
-    let mut of_triangle: Vec<Option<(model::Material, Rc<str>)>> = vec![None; triangles.len()];
-    for (group, material) in &file.materials.0 {
+pub fn materials(mesh: &Mesh, file: &Description) -> Result<Vec<u32>> {
+    let mut of_triangle: Vec<Option<u32>> = vec![None; mesh.of_dimension(2).count()];
+    for (k, (group, material)) in (0_u32..).zip(&file.materials.0) {
         let place = format!("materials.{}", group.text());
         if !(material.e > 0.0 && material.e.is_finite()) {
             let what = format!("E = {} is not positive", material.e);
@@ -34,21 +32,20 @@ pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material
             return Err(InputError::new(place, what, "give an elastic modulus above 0"));
         }
         file.plane.check_poisson(material.nu, &format!("{place}.nu"))?;
-        let name: Rc<str> = group.text().into();
-        let material = model::Material { e: material.e, nu: material.nu };
         // Both are in the order of the mesh.
-        let mut places = triangles.iter().zip(&mut of_triangle);
+        let mut places = mesh.of_dimension(2).zip(&mut of_triangle);
         for member in groups::members(mesh, 2, group, &place)? {
             let own = places.find(|(triangle, _)| triangle.number == member.number);
             let (_, own) = own.expect("a member is a triangle of the mesh");
-            if let Some((_, other)) = own.replace((material, Rc::clone(&name))) {
+            if let Some(other) = own.replace(k) {
+                let [other, name] = [other, k].map(|k| file.materials.0[k as usize].0.text());
                 let number = member.number;
                 let what = format!("triangle {number} has two materials, {other} and {name}");
                 return Err(InputError::new(place, what, "give each triangle one material"));
             }
         }
     }
-    let found = triangles.iter().zip(of_triangle).map(|(triangle, own)| {
+    let found = of_triangle.into_iter().zip(mesh.of_dimension(2)).map(|(own, triangle)| {
         own.ok_or_else(|| {
             let what = format!(
                 "triangle {} has no material (its physical groups: {:?})",
@@ -57,7 +54,7 @@ pub fn materials(mesh: &Mesh, file: &Description) -> Result<(Vec<model::Material
             InputError::new("materials", what, "give each physical group of triangles a material")
         })
     });
-    Ok(found.collect::<Result<Vec<_>, _>>()?.into_iter().unzip())
+    found.collect()
 }
 
 /// Returns whether each degree of freedom is restrained.

@@ -119,14 +119,17 @@ impl Scene {
         dropped: Vec<NodeId>,
     ) -> Result<Self> {
         check::numbers(&description)?;
-        let (materials, names) = check::materials(&mesh, &description)?;
+        let materials = check::materials(&mesh, &description)?;
+        let kinds = &description.materials.0;
+        let groups: Vec<String> = kinds.iter().map(|(group, _)| group.text()).collect();
         let mut restrained = check::restraints(&mesh, &description)?;
         dropped.iter().flat_map(|n| n.dofs()).for_each(|dof| restrained[dof.index()] = true);
-        let triangles: Vec<Triangle> = mesh
-            .of_dimension(2)
-            .zip(materials)
-            .map(|(element, material)| Triangle { nodes: nodes(element), material })
-            .collect();
+        let mut triangles = Vec::with_capacity(materials.len());
+        triangles.extend(mesh.of_dimension(2).zip(&materials).map(|(element, kind)| {
+            let Material { e, nu } = kinds[*kind as usize].1;
+            Triangle { nodes: nodes(element), material: model::Material { e, nu } }
+        }));
+        let group = |id: TriangleId| &*groups[materials[id.index()] as usize];
         let edge = |edge: &Element| Edge { number: edge.number, nodes: nodes(edge) };
         let sides = Sides::new(triangles.iter().map(|triangle| triangle.nodes));
         let mut model = Model {
@@ -139,7 +142,7 @@ impl Scene {
             forces: Vec::new(),
             load: DVector::zeros(0),
             stages: Vec::new(),
-            bodies: model::bodies(mesh.nodes.len(), &triangles, &names),
+            bodies: model::bodies(mesh.nodes.len(), &triangles, group),
             rows: rows(&mesh),
             triangles,
             sides,

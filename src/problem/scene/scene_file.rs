@@ -7,7 +7,6 @@ use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use super::source::FileBeside;
 use crate::error::{InputError, Result};
 use crate::files;
-use crate::numbers::solve::memory;
 use crate::suggestion::did_you_mean;
 
 /// The text of a scene file, and the place where its mesh file is.
@@ -84,18 +83,14 @@ impl SceneFile {
     }
 }
 
-/// The bytes of the tables that a mesh file makes, over those of the file.
-const TABLES: f64 = 3.0;
-
-/// Opens an ordinary file whose tables fit in memory; a device would never end.
+/// Opens an ordinary file; a device would never end.
 fn open_beside(path: &Path) -> Result<FileBeside, String> {
     let metadata = std::fs::metadata(path).map_err(|why| why.to_string())?;
     if !metadata.is_file() {
         return Err("it is no ordinary file".into());
     }
-    let needed = TABLES * metadata.len() as f64;
-    memory::check_bytes(needed, "", "its tables", "").map_err(|why| why.what)?;
-    Ok(std::fs::File::open(path).map_err(|why| why.to_string())?.into())
+    let file = std::fs::File::open(path).map_err(|why| why.to_string())?;
+    Ok(FileBeside::new(file, metadata.len() as usize))
 }
 
 /// Returns a scene's name: `strand` for `golden/strand/scene.json`, `plate` for `my/plate.json`.

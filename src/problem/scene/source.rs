@@ -1,37 +1,42 @@
 //! The source of a scene file's mesh: a Gmsh file beside it, or its own tables.
 
-use std::fs::File;
 use std::io::{self, Cursor, Read};
 
 use super::description::Description;
-use super::gmsh;
+use super::gmsh::{self, Fault};
 use super::mesh::Mesh;
 use crate::error::{InputError, Result};
 
 /// A file beside a scene file, which is read once, as it comes.
-pub struct FileBeside(Box<dyn Read>);
+pub struct FileBeside {
+    content: Box<dyn Read>,
+    /// The number of its bytes.
+    length: usize,
+}
+
+impl FileBeside {
+    /// Makes one of what is read from `content`, `length` bytes.
+    pub fn new(content: impl Read + 'static, length: usize) -> Self {
+        FileBeside { content: Box::new(content), length }
+    }
+}
 
 impl From<Vec<u8>> for FileBeside {
     fn from(bytes: Vec<u8>) -> Self {
-        FileBeside(Box::new(Cursor::new(bytes)))
+        let length = bytes.len();
+        FileBeside::new(Cursor::new(bytes), length)
     }
 }
 
 impl From<&'static [u8]> for FileBeside {
     fn from(bytes: &'static [u8]) -> Self {
-        FileBeside(Box::new(bytes))
-    }
-}
-
-impl From<File> for FileBeside {
-    fn from(file: File) -> Self {
-        FileBeside(Box::new(file))
+        FileBeside::new(bytes, bytes.len())
     }
 }
 
 impl Read for FileBeside {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.0.read(buffer)
+        self.content.read(buffer)
     }
 }
 
@@ -56,8 +61,12 @@ pub fn mesh(
         let what = format!("the mesh file {name:?} cannot be read: {why}");
         InputError::new("field mesh", what, "the path is resolved beside the scene file")
     })?;
-    gmsh::read(file).map_err(|error| {
-        let fix = "save the mesh again from Gmsh";
+    let length = file.length;
+    gmsh::read(file, length).map_err(|error| {
+        let fix = match error.fault {
+            Fault::Memory { .. } => "use a coarser mesh or a machine with more memory",
+            _ => "save the mesh again from Gmsh",
+        };
         InputError::new(format!("mesh {name:?}"), error.to_string(), fix)
     })
 }

@@ -34,6 +34,8 @@ impl fmt::Display for Place {
 pub enum Fault {
     #[error("it cannot be read on: {why}")]
     Broken { why: String },
+    #[error("{why}")]
+    Memory { why: String },
     #[error("found {found}, expected {expected}")]
     Unexpected { found: String, expected: String },
     #[error(

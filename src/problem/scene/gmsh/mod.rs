@@ -10,8 +10,8 @@
 //! ```
 //!
 //! A grammar is written once for text and binary: `Tokens` reads both as the same sequence of
-//! numbers. No memory is reserved for a count that the file declares, so that a wrong count leads
-//! to the end of the file, not out of memory.
+//! numbers. For a count that the file declares no more memory is asked for than a file of its length can
+//! fill, so that a wrong count leads to the end of the file, not out of memory.
 //!
 //! Reference: Gmsh's manual, "MSH file format" and "MSH file format version 2 (Legacy)".
 

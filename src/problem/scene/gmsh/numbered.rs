@@ -2,10 +2,29 @@
 
 use std::collections::BTreeMap;
 
+use crate::problem::scene::mesh::{Element, Node};
+
+/// What has a number of its own.
+pub trait HasNumber {
+    fn number(&self) -> usize;
+}
+
+impl HasNumber for Node {
+    fn number(&self) -> usize {
+        self.number
+    }
+}
+
+impl HasNumber for Element {
+    fn number(&self) -> usize {
+        self.number
+    }
+}
+
 /// Items by number. Gmsh writes them in ascending order as a rule: those that come so are kept in a
 /// row, only the others need a search.
 pub struct Numbered<T> {
-    ascending: Vec<(usize, T)>,
+    ascending: Vec<T>,
     others: BTreeMap<usize, T>,
 }
 
@@ -15,7 +34,13 @@ impl<T> Default for Numbered<T> {
     }
 }
 
-impl<T> Numbered<T> {
+impl<T: HasNumber> Numbered<T> {
+    /// Makes room for `count` items and no more, where there is memory for them.
+    pub fn reserve(&mut self, count: usize) {
+        // Without that room it grows as it is filled.
+        let _ = self.ascending.try_reserve_exact(count);
+    }
+
     pub fn len(&self) -> usize {
         self.ascending.len() + self.others.len()
     }
@@ -23,21 +48,22 @@ impl<T> Numbered<T> {
     pub fn contains(&self, number: usize) -> bool {
         // Most meshes number from 1 without a gap.
         let likely = self.ascending.get(number.wrapping_sub(1));
-        likely.is_some_and(|(found, _)| *found == number)
+        likely.is_some_and(|found| found.number() == number)
             || !self.is_next(number)
-                && (self.ascending.binary_search_by_key(&number, |(found, _)| *found).is_ok()
+                && (self.ascending.binary_search_by_key(&number, T::number).is_ok()
                     || self.others.contains_key(&number))
     }
 
     /// Returns whether a number is above all that are kept.
     fn is_next(&self, number: usize) -> bool {
-        self.ascending.last().is_none_or(|(last, _)| *last < number)
+        self.ascending.last().is_none_or(|last| last.number() < number)
     }
 
     /// Keeps an item, and returns whether its number was free.
-    pub fn insert(&mut self, number: usize, item: T) -> bool {
+    pub fn insert(&mut self, item: T) -> bool {
+        let number = item.number();
         if self.is_next(number) {
-            self.ascending.push((number, item));
+            self.ascending.push(item);
             return true;
         }
         !self.contains(number) && self.others.insert(number, item).is_none()
@@ -46,9 +72,9 @@ impl<T> Numbered<T> {
     /// Returns the items in ascending order.
     pub fn into_values(self) -> Vec<T> {
         let mut all = self.ascending;
-        all.extend(self.others);
-        // Stable, and quick on what is sorted already.
-        all.sort_by_key(|(number, _)| *number);
-        all.into_iter().map(|(_, item)| item).collect()
+        all.extend(self.others.into_values());
+        // In place, and quick on what is sorted already.
+        all.sort_unstable_by_key(T::number);
+        all
     }
 }

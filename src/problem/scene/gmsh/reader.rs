@@ -7,19 +7,29 @@ use super::error::{Fault, GmshError, Result};
 use super::kinds::{ENTITIES, magnitude};
 use super::numbered::Numbered;
 use super::tokens::Tokens;
+use crate::numbers::solve::memory;
 use crate::problem::scene::mesh::{Element, Mesh, Node, PhysicalName};
+
+/// The bytes of the shortest node or element: `1 0 0 0` or `1 15 0 1`, and what parts it from the next.
+const SHORTEST: usize = 8;
+
+/// The bytes that a node takes while a scene is read and built, and an element besides; measured on
+/// grids of 0.4 and 1.6 million elements, with what those out of order take.
+const NODE: f64 = 130.0;
+const ELEMENT: f64 = 260.0;
 
 /// Reads a mesh from a `.msh` file, of which never more than a part is held.
 ///
 /// Nodes, elements and physical names are returned in ascending order; tags that are negative in
-/// the file (a reversed orientation) are returned positive.
+/// the file (a reversed orientation) are returned positive. The counts in a file of `length` bytes
+/// are believed as far as it can hold so many.
 /// Errors: the first fault, with its line (text) or byte (binary).
-pub fn read(file: impl Read) -> Result<Mesh, GmshError> {
+pub fn read(file: impl Read, length: usize) -> Result<Mesh, GmshError> {
     let mut tokens = Tokens::new(file);
     tokens.keyword("$MeshFormat", "$MeshFormat, the first line of a Gmsh mesh (MSH 2.2 or 4.1)")?;
     let version = format(&mut tokens)?;
     tokens.keyword("$EndMeshFormat", "$EndMeshFormat")?;
-    let mut reader = Reader { tokens, version, ..Reader::default() };
+    let mut reader = Reader { tokens, length, version, ..Reader::default() };
     while let Some(section) = reader.tokens.section()? {
         reader.section(&section)?;
         let end = format!("$End{section}");
@@ -62,6 +72,8 @@ enum Version {
 #[derive(Default)]
 pub struct Reader<'a> {
     pub tokens: Tokens<'a>,
+    /// The bytes of the file.
+    length: usize,
     version: Version,
     /// The names of the sections read so far, without those that are skipped.
     pub sections: BTreeSet<String>,
@@ -131,6 +143,31 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// Makes room for the nodes that the file declares.
+    /// Errors: there is no memory for a scene with so many.
+    pub fn expect_nodes(&mut self, declared: usize) -> Result<()> {
+        let count = declared.min(self.length / SHORTEST);
+        self.check_memory(format!("{count} nodes"), NODE * count as f64)?;
+        self.nodes.reserve(count);
+        Ok(())
+    }
+
+    /// Makes room for the elements that the file declares.
+    /// Errors: there is no memory for a scene with so many, and with the nodes before them.
+    pub fn expect_elements(&mut self, declared: usize) -> Result<()> {
+        let (nodes, count) = (self.nodes.len(), declared.min(self.length / SHORTEST));
+        let kept = size_of::<Node>() as f64;
+        let needed = (NODE - kept) * nodes as f64 + ELEMENT * count as f64;
+        self.check_memory(format!("{nodes} nodes and {count} elements"), needed)?;
+        self.elements.reserve(count);
+        Ok(())
+    }
+
+    fn check_memory(&self, whose: String, needed: f64) -> Result<()> {
+        memory::check_bytes(needed, "", &whose, "")
+            .map_err(|why| self.tokens.error(Fault::Memory { why: why.what }))
+    }
+
     /// Reads the coordinates of the node `number`, and keeps it.
     pub fn node(&mut self, number: usize) -> Result<()> {
         if self.nodes.contains(number) {
@@ -143,7 +180,7 @@ impl Reader<'_> {
                 return Err(self.tokens.error(Fault::Coordinate { node: number, value: *x }));
             }
         }
-        self.nodes.insert(number, Node { number, xyz });
+        self.nodes.insert(Node { number, xyz });
         Ok(())
     }
 
@@ -153,7 +190,7 @@ impl Reader<'_> {
         if let Some(&node) = element.nodes.iter().find(|&&node| !self.nodes.contains(node)) {
             return Err(self.tokens.error(Fault::NoNode { element: number, node }));
         }
-        if !self.elements.insert(number, element) {
+        if !self.elements.insert(element) {
             return self.repeated(format!("element {number}"));
         }
         Ok(())

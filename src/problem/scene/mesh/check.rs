@@ -79,14 +79,12 @@ impl Mesh {
             }
             self.check_element(element)?;
         }
-        let mut triangles: Vec<([usize; 3], usize)> = self
-            .of_dimension(2)
-            .map(|triangle| {
-                let mut corners = [0, 1, 2].map(|k| triangle.nodes[k]);
-                corners.sort_unstable();
-                (corners, triangle.number)
-            })
-            .collect();
+        let mut triangles: Vec<([usize; 3], usize)> = Vec::with_capacity(self.elements.len());
+        triangles.extend(self.of_dimension(2).map(|triangle| {
+            let mut corners = [0, 1, 2].map(|k| triangle.nodes[k]);
+            corners.sort_unstable();
+            (corners, triangle.number)
+        }));
         if triangles.is_empty() {
             let fix = "in Gmsh, mesh the surfaces (-2) and save their physical groups";
             return Err(InputError::new(place, "the mesh has no triangle", fix));
