@@ -32,7 +32,7 @@ pub use elimination::{Constraint, Elimination, Motion};
 pub use factors::Kept;
 pub use hertz::Hertz;
 pub use probe::{Probe, Quantity};
-pub use published::BYTES_OF_A_NODE;
+pub use published::bytes_of_iterations;
 pub use request::Request;
 pub use side_by_side::side_by_side;
 pub use solution::{

@@ -31,9 +31,16 @@ use crate::paper::near::c_cnt;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::{Coupling, StatusRule, Variant};
 
-/// The bytes of a node in an iteration that is kept: shape, k_cnt, what its solution keeps; measured
-/// on meshes of 13 to 15,045 nodes.
-pub const BYTES_OF_A_NODE: f64 = 160.0;
+/// Returns the bytes that `iterations` of a model take until the result is written: the steps, those of
+/// the run that bounds their rounding, and the tree of which `result.json` is written; measured on
+/// meshes of 13 to 3,875 nodes, with a third more for addresses that the allocator keeps.
+pub fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
+    const EACH: f64 = 4500.0;
+    const NODE: f64 = 120.0;
+    const CONTACT_NODE: f64 = 250.0;
+    let [nodes, contact] = [model.nodes.len(), model.contact.nodes.len()].map(|n| n as f64);
+    iterations as f64 * (EACH + NODE * nodes + CONTACT_NODE * contact)
+}
 
 /// Solves a request for one of the variants that the paper describes. `sparse` solves where the solver
 /// takes a sparse matrix; without it that solver gets a dense one.
@@ -58,7 +65,7 @@ pub(super) fn published<T: Precision>(
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
     let interpreter = interpreter.as_ref();
     let mut run = Run::new(request, &model, &sheet, load, sparse, interpreter, &number)?;
-    let mut steps: Vec<Step> = Vec::new();
+    let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
     for k in 1..=request.iterations {
         let step = run.iterate(k)?;
         watch(&step);
@@ -120,7 +127,7 @@ fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), Inpu
     let matrices = dense_matrices(request.variant, request.arithmetic).max(of_listing)
         * size_of::<T>().div_ceil(size_of::<f64>());
     memory::check(model.nodes.len(), matrices, memory::free())?;
-    let kept = BYTES_OF_A_NODE * (model.nodes.len() * request.iterations) as f64;
+    let kept = bytes_of_iterations(model, request.iterations);
     let whose = format!("{} iterations of {} nodes", request.iterations, model.nodes.len());
     memory::check_bytes(kept, "iterations", &whose, "ask for fewer iterations")?;
     if request.arithmetic.scalar != ScalarName::Exact {

@@ -44,8 +44,9 @@ fn memory_that_a_process_may_not_have_is_refused_with_what_is_needed() {
     let mut scene = scene_json("fig1");
     scene["iterations"] = 1_000_000.into();
     std::fs::write(folder.join("long.json"), scene.to_string()).expect("it is written");
-    let words = ["1000000 iterations of 13 nodes need 2.1 GB", "fewer"];
-    refused(folder, "ulimit -v 1500000; $P solve long.json", &words);
+    let words = ["1000000 iterations of 13 nodes need 7.3 GB", "fewer"];
+    refused(folder, "ulimit -v 5000000; $P solve long.json", &words);
+    refused(folder, "ulimit -v 5000000; $P solve long.json --variant printed", &words);
 }
 
 /// Of 1.055 GB, 5 MB at least are the program's already.

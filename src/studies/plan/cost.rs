@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::candidates::Candidates;
-use crate::answer::{BYTES_OF_A_NODE, Request};
+use crate::answer::{Request, bytes_of_iterations};
 use crate::numbers::solve::{FactorSize, ScalarName};
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Variant};
@@ -152,16 +152,16 @@ impl Work<'_> {
     fn bytes(&self, states: usize) -> Bytes {
         let (r, m) = (self.model.nodes.len() as f64, self.model.triangles.len() as f64);
         let [each, most] = FREED[usize::from(self.candidates.is_some())];
-        let kept = match (self.request.variant, self.request.contact.friction) {
+        let iterations = match (self.request.variant, self.request.contact.friction) {
             (Variant::Unilateral, Friction::NONE) => 0.0,
-            (Variant::Unilateral, _) => BYTES_OF_A_STATE * states as f64,
-            _ => BYTES_OF_A_NODE * self.request.iterations as f64,
+            (Variant::Unilateral, _) => BYTES_OF_A_STATE * r * states as f64,
+            _ => bytes_of_iterations(self.model, self.request.iterations),
         };
         Bytes {
             program: PROGRAM,
             mesh: TRIANGLE * m + (each * m).min(most),
             matrices: self.dense_bytes() + FACTOR * self.sparse.nonzeros as f64,
-            iterations: r * kept,
+            iterations,
         }
     }
 
