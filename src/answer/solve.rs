@@ -10,7 +10,7 @@ use super::sparse::{Condensing, Iterating, Sparse, Whole};
 use super::unilateral::unilateral;
 use crate::error::InputError;
 use crate::numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
-use crate::numbers::solve::{Arithmetic, Iterates, ScalarName, Solver, cost};
+use crate::numbers::solve::{Arithmetic, Iterates, ScalarName, Solver, cost, memory};
 use crate::paper::listings::Which;
 use crate::paper::mirror::NodeTable;
 use crate::problem::element::State;
@@ -30,7 +30,23 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     request.contact.check()?;
     request.tolerance.map_or(Ok(()), check_tolerance)?;
     check_edited(request)?;
+    check_memory(request)?;
     run(request, watch).map_err(|why| blamed(request, why))
+}
+
+/// Checks that a large run has the memory that every one takes.
+fn check_memory(request: &Request) -> Result<(), InputError> {
+    /// The number of equations of a large one.
+    const LARGE: usize = 100_000;
+    /// Bytes of an equation, at least; Hertz's contact of 961,810 equations takes 2,550 of each.
+    const LEAST: f64 = 2000.0;
+    let equations = request.scene.model.free_dofs();
+    if equations < LARGE {
+        return Ok(());
+    }
+    let whose = format!("{equations} free equations");
+    let fix = "use a coarser mesh or a machine with more memory";
+    memory::check_bytes(LEAST * equations as f64, "the mesh", &whose, fix)
 }
 
 /// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is

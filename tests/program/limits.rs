@@ -149,6 +149,14 @@ fn a_mesh_is_read_within_the_memory_or_refused() {
 }
 
 #[test]
+fn a_large_run_that_does_not_fit_in_memory_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    assert!(shell(folder.path(), "$P mesh cook --n 230 --out c").status.success());
+    let words = ["106260 free equations need 0.2 GB", "use a coarser mesh"];
+    refused(folder.path(), "ulimit -v 300000; $P solve c/scene.json", &words);
+}
+
+#[test]
 fn steps_of_a_listing_have_a_limit_which_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let times = "    for i2 ∈ 1 .. 1000\n      for i3 ∈ 1 .. 1000\n        x ← 1\n";
