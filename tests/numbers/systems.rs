@@ -332,6 +332,24 @@ fn dense_lu_judges_only_what_loads_move_far() {
     assert_eq!([0.0, 4e-17].map(factored), [true, false]);
 }
 
+/// A chain that a weak spring holds at one end: dense LU would take it for singular where loads of 1
+/// on each of 5,000 equations move it 6e10 times as far as a link gives way.
+#[test]
+fn a_large_matrix_is_singular_where_loads_move_it_too_far() {
+    let chain = |spring: f64| {
+        let mut matrix = SparseSquare::zeros(5000);
+        (0..5000).for_each(|k| matrix[(k, k)] = 2.0);
+        (1..5000).for_each(|k| (matrix[(k, k - 1)], matrix[(k - 1, k)]) = (-1.0, -1.0));
+        (matrix[(0, 0)], matrix[(4999, 4999)]) = (1.0 + spring, 1.0);
+        SparseLu::new(&matrix).map(|_| ())
+    };
+    assert_eq!([1e-4, 1e-5, 1e-6].map(chain), [Ok(()); 3]);
+    for spring in [1e-8, 0.0] {
+        let singular = chain(spring).expect_err("it is hardly held");
+        assert!(singular.column > 2500 && singular.pivot < 1e-8, "{singular:?}");
+    }
+}
+
 #[test]
 fn factors_are_made_once_for_each_of_the_last_four_matrices() {
     let known = KnownLu::default();

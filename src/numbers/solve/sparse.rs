@@ -104,7 +104,7 @@ fn probe<T: Native>(factors: &Cholesky<T>, diagonal: &DVector<T>) -> Option<(usi
 }
 
 /// Returns the equation that a singular matrix leaves free to move.
-fn mechanism<T: Native>(matrix: &SparseSymmetric<T>) -> Singular {
+pub fn mechanism<T: Native>(matrix: &SparseSymmetric<T>) -> Singular {
     let diagonal = matrix.diagonal();
     if let Some(column) = diagonal.iter().position(|d| d.to_f64().is_nan() || d.to_f64() <= 0.0) {
         return Singular { column, pivot: diagonal[column].to_f64() };

@@ -9,13 +9,17 @@ use nalgebra::DVector;
 
 use super::dense::DenseLu;
 use super::factors::{Factors, Lu, Native, Singular, backward_error, largest, solve};
-use super::sparse::largest_motion;
+use super::sparse::{largest_motion, mechanism};
 use super::square::SparseSquare;
+use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::Scalar;
 
 /// The motion under loads of 1, over that which a pivot of dense LU that counts as 0 would bring,
 /// beyond which dense LU says whether a matrix is singular.
 const DOUBTFUL: f64 = 1e-3;
+
+/// The number of equations beyond which the motion itself says so: dense LU would take too long.
+const LARGEST_DENSE: usize = 3000;
 
 /// A matrix and its sparse LU factors.
 pub struct SparseLu<T: Native = f64> {
@@ -25,7 +29,8 @@ pub struct SparseLu<T: Native = f64> {
 
 impl<T: Native> SparseLu<T> {
     /// Factors an n x n `matrix`, which should be symmetric but for rounding.
-    /// Errors: those of [`DenseLu`], which judges a matrix that loads move far.
+    /// Errors: those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
+    /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare<T>) -> Result<Self, Singular> {
         SparseLu::of_columns(columns(matrix), matrix)
     }
@@ -38,18 +43,17 @@ impl<T: Native> SparseLu<T> {
         faer::set_global_parallelism(Par::Seq);
         let symbolic = SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory");
         let Ok(factors) = solvers::Lu::try_new_with_symbolic(symbolic, columns.as_ref()) else {
-            return Err(judged(matrix).expect("dense LU finds the pivot that is 0"));
+            return Err(judged(matrix, f64::INFINITY).expect("a pivot is 0"));
         };
         let lu = SparseLu { matrix: columns, factors };
         let n = matrix.size();
         let column = |j| lu.matrix.val_of_col(j).iter();
         let scale = DVector::from_fn(n, |j, _| T::from_f64(largest(column(j))));
-        let limit = DOUBTFUL / (16.0 * n as f64 * T::EPSILON);
         let motion = largest_motion(&lu, &scale);
-        if motion < limit {
+        if motion < DOUBTFUL * farthest::<T>(n) {
             return Ok(lu);
         }
-        judged(matrix).map_or(Ok(lu), Err)
+        judged(matrix, motion).map_or(Ok(lu), Err)
     }
 }
 
@@ -115,9 +119,19 @@ impl<T: Native> Lu<T> for SparseLu<T> {
     }
 }
 
-/// Returns why dense LU takes a matrix for singular; None where it does not.
-fn judged<T: Native>(matrix: &SparseSquare<T>) -> Option<Singular> {
-    DenseLu::new(matrix.dense()).err()
+/// Returns the motion under loads of 1 that a pivot of dense LU that counts as 0 would bring.
+fn farthest<T: Native>(n: usize) -> f64 {
+    1.0 / (16.0 * n as f64 * T::EPSILON)
+}
+
+/// Returns why a matrix is taken for singular that loads of 1 move by `motion`; None where it is not.
+fn judged<T: Native>(matrix: &SparseSquare<T>, motion: f64) -> Option<Singular> {
+    let n = matrix.size();
+    if n <= LARGEST_DENSE {
+        return DenseLu::new(matrix.dense()).err();
+    }
+    let moves_too_far = motion.is_nan() || motion >= farthest::<T>(n);
+    moves_too_far.then(|| mechanism(&SparseSymmetric::new(n, matrix.entries())))
 }
 
 /// Returns the entries that are not 0, column by column.

@@ -33,7 +33,7 @@ impl<T: Scalar> SparseSquare<T> {
     }
 
     /// Returns the entries that are not 0, column by column, rows ascending: row, column, value.
-    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> {
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> + Clone {
         let entries = self.columns.iter().enumerate();
         let entries = entries.flat_map(|(j, column)| column.iter().map(move |(i, a)| (*i, j, *a)));
         entries.filter(|(_, _, value)| !value.is_zero())
