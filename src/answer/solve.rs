@@ -45,8 +45,7 @@ fn check_memory(request: &Request) -> Result<(), InputError> {
         return Ok(());
     }
     let whose = format!("{equations} free equations");
-    let fix = "use a coarser mesh or a machine with more memory";
-    memory::check_bytes(LEAST * equations as f64, "the mesh", &whose, fix)
+    memory::check_bytes(LEAST * equations as f64, "the mesh", &whose, memory::FIX)
 }
 
 /// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is

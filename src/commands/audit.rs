@@ -17,7 +17,7 @@ use plane_contact::studies::audit::range::range;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
 use plane_contact::suggestion::did_you_mean;
 
-use super::{TablesArgs, print, print_fitted, progress, tell};
+use super::{TablesArgs, print, print_either, progress, tell};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -87,10 +87,8 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
         let name = format!("{}.svg", finding.id);
         files::write_all(out, &format!("audit --finding {}", finding.id), &[(name, picture)])?;
     }
-    if args.json {
-        return print(&report::finding_json(finding, &measured, &case.scene));
-    }
-    print_fitted(&report::explain(finding, &measured, &case.scene))
+    let json = || report::finding_json(finding, &measured, &case.scene);
+    print_either(args.json, json, || report::explain(finding, &measured, &case.scene))
 }
 
 fn whole(args: &Args) -> Result<()> {

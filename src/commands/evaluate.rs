@@ -10,7 +10,7 @@ use plane_contact::paper::mathcad::{Limits, Listing, Outcome, Settings, Sheet, V
 use plane_contact::plain::plain;
 use plane_contact::report::evaluation as report;
 
-use super::{print, print_fitted, told};
+use super::{print, print_either, told};
 
 /// Run a program in the notation of the listings.
 #[derive(clap::Args)]
@@ -65,10 +65,10 @@ pub fn run(args: &Args) -> Result<u8> {
         .map_err(|error| InputError::new("--call", error.to_string(), notation))?;
     let outcome = call.runner_in(&sheet, &args.settings, &Limits::default()).call(&[]);
     let failure = match outcome {
-        Ok(outcome) if args.json => {
-            return print(&report::json(&outcome)).map(|()| 0);
+        Ok(outcome) => {
+            let printed = print_either(args.json, || report::json(&outcome), || shown(&outcome));
+            return printed.map(|()| 0);
         }
-        Ok(outcome) => return print_fitted(&shown(&outcome)).map(|()| 0),
         Err(failure) => failure,
     };
     let fix = "correct the program or its inputs";

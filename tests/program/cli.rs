@@ -326,8 +326,6 @@ fn bad_input_is_exit_status_2_and_loses_no_file() {
     fails(folder.path(), &["solve", "fig1", "--out", "file"], 2, &["cannot be written"]);
 }
 
-/// A link is written through, a pipe is written to: neither is replaced.
-#[cfg(unix)]
 #[test]
 fn a_change_of_a_scene_is_named_by_its_option() {
     let folder = TempDir::new().unwrap();
@@ -346,6 +344,8 @@ fn a_change_of_a_scene_is_named_by_its_option() {
     }
 }
 
+/// A link is written through, a pipe is written to: neither is replaced.
+#[cfg(unix)]
 #[test]
 fn links_and_pipes_stay_what_they_are() {
     let folder = TempDir::new().unwrap();

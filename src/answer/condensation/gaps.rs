@@ -14,13 +14,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::rows::Rows;
 use super::schur::{Condensation, holds};
-use crate::answer::contact::Pairing;
+use crate::answer::contact::{Pairing, STEEP};
 use crate::answer::elimination::{Constraint, Motion};
 use crate::numbers::solve::{DenseCholesky, DenseCondensed, Factors};
 use crate::problem::model::{Dof, NodeId};
-
-/// The component of a normal beyond which a node's one free motion makes its gap.
-const STEEP: f64 = 0.5;
 
 /// The condensed bodies in terms of gaps and slips.
 pub struct Gaps {

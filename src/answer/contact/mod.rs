@@ -12,9 +12,9 @@ pub mod status;
 mod surface;
 pub use mortar::Mortar;
 pub use order::{along, oddity};
-pub use pairing::Pairing;
+pub use pairing::{Pairing, STEEP};
 pub(super) use pressure::arcs;
-pub use pressure::{ContactNode, Traction, pulling, reactions};
+pub use pressure::{ContactNode, ROUNDING_OF_A_FORCE, Traction, pulling, reactions};
 pub use sliding::{Sense, Status};
 pub use surface::Surfaces;
 

@@ -43,11 +43,11 @@ pub struct ContactNode {
 }
 
 /// The force over the largest of a surface, or of the load, below which it is rounding.
-const ROUNDING: f64 = 1e-11;
+pub const ROUNDING_OF_A_FORCE: f64 = 1e-11;
 
 /// Returns the nodes in contact that pull by more than rounding; the largest force of the load is `load`.
 pub fn pulling(surface: &[ContactNode], load: f64) -> Vec<NodeId> {
-    let least = ROUNDING * largest(surface.iter().map(|node| node.force)).max(load);
+    let least = ROUNDING_OF_A_FORCE * largest(surface.iter().map(|node| node.force)).max(load);
     let pulls = |node: &&ContactNode| node.force.is_some_and(|force| force < -least);
     surface.iter().filter(|node| node.in_contact).filter(pulls).map(|node| node.node).collect()
 }
@@ -96,7 +96,7 @@ impl Traction<'_> {
         let lengths =
             [&self.model.nodes[..], self.measured_in].map(|shape| self.surfaces.tributary(shape));
         let arcs = arcs(self.model);
-        let least = ROUNDING * largest(self.forces.iter().map(|force| force[0]));
+        let least = ROUNDING_OF_A_FORCE * largest(self.forces.iter().map(|force| force[0]));
         let node = |i: usize| {
             let pairing = self.pairings[i].as_ref()?;
             let stretch = lengths[1][i] / lengths[0][i];

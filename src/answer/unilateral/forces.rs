@@ -11,11 +11,8 @@ use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::answer::contact::Pairing;
+use crate::answer::contact::{Pairing, STEEP};
 use crate::problem::model::{Dof, Model, NodeId};
-
-/// The component of a normal beyond which the node's one free equation determines its force.
-const STEEP: f64 = 0.5;
 
 /// A singular value, over that of a force on an equation of its own, below which a combination of
 /// forces is not determined.

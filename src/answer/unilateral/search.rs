@@ -9,7 +9,7 @@ use super::problem::{
 };
 use super::rigid;
 use super::status::{Memory, first_closed, nearest_open, next_closed};
-use crate::answer::contact::{Pairing, Sense, Status};
+use crate::answer::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::answer::elimination::Constraint;
 use crate::answer::error::{Error, NoEquilibrium};
 use crate::answer::solution::Cycle;
@@ -30,9 +30,6 @@ const STALLED: f64 = 1e-8;
 
 /// The number of shapes in which contact is measured before the search ends.
 const SHAPES: usize = 60;
-
-/// The part of the largest force, the loads among them, below which a pull is rounding.
-const PULL: f64 = 1e-11;
 
 impl Problem<'_> {
     /// Finds the equilibrium of a setting.
@@ -215,7 +212,7 @@ impl Problem<'_> {
             match iteration.statuses[i] {
                 Status::Open if gap < -deep => self.closing(place, i),
                 Status::Open => Status::Open,
-                _ if normal < -PULL * largest => Status::Open,
+                _ if normal < -ROUNDING_OF_A_FORCE * largest => Status::Open,
                 _ if undetermined && gap > self.closed => Status::Open,
                 // A normal force may be less than nothing by rounding.
                 Status::Stick if tangent.abs() > self.friction * normal.abs() * (1.0 + CONE) => {

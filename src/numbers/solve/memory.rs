@@ -4,6 +4,12 @@ use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
 use crate::error::{InputError, Result};
 
+/// What to do about a mesh that does not fit.
+pub const FIX: &str = "use a coarser mesh or a machine with more memory";
+
+/// Bytes that are taken without a look at what is free, which takes longer than to use them.
+const LITTLE: f64 = 1e6;
+
 /// Returns the bytes of `matrices` dense 2r x 2r matrices, `r` being the number of nodes.
 pub fn needed(r: usize, matrices: usize) -> u128 {
     let equations = 2 * r as u128;
@@ -35,6 +41,9 @@ fn address_space() -> Option<u64> {
 
 /// Checks that `needed` bytes fit in those that are free; `place` and `fix` are those of the error.
 pub fn check_bytes(needed: f64, place: &str, whose: &str, fix: &str) -> Result<()> {
+    if needed <= LITTLE {
+        return Ok(());
+    }
     let free = free().unwrap_or(u128::MAX) as f64;
     if needed <= free {
         return Ok(());
@@ -61,6 +70,6 @@ pub fn check(r: usize, matrices: usize, free: Option<u128>) -> Result<()> {
             2 * r,
             free as f64 / 1e9
         ),
-        "use a coarser mesh or a machine with more memory",
+        FIX,
     ))
 }

@@ -6,6 +6,7 @@ use super::description::Description;
 use super::gmsh::{self, Fault};
 use super::mesh::Mesh;
 use crate::error::{InputError, Result};
+use crate::numbers::solve::memory;
 
 /// A file beside a scene file, which is read once, as it comes.
 pub struct FileBeside {
@@ -64,7 +65,7 @@ pub fn mesh(
     let length = file.length;
     gmsh::read(file, length).map_err(|error| {
         let fix = match error.fault {
-            Fault::Memory { .. } => "use a coarser mesh or a machine with more memory",
+            Fault::Memory { .. } => memory::FIX,
             _ => "save the mesh again from Gmsh",
         };
         InputError::new(format!("mesh {name:?}"), error.to_string(), fix)

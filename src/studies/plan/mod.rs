@@ -109,8 +109,7 @@ impl Plan {
         let model = &*request.model()?;
         let whose = format!("the plan's {} equations", model.free_dofs());
         let needed = BYTES_OF_AN_EQUATION * model.free_dofs() as f64;
-        let fix = "use a coarser mesh or a machine with more memory";
-        memory::check_bytes(needed, "the mesh", &whose, fix)?;
+        memory::check_bytes(needed, "the mesh", &whose, memory::FIX)?;
         let bodies = bodies::plan(model, variant);
         let solver = request.solver();
         let equations = equations(model, variant, &bodies);
