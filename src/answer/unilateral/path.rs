@@ -39,7 +39,7 @@ struct End {
     equilibrium: Equilibrium,
     /// The iterations on the path, without those of steps that were divided.
     steps: Vec<Step>,
-    /// The number of all iterations.
+    /// The number of all contact states that were solved.
     factored: usize,
     halved: usize,
 }
@@ -187,7 +187,7 @@ impl Walk<'_> {
 
     /// Adds an iteration to the steps.
     fn keep(&mut self, to: f64, load: &DVector<f64>, place: &Place, iteration: &Iteration) {
-        self.factored += 1;
+        self.factored += usize::from(!iteration.returned);
         let step = step(self.problem, (self.steps.len() + 1, to), load, place, iteration);
         (self.watch)(&step);
         self.steps.push(step);

@@ -7,6 +7,7 @@ use nalgebra::DVector;
 
 use super::forces::{Force, tangent};
 use super::reduced::Last;
+use super::status::Memory;
 use crate::answer::condensation::Bodies;
 use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
 use crate::answer::elimination::{Constraint, Motion};
@@ -74,6 +75,7 @@ pub(super) struct Place {
 }
 
 /// An iteration: the statuses that were imposed, and what came of them.
+#[derive(Clone)]
 pub(super) struct Iteration {
     pub(super) statuses: Vec<Status>,
     /// The constraints that imposed them.
@@ -86,9 +88,19 @@ pub(super) struct Iteration {
     pub(super) gaps: Vec<Option<f64>>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub(super) violation: f64,
+    /// Whether it was not solved for, as its contact state was solved in the same place before.
+    pub(super) returned: bool,
+}
+
+impl Iteration {
+    /// Returns the next iteration, to which the statuses of this one return.
+    pub(super) fn again(&self, memory: &mut Memory) -> Self {
+        Iteration { cycle: memory.keep(&self.statuses), returned: true, ..self.clone() }
+    }
 }
 
 /// The displacements and forces under imposed statuses.
+#[derive(Clone)]
 pub(super) struct Moved {
     /// The displacements by degree of freedom, length.
     pub(super) u: DVector<f64>,

@@ -1,6 +1,8 @@
 //! The search for the equilibrium under one load: statuses are imposed, and the next ones follow from
 //! the forces, gaps and slips.
 
+use std::collections::VecDeque;
+
 use nalgebra::DVector;
 
 use super::forces::{Force, tangent};
@@ -20,6 +22,10 @@ pub const FIRST_GROWTH: f64 = 0.9;
 
 /// The number of iterations beyond one for each contact node after which the search ends.
 pub const PATIENCE: usize = 100;
+
+/// The number of iterations that are kept while one node changes at a time: a search without success
+/// goes round a few contact states.
+const RETURNING: usize = 8;
 
 /// The change of the displacements, over the largest, below which a shape agrees with the one in
 /// which its contact was measured.
@@ -150,8 +156,12 @@ impl Problem<'_> {
         let mut statuses = start.unwrap_or_else(|| self.first(place, setting.before));
         let limit = PATIENCE + self.model.contact.nodes.len();
         let mut against = String::new();
+        let mut recent: VecDeque<Iteration> = VecDeque::new();
         for k in 1..=limit {
-            let iteration = self.iteration(place, statuses, setting, memory)?;
+            let iteration = match recent.iter().find(|known| known.statuses == statuses) {
+                Some(known) => known.again(memory),
+                None => self.iteration(place, statuses, setting, memory)?,
+            };
             watch(place, &iteration);
             let wanted = self.wanted(place, &iteration, setting, memory.iterations == 1);
             if wanted == iteration.statuses {
@@ -161,6 +171,10 @@ impl Problem<'_> {
                 against = self.against(&iteration, &wanted);
             }
             statuses = memory.next(&iteration.statuses, wanted);
+            if memory.one_at_a_time {
+                recent.truncate(RETURNING - 1);
+                recent.push_front(iteration);
+            }
         }
         let never_slides = match self.friction.is_infinite() {
             true => "; where no node may slide there may be none: give a finite coefficient",
@@ -290,7 +304,7 @@ impl Problem<'_> {
     ) -> Iteration {
         let gaps = self.gaps(place, &moved.u);
         let violation = violation(&gaps, &statuses);
-        Iteration { statuses, constraints, cycle, moved, gaps, violation }
+        Iteration { statuses, constraints, cycle, moved, gaps, violation, returned: false }
     }
 
     /// Closes more nodes, or lets one stick; false where there is none.

@@ -20,7 +20,8 @@ pub(super) struct Memory {
     pub(super) iterations: usize,
     visited: HashMap<Vec<Status>, usize>,
     tried_here: HashSet<Vec<Status>>,
-    one_at_a_time: bool,
+    /// Whether one node changes at a time.
+    pub(super) one_at_a_time: bool,
     /// The last return of statuses other than those before.
     last_cycle: Option<Cycle>,
 }
