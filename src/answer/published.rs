@@ -159,7 +159,8 @@ struct Run<'a, T> {
 
 /// A contact state, which is all of k_cnt and the weights of the constraints, and its solution.
 struct Visited<T> {
-    pairs: Pairs<T>,
+    /// The entries of k_cnt that are not 0, each with its place.
+    k_cnt: Vec<(usize, T)>,
     constraints: Vec<Constraint<T>>,
     /// The last iteration that visited it.
     k: usize,
@@ -207,7 +208,9 @@ impl<'a, T: Precision> Run<'a, T> {
 
     fn iterate(&mut self, k: usize) -> Result<Step, Error> {
         let found = self.search(k)?;
-        let before = self.visited.iter().position(|visited| visited.is(&found));
+        let k_cnt = not_zero(&found.pairs.k_cnt);
+        let is_found = |visited: &Visited<T>| visited.is(&k_cnt, &found.constraints);
+        let before = self.visited.iter().position(is_found);
         let (cycle, solved) = match before.map(|at| self.visited.swap_remove(at)) {
             Some(visited) => {
                 let cycle = Cycle { length: k - visited.k, members: (visited.k..k).collect() };
@@ -217,8 +220,7 @@ impl<'a, T: Precision> Run<'a, T> {
         };
         self.advance(&solved);
         let step = self.step(k, &found, cycle, &solved);
-        let Found { pairs, constraints, .. } = found;
-        self.visited.push(Visited { pairs, constraints, k, solved });
+        self.visited.push(Visited { k_cnt, constraints: found.constraints, k, solved });
         Ok(step)
     }
 
@@ -364,20 +366,26 @@ impl<'a, T: Precision> Run<'a, T> {
 }
 
 impl<T: Scalar> Visited<T> {
-    /// Returns whether this is the state that was `found`.
-    fn is(&self, found: &Found<T>) -> bool {
+    /// Returns whether this is the state of `k_cnt`, where that is not 0, and `constraints`.
+    fn is(&self, k_cnt: &[(usize, T)], constraints: &[Constraint<T>]) -> bool {
         let same_weights = |a: &Constraint<T>, b: &Constraint<T>| {
             let mut masters = a.masters.iter().zip(&b.masters);
             a.node == b.node
                 && a.masters.len() == b.masters.len()
                 && masters.all(|(a, b)| a.0 == b.0 && a.1.same(b.1))
         };
-        let [mine, theirs] = [&self.pairs, &found.pairs].map(|pairs| pairs.k_cnt.as_matrix());
-        let mut entries = mine.iter().zip(theirs.iter());
-        entries.all(|(a, b)| a.same(*b))
-            && self.constraints.len() == found.constraints.len()
-            && self.constraints.iter().zip(&found.constraints).all(|(a, b)| same_weights(a, b))
+        let mut entries = self.k_cnt.iter().zip(k_cnt);
+        self.k_cnt.len() == k_cnt.len()
+            && entries.all(|(a, b)| a.0 == b.0 && a.1.same(b.1))
+            && self.constraints.len() == constraints.len()
+            && self.constraints.iter().zip(constraints).all(|(a, b)| same_weights(a, b))
     }
+}
+
+/// Returns the entries of a table that are not 0, each with its place.
+fn not_zero<T: Scalar>(table: &Table<T>) -> Vec<(usize, T)> {
+    let entries = table.as_matrix().iter().copied().enumerate();
+    entries.filter(|(_, entry)| !entry.same(T::zero())).collect()
 }
 
 /// Returns the coordinates of each node as `f64`, length.

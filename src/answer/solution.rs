@@ -15,7 +15,7 @@ use crate::numbers::scalar::Scalar;
 use crate::paper::decisions::Decision;
 use crate::paper::mirror::Pairs;
 use crate::problem::element::State;
-use crate::problem::model::{Model, NodeId};
+use crate::problem::model::{Dof, Model, NodeId};
 
 /// A step: one iteration of a published variant, or one of the active set.
 #[derive(Clone, Debug)]
@@ -88,9 +88,9 @@ pub struct Unilateral {
     /// The status that was imposed on each entry of the contact surface.
     pub statuses: Vec<Status>,
     /// The pairing of each entry in the shape in which contact was measured.
-    pub pairings: Vec<Option<Pairing>>,
-    /// The friction of sliding nodes by degree of freedom, force.
-    pub friction: Arc<DVector<f64>>,
+    pub pairings: Arc<Vec<Option<Pairing>>>,
+    /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
+    pub friction: Vec<(Dof, f64)>,
     /// The largest change of a sliding node's friction over that of μ times the normal forces which
     /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
     pub feedback: f64,
@@ -101,6 +101,15 @@ pub struct Unilateral {
     pub undetermined: Vec<bool>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub violation: f64,
+}
+
+impl Unilateral {
+    /// Returns the friction of sliding nodes by all `dofs` degrees of freedom, force.
+    pub fn friction(&self, dofs: usize) -> DVector<f64> {
+        let mut friction = DVector::zeros(dofs);
+        self.friction.iter().for_each(|(dof, force)| friction[dof.index()] = *force);
+        friction
+    }
 }
 
 /// The path of the load at the end of which a solution under friction stands.

@@ -213,7 +213,7 @@ fn beside(solution: &Solution, assessment: &Assessment) -> Value {
         Detail::Unilateral(own) => json!({
             "faces": own.pairings.iter().flatten().map(facing).collect::<Vec<_>>(),
             "feedback": own.feedback,
-            "friction": own.friction.as_slice(),
+            "friction": own.friction(solution.u.len()).as_slice(),
             "margin": own.margin,
             "undetermined": own.undetermined,
         }),

@@ -88,7 +88,7 @@ fn of(solution: &Solution, watched: usize) -> String {
         "factors": format!("{:?}", solution.factors),
         "feedback": own.iter().map(|own| own.feedback).collect::<Vec<_>>(),
         "forces": forces,
-        "rubs": own[own.len() - 1].friction.as_slice(),
+        "rubs": own[own.len() - 1].friction(solution.u.len()).as_slice(),
         "gaps": gaps,
         "halved": halved,
         "loads": loads,

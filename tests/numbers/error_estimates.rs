@@ -110,7 +110,8 @@ fn exact_state(solution: &Solution) -> DVector<f64> {
         let t = Elimination::closing(&model.restrained, &constraints);
         let stiffness = Stiffness::new(model, Exact::from_f64);
         let Detail::Unilateral(last) = &solution.last().detail else { unreachable!() };
-        let load = model.free_part(&(&model.load + &*last.friction)).map(Exact::from_f64);
+        let load =
+            model.free_part(&(&model.load + last.friction(model.dofs()))).map(Exact::from_f64);
         let b = t.load(&(load - stiffness.times(t.shift())));
         let value = |x: Exact| x.to_rational().expect("finite");
         let matrix = stiffness.reduced(&t).map(|x| value(*x));

@@ -246,7 +246,7 @@ fn state(
     let constraints: Vec<_> = constraints.collect();
     let t = Elimination::closing(&model.restrained, &constraints);
     let Detail::Unilateral(detail) = &step.detail else { return None };
-    let friction = detail.friction.map(Bounded::from_f64);
+    let friction = detail.friction(load.len()).map(Bounded::from_f64);
     let load = model.free_part(&(load + friction));
     let b = t.load(&(load - stiffness.times(t.shift())));
     let x = held.refined(&b.map(Scalar::to_f64));

@@ -135,7 +135,7 @@ impl<'a> Looking<'a> {
     /// Looks at a contact state.
     pub fn at(&mut self, state: &State) {
         let Detail::Unilateral(detail) = &state.step.detail else { return };
-        let friction = detail.friction.map(Bounded::from_f64);
+        let friction = detail.friction(state.u.len()).map(Bounded::from_f64);
         let reaction = self.stiffness.times(state.u) - (&state.load + friction);
         for (i, pairing) in detail.pairings.iter().enumerate() {
             match (detail.statuses[i], pairing) {

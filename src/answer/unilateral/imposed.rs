@@ -1,8 +1,6 @@
 //! What imposed statuses lead to: displacements, the forces of contact, and the friction of nodes that
 //! slide.
 
-use std::sync::Arc;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, Force, forces};
@@ -13,6 +11,7 @@ use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::error::{Error, NoEquilibrium};
 use crate::answer::factors::LastFactors;
 use crate::numbers::solve::{Singular, SparseCholesky, SparseSymmetric};
+use crate::problem::model::Dof;
 
 /// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
 const SOFT: f64 = 1e-8;
@@ -55,14 +54,14 @@ impl Problem<'_> {
     ) -> Result<Solved, Error> {
         let mut reaction = bodies.reaction(&u, load);
         let mut forces = self.forces(place, statuses, &reaction);
-        let (mut friction, mut feedback) = (Arc::clone(&self.no_friction), 0.0);
+        let (mut friction, mut feedback) = (Vec::new(), 0.0);
         if let Some(slide) = self.slide(place, statuses, &forces, bodies)? {
             let [more, force] = bodies.under(&slide.friction).map_err(|_| jammed())?;
             u += more;
             reaction += force;
             forces = self.forces(place, statuses, &(&reaction - &slide.friction));
             slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
-            (friction, feedback) = (Arc::new(slide.friction), slide.feedback);
+            (friction, feedback) = (acting(&slide.friction), slide.feedback);
         }
         let (u, whole) = (bodies.expand(u, load), bodies.are_whole());
         Ok(Solved::Moved(Moved { u, forces, friction, feedback, reaction, residual, whole }))
@@ -172,6 +171,12 @@ struct Slide {
     sizes: Vec<(usize, f64)>,
     /// See [`Moved::feedback`].
     feedback: f64,
+}
+
+/// Returns each degree of freedom on which a force acts, with it.
+fn acting(force: &DVector<f64>) -> Vec<(Dof, f64)> {
+    let of_dof = Dof::all(force.len()).zip(force.iter().copied());
+    of_dof.filter(|(_, force)| *force != 0.0).collect()
 }
 
 fn jammed() -> NoEquilibrium {

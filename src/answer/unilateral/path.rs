@@ -218,8 +218,8 @@ fn step(
         detail: Detail::Unilateral(solution::Unilateral {
             load: to,
             statuses: statuses.clone(),
-            pairings: place.pairings.clone(),
-            friction: Arc::clone(&moved.friction),
+            pairings: Arc::clone(&place.pairings),
+            friction: moved.friction.clone(),
             feedback: moved.feedback,
             margin: problem.margin(iteration),
             undetermined: moved.forces.iter().map(|force| force.undetermined).collect(),

@@ -45,13 +45,11 @@ pub(super) struct Problem<'a> {
     pub(super) supports: Vec<bool>,
     /// Coulomb's coefficient, infinite where nodes stick.
     pub(super) friction: f64,
-    /// The friction of sliding nodes where none slides against it, by degree of freedom: 0, force.
-    pub(super) no_friction: Arc<DVector<f64>>,
     pub(super) bodies: Bodies,
     /// The whole matrix that was factored last.
     pub(super) last: Last,
     /// The target that each contact node faces in the initial shape.
-    initial: Vec<Option<Pairing>>,
+    initial: Arc<Vec<Option<Pairing>>>,
 }
 
 /// What a step of the load starts from, and the load at its end.
@@ -71,7 +69,7 @@ pub(super) struct Place {
     /// The coordinates of each node, length.
     pub(super) shape: Arc<Vec<[f64; 2]>>,
     /// The pairing of each entry of the contact surface.
-    pub(super) pairings: Vec<Option<Pairing>>,
+    pub(super) pairings: Arc<Vec<Option<Pairing>>>,
 }
 
 /// An iteration: the statuses that were imposed, and what came of them.
@@ -106,8 +104,8 @@ pub(super) struct Moved {
     pub(super) u: DVector<f64>,
     /// The forces on each entry of the contact surface, force.
     pub(super) forces: Vec<Force>,
-    /// The friction of sliding nodes by degree of freedom, force.
-    pub(super) friction: Arc<DVector<f64>>,
+    /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
+    pub(super) friction: Vec<(Dof, f64)>,
     /// The largest change of a sliding node's friction over that of μ times the normal forces which
     /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
     pub(super) feedback: f64,
@@ -162,10 +160,9 @@ impl<'a> Problem<'a> {
             closed: CLOSED * size(model),
             supports: supports_of_target(model, &model.restrained),
             friction,
-            no_friction: Arc::new(DVector::zeros(model.dofs())),
             bodies,
             last: Last::default(),
-            initial,
+            initial: Arc::new(initial),
         })
     }
 
@@ -179,8 +176,8 @@ impl<'a> Problem<'a> {
     pub(super) fn place(&self, u: &DVector<f64>) -> Place {
         let shape = self.model.shape(u);
         let pairings = match self.is_current() {
-            true => self.surfaces.pairings(self.request.contact.coupling, &shape),
-            false => self.initial.clone(),
+            true => Arc::new(self.surfaces.pairings(self.request.contact.coupling, &shape)),
+            false => Arc::clone(&self.initial),
         };
         Place { shape: Arc::new(shape), pairings }
     }

@@ -274,7 +274,7 @@ impl Problem<'_> {
         setting: &Setting,
         memory: &mut Memory,
     ) -> Result<Iteration, Error> {
-        for (status, pairing) in statuses.iter_mut().zip(&place.pairings) {
+        for (status, pairing) in statuses.iter_mut().zip(&*place.pairings) {
             if pairing.is_none() {
                 *status = Status::Open;
             }

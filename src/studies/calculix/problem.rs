@@ -78,7 +78,7 @@ impl Contact {
             states.push((equations, before + share));
         }
         let friction = match &solution.last().detail {
-            Detail::Unilateral(own) => Some((*own.friction).clone()),
+            Detail::Unilateral(own) => Some(own.friction(solution.u.len())),
             Detail::Published(_) => None,
         };
         let contact = |equations| Contact::Equations(equations, friction.clone());
