@@ -1,5 +1,6 @@
 //! The sparse solvers of `tied` and `stepped`, which build no dense matrix of all equations.
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -69,33 +70,41 @@ impl<T: Iterates> Sparse<T> for Iterating {
 
 /// The factors of the condensed bodies, in `f64`; where they do not serve, those of the whole matrix.
 pub(super) struct Condensing {
-    /// The stiffness in `f64`.
-    stiffness: Stiffness,
+    /// The stiffness in `f64` of a run in other numbers, once it was asked for.
+    stiffness: OnceCell<Stiffness>,
     bodies: Bodies,
 }
 
 impl Condensing {
     pub(super) fn new(request: &Request, model: &Arc<Model>) -> Self {
-        let bodies = Bodies::new(model, &request.shared);
-        Condensing { stiffness: Stiffness::new(model, |x| x), bodies }
+        Condensing { stiffness: OnceCell::new(), bodies: Bodies::new(model, &request.shared) }
+    }
+
+    /// Returns the stiffness of a model in `f64`.
+    fn stiffness(&self, model: &Model) -> &Stiffness {
+        self.stiffness.get_or_init(|| Stiffness::new(model, |x| x))
     }
 
     /// Returns T of a state in `f64`, and its factors.
-    fn factors<T: Scalar>(&self, state: &State<T>) -> (Elimination, Option<Arc<Bound>>) {
+    fn factors<T: Scalar>(
+        &self,
+        state: &State<T>,
+        stiffness: &Stiffness,
+    ) -> (Elimination, Option<Arc<Bound>>) {
         let constraints: Vec<Constraint> =
             state.constraints.iter().map(|c| c.map(Scalar::to_f64)).collect();
         let t = Elimination::new(&state.model.restrained, &constraints);
-        let bound = self.bodies.bound(&self.stiffness, &t, &constraints);
+        let bound = self.bodies.bound(stiffness, &t, &constraints);
         (t, bound)
     }
 }
 
 impl Sparse<f64> for Condensing {
     fn solve(&self, state: &State<f64>) -> Result<Solved<f64>, Unsolved> {
-        let (t, bound) = self.factors(state);
+        let (t, bound) = self.factors(state, state.stiffness);
         let refined = |bound: Arc<Bound>| {
             let norm = bound.norm();
-            let (x, residual) = refined(&self.stiffness, &t, (&bound, norm), state.f).ok()?;
+            let (x, residual) = refined(state.stiffness, &t, (&bound, norm), state.f).ok()?;
             Some(Solved { x, residual })
         };
         bound.and_then(refined).map_or_else(|| Whole.solve(state), Ok)
@@ -109,10 +118,10 @@ impl Sparse<f64> for Condensing {
 impl Sparse<Bounded> for Condensing {
     /// Solves as in `f64`, with a bound on the error of the solution.
     fn solve(&self, state: &State<Bounded>) -> Result<Solved<Bounded>, Unsolved> {
-        let f = state.f.map(Scalar::to_f64);
-        let (t, bound) = self.factors(state);
+        let (f, stiffness) = (state.f.map(Scalar::to_f64), self.stiffness(state.model));
+        let (t, bound) = self.factors(state, stiffness);
         let refined = |bound: Arc<Bound>| {
-            let (x, residual) = refined(&self.stiffness, &t, (&bound, bound.norm()), &f).ok()?;
+            let (x, residual) = refined(stiffness, &t, (&bound, bound.norm()), &f).ok()?;
             Some((bound, x, residual))
         };
         let with_error = |factors: &dyn Factors<f64>, x: DVector<f64>, residual: f64| {
@@ -132,7 +141,8 @@ impl Sparse<Bounded> for Condensing {
 impl Sparse<F64x2> for Condensing {
     fn solve(&self, state: &State<F64x2>) -> Result<Solved<F64x2>, Unsolved> {
         let matrix = state.stiffness.reduced(state.t);
-        let (x, _) = in_double(&matrix, state.f, self.factors(state).1)?;
+        let factors = self.factors(state, self.stiffness(state.model)).1;
+        let (x, _) = in_double(&matrix, state.f, factors)?;
         Ok(Solved { residual: matrix.residual(&x, state.f), x })
     }
 }
@@ -142,7 +152,8 @@ impl Sparse<BoundedDouble> for Condensing {
     fn solve(&self, state: &State<BoundedDouble>) -> Result<Solved<BoundedDouble>, Unsolved> {
         let matrix = state.stiffness.reduced(state.t).map(|x| x.value());
         let f = state.f.map(WithBound::value);
-        let (x, bound) = in_double(&matrix, &f, self.factors(state).1)?;
+        let factors = self.factors(state, self.stiffness(state.model)).1;
+        let (x, bound) = in_double(&matrix, &f, factors)?;
         let factors: Box<dyn Factors<f64>> = match bound {
             Some(bound) => Box::new(bound),
             None => Box::new(SparseCholesky::new(matrix.map(|x| x.to_f64()))?),

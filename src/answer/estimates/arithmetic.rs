@@ -38,25 +38,10 @@ pub struct Rounding {
 
 /// Returns what rounding may do to a solution.
 pub fn rounding(solution: &Solution) -> Rounding {
-    match solution.request.variant {
-        Variant::Unilateral => {
-            let held = Held::new(solution);
-            of_equilibrium(solution, held.as_ref(), &bounded(&solution.model))
-        }
-        _ => of_published(solution),
-    }
-}
-
-/// Does the same with the bodies as they are held at the end; None where they are not.
-pub(super) fn rounding_of(
-    solution: &Solution,
-    held: Option<&Held>,
-    stiffness: &Stiffness<Bounded>,
-) -> Rounding {
-    match solution.request.variant {
-        Variant::Unilateral => of_equilibrium(solution, held, stiffness),
-        _ => of_published(solution),
-    }
+    of_published(solution).unwrap_or_else(|| {
+        let held = Held::new(solution);
+        of_equilibrium(solution, held.as_ref(), &bounded(&solution.model))
+    })
 }
 
 /// Returns the stiffness of each triangle with a bound on its rounding.
@@ -64,8 +49,10 @@ pub fn bounded(model: &Model) -> Stiffness<Bounded> {
     Stiffness::new(model, Bounded::from_f64)
 }
 
-fn of_published(solution: &Solution) -> Rounding {
-    match solution.request.arithmetic.scalar {
+/// Returns what rounding may do to a run of a variant that the paper describes; None of another.
+pub(super) fn of_published(solution: &Solution) -> Option<Rounding> {
+    let request = &solution.request;
+    (request.variant != Variant::Unilateral).then(|| match request.arithmetic.scalar {
         // What is rounded is the displacements themselves, to be written as f64.
         ScalarName::Exact => Rounding {
             displacement: solution.u.amax() * f64::EPSILON / 2.0,
@@ -73,10 +60,12 @@ fn of_published(solution: &Solution) -> Rounding {
             steps: solution.steps.iter().map(written).collect(),
         },
         _ => of_run(solution),
-    }
+    })
 }
 
-fn of_equilibrium(
+/// Returns the same of an equilibrium, with the bodies as they are held at the end; None where they
+/// are not.
+pub(super) fn of_equilibrium(
     solution: &Solution,
     held: Option<&Held>,
     stiffness: &Stiffness<Bounded>,

@@ -85,8 +85,11 @@ impl ErrorEstimates {
     /// Estimates the errors of a run.
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
+        // Another run takes much memory: nothing is held yet that it does not need.
+        let of_run = arithmetic::of_published(solution);
         let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
-        let rounding = arithmetic::rounding_of(solution, held.as_ref(), &bounded);
+        let of_last = || arithmetic::of_equilibrium(solution, held.as_ref(), &bounded);
+        let rounding = of_run.unwrap_or_else(of_last);
         let arithmetic::Rounding { displacement, decisions, .. } = rounding;
         let of_stress = || arithmetic::stress_bounds(solution, &bounded, displacement);
         let of_mesh = || (Discretisation::new(model, &solution.elements), singular(solution));
