@@ -11,6 +11,7 @@ pub mod estimates;
 mod factors;
 mod held;
 mod hertz;
+mod memory;
 mod not_finite;
 mod probe;
 mod published;
@@ -31,15 +32,15 @@ pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use factors::Kept;
 pub use hertz::Hertz;
+pub use memory::Bytes;
 pub use probe::{Probe, Quantity};
-pub use published::bytes_of_iterations;
 pub use request::Request;
 pub use side_by_side::side_by_side;
 pub use solution::{
     Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, StepBounds, Unilateral,
     Uniqueness, max_displacement,
 };
-pub use solve::{equilibrium, solve};
+pub use solve::{check_memory, equilibrium, solve};
 pub use sparse::dense_matrices;
 pub use stiffness::Stiffness;
 pub use summary::{BodySummary, summaries};

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::error::Error;
+use super::memory::Bytes;
 use super::published::published;
 use super::request::Request;
 use super::solution::{Solution, Step};
@@ -34,18 +35,27 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     run(request, watch).map_err(|why| blamed(request, why))
 }
 
-/// Checks that a large run has the memory that every one takes.
-fn check_memory(request: &Request) -> Result<(), InputError> {
+/// Checks that a large run has the memory that it takes, with the runs beside it. Of runs that share
+/// what was factored, one that takes no more than another is not checked again: what is no longer free
+/// may be that one's.
+///
+/// # Errors
+/// Says how much it needs where that is not free.
+pub fn check_memory(request: &Request) -> Result<(), InputError> {
     /// The number of equations of a large one.
-    const LARGE: usize = 100_000;
-    /// Bytes of an equation, at least; Hertz's contact of 961,810 equations takes 2,550 of each.
-    const LEAST: f64 = 2000.0;
-    let equations = request.scene.model.free_dofs();
+    const LARGE: usize = 20_000;
+    let model = &request.scene.model;
+    let equations = model.free_dofs();
     if equations < LARGE {
         return Ok(());
     }
+    let all = [request, &request.equilibrium(), &request.reference()];
+    let needed =
+        all.map(|request| Bytes::of(request, model).total()).into_iter().fold(0.0, f64::max);
     let whose = format!("{equations} free equations");
-    memory::check_bytes(LEAST * equations as f64, "the mesh", &whose, memory::FIX)
+    request.shared.room(needed, || {
+        memory::check_bytes(needed, "the mesh", &whose, memory::FIX)
+    })
 }
 
 /// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is

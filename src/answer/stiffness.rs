@@ -15,6 +15,11 @@ use crate::problem::model::{Dof, Model, NodeId, TriangleId};
 /// memory of a run, and are computed each time they are needed.
 const KEPT: usize = 100_000;
 
+/// Returns the number of triangles of `model` whose matrices are kept: all, or none.
+pub(super) fn kept_matrices(model: &Model) -> usize {
+    Some(model.triangles.len()).filter(|triangles| *triangles <= KEPT).unwrap_or(0)
+}
+
 /// The stiffness matrix K, 2R x 2R, force/length, as what its triangles' matrices, and their stresses,
 /// are computed from.
 pub struct Stiffness<T = f64> {
@@ -68,8 +73,8 @@ impl<T: Scalar> Stiffness<T> {
             }
         };
         let triangles: Vec<Element<T>> = model.triangle_ids().map(triangle).collect();
-        let kept = if triangles.len() <= KEPT { triangles.len() } else { 0 };
-        let matrices = triangles[..kept].iter().map(|triangle| triangle.matrix(&materials));
+        let matrices =
+            triangles[..kept_matrices(model)].iter().map(|triangle| triangle.matrix(&materials));
         let matrices = matrices.collect();
         Stiffness { plane: model.plane, dofs: model.dofs(), materials, triangles, matrices }
     }

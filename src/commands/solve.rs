@@ -112,6 +112,8 @@ pub fn run(args: &Args) -> Result<u8> {
         }
         Ok::<_, Error>((solution, accuracy, estimates))
     };
+    // Before anything takes of it.
+    answer::check_memory(&request)?;
     // These do not wait for it.
     let plan = || Plan::new(&request);
     let others = || Others::new(&request, with_estimates);

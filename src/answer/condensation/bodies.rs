@@ -15,6 +15,7 @@ use crate::answer::contact::Pairing;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::factors::LastFactors;
 use crate::answer::stiffness::Stiffness;
+use crate::error::InputError;
 use crate::numbers::solve::{Eliminated, KnownLu};
 use crate::problem::model::{Model, NodeId};
 
@@ -41,6 +42,8 @@ pub struct Shared {
     condensed: Arc<Mutex<Vec<Arc<Condensation>>>>,
     /// The factors of `Km`.
     known: Arc<KnownLu>,
+    /// The most bytes that were asked for and free.
+    room: Arc<Mutex<f64>>,
 }
 
 impl fmt::Debug for Shared {
@@ -54,6 +57,23 @@ impl Shared {
     pub(in crate::answer) fn let_go(&self) {
         self.made().clear();
         self.known.let_go();
+    }
+
+    /// Checks that `needed` bytes are free by `check`, unless as many were before.
+    ///
+    /// # Errors
+    /// The error of `check`.
+    pub(in crate::answer) fn room(
+        &self,
+        needed: f64,
+        check: impl FnOnce() -> Result<(), InputError>,
+    ) -> Result<(), InputError> {
+        let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
+        if needed > *room {
+            check()?;
+            *room = needed;
+        }
+        Ok(())
     }
 
     /// Returns the factors of `Km` so far.

@@ -26,8 +26,8 @@ pub fn free() -> Option<u128> {
     Some(u128::from(system.available_memory().min(limit).min(of_process)))
 }
 
-/// Returns the bytes of addresses that the process may still ask for (`ulimit -v`); nothing where
-/// there is no limit, or the system does not tell as Linux does.
+/// Returns the bytes of addresses that the process may still ask for (`ulimit -v`), or has reserved and
+/// not used; nothing where there is no limit, or the system does not tell as Linux does.
 fn address_space() -> Option<u64> {
     let number = |file: &str, line: &str, at: usize| {
         let text = std::fs::read_to_string(file).ok()?;
@@ -35,7 +35,9 @@ fn address_space() -> Option<u64> {
         rest.split_whitespace().nth(at)?.parse::<u64>().ok()
     };
     let limit = number("/proc/self/limits", "Max address space", 0)?;
-    let used = number("/proc/self/status", "VmSize:", 0)? * 1024;
+    let kilobytes = |line: &str| number("/proc/self/status", line, 0);
+    let reserved = kilobytes("VmData:")?.saturating_sub(kilobytes("RssAnon:")?);
+    let used = kilobytes("VmSize:")?.saturating_sub(reserved) * 1024;
     Some(limit.saturating_sub(used))
 }
 

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::candidates::Candidates;
-use crate::answer::{Request, bytes_of_iterations};
+use crate::answer::{Bytes, Request};
 use crate::numbers::solve::{FactorSize, ScalarName};
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Variant};
@@ -41,39 +41,9 @@ pub struct Cost {
     pub bytes: Bytes,
 }
 
-/// Peak memory of the process, bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Bytes {
-    pub program: f64,
-    /// Mesh, worksheet, results and files.
-    pub mesh: f64,
-    pub matrices: f64,
-    pub iterations: f64,
-}
-
-impl Bytes {
-    /// The sum of all parts, bytes.
-    pub fn total(&self) -> f64 {
-        self.program + self.mesh + self.matrices + self.iterations
-    }
-}
-
-/// The program's pages and the allocator's first ones, bytes.
-const PROGRAM: f64 = 14.5e6;
-/// Bytes of a triangle and its share of the nodes: mesh, model, what its matrix is made of, states,
-/// sparse matrix, pictures.
-const TRIANGLE: f64 = 1550.0;
-/// Bytes of what is written, and of what is freed and not given back at once, of a triangle; and at
-/// most. Without contact, and with it.
-const FREED: [[f64; 2]; 2] = [[8.5e3, 90e6], [9.5e3, 90e6]];
-/// Bytes of a node in a contact state of `unilateral` under friction: friction and shape.
-const BYTES_OF_A_STATE: f64 = 32.0;
 /// Bytes of an entry of the printed matrix while its error is bounded: the matrix with a bound on
 /// each entry, its values, their factors.
 const PRINTED_BOUND: f64 = 43.0;
-/// Bytes of a number of sparse factors: its value, and its share of a row's number.
-const FACTOR: f64 = 10.0;
-
 /// Contact states of `unilateral` where nodes stick, measured on `strand`.
 const STICKING_STATES: usize = 3;
 /// Where nodes slide, one state more for each so many that do not touch yet: measured on Hertz's
@@ -85,12 +55,14 @@ impl Work<'_> {
     /// contact and the run is not itself that.
     pub fn cost(&self) -> Cost {
         let (states, reference_states) = (self.states(), self.reference_states());
+        let mut bytes = Bytes::of(self.request, self.model);
+        bytes.matrices += self.dense_bytes();
         Cost {
             dense_matrices: self.dense * self.width(),
             states,
             reference_states,
             operations: self.operations(states, reference_states),
-            bytes: self.bytes(states + reference_states),
+            bytes,
         }
     }
 
@@ -145,23 +117,6 @@ impl Work<'_> {
         match self.request.arithmetic.scalar {
             ScalarName::F32 | ScalarName::F64 => 1,
             _ => 2,
-        }
-    }
-
-    /// `states`: contact states of the run and of the reference solution.
-    fn bytes(&self, states: usize) -> Bytes {
-        let (r, m) = (self.model.nodes.len() as f64, self.model.triangles.len() as f64);
-        let [each, most] = FREED[usize::from(self.candidates.is_some())];
-        let iterations = match (self.request.variant, self.request.contact.friction) {
-            (Variant::Unilateral, Friction::NONE) => 0.0,
-            (Variant::Unilateral, _) => BYTES_OF_A_STATE * r * states as f64,
-            _ => bytes_of_iterations(self.model, self.request.iterations),
-        };
-        Bytes {
-            program: PROGRAM,
-            mesh: TRIANGLE * m + (each * m).min(most),
-            matrices: self.dense_bytes() + FACTOR * self.sparse.nonzeros as f64,
-            iterations,
         }
     }
 
