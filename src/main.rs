@@ -85,6 +85,12 @@ fn main() -> ExitCode {
         // What was asked for is help, or the version.
         Err(why) => return ended(commands::help(&why).map(done), json),
     };
+    // What they take is no longer free when a command asks how much is.
+    if let Err(why) = rayon::ThreadPoolBuilder::new().build_global() {
+        let what = format!("its threads cannot start: {why}");
+        let fix = "give it more memory, or fewer threads (RAYON_NUM_THREADS)";
+        return ended(Err(InputError::new("the process", what, fix).into()), json);
+    }
     let result = match command {
         Command::Record(args) => commands::record::run(&args).map(done),
         Command::Verify(args) => commands::verify::run(&args),

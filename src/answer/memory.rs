@@ -46,10 +46,10 @@ impl Bytes {
         // Bytes of an equation, and of one for each time that the mesh doubled from 1024 of them, as
         // factors grow; those of the matrices of a triangle, where they are kept.
         let (each_equation, doubled, kept) = match request.variant {
-            Variant::Unilateral if has_path => (1000.0, 850.0, 1500.0),
-            Variant::Unilateral => (800.0, 250.0, 900.0),
-            Variant::Tied | Variant::Stepped => (1000.0, 400.0, 1440.0),
             Variant::Printed => (1000.0, 1300.0, 1440.0),
+            Variant::Unilateral if has_path => (2500.0, 150.0, 4500.0),
+            Variant::Tied | Variant::Stepped if model.has_contact() => (1000.0, 400.0, 1440.0),
+            _ => (900.0, 225.0, 900.0),
         };
         let doublings = (equations / 1024.0).max(1.0).log2();
         let [each, most] = FREED[usize::from(model.has_contact())];

@@ -53,9 +53,7 @@ pub fn check_memory(request: &Request) -> Result<(), InputError> {
     let needed =
         all.map(|request| Bytes::of(request, model).total()).into_iter().fold(0.0, f64::max);
     let whose = format!("{equations} free equations");
-    request.shared.room(needed, || {
-        memory::check_bytes(needed, "the mesh", &whose, memory::FIX)
-    })
+    request.shared.room(needed, || memory::check_bytes(needed, "the mesh", &whose, memory::FIX))
 }
 
 /// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is

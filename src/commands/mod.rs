@@ -342,6 +342,9 @@ pub fn write_or_print(file: &Option<PathBuf>, text: &str) -> Result<()> {
 pub fn progress(steps: usize, template: &str) -> ProgressBar {
     let style = ProgressStyle::with_template(template).expect("the template is sound");
     let bar = ProgressBar::new(steps as u64).with_style(style);
-    bar.enable_steady_tick(Duration::from_millis(500));
+    // What nobody sees needs no thread.
+    if !bar.is_hidden() {
+        bar.enable_steady_tick(Duration::from_millis(500));
+    }
     bar
 }

@@ -105,33 +105,47 @@ fn what_a_program_prints_without_end_is_not_kept() {
     assert!(!Path::new("/proc").join(id.trim()).exists(), "it is still there");
 }
 
-/// Writes a scene whose mesh file has a header for 100 million nodes and is `length` bytes long, with
-/// nothing else on the disk.
-fn scene_of_many_nodes(folder: &Path, length: u64) {
+/// Writes a scene whose mesh file begins with `sections` and is `length` bytes long, with nothing else
+/// on the disk.
+fn scene_of_a_long_mesh(folder: &Path, sections: &str, length: u64) {
     let mut scene = scene_json("fig1");
     scene.as_object_mut().expect("an object").retain(|field, _| field != "node" && field != "elem");
     scene["mesh"] = "large.msh".into();
     std::fs::write(folder.join("s.json"), scene.to_string()).expect("it is written");
-    let header = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n100000000\n";
-    std::fs::write(folder.join("large.msh"), header).expect("it is written");
+    let text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{sections}");
+    std::fs::write(folder.join("large.msh"), text).expect("it is written");
     let mesh = std::fs::File::options().write(true).open(folder.join("large.msh"));
     mesh.and_then(|mesh| mesh.set_len(length)).expect("a length");
 }
 
-/// What it needs is foreseen from its header.
+const MANY_NODES: &str = "$Nodes\n100000000\n";
+const MANY_ELEMENTS: &str = "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n100000000\n";
+
+/// What it needs is foreseen from its headers.
 #[test]
 fn a_mesh_file_beyond_the_memory_is_refused_before_it_is_read() {
     let folder = tempfile::tempdir().expect("a folder");
-    scene_of_many_nodes(folder.path(), 2_000_000_000);
-    let words = ["large.msh", "line 5: 100000000 nodes need 13.0 GB", "a coarser mesh"];
-    refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &words);
+    for (sections, needed) in [
+        (MANY_NODES, "line 5: 100000000 nodes need 13.0 GB"),
+        (MANY_ELEMENTS, "line 9: 100000000 elements need 31.0 GB"),
+    ] {
+        scene_of_a_long_mesh(folder.path(), sections, 2_000_000_000);
+        let words = ["large.msh", needed, "a coarser mesh"];
+        refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &words);
+    }
 }
 
+/// 8,000,000 bytes have room for a million nodes at most, which need 0.13 GB.
 #[test]
 fn what_a_file_is_too_short_for_is_not_foreseen() {
     let folder = tempfile::tempdir().expect("a folder");
-    scene_of_many_nodes(folder.path(), 5000);
-    refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &["line 6", "a node's number"]);
+    for (sections, words) in [
+        (MANY_NODES, ["line 6", "a node's number"]),
+        (MANY_ELEMENTS, ["line 10", "an element's number"]),
+    ] {
+        scene_of_a_long_mesh(folder.path(), sections, 8_000_000);
+        refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &words);
+    }
 }
 
 /// It is refused by its elements or by its plan under the smaller limits, and runs under the largest.
@@ -156,7 +170,14 @@ fn a_large_run_that_does_not_fit_in_memory_is_refused() {
     refused(folder.path(), "ulimit -v 300000; $P solve c/scene.json", &words);
 }
 
-/// What each variant takes is foreseen; of 1.3 GB the allocator reserves a gigabyte that is free.
+#[test]
+fn threads_that_cannot_start_are_an_error() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "ulimit -v 300000; RAYON_NUM_THREADS=1000 $P solve fig1 --json";
+    refused(folder.path(), line, &["where: the process", "threads cannot start", "fewer threads"]);
+}
+
+/// What each variant takes is foreseen; of 1.6 GB the allocator reserves a gigabyte that is free.
 #[test]
 fn a_run_of_each_variant_fits_in_the_memory_or_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -166,8 +187,11 @@ fn a_run_of_each_variant_fits_in_the_memory_or_is_refused() {
     for run in
         ["cook --variant printed", "hertz", "hertz --variant tied", "hertz --variant stepped"]
     {
-        for (limit, codes) in [(150_000, [2, 2]), (270_000, [0, 2]), (1_300_000, [0, 0])] {
-            let output = shell(folder.path(), &format!("ulimit -v {limit}; $P solve {run}"));
+        for (limit, codes) in
+            [(150_000, [2, 2]), (300_000, [0, 2]), (500_000, [0, 2]), (1_600_000, [0, 0])]
+        {
+            let line = format!("ulimit -v {limit}; RAYON_NUM_THREADS=4 $P solve {run}");
+            let output = shell(folder.path(), &line);
             let error = String::from_utf8_lossy(&output.stderr);
             let code = output.status.code().expect(&error);
             assert!(codes.contains(&code), "{run}, {limit}: {code} {error}");

@@ -111,15 +111,24 @@ fn the_last_triangle_may_stand_on_the_outer_row() {
     assert_eq!(triangles(1, 3), [[1, 4, 3], [1, 5, 4], [1, 2, 5], [2, 6, 5]]);
 }
 
-/// What does not run counter-clockwise is turned, though nothing makes it a triangle.
-#[test]
-fn a_triangle_without_area_is_refused() {
+/// Returns what is said of a mesh of one triangle that is refused.
+fn refusal(corners: [[f64; 2]; 3]) -> String {
     let mut mesh = MeshBuilder::default();
-    let row = mesh.row([0.0, 1.0, 2.0].map(|x| [x, 0.0]));
+    let row = mesh.row(corners);
     mesh.join("body", &row[..2], &row[2..]);
     let scene = SceneBuilder::new("flat", mesh.finish(), Plane::Strain).material("body", 1.0, 0.0);
-    let error = scene.build().expect_err("it is refused");
-    assert_eq!(error.what, "triangle 1 (nodes [1, 3, 2]) has the area 0");
+    scene.build().expect_err("it is refused").what
+}
+
+/// What does not run counter-clockwise is turned, though nothing makes it a triangle. Sides of 2^-52 and
+/// 1e-310 enclose 1e-326, which is below the least number; with a longest side of 1 it is 2e-295.
+#[test]
+fn a_triangle_without_area_is_refused() {
+    let triangle = "triangle 1 (nodes [1, 3, 2]) has";
+    let flat = [0.0, 1.0, 2.0].map(|x| [x, 0.0]);
+    assert_eq!(refusal(flat), format!("{triangle} the area 0"));
+    let small = [[1.0, 0.0], [1.0 + f64::EPSILON, 0.0], [1.0, 1e-310]];
+    assert_eq!(refusal(small), format!("{triangle} an area too small to represent"));
 }
 
 #[test]

@@ -27,8 +27,13 @@ pub fn free() -> Option<u128> {
 }
 
 /// Returns the bytes of addresses that the process may still ask for (`ulimit -v`), or has reserved and
-/// not used; nothing where there is no limit, or the system does not tell as Linux does.
+/// not used, without those that the allocator will leave between what it uses; nothing where there is
+/// no limit, or the system does not tell as Linux does.
 fn address_space() -> Option<u64> {
+    /// The size of the allocator's smaller reserves, bytes.
+    const RESERVE: u64 = 128 << 20;
+    /// What a thread reserves for itself, and uses the least part of: its stack and its heap, bytes.
+    const OF_THREAD: u64 = 16 << 20;
     let number = |file: &str, line: &str, at: usize| {
         let text = std::fs::read_to_string(file).ok()?;
         let rest = text.lines().find_map(|text| text.strip_prefix(line))?;
@@ -36,9 +41,10 @@ fn address_space() -> Option<u64> {
     };
     let limit = number("/proc/self/limits", "Max address space", 0)?;
     let kilobytes = |line: &str| number("/proc/self/status", line, 0);
-    let reserved = kilobytes("VmData:")?.saturating_sub(kilobytes("RssAnon:")?);
-    let used = kilobytes("VmSize:")?.saturating_sub(reserved) * 1024;
-    Some(limit.saturating_sub(used))
+    let reserved = 1024 * kilobytes("VmData:")?.saturating_sub(kilobytes("RssAnon:")?);
+    let unused = reserved.saturating_sub(OF_THREAD * number("/proc/self/status", "Threads:", 0)?);
+    let free = (limit + unused).saturating_sub(1024 * kilobytes("VmSize:")?);
+    Some(free - (free / 4).min(RESERVE))
 }
 
 /// Checks that `needed` bytes fit in those that are free; `place` and `fix` are those of the error.

@@ -13,10 +13,11 @@ use crate::problem::scene::mesh::{Element, Mesh, Node, PhysicalName};
 /// The bytes of the shortest node or element: `1 0 0 0` or `1 15 0 1`, and what parts it from the next.
 const SHORTEST: usize = 8;
 
-/// The bytes that a node takes while a scene is read and built, and an element besides; measured on
-/// grids of 0.4 and 1.6 million elements, with what those out of order take.
+/// The bytes that a node takes while a scene is read and built, and an element with what its share of
+/// the nodes takes once they are read; measured on grids of 0.4 and 1.6 million elements, with what
+/// those out of order take.
 const NODE: f64 = 130.0;
-const ELEMENT: f64 = 260.0;
+const ELEMENT: f64 = 310.0;
 
 /// Reads a mesh from a `.msh` file, of which never more than a part is held.
 ///
@@ -146,26 +147,26 @@ impl Reader<'_> {
     /// Makes room for the nodes that the file declares.
     /// Errors: there is no memory for a scene with so many.
     pub fn expect_nodes(&mut self, declared: usize) -> Result<()> {
-        let count = declared.min(self.length / SHORTEST);
-        self.check_memory(format!("{count} nodes"), NODE * count as f64)?;
+        let count = self.within_memory(declared, "nodes", NODE)?;
         self.nodes.reserve(count);
         Ok(())
     }
 
     /// Makes room for the elements that the file declares.
-    /// Errors: there is no memory for a scene with so many, and with the nodes before them.
+    /// Errors: there is no memory for a scene with so many.
     pub fn expect_elements(&mut self, declared: usize) -> Result<()> {
-        let (nodes, count) = (self.nodes.len(), declared.min(self.length / SHORTEST));
-        let kept = size_of::<Node>() as f64;
-        let needed = (NODE - kept) * nodes as f64 + ELEMENT * count as f64;
-        self.check_memory(format!("{nodes} nodes and {count} elements"), needed)?;
+        let count = self.within_memory(declared, "elements", ELEMENT)?;
         self.elements.reserve(count);
         Ok(())
     }
 
-    fn check_memory(&self, whose: String, needed: f64) -> Result<()> {
-        memory::check_bytes(needed, "", &whose, "")
-            .map_err(|why| self.tokens.error(Fault::Memory { why: why.what }))
+    /// Returns how many of those that are declared the file is long enough for, where there is memory
+    /// for so many, of which each takes `bytes`.
+    fn within_memory(&self, declared: usize, items: &str, bytes: f64) -> Result<usize> {
+        let count = declared.min(self.length / SHORTEST);
+        memory::check_bytes(bytes * count as f64, "", &format!("{count} {items}"), "")
+            .map_err(|why| self.tokens.error(Fault::Memory { why: why.what }))?;
+        Ok(count)
     }
 
     /// Reads the coordinates of the node `number`, and keeps it.
