@@ -148,6 +148,14 @@ fn what_a_file_is_too_short_for_is_not_foreseen() {
     }
 }
 
+#[test]
+fn less_than_a_tenth_of_a_gigabyte_is_told_in_megabytes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    scene_of_a_long_mesh(folder.path(), MANY_NODES, 5_000_000);
+    let words = ["line 5: 625000 nodes need 81 MB; ", " MB are free"];
+    refused(folder.path(), "ulimit -v 80000; $P solve s.json", &words);
+}
+
 /// It is refused by its elements or by its plan under the smaller limits, and runs under the largest.
 #[test]
 fn a_mesh_is_read_within_the_memory_or_refused() {

@@ -3,9 +3,10 @@
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
+use crate::common::program;
 use plane_contact::answer::{Request, solve};
 use plane_contact::numbers::solve::{Arithmetic, Solver, memory};
-use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan::line;
 use plane_contact::studies::plan::{Idle, Plan, Storage};
@@ -75,6 +76,35 @@ fn estimates_grow_with_what_is_asked() {
     for (more, less) in [(&lu, &dense), (&dense, &sparse)] {
         assert!(more.cost.bytes.total() > less.cost.bytes.total());
         assert!(more.cost.operations > less.cost.operations);
+    }
+}
+
+/// Megabytes of whole processes, files included, on 4 cores.
+#[test]
+fn the_memory_that_was_measured_is_planned() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = |mesh: &str, variant: Variant, friction: Friction| {
+        let words = format!("mesh {mesh} --out mesh");
+        assert!(
+            program::run(folder.path(), &words.split(' ').collect::<Vec<_>>()).status.success()
+        );
+        let scene = folder.path().join("mesh/scene.json");
+        let request = Request::new(&Scene::open(scene.to_str().unwrap()).unwrap()).variant(variant);
+        let contact = ContactModel { friction, ..request.contact };
+        Plan::new(&request.contact(contact)).unwrap().cost.bytes.total() / 1e6
+    };
+    for (mesh, variant, friction, measured) in [
+        ("hertz --size 59", Variant::Unilateral, Friction::NONE, 144.0),
+        ("hertz --size 59", Variant::Unilateral, Friction::new(0.2).unwrap(), 319.0),
+        ("hertz --size 59", Variant::Tied, Friction::NONE, 224.0),
+        ("hertz --size 59", Variant::Stepped, Friction::NONE, 251.0),
+        ("hertz --size 116", Variant::Unilateral, Friction::NONE, 303.0),
+        ("hertz --size 116", Variant::Tied, Friction::NONE, 564.0),
+        ("cook --n 120", Variant::Printed, Friction::NONE, 320.0),
+        ("cook --n 230", Variant::Tied, Friction::NONE, 360.0),
+    ] {
+        let over = plan(mesh, variant, friction) / measured;
+        assert!((0.95..1.45).contains(&over), "{mesh} {variant} {friction}: {over}");
     }
 }
 

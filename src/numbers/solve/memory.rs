@@ -56,9 +56,13 @@ pub fn check_bytes(needed: f64, place: &str, whose: &str, fix: &str) -> Result<(
     if needed <= free {
         return Ok(());
     }
-    let gigabytes = |bytes: f64| format!("{:.1} GB", bytes / 1e9);
-    let what = format!("{whose} need {}; {} are free", gigabytes(needed), gigabytes(free));
+    let what = format!("{whose} need {}; {} are free", readable(needed), readable(free));
     Err(InputError::new(place, what, fix))
+}
+
+/// Spells bytes: of less than 0.1 GB, in MB.
+fn readable(bytes: f64) -> String {
+    if bytes < 1e8 { format!("{:.0} MB", bytes / 1e6) } else { format!("{:.1} GB", bytes / 1e9) }
 }
 
 /// Checks that `matrices` dense 2r x 2r matrices fit in `free` bytes.
