@@ -172,8 +172,8 @@ impl Problem<'_> {
             }
             statuses = memory.next(&iteration.statuses, wanted);
             if memory.one_at_a_time {
-                recent.truncate(RETURNING - 1);
                 recent.push_front(iteration);
+                recent.truncate(RETURNING);
             }
         }
         let never_slides = match self.friction.is_infinite() {
