@@ -80,7 +80,7 @@ pub const PASSAGES: Passages = Passages {
         ("| 6 | - |", "as above"),
         ("0 where restrained, else 1", "the meaning of a value, its definition"),
         ("2R x 2R", "the shape of a symbol, its definition"),
-        ("as of 23 November 2026", "a date"),
+        ("as of 24 November 2026", "a date"),
         ("MIT or Apache-2.0", "the name of a licence"),
         ("length³; 1/length; stress", "a unit"),
     ],
