@@ -34,16 +34,17 @@ fn address_space() -> Option<u64> {
     const RESERVE: u64 = 128 << 20;
     /// What a thread reserves for itself, and uses the least part of: its stack and its heap, bytes.
     const OF_THREAD: u64 = 16 << 20;
-    let number = |file: &str, line: &str, at: usize| {
-        let text = std::fs::read_to_string(file).ok()?;
+    let read = |file| std::fs::read_to_string(file).ok();
+    let number = |text: &str, line: &str| {
         let rest = text.lines().find_map(|text| text.strip_prefix(line))?;
-        rest.split_whitespace().nth(at)?.parse::<u64>().ok()
+        rest.split_whitespace().next()?.parse::<u64>().ok()
     };
-    let limit = number("/proc/self/limits", "Max address space", 0)?;
-    let kilobytes = |line: &str| number("/proc/self/status", line, 0);
+    let limit = number(&read("/proc/self/limits")?, "Max address space")?;
+    let status = read("/proc/self/status")?;
+    let kilobytes = |line| number(&status, line);
     let reserved = 1024 * kilobytes("VmData:")?.saturating_sub(kilobytes("RssAnon:")?);
-    let unused = reserved.saturating_sub(OF_THREAD * number("/proc/self/status", "Threads:", 0)?);
-    let free = (limit + unused).saturating_sub(1024 * kilobytes("VmSize:")?);
+    let unused = reserved.saturating_sub(OF_THREAD * number(&status, "Threads:")?);
+    let free = limit.saturating_add(unused).saturating_sub(1024 * kilobytes("VmSize:")?);
     Some(free - (free / 4).min(RESERVE))
 }
 
