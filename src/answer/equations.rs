@@ -17,16 +17,17 @@ use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{self, Precision, Solver, Unsolved};
 use crate::paper::door;
 use crate::paper::edited::Interpreter;
+use crate::paper::listings::Which;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{self, Pairs, RestraintIndex, Schedule, Worksheet};
-use crate::paper::near::Km;
+use crate::paper::near::Assembler;
 use crate::problem::model::{Dof, Model};
 use crate::problem::modelling::{Coupling, Variant};
 
 /// The source of the matrix of an iteration.
-enum Assembly<T> {
-    /// `Km` with the contact pairs, as printed.
-    Printed,
+enum Assembly<'a, T> {
+    /// `Km` with the contact pairs, as printed; without its zeros where the solver takes it so.
+    Printed(Option<Assembler<'a, T>>),
     /// Elimination from the matrix of `Km` without contact and without restraints.
     Dense(Table<T>),
     /// Elimination from the triangles' matrices, solved by the function.
@@ -38,7 +39,7 @@ pub(super) struct Equations<'a, T> {
     request: &'a Request,
     model: &'a Arc<Model>,
     sheet: &'a Worksheet<T>,
-    assembly: Assembly<T>,
+    assembly: Assembly<'a, T>,
     /// What executes an edited `Km`; None where no listing is edited.
     interpreter: Option<&'a Interpreter>,
     /// The stiffness, triangle by triangle.
@@ -93,7 +94,11 @@ impl<'a, T: Precision> Equations<'a, T> {
         let is_sparse = takes_sparse(request.solver(), request.arithmetic.scalar);
         let sparse = sparse.filter(|_| is_sparse);
         let assembly = match (request.variant, sparse) {
-            (Variant::Printed, _) => Assembly::Printed,
+            (Variant::Printed, _) => {
+                let is_sparse =
+                    request.solver() == Solver::SparseLu && !request.is_edited(Which::Km);
+                Assembly::Printed(is_sparse.then(|| Assembler::new(sheet, &request.reading)))
+            }
             (_, Some(make)) => Assembly::Sparse(make(request, model)),
             (_, None) => Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
                 Some(edited) => edited?,
@@ -129,16 +134,15 @@ impl<'a, T: Precision> Equations<'a, T> {
     ) -> Result<Solved<T>, Error> {
         let (solver, tol) = (self.request.solver(), self.request.arithmetic.tol);
         match &self.assembly {
-            Assembly::Printed => {
+            Assembly::Printed(sparse) => {
                 let solved = T::sweep(|| {
                     let (sheet, reading) = (self.sheet, &self.request.reading);
                     let held = |matrix| door::holding_dropped(self.model, matrix);
                     let edited = self.interpreter.and_then(|i| i.km(&pairs.k_cnt));
                     let solved = if let Some(edited) = edited {
                         T::solve(held(edited?.into_matrix()), &self.f, solver, tol)
-                    } else if solver == Solver::SparseLu {
-                        let matrix =
-                            door::holding_dropped(self.model, Km(sheet, reading, &pairs.k_cnt)?);
+                    } else if let Some(sparse) = sparse {
+                        let matrix = door::holding_dropped(self.model, sparse.Km(&pairs.k_cnt)?);
                         T::solve_sparse(&matrix, &self.f, self.request.shared.known_lu())
                     } else {
                         let matrix = mirror::Km(sheet, reading, &pairs.k_cnt)?.into_matrix();
@@ -197,7 +201,7 @@ impl<'a, T: Precision> Equations<'a, T> {
     pub fn last_factors(&self) -> LastFactors {
         match &self.assembly {
             Assembly::Sparse(sparse) => sparse.last_factors(),
-            Assembly::Printed | Assembly::Dense(_) => LastFactors::Unknown,
+            Assembly::Printed(_) | Assembly::Dense(_) => LastFactors::Unknown,
         }
     }
 

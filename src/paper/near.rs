@@ -1,11 +1,12 @@
 //! The listings on large scenes, the same to the bit: `c_cnt` with the boxes of its lines 5 to 7 in a
-//! tree, without a look at every edge for every contact node, and `Km` without the zeros of `MJS`.
+//! tree, without a look at every edge for every contact node, and `Km` without the zeros of `MJS`, and
+//! anew only where mates are.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 use std::ops::{Index, IndexMut};
 
 use super::mathcad::array::{Table, rows};
-use super::mirror::{Failure, Km_in, Pairs, Reading, Worksheet, c_cnt_near};
+use super::mirror::{Failure, Km_of, Pairs, Reading, Worksheet, c_cnt_near};
 use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::SparseSquare;
 use crate::problem::tree::{Bounds, Tree};
@@ -36,16 +37,62 @@ pub fn c_cnt<T: Scalar>(
 /// A matrix that counts from 1.
 struct FromOne<T>(SparseSquare<T>);
 
-/// Assembles `MJS` (2R x 2R, force/length) from the contact pairs `k_cnt` (R x 4).
-///
-/// # Errors
-/// Those of the listing's [`Km`](super::mirror::Km).
-pub fn Km<T: Scalar>(
-    sheet: &Worksheet<T>,
-    reading: &Reading,
-    k_cnt: &Table<T>,
-) -> Result<SparseSquare<T>, Failure> {
-    Ok(Km_in(sheet, reading, k_cnt, FromOne(SparseSquare::zeros(2 * sheet.R())))?.0)
+/// `Km` of a worksheet, for one table of mates after the other.
+pub struct Assembler<'a, T> {
+    sheet: &'a Worksheet<T>,
+    reading: &'a Reading,
+    /// `MJS` without mates; None where an entry of it overflows.
+    apart: Option<SparseSquare<T>>,
+}
+
+impl<'a, T: Scalar> Assembler<'a, T> {
+    /// Assembles what no mates change.
+    pub fn new(sheet: &'a Worksheet<T>, reading: &'a Reading) -> Self {
+        let mut assembler = Assembler { sheet, reading, apart: None };
+        let none = Table::filled(sheet.R(), 4, T::zero());
+        assembler.apart = assembler.of(1..=sheet.M(), &none).ok();
+        assembler
+    }
+
+    /// Assembles `MJS` (2R x 2R, force/length) from the contact pairs `k_cnt` (R x 4).
+    ///
+    /// # Errors
+    /// Those of the listing's [`Km`](super::mirror::Km).
+    pub fn Km(&self, k_cnt: &Table<T>) -> Result<SparseSquare<T>, Failure> {
+        // What fails is the first element that does, of all of them.
+        self.mated(k_cnt).map_or_else(|| self.of(1..=self.sheet.M(), k_cnt), Ok)
+    }
+
+    /// Returns `MJS` without mates but for the entries between mates, to which alone lines 23 and 33 add:
+    /// those are assembled anew, of all elements at a mate or at the node of one. None where an element
+    /// fails.
+    fn mated(&self, k_cnt: &Table<T>) -> Option<SparseSquare<T>> {
+        let Worksheet { EL, ind_1, .. } = self.sheet;
+        let mut matrix = self.apart.clone()?;
+        let mut is_mate = vec![false; self.sheet.R() + 1];
+        let mut is_near = is_mate.clone();
+        for node in 1..=self.sheet.R() {
+            let mates = [1, 3].map(|column| k_cnt[(node, column)]);
+            for mate in mates.into_iter().filter(|mate| *mate > T::zero()) {
+                (is_mate[mate.at()], is_near[mate.at()], is_near[node]) = (true, true, true);
+            }
+        }
+        let at = |n: usize| (0..3).map(move |i| EL[(n, ind_1 + i)]);
+        let near = (1..=self.sheet.M()).filter(|n| at(*n).any(|node| is_near[node]));
+        let anew = self.of(near, k_cnt).ok()?;
+        let joins = |(i, j): (usize, usize)| is_mate[i / 2 + 1] && is_mate[j / 2 + 1];
+        anew.written().filter(|(i, j, _)| joins((*i, *j))).for_each(|(i, j, x)| matrix[(i, j)] = x);
+        Some(matrix)
+    }
+
+    fn of(
+        &self,
+        elements: impl IntoIterator<Item = usize>,
+        k_cnt: &Table<T>,
+    ) -> Result<SparseSquare<T>, Failure> {
+        let MJS = FromOne(SparseSquare::zeros(2 * self.sheet.R()));
+        Ok(Km_of(elements, self.sheet, self.reading, k_cnt, MJS)?.0)
+    }
 }
 
 impl<T: Scalar> Index<(usize, usize)> for FromOne<T> {

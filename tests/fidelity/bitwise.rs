@@ -334,7 +334,7 @@ fn agree(
         &of_mirror_km,
         &listing_km.map(|(m, _)| flat(&m)).map_err(|f| listing_stop(&f))
     );
-    let near_km = near::Km(sheet, reading, &k_cnt);
+    let near_km = near::Assembler::new(sheet, reading).Km(&k_cnt);
     let sparse = |m: &SparseSquare| bits(m.dense().iter().copied());
     prop_assert_eq!(
         &of_mirror_km,
@@ -409,7 +409,7 @@ fn listing_and_mirror_agree_on_any_mates() {
             let listing = listings::km(&which, &settings, &sheet, &k_cnt, &mut ());
             let listing = listing.map(|(m, _)| flat(m)).map_err(|f| listing_stop(&f));
             prop_assert_eq!(&mirror, &listing);
-            let near = near::Km(&sheet, &reading, &k_cnt).map_err(mirror_stop);
+            let near = near::Assembler::new(&sheet, &reading).Km(&k_cnt).map_err(mirror_stop);
             let near = near.map(|m: SparseSquare| bits(m.dense().iter().copied()));
             prop_assert_eq!(&mirror, &near);
         }

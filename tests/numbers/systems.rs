@@ -401,6 +401,22 @@ fn factors_are_known_by_every_place_and_value() {
     }
 }
 
+/// Factors of a pattern that is known are those of the matrix alone.
+#[test]
+fn factors_of_a_known_pattern_have_the_same_bits() {
+    let known = KnownLu::default();
+    let b = DVector::from_fn(12, |i, _| 1.0 / (i + 1) as f64);
+    for k in 1..6 {
+        let mut matrix = SparseSquare::zeros(12);
+        for i in 0..12 {
+            matrix[(i, i)] = 4.0 + (i * k) as f64 / 7.0;
+            matrix[(i, (5 * i + 3) % 12)] += 1.0 / (k + i) as f64;
+        }
+        let alone = SparseLu::new(&matrix).unwrap().solve(&b);
+        assert_eq!(known.factors(&matrix).unwrap().solve(&b), alone);
+    }
+}
+
 /// A pivot of 1e-40 beside a 1 would be taken for one of rounding.
 #[test]
 fn the_largest_pivot_of_a_column_is_taken() {

@@ -8,6 +8,7 @@
 //! weights unchanged; where the way to it counts, so is that of each iteration.
 
 use nalgebra::{DVector, SVector};
+use rayon::prelude::*;
 
 use super::ties::{Looking, State};
 use crate::answer::held::Held;
@@ -99,9 +100,9 @@ fn looked_at<'a>(
     };
     // From its displacements count the slips of the last step of the load.
     let from = way.iter().rposition(|step| part(step) < part(last));
-    let is_near = |i: usize| Some(i) == from || !looking.is_far(&way[i]);
+    let is_near = |i: &usize| Some(*i) == from || !looking.is_far(&way[*i]);
     let counts = if solution.way_counts() { way.len() } else { 0 };
-    let near: Vec<&Step> = (0..counts).filter(|i| is_near(*i)).map(|i| &way[i]).collect();
+    let near: Vec<usize> = (0..counts).into_par_iter().filter(is_near).collect();
     // The displacements before the step of the load, and after the last iteration.
     let mut before = DVector::zeros(model.dofs());
     let mut reached: Option<(f64, DVector<Bounded>)> = None;
@@ -117,7 +118,7 @@ fn looked_at<'a>(
         reached = Some((detail.load, u));
         Some(())
     };
-    for step in near {
+    for step in near.into_iter().map(|i| &way[i]) {
         let Detail::Unilateral(detail) = &step.detail else { return None };
         let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
         look(step, &Held::at(solution, step)?, load)?;

@@ -27,18 +27,18 @@ impl Problem<'_> {
     ) -> Result<Solved, Error> {
         let load = &setting.load;
         if !setting.whole
-            && let Some(surface) = OnSurface::new(self.elastic(), constraints)
-            && let Ok(solved) = surface.displacements(load)
+            && let Some(surface) = OnSurface::new(self.elastic(), constraints, load)
+            && let Ok(solved) = surface.displacements()
         {
-            return self.moved(place, statuses, load, solved, &surface);
+            return self.moved(place, statuses, solved, &surface);
         }
         let t = Elimination::closing(&self.model.restrained, constraints);
-        let reduced = match Reduced::new(self.elastic(), &t, constraints, statuses) {
+        let reduced = match Reduced::new(self.elastic(), &t, (constraints, statuses), load) {
             Ok(reduced) => reduced,
             Err(singular) => return Ok(self.free(&t, singular, load)),
         };
-        match reduced.displacements(load) {
-            Ok(solved) => self.moved(place, statuses, load, solved, &reduced),
+        match reduced.displacements() {
+            Ok(solved) => self.moved(place, statuses, solved, &reduced),
             Err(singular) => Ok(self.free(&t, singular, load)),
         }
     }
@@ -48,11 +48,10 @@ impl Problem<'_> {
         &self,
         place: &Place,
         statuses: &[Status],
-        load: &DVector<f64>,
         (mut u, residual): (DVector<f64>, f64),
         bodies: &dyn Responds,
     ) -> Result<Solved, Error> {
-        let mut reaction = bodies.reaction(&u, load);
+        let mut reaction = bodies.reaction(&u);
         let mut forces = self.forces(place, statuses, &reaction);
         let (mut friction, mut feedback) = (Vec::new(), 0.0);
         if let Some(slide) = self.slide(place, statuses, &forces, bodies)? {
@@ -63,7 +62,7 @@ impl Problem<'_> {
             slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
             (friction, feedback) = (acting(&slide.friction), slide.feedback);
         }
-        let (u, whole) = (bodies.expand(u, load), bodies.are_whole());
+        let (u, whole) = (bodies.expand(u), bodies.are_whole());
         Ok(Solved::Moved(Moved { u, forces, friction, feedback, reaction, residual, whole }))
     }
 

@@ -3,6 +3,7 @@
 //! nearly the same equations, with refinement.
 
 use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -12,7 +13,7 @@ use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::factors::Whole;
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::{Factors, Singular};
+use crate::numbers::solve::{Eliminated, Factors, Singular};
 use crate::problem::model::Model;
 
 /// What a status holds of a node's motion: nothing, the one along the normal, or both.
@@ -53,17 +54,17 @@ pub(super) trait Responds {
     ///
     /// # Errors
     /// The matrix is singular.
-    fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular>;
+    fn displacements(&self) -> Result<(DVector<f64>, f64), Singular>;
 
-    /// Returns the displacements by degree of freedom, length, from its own under a load.
-    fn expand(&self, u: DVector<f64>, load: &DVector<f64>) -> DVector<f64>;
+    /// Returns the displacements by degree of freedom, length, from its own.
+    fn expand(&self, u: DVector<f64>) -> DVector<f64>;
 
     /// Returns K u − f by degree of freedom, force, for displacements of its own, which is that of contact
     /// on the equations that contact can bind.
-    fn reaction(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64>;
+    fn reaction(&self, u: &DVector<f64>) -> DVector<f64>;
 
-    /// Returns the same for the displacements under a load on the contact surface alone, without the
-    /// shift of the constraints.
+    /// Returns the same for the displacements under another load, on the contact surface alone, without
+    /// the shift of the constraints.
     ///
     /// # Errors
     /// The matrix is singular.
@@ -77,37 +78,42 @@ pub(super) trait Responds {
 }
 
 /// The equations on the condensed bodies alone.
-pub(super) struct OnSurface<'a> {
-    bodies: &'a Bodies,
+pub(super) struct OnSurface {
     state: OnKept,
+    load: Rc<Eliminated>,
 }
 
-impl<'a> OnSurface<'a> {
-    /// Factors the equations on the condensed bodies; None where that cannot be.
-    pub(super) fn new(elastic: Elastic<'a>, constraints: &[Constraint]) -> Option<Self> {
+impl OnSurface {
+    /// Factors the equations under a load by degree of freedom on the condensed bodies; None where that
+    /// cannot be.
+    pub(super) fn new(
+        elastic: Elastic,
+        constraints: &[Constraint],
+        load: &DVector<f64>,
+    ) -> Option<Self> {
         let state = elastic.bodies.state(elastic.stiffness, constraints)?;
         // Those of a whole matrix are large, and not needed any more.
         elastic.last.0.take();
-        Some(OnSurface { bodies: elastic.bodies, state })
+        let load = elastic.bodies.eliminated(&state, load);
+        Some(OnSurface { state, load })
     }
 }
 
-impl Responds for OnSurface<'_> {
+impl Responds for OnSurface {
     fn are_whole(&self) -> bool {
         false
     }
 
-    fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
-        let load = self.bodies.eliminated(&self.state, load);
-        self.state.displacements(&load).ok_or(Singular { column: 0, pivot: f64::NAN })
+    fn displacements(&self) -> Result<(DVector<f64>, f64), Singular> {
+        self.state.displacements(&self.load).ok_or(Singular { column: 0, pivot: f64::NAN })
     }
 
-    fn expand(&self, u: DVector<f64>, load: &DVector<f64>) -> DVector<f64> {
-        self.state.expand(&self.bodies.eliminated(&self.state, load), &u)
+    fn expand(&self, u: DVector<f64>) -> DVector<f64> {
+        self.state.expand(&self.load, &u)
     }
 
-    fn reaction(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64> {
-        self.state.reaction(u, &self.bodies.eliminated(&self.state, load))
+    fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
+        self.state.reaction(u, &self.load)
     }
 
     fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
@@ -124,6 +130,8 @@ pub(super) struct Reduced<'a> {
     elastic: Elastic<'a>,
     t: &'a Elimination,
     constraints: &'a [Constraint],
+    /// By degree of freedom, force.
+    load: &'a DVector<f64>,
     made: Made,
 }
 
@@ -146,13 +154,13 @@ impl<'a> Reduced<'a> {
     pub(super) fn new(
         elastic: Elastic<'a>,
         t: &'a Elimination,
-        constraints: &'a [Constraint],
-        statuses: &[Status],
+        (constraints, statuses): (&'a [Constraint], &[Status]),
+        load: &'a DVector<f64>,
     ) -> Result<Self, Singular> {
         if let Some(bound) = elastic.bodies.bound(elastic.stiffness, t, constraints) {
             // Those of a whole matrix are large, and not needed any more.
             elastic.last.0.take();
-            return Ok(Reduced { elastic, t, constraints, made: Made::Condensed(bound) });
+            return Ok(Reduced { elastic, t, constraints, load, made: Made::Condensed(bound) });
         }
         let held = |status: &Status| match status {
             Status::Open => Held::Nothing,
@@ -172,6 +180,7 @@ impl<'a> Reduced<'a> {
             elastic,
             t,
             constraints,
+            load,
             made: Made::Whole { held, factors: RefCell::new(factors) },
         })
     }
@@ -212,25 +221,25 @@ impl Responds for Reduced<'_> {
         true
     }
 
-    fn displacements(&self, load: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
+    fn displacements(&self) -> Result<(DVector<f64>, f64), Singular> {
         let shifted = self.elastic.stiffness.times(self.t.shift());
-        let f = self.t.load(&(self.elastic.model.free_part(load) - shifted));
+        let f = self.t.load(&(self.elastic.model.free_part(self.load) - shifted));
         let (q, residual) = self.solve(&f)?;
         Ok((self.t.expand(&q), residual))
     }
 
-    fn expand(&self, u: DVector<f64>, _: &DVector<f64>) -> DVector<f64> {
+    fn expand(&self, u: DVector<f64>) -> DVector<f64> {
         u
     }
 
-    fn reaction(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64> {
-        self.elastic.stiffness.times(u) - load
+    fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
+        self.elastic.stiffness.times(u) - self.load
     }
 
     fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
         match &self.made {
             Made::Condensed(bound) => Ok(bound.response(load)),
-            Made::Whole { .. } => Ok(self.reaction(&self.unshifted(load)?, load)),
+            Made::Whole { .. } => Ok(self.elastic.stiffness.times(&self.unshifted(load)?) - load),
         }
     }
 

@@ -24,6 +24,7 @@ const LARGEST_DENSE: usize = 3000;
 /// A matrix and its sparse LU factors.
 pub struct SparseLu<T: Native = f64> {
     matrix: SparseColMat<usize, T>,
+    symbolic: SymbolicLu<usize>,
     factors: solvers::Lu<usize, T>,
 }
 
@@ -32,20 +33,22 @@ impl<T: Native> SparseLu<T> {
     /// Errors: those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare<T>) -> Result<Self, Singular> {
-        SparseLu::of_columns(columns(matrix), matrix)
+        let columns = columns(matrix);
+        SparseLu::ordered(symbolic(&columns), columns, matrix)
     }
 
-    /// Factors a matrix whose `columns` are known.
-    fn of_columns(
+    /// Factors a matrix whose `columns`, and what their pattern alone says, are known.
+    fn ordered(
+        symbolic: SymbolicLu<usize>,
         columns: SparseColMat<usize, T>,
         matrix: &SparseSquare<T>,
     ) -> Result<Self, Singular> {
         faer::set_global_parallelism(Par::Seq);
-        let symbolic = SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory");
-        let Ok(factors) = solvers::Lu::try_new_with_symbolic(symbolic, columns.as_ref()) else {
+        let factors = solvers::Lu::try_new_with_symbolic(symbolic.clone(), columns.as_ref());
+        let Ok(factors) = factors else {
             return Err(judged(matrix, f64::INFINITY).expect("a pivot is 0"));
         };
-        let lu = SparseLu { matrix: columns, factors };
+        let lu = SparseLu { matrix: columns, symbolic, factors };
         let n = matrix.size();
         let column = |j| lu.matrix.val_of_col(j).iter();
         let scale = DVector::from_fn(n, |j, _| T::from_f64(largest(column(j))));
@@ -72,16 +75,16 @@ impl KnownLu {
     /// Errors: those of [`SparseLu::new`].
     pub fn factors(&self, matrix: &SparseSquare) -> Result<Arc<SparseLu>, Singular> {
         let sparse = columns(matrix);
-        let is_known = |known: &&Arc<SparseLu>| {
+        let is_alike = |known: &&Arc<SparseLu>| {
             let (a, b) = (known.matrix.symbolic(), sparse.symbolic());
-            a.col_ptr() == b.col_ptr()
-                && a.row_idx() == b.row_idx()
-                && known.matrix.val() == sparse.val()
+            a.col_ptr() == b.col_ptr() && a.row_idx() == b.row_idx()
         };
-        if let Some(known) = self.made().iter().find(is_known) {
+        let alike: Vec<_> = self.made().iter().filter(is_alike).cloned().collect();
+        if let Some(known) = alike.iter().find(|known| known.matrix.val() == sparse.val()) {
             return Ok(Arc::clone(known));
         }
-        let factors = Arc::new(SparseLu::of_columns(sparse, matrix)?);
+        let order = alike.first().map_or_else(|| symbolic(&sparse), |known| known.symbolic.clone());
+        let factors = Arc::new(SparseLu::ordered(order, sparse, matrix)?);
         if matrix.size() <= Self::LARGEST {
             let mut made = self.made();
             made.push(Arc::clone(&factors));
@@ -117,6 +120,11 @@ impl<T: Native> Lu<T> for SparseLu<T> {
         }
         backward_error(&rest, largest(row_sums.iter()), x, b)
     }
+}
+
+/// Returns what the pattern of a matrix says of its factors.
+fn symbolic<T>(columns: &SparseColMat<usize, T>) -> SymbolicLu<usize> {
+    SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory")
 }
 
 /// Returns the motion under loads of 1 that a pivot of dense LU that counts as 0 would bring.

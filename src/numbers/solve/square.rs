@@ -34,9 +34,13 @@ impl<T: Scalar> SparseSquare<T> {
 
     /// Returns the entries that are not 0, column by column, rows ascending: row, column, value.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> + Clone {
-        let entries = self.columns.iter().enumerate();
-        let entries = entries.flat_map(|(j, column)| column.iter().map(move |(i, a)| (*i, j, *a)));
-        entries.filter(|(_, _, value)| !value.is_zero())
+        self.written().filter(|(_, _, value)| !value.is_zero())
+    }
+
+    /// Returns the entries that were written, zeros among them, in the same way.
+    pub fn written(&self) -> impl Iterator<Item = (usize, usize, T)> + Clone {
+        let columns = self.columns.iter().enumerate();
+        columns.flat_map(|(j, column)| column.iter().map(move |(i, a)| (*i, j, *a)))
     }
 
     /// Returns the matrix with `f` of each entry.

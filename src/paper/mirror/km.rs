@@ -26,19 +26,21 @@ pub fn Km<T: Scalar>(
 ) -> Result<Table<T>, Failure> {
     //#  1 Km(c_cnt) :=
     //#  2 MJS ← identity(2·R)·0
-    Km_in(sheet, reading, c_cnt, Table::filled(2 * sheet.R(), 2 * sheet.R(), T::zero()))
+    let MJS = Table::filled(2 * sheet.R(), 2 * sheet.R(), T::zero());
+    Km_of(1..=sheet.M(), sheet, reading, c_cnt, MJS)
 }
 
-/// Assembles in `MJS`, which is all zeros, however it keeps its entries.
+/// Assembles `elements`, ascending, in `MJS`, which is all zeros, however it keeps its entries.
 /// Errors: those of [`Km`].
-pub fn Km_in<T: Scalar, Matrix: IndexMut<(usize, usize), Output = T>>(
+pub fn Km_of<T: Scalar, Matrix: IndexMut<(usize, usize), Output = T>>(
+    elements: impl IntoIterator<Item = usize>,
     sheet: &Worksheet<T>,
     reading: &Reading,
     c_cnt: &Table<T>,
     mut MJS: Matrix,
 ) -> Result<Matrix, Failure> {
     let Worksheet { EL, ind_1, S, Ae, B, E, nu, .. } = sheet;
-    let (M, ind_1, zero, one) = (sheet.M(), *ind_1, T::zero(), T::one());
+    let (ind_1, zero, one) = (*ind_1, T::zero(), T::one());
     let D = |E: T, nu: T| element::D(sheet.plane, E, nu);
     let mut V = Column::filled(6, 0);
     let mut cx = Column::filled(6, zero);
@@ -46,7 +48,7 @@ pub fn Km_in<T: Scalar, Matrix: IndexMut<(usize, usize), Output = T>>(
     let mut W;
 
     //#  3 for n ∈ 1 .. M
-    for n in 1..=M {
+    for n in elements {
         //#  4 for i1 ∈ 1 .. 3
         for i1 in 1..=3 {
             //#  5 V[2·i1−1] ← 2·EL[n,i1+ind_1−1] − 1

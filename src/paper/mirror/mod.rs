@@ -22,6 +22,6 @@ mod worksheet;
 
 pub use c_cnt::{Pairs, c_cnt, c_cnt_near, weights};
 pub use failure::{Cause, Failure};
-pub use km::{Km, Km_in};
+pub use km::{Km, Km_of};
 pub use reading::{LoopPlace, NodeTable, Reading, RestraintIndex, Schedule, ToleranceUnit, Wedge};
 pub use worksheet::Worksheet;
