@@ -215,7 +215,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         let bound = constraints.iter().flat_map(|constraint| constraint.node.dofs());
         bound.for_each(|dof| wanted[dof.index()] = true);
         let load = self.load.map(|f| f / self.share);
-        let force = self.stiffness.times_on(&wanted, &u) - load;
+        let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - load;
         let support = support(self.model, &self.restrained, constraints, &force);
         Solved { residual, support, u }
     }

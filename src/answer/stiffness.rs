@@ -87,23 +87,29 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Returns K u, the forces that keep the shape `u`, force.
     pub fn times(&self, u: &DVector<T>) -> DVector<T> {
-        self.times_of(|_| true, u)
+        self.times_of(0..self.triangles.len(), u)
     }
 
-    /// Returns the part of K u on the `wanted` degrees of freedom, force, the same to the bit; other
-    /// entries hold parts of theirs.
-    pub fn times_on(&self, wanted: &[bool], u: &DVector<T>) -> DVector<T> {
-        self.times_of(|triangle| triangle.dofs().iter().any(|dof| wanted[dof.index()]), u)
+    /// Returns the triangles, ascending, with a `wanted` degree of freedom.
+    pub fn about(&self, wanted: &[bool]) -> Vec<usize> {
+        let is_about = |i: &usize| self.triangles[*i].dofs().iter().any(|d| wanted[d.index()]);
+        (0..self.triangles.len()).filter(is_about).collect()
     }
 
-    /// Returns what the `wanted` triangles add to K u, force.
-    fn times_of(&self, wanted: impl Fn(&Element<T>) -> bool, u: &DVector<T>) -> DVector<T> {
+    /// Returns what some triangles, ascending, add to K u, force: on the degrees of freedom
+    /// [about](Self::about) which they all are, K u to the bit.
+    pub fn times_of(
+        &self,
+        triangles: impl IntoIterator<Item = usize>,
+        u: &DVector<T>,
+    ) -> DVector<T> {
         let mut force = DVector::from_element(self.dofs, T::zero());
         let (u, common) = T::over_common(u.as_slice().to_vec());
         let u = DVector::from_vec(u);
-        for (i, triangle) in self.triangles.iter().enumerate() {
+        for i in triangles {
+            let triangle = &self.triangles[i];
             // A shift moves a few nodes alone.
-            if wanted(triangle) && triangle.dofs().iter().any(|dof| !u[dof.index()].is_zero()) {
+            if triangle.dofs().iter().any(|dof| !u[dof.index()].is_zero()) {
                 triangle.add_times(&self.matrix(i), &u, &mut force);
             }
         }

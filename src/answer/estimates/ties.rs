@@ -57,6 +57,8 @@ pub struct Looking<'a> {
     solution: &'a Solution,
     stiffness: &'a Stiffness<Bounded>,
     surfaces: Option<Surfaces>,
+    /// The triangles at a contact node.
+    at_surface: Vec<usize>,
     /// The decisions so far that rounding may have taken.
     pub decisions: Vec<Decision>,
     /// Whether all of them are ties that leave the displacements.
@@ -65,8 +67,14 @@ pub struct Looking<'a> {
 
 impl<'a> Looking<'a> {
     pub fn new(solution: &'a Solution, stiffness: &'a Stiffness<Bounded>) -> Self {
-        let surfaces = Surfaces::new(&solution.model).ok();
-        Looking { solution, stiffness, surfaces, decisions: Vec::new(), only_ties: true }
+        let model = &*solution.model;
+        let surfaces = Surfaces::new(model).ok();
+        let mut on_surface = vec![false; model.dofs()];
+        let dofs = model.contact.nodes.iter().flat_map(|node| node.dofs());
+        dofs.for_each(|dof| on_surface[dof.index()] = true);
+        let at_surface = stiffness.about(&on_surface);
+        let (decisions, only_ties) = (Vec::new(), true);
+        Looking { solution, stiffness, surfaces, at_surface, decisions, only_ties }
     }
 
     /// Returns whether a state on the way is far from other decisions, beyond what rounding does in any
@@ -136,7 +144,8 @@ impl<'a> Looking<'a> {
     pub fn at(&mut self, state: &State) {
         let Detail::Unilateral(detail) = &state.step.detail else { return };
         let friction = detail.friction(state.u.len()).map(Bounded::from_f64);
-        let reaction = self.stiffness.times(state.u) - (&state.load + friction);
+        let force = self.stiffness.times_of(self.at_surface.iter().copied(), state.u);
+        let reaction = force - (&state.load + friction);
         for (i, pairing) in detail.pairings.iter().enumerate() {
             match (detail.statuses[i], pairing) {
                 (_, None) => (),

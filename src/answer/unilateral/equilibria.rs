@@ -7,7 +7,8 @@ use crate::answer::contact::{Sense, Status};
 use crate::answer::solution::{Other, Uniqueness};
 use crate::problem::model::NodeId;
 
-/// The force of a node in contact, over the largest, below which it may as well be open.
+/// The force of a node in contact, over the largest of the loads and of those of contact, below which
+/// it may as well be open.
 const WEAK: f64 = 1e-9;
 
 /// The difference of displacements, over the largest, beyond which two equilibria differ.
@@ -67,7 +68,7 @@ fn most(problem: &Problem) -> usize {
 /// restrains it.
 fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Option<NodeId> {
     let Moved { forces, .. } = &found.last.moved;
-    let largest = forces.iter().map(|f| f.normal).fold(0.0, f64::max);
+    let largest = forces.iter().map(|f| f.normal).fold(setting.load.amax(), f64::max);
     let mut statuses = found.last.statuses.clone();
     let carries_nothing = |i: usize| forces[i].normal <= WEAK * largest;
     let weak: Vec<usize> =

@@ -204,7 +204,8 @@ fn step(
 ) -> Step {
     let Iteration { statuses, constraints, cycle, moved, violation, .. } = iteration;
     let contact = load_of(&place.pairings, &moved.forces, moved.u.len());
-    let reaction = problem.stiffness.times_on(&problem.supports, &moved.u) - load - contact;
+    let at_supports = problem.supports.iter().copied();
+    let reaction = problem.stiffness.times_of(at_supports, &moved.u) - load - contact;
     let support = restraints_of_target(problem.model, &problem.model.restrained, &reaction);
     Step {
         k,

@@ -41,8 +41,8 @@ pub(super) struct Problem<'a> {
     pub(super) surfaces: Surfaces,
     /// The gap below which a node is closed, length.
     pub(super) closed: f64,
-    /// Whether each degree of freedom is a restrained one of the target.
-    pub(super) supports: Vec<bool>,
+    /// The triangles at a restraint of the target.
+    pub(super) supports: Vec<usize>,
     /// Coulomb's coefficient, infinite where nodes stick.
     pub(super) friction: f64,
     pub(super) bodies: Bodies,
@@ -152,13 +152,14 @@ impl<'a> Problem<'a> {
             Geometry::Initial => bodies.facing(&initial, friction > 0.0),
             Geometry::Current => bodies,
         };
+        let stiffness = Stiffness::new(model, |x| x);
         Ok(Problem {
             request,
             model,
-            stiffness: Stiffness::new(model, |x| x),
             surfaces,
             closed: CLOSED * size(model),
-            supports: supports_of_target(model, &model.restrained),
+            supports: stiffness.about(&supports_of_target(model, &model.restrained)),
+            stiffness,
             friction,
             bodies,
             last: Last::default(),

@@ -10,9 +10,6 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::sparse::linalg::triangular_solve::{
-    solve_lower_triangular_in_place, solve_lower_triangular_transpose_in_place,
-};
 use faer::{Conj, Par, Side};
 use nalgebra::DVector;
 
@@ -145,25 +142,45 @@ impl<T: Native> Cholesky<T> {
         }
     }
 
-    /// Solves L z = z in place; z is in the order of the factor.
-    pub(super) fn solve_lower(&self, z: &mut [T]) {
+    /// Solves L z = b for the first entries of z, up to `inside`, in place, and leaves in the others
+    /// what those leave of b; in the order of the factor.
+    pub(super) fn eliminate(&self, inside: usize, z: &mut [T]) {
         match self.lower() {
-            Lower::Entries(l) => solve_lower_triangular_in_place(l, Conj::No, column(z), Par::Seq),
-            Lower::Blocks(l) => with_scratch(&l, |stack| {
-                l.l_solve_with_conj(Conj::No, column(z), Par::Seq, stack);
-            }),
+            Lower::Entries(l) => {
+                for j in 0..inside {
+                    let (rows, column) = (l.row_idx_of_col_raw(j), l.val_of_col(j));
+                    z[j] /= column[0];
+                    let x = z[j];
+                    rows[1..].iter().zip(&column[1..]).for_each(|(i, l)| z[*i] -= *l * x);
+                }
+            }
+            Lower::Blocks(l) => {
+                with_scratch(&l, |stack| l.l_solve_with_conj(Conj::No, column(z), Par::Seq, stack));
+                let last = taken(&mut z[inside..]);
+                self.visit_last(inside, |i, j, l| z[inside + i] += l * last[j]);
+            }
         }
     }
 
-    /// Solves Lᵀ x = x in place; x is in the order of the factor.
-    pub(super) fn solve_lower_transposed(&self, x: &mut [T]) {
+    /// Solves Lᵀ x = z for the first entries of x, up to `inside`, in place, where the others are those of
+    /// x already; in the order of the factor.
+    pub(super) fn substitute(&self, inside: usize, x: &mut [T]) {
         match self.lower() {
             Lower::Entries(l) => {
-                solve_lower_triangular_transpose_in_place(l, Conj::No, column(x), Par::Seq)
+                for j in (0..inside).rev() {
+                    let (rows, column) = (l.row_idx_of_col_raw(j), l.val_of_col(j));
+                    x[j] = (x[j] - product(&rows[1..], &column[1..], x)) / column[0];
+                }
             }
-            Lower::Blocks(l) => with_scratch(&l, |stack| {
-                l.l_transpose_solve_with_conj(Conj::No, column(x), Par::Seq, stack);
-            }),
+            Lower::Blocks(l) => {
+                let last = taken(&mut x[inside..]);
+                self.visit_last(inside, |i, j, l| x[inside + j] += l * last[i]);
+                with_scratch(&l, |stack| {
+                    l.l_transpose_solve_with_conj(Conj::No, column(x), Par::Seq, stack);
+                });
+                // What was given is returned to the bit.
+                x[inside..].copy_from_slice(&last);
+            }
         }
     }
 
@@ -178,6 +195,26 @@ impl<T: Native> Cholesky<T> {
             }
         }
     }
+}
+
+/// Returns the sum of the products of the entries of a column with those of `x` in their `rows`, in four
+/// parts, as no one of which waits for another.
+fn product<T: Native>(rows: &[usize], column: &[T], x: &[T]) -> T {
+    let (rows, column) = (rows.chunks_exact(4), column.chunks_exact(4));
+    let last = rows.remainder().iter().zip(column.remainder());
+    let last = last.fold(T::from_f64(0.0), |sum, (i, l)| sum + *l * x[*i]);
+    let mut sums = [T::from_f64(0.0); 4];
+    for (rows, column) in rows.zip(column) {
+        (0..4).for_each(|k| sums[k] += column[k] * x[rows[k]]);
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + last
+}
+
+/// Takes the numbers of a slice, and leaves zeros.
+fn taken<T: Native>(slice: &mut [T]) -> Vec<T> {
+    let numbers = slice.to_vec();
+    slice.fill(T::from_f64(0.0));
+    numbers
 }
 
 /// Solves with the memory that a factor by supernodes needs.

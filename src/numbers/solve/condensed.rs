@@ -45,7 +45,7 @@ struct Part {
 
 /// A right-hand side b on which the equations inside were eliminated.
 pub struct Eliminated {
-    /// In the order of the factor of each part: L⁻¹ b.
+    /// In the order of the factor of each part: L⁻¹ b of the equations inside.
     z: Vec<Vec<f64>>,
     /// b_k − A_ki A_ii⁻¹ b_i.
     pub kept: DVector<f64>,
@@ -156,26 +156,19 @@ impl Part {
         self.order.len() - self.kept.len()
     }
 
-    /// Returns L⁻¹ b in the order of the factor, and b_k − A_ki A_ii⁻¹ b_i.
-    fn eliminate(&self, b: &DVector<f64>) -> (Vec<f64>, DVector<f64>) {
+    /// Returns L⁻¹ b of the equations inside in the order of the factor, and b_k − A_ki A_ii⁻¹ b_i.
+    fn eliminate(&self, b: &DVector<f64>) -> (Vec<f64>, Vec<f64>) {
         let mut z: Vec<f64> = self.order.iter().map(|e| b[*e]).collect();
-        self.factor.solve_lower(&mut z);
-        let mut kept = DVector::zeros(self.kept.len());
-        let own = &z[self.inside()..];
-        self.factor.visit_last(self.inside(), |i, j, l| kept[i] += l * own[j]);
+        self.factor.eliminate(self.inside(), &mut z);
+        let kept = z.split_off(self.inside());
         (z, kept)
     }
 
     /// Returns the solution in the order of the factor from that on all kept equations.
     fn expand(&self, z: &[f64], kept: &DVector<f64>) -> Vec<f64> {
-        let mut x = z.to_vec();
-        let own = &mut x[self.inside()..];
-        own.fill(0.0);
-        self.factor.visit_last(self.inside(), |i, j, l| own[j] += l * kept[self.kept[i]]);
-        self.factor.solve_lower_transposed(&mut x);
-        // What was given is returned to the bit.
-        let own = &mut x[self.inside()..];
-        own.iter_mut().zip(&self.kept).for_each(|(x, k)| *x = kept[*k]);
+        let own = self.kept.iter().map(|k| kept[*k]);
+        let mut x: Vec<f64> = z.iter().copied().chain(own).collect();
+        self.factor.substitute(self.inside(), &mut x);
         x
     }
 }

@@ -188,7 +188,8 @@ impl Plot {
         for (k, series) in series.iter().enumerate().filter(|(_, s)| s.style.is_curve()) {
             ends.extend(self.points(series).last().map(|end| (*end, &*series.name, COLOURS[k])));
         }
-        ends.sort_by(|(a, ..), (b, ..)| a[1].total_cmp(&b[1]));
+        // As they are written: of ends that rounding parts, the first curve's name comes first.
+        ends.sort_by_key(|(end, ..)| (100.0 * end[1]).round() as i64);
         // No name stands so low that those after it do not fit above the axis.
         let lowest = self.top + HEIGHT;
         let [mut y, x] = [self.top - LINE, self.at(1.0, 0.0)[0] + 14.0];
