@@ -3,7 +3,7 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
-use std::sync::Arc;
+use std::sync::{Arc, Barrier};
 
 use nalgebra::DVector;
 use plane_contact::answer::condensation::{Bodies as Condensing, Condensation, Shared, refine};
@@ -141,6 +141,23 @@ fn of_small_surfaces_every_node_is_kept_and_the_factors_are_shared() {
     assert!(!Arc::ptr_eq(&made, &twice.expect("both blocks are held")));
     let beside = Condensing::new(&model, &shared).condensed(&stiffness, &[]);
     assert!(Arc::ptr_eq(&made, &beside.expect("it is still known")));
+}
+
+#[test]
+fn what_several_runs_ask_for_at_once_is_made_once() {
+    const RUNS: usize = 8;
+    let (model, shared) = (two_blocks(), Shared::default());
+    let start = Barrier::new(RUNS);
+    let made = std::thread::scope(|scope| {
+        let run = || {
+            let stiffness = Stiffness::new(&model, |x| x);
+            start.wait();
+            Condensing::new(&model, &shared).condensed(&stiffness, &[]).expect("held")
+        };
+        let runs = [(); RUNS].map(|()| scope.spawn(run));
+        runs.map(|run| run.join().expect("it ends"))
+    });
+    assert!(made.iter().all(|other| Arc::ptr_eq(&made[0], other)));
 }
 
 /// The columns of nodes of each of two long strips.

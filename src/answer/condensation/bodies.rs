@@ -4,12 +4,12 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::fmt;
 use std::rc::Rc;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use nalgebra::DVector;
 
 use super::gaps::Gaps;
-use super::schur::Condensation;
+use super::schur::{Condensation, are_same_bodies};
 use super::state::{Bound, OnKept};
 use crate::answer::contact::Pairing;
 use crate::answer::elimination::{Constraint, Elimination};
@@ -39,11 +39,28 @@ const MARGIN: (usize, f64) = (8, 0.1);
 /// What was factored of a scene, shared by all that is asked of it: each is factored once.
 #[derive(Clone, Default)]
 pub struct Shared {
-    condensed: Arc<Mutex<Vec<Arc<Condensation>>>>,
+    condensed: Arc<Mutex<Vec<Arc<OfNodes>>>>,
     /// The factors of `Km`.
     known: Arc<KnownLu>,
     /// The most bytes that were asked for and free.
     room: Arc<Mutex<f64>>,
+}
+
+/// The bodies of a model condensed to some nodes.
+struct OfNodes {
+    model: Arc<Model>,
+    nodes: BTreeSet<NodeId>,
+    /// Made by the run that first asks, while others that ask wait: two at once would be twice the
+    /// memory. None where they cannot be.
+    made: OnceLock<Option<Arc<Condensation>>>,
+}
+
+impl OfNodes {
+    /// Returns the condensed bodies, which the first call makes; None where they cannot be.
+    fn made(&self, stiffness: &Stiffness) -> Option<Arc<Condensation>> {
+        let make = || Condensation::new(stiffness, &self.model, self.nodes.clone()).map(Arc::new);
+        self.made.get_or_init(make).clone()
+    }
 }
 
 impl fmt::Debug for Shared {
@@ -55,7 +72,7 @@ impl fmt::Debug for Shared {
 impl Shared {
     /// Lets go of all that was factored so far.
     pub(in crate::answer) fn let_go(&self) {
-        self.made().clear();
+        self.all().clear();
         self.known.let_go();
     }
 
@@ -88,18 +105,24 @@ impl Shared {
         model: &Arc<Model>,
         nodes: BTreeSet<NodeId>,
     ) -> Option<Arc<Condensation>> {
-        let is_known = |known: &&Arc<Condensation>| known.nodes == nodes && known.is_of(model);
-        if let Some(known) = self.made().iter().find(is_known) {
-            return Some(Arc::clone(known));
-        }
-        // Those of large bodies take much memory: of each model the last ones are kept.
-        self.made().retain(|known| !known.is_of(model));
-        let condensation = Arc::new(Condensation::new(stiffness, model, nodes)?);
-        self.made().push(Arc::clone(&condensation));
-        Some(condensation)
+        self.of_nodes(model, nodes).made(stiffness)
     }
 
-    fn made(&self) -> MutexGuard<'_, Vec<Arc<Condensation>>> {
+    /// Returns the place of the bodies of `model` condensed to `nodes`, made or not.
+    fn of_nodes(&self, model: &Arc<Model>, nodes: BTreeSet<NodeId>) -> Arc<OfNodes> {
+        let mut all = self.all();
+        let is_of = |known: &Arc<OfNodes>| are_same_bodies(&known.model, model);
+        if let Some(known) = all.iter().find(|known| known.nodes == nodes && is_of(known)) {
+            return Arc::clone(known);
+        }
+        // Those of large bodies take much memory: of each model the last ones are kept.
+        all.retain(|known| !is_of(known));
+        let new = OfNodes { model: Arc::clone(model), nodes, made: OnceLock::new() };
+        all.push(Arc::new(new));
+        Arc::clone(&all[all.len() - 1])
+    }
+
+    fn all(&self) -> MutexGuard<'_, Vec<Arc<OfNodes>>> {
         self.condensed.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -19,6 +19,15 @@ pub(super) fn holds(factors: &impl Factors<f64>, diagonal: &DVector<f64>) -> boo
     largest_motion(factors, diagonal) < LOOSE
 }
 
+/// Returns whether the bodies of two models have the same stiffness and restraints.
+pub(super) fn are_same_bodies(one: &Model, other: &Model) -> bool {
+    one.plane == other.plane
+        && one.thickness == other.thickness
+        && one.restrained == other.restrained
+        && one.nodes == other.nodes
+        && one.triangles == other.triangles
+}
+
 /// The stiffness condensed to some nodes.
 pub struct Condensation {
     model: Arc<Model>,
@@ -96,12 +105,7 @@ impl Condensation {
 
     /// Returns whether it is that of the bodies of `model`.
     pub fn is_of(&self, model: &Model) -> bool {
-        let (own, other) = (&*self.model, model);
-        own.plane == other.plane
-            && own.thickness == other.thickness
-            && own.restrained == other.restrained
-            && own.nodes == other.nodes
-            && own.triangles == other.triangles
+        are_same_bodies(&self.model, model)
     }
 
     /// Returns whether it keeps every node that `constraints` name.

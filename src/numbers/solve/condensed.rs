@@ -51,6 +51,9 @@ pub struct Eliminated {
     pub kept: DVector<f64>,
 }
 
+/// The number of equations from which on a thread of its own for one part saves time.
+const APART: usize = 500;
+
 /// The number of equations from which on both parts are solved at once.
 const AT_ONCE: usize = 20_000;
 
@@ -65,8 +68,9 @@ impl Condensed {
             [one, other, ..] => {
                 let [a, b] = [one, other].map(|equations| matrix.part(equations));
                 drop(matrix);
+                let apart = size >= APART && rayon::current_num_threads() > 1;
                 let (one, other) =
-                    rayon::join(|| Part::new(a, one, kept), || Part::new(b, other, kept));
+                    both(apart, || Part::new(a, one, kept), || Part::new(b, other, kept));
                 vec![one?, other?]
             }
         };
@@ -171,6 +175,23 @@ impl Part {
         self.factor.substitute(self.inside(), &mut x);
         x
     }
+}
+
+/// Does one on a thread of its own where they are to be done apart. It is none of rayon's: what waits
+/// for it would begin other work there, which may in turn wait for what is made here.
+fn both<A: Send, B>(
+    apart: bool,
+    one: impl FnOnce() -> A + Send,
+    other: impl FnOnce() -> B,
+) -> (A, B) {
+    if !apart {
+        return (one(), other());
+    }
+    std::thread::scope(|scope| {
+        let one = scope.spawn(one);
+        let other = other();
+        (one.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), other)
+    })
 }
 
 /// Returns the equations in two parts that no entry joins, about as large as each other, each ascending;
