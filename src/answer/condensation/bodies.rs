@@ -164,6 +164,16 @@ fn surfaces(model: &Model) -> [Vec<NodeId>; 2] {
     [model.contact.nodes.clone(), target]
 }
 
+/// Returns the number of nodes of both surfaces, and the most nodes that are kept of large ones.
+pub fn surface_nodes(model: &Model) -> (usize, usize) {
+    (surfaces(model).iter().map(Vec::len).sum(), most(model))
+}
+
+/// Returns the most nodes that are kept.
+fn most(model: &Model) -> usize {
+    MOST.0.max(MOST.1 * (model.free_dofs() as f64).sqrt()) as usize
+}
+
 /// Returns the number of equations to which the bodies are condensed where `near` contact nodes come
 /// to the target: an estimate where the surfaces are large.
 pub fn kept_equations(model: &Model, near: usize) -> usize {
@@ -269,7 +279,7 @@ impl Bodies {
         }
         let mut expected = self.expected.take();
         let mut nodes = self.nodes(constraints, &expected);
-        while nodes.len() > self.most() {
+        while nodes.len() > most(&self.model) {
             if expected.is_empty() {
                 return None;
             }
@@ -316,10 +326,6 @@ impl Bodies {
 
     fn is_small(&self) -> bool {
         self.surfaces.iter().map(Vec::len).sum::<usize>() <= SMALL
-    }
-
-    fn most(&self) -> usize {
-        MOST.0.max(MOST.1 * (self.model.free_dofs() as f64).sqrt()) as usize
     }
 
     /// Returns the nodes to be kept for `constraints` and for what is expected.

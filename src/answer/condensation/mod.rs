@@ -20,7 +20,7 @@ mod rows;
 mod schur;
 mod state;
 
-pub use bodies::{Bodies, Shared, kept_equations};
+pub use bodies::{Bodies, Shared, kept_equations, surface_nodes};
 pub use gaps::Gaps;
 pub use refinement::refine;
 pub(super) use refinement::refined;
