@@ -14,6 +14,9 @@
 //! 3(5), 1965 (condensation); T. A. Davis, *Direct Methods for Sparse Linear Systems*, 2006, section
 //! 4 (a partial factor holds the Schur complement).
 
+use std::panic::resume_unwind;
+use std::sync::Mutex;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::sparse::SymbolicSparseColMatRef;
@@ -51,10 +54,7 @@ pub struct Eliminated {
     pub kept: DVector<f64>,
 }
 
-/// The number of equations from which on a thread of its own for one part saves time.
-const APART: usize = 500;
-
-/// The number of equations from which on both parts are solved at once.
+/// The number of equations from which on both parts are factored, and solved, at once.
 const AT_ONCE: usize = 20_000;
 
 impl Condensed {
@@ -68,7 +68,7 @@ impl Condensed {
             [one, other, ..] => {
                 let [a, b] = [one, other].map(|equations| matrix.part(equations));
                 drop(matrix);
-                let apart = size >= APART && rayon::current_num_threads() > 1;
+                let apart = size >= AT_ONCE && rayon::current_num_threads() > 1;
                 let (one, other) =
                     both(apart, || Part::new(a, one, kept), || Part::new(b, other, kept));
                 vec![one?, other?]
@@ -177,20 +177,24 @@ impl Part {
     }
 }
 
-/// Does one on a thread of its own where they are to be done apart. It is none of rayon's: what waits
-/// for it would begin other work there, which may in turn wait for what is made here.
+/// Does one on a thread of its own where they are to be done `apart` and one can start. It is none of
+/// rayon's: what waits for it would begin other work there, which may in turn wait for what is made here.
 fn both<A: Send, B>(
     apart: bool,
     one: impl FnOnce() -> A + Send,
     other: impl FnOnce() -> B,
 ) -> (A, B) {
-    if !apart {
-        return (one(), other());
-    }
+    let one = Mutex::new(Some(one));
+    let begin = || one.lock().expect("it begins once").take().map(|one| one());
     std::thread::scope(|scope| {
-        let one = scope.spawn(one);
+        let spawn = || std::thread::Builder::new().spawn_scoped(scope, begin).ok();
+        let thread = apart.then(spawn).flatten();
         let other = other();
-        (one.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), other)
+        let one = match thread {
+            Some(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
+            None => begin(),
+        };
+        (one.expect("it begins once"), other)
     })
 }
 
