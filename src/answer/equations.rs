@@ -272,6 +272,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             pivot,
             in_contact,
             apart: first.then(|| self.smallest_gap()).flatten(),
+            untried: None,
             body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
         }
     }

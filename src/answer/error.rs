@@ -77,6 +77,9 @@ pub struct NoEquilibrium {
     }.to_string() + &.apart.map_or(String::new(), |[gap, c_tll]| format!(
         ": the smallest gap is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
          larger c_tll"
+    )) + &.untried.map_or(String::new(), |bytes| format!(
+        "; whether it is so in double-doubles too was not looked at, which takes {:.1} GB",
+        bytes / 1e9
     ))
 )]
 pub struct SingularMatrix {
@@ -94,6 +97,9 @@ pub struct SingularMatrix {
     pub in_contact: usize,
     /// Where the first contact fails, the smallest gap of the initial shape, and c_tll, length.
     pub apart: Option<[f64; 2]>,
+    /// The bytes that a run in more digits would take, which would tell whether rounding is the cause;
+    /// None where that was run.
+    pub untried: Option<f64>,
     /// The text ` of body "stamp"`, or no text where no body has the node.
     pub body: String,
 }

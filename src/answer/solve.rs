@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::error::Error;
+use super::error::{Error, SingularMatrix};
 use super::memory::Bytes;
 use super::published::published;
 use super::request::Request;
 use super::solution::{Solution, Step};
-use super::sparse::{Condensing, Iterating, Sparse, Whole};
+use super::sparse::{Condensing, Iterating, Sparse, Whole, dense_matrices};
 use super::unilateral::unilateral;
 use crate::error::InputError;
 use crate::numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
@@ -49,9 +49,7 @@ pub fn check_memory(request: &Request) -> Result<(), InputError> {
     if equations < LARGE {
         return Ok(());
     }
-    let all = [request, &request.equilibrium(), &request.reference()];
-    let needed =
-        all.map(|request| Bytes::of(request, model).total()).into_iter().fold(0.0, f64::max);
+    let needed = Bytes::of(request, model).total();
     let whose = format!("{equations} free equations");
     request.shared.room(needed, || memory::check_bytes(needed, "the mesh", &whose, memory::FIX))
 }
@@ -69,6 +67,11 @@ fn blamed(request: &Request, why: Error) -> Error {
     let more = more_precise(request).filter(|more| rounded && *more != scalar);
     let Some(more) = more else { return why };
     let arithmetic = Arithmetic { scalar: more, inputs, ..Arithmetic::default() };
+    if let Error::Singular(singular) = &why
+        && let Some(bytes) = dense_bytes(request, arithmetic)
+    {
+        return SingularMatrix { untried: Some(bytes), ..singular.clone() }.into();
+    }
     match run(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
         Ok(_) => {
             let what = format!("in {scalar} {why}; in {more} the run does not fail");
@@ -76,6 +79,18 @@ fn blamed(request: &Request, why: Error) -> Error {
         }
         Err(_) => why,
     }
+}
+
+/// Returns the bytes of the dense matrices in which a large run would be repeated: that takes too long.
+/// None where it is repeated.
+fn dense_bytes(request: &Request, arithmetic: Arithmetic) -> Option<f64> {
+    /// The number of equations of a large one.
+    const LARGE: usize = 3000;
+    let model = &request.scene.model;
+    // Each double-double is two numbers.
+    let matrices = 2 * dense_matrices(request.variant, arithmetic);
+    let is_repeated = model.free_dofs() <= LARGE || matrices == 0;
+    (!is_repeated).then(|| memory::needed(model.nodes.len(), matrices) as f64)
 }
 
 /// Returns the scalar that tells whether rounding is at fault: exact numbers where they end in a
