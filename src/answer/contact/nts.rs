@@ -84,16 +84,17 @@ impl Surfaces {
     ) -> Vec<(NodeId, Option<Pairing>)> {
         let outline = target(self, shape);
         let nodes: BTreeSet<NodeId> = self.nodes.iter().copied().collect();
+        let faced = |node: NodeId, at: Vector| {
+            let own = self.undeformed.contact_nodes.get(&node).copied();
+            Some(outline.faced(at, own)?.by(self, node, 0.0))
+        };
         let outside = radius / FRAC_PI_8.cos();
         let otherwise = |node: NodeId| {
             let [x, y] = shape[node.index()];
-            let own = self.undeformed.contact_nodes.get(&node).copied();
-            let about = outline.faced_about([x, y], outside, own);
-            let faced = |at: Vector| Some(about(at)?.by(self, node, 0.0));
-            let own = faced([x, y]);
+            let own = faced(node, [x, y]);
             let around = (0..8).map(|k| {
                 let (sin, cos) = (FRAC_PI_4 * f64::from(k)).sin_cos();
-                faced([x + outside * cos, y + outside * sin])
+                faced(node, [x + outside * cos, y + outside * sin])
             });
             let other = around.filter(|other| jumps(own.as_ref(), other.as_ref()));
             other.map(|other| (node, other)).collect::<Vec<_>>()

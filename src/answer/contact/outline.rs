@@ -29,7 +29,7 @@
 //! node in the cone between two segments is paired with the vertex); J. A. Bærentzen, H. Aanæs, IEEE
 //! TVCG 11 (2005) 243-253 (the sum of the edges' normals has the right sign at a vertex).
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
 use super::pairing::{Vector, unit};
@@ -112,30 +112,21 @@ impl<'a> Outline<'a> {
     /// undeformed shape, None where it bounds no edge and so faces every edge.
     pub(super) fn faced(&self, p: Vector, own: Option<Vector>) -> Option<Faced> {
         let node = Facing { outline: self, p, own };
-        node.nearest().of(&node)
-    }
-
-    /// Returns what gives what a node faces that stands up to `radius` from `p`, the same as
-    /// [`Outline::faced`]: the edges near it are looked for once.
-    pub(super) fn faced_about(
-        &self,
-        p: Vector,
-        radius: f64,
-        own: Option<Vector>,
-    ) -> impl Fn(Vector) -> Option<Faced> {
-        let best = Facing { outline: self, p, own }.nearest().best;
-        let reach = best + 2.0 * (radius + self.tie);
-        let mut edges = Vec::new();
-        let key = |b: Bounds| (b.distance(p) <= reach).then_some(0.0);
-        self.tree.visit(&key, &mut |k| edges.push(k));
-        move |at| {
-            let node = Facing { outline: self, p: at, own };
-            let mut nearest = Nearest::default();
-            edges.iter().for_each(|k| nearest.look(&node, *k));
-            // Else edges beyond them may be as near.
-            let is_sure = nearest.best + radius + 2.0 * self.tie <= reach;
-            if is_sure { nearest.of(&node) } else { self.faced(at, own) }
-        }
+        let best = Cell::new(f64::INFINITY);
+        let near: RefCell<Vec<(f64, Part)>> = RefCell::default();
+        let key = |b: Bounds| Some(b.distance(p)).filter(|d| *d <= best.get() + self.tie);
+        self.tree.visit(&key, &mut |k| {
+            if let Some((distance, part)) = node.part(k)
+                && distance <= best.get() + self.tie
+            {
+                best.set(best.get().min(distance));
+                near.borrow_mut().push((distance, part));
+            }
+        });
+        let mut near = near.into_inner();
+        near.retain(|(distance, _)| *distance <= best.get() + self.tie);
+        let parts: Vec<Part> = near.into_iter().map(|(_, part)| part).collect();
+        (!parts.is_empty()).then(|| node.choose(&parts))
     }
 
     /// Returns the place of a vertex in the shape, length.
@@ -167,39 +158,6 @@ impl<'a> Outline<'a> {
     }
 }
 
-/// The parts of a surface so far that are nearest to a node.
-struct Nearest {
-    best: f64,
-    /// The parts that were as near when they were found, and their distances.
-    near: Vec<(f64, Part)>,
-}
-
-impl Default for Nearest {
-    fn default() -> Self {
-        Nearest { best: f64::INFINITY, near: Vec::new() }
-    }
-}
-
-impl Nearest {
-    /// Looks at edge `k` too.
-    fn look(&mut self, node: &Facing, k: usize) {
-        if let Some((distance, part)) = node.part(k)
-            && distance <= self.best + node.outline.tie
-        {
-            self.best = self.best.min(distance);
-            self.near.push((distance, part));
-        }
-    }
-
-    /// Returns what the node faces of them.
-    fn of(self, node: &Facing) -> Option<Faced> {
-        let farthest = self.best + node.outline.tie;
-        let near = self.near.into_iter().filter(|(distance, _)| *distance <= farthest);
-        let parts: Vec<Part> = near.map(|(_, part)| part).collect();
-        (!parts.is_empty()).then(|| node.choose(&parts))
-    }
-}
-
 /// A node in search of what it faces.
 struct Facing<'a> {
     outline: &'a Outline<'a>,
@@ -208,15 +166,6 @@ struct Facing<'a> {
 }
 
 impl Facing<'_> {
-    /// Returns the parts of the surface that are nearest.
-    fn nearest(&self) -> Nearest {
-        let nearest = RefCell::new(Nearest::default());
-        let farthest = || nearest.borrow().best + self.outline.tie;
-        let key = |b: Bounds| Some(b.distance(self.p)).filter(|d| *d <= farthest());
-        self.outline.tree.visit(&key, &mut |k| nearest.borrow_mut().look(self, k));
-        nearest.into_inner()
-    }
-
     /// Returns whether the node faces a normal of the surface.
     fn faces(&self, normal: Vector) -> bool {
         self.own.is_none_or(|own| dot(own, normal) <= ROUNDING - FACING)

@@ -209,6 +209,11 @@ impl<'a> Reduced<'a> {
         }
     }
 
+    /// Returns K u − f, force.
+    fn left(&self, u: &DVector<f64>, load: &DVector<f64>) -> DVector<f64> {
+        self.elastic.stiffness.times(u) - load
+    }
+
     /// Returns the displacements under a load, without the shift of the constraints, length.
     fn unshifted(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
         let (q, _) = self.solve(&self.t.load(&self.elastic.model.free_part(load)))?;
@@ -233,13 +238,13 @@ impl Responds for Reduced<'_> {
     }
 
     fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
-        self.elastic.stiffness.times(u) - self.load
+        self.left(u, self.load)
     }
 
     fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
         match &self.made {
             Made::Condensed(bound) => Ok(bound.response(load)),
-            Made::Whole { .. } => Ok(self.elastic.stiffness.times(&self.unshifted(load)?) - load),
+            Made::Whole { .. } => Ok(self.left(&self.unshifted(load)?, load)),
         }
     }
 
