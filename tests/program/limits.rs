@@ -216,6 +216,16 @@ fn a_large_run_is_not_repeated_in_double_doubles() {
     assert!(error.contains("the matrix is singular") && error.contains(words), "{error}");
 }
 
+/// What carries a force does so in any unit: the pressure of this scene is 1e-12 of the usual.
+#[test]
+fn small_loads_leave_an_equilibrium_the_only_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "$P solve two-blocks --variant unilateral --friction 0 --load-factor 1e-12";
+    let output = shell(folder.path(), line);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && text.contains("Equilibrium: the only one"), "{text}");
+}
+
 #[test]
 fn threads_that_cannot_start_are_an_error() {
     let folder = tempfile::tempdir().expect("a folder");
