@@ -142,6 +142,13 @@ impl Interpreter {
                 }
             }
         }
+        // `Km` reads them of every node, where they are > 0.
+        for (node, column) in (1..=r).flat_map(|node| [(node, 1), (node, 3)]) {
+            let mate = pairs.k_cnt[(node, column)];
+            if mate > 0.0 && (mate.fract() != 0.0 || mate > r as f64) {
+                return Err(format!("k_cnt[{node},{column}] = {mate} is no node"));
+            }
+        }
         Ok(())
     }
 }
