@@ -79,6 +79,7 @@ fn a_listing_that_makes_no_sense_is_refused() {
         ("ct[i1] ← trg[i2]", "ct[i1] ← 7", "neither 0 nor the number of a target edge"),
         ("    dy[i1] ← 0", "    dy[i1] ← 2", "but it is 1 or 0"),
         ("k_cnt[cnt[i1],1] ← elem[ct[i1],6]", "k_cnt[cnt[i1],1] ← 1.5", "is no node"),
+        ("k_cnt[elem[ct[i1],6],1] ← cnt", "k_cnt[elem[ct[i1],6],1] ← R + cnt", "is no node"),
         ("    dy[i1] ← 0", "    dy[i1+1] ← 0", "not one for each of"),
         ("ct[i1] ← 0", "ct[i1] ← 1/0", "Division by zero"),
         ("  MJS ← identity(2·R)·0", "  MJS ← identity(2·R+1)·0", "MJS is"),
