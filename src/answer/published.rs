@@ -315,9 +315,9 @@ impl<'a, T: Precision> Run<'a, T> {
             shape: Arc::new(numbers(&door::shape(node_n))),
             constraints: bound.iter().map(|bound| bound.map(T::to_f64)).collect(),
             in_contact: pairs.dy.iter().sum(),
-            max_displacement: max_displacement(&self.u),
+            max_displacement: Some(max_displacement(&self.u)),
             cycle,
-            target_force: against_load(self.model, self.support.map(T::to_f64)),
+            target_force: Some(against_load(self.model, self.support.map(T::to_f64))),
             solve_residual: solved.residual,
             detail: Detail::Published(Published {
                 pairs: pairs.map(T::to_f64),

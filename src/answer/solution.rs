@@ -28,13 +28,14 @@ pub struct Step {
     pub constraints: Vec<Constraint>,
     /// The number of entries of the contact surface in contact.
     pub in_contact: usize,
-    /// The largest total displacement |u| of a node, length.
-    pub max_displacement: f64,
+    /// The largest total displacement |u| of a node, length; None of an iteration of `unilateral` that
+    /// asks for another contact state: the search for that goes on with the contact surface alone.
+    pub max_displacement: Option<f64>,
     /// The earlier steps with this contact state; None where it is new.
     pub cycle: Option<Cycle>,
     /// The sum of the target body's reactions against the direction of the load applied so far,
-    /// force; 0 without contact.
-    pub target_force: f64,
+    /// force; 0 without contact, and None where `max_displacement` is.
+    pub target_force: Option<f64>,
     /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations: under `unilateral`, but for
     /// the last step, mostly those of the condensed bodies.
     pub solve_residual: f64,
@@ -269,6 +270,11 @@ impl Solution {
     /// Returns the last step.
     pub fn last(&self) -> &Step {
         self.steps.last().expect("a run has a step")
+    }
+
+    /// Returns the sum of the target body's reactions against the direction of the load, force.
+    pub fn target_force(&self) -> f64 {
+        self.last().target_force.expect("the whole bodies are solved for in the last step")
     }
 
     /// Lets go of the factors that serve further estimates, the largest part of its memory: to write it

@@ -12,7 +12,7 @@ pub fn beside(printed: &Solution, edited: &Solution) -> String {
         nodes => listed(nodes),
     };
     let largest = |run: &Solution| short(max_displacement(&run.u));
-    let force = |run: &Solution| short(run.last().target_force);
+    let force = |run: &Solution| short(run.target_force());
     let mut rows = vec![
         ("in contact at the end".to_string(), nodes(printed), nodes(edited)),
         (quantity("largest |u|", &units.length), largest(printed), largest(edited)),

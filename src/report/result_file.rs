@@ -144,16 +144,18 @@ pub struct IterationRow {
     /// Under `unilateral`, the status of each entry of the contact surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statuses: Option<Vec<Status>>,
-    /// The largest displacement of a node, total, length.
-    pub max_displacement: f64,
+    /// The largest displacement of a node, total, length; nothing of an iteration of `unilateral` that asks
+    /// for another contact state, which is solved for on the contact surface alone.
+    pub max_displacement: Option<f64>,
     /// Where this contact state came before; nothing where it is new.
     pub cycle: Option<Cycle>,
     /// What is left of eq. (1) on total displacements, or of the gaps under `unilateral`, length.
     pub eq1_residual: f64,
     /// The same on what this iteration solved for, length: the increment where the load is stepped.
     pub eq1_residual_step: f64,
-    /// The sum of the reactions of the target against the direction of the load, force.
-    pub target_force: f64,
+    /// The sum of the reactions of the target against the direction of the load, force; nothing where
+    /// `max_displacement` is nothing.
+    pub target_force: Option<f64>,
     /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations: under `unilateral`, but for
     /// the last iteration, mostly those of the condensed bodies.
     pub solve_residual: f64,

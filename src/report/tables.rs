@@ -137,13 +137,15 @@ fn iterations(solution: &Solution) -> String {
         _ => "eq. (1), total u",
     };
     // Without a load an overlap alone may press.
-    let share = |force: f64| or_dash((load != 0.0).then_some(force / load), |x| percent(x, 1));
+    let share = |force: Option<f64>| {
+        or_dash(force.filter(|_| load != 0.0), |force| percent(force / load, 1))
+    };
     Table::of(&solution.steps)
         .column("k", |step| step.k)
         .column("in contact", |step| step.in_contact)
-        .column(length("largest |u|"), |step| short(step.max_displacement))
+        .column(length("largest |u|"), |step| or_dash(step.max_displacement, short))
         .column(length(residual), |step| short(step.contact_residual()))
-        .column(quantity("force on target", &units.force), |step| short(step.target_force))
+        .column(quantity("force on target", &units.force), |step| or_dash(step.target_force, short))
         .column(format!("of {}", short(load)), |step| share(step.target_force))
         .column("residual", |step| format!("{:.0e}", step.solve_residual))
         .column("contact state", |step| state(step.cycle.as_ref()))
@@ -170,12 +172,14 @@ fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> Stri
         .column("iterations", |row| last[*row] + 1 - before(*row))
         .column("stick", |row| count(*row, |status| *status == Status::Stick))
         .column("slip", |row| count(*row, |status| matches!(status, Status::Slip(_))))
-        .column(length("largest |u|"), |row| short(solution.steps[last[*row]].max_displacement))
+        .column(length("largest |u|"), |row| {
+            or_dash(solution.steps[last[*row]].max_displacement, short)
+        })
         .column(length("gap or overlap left"), |row| {
             short(solution.steps[last[*row]].contact_residual())
         })
         .column(quantity("force on target", &units.force), |row| {
-            short(solution.steps[last[*row]].target_force)
+            or_dash(solution.steps[last[*row]].target_force, short)
         })
         .text();
     let largest = max_displacement(&solution.u);

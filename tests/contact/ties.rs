@@ -163,15 +163,15 @@ fn steps_that_are_far_from_other_decisions() {
     let mut text = String::new();
     for _ in 0..24 {
         let contact = model(&mut rng);
-        let Some(solution) = equilibrium(&regular(&mut rng), contact) else { continue };
+        let Some(mut solution) = equilibrium(&regular(&mut rng), contact) else { continue };
         let stiffness = bounded(&solution.model);
-        let looking = Looking::new(&solution, &stiffness);
-        let is_far = |k: usize, margin: f64, shared: bool, displacement: f64| {
+        let mut is_far = |k: usize, margin: f64, shared: bool, displacement: f64| {
             let mut step = solution.last().clone();
-            (step.k, step.max_displacement) = (k, displacement);
+            (step.k, step.max_displacement) = (k, Some(displacement));
             let own = own(&mut step);
             (own.margin, own.undetermined[0]) = (margin, shared);
-            looking.is_far(&step)
+            solution.steps = vec![step];
+            Looking::new(&solution, &stiffness).is_far(solution.last())
         };
         let cases = [
             (1, 1.0, false, 0.0),

@@ -64,7 +64,7 @@ fn two_blocks_have_their_closed_form() {
             assert_near("v", along_y, -v, top, &CLOSED_FORM);
         }
         let last = solution.last();
-        assert_near("force on the target", last.target_force, 2.0 * p, p, &CLOSED_FORM);
+        assert_near("force on the target", solution.target_force(), 2.0 * p, p, &CLOSED_FORM);
         assert_eq!(last.in_contact, 3);
         assert_eq!(published(last).eq1_residual, 0.0);
     }
@@ -83,7 +83,7 @@ fn k1_as_printed_nothing_reaches_the_target() {
             let state = &solution.elements[n.index()];
             assert_eq!(state.von_mises_stress, 0.0, "{name}, triangle {n}");
         }
-        assert!(solution.steps.iter().all(|it| it.target_force == 0.0 && it.in_contact > 0));
+        assert!(solution.steps.iter().all(|it| it.target_force == Some(0.0) && it.in_contact > 0));
         let mut steps = solution.steps.iter().map(published);
         assert!(steps.all(|it| it.eq1_residual > 0.0), "eq. (1) does not hold");
     }
@@ -98,7 +98,8 @@ fn tied_and_stepped_carry_the_load_to_the_target() {
             let load = scene.model.total_load()[1].abs();
             for it in &solution.steps {
                 let part = if variant == Variant::Tied { 1.0 } else { it.k as f64 / 20.0 };
-                assert_near(name, it.target_force, part * load, load, &BALANCE);
+                let force = it.target_force.expect("of whole bodies");
+                assert_near(name, force, part * load, load, &BALANCE);
                 assert!(it.solve_residual < RESIDUAL.limit, "{}", RESIDUAL.reason);
             }
         }
@@ -126,7 +127,8 @@ fn a_state_met_before_is_not_factored_again() {
     let new = solution.steps.iter().filter(|it| it.cycle.is_none()).count();
     assert_eq!((solution.factored, new), (8, 8));
     let of = |k: usize| &solution.steps[k - 1];
-    assert_eq!(of(18).max_displacement.to_bits(), of(20).max_displacement.to_bits());
+    let largest = |k: usize| of(k).max_displacement.map(f64::to_bits);
+    assert_eq!(largest(18), largest(20));
     assert_eq!(published(of(18)).pairs, published(of(20)).pairs);
 }
 
@@ -235,7 +237,7 @@ fn loads_of_any_size() {
         run(&Request::new(&build(&scene).unwrap()).variant(Variant::Tied))
     };
     for p in [1e-200, 1e150] {
-        let force = pressed(p).unwrap().last().target_force;
+        let force = pressed(p).unwrap().target_force();
         assert_near("force on the target", force, 2.0 * p, p, &CLOSED_FORM);
     }
     let error = pressed(1e308).unwrap_err();
@@ -256,8 +258,7 @@ fn forces_on_held_target_nodes_count() {
                 assert_near("the lower block does not move", u_node, 0.0, u.amax(), &CLOSED_FORM);
             }
         }
-        let last = solution.last();
-        assert_near("force on the target", last.target_force, 12.6, 12.6, &CLOSED_FORM);
+        assert_near("force on the target", solution.target_force(), 12.6, 12.6, &CLOSED_FORM);
     }
 }
 
@@ -279,7 +280,7 @@ fn a_scene_without_contact_is_plain_elasticity() {
     object["restraints"].as_array_mut().unwrap().push(json!({ "on": 20, "fix": ["y"] }));
     let scene = build(&json).unwrap();
     let solution = solved(&scene, Variant::Tied);
-    assert!(solution.steps.iter().all(|it| it.in_contact == 0 && it.target_force == 0.0));
+    assert!(solution.steps.iter().all(|it| it.in_contact == 0 && it.target_force == Some(0.0)));
     let mut lower = NodeId::all(9).map(|node| node.of(&solution.u));
     assert!(lower.all(|u| u == [0.0, 0.0]), "the lower block carries nothing");
     assert!(solution.elements[15].von_mises_stress > 1.0);

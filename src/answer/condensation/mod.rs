@@ -25,4 +25,4 @@ pub use gaps::Gaps;
 pub use refinement::refine;
 pub(super) use refinement::refined;
 pub use schur::Condensation;
-pub use state::{Bound, OnKept};
+pub use state::{Bound, Inside, OnKept};

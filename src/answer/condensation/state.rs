@@ -1,5 +1,6 @@
 //! A contact state on the kept nodes: Tᵀ S T, factored.
 
+use std::rc::Rc;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -10,6 +11,7 @@ use super::rows::Rows;
 use super::schur::{Condensation, holds};
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::numbers::solve::{DenseCholesky, Eliminated, Factors};
+use crate::problem::model::NodeId;
 
 /// Tᵀ S T under one contact state, factored.
 struct Small {
@@ -24,6 +26,15 @@ pub struct OnKept {
     small: Small,
     /// s on the kept equations, length.
     shift: DVector<f64>,
+}
+
+/// Displacements of the kept equations, from which those inside the bodies follow.
+#[derive(Clone)]
+pub struct Inside {
+    condensation: Arc<Condensation>,
+    load: Rc<Eliminated>,
+    /// Those of the kept equations, length.
+    kept: DVector<f64>,
 }
 
 /// The factors of Tᵀ K T under one contact state.
@@ -106,9 +117,11 @@ impl OnKept {
         Some((t.expand(&q) + &self.shift, residual))
     }
 
-    /// Returns the displacements by degree of freedom, length, from those of the kept equations.
-    pub(in crate::answer) fn expand(&self, load: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
-        self.small.condensation.expand(load, kept)
+    /// Returns what gives the displacements inside, under a load, from those of the `kept` equations,
+    /// length.
+    pub(in crate::answer) fn inside(&self, load: &Rc<Eliminated>, kept: DVector<f64>) -> Inside {
+        let condensation = Arc::clone(&self.small.condensation);
+        Inside { condensation, load: Rc::clone(load), kept }
     }
 
     /// Returns K u − f by degree of freedom, force, for displacements of the kept equations; 0 but on
@@ -132,6 +145,23 @@ impl OnKept {
         let u = self.small.under(&condensation.part(load));
         let force = condensation.whole(&(condensation.condensed.schur() * &u));
         [u, force]
+    }
+}
+
+impl Inside {
+    /// Returns whether the displacements of a node are known without those inside.
+    pub(in crate::answer) fn keeps(&self, node: NodeId) -> bool {
+        self.condensation.keeps(node)
+    }
+
+    /// Returns the displacements by degree of freedom, length; 0 inside.
+    pub(in crate::answer) fn kept(&self) -> DVector<f64> {
+        self.condensation.whole(&self.kept)
+    }
+
+    /// Returns the displacements by degree of freedom, length.
+    pub(in crate::answer) fn expand(&self) -> DVector<f64> {
+        self.condensation.expand(&self.load, &self.kept)
     }
 }
 

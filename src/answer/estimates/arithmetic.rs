@@ -157,7 +157,7 @@ fn written(step: &Step) -> Option<StepBounds> {
     Some(StepBounds {
         yt: half(largest(own.pairs.yt.as_slice())),
         weights: half(own.pairs.k_cnt.as_matrix().amax()),
-        u: half(step.max_displacement),
+        u: half(step.max_displacement?),
     })
 }
 
@@ -171,7 +171,7 @@ fn step_bounds(own: &Step, other: &Step) -> Option<StepBounds> {
         a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs() + f64::EPSILON * b.abs()))
     };
     let bounds = b.bounds?;
-    let steps = [own, other].map(|step| step.max_displacement);
+    let steps = [own.max_displacement?, other.max_displacement?];
     Some(StepBounds {
         yt: bounds.yt + far(a.pairs.yt.as_slice(), b.pairs.yt.as_slice()),
         weights: bounds.weights

@@ -57,6 +57,8 @@ pub struct Looking<'a> {
     solution: &'a Solution,
     stiffness: &'a Stiffness<Bounded>,
     surfaces: Option<Surfaces>,
+    /// The largest displacement of any step, length.
+    largest: f64,
     /// The triangles at a contact node.
     at_surface: Vec<usize>,
     /// The decisions so far that rounding may have taken.
@@ -73,8 +75,10 @@ impl<'a> Looking<'a> {
         let dofs = model.contact.nodes.iter().flat_map(|node| node.dofs());
         dofs.for_each(|dof| on_surface[dof.index()] = true);
         let at_surface = stiffness.about(&on_surface);
+        let moved = solution.steps.iter().filter_map(|step| step.max_displacement);
+        let largest = moved.fold(0.0, f64::max);
         let (decisions, only_ties) = (Vec::new(), true);
-        Looking { solution, stiffness, surfaces, at_surface, decisions, only_ties }
+        Looking { solution, stiffness, surfaces, largest, at_surface, decisions, only_ties }
     }
 
     /// Returns whether a state on the way is far from other decisions, beyond what rounding does in any
@@ -101,8 +105,7 @@ impl<'a> Looking<'a> {
             // The last state is measured in the same shape.
             return true;
         }
-        let radius = FAR * step.max_displacement;
-        match self.elsewhere(surfaces, &step.shape, radius) {
+        match self.elsewhere(surfaces, &step.shape, FAR * self.largest) {
             Elsewhere::Mortar(unsure) => unsure.is_empty(),
             Elsewhere::Nts(other) => other.is_empty(),
         }

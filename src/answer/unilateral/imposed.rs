@@ -62,8 +62,17 @@ impl Problem<'_> {
             slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
             (friction, feedback) = (acting(&slide.friction), slide.feedback);
         }
-        let (u, whole) = (bodies.expand(u), bodies.are_whole());
-        Ok(Solved::Moved(Moved { u, forces, friction, feedback, reaction, residual, whole }))
+        let ((u, inside), whole) = (bodies.all(u), bodies.are_whole());
+        Ok(Solved::Moved(Moved {
+            u,
+            inside,
+            forces,
+            friction,
+            feedback,
+            reaction,
+            residual,
+            whole,
+        }))
     }
 
     /// Returns the factors that were made last.

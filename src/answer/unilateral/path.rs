@@ -203,18 +203,22 @@ fn step(
     iteration: &Iteration,
 ) -> Step {
     let Iteration { statuses, constraints, cycle, moved, violation, .. } = iteration;
-    let contact = load_of(&place.pairings, &moved.forces, moved.u.len());
-    let at_supports = problem.supports.iter().copied();
-    let reaction = problem.stiffness.times_of(at_supports, &moved.u) - load - contact;
-    let support = restraints_of_target(problem.model, &problem.model.restrained, &reaction);
+    let target_force = || {
+        let contact = load_of(&place.pairings, &moved.forces, moved.u.len());
+        let at_supports = problem.supports.iter().copied();
+        let reaction = problem.stiffness.times_of(at_supports, &moved.u) - load - contact;
+        let support = restraints_of_target(problem.model, &problem.model.restrained, &reaction);
+        against_load(problem.model, support)
+    };
+    let is_known = moved.inside.is_none();
     Step {
         k,
         shape: Arc::clone(&place.shape),
         constraints: constraints.clone(),
         in_contact: statuses.iter().filter(|status| status.is_closed()).count(),
-        max_displacement: max_displacement(&moved.u),
+        max_displacement: is_known.then(|| max_displacement(&moved.u)),
         cycle: cycle.clone(),
-        target_force: against_load(problem.model, support),
+        target_force: is_known.then(target_force),
         solve_residual: moved.residual,
         detail: Detail::Unilateral(solution::Unilateral {
             load: to,

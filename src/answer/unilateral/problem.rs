@@ -8,7 +8,7 @@ use nalgebra::DVector;
 use super::forces::{Force, tangent};
 use super::reduced::Last;
 use super::status::Memory;
-use crate::answer::condensation::Bodies;
+use crate::answer::condensation::{Bodies, Inside};
 use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
 use crate::answer::elimination::{Constraint, Motion};
 use crate::answer::request::Request;
@@ -82,7 +82,8 @@ pub(super) struct Iteration {
     pub(super) cycle: Option<Cycle>,
     /// What the statuses lead to.
     pub(super) moved: Moved,
-    /// The gap of each entry afterwards, length; None where it faces nothing.
+    /// The gap of each entry afterwards, length; None where it faces nothing, and where it stands open
+    /// inside the bodies as long as displacements there are unknown.
     pub(super) gaps: Vec<Option<f64>>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub(super) violation: f64,
@@ -100,8 +101,10 @@ impl Iteration {
 /// The displacements and forces under imposed statuses.
 #[derive(Clone)]
 pub(super) struct Moved {
-    /// The displacements by degree of freedom, length.
+    /// The displacements by degree of freedom, length; 0 inside the bodies as long as `inside` is there.
     pub(super) u: DVector<f64>,
+    /// What gives the displacements inside; None once they are known.
+    pub(super) inside: Option<Inside>,
     /// The forces on each entry of the contact surface, force.
     pub(super) forces: Vec<Force>,
     /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
@@ -183,10 +186,25 @@ impl<'a> Problem<'a> {
         Place { shape: Arc::new(shape), pairings }
     }
 
+    /// Returns the gap of an entry after displacements `u`, along the normal of its place, length.
+    fn gap(&self, pairing: &Pairing, u: &DVector<f64>) -> f64 {
+        pairing.opening(|n| self.model.at(n)) + pairing.opening(|n| n.of(u))
+    }
+
     /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
     pub(super) fn gaps(&self, place: &Place, u: &DVector<f64>) -> Vec<Option<f64>> {
-        let gap = |p: &Pairing| p.opening(|n| self.model.at(n)) + p.opening(|n| n.of(u));
-        place.pairings.iter().map(|p| p.as_ref().map(gap)).collect()
+        place.pairings.iter().map(|p| p.as_ref().map(|p| self.gap(p, u))).collect()
+    }
+
+    /// Returns the gap of each entry afterwards as far as the displacements are known, length.
+    pub(super) fn known_gaps(&self, place: &Place, moved: &Moved) -> Vec<Option<f64>> {
+        let is_known = |p: &&Pairing| {
+            let mut nodes = std::iter::once(p.node).chain(p.masters.iter().map(|(m, _)| *m));
+            moved.inside.as_ref().is_none_or(|inside| nodes.all(|node| inside.keeps(node)))
+        };
+        let known =
+            |p: &Option<Pairing>| p.as_ref().filter(is_known).map(|p| self.gap(p, &moved.u));
+        place.pairings.iter().map(known).collect()
     }
 
     /// Returns the status with which an entry closes.

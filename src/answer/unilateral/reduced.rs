@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::answer::condensation::{Bodies, Bound, OnKept, refined};
+use crate::answer::condensation::{Bodies, Bound, Inside, OnKept, refined};
 use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::factors::Whole;
@@ -56,8 +56,9 @@ pub(super) trait Responds {
     /// The matrix is singular.
     fn displacements(&self) -> Result<(DVector<f64>, f64), Singular>;
 
-    /// Returns the displacements by degree of freedom, length, from its own.
-    fn expand(&self, u: DVector<f64>) -> DVector<f64>;
+    /// Returns the displacements by degree of freedom, length, from its own, and what gives those inside
+    /// the bodies where these have none of its own and are 0.
+    fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Inside>);
 
     /// Returns K u − f by degree of freedom, force, for displacements of its own, which is that of contact
     /// on the equations that contact can bind.
@@ -108,8 +109,9 @@ impl Responds for OnSurface {
         self.state.displacements(&self.load).ok_or(Singular { column: 0, pivot: f64::NAN })
     }
 
-    fn expand(&self, u: DVector<f64>) -> DVector<f64> {
-        self.state.expand(&self.load, &u)
+    fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Inside>) {
+        let inside = self.state.inside(&self.load, u);
+        (inside.kept(), Some(inside))
     }
 
     fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
@@ -233,8 +235,8 @@ impl Responds for Reduced<'_> {
         Ok((self.t.expand(&q), residual))
     }
 
-    fn expand(&self, u: DVector<f64>) -> DVector<f64> {
-        u
+    fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Inside>) {
+        (u, None)
     }
 
     fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {

@@ -45,9 +45,9 @@ impl Problem<'_> {
         watch: &mut Watch,
     ) -> Result<Equilibrium, Error> {
         let mut gaps = Vec::new();
-        let mut first: Option<(Vec<Status>, Vec<Option<f64>>)> = None;
+        let mut first: Option<Iteration> = None;
         let mut keep_first = |place: &Place, iteration: &Iteration| {
-            first.get_or_insert_with(|| (iteration.statuses.clone(), iteration.gaps.clone()));
+            first.get_or_insert_with(|| iteration.clone());
             watch(place, iteration);
         };
         let mut start = setting.statuses.map(<[Status]>::to_vec);
@@ -68,7 +68,8 @@ impl Problem<'_> {
             let scale = last.moved.u.amax();
             let stalled = before.as_ref().is_some_and(|(_, old)| change > old / 2.0);
             if change <= SETTLED * scale || (stalled && change <= STALLED * scale) {
-                let closing = first.and_then(|first| self.first_closing(&gaps, first, &last));
+                let closing =
+                    first.and_then(|first| self.first_closing(&gaps, first, &place, &last));
                 return Ok(Equilibrium { place, last, closing, shape_change: change });
             }
             before = Some((last.moved.u, change));
@@ -105,19 +106,26 @@ impl Problem<'_> {
     }
 
     /// Returns the part of a step after which the first node closes that closed in it, from its gaps
-    /// before the step and those that the statuses before the step led to.
+    /// before the step and those that the statuses before the step, those of the `first` iteration, led
+    /// to.
     fn first_closing(
         &self,
         before: &[Option<f64>],
-        (statuses, after): (Vec<Status>, Vec<Option<f64>>),
+        mut first: Iteration,
+        place: &Place,
         last: &Iteration,
     ) -> Option<f64> {
+        let closes =
+            |i: &usize| first.statuses[*i] == Status::Open && last.statuses[*i].is_closed();
+        let closing: Vec<usize> = (0..before.len()).filter(closes).collect();
+        if closing.iter().any(|i| first.gaps[*i].is_none()) {
+            self.complete(place, &mut first);
+        }
         let part = |i: usize| {
-            let closed = statuses[i] == Status::Open && last.statuses[i].is_closed();
-            let (from, to) = (before[i]?, after[i]?);
-            (closed && from > self.closed && to < -self.closed).then(|| from / (from - to))
+            let (from, to) = (before[i]?, first.gaps[i]?);
+            (from > self.closed && to < -self.closed).then(|| from / (from - to))
         };
-        (0..statuses.len()).filter_map(part).reduce(f64::min)
+        closing.into_iter().filter_map(part).reduce(f64::min)
     }
 
     /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active
@@ -158,12 +166,12 @@ impl Problem<'_> {
         let mut against = String::new();
         let mut recent: VecDeque<Iteration> = VecDeque::new();
         for k in 1..=limit {
-            let iteration = match recent.iter().find(|known| known.statuses == statuses) {
+            let mut iteration = match recent.iter().find(|known| known.statuses == statuses) {
                 Some(known) => known.again(memory),
                 None => self.iteration(place, statuses, setting, memory)?,
             };
+            let wanted = self.wanted_of_all(place, &mut iteration, setting, memory.iterations == 1);
             watch(place, &iteration);
-            let wanted = self.wanted(place, &iteration, setting, memory.iterations == 1);
             if wanted == iteration.statuses {
                 return Ok(iteration);
             }
@@ -203,6 +211,31 @@ impl Problem<'_> {
         let closed = first_closed(&self.gaps(place, u), self.closed);
         let status = |i: usize| if closed[i] { self.closing(place, i) } else { Status::Open };
         (0..closed.len()).map(status).collect()
+    }
+
+    /// Returns the statuses that an iteration asks for, and where these are its own on the condensed
+    /// bodies, looks at the whole ones too.
+    fn wanted_of_all(
+        &self,
+        place: &Place,
+        iteration: &mut Iteration,
+        setting: &Setting,
+        first: bool,
+    ) -> Vec<Status> {
+        let wanted = self.wanted(place, iteration, setting, first);
+        if wanted == iteration.statuses && self.complete(place, iteration) {
+            return self.wanted(place, iteration, setting, first);
+        }
+        wanted
+    }
+
+    /// Finds the displacements inside the bodies, and the gaps that follow; false where they were known.
+    fn complete(&self, place: &Place, iteration: &mut Iteration) -> bool {
+        let Some(inside) = iteration.moved.inside.take() else { return false };
+        iteration.moved.u = inside.expand();
+        iteration.gaps = self.gaps(place, &iteration.moved.u);
+        iteration.violation = violation(&iteration.gaps, &iteration.statuses);
+        true
     }
 
     /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
@@ -302,7 +335,7 @@ impl Problem<'_> {
         cycle: Option<Cycle>,
         moved: Moved,
     ) -> Iteration {
-        let gaps = self.gaps(place, &moved.u);
+        let gaps = self.known_gaps(place, &moved);
         let violation = violation(&gaps, &statuses);
         Iteration { statuses, constraints, cycle, moved, gaps, violation, returned: false }
     }
@@ -337,8 +370,8 @@ impl Problem<'_> {
         let Ok(Solved::Moved(moved)) = self.solve(place, statuses, &constraints, setting) else {
             return None;
         };
-        let iteration = self.reached(place, (statuses.to_vec(), constraints), None, moved);
-        let wanted = self.wanted(place, &iteration, setting, false);
+        let mut iteration = self.reached(place, (statuses.to_vec(), constraints), None, moved);
+        let wanted = self.wanted_of_all(place, &mut iteration, setting, false);
         (wanted == iteration.statuses).then_some(iteration.moved)
     }
 }

@@ -17,6 +17,8 @@ const REASONS: &[(&str, &str)] = &[
     ("departure", "there are fewer than three meshes, or nothing moves"),
     ("ladder", "the section is not that of meshes"),
     ("cycle", "the contact state is new"),
+    ("max_displacement", "another contact state is asked for: solved on the contact surface alone"),
+    ("target_force", "another contact state is asked for: solved on the contact surface alone"),
     ("hertz", "Hertz's theory does not apply: it takes two curved bodies pressed by a known force"),
     ("pressure", "restraints leave the force undetermined"),
     ("shear", "restraints leave the force undetermined"),

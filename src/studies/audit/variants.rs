@@ -72,7 +72,7 @@ fn end(case: &Case, solution: &Solution) -> End {
     End::Result {
         in_contact: solution.steps.iter().map(|step| step.in_contact).collect(),
         contact_set: last.contact_set(model),
-        target_share: if load == 0.0 { 0.0 } else { last.target_force / load },
+        target_share: if load == 0.0 { 0.0 } else { solution.target_force() / load },
         eq1_residual: last.contact_residual(),
         cycle: last.cycle.clone(),
         bodies: summaries(solution),

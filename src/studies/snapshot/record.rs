@@ -152,7 +152,10 @@ impl Recorded<'_> {
             None => self.matrix(step),
         };
         matrix.into_iter().for_each(|matrix| run.numbers.set(name("MJS"), matrix));
-        run.numbers.set(name("u"), Numbers::list(&units.length, [step.max_displacement], bound(2)));
+        if step.max_displacement.is_some() {
+            let largest = Numbers::list(&units.length, step.max_displacement, bound(2));
+            run.numbers.set(name("u"), largest);
+        }
         run.facts.set(name("cycle"), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
     }
 

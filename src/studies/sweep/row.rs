@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::document::Document;
 use crate::answer::error::Error;
-use crate::answer::{Request, Solution, solve, summaries};
+use crate::answer::{Request, Solution, max_displacement, solve, summaries};
 use crate::error::Result;
 
 /// What came of a case, by column.
@@ -83,8 +83,8 @@ fn of(solution: &Solution) -> Row {
     set("iterations", json!(solution.steps.len()));
     set("in_contact", json!(last.in_contact));
     set("cycle", json!(last.cycle.as_ref().map(|cycle| cycle.length)));
-    set("max_displacement", json!(last.max_displacement));
-    set("target_force", json!(last.target_force));
+    set("max_displacement", json!(max_displacement(&solution.u)));
+    set("target_force", json!(solution.target_force()));
     let pressures = solution.contact.iter().filter_map(|node| node.pressure);
     set("max_pressure", json!(pressures.reduce(f64::max)));
     let gaps = solution.contact.iter().map(|node| node.gap);

@@ -132,7 +132,7 @@ fn cells(solution: &Solution) -> String {
     let others = [Some(&VARIANTS[5]), Some(own_equilibrium())];
     let assessment = Assessment::against(solution, others);
     let [fx, fy] = solution.model.total_load();
-    let share = 100.0 * solution.last().target_force / fx.hypot(fy);
+    let share = 100.0 * solution.target_force() / fx.hypot(fy);
     let stresses: Vec<String> = assessment
         .bodies
         .iter()
