@@ -36,6 +36,13 @@ const EXPECTED: (f64, usize) = (0.85, 10_000);
 /// the part of the number of bound nodes that comes on top.
 const MARGIN: (usize, f64) = (8, 0.1);
 
+/// The number of sets of nodes to which the bodies of a model stay condensed, the last ones; of `LARGE`
+/// bodies one, as they take much memory.
+const SETS: usize = 4;
+
+/// The number of equations of large bodies.
+const LARGE: usize = 20_000;
+
 /// What was factored of a scene, shared by all that is asked of it: each is factored once.
 #[derive(Clone, Default)]
 pub struct Shared {
@@ -115,8 +122,13 @@ impl Shared {
         if let Some(known) = all.iter().find(|known| known.nodes == nodes && is_of(known)) {
             return Arc::clone(known);
         }
-        // Those of large bodies take much memory: of each model the last ones are kept.
-        all.retain(|known| !is_of(known));
+        let mut others = all.iter().filter(|known| is_of(known)).count();
+        let most = if model.free_dofs() < LARGE { SETS } else { 1 };
+        all.retain(|known| {
+            let goes = others >= most && is_of(known);
+            others -= usize::from(goes);
+            !goes
+        });
         let new = OfNodes { model: Arc::clone(model), nodes, made: OnceLock::new() };
         all.push(Arc::new(new));
         Arc::clone(&all[all.len() - 1])
