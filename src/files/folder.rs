@@ -9,6 +9,8 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use super::folder_of;
 use super::manifest::{MANIFEST, Manifest, sum_of};
 use super::staged::{Staged, locked, registry};
@@ -49,6 +51,9 @@ fn write(folder: &Path, command: &str, files: &[(&str, &[u8])]) -> io::Result<()
         Err(_) if folder.exists() => Staged::new(&folder)?,
         staged => staged?,
     };
+    // Before anything is locked: who waits for other threads may begin another run's writing.
+    let sum = |(name, content): &(&str, &[u8])| (name.to_string(), sum_of(content));
+    let sums = files.par_iter().map(sum).collect();
     for (name, content) in files {
         let file = staged.path().join(name);
         std::fs::create_dir_all(folder_of(&file))?;
@@ -61,8 +66,7 @@ fn write(folder: &Path, command: &str, files: &[(&str, &[u8])]) -> io::Result<()
     let old = Manifest::read(&folder);
     let own: BTreeSet<String> = old.unchanged(&folder, command).into_iter().collect();
     let mut manifest = old;
-    let sums = files.iter().map(|(name, content)| (name.to_string(), sum_of(content)));
-    manifest.set(command, sums.collect());
+    manifest.set(command, sums);
     std::fs::write(staged.path().join(MANIFEST), manifest.text())?;
     if !folder.exists() {
         return std::fs::rename(staged.path(), &folder);

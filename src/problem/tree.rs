@@ -27,7 +27,8 @@ impl Bounds {
     /// Returns the distance from `p`, length; 0 inside.
     pub fn distance(self, p: Vector) -> f64 {
         let [x, y] = [0, 1].map(|d| (self.low[d] - p[d]).max(p[d] - self.high[d]).max(0.0));
-        x.hypot(y)
+        // Beside a box that is one of them.
+        if x.min(y) == 0.0 { x.max(y) } else { x.hypot(y) }
     }
 
     /// Returns the least and the largest of (x − `from`)·`direction` over its points x.

@@ -171,7 +171,7 @@ fn steps_that_are_far_from_other_decisions() {
             let own = own(&mut step);
             (own.margin, own.undetermined[0]) = (margin, shared);
             solution.steps = vec![step];
-            Looking::new(&solution, &stiffness).is_far(solution.last())
+            Looking::new(&solution, &stiffness).are_far(&solution.steps)[0]
         };
         let cases = [
             (1, 1.0, false, 0.0),

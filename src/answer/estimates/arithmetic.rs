@@ -7,6 +7,8 @@
 //! Under `unilateral` the equilibrium of the last contact state is solved again, with its normals and
 //! weights unchanged; where the way to it counts, so is that of each iteration.
 
+use std::sync::Arc;
+
 use nalgebra::{DVector, SVector};
 use rayon::prelude::*;
 
@@ -100,9 +102,12 @@ fn looked_at<'a>(
     };
     // From its displacements count the slips of the last step of the load.
     let from = way.iter().rposition(|step| part(step) < part(last));
-    let is_near = |i: &usize| Some(*i) == from || !looking.is_far(&way[*i]);
     let counts = if solution.way_counts() { way.len() } else { 0 };
-    let near: Vec<usize> = (0..counts).into_par_iter().filter(is_near).collect();
+    let in_one_shape = |a: &Step, b: &Step| Arc::ptr_eq(&a.shape, &b.shape);
+    let places: Vec<&[Step]> = way[..counts].chunk_by(in_one_shape).collect();
+    let far: Vec<bool> =
+        places.into_par_iter().flat_map_iter(|steps| looking.are_far(steps)).collect();
+    let near = (0..counts).filter(|i| Some(*i) == from || !far[*i]);
     // The displacements before the step of the load, and after the last iteration.
     let mut before = DVector::zeros(model.dofs());
     let mut reached: Option<(f64, DVector<Bounded>)> = None;
@@ -118,7 +123,7 @@ fn looked_at<'a>(
         reached = Some((detail.load, u));
         Some(())
     };
-    for step in near.into_iter().map(|i| &way[i]) {
+    for step in near.map(|i| &way[i]) {
         let Detail::Unilateral(detail) = &step.detail else { return None };
         let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
         look(step, &Held::at(solution, step)?, load)?;

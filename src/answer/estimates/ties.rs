@@ -15,6 +15,8 @@
 //! or closed, and one that neither slips nor reaches its friction may as well do either: such a tie
 //! leaves the displacements.
 
+use std::cell::LazyCell;
+
 use nalgebra::DVector;
 
 use crate::answer::contact::{Pairing, Status, Surfaces};
@@ -81,14 +83,18 @@ impl<'a> Looking<'a> {
         Looking { solution, stiffness, surfaces, largest, at_surface, decisions, only_ties }
     }
 
-    /// Returns whether a state on the way is far from other decisions, beyond what rounding does in any
-    /// state that is solved at all: its bound need not be known. The nodes that the first iteration
-    /// closes are decided otherwise, and looked at.
-    pub fn is_far(&self, step: &Step) -> bool {
-        let Detail::Unilateral(detail) = &step.detail else { return true };
-        let rests_on_shared = self.rubs() && detail.undetermined.contains(&true);
-        let by_forces = step.k > 1 && detail.margin > FAR && !rests_on_shared;
-        by_forces && self.faces_surely(step)
+    /// Returns whether states on the way, all measured in one shape, are far from other decisions, beyond
+    /// what rounding does in any state that is solved at all: its bound need not be known. The nodes that
+    /// the first iteration closes are decided otherwise, and looked at.
+    pub fn are_far(&self, steps: &[Step]) -> Vec<bool> {
+        let faces_surely = LazyCell::new(|| self.faces_surely(&steps[0]));
+        let is_far = |step: &Step| {
+            let Detail::Unilateral(detail) = &step.detail else { return true };
+            let rests_on_shared = self.rubs() && detail.undetermined.contains(&true);
+            let by_forces = step.k > 1 && detail.margin > FAR && !rests_on_shared;
+            by_forces && *faces_surely
+        };
+        steps.iter().map(is_far).collect()
     }
 
     /// Returns whether friction depends on the normal forces.
