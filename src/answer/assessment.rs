@@ -144,14 +144,16 @@ impl<'a> Assessment<'a> {
         let measured = |other: Option<Result<Cow<'a, Solution>, Error>>| {
             other.map(|other| other.map(|other| Measured::new(solution, other)))
         };
+        let (reference, equilibrium) =
+            rayon::join(|| measured(reference), || measured(equilibrium));
         Assessment {
             bodies: summaries(solution),
             estimates: None,
             probes: Vec::new(),
             path_change: None,
             hertz: Hertz::of(solution),
-            reference: measured(reference),
-            equilibrium: measured(equilibrium),
+            reference,
+            equilibrium,
         }
     }
 

@@ -1,5 +1,6 @@
 //! The equations A(c)·u = f of an iteration of a published variant, assembled and solved.
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -8,6 +9,7 @@ use super::contact::Surfaces;
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
 use super::factors::LastFactors;
+use super::printed::{AtSurfaces, condenses_printed};
 use super::request::Request;
 use super::sparse::{MakeSparse, Sparse, State, takes_sparse};
 use super::stiffness::Stiffness;
@@ -26,8 +28,9 @@ use crate::problem::modelling::{Coupling, Variant};
 
 /// The source of the matrix of an iteration.
 enum Assembly<'a, T> {
-    /// `Km` with the contact pairs, as printed; without its zeros where the solver takes it so.
-    Printed(Option<Assembler<'a, T>>),
+    /// `Km` with the contact pairs, as printed; without its zeros where the solver takes it so, and then
+    /// what solves it quickly, once that was tried.
+    Printed(Option<(Assembler<'a, T>, OnceCell<Option<AtSurfaces>>)>),
     /// Elimination from the matrix of `Km` without contact and without restraints.
     Dense(Table<T>),
     /// Elimination from the triangles' matrices, solved by the function.
@@ -97,7 +100,8 @@ impl<'a, T: Precision> Equations<'a, T> {
             (Variant::Printed, _) => {
                 let is_sparse =
                     request.solver() == Solver::SparseLu && !request.is_edited(Which::Km);
-                Assembly::Printed(is_sparse.then(|| Assembler::new(sheet, &request.reading)))
+                let assembler = || Assembler::new(sheet, &request.reading);
+                Assembly::Printed(is_sparse.then(|| (assembler(), OnceCell::new())))
             }
             (_, Some(make)) => Assembly::Sparse(make(request, model)),
             (_, None) => Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
@@ -141,9 +145,15 @@ impl<'a, T: Precision> Equations<'a, T> {
                     let edited = self.interpreter.and_then(|i| i.km(&pairs.k_cnt));
                     let solved = if let Some(edited) = edited {
                         T::solve(held(edited?.into_matrix()), &self.f, solver, tol)
-                    } else if let Some(sparse) = sparse {
+                    } else if let Some((sparse, at_surfaces)) = sparse {
                         let matrix = door::holding_dropped(self.model, sparse.Km(&pairs.k_cnt)?);
-                        T::solve_sparse(&matrix, &self.f, self.request.shared.known_lu())
+                        let f = self.f.map(Scalar::to_f64);
+                        let quick = |matrix: &_| {
+                            let made = at_surfaces.get_or_init(|| self.at_surfaces(sparse));
+                            made.as_ref()?.factors(matrix, &f)
+                        };
+                        let known = self.request.shared.known_lu();
+                        T::solve_sparse(&matrix, &self.f, known, &quick)
                     } else {
                         let matrix = mirror::Km(sheet, reading, &pairs.k_cnt)?.into_matrix();
                         T::solve(held(matrix), &self.f, solver, tol)
@@ -164,6 +174,16 @@ impl<'a, T: Precision> Equations<'a, T> {
                 Ok(solved)
             }),
         }
+    }
+
+    /// Returns what solves `Km` quickly; None where the bodies are not, or cannot be, condensed.
+    fn at_surfaces(&self, sparse: &Assembler<T>) -> Option<AtSurfaces> {
+        if !condenses_printed(self.request, self.model) {
+            return None;
+        }
+        let bodies = self.request.shared.at_surfaces(self.model)?;
+        let free = sparse.Km(&Pairs::none(self.sheet.R()).k_cnt).ok()?;
+        Some(AtSurfaces::new(bodies, &free.map(Scalar::to_f64)))
     }
 
     /// Solves Tᵀ K T q = Tᵀ f by `solve`.

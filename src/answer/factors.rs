@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use nalgebra::DVector;
 
 use super::condensation::{Bound, Condensation};
-use super::elimination::{Constraint, Elimination, Motion};
+use super::elimination::{Constraint, Elimination, are_alike};
 use super::stiffness::Stiffness;
 use crate::numbers::solve::{Factors, Singular, SparseCholesky};
 
@@ -88,21 +88,7 @@ impl Whole {
 
     /// Returns whether its constraints bind the same motions in nearly the same directions.
     pub(super) fn is_nearly_of(&self, constraints: &[Constraint]) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() <= ALIKE;
-        let same_motion = |a: &Motion, b: &Motion| match (a, b) {
-            (Motion::Both(_), Motion::Both(_)) => true,
-            (Motion::Along(n, _), Motion::Along(m, _)) => near(n[0], m[0]) && near(n[1], m[1]),
-            _ => false,
-        };
-        let same = |(a, b): (&Constraint, &Constraint)| {
-            let mut masters = a.masters.iter().zip(&b.masters);
-            a.node == b.node
-                && a.masters.len() == b.masters.len()
-                && masters.all(|(a, b)| a.0 == b.0 && near(a.1, b.1))
-                && same_motion(&a.motion, &b.motion)
-        };
-        self.constraints.len() == constraints.len()
-            && self.constraints.iter().zip(constraints).all(same)
+        are_alike(&self.constraints, constraints, ALIKE)
     }
 }
 

@@ -13,6 +13,7 @@ mod held;
 mod hertz;
 mod memory;
 mod not_finite;
+mod printed;
 mod probe;
 mod published;
 mod request;
@@ -33,9 +34,10 @@ pub use elimination::{Constraint, Elimination, Motion};
 pub use factors::Kept;
 pub use hertz::Hertz;
 pub use memory::Bytes;
+pub use printed::condenses_printed;
 pub use probe::{Probe, Quantity};
 pub use request::Request;
-pub use side_by_side::side_by_side;
+pub use side_by_side::are_side_by_side;
 pub use solution::{
     Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, StepBounds, Unilateral,
     Uniqueness, max_displacement,

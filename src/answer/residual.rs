@@ -7,7 +7,7 @@ use nalgebra::DVector;
 
 use super::elimination::Elimination;
 use super::stiffness::Stiffness;
-use crate::numbers::scalar::{BoundedDouble, Rounded, WithBound};
+use crate::numbers::scalar::{BoundedDouble, Rounded, SumOfProducts, WithBound};
 use crate::numbers::solve::{Factors, error_of_rest};
 use crate::problem::model::Dof;
 
@@ -29,13 +29,14 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
     let moved: Vec<Moved> = rows.iter().map(of_row).collect();
     // K T q, and of each row of K T the sum of its entries' sizes, and of what they may be off.
     let of_triangles = |triangles: Range<usize>| {
-        let mut force = vec![Moved { u: zero, size: 0.0, off: 0.0 }; rows.len()];
+        let none = Force { u: SumOfProducts::ZERO, size: 0.0, off: 0.0 };
+        let mut force = vec![none; rows.len()];
         stiffness.visit(triangles, |dofs, k| {
             for (i, row) in dofs.iter().enumerate() {
                 let force = &mut force[row.index()];
                 for (j, column) in dofs.iter().enumerate() {
                     let (k, moved) = (k[(i, j)], &moved[column.index()]);
-                    force.u += k.in_double() * moved.u;
+                    force.u.add(k.in_double(), moved.u);
                     force.size += size(k) * moved.size;
                     force.off += k.off() * moved.size + size(k) * moved.off;
                 }
@@ -46,7 +47,7 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
     let (all, half) = (stiffness.triangles(), stiffness.triangles() / 2);
     let (mut force, other) = rayon::join(|| of_triangles(0..half), || of_triangles(half..all));
     for (force, other) in force.iter_mut().zip(other) {
-        force.u += other.u;
+        force.u.join(&other.u);
         force.size += other.size;
         force.off += other.off;
     }
@@ -54,7 +55,7 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
     let mut spread = DVector::zeros(q.len());
     for (row, force) in rows.iter().zip(&force) {
         for (p, w) in row.iter() {
-            rest[*p] -= w.in_double() * force.u;
+            rest[*p] -= w.in_double() * force.u.total();
             spread[*p] += size(*w) * force.off + w.off() * (force.size + force.off);
         }
     }
@@ -63,7 +64,7 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
     error_of_rest(factors, &rest, &spread)
 }
 
-/// A row of T or of K T.
+/// A row of T.
 #[derive(Clone)]
 struct Moved {
     /// Its product with q.
@@ -71,6 +72,14 @@ struct Moved {
     /// The sum of the sizes of its entries.
     size: f64,
     /// The sum of what its entries may be off.
+    off: f64,
+}
+
+/// A row of K T: the same.
+#[derive(Clone)]
+struct Force {
+    u: SumOfProducts,
+    size: f64,
     off: f64,
 }
 

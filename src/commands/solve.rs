@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use plane_contact::answer::error::{Error, NoEquilibrium, Result};
 use plane_contact::answer::estimates::ErrorEstimates;
-use plane_contact::answer::{self, Assessment, Others, Request, Solution, Step, side_by_side};
+use plane_contact::answer::{self, Assessment, Others, Request, Solution, Step, are_side_by_side};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::edited::Edited;
@@ -118,7 +118,14 @@ pub fn run(args: &Args) -> Result<u8> {
     let plan = || Plan::new(&request);
     let others = || Others::new(&request, with_estimates);
     let model = &request.scene.model;
-    let ((own, plan), others) = side_by_side(model, || rayon::join(own, plan), others);
+    // Whoever waits until the other has factored the bodies has planned meanwhile.
+    let (own, (plan, others)) = match are_side_by_side(model) {
+        true => rayon::join(own, || (plan(), others())),
+        false => {
+            let (own, plan) = rayon::join(own, plan);
+            (own, (plan, others()))
+        }
+    };
     let ((solution, accuracy, estimates), plan) = (own?, plan?);
     let mut assessment = Assessment::beside(&solution, others, estimates);
     assessment.probe(&solution, &args.probe)?;

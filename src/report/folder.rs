@@ -54,16 +54,29 @@ pub fn contents(
 ) -> Vec<(&'static str, Vec<u8>)> {
     let scene = &solution.request.scene;
     let drawing = Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
+    let displacement = &solution.displacements()[..];
+    let field = |quantity, unit, of: fn(&State) -> f64| {
+        let values: Vec<f64> = solution.elements.iter().map(of).collect();
+        let field = Field { quantity, unit, values: &values, displacement, largest_at: None };
+        picture::field(&drawing, &field).into_bytes()
+    };
+    let stress = || field("von Mises stress", &scene.units.stress, |state| state.von_mises_stress);
+    let strain = || field("von Mises strain", "1", |state| state.von_mises_strain);
     let result = || result(solution, assessment, plan, wanted).into_bytes();
     let fields = || vtu::vtu(&drawing, solution, assessment);
-    let pictures = || match wanted.pictures {
-        true => pictures(&drawing, solution, assessment),
-        false => Vec::new(),
-    };
-    let (pictures, (result, fields)) = rayon::join(pictures, || rayon::join(result, fields));
-    let mut files = vec![("result.json", result), ("fields.vtu", fields)];
-    files.extend(pictures.into_iter().map(|(name, picture)| (name, picture.into_bytes())));
-    files
+    let mesh = || picture::mesh(&drawing).into_bytes();
+    let pressure = || pressures(solution, assessment).into_bytes();
+    let mut files: Vec<(&str, &(dyn Fn() -> Vec<u8> + Sync))> =
+        vec![("result.json", &result), ("fields.vtu", &fields)];
+    if wanted.pictures {
+        files.push(("mesh.svg", &mesh));
+        files.push(("von_mises_stress.svg", &stress));
+        files.push(("von_mises_strain.svg", &strain));
+        if !solution.contact.is_empty() {
+            files.push(("pressure.svg", &pressure));
+        }
+    }
+    files.par_iter().with_max_len(1).map(|(name, content)| (*name, content())).collect()
 }
 
 /// Returns the content of `result.json`, and writes nothing.
@@ -77,39 +90,18 @@ pub fn result(
     if wanted.fields { result.with_fields(solution).to_json() } else { result.to_json() }
 }
 
-fn pictures(
-    drawing: &Drawing,
-    solution: &Solution,
-    assessment: &Assessment,
-) -> Vec<(&'static str, String)> {
-    let scene = &solution.request.scene;
-    let displacement = &solution.displacements()[..];
-    let field = |quantity, unit, of: fn(&State) -> f64| {
-        let values: Vec<f64> = solution.elements.iter().map(of).collect();
-        picture::field(
-            drawing,
-            &Field { quantity, unit, values: &values, displacement, largest_at: None },
-        )
-    };
-    let stress = || field("von Mises stress", &scene.units.stress, |state| state.von_mises_stress);
-    let strain = || field("von Mises strain", "1", |state| state.von_mises_strain);
-    let mesh = || picture::mesh(drawing);
-    let pictures: [(&str, &(dyn Fn() -> String + Sync)); 3] =
-        [("mesh.svg", &mesh), ("von_mises_stress.svg", &stress), ("von_mises_strain.svg", &strain)];
-    let mut drawn: Vec<_> = pictures.par_iter().map(|(name, draw)| (*name, draw())).collect();
-    if !solution.contact.is_empty() {
-        let measured = assessment.own();
-        let others = [assessment.measure(), measured].into_iter().flatten();
-        let mut runs = vec![solution];
-        for other in others.map(|measured| &*measured.reference) {
-            if !runs.iter().any(|run| run.request.is_same_equilibrium(&other.request)) {
-                runs.push(other);
-            }
+/// Draws the contact pressure of a solution and of those beside which it is assessed.
+fn pressures(solution: &Solution, assessment: &Assessment) -> String {
+    let measured = assessment.own();
+    let others = [assessment.measure(), measured].into_iter().flatten();
+    let mut runs = vec![solution];
+    for other in others.map(|measured| &*measured.reference) {
+        if !runs.iter().any(|run| run.request.is_same_equilibrium(&other.request)) {
+            runs.push(other);
         }
-        let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
-        drawn.push(("pressure.svg", pressure::picture(scene, &runs, hertz)));
     }
-    drawn
+    let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
+    pressure::picture(&solution.request.scene, &runs, hertz)
 }
 
 /// Draws the mesh of a finding's scene, under the finding's id.

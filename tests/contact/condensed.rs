@@ -6,15 +6,18 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Barrier};
 
 use nalgebra::DVector;
-use plane_contact::answer::condensation::{Bodies as Condensing, Condensation, Shared, refine};
-use plane_contact::answer::contact::Surfaces;
-use plane_contact::answer::{Constraint, Motion, Stiffness};
-use plane_contact::numbers::solve::Factors;
+use plane_contact::answer::condensation::{
+    Bodies as Condensing, Condensation, Factored, Shared, refine,
+};
+use plane_contact::answer::contact::{Pairing, Surfaces};
+use plane_contact::answer::{Constraint, Elimination, Motion, Stiffness};
+use plane_contact::numbers::solve::{Factors, SparseCholesky};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{ContactModel, Coupling};
 use plane_contact::problem::scene::{Axis, Scene};
 
+use crate::common::tolerances::{GAPS, assert_near};
 use crate::corners::{Bodies, Writing, grid};
 
 /// What solves nearly the equation x = f: a part of the right-hand side.
@@ -94,7 +97,8 @@ fn factors_serve_the_same_bodies_alone_and_the_nodes_that_they_keep() {
     let model = two_blocks();
     let nodes: Vec<NodeId> = model.node_ids().collect();
     let kept = BTreeSet::from([nodes[6], nodes[9], nodes[10], nodes[11]]);
-    let made = Condensation::new(&Stiffness::new(&model, |x| x), &model, kept).expect("held");
+    let factored = Factored::new(&Stiffness::new(&model, |x| x), &model, &kept).expect("held");
+    let made = Condensation::new(&Arc::new(factored), kept).expect("held");
     assert!(made.is_of(&model) && made.is_of(&model.as_ref().clone()));
     let others: [fn(&mut Model); 5] = [
         |model| model.plane = Plane::Stress,
@@ -158,6 +162,56 @@ fn what_several_runs_ask_for_at_once_is_made_once() {
         runs.map(|run| run.join().expect("it ends"))
     });
     assert!(made.iter().all(|other| Arc::ptr_eq(&made[0], other)));
+}
+
+/// The bodies of `strand` are factored for both surfaces, and of these a part is kept: the displacements of
+/// a state are those of the whole matrix, also where factors of one that is alike serve again.
+#[test]
+fn of_small_bodies_a_part_of_the_surfaces_is_kept_after_one_factorisation() {
+    let model = Scene::open("strand").expect("embedded").model;
+    let stiffness = Stiffness::new(&model, |x| x);
+    let surfaces = Surfaces::new(&model).expect("a chain");
+    let shapes = [0.0, 1e-3].map(|turn: f64| {
+        model.nodes.iter().map(|[x, y]| [x - turn * y, y + turn * x]).collect::<Vec<_>>()
+    });
+    let pairings = shapes.map(|shape| surfaces.pairings(Coupling::Nts, &shape));
+    let middle = model.contact.nodes.len() / 2;
+    let states = pairings.map(|pairings| -> Vec<Constraint> {
+        let closed = pairings[middle - 2..middle + 3].iter().flatten();
+        let of = |(i, p): (usize, &Pairing)| {
+            let motion =
+                if i % 2 == 0 { Motion::Along(p.normal, 1e-4) } else { Motion::Both([0.0; 2]) };
+            Constraint { node: p.node, masters: p.masters.clone(), motion }
+        };
+        closed.enumerate().map(of).collect()
+    });
+    assert!(states[0].len() == 5 && states[0] != states[1]);
+    let bodies = Condensing::new(&model, &Shared::default());
+    for (k, constraints) in states.iter().enumerate() {
+        let state = bodies.state(&stiffness, constraints, k > 0).expect("it is held");
+        let made = bodies.condensed(&stiffness, constraints).expect("it is known");
+        assert!((10..80).contains(&made.nodes.len()), "{} of 133", made.nodes.len());
+        let eliminated = bodies.eliminated(&state, &model.load);
+        let (own, residual) = state.displacements(&eliminated).expect("it is refined");
+        assert!(residual <= 32.0 * EPSILON, "{residual:e}");
+        let t = Elimination::closing(&model.restrained, constraints);
+        let matrix = stiffness.reduced(&t);
+        let f = t.load(&(&model.load - stiffness.times(t.shift())));
+        let u = t.expand(&SparseCholesky::new(matrix).expect("it is held").solve(&f));
+        let free = |dof: &usize| !model.restrained[*dof];
+        let kept = made.nodes.iter().flat_map(|node| node.dofs()).map(|dof| dof.index());
+        let kept: Vec<f64> = kept.filter(free).map(|dof| u[dof]).collect();
+        assert_eq!(kept.len(), own.len());
+        for (own, whole) in own.iter().zip(&kept) {
+            assert_near(
+                "displacement over the largest",
+                *own / u.amax(),
+                *whole / u.amax(),
+                1.0,
+                &GAPS,
+            );
+        }
+    }
 }
 
 /// The columns of nodes of each of two long strips.

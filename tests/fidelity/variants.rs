@@ -6,6 +6,7 @@ use crate::common::outcome::solve;
 use crate::common::tolerances::{BALANCE, CLOSED_FORM, MIRRORED, RESIDUAL, assert_near};
 use plane_contact::answer::error::Error;
 use plane_contact::answer::{self, Detail, Published, Request, Solution, Step};
+use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::door::Call;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::NodeId;
@@ -210,6 +211,42 @@ fn the_residual_of_eq_1_shows_inflated_weights() {
     twice["contact"]["cnt"] = json!([10, 11, 11, 12]);
     let solution = solved(&build(&twice).unwrap(), Variant::Tied);
     assert!(published(&solution.steps[0]).eq1_residual > 1e-4);
+}
+
+/// As printed, the factors of the condensed bodies serve every contact state; the displacements are those
+/// by LU of the whole of `Km`, and so are the states.
+#[test]
+fn as_printed_condensed_bodies_and_lu_of_the_whole_agree() {
+    let readings = ["", "R3=per-node", "R3=nested", "R5=node_n", "R7=stepped", "R2=printed"];
+    for (name, reading) in
+        ["strand", "fig1", "two-blocks"].iter().flat_map(|n| readings.map(|r| (n, r)))
+    {
+        let scene = Scene::open(name).expect("embedded");
+        let reading: Reading = reading.parse().expect("a reading");
+        let request = Request::new(&scene).variant(Variant::Printed).reading(reading);
+        let solver = Some(Solver::SparseLu);
+        let whole = request.clone().arithmetic(Arithmetic { solver, ..Arithmetic::default() });
+        let (own, whole) = match (run(&request), run(&whole)) {
+            (Ok(own), Ok(whole)) => (own, whole),
+            (own, whole) => {
+                let [own, whole] =
+                    [own, whole].map(|run| run.map(|_| ()).map_err(|e| e.to_string()));
+                assert_eq!(own, whole);
+                continue;
+            }
+        };
+        let sets = |run: &Solution| -> Vec<Vec<usize>> {
+            run.steps
+                .iter()
+                .map(|step| step.statuses().into_iter().map(usize::from).collect())
+                .collect()
+        };
+        assert_eq!(sets(&own), sets(&whole), "{name}");
+        let largest = whole.u.amax();
+        for (own, whole) in own.u.iter().zip(&whole.u) {
+            assert_near("displacement", *own, *whole, largest, &MIRRORED);
+        }
+    }
 }
 
 /// Under R2 = printed `Km` takes other equations for restrained than S names; a force there stays a

@@ -3,10 +3,13 @@
 
 use crate::common::random::fixed;
 use crate::common::tolerances::{DOUBLE_DOUBLE, Tolerance};
+use dashu_base::Abs;
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
 use plane_contact::answer::Request;
-use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Rounded, Scalar, rational, scope};
+use plane_contact::numbers::scalar::{
+    Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, SumOfProducts, rational, scope,
+};
 use plane_contact::paper::door;
 use plane_contact::paper::mathcad::array::Column;
 use plane_contact::paper::mirror::{Cause, Failure, Reading, c_cnt};
@@ -60,6 +63,35 @@ proptest! {
 
     /// The root of each end of an interval is within the bound of the root of its middle, which is
     /// less than three times what the further of them needs.
+    /// What the factors may be off is held too, and the bound is not far above that of one sum after
+    /// another.
+    #[test]
+    fn the_bound_of_a_sum_of_products_holds_it(
+        terms in prop::collection::vec((double_double(60), double_double(60), 0.0..1e-20_f64), 1..40),
+        split in 0..40_usize,
+    ) {
+        let within = |(x, y, off): &(F64x2, F64x2, f64)| {
+            [x, y].map(|z| BoundedDouble::new(*z, off * z.to_f64().abs()))
+        };
+        let (mut sum, mut other) = (SumOfProducts::ZERO, SumOfProducts::ZERO);
+        let (mut lowest, mut highest) = (RBig::ZERO, RBig::ZERO);
+        let mut one_by_one = BoundedDouble::from_f64(0.0);
+        for (k, term) in terms.iter().enumerate() {
+            let [x, y] = within(term);
+            if k < split { sum.add(x, y) } else { other.add(x, y) }
+            one_by_one += x * y;
+            let [p, q] = [x, y].map(|z| exact(z.value()));
+            let off = RBig::try_from(term.2).expect("finite");
+            let spread = (&p * &q).abs() * (RBig::from(2) * &off + &off * &off);
+            (lowest, highest) = (lowest + &p * &q - &spread, highest + &p * &q + spread);
+        }
+        sum.join(&other);
+        let total = sum.total();
+        let (value, error) = (exact(total.value()), RBig::try_from(total.error()).expect("finite"));
+        prop_assert!(&value - &error <= lowest && highest <= &value + &error, "{total:?}");
+        prop_assert!(total.error() <= 40.0 * one_by_one.error(), "{total:?} {one_by_one:?}");
+    }
+
     #[test]
     fn the_bound_of_a_root_holds_the_roots_about_it(x in float(20), part in 0.01..0.9_f64) {
         let (middle, radius) = (x.abs(), x.abs() * part);

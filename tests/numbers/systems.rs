@@ -9,8 +9,8 @@ use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 use plane_contact::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar};
 use plane_contact::numbers::solve::{
-    Arithmetic, Condensed, DenseCholesky, DenseCondensed, Factors, KnownLu, NotConverged,
-    Precision, ScalarName, Singular, Solver, SparseCholesky, SparseLu, SparseSquare,
+    AnyLu, Arithmetic, Condensed, DenseCholesky, DenseCondensed, Factors, KnownLu, Lu,
+    NotConverged, Precision, ScalarName, Singular, Solver, SparseCholesky, SparseLu, SparseSquare,
     SparseSymmetric, Unsolved, conjugate_gradients, error_bound, error_of_rest, inverse_norm, lift,
     refine, solve_dense,
 };
@@ -356,7 +356,7 @@ fn factors_are_made_once_for_each_of_the_last_four_matrices() {
     let factors = |n: usize, value: f64| {
         let mut matrix = SparseSquare::zeros(n);
         (0..n).for_each(|k| matrix[(k, k)] = value);
-        known.factors(&matrix).expect("it is not singular")
+        known.factors(&matrix, &|_| None).expect("it is not singular")
     };
     let first = factors(2, 1.0);
     let three = [2.0, 3.0, 4.0].map(|value| factors(2, value));
@@ -377,7 +377,7 @@ fn factors_are_known_by_every_column() {
     let solved = |places: [(usize, usize); 4]| {
         let mut matrix = SparseSquare::zeros(3);
         places.iter().for_each(|at| matrix[*at] = 1.0);
-        f64::solve_sparse(&matrix, &dvector![1.0, 2.0, 4.0], &known).unwrap().x
+        f64::solve_sparse(&matrix, &dvector![1.0, 2.0, 4.0], &known, &|_| None).unwrap().x
     };
     for _ in 0..2 {
         assert_eq!(solved([(0, 0), (1, 1), (2, 1), (1, 2)]), dvector![1.0, 4.0, -2.0]);
@@ -391,13 +391,57 @@ fn factors_are_known_by_every_place_and_value() {
     let solved = |entries: [(usize, usize, f64); 2]| {
         let mut matrix = SparseSquare::zeros(2);
         entries.iter().for_each(|(i, j, a)| matrix[(*i, *j)] = *a);
-        let solution = f64::solve_sparse(&matrix, &dvector![2.0, 8.0], &known).unwrap();
+        let solution = f64::solve_sparse(&matrix, &dvector![2.0, 8.0], &known, &|_| None).unwrap();
         [solution.x[0], solution.x[1]]
     };
     for _ in 0..2 {
         assert_eq!(solved([(0, 0, 2.0), (1, 1, 4.0)]), [1.0, 2.0]);
         assert_eq!(solved([(0, 0, 4.0), (1, 1, 2.0)]), [0.5, 4.0]);
         assert_eq!(solved([(1, 0, 2.0), (0, 1, 4.0)]), [4.0, 0.5]);
+    }
+}
+
+/// What multiplies by `part` in place of solving, and refines to `solution`.
+struct Guess {
+    part: f64,
+    solution: Option<f64>,
+}
+
+impl Factors<f64> for Guess {
+    fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
+        self.part * b
+    }
+}
+
+impl Lu<f64> for Guess {
+    fn residual(&self, _: &DVector<f64>, _: &DVector<f64>) -> f64 {
+        0.0
+    }
+
+    fn solution(&self, b: &DVector<f64>) -> Option<DVector<f64>> {
+        self.solution.map(|part| part * b)
+    }
+}
+
+/// Of x = b / 2: factors made quickly are kept and refined as they do it, unless they move the matrix
+/// without bound; where they cannot be refined, LU solves.
+#[test]
+fn factors_made_quickly_serve_where_they_can() {
+    let mut matrix = SparseSquare::zeros(2);
+    (0..2).for_each(|k| matrix[(k, k)] = 2.0);
+    let solved = |part: f64, solution: Option<f64>| {
+        let known = KnownLu::default();
+        let guess =
+            |_: &SparseSquare| -> Option<AnyLu> { Some(Arc::new(Guess { part, solution })) };
+        let b = dvector![1.0, 4.0];
+        let solved = f64::solve_sparse(&matrix, &b, &known, &guess).expect("it is not singular");
+        let again = known.factors(&matrix, &|_| None).expect("they are known");
+        (solved.x, again.solve(&b)[0])
+    };
+    assert_eq!(solved(0.5, Some(0.25)), (dvector![0.25, 1.0], 0.5));
+    assert_eq!(solved(0.25, None), (dvector![0.5, 2.0], 0.25));
+    for far in [1e30, f64::NAN] {
+        assert_eq!(solved(far, Some(0.25)), (dvector![0.5, 2.0], 0.5));
     }
 }
 
@@ -413,7 +457,7 @@ fn factors_of_a_known_pattern_have_the_same_bits() {
             matrix[(i, (5 * i + 3) % 12)] += 1.0 / (k + i) as f64;
         }
         let alone = SparseLu::new(&matrix).unwrap().solve(&b);
-        assert_eq!(known.factors(&matrix).unwrap().solve(&b), alone);
+        assert_eq!(known.factors(&matrix, &|_| None).unwrap().solve(&b), alone);
     }
 }
 

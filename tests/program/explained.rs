@@ -173,7 +173,7 @@ fn what_rounding_decided_is_said_to_be_decided_by_rounding() {
     let scene = Scene::open("strand").expect("embedded");
     let mut request = Request::new(&scene).variant(Variant::Tied);
     request.tolerance = Some(1e-6);
-    let solver = Some(Solver::DenseLu);
+    let solver = Some(Solver::SparseLu);
     let other = request.clone().arithmetic(Arithmetic { solver, ..Arithmetic::default() });
     let mut snapshot = Snapshot::record(&scene, &[other], Bounds::Computed).expect("it runs");
     let (_, run) = snapshot.runs.iter().next().expect("a run");

@@ -8,15 +8,16 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use nalgebra::DVector;
 
+use super::factored::{Factored, are_same_bodies, surfaces};
 use super::gaps::Gaps;
-use super::schur::{Condensation, are_same_bodies};
-use super::state::{Bound, OnKept};
+use super::schur::{Condensation, Eliminated};
+use super::state::{Bound, Imposed, OnKept};
 use crate::answer::contact::Pairing;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::factors::LastFactors;
 use crate::answer::stiffness::Stiffness;
 use crate::error::InputError;
-use crate::numbers::solve::{Eliminated, KnownLu};
+use crate::numbers::solve::KnownLu;
 use crate::problem::model::{Model, NodeId};
 
 /// The number of nodes of both surfaces up to which all are kept.
@@ -36,37 +37,66 @@ const EXPECTED: (f64, usize) = (0.85, 10_000);
 /// the part of the number of bound nodes that comes on top.
 const MARGIN: (usize, f64) = (8, 0.1);
 
-/// The number of sets of nodes to which the bodies of a model stay condensed, the last ones; of `LARGE`
-/// bodies one, as they take much memory.
-const SETS: usize = 4;
-
-/// The number of equations of large bodies.
-const LARGE: usize = 20_000;
+/// The number of equations, and that of nodes of both surfaces, up to which bodies are factored for all of
+/// these, whatever is kept of them: beyond that the factor would grow by more than factoring anew takes.
+const FOR_ALL: (usize, usize) = (20_000, 300);
 
 /// What was factored of a scene, shared by all that is asked of it: each is factored once.
 #[derive(Clone, Default)]
 pub struct Shared {
-    condensed: Arc<Mutex<Vec<Arc<OfNodes>>>>,
+    factored: Arc<Known<Factored>>,
+    condensed: Arc<Known<Condensation>>,
     /// The factors of `Km`.
     known: Arc<KnownLu>,
     /// The most bytes that were asked for and free.
     room: Arc<Mutex<f64>>,
 }
 
-/// The bodies of a model condensed to some nodes.
-struct OfNodes {
+/// What was made of the bodies of some models.
+struct Known<T>(Mutex<Vec<Arc<Made<T>>>>);
+
+/// What was made of the bodies of a model for some nodes.
+struct Made<T> {
     model: Arc<Model>,
     nodes: BTreeSet<NodeId>,
     /// Made by the run that first asks, while others that ask wait: two at once would be twice the
-    /// memory. None where they cannot be.
-    made: OnceLock<Option<Arc<Condensation>>>,
+    /// memory. None where it cannot be.
+    made: OnceLock<Option<Arc<T>>>,
 }
 
-impl OfNodes {
-    /// Returns the condensed bodies, which the first call makes; None where they cannot be.
-    fn made(&self, stiffness: &Stiffness) -> Option<Arc<Condensation>> {
-        let make = || Condensation::new(stiffness, &self.model, self.nodes.clone()).map(Arc::new);
-        self.made.get_or_init(make).clone()
+impl<T> Default for Known<T> {
+    fn default() -> Self {
+        Known(Mutex::default())
+    }
+}
+
+impl<T> Known<T> {
+    /// Returns what `make` makes of the bodies of `model` for `nodes`, or made before; None where it cannot
+    /// be. Of each model the last is kept, as those of large bodies take much memory.
+    fn of(
+        &self,
+        model: &Arc<Model>,
+        nodes: &BTreeSet<NodeId>,
+        make: impl FnOnce() -> Option<T>,
+    ) -> Option<Arc<T>> {
+        self.place(model, nodes).made.get_or_init(|| make().map(Arc::new)).clone()
+    }
+
+    /// Returns the place of that, made or not.
+    fn place(&self, model: &Arc<Model>, nodes: &BTreeSet<NodeId>) -> Arc<Made<T>> {
+        let mut all = self.all();
+        let is_of = |known: &Arc<Made<T>>| are_same_bodies(&known.model, model);
+        if let Some(known) = all.iter().find(|known| known.nodes == *nodes && is_of(known)) {
+            return Arc::clone(known);
+        }
+        all.retain(|known| !is_of(known));
+        let (model, nodes) = (Arc::clone(model), nodes.clone());
+        all.push(Arc::new(Made { model, nodes, made: OnceLock::new() }));
+        Arc::clone(&all[all.len() - 1])
+    }
+
+    fn all(&self) -> MutexGuard<'_, Vec<Arc<Made<T>>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -79,7 +109,8 @@ impl fmt::Debug for Shared {
 impl Shared {
     /// Lets go of all that was factored so far.
     pub(in crate::answer) fn let_go(&self) {
-        self.all().clear();
+        self.factored.all().clear();
+        self.condensed.all().clear();
         self.known.let_go();
     }
 
@@ -105,6 +136,13 @@ impl Shared {
         &self.known
     }
 
+    /// Returns the bodies of `model` condensed to both surfaces; None where they cannot be, or are large.
+    pub(in crate::answer) fn at_surfaces(&self, model: &Arc<Model>) -> Option<Arc<Factored>> {
+        let surfaces = few_surfaces(model)?;
+        self.factored
+            .of(model, &surfaces, || Factored::new(&Stiffness::new(model, |x| x), model, &surfaces))
+    }
+
     /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.
     fn condensed(
         &self,
@@ -112,31 +150,21 @@ impl Shared {
         model: &Arc<Model>,
         nodes: BTreeSet<NodeId>,
     ) -> Option<Arc<Condensation>> {
-        self.of_nodes(model, nodes).made(stiffness)
+        // An edited listing may bind others.
+        let for_all = few_surfaces(model).filter(|surfaces| surfaces.is_superset(&nodes));
+        let wide = for_all.as_ref().unwrap_or(&nodes);
+        self.condensed.of(model, &nodes, || {
+            let factor = || Factored::new(stiffness, model, wide);
+            Condensation::new(&self.factored.of(model, wide, factor)?, nodes.clone())
+        })
     }
+}
 
-    /// Returns the place of the bodies of `model` condensed to `nodes`, made or not.
-    fn of_nodes(&self, model: &Arc<Model>, nodes: BTreeSet<NodeId>) -> Arc<OfNodes> {
-        let mut all = self.all();
-        let is_of = |known: &Arc<OfNodes>| are_same_bodies(&known.model, model);
-        if let Some(known) = all.iter().find(|known| known.nodes == nodes && is_of(known)) {
-            return Arc::clone(known);
-        }
-        let mut others = all.iter().filter(|known| is_of(known)).count();
-        let most = if model.free_dofs() < LARGE { SETS } else { 1 };
-        all.retain(|known| {
-            let goes = others >= most && is_of(known);
-            others -= usize::from(goes);
-            !goes
-        });
-        let new = OfNodes { model: Arc::clone(model), nodes, made: OnceLock::new() };
-        all.push(Arc::new(new));
-        Arc::clone(&all[all.len() - 1])
-    }
-
-    fn all(&self) -> MutexGuard<'_, Vec<Arc<OfNodes>>> {
-        self.condensed.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+/// Returns the nodes of both surfaces of a model whose bodies are factored for all of them; None of others.
+pub fn few_surfaces(model: &Model) -> Option<BTreeSet<NodeId>> {
+    let (equations, most) = FOR_ALL;
+    let surfaces: BTreeSet<NodeId> = surfaces(model).into_iter().flatten().collect();
+    (model.free_dofs() <= equations && surfaces.len() <= most).then_some(surfaces)
 }
 
 /// The bodies of a run, condensed when a contact state first needs it.
@@ -153,6 +181,8 @@ pub struct Bodies {
     gaps: RefCell<Option<Option<Arc<Gaps>>>>,
     /// The state of the whole bodies that was factored last.
     bound: RefCell<Option<Arc<Bound>>>,
+    /// The state of the condensed ones that was factored last.
+    imposed: RefCell<Option<Imposed>>,
     /// The load that was eliminated last.
     loaded: RefCell<Option<Loaded>>,
     /// The nodes to keep for the first contact state of large surfaces, beside those that it binds, the
@@ -167,13 +197,6 @@ struct Loaded {
     condensation: Arc<Condensation>,
     load: DVector<f64>,
     eliminated: Rc<Eliminated>,
-}
-
-/// Returns the nodes of the contact surface and those of the target surface, each in its order.
-fn surfaces(model: &Model) -> [Vec<NodeId>; 2] {
-    let mut target: Vec<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
-    target.dedup();
-    [model.contact.nodes.clone(), target]
 }
 
 /// Returns the number of nodes of both surfaces, and the most nodes that are kept of large ones.
@@ -209,6 +232,7 @@ impl Bodies {
             facing: None,
             gaps: RefCell::default(),
             bound: RefCell::default(),
+            imposed: RefCell::default(),
             loaded: RefCell::default(),
             expected: RefCell::default(),
             impossible: Cell::new(!model.has_contact()),
@@ -241,11 +265,27 @@ impl Bodies {
     }
 
     /// Factors the contact state that `constraints` impose on the condensed bodies; None where the
-    /// whole matrix is to be factored.
-    pub fn state(&self, stiffness: &Stiffness, constraints: &[Constraint]) -> Option<OnKept> {
+    /// whole matrix is to be factored. Where they are alike, `again` has factors of the last state serve,
+    /// from which its displacements are refined, if they can be.
+    pub fn state(
+        &self,
+        stiffness: &Stiffness,
+        constraints: &[Constraint],
+        again: bool,
+    ) -> Option<OnKept> {
         let condensation = self.condensed(stiffness, constraints)?;
         let gaps = self.gaps(&condensation);
-        OnKept::new(condensation, gaps.as_ref(), constraints)
+        if let Some(held) = gaps.and_then(|gaps| gaps.held(constraints)) {
+            return Some(OnKept::holding(condensation, held));
+        }
+        let serves = |last: &&Imposed| again && last.serves(&condensation, constraints);
+        let mut last = self.imposed.borrow_mut();
+        if let Some(alike) = last.as_ref().filter(serves) {
+            return OnKept::new(condensation, constraints, Some(alike));
+        }
+        let state = OnKept::new(condensation, constraints, None)?;
+        *last = Some(state.imposed(constraints));
+        Some(state)
     }
 
     /// Factors the contact state T of the whole bodies that `constraints` impose; None where the whole
@@ -302,6 +342,7 @@ impl Bodies {
         self.loaded.take();
         self.gaps.take();
         self.bound.take();
+        self.imposed.take();
         self.current.take();
         let made = self.shared.condensed(stiffness, &self.model, nodes);
         self.impossible.set(made.is_none());

@@ -94,7 +94,7 @@ impl Gaps {
         }
         let columns = first + held.iter().flatten().count() + gaps.len();
         let m = Rows { rows: rows.into_values().collect(), columns };
-        let matrix = m.reduced(condensation.condensed.schur());
+        let matrix = m.reduced(condensation.schur());
         let condensed = DenseCondensed::new(&matrix, first)?;
         let diagonal = matrix.diagonal();
         holds(condensed.first(), &diagonal.rows(0, first).into_owned()).then_some(Gaps {

@@ -2,27 +2,31 @@
 //! contact state Tᵀ K T is solved on these nodes alone.
 //!
 //! ```text
-//!   K --Condensation--> S on the kept nodes --T of a state--> Tᵀ S T, dense, factored for each state
+//!   K --Factored--> S on the surfaces --Condensation--> S on the kept nodes --T of a state--> Tᵀ S T, dense
 //! ```
 //!
 //! Kept are all nodes of small surfaces, else those that a state binds and their neighbours; when a
-//! state binds others, the bodies are condensed anew (`bodies`). Where that cannot be done or
-//! trusted, a state has no such factors: its whole matrix is to be factored.
+//! state binds others, the bodies are condensed anew (`bodies`): small ones from their surfaces, for which
+//! they are factored once, large ones from the whole. Where that cannot be done or trusted, a state has no
+//! such factors: its whole matrix is to be factored.
 //!
 //! The search for a contact state goes on with S alone (`OnKept`), where it can be in terms of gaps and
-//! slips, of which a state holds some: then all else is eliminated once (`gaps`). Where every digit
+//! slips, of which a state holds some: then all else is eliminated once (`gaps`). In the current geometry
+//! a state differs little from the last one, whose factors serve it, with refinement. Where every digit
 //! counts, the factors of Tᵀ S T serve to refine the solution of the whole equations (`Bound`).
 
 mod bodies;
+mod factored;
 mod gaps;
 mod refinement;
 mod rows;
 mod schur;
 mod state;
 
-pub use bodies::{Bodies, Shared, kept_equations, surface_nodes};
+pub use bodies::{Bodies, Shared, few_surfaces, kept_equations, surface_nodes};
+pub use factored::Factored;
 pub use gaps::Gaps;
 pub use refinement::refine;
 pub(super) use refinement::refined;
-pub use schur::Condensation;
+pub use schur::{Condensation, Eliminated};
 pub use state::{Bound, Inside, OnKept};

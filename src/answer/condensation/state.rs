@@ -5,21 +5,33 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::gaps::{Gaps, Held};
+use super::gaps::Held;
 use super::refinement::refine;
 use super::rows::Rows;
-use super::schur::{Condensation, holds};
-use crate::answer::elimination::{Constraint, Elimination};
-use crate::numbers::solve::{DenseCholesky, Eliminated, Factors};
-use crate::problem::model::NodeId;
+use super::schur::{Condensation, Eliminated, holds};
+use crate::answer::elimination::{Constraint, Elimination, are_alike};
+use crate::numbers::solve::{DenseCholesky, Factors};
+use crate::problem::model::{Dof, NodeId};
 
 /// Tᵀ S T under one contact state, factored.
 struct Small {
     condensation: Arc<Condensation>,
     /// The rows of T of the kept degrees of freedom.
     t: Rows,
-    factors: Box<dyn Factors<f64> + Send>,
+    factors: Arc<dyn Factors<f64> + Send + Sync>,
 }
+
+/// The factors of a contact state, and the constraints that impose it.
+pub(super) struct Imposed {
+    condensation: Arc<Condensation>,
+    constraints: Vec<Constraint>,
+    factors: Arc<dyn Factors<f64> + Send + Sync>,
+    /// The number of columns of T.
+    columns: usize,
+}
+
+/// The change of a weight or a normal below which factors serve another state, whose solution is refined.
+const ALIKE: f64 = 1e-2;
 
 /// The bodies under one contact state, in terms of what is kept of them.
 pub struct OnKept {
@@ -42,31 +54,22 @@ pub struct Bound {
     small: Small,
     /// The equation of the state for each column of T.
     columns: Vec<usize>,
-    /// The equation of the bodies and that of the state for each degree of freedom inside.
+    /// The index of each degree of freedom inside, and its equation of the state.
     inside: Vec<(usize, usize)>,
     /// What made T.
     constraints: Vec<Constraint>,
 }
 
 impl Small {
-    /// Factors Tᵀ S T, and says which equation of the state each column of T is; None where that is
-    /// singular or nearly so.
-    fn new(condensation: Arc<Condensation>, all: &Elimination) -> Option<(Self, Vec<usize>)> {
-        let mut column_of = vec![usize::MAX; all.size()];
-        let mut columns = Vec::new();
-        for (column, _) in condensation.kept.iter().flat_map(|dof| all.row(*dof)) {
-            if column_of[*column] == usize::MAX {
-                column_of[*column] = columns.len();
-                columns.push(*column);
-            }
-        }
-        let local = |(column, weight): &(usize, f64)| (column_of[*column], *weight);
-        let rows = condensation.kept.iter().map(|dof| all.row(*dof).iter().map(local).collect());
-        let t = Rows { rows: rows.collect(), columns: columns.len() };
-        let matrix = t.reduced(condensation.condensed.schur());
+    /// Factors Tᵀ S T; None where that is singular or nearly so.
+    fn new(condensation: Arc<Condensation>, t: Rows) -> Option<Self> {
+        let matrix = t.reduced(condensation.schur());
         let factors = DenseCholesky::new(&matrix).ok()?;
-        holds(&factors, &matrix.diagonal())
-            .then(|| (Small { condensation, t, factors: Box::new(factors) }, columns))
+        holds(&factors, &matrix.diagonal()).then(|| Small {
+            condensation,
+            t,
+            factors: Arc::new(factors),
+        })
     }
 
     /// Returns the displacements of the kept equations under a load on them, without shift.
@@ -78,27 +81,48 @@ impl Small {
     /// the displacements without the shift of the constraints; 0 but on the kept equations.
     fn response(&self, load: &DVector<f64>) -> DVector<f64> {
         let f = self.condensation.part(load);
-        let force = self.condensation.condensed.schur() * self.under(&f);
+        let force = self.condensation.schur() * self.under(&f);
         self.condensation.whole(&(force - f))
     }
 }
 
 impl OnKept {
-    /// Factors a contact state on the kept equations, in terms of `gaps` where it can be; None where it is
-    /// singular or nearly so.
+    /// Factors a contact state on the kept equations; None where it is singular or nearly so. The factors
+    /// of one that is `alike` serve again.
     pub(super) fn new(
         condensation: Arc<Condensation>,
-        gaps: Option<&Arc<Gaps>>,
         constraints: &[Constraint],
+        alike: Option<&Imposed>,
     ) -> Option<Self> {
-        if let Some(Held { t, shift, factors }) = gaps.and_then(|gaps| gaps.held(constraints)) {
-            let small = Small { condensation, t, factors: Box::new(factors) };
-            return Some(OnKept { small, shift });
-        }
-        let t = Elimination::closing(&condensation.is_outside, constraints);
-        let shift = condensation.part(t.shift());
-        let (small, _) = Small::new(condensation, &t)?;
+        let (t, dofs) = condensation.closing(constraints);
+        let shift = DVector::from_iterator(dofs.len(), dofs.iter().map(|d| t.shift()[d.index()]));
+        let (t, _) = rows(&t, dofs);
+        let small = match alike.filter(|alike| alike.columns == t.columns) {
+            Some(Imposed { factors, .. }) => {
+                Small { condensation, t, factors: Arc::clone(factors) }
+            }
+            None => Small::new(condensation, t)?,
+        };
         Some(OnKept { small, shift })
+    }
+
+    /// Takes a contact state that holds gaps and slips.
+    pub(super) fn holding(
+        condensation: Arc<Condensation>,
+        Held { t, shift, factors }: Held,
+    ) -> Self {
+        OnKept { small: Small { condensation, t, factors: Arc::new(factors) }, shift }
+    }
+
+    /// Returns its factors, which `constraints` made.
+    pub(super) fn imposed(&self, constraints: &[Constraint]) -> Imposed {
+        let Small { condensation, factors, t } = &self.small;
+        Imposed {
+            condensation: Arc::clone(condensation),
+            constraints: constraints.to_vec(),
+            factors: Arc::clone(factors),
+            columns: t.columns,
+        }
     }
 
     /// Returns the condensed bodies.
@@ -110,7 +134,7 @@ impl OnKept {
     /// None where the factors are too far from the matrix.
     pub fn displacements(&self, load: &Eliminated) -> Option<(DVector<f64>, f64)> {
         let Small { condensation, t, factors } = &self.small;
-        let schur = condensation.condensed.schur();
+        let schur = condensation.schur();
         let f = t.load(&(&load.kept - schur * &self.shift));
         let times = |q: &DVector<f64>| t.load(&(schur * t.expand(q)));
         let (q, residual) = refine(&**factors, times, condensation.kept_norm, &f).ok()?;
@@ -128,7 +152,7 @@ impl OnKept {
     /// these.
     pub(in crate::answer) fn reaction(&self, u: &DVector<f64>, load: &Eliminated) -> DVector<f64> {
         let condensation = &self.small.condensation;
-        let force = condensation.condensed.schur() * u;
+        let force = condensation.schur() * u;
         condensation.whole(&(force - &load.kept))
     }
 
@@ -143,20 +167,25 @@ impl OnKept {
     pub(in crate::answer) fn under(&self, load: &DVector<f64>) -> [DVector<f64>; 2] {
         let condensation = &self.small.condensation;
         let u = self.small.under(&condensation.part(load));
-        let force = condensation.whole(&(condensation.condensed.schur() * &u));
+        let force = condensation.whole(&(condensation.schur() * &u));
         [u, force]
     }
 }
 
 impl Inside {
-    /// Returns whether the displacements of a node are known without those inside.
-    pub(in crate::answer) fn keeps(&self, node: NodeId) -> bool {
-        self.condensation.keeps(node)
+    /// Returns whether a node's displacements are among those of the surfaces.
+    pub(in crate::answer) fn knows(&self, node: NodeId) -> bool {
+        self.condensation.is_on_surface(node)
     }
 
-    /// Returns the displacements by degree of freedom, length; 0 inside.
-    pub(in crate::answer) fn kept(&self) -> DVector<f64> {
-        self.condensation.whole(&self.kept)
+    /// Returns whether those are the displacements of all nodes of both surfaces.
+    pub(in crate::answer) fn knows_surfaces(&self) -> bool {
+        self.condensation.has_surfaces()
+    }
+
+    /// Returns the displacements of the surfaces by degree of freedom, length; 0 elsewhere.
+    pub(in crate::answer) fn on_surfaces(&self) -> DVector<f64> {
+        self.condensation.expand_on_surfaces(&self.load, &self.kept)
     }
 
     /// Returns the displacements by degree of freedom, length.
@@ -173,14 +202,15 @@ impl Bound {
         all: &Elimination,
         constraints: &[Constraint],
     ) -> Option<Self> {
-        let mut inside = Vec::with_capacity(condensation.dofs.len());
-        for (e, dof) in condensation.dofs.iter().enumerate() {
+        let mut inside = Vec::with_capacity(condensation.dofs().len());
+        for dof in condensation.dofs() {
             if !condensation.is_kept[dof.index()] {
                 let &[(column, _)] = all.row(*dof) else { return None };
-                inside.push((e, column));
+                inside.push((dof.index(), column));
             }
         }
-        let (small, columns) = Small::new(condensation, all)?;
+        let (t, columns) = rows(all, &condensation.kept);
+        let small = Small::new(condensation, t)?;
         Some(Bound { small, columns, inside, constraints: constraints.to_vec() })
     }
 
@@ -197,23 +227,50 @@ impl Bound {
 
     /// Returns the largest row sum of |K| without constraints, force/length.
     pub(in crate::answer) fn norm(&self) -> f64 {
-        self.small.condensation.norm
+        self.small.condensation.norm()
     }
 }
 
 impl Factors<f64> for Bound {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         let Bound { small: Small { condensation, t, factors }, columns, .. } = self;
-        let condensed = &condensation.condensed;
-        let mut load = DVector::zeros(condensation.dofs.len());
-        self.inside.iter().for_each(|(e, column)| load[*e] = b[*column]);
-        let eliminated = condensed.eliminate(&load);
+        let mut load = DVector::zeros(condensation.is_kept.len());
+        self.inside.iter().for_each(|(dof, column)| load[*dof] = b[*column]);
+        let eliminated = condensation.eliminated(&load);
         let own = DVector::from_iterator(columns.len(), columns.iter().map(|c| b[*c]));
         let q = factors.solve(&(own + t.load(&eliminated.kept)));
-        let u = condensed.expand(&eliminated, &t.expand(&q));
+        let u = condensation.expand(&eliminated, &t.expand(&q));
         let mut x = DVector::zeros(b.len());
-        self.inside.iter().for_each(|(e, column)| x[*column] = u[*e]);
+        self.inside.iter().for_each(|(dof, column)| x[*column] = u[*dof]);
         columns.iter().zip(&q).for_each(|(column, q)| x[*column] = *q);
         x
     }
+}
+
+impl Imposed {
+    /// Returns whether its factors serve another state of the same condensed bodies.
+    pub(super) fn serves(
+        &self,
+        condensation: &Arc<Condensation>,
+        constraints: &[Constraint],
+    ) -> bool {
+        Arc::ptr_eq(&self.condensation, condensation)
+            && are_alike(&self.constraints, constraints, ALIKE)
+    }
+}
+
+/// Returns the rows of T of some degrees of freedom, with their columns numbered as they come; and which
+/// equation of the state each of these is.
+fn rows(all: &Elimination, dofs: &[Dof]) -> (Rows, Vec<usize>) {
+    let mut column_of = vec![usize::MAX; all.size()];
+    let mut columns = Vec::new();
+    for (column, _) in dofs.iter().flat_map(|dof| all.row(*dof)) {
+        if column_of[*column] == usize::MAX {
+            column_of[*column] = columns.len();
+            columns.push(*column);
+        }
+    }
+    let own = |(column, weight): &(usize, f64)| (column_of[*column], *weight);
+    let rows = dofs.iter().map(|dof| all.row(*dof).iter().map(own).collect());
+    (Rows { rows: rows.collect(), columns: columns.len() }, columns)
 }

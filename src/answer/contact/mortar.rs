@@ -22,7 +22,9 @@
 //! for.
 
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap;
 
 use super::pairing::{Pairing, unit};
 use super::search::dot;
@@ -50,7 +52,7 @@ pub struct Mortar<T> {
 /// coordinates of each node, length.
 pub(super) fn mortar<T: Scalar>(surfaces: &Surfaces, shape: &[[T; 2]]) -> Mortar<T> {
     let target: Vec<Placed<T>> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
-    let mut gathered: HashMap<NodeId, Gathered<T>> = HashMap::new();
+    let mut gathered: FxHashMap<NodeId, Gathered<T>> = FxHashMap::default();
     let at = |n: NodeId| shape[n.index()].map(T::to_f64);
     let tree = Tree::new(surfaces.target.iter().map(|edge| edge.nodes.map(at)).enumerate());
     let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());

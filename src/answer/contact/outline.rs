@@ -30,7 +30,8 @@
 //! TVCG 11 (2005) 243-253 (the sum of the edges' normals has the right sign at a vertex).
 
 use std::cell::{Cell, RefCell};
-use std::collections::HashMap;
+
+use rustc_hash::FxHashMap;
 
 use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
@@ -61,7 +62,7 @@ pub(super) struct Outline<'a> {
     /// The normal of each edge in the undeformed shape.
     undeformed: &'a [Vector],
     /// The edges at each node, an edge that is listed twice once.
-    at: &'a HashMap<NodeId, Vec<usize>>,
+    at: &'a FxHashMap<NodeId, Vec<usize>>,
     /// The mean normal at each edge's two nodes, over the edges that meet there in a bend.
     normals: Vec<[Vector; 2]>,
     tree: Tree,
@@ -329,7 +330,7 @@ impl Facing<'_> {
 fn normals(
     edges: &[Edge],
     placed: &[Placed],
-    at: &HashMap<NodeId, Vec<usize>>,
+    at: &FxHashMap<NodeId, Vec<usize>>,
 ) -> Vec<[Vector; 2]> {
     let mean = |k: usize, node: NodeId| {
         let own = placed[k].normal;

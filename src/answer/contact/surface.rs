@@ -1,6 +1,8 @@
 //! The contact surface and the target surface as edges with an inner and an outer side.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
+
+use rustc_hash::FxHashMap;
 
 use super::pairing::Vector;
 use super::search::{dot, minus};
@@ -34,9 +36,9 @@ pub(super) struct Normals {
     /// By target edge.
     pub(super) target: Vec<Vector>,
     /// By contact node that bounds an edge.
-    pub(super) contact_nodes: HashMap<NodeId, Vector>,
+    pub(super) contact_nodes: FxHashMap<NodeId, Vector>,
     /// By target node.
-    pub(super) target_nodes: HashMap<NodeId, Vector>,
+    pub(super) target_nodes: FxHashMap<NodeId, Vector>,
 }
 
 /// An edge of a body's surface.
@@ -53,7 +55,7 @@ pub(super) struct Meeting {
     /// The edges, one that is listed twice once.
     pub(super) once: Vec<usize>,
     /// Those at each node.
-    pub(super) at: HashMap<NodeId, Vec<usize>>,
+    pub(super) at: FxHashMap<NodeId, Vec<usize>>,
 }
 
 impl Meeting {
@@ -61,7 +63,7 @@ impl Meeting {
         let mut listed = HashSet::new();
         let once: Vec<usize> =
             (0..edges.len()).filter(|k| listed.insert(unordered(edges[*k].nodes))).collect();
-        let mut at: HashMap<NodeId, Vec<usize>> = HashMap::new();
+        let mut at: FxHashMap<NodeId, Vec<usize>> = FxHashMap::default();
         for &k in &once {
             edges[k].nodes.iter().for_each(|n| at.entry(*n).or_default().push(k));
         }
@@ -143,10 +145,21 @@ impl Surfaces {
         &self.nodes
     }
 
+    /// Returns the largest change of a coordinate of a node of either surface from one shape to another,
+    /// length.
+    pub fn farthest(&self, [one, other]: [&[Vector]; 2]) -> f64 {
+        let nodes = self.contact.iter().chain(&self.target).flat_map(|edge| edge.nodes);
+        let change = |node: NodeId| {
+            let [a, b] = [one, other].map(|shape| shape[node.index()]);
+            (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
+        };
+        nodes.chain(self.nodes.iter().copied()).map(change).fold(0.0, f64::max)
+    }
+
     /// Returns, for each entry of the contact surface, half the length of the contact edges that it
     /// bounds in a shape, length; 0 for a node's second entry.
     pub fn tributary<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<T> {
-        let mut of_node: HashMap<NodeId, T> = HashMap::new();
+        let mut of_node: FxHashMap<NodeId, T> = FxHashMap::default();
         for edge in &self.contact {
             let half = edge.place(shape).length / T::from_f64(2.0);
             edge.nodes.iter().for_each(|n| *of_node.entry(*n).or_insert(T::zero()) += half);
@@ -157,8 +170,8 @@ impl Surfaces {
 
 /// Returns the normal of each node of `edges`, out of its body: the mean over its edges, weighted
 /// by length. It is no unit vector where the edges meet in a corner.
-fn normals_at_nodes(edges: &[Edge], shape: &[Vector]) -> HashMap<NodeId, Vector> {
-    let mut of_node: HashMap<NodeId, (Vector, f64)> = HashMap::new();
+fn normals_at_nodes(edges: &[Edge], shape: &[Vector]) -> FxHashMap<NodeId, Vector> {
+    let mut of_node: FxHashMap<NodeId, (Vector, f64)> = FxHashMap::default();
     for edge in edges {
         let Placed { normal, length, .. } = edge.place(shape);
         for n in edge.nodes {

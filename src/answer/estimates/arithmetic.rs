@@ -7,8 +7,6 @@
 //! Under `unilateral` the equilibrium of the last contact state is solved again, with its normals and
 //! weights unchanged; where the way to it counts, so is that of each iteration.
 
-use std::sync::Arc;
-
 use nalgebra::{DVector, SVector};
 use rayon::prelude::*;
 
@@ -103,10 +101,9 @@ fn looked_at<'a>(
     // From its displacements count the slips of the last step of the load.
     let from = way.iter().rposition(|step| part(step) < part(last));
     let counts = if solution.way_counts() { way.len() } else { 0 };
-    let in_one_shape = |a: &Step, b: &Step| Arc::ptr_eq(&a.shape, &b.shape);
-    let places: Vec<&[Step]> = way[..counts].chunk_by(in_one_shape).collect();
+    let groups = looking.groups(&way[..counts]);
     let far: Vec<bool> =
-        places.into_par_iter().flat_map_iter(|steps| looking.are_far(steps)).collect();
+        groups.into_par_iter().flat_map_iter(|steps| looking.are_far(steps)).collect();
     let near = (0..counts).filter(|i| Some(*i) == from || !far[*i]);
     // The displacements before the step of the load, and after the last iteration.
     let mut before = DVector::zeros(model.dofs());

@@ -16,6 +16,8 @@
 //! leaves the displacements.
 
 use std::cell::LazyCell;
+use std::f64::consts::SQRT_2;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
@@ -34,6 +36,10 @@ const COORDINATE: f64 = 8.0;
 /// A force over the largest, and a change of a node's place over the largest displacement, which are
 /// beyond rounding: states that errors of this size are in are refused as singular or nearly so.
 const FAR: f64 = 1e-6;
+
+/// The change of a node's place from one shape on the way to the next, over the largest displacement, up to
+/// which they are looked at together: with a step of the load, or where contact is measured again.
+const NEAR: f64 = 1e-5;
 
 /// A contact state, with displacements and loads within bounds on their errors.
 pub struct State<'a> {
@@ -83,18 +89,40 @@ impl<'a> Looking<'a> {
         Looking { solution, stiffness, surfaces, largest, at_surface, decisions, only_ties }
     }
 
-    /// Returns whether states on the way, all measured in one shape, are far from other decisions, beyond
-    /// what rounding does in any state that is solved at all: its bound need not be known. The nodes that
-    /// the first iteration closes are decided otherwise, and looked at.
-    pub fn are_far(&self, steps: &[Step]) -> Vec<bool> {
-        let faces_surely = LazyCell::new(|| self.faces_surely(&steps[0]));
+    /// Returns the states on the way in groups of shapes that are nearly the same, each of consecutive ones.
+    pub fn groups<'s>(&self, way: &'s [Step]) -> Vec<&'s [Step]> {
+        let is_near = |a: &Step, b: &Step| self.farthest(a, b) <= NEAR * self.largest;
+        way.chunk_by(is_near).collect()
+    }
+
+    /// Returns whether the states of a group are far from other decisions, beyond what rounding does in any
+    /// state that is solved at all: its bound need not be known. The nodes that the first iteration closes
+    /// are decided otherwise, and looked at.
+    pub fn are_far(&self, group: &[Step]) -> Vec<bool> {
+        // What a node faces wherever it stands about the last shape, it faces about the others.
+        let all_face_surely = LazyCell::new(|| {
+            let [.., last] = group else { return true };
+            let spread = group.iter().map(|step| self.farthest(step, last)).fold(0.0, f64::max);
+            self.faces_surely(last, FAR * self.largest + SQRT_2 * spread)
+        });
         let is_far = |step: &Step| {
             let Detail::Unilateral(detail) = &step.detail else { return true };
             let rests_on_shared = self.rubs() && detail.undetermined.contains(&true);
             let by_forces = step.k > 1 && detail.margin > FAR && !rests_on_shared;
-            by_forces && *faces_surely
+            by_forces && (*all_face_surely || self.faces_surely(step, FAR * self.largest))
         };
-        steps.iter().map(is_far).collect()
+        group.iter().map(is_far).collect()
+    }
+
+    /// Returns the largest change of a coordinate of either surface from the shape of one state to that of
+    /// another, length.
+    fn farthest(&self, one: &Step, other: &Step) -> f64 {
+        match &self.surfaces {
+            Some(surfaces) if !Arc::ptr_eq(&one.shape, &other.shape) => {
+                surfaces.farthest([&one.shape, &other.shape])
+            }
+            _ => 0.0,
+        }
     }
 
     /// Returns whether friction depends on the normal forces.
@@ -103,15 +131,15 @@ impl<'a> Looking<'a> {
         coefficient > 0.0 && coefficient.is_finite()
     }
 
-    /// Returns whether every node faces the same part of the target also where it stands a little
-    /// elsewhere.
-    fn faces_surely(&self, step: &Step) -> bool {
+    /// Returns whether every node faces the same part of the target also where it stands up to `radius`
+    /// elsewhere, length.
+    fn faces_surely(&self, step: &Step, radius: f64) -> bool {
         let Some(surfaces) = &self.surfaces else { return true };
         if self.solution.request.contact.geometry == Geometry::Initial {
             // The last state is measured in the same shape.
             return true;
         }
-        match self.elsewhere(surfaces, &step.shape, FAR * self.largest) {
+        match self.elsewhere(surfaces, &step.shape, radius) {
             Elsewhere::Mortar(unsure) => unsure.is_empty(),
             Elsewhere::Nts(other) => other.is_empty(),
         }

@@ -26,11 +26,19 @@ impl Problem<'_> {
         setting: &Setting,
     ) -> Result<Solved, Error> {
         let load = &setting.load;
-        if !setting.whole
-            && let Some(surface) = OnSurface::new(self.elastic(), constraints, load)
-            && let Ok(solved) = surface.displacements()
-        {
-            return self.moved(place, statuses, solved, &surface);
+        // Forces of friction respond to factors as they are.
+        let rubs = self.friction > 0.0 && self.friction.is_finite();
+        let ways: &[bool] = match (setting.whole, rubs) {
+            (true, _) => &[],
+            (false, true) => &[false],
+            (false, false) => &[true, false],
+        };
+        for &again in ways {
+            if let Some(surface) = OnSurface::new(self.elastic(), constraints, load, again)
+                && let Ok(solved) = surface.displacements()
+            {
+                return self.moved(place, statuses, solved, &surface);
+            }
         }
         let t = Elimination::closing(&self.model.restrained, constraints);
         let reduced = match Reduced::new(self.elastic(), &t, (constraints, statuses), load) {

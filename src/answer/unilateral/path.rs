@@ -160,9 +160,11 @@ impl Walk<'_> {
         let load = self.load(to);
         let statuses = from.statuses.as_deref();
         let setting = Setting { load: load.clone(), before: &from.u, statuses, whole: false };
-        self.problem.equilibrium(&setting, &mut |place, iteration| {
+        let found = self.problem.equilibrium(&setting, &mut |place, iteration| {
             self.keep(to, &load, place, iteration);
-        })
+        })?;
+        self.complete(to, &load, &found);
+        Ok(found)
     }
 
     /// Solves the last contact state at the load `to` on the whole bodies.
@@ -177,12 +179,17 @@ impl Walk<'_> {
         let confirmed = self.problem.confirmed(found, &setting, &mut |place, iteration| {
             self.keep(to, &load, place, iteration);
         })?;
+        self.complete(to, &load, &confirmed);
+        Ok(confirmed)
+    }
+
+    /// Says of the last step what is known of the whole bodies in the equilibrium that it led to.
+    fn complete(&mut self, to: f64, load: &DVector<f64>, found: &Equilibrium) {
         let k = self.steps.len();
         if let Some(last) = self.steps.last_mut() {
-            let Equilibrium { place, last: iteration, .. } = &confirmed;
-            *last = step(self.problem, (k, to), &load, place, iteration);
+            let Equilibrium { place, last: iteration, .. } = found;
+            *last = step(self.problem, (k, to), load, place, iteration);
         }
-        Ok(confirmed)
     }
 
     /// Adds an iteration to the steps.

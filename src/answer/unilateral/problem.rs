@@ -92,6 +92,11 @@ pub(super) struct Iteration {
 }
 
 impl Iteration {
+    /// Returns whether the displacements of both surfaces are known.
+    pub(super) fn knows_surfaces(&self) -> bool {
+        self.moved.inside.as_ref().is_none_or(Inside::knows_surfaces)
+    }
+
     /// Returns the next iteration, to which the statuses of this one return.
     pub(super) fn again(&self, memory: &mut Memory) -> Self {
         Iteration { cycle: memory.keep(&self.statuses), returned: true, ..self.clone() }
@@ -200,7 +205,7 @@ impl<'a> Problem<'a> {
     pub(super) fn known_gaps(&self, place: &Place, moved: &Moved) -> Vec<Option<f64>> {
         let is_known = |p: &&Pairing| {
             let mut nodes = std::iter::once(p.node).chain(p.masters.iter().map(|(m, _)| *m));
-            moved.inside.as_ref().is_none_or(|inside| nodes.all(|node| inside.keeps(node)))
+            moved.inside.as_ref().is_none_or(|inside| nodes.all(|node| inside.knows(node)))
         };
         let known =
             |p: &Option<Pairing>| p.as_ref().filter(is_known).map(|p| self.gap(p, &moved.u));

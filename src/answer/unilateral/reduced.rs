@@ -8,12 +8,12 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::answer::condensation::{Bodies, Bound, Inside, OnKept, refined};
+use crate::answer::condensation::{Bodies, Bound, Eliminated, Inside, OnKept, refined};
 use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::factors::Whole;
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::{Eliminated, Factors, Singular};
+use crate::numbers::solve::{Factors, Singular};
 use crate::problem::model::Model;
 
 /// What a status holds of a node's motion: nothing, the one along the normal, or both.
@@ -85,14 +85,15 @@ pub(super) struct OnSurface {
 }
 
 impl OnSurface {
-    /// Factors the equations under a load by degree of freedom on the condensed bodies; None where that
-    /// cannot be.
+    /// Factors the equations under a load by degree of freedom on the condensed bodies, or has factors of
+    /// nearly the same ones serve `again`; None where that cannot be.
     pub(super) fn new(
         elastic: Elastic,
         constraints: &[Constraint],
         load: &DVector<f64>,
+        again: bool,
     ) -> Option<Self> {
-        let state = elastic.bodies.state(elastic.stiffness, constraints)?;
+        let state = elastic.bodies.state(elastic.stiffness, constraints, again)?;
         // Those of a whole matrix are large, and not needed any more.
         elastic.last.0.take();
         let load = elastic.bodies.eliminated(&state, load);
@@ -111,7 +112,7 @@ impl Responds for OnSurface {
 
     fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Inside>) {
         let inside = self.state.inside(&self.load, u);
-        (inside.kept(), Some(inside))
+        (inside.on_surfaces(), Some(inside))
     }
 
     fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {

@@ -59,7 +59,7 @@ impl Problem<'_> {
             if before.is_none() {
                 gaps = self.gaps(&place, setting.before);
             }
-            let last = self.settle(&place, start, setting, &mut memory, &mut keep_first)?;
+            let mut last = self.settle(&place, start, setting, &mut memory, &mut keep_first)?;
             let change = match &before {
                 _ if !self.is_current() => 0.0,
                 Some((u, _)) => (&last.moved.u - u).amax(),
@@ -70,6 +70,7 @@ impl Problem<'_> {
             if change <= SETTLED * scale || (stalled && change <= STALLED * scale) {
                 let closing =
                     first.and_then(|first| self.first_closing(&gaps, first, &place, &last));
+                self.complete(&place, &mut last);
                 return Ok(Equilibrium { place, last, closing, shape_change: change });
             }
             before = Some((last.moved.u, change));
@@ -213,8 +214,8 @@ impl Problem<'_> {
         (0..closed.len()).map(status).collect()
     }
 
-    /// Returns the statuses that an iteration asks for, and where these are its own on the condensed
-    /// bodies, looks at the whole ones too.
+    /// Returns the statuses that an iteration asks for, and where these are its own as far as the
+    /// surfaces are known, looks at the whole bodies too.
     fn wanted_of_all(
         &self,
         place: &Place,
@@ -223,19 +224,19 @@ impl Problem<'_> {
         first: bool,
     ) -> Vec<Status> {
         let wanted = self.wanted(place, iteration, setting, first);
-        if wanted == iteration.statuses && self.complete(place, iteration) {
+        if wanted == iteration.statuses && !iteration.knows_surfaces() {
+            self.complete(place, iteration);
             return self.wanted(place, iteration, setting, first);
         }
         wanted
     }
 
-    /// Finds the displacements inside the bodies, and the gaps that follow; false where they were known.
-    fn complete(&self, place: &Place, iteration: &mut Iteration) -> bool {
-        let Some(inside) = iteration.moved.inside.take() else { return false };
+    /// Finds the displacements inside the bodies, where they are not known, and the gaps that follow.
+    fn complete(&self, place: &Place, iteration: &mut Iteration) {
+        let Some(inside) = iteration.moved.inside.take() else { return };
         iteration.moved.u = inside.expand();
         iteration.gaps = self.gaps(place, &iteration.moved.u);
         iteration.violation = violation(&iteration.gaps, &iteration.statuses);
-        true
     }
 
     /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
@@ -372,6 +373,9 @@ impl Problem<'_> {
         };
         let mut iteration = self.reached(place, (statuses.to_vec(), constraints), None, moved);
         let wanted = self.wanted_of_all(place, &mut iteration, setting, false);
-        (wanted == iteration.statuses).then_some(iteration.moved)
+        (wanted == iteration.statuses).then(|| {
+            self.complete(place, &mut iteration);
+            iteration.moved
+        })
     }
 }

@@ -20,7 +20,7 @@ mod number;
 mod operators;
 pub mod rational;
 
-pub use bounded::{Bounded, BoundedDouble, Rounded, Unsure, WithBound, compared};
+pub use bounded::{Bounded, BoundedDouble, Rounded, SumOfProducts, Unsure, WithBound, compared};
 pub use exact::{Exact, scope};
 pub use f64x2::F64x2;
 pub use number::{Scalar, Subscript};

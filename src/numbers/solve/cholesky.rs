@@ -18,7 +18,7 @@ use super::symmetric::SparseSymmetric;
 
 /// Returns whether a pivot is more than what rounding may leave of its diagonal entry `a`, even in a
 /// matrix whose entries are of very different sizes.
-pub(super) fn is_large(pivot: f64, a: f64) -> bool {
+pub fn is_large(pivot: f64, a: f64) -> bool {
     /// The least part of `a`.
     const LEAST: f64 = 1e-8;
     pivot > LEAST * a
@@ -149,6 +149,10 @@ impl<T: Native> Cholesky<T> {
             Lower::Entries(l) => {
                 for j in 0..inside {
                     let (rows, column) = (l.row_idx_of_col_raw(j), l.val_of_col(j));
+                    // Of a load on few equations most stay 0.
+                    if z[j] == T::from_f64(0.0) {
+                        continue;
+                    }
                     z[j] /= column[0];
                     let x = z[j];
                     rows[1..].iter().zip(&column[1..]).for_each(|(i, l)| z[*i] -= *l * x);

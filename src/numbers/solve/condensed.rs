@@ -54,8 +54,11 @@ pub struct Eliminated {
     pub kept: DVector<f64>,
 }
 
-/// The number of equations from which on both parts are factored, and solved, at once.
+/// The number of equations from which on both parts are solved at once.
 const AT_ONCE: usize = 20_000;
+
+/// That from which on both are factored at once: more than it takes to start a thread.
+const FACTORED_AT_ONCE: usize = 1_000;
 
 impl Condensed {
     /// Condenses `matrix` to the equations `kept`; None where A_ii is not far from a singular matrix,
@@ -68,7 +71,7 @@ impl Condensed {
             [one, other, ..] => {
                 let [a, b] = [one, other].map(|equations| matrix.part(equations));
                 drop(matrix);
-                let apart = size >= AT_ONCE && rayon::current_num_threads() > 1;
+                let apart = size >= FACTORED_AT_ONCE && rayon::current_num_threads() > 1;
                 let (one, other) =
                     both(apart, || Part::new(a, one, kept), || Part::new(b, other, kept));
                 vec![one?, other?]

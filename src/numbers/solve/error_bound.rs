@@ -9,7 +9,7 @@
 use nalgebra::DVector;
 
 use super::factors::Factors;
-use crate::numbers::scalar::{BoundedDouble, Rounded, Scalar, WithBound};
+use crate::numbers::scalar::{BoundedDouble, Rounded, Scalar, SumOfProducts, WithBound};
 
 /// Returns a bound on the largest |δ|, infinite where A cannot be told from a singular matrix.
 /// `factors` are those of A rounded to `f64`; `entries` those of the whole of A: row, column, value.
@@ -21,12 +21,13 @@ pub fn error_bound<V: Rounded>(
 ) -> f64 {
     let x = x.map(|x| BoundedDouble::new(x.double(), 0.0));
     // In double-double, which bounds its own rounding, the error of b and of A included.
-    let mut r = b.map(WithBound::in_double);
+    let mut products = vec![SumOfProducts::ZERO; x.len()];
     let mut spread = DVector::zeros(x.len());
     for (i, j, a) in entries {
-        r[i] -= a.in_double() * x[j];
+        products[i].add(a.in_double(), x[j]);
         spread[i] += a.off();
     }
+    let r = DVector::from_fn(x.len(), |i, _| b[i].in_double() - products[i].total());
     error_of_rest(factors, &r, &spread)
 }
 
@@ -36,9 +37,14 @@ pub fn error_of_rest(
     rest: &DVector<BoundedDouble>,
     spread: &DVector<f64>,
 ) -> f64 {
+    /// The ρ up to which that of a larger vector serves.
+    const SMALL: f64 = 1e-6;
     let w = rest.map(|r| r.to_f64().abs() + r.error());
-    let norm = |of: &DVector<f64>| inverse_norm(factors, of);
-    let (rho, bound) = rayon::join(|| norm(spread), || norm(&w));
+    let bound = inverse_norm(factors, &w);
+    // No entry of |A⁻¹| E is larger than of |A⁻¹| w times the most that E is of w.
+    let share = |(e, w): (&f64, &f64)| if *e == 0.0 { 0.0 } else { e / w };
+    let rho = bound * spread.iter().zip(&w).map(share).fold(0.0, f64::max);
+    let rho = if rho <= SMALL { rho } else { inverse_norm(factors, spread) };
     if rho < 1.0 { bound / (1.0 - rho) } else { f64::INFINITY }
 }
 

@@ -29,7 +29,7 @@ pub trait Factors<T>: Sync {
     fn solve(&self, b: &DVector<T>) -> DVector<T>;
 }
 
-impl<T, F: Factors<T> + Send> Factors<T> for Arc<F> {
+impl<T, F: Factors<T> + Send + ?Sized> Factors<T> for Arc<F> {
     fn solve(&self, b: &DVector<T>) -> DVector<T> {
         (**self).solve(b)
     }
@@ -40,7 +40,15 @@ pub trait Lu<T>: Factors<T> {
     /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
     /// vectors, 0 when x and b are 0.
     fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64;
+
+    /// Returns the solution x of A x = `b` to all digits; None where the factors are too far from A.
+    fn solution(&self, b: &DVector<T>) -> Option<DVector<T>> {
+        Some(self.solve(b))
+    }
 }
+
+/// Factors of a matrix, whatever they are.
+pub type AnyLu = Arc<dyn Lu<f64> + Send>;
 
 /// A column whose pivot vanished: the matrix has no unique solution.
 #[derive(Clone, Copy, Debug, PartialEq)]

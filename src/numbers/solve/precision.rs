@@ -9,20 +9,22 @@
 //! | `cg` | to `tol` | to `tol` | to `tol`; - with a bound | - |
 //! | `refined` | - | factors in f32 | factors in f64; - with a bound | - |
 
+use std::sync::Arc;
+
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 
 use super::arithmetic::Solver;
 use super::dense::{DenseCholesky, DenseLu};
 use super::error_bound::error_bound;
-use super::factors::{Factors, Lu, Native, Singular};
+use super::factors::{AnyLu, Factors, Lu, Native, Singular};
 use super::field::Field;
 use super::iterative::{NotConverged, conjugate_gradients, refine};
 use super::ldlt::Ldlt;
 use super::lifting::lift;
 use super::lu::solve_dense;
 use super::sparse::SparseCholesky;
-use super::sparse_lu::{KnownLu, SparseLu};
+use super::sparse_lu::{KnownLu, Quick, SparseLu};
 use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::{
@@ -66,9 +68,14 @@ pub trait Precision: Scalar {
     /// Errors: tells that A is singular, or that an iteration did not converge.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self>;
 
-    /// Solves by `sparse-lu` from a matrix that is sparse already: the same digits. `known` has factors
-    /// that were made before.
-    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>, _known: &KnownLu) -> Outcome<Self> {
+    /// Solves by `sparse-lu` from a matrix that is sparse already. `known` has factors that were made
+    /// before; where `quick` makes others, the solution is refined.
+    fn solve_sparse(
+        a: &SparseSquare<Self>,
+        b: &DVector<Self>,
+        _known: &KnownLu,
+        _quick: &Quick,
+    ) -> Outcome<Self> {
         Self::solve(a.dense(), b, Solver::SparseLu, None)
     }
 
@@ -135,8 +142,13 @@ impl Precision for f64 {
         native(a, b, by, tol)
     }
 
-    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>, known: &KnownLu) -> Outcome<Self> {
-        Ok(solved(&*known.factors(a)?, b))
+    fn solve_sparse(
+        a: &SparseSquare<Self>,
+        b: &DVector<Self>,
+        known: &KnownLu,
+        quick: &Quick,
+    ) -> Outcome<Self> {
+        Ok(known_solution(a, b, known, quick)?.1)
     }
 }
 
@@ -145,7 +157,12 @@ impl Precision for f32 {
         native(a, b, by, tol)
     }
 
-    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>, _: &KnownLu) -> Outcome<Self> {
+    fn solve_sparse(
+        a: &SparseSquare<Self>,
+        b: &DVector<Self>,
+        _: &KnownLu,
+        _: &Quick,
+    ) -> Outcome<Self> {
         Ok(solved(&SparseLu::new(a)?, b))
     }
 }
@@ -156,7 +173,7 @@ impl Precision for Bounded {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         let a = SparseSquare::of(&a);
         if by == Solver::SparseLu {
-            return Self::solve_sparse(&a, b, &KnownLu::default());
+            return Self::solve_sparse(&a, b, &KnownLu::default(), &|_| None);
         }
         let (values, f) = (a.map(Scalar::to_f64).dense(), b.map(Scalar::to_f64));
         let (factors, solved): (Box<dyn Factors<f64>>, _) = match by {
@@ -173,10 +190,15 @@ impl Precision for Bounded {
         Ok(with_bound(&*factors, &a, b, solved))
     }
 
-    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>, known: &KnownLu) -> Outcome<Self> {
-        let factors = known.factors(&a.map(Scalar::to_f64))?;
-        let solved = solved(&*factors, &b.map(Scalar::to_f64));
-        Ok(with_bound(&*factors, a, b, solved))
+    fn solve_sparse(
+        a: &SparseSquare<Self>,
+        b: &DVector<Self>,
+        known: &KnownLu,
+        quick: &Quick,
+    ) -> Outcome<Self> {
+        let (values, f) = (a.map(Scalar::to_f64), b.map(Scalar::to_f64));
+        let (factors, solved) = known_solution(&values, &f, known, quick)?;
+        Ok(with_bound(&factors, a, b, solved))
     }
 }
 
@@ -257,7 +279,7 @@ fn native<T: Native + Iterates>(
     match by {
         Solver::DenseLu => return Ok(solved(&DenseLu::new(a)?, b)),
         Solver::SparseLu => {
-            return T::solve_sparse(&SparseSquare::of(&a), b, &KnownLu::default());
+            return T::solve_sparse(&SparseSquare::of(&a), b, &KnownLu::default(), &|_| None);
         }
         _ => (),
     }
@@ -268,6 +290,27 @@ fn native<T: Native + Iterates>(
         _ => SparseCholesky::new(sparse.clone())?.solve(b),
     };
     Ok(Solved { residual: sparse.residual(&x, b), x })
+}
+
+/// Solves by factors that are known, or made.
+fn known_solution(
+    a: &SparseSquare,
+    b: &DVector<f64>,
+    known: &KnownLu,
+    quick: &Quick,
+) -> Result<(AnyLu, Solved<f64>), Unsolved> {
+    let factors = known.factors(a, quick)?;
+    match factors.solution(b) {
+        Some(x) => {
+            let residual = factors.residual(&x, b);
+            Ok((factors, Solved { x, residual }))
+        }
+        None => {
+            let lu = SparseLu::new(a)?;
+            let solved = solved(&lu, b);
+            Ok((Arc::new(lu), solved))
+        }
+    }
 }
 
 fn solved<T: Native>(lu: &impl Lu<T>, b: &DVector<T>) -> Solved<T> {

@@ -139,14 +139,22 @@ fn push_number(text: &mut String, x: f64) {
     const BETWEEN: f64 = 0.499;
     let hundredths = (100.0 * x).round();
     let is_clear = hundredths.abs() < MANY && (100.0 * x - hundredths).abs() < BETWEEN;
-    let (sign, all) = (if hundredths < 0.0 { "-" } else { "" }, hundredths.abs() as u32);
-    let written = match (all / 100, all % 100) {
-        _ if !is_clear => return push_between(text, x),
-        (whole, 0) => write!(text, "{sign}{whole}"),
-        (whole, part) if part % 10 == 0 => write!(text, "{sign}{whole}.{}", part / 10),
-        (whole, part) => write!(text, "{sign}{whole}.{part:02}"),
-    };
-    written.expect("a string takes what is written");
+    if !is_clear {
+        return push_between(text, x);
+    }
+    if hundredths < 0.0 {
+        text.push('-');
+    }
+    let all = hundredths.abs() as u32;
+    let (tenths, hundredths) = (all / 10 % 10, all % 10);
+    let digit = |x: u32| char::from(b'0' + x as u8);
+    text.push_str(itoa::Buffer::new().format(all / 100));
+    if tenths + hundredths > 0 {
+        text.extend(['.', digit(tenths)]);
+    }
+    if hundredths > 0 {
+        text.push(digit(hundredths));
+    }
 }
 
 /// Writes a length whose nearest hundredth only its decimal digits tell.

@@ -1,0 +1,105 @@
+//! The bodies factored once, and condensed to some nodes.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::answer::elimination::Elimination;
+use crate::answer::stiffness::Stiffness;
+use crate::numbers::solve::{Condensed, Eliminated, SparseSymmetric};
+use crate::problem::model::{Dof, Model, NodeId};
+
+/// Returns whether the bodies of two models have the same stiffness and restraints.
+pub(super) fn are_same_bodies(one: &Model, other: &Model) -> bool {
+    one.plane == other.plane
+        && one.thickness == other.thickness
+        && one.restrained == other.restrained
+        && one.nodes == other.nodes
+        && one.triangles == other.triangles
+}
+
+/// The bodies of a model factored, and their stiffness condensed to some nodes.
+pub struct Factored {
+    pub(super) model: Arc<Model>,
+    condensed: Condensed,
+    /// The degree of freedom of each equation of the unconstrained bodies.
+    pub(super) dofs: Vec<Dof>,
+    /// The degrees of freedom to which they are condensed.
+    pub(super) kept: Vec<Dof>,
+    /// Whether each degree of freedom is one of those nodes'.
+    is_kept: Vec<bool>,
+    /// Whether those are all nodes of both surfaces, and maybe others.
+    pub(super) has_surfaces: bool,
+    /// The largest row sum of |K|, force/length.
+    pub(super) norm: f64,
+}
+
+/// Returns the nodes of the contact surface and those of the target surface, each in its order.
+pub(super) fn surfaces(model: &Model) -> [Vec<NodeId>; 2] {
+    let mut target: Vec<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
+    target.dedup();
+    [model.contact.nodes.clone(), target]
+}
+
+impl Factored {
+    /// Condenses the bodies of `model` to `nodes`; None where they cannot be.
+    pub fn new(
+        stiffness: &Stiffness,
+        model: &Arc<Model>,
+        nodes: &BTreeSet<NodeId>,
+    ) -> Option<Self> {
+        let free = Elimination::new(&model.restrained, &[]);
+        let matrix: SparseSymmetric = stiffness.reduced(&free);
+        let is_kept = are_of(model, nodes);
+        let dofs: Vec<Dof> = (0..free.size()).map(|column| free.dof(column)).collect();
+        let equations: Vec<usize> = (0..dofs.len()).filter(|e| is_kept[dofs[*e].index()]).collect();
+        let kept = equations.iter().map(|e| dofs[*e]).collect();
+        let norm = matrix.norm();
+        let condensed = Condensed::new(matrix, &equations)?;
+        let has_surfaces = surfaces(model).concat().iter().all(|node| nodes.contains(node));
+        let model = Arc::clone(model);
+        Some(Factored { model, condensed, dofs, kept, is_kept, has_surfaces, norm })
+    }
+
+    /// Returns whether they are condensed to a node, among others.
+    pub(super) fn keeps(&self, node: NodeId) -> bool {
+        self.is_kept[node.dofs()[0].index()]
+    }
+
+    /// Returns the degrees of freedom to which they are condensed.
+    pub(in crate::answer) fn kept(&self) -> &[Dof] {
+        &self.kept
+    }
+
+    /// Returns S on these, force/length.
+    pub(in crate::answer) fn schur(&self) -> &DMatrix<f64> {
+        self.condensed.schur()
+    }
+
+    /// Returns the degrees of freedom that are restrained.
+    pub(in crate::answer) fn restrained(&self) -> impl Iterator<Item = Dof> {
+        self.model.all_dofs().filter(|dof| self.model.is_restrained(*dof))
+    }
+
+    /// Eliminates the equations inside from a load by degree of freedom.
+    pub(in crate::answer) fn eliminated(&self, load: &DVector<f64>) -> Eliminated {
+        let load = self.dofs.iter().map(|dof| load[dof.index()]);
+        self.condensed.eliminate(&DVector::from_iterator(self.dofs.len(), load))
+    }
+
+    /// Returns the displacements by degree of freedom from those of the kept equations.
+    pub(in crate::answer) fn expand(&self, load: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
+        let mut u = DVector::zeros(self.model.dofs());
+        let all = self.condensed.expand(load, kept);
+        self.dofs.iter().zip(&all).for_each(|(dof, x)| u[dof.index()] = *x);
+        u
+    }
+}
+
+/// Returns whether each degree of freedom is one of some nodes'.
+pub(super) fn are_of(model: &Model, nodes: &BTreeSet<NodeId>) -> Vec<bool> {
+    let mut are_of = vec![false; model.dofs()];
+    nodes.iter().flat_map(|node| node.dofs()).for_each(|dof| are_of[dof.index()] = true);
+    are_of
+}
