@@ -17,7 +17,7 @@ use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::factors::LastFactors;
 use crate::answer::stiffness::Stiffness;
 use crate::error::InputError;
-use crate::numbers::solve::KnownLu;
+use crate::numbers::solve::{DenseCondensed, KnownLu};
 use crate::problem::model::{Model, NodeId};
 
 /// The number of nodes of both surfaces up to which all are kept.
@@ -39,7 +39,8 @@ const MARGIN: (usize, f64) = (8, 0.1);
 
 /// The number of equations, and that of nodes of both surfaces, up to which bodies are factored for all of
 /// these, whatever is kept of them: beyond that the factor would grow by more than factoring anew takes.
-const FOR_ALL: (usize, usize) = (20_000, 300);
+/// What is made while others wait for it must not wait for other threads.
+const FOR_ALL: (usize, usize) = (20_000, DenseCondensed::ON_ONE_THREAD / 2);
 
 /// What was factored of a scene, shared by all that is asked of it: each is factored once.
 #[derive(Clone, Default)]

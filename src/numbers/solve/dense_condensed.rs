@@ -33,6 +33,10 @@ pub struct DenseCondensed {
 }
 
 impl DenseCondensed {
+    /// The number of last equations up to which no other thread is asked, and so nothing else begun on
+    /// this one meanwhile.
+    pub const ON_ONE_THREAD: usize = (2 * AT_ONCE - 1) * STRIP;
+
     /// Eliminates the first equations of a `matrix`, of which the lower triangle is read; None where
     /// theirs is not positive definite.
     pub fn new(matrix: &DMatrix<f64>, first: usize) -> Option<Self> {

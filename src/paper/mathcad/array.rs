@@ -17,7 +17,7 @@ pub struct Column<T>(DVector<T>);
 impl<T: nalgebra::Scalar> Table<T> {
     /// Makes a `rows` x `cols` table filled with `value`.
     pub fn filled(rows: usize, cols: usize, value: T) -> Self {
-        Table(DMatrix::from_element(rows, cols, value))
+        Table(DMatrix::from_vec(rows, cols, vec![value; rows * cols]))
     }
 
     /// Makes the table whose entry `[i, j]`, from 1, is `entry(i, j)`.
