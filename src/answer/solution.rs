@@ -28,8 +28,8 @@ pub struct Step {
     pub constraints: Vec<Constraint>,
     /// The number of entries of the contact surface in contact.
     pub in_contact: usize,
-    /// The largest total displacement |u| of a node, length; None of an iteration of `unilateral` that
-    /// asks for another contact state: the search for that goes on with the contact surface alone.
+    /// The largest total displacement |u| of a node, length; None of an iteration of `unilateral` with which
+    /// no step of the load ends: the search goes on with the contact surfaces alone.
     pub max_displacement: Option<f64>,
     /// The earlier steps with this contact state; None where it is new.
     pub cycle: Option<Cycle>,

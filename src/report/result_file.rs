@@ -144,8 +144,8 @@ pub struct IterationRow {
     /// Under `unilateral`, the status of each entry of the contact surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statuses: Option<Vec<Status>>,
-    /// The largest displacement of a node, total, length; nothing of an iteration of `unilateral` that asks
-    /// for another contact state, which is solved for on the contact surface alone.
+    /// The largest displacement of a node, total, length; nothing of an iteration of `unilateral` with which
+    /// no step of the load ends: it is solved for on the contact surfaces alone.
     pub max_displacement: Option<f64>,
     /// Where this contact state came before; nothing where it is new.
     pub cycle: Option<Cycle>,
