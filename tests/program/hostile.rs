@@ -170,6 +170,30 @@ fn no_node_is_reported_open_that_lies_inside() {
     assert!(found.result.is_null(), "no file is written");
 }
 
+/// The last change of shape, which bounds the displacements, was that of the surfaces alone: the top of a
+/// block that rocks moves five times as far.
+#[test]
+fn the_last_change_of_shape_is_that_of_the_whole_bodies() {
+    let ended = solved(
+        "tall-block-rocks",
+        "--variant unilateral --friction 0 --geometry current --coupling nts --load-steps 1",
+    );
+    let change = ended.result["equilibrium"]["shape_change"].as_f64().expect("a length");
+    assert!((3e-10..3e-9).contains(&change), "{change:e}");
+    let bound = ended.result["error_estimates"]["displacement_arithmetic"].as_f64();
+    assert!(bound.is_some_and(|bound| bound >= change), "{bound:?}");
+}
+
+/// All forces are rounding, and condensing twice leaves more of it: then the bodies are condensed once.
+#[test]
+fn an_overlap_without_a_load_comes_to_rest() {
+    let options = "--variant unilateral --friction stick --coupling mortar --geometry current \
+                   --load-steps 1 --load-factor ";
+    for factor in ["0", "1e-12", "1e-9", "1"] {
+        solved("overlap-without-load", &format!("{options}{factor}"));
+    }
+}
+
 #[test]
 fn a_stamp_below_its_target_is_refused() {
     let words = ["contact node 21 lies 4.5000 inside the target before the loads act"];

@@ -47,6 +47,8 @@ const FOR_ALL: (usize, usize) = (20_000, DenseCondensed::ON_ONE_THREAD / 2);
 pub struct Shared {
     factored: Arc<Known<Factored>>,
     condensed: Arc<Known<Condensation>>,
+    /// Those whose bodies were factored for the kept nodes alone, though they are small.
+    apart: Arc<Known<Condensation>>,
     /// The factors of `Km`.
     known: Arc<KnownLu>,
     /// The most bytes that were asked for and free.
@@ -112,6 +114,7 @@ impl Shared {
     pub(in crate::answer) fn let_go(&self) {
         self.factored.all().clear();
         self.condensed.all().clear();
+        self.apart.all().clear();
         self.known.let_go();
     }
 
@@ -150,7 +153,14 @@ impl Shared {
         stiffness: &Stiffness,
         model: &Arc<Model>,
         nodes: BTreeSet<NodeId>,
+        apart: bool,
     ) -> Option<Arc<Condensation>> {
+        if apart {
+            return self.apart.of(model, &nodes, || {
+                let bodies = Factored::new(stiffness, model, &nodes)?;
+                Condensation::new(&Arc::new(bodies), nodes.clone())
+            });
+        }
         // An edited listing may bind others.
         let for_all = few_surfaces(model).filter(|surfaces| surfaces.is_superset(&nodes));
         let wide = for_all.as_ref().unwrap_or(&nodes);
@@ -189,6 +199,8 @@ pub struct Bodies {
     /// The nodes to keep for the first contact state of large surfaces, beside those that it binds, the
     /// nearest first; none afterwards.
     expected: RefCell<Vec<NodeId>>,
+    /// Whether they are factored for the kept nodes alone, though they are small.
+    apart: Cell<bool>,
     /// Whether they cannot be, or need not, as there is no contact.
     impossible: Cell<bool>,
 }
@@ -236,6 +248,7 @@ impl Bodies {
             imposed: RefCell::default(),
             loaded: RefCell::default(),
             expected: RefCell::default(),
+            apart: Cell::new(false),
             impossible: Cell::new(!model.has_contact()),
         }
     }
@@ -309,6 +322,26 @@ impl Bodies {
         Some(bound)
     }
 
+    /// From now on factors small bodies for the kept nodes alone, which rounds less; false where that is
+    /// done already.
+    pub fn factor_apart(&self) -> bool {
+        let is_new = !self.apart.get()
+            && self.current.borrow().as_ref().is_some_and(|current| current.is_made_further());
+        if is_new {
+            self.apart.set(true);
+            self.forget();
+        }
+        is_new
+    }
+
+    fn forget(&self) {
+        self.loaded.take();
+        self.gaps.take();
+        self.bound.take();
+        self.imposed.take();
+        self.current.take();
+    }
+
     /// Returns the condensed bodies in terms of gaps and slips; None where they cannot be.
     fn gaps(&self, condensation: &Condensation) -> Option<Arc<Gaps>> {
         let (pairings, stick) = self.facing.as_ref()?;
@@ -340,12 +373,8 @@ impl Bodies {
             expected.truncate(expected.len() / 2);
             nodes = self.nodes(constraints, &expected);
         }
-        self.loaded.take();
-        self.gaps.take();
-        self.bound.take();
-        self.imposed.take();
-        self.current.take();
-        let made = self.shared.condensed(stiffness, &self.model, nodes);
+        self.forget();
+        let made = self.shared.condensed(stiffness, &self.model, nodes, self.apart.get());
         self.impossible.set(made.is_none());
         self.current.replace(made.clone());
         made

@@ -23,8 +23,9 @@
 //! none (`rigid`), else Lemke's method looks for one under a finite coefficient (`condensed`); a step
 //! without one is halved.
 //!
-//! The search goes on with the condensed bodies alone where they can be condensed; the contact state
-//! that it ends with is solved again on the whole bodies, refined, and must ask for itself there too.
+//! The search goes on with the condensed bodies alone where they can be condensed, once more with fewer
+//! roundings where it finds nothing; the contact state that it ends with is solved again on the whole
+//! bodies, refined, and must ask for itself there too.
 //!
 //! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; S.
 //! Hüeber, G. Stadler, B. I. Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572-596 (friction); J. J.

@@ -125,6 +125,15 @@ pub(super) struct Moved {
     pub(super) whole: bool,
 }
 
+impl Moved {
+    /// Finds the displacements inside the bodies, where they are not known.
+    pub(super) fn complete(&mut self) {
+        if let Some(inside) = self.inside.take() {
+            self.u = inside.expand();
+        }
+    }
+}
+
 /// The equilibrium under a load.
 pub(super) struct Equilibrium {
     pub(super) place: Place,
