@@ -37,7 +37,7 @@ pub use memory::Bytes;
 pub use printed::condenses_printed;
 pub use probe::{Probe, Quantity};
 pub use request::Request;
-pub use side_by_side::are_side_by_side;
+pub use side_by_side::side_by_side;
 pub use solution::{
     Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, StepBounds, Unilateral,
     Uniqueness, max_displacement,

@@ -4,7 +4,7 @@ use crate::problem::model::Model;
 
 /// Returns whether runs on a model are done side by side: not of large bodies, as two factors take twice
 /// the memory.
-pub fn are_side_by_side(model: &Model) -> bool {
+pub(super) fn are_side_by_side(model: &Model) -> bool {
     /// The number of equations of large bodies.
     const LARGE: usize = 200_000;
     model.free_dofs() < LARGE

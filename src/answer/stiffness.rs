@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use nalgebra::{DVector, SMatrix, SVector};
+use rayon::prelude::*;
 
 use super::elimination::Elimination;
 use crate::numbers::scalar::Scalar;
@@ -14,6 +15,9 @@ use crate::problem::model::{Dof, Model, NodeId, TriangleId};
 /// The number of triangles up to which their matrices are kept. Those of more would be a quarter of the
 /// memory of a run, and are computed each time they are needed.
 const KEPT: usize = 100_000;
+
+/// The number of triangles of which a thread does no fewer.
+const AT_ONCE: usize = 5_000;
 
 /// Returns the number of triangles of `model` whose matrices are kept: all, or none.
 pub(super) fn kept_matrices(model: &Model) -> usize {
@@ -118,15 +122,16 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Returns Tᵀ K T, force/length.
     pub fn reduced(&self, t: &Elimination<T>) -> SparseSymmetric<T> {
-        let places = |visit: &mut dyn FnMut(usize, usize)| {
-            self.triangles.iter().for_each(|triangle| triangle.places(t, visit));
+        let about = self.triangles.iter().enumerate().filter(|(_, triangle)| triangle.is_about(t));
+        let corners = about.clone().map(|(_, triangle)| triangle.nodes.map(NodeId::index));
+        let equations = |node: usize| {
+            let rows = NodeId::new(node).dofs().map(|dof| t.row(dof));
+            rows.into_iter().flatten().map(|(equation, _)| *equation)
         };
-        let entries = |visit: &mut dyn FnMut(usize, usize, T)| {
-            for (i, triangle) in self.triangles.iter().enumerate() {
-                triangle.reduced(&self.matrix(i), t, visit);
-            }
-        };
-        SparseSymmetric::summed(Pattern::new(t.size(), places), entries)
+        let pattern = Pattern::of_triangles(t.size(), self.dofs / 2, corners, equations);
+        SparseSymmetric::summed(pattern, |visit| {
+            about.for_each(|(i, triangle)| triangle.reduced(&self.matrix(i), t, visit));
+        })
     }
 
     /// Returns the number of triangles.
@@ -169,7 +174,9 @@ impl Stiffness {
             let u = triangle.displacements(u);
             u.dot(&(*self.matrix(i) * u)).max(0.0)
         };
-        self.triangles.iter().enumerate().map(of_triangle).sum::<f64>().sqrt()
+        let triangles = self.triangles.par_iter().enumerate().with_min_len(AT_ONCE);
+        let squares: Vec<f64> = triangles.map(of_triangle).collect();
+        squares.iter().sum::<f64>().sqrt()
     }
 }
 
@@ -189,18 +196,12 @@ impl<T: Scalar> Element<T> {
         [a[0], a[1], b[0], b[1], c[0], c[1]]
     }
 
-    /// Visits the places of the lower triangle of Tᵀ K T to which it adds: row, column.
-    fn places(&self, t: &Elimination<T>, visit: &mut dyn FnMut(usize, usize)) {
-        for p in self.dofs() {
-            for q in self.dofs() {
-                for &(row, _) in t.row(p) {
-                    t.row(q).iter().filter(|(j, _)| *j <= row).for_each(|(j, _)| visit(row, *j));
-                }
-            }
-        }
+    /// Returns whether it adds to Tᵀ K T.
+    fn is_about(&self, t: &Elimination<T>) -> bool {
+        self.dofs().iter().any(|dof| !t.row(*dof).is_empty())
     }
 
-    /// Visits the entries that it adds there: row, column, value.
+    /// Visits the entries that it adds to the lower triangle of Tᵀ K T: row, column, value.
     fn reduced(
         &self,
         k: &SMatrix<T, 6, 6>,

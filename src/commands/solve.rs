@@ -1,10 +1,11 @@
 //! `plane-contact solve`.
 
 use std::path::PathBuf;
+use std::sync::{Once, OnceLock};
 
 use plane_contact::answer::error::{Error, NoEquilibrium, Result};
 use plane_contact::answer::estimates::ErrorEstimates;
-use plane_contact::answer::{self, Assessment, Others, Request, Solution, Step, are_side_by_side};
+use plane_contact::answer::{self, Assessment, Others, Request, Solution, Step, side_by_side};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::edited::Edited;
@@ -19,6 +20,10 @@ use plane_contact::studies::trade::solve_to;
 use super::{
     ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, progress, tell, told,
 };
+
+/// The number of equations of bodies that are factored on both cores for so long that the plan waits for
+/// that.
+const LARGE: usize = 20_000;
 
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
@@ -104,8 +109,8 @@ pub fn run(args: &Args) -> Result<u8> {
     let request = args.model.request(&scene, args.variant, &args.reading);
     let request = edited(args, request.arithmetic(args.arithmetic))?;
     let with_estimates = !args.no_error_estimate;
-    let own = || {
-        let (solution, accuracy) = solve(args, &request)?;
+    let own = |after_step: &dyn Fn()| {
+        let (solution, accuracy) = solve(args, &request, after_step)?;
         let estimates = with_estimates.then(|| ErrorEstimates::new(&solution));
         if args.probe.is_empty() {
             solution.let_go_of_factors();
@@ -114,18 +119,29 @@ pub fn run(args: &Args) -> Result<u8> {
     };
     // Before anything takes of it.
     answer::check_memory(&request)?;
-    // These do not wait for it.
-    let plan = || Plan::new(&request);
-    let others = || Others::new(&request, with_estimates);
-    let model = &request.scene.model;
-    // Whoever waits until the other has factored the bodies has planned meanwhile.
-    let (own, (plan, others)) = match are_side_by_side(model) {
-        true => rayon::join(own, || (plan(), others())),
-        false => {
-            let (own, plan) = rayon::join(own, plan);
-            (own, (plan, others()))
-        }
-    };
+    let (plan, model) = (OnceLock::new(), &request.scene.model);
+    let planned = || plan.get_or_init(|| Plan::new(&request));
+    let (begin, is_large) = (Once::new(), model.free_dofs() >= LARGE);
+    let (own, others) = rayon::scope(|scope| {
+        let begin = || begin.call_once(|| scope.spawn(|_| _ = planned()));
+        let own = || {
+            own(&|| {
+                if is_large {
+                    begin()
+                }
+            })
+        };
+        let others = || {
+            // Whoever waits until the other has factored the bodies has planned meanwhile.
+            if !is_large {
+                planned();
+            }
+            Others::new(&request, with_estimates)
+        };
+        side_by_side(model, own, others)
+    });
+    planned();
+    let plan = plan.into_inner().expect("it is made");
     let ((solution, accuracy, estimates), plan) = (own?, plan?);
     let mut assessment = Assessment::beside(&solution, others, estimates);
     assessment.probe(&solution, &args.probe)?;
@@ -210,15 +226,19 @@ fn status(solution: &Solution) -> u8 {
     told(&NoEquilibrium { what }.into())
 }
 
-/// The solution, and under `--accuracy` how its precision was found.
-fn solve(args: &Args, request: &Request) -> Result<(Solution, String)> {
+/// The solution, and under `--accuracy` how its precision was found; `after_step` is called after each
+/// step.
+fn solve(args: &Args, request: &Request, after_step: &dyn Fn()) -> Result<(Solution, String)> {
     if let Some(asked) = args.accuracy {
         let reached = solve_to(request, asked)?;
         let words = report::trade::reached(&reached, asked);
         return Ok((reached.solution, words));
     }
     let progress = progress(request.iterations, "iteration {pos} of {len} {wide_bar} {eta}");
-    let solution = answer::solve(request, &mut |_: &Step| progress.inc(1))?;
+    let solution = answer::solve(request, &mut |_: &Step| {
+        progress.inc(1);
+        after_step();
+    })?;
     progress.finish_and_clear();
     Ok((solution, String::new()))
 }

@@ -9,11 +9,12 @@ use plane_contact::numbers::scalar::{
     Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, compared, scope,
 };
 use plane_contact::numbers::solve::{
-    Arithmetic, Condensed, FactorSize, Inputs, Pattern, Precision, ScalarName, Solver,
-    SparseCholesky, SparseSquare, SparseSymmetric, cost, inverse_norm, largest_motion, memory,
+    Arithmetic, FactorSize, Inputs, Pattern, Precision, ScalarName, Solver, SparseCholesky,
+    SparseSquare, SparseSymmetric, cost, inverse_norm, largest_motion, memory,
 };
 
 use crate::common::recorded::{assert_recorded, assert_recorded_exactly};
+use crate::systems::condensed_to;
 
 /// Numbers at which operations turn, beside random ones.
 const SPECIAL: [f64; 14] = [
@@ -217,7 +218,7 @@ fn sparse_matrices() {
         )
         .expect("room");
         let pattern = Pattern::new(n, |visit| matrix.entries().for_each(|(i, j, _)| visit(i, j)));
-        let size = FactorSize::sparse_cholesky(&pattern);
+        let size = FactorSize::sparse_cholesky(&pattern, &vec![1; n]);
         writeln!(
             out,
             "  {size:?} {:?} {:?} {:?}",
@@ -240,7 +241,7 @@ fn sparse_matrices() {
         let both: Vec<_> = both.filter(|(_, _, x)| *x != 0.0).collect();
         let both = SparseSymmetric::new(n + apart, both.into_iter());
         let kept = [n - 1, 0, n + 2, n + 1];
-        let Some(condensed) = Condensed::new(both, &kept) else {
+        let Some(condensed) = condensed_to(&both, &kept) else {
             writeln!(out, "  not condensed").expect("room");
             continue;
         };

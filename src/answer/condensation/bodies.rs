@@ -45,60 +45,56 @@ const FOR_ALL: (usize, usize) = (20_000, DenseCondensed::ON_ONE_THREAD / 2);
 /// What was factored of a scene, shared by all that is asked of it: each is factored once.
 #[derive(Clone, Default)]
 pub struct Shared {
-    factored: Arc<Known<Factored>>,
-    condensed: Arc<Known<Condensation>>,
-    /// Those whose bodies were factored for the kept nodes alone, though they are small.
-    apart: Arc<Known<Condensation>>,
+    /// By the nodes for which they are factored.
+    factored: Arc<Known<Nodes, Factored>>,
+    /// By the same, and the kept nodes.
+    condensed: Arc<Known<[Nodes; 2], Condensation>>,
     /// The factors of `Km`.
     known: Arc<KnownLu>,
     /// The most bytes that were asked for and free.
     room: Arc<Mutex<f64>>,
 }
 
+type Nodes = BTreeSet<NodeId>;
+
 /// What was made of the bodies of some models.
-struct Known<T>(Mutex<Vec<Arc<Made<T>>>>);
+struct Known<N, T>(Mutex<Vec<Arc<Made<N, T>>>>);
 
 /// What was made of the bodies of a model for some nodes.
-struct Made<T> {
+struct Made<N, T> {
     model: Arc<Model>,
-    nodes: BTreeSet<NodeId>,
+    nodes: N,
     /// Made by the run that first asks, while others that ask wait: two at once would be twice the
     /// memory. None where it cannot be.
     made: OnceLock<Option<Arc<T>>>,
 }
 
-impl<T> Default for Known<T> {
+impl<N, T> Default for Known<N, T> {
     fn default() -> Self {
         Known(Mutex::default())
     }
 }
 
-impl<T> Known<T> {
+impl<N: PartialEq, T> Known<N, T> {
     /// Returns what `make` makes of the bodies of `model` for `nodes`, or made before; None where it cannot
     /// be. Of each model the last is kept, as those of large bodies take much memory.
-    fn of(
-        &self,
-        model: &Arc<Model>,
-        nodes: &BTreeSet<NodeId>,
-        make: impl FnOnce() -> Option<T>,
-    ) -> Option<Arc<T>> {
+    fn of(&self, model: &Arc<Model>, nodes: N, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
         self.place(model, nodes).made.get_or_init(|| make().map(Arc::new)).clone()
     }
 
     /// Returns the place of that, made or not.
-    fn place(&self, model: &Arc<Model>, nodes: &BTreeSet<NodeId>) -> Arc<Made<T>> {
+    fn place(&self, model: &Arc<Model>, nodes: N) -> Arc<Made<N, T>> {
         let mut all = self.all();
-        let is_of = |known: &Arc<Made<T>>| are_same_bodies(&known.model, model);
-        if let Some(known) = all.iter().find(|known| known.nodes == *nodes && is_of(known)) {
+        let is_of = |known: &Arc<Made<N, T>>| are_same_bodies(&known.model, model);
+        if let Some(known) = all.iter().find(|known| known.nodes == nodes && is_of(known)) {
             return Arc::clone(known);
         }
         all.retain(|known| !is_of(known));
-        let (model, nodes) = (Arc::clone(model), nodes.clone());
-        all.push(Arc::new(Made { model, nodes, made: OnceLock::new() }));
+        all.push(Arc::new(Made { model: Arc::clone(model), nodes, made: OnceLock::new() }));
         Arc::clone(&all[all.len() - 1])
     }
 
-    fn all(&self) -> MutexGuard<'_, Vec<Arc<Made<T>>>> {
+    fn all(&self) -> MutexGuard<'_, Vec<Arc<Made<N, T>>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -114,7 +110,6 @@ impl Shared {
     pub(in crate::answer) fn let_go(&self) {
         self.factored.all().clear();
         self.condensed.all().clear();
-        self.apart.all().clear();
         self.known.let_go();
     }
 
@@ -142,39 +137,46 @@ impl Shared {
 
     /// Returns the bodies of `model` condensed to both surfaces; None where they cannot be, or are large.
     pub(in crate::answer) fn at_surfaces(&self, model: &Arc<Model>) -> Option<Arc<Factored>> {
-        let surfaces = few_surfaces(model)?;
-        self.factored
-            .of(model, &surfaces, || Factored::new(&Stiffness::new(model, |x| x), model, &surfaces))
+        let stiffness = || Stiffness::new(model, |x| x);
+        self.factored(model, few_surfaces(model)?, |nodes| {
+            Factored::new(&stiffness(), model, nodes)
+        })
     }
 
-    /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.
+    /// Returns the bodies of `model` condensed to `nodes`, and small ones factored `apart` from what else
+    /// they are condensed to; None where they cannot be.
     fn condensed(
         &self,
         stiffness: &Stiffness,
         model: &Arc<Model>,
-        nodes: BTreeSet<NodeId>,
+        nodes: Nodes,
         apart: bool,
     ) -> Option<Arc<Condensation>> {
-        if apart {
-            return self.apart.of(model, &nodes, || {
-                let bodies = Factored::new(stiffness, model, &nodes)?;
-                Condensation::new(&Arc::new(bodies), nodes.clone())
-            });
-        }
         // An edited listing may bind others.
-        let for_all = few_surfaces(model).filter(|surfaces| surfaces.is_superset(&nodes));
-        let wide = for_all.as_ref().unwrap_or(&nodes);
-        self.condensed.of(model, &nodes, || {
-            let factor = || Factored::new(stiffness, model, wide);
-            Condensation::new(&self.factored.of(model, wide, factor)?, nodes.clone())
+        let for_all = few_surfaces(model).filter(|surfaces| !apart && surfaces.is_superset(&nodes));
+        let wide = for_all.unwrap_or_else(|| nodes.clone());
+        self.condensed.of(model, [wide.clone(), nodes.clone()], || {
+            let factor = |nodes: &Nodes| Factored::new(stiffness, model, nodes);
+            Condensation::new(&self.factored(model, wide, factor)?, &nodes)
         })
+    }
+
+    /// Returns the bodies of `model` that `factor` factors for `nodes`, or that were before; None where they
+    /// cannot be.
+    fn factored(
+        &self,
+        model: &Arc<Model>,
+        nodes: Nodes,
+        factor: impl FnOnce(&Nodes) -> Option<Factored>,
+    ) -> Option<Arc<Factored>> {
+        self.factored.of(model, nodes.clone(), || factor(&nodes))
     }
 }
 
 /// Returns the nodes of both surfaces of a model whose bodies are factored for all of them; None of others.
-pub fn few_surfaces(model: &Model) -> Option<BTreeSet<NodeId>> {
+pub fn few_surfaces(model: &Model) -> Option<Nodes> {
     let (equations, most) = FOR_ALL;
-    let surfaces: BTreeSet<NodeId> = surfaces(model).into_iter().flatten().collect();
+    let surfaces: Nodes = surfaces(model).into_iter().flatten().collect();
     (model.free_dofs() <= equations && surfaces.len() <= most).then_some(surfaces)
 }
 

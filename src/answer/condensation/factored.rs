@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::answer::elimination::Elimination;
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::{Condensed, Eliminated, SparseSymmetric};
-use crate::problem::model::{Dof, Model, NodeId};
+use crate::numbers::solve::{Condensed, Eliminated};
+use crate::problem::model::{Body, Dof, Model, NodeId};
 
 /// Returns whether the bodies of two models have the same stiffness and restraints.
 pub(super) fn are_same_bodies(one: &Model, other: &Model) -> bool {
@@ -31,8 +31,6 @@ pub struct Factored {
     is_kept: Vec<bool>,
     /// Whether those are all nodes of both surfaces, and maybe others.
     pub(super) has_surfaces: bool,
-    /// The largest row sum of |K|, force/length.
-    pub(super) norm: f64,
 }
 
 /// Returns the nodes of the contact surface and those of the target surface, each in its order.
@@ -49,22 +47,37 @@ impl Factored {
         model: &Arc<Model>,
         nodes: &BTreeSet<NodeId>,
     ) -> Option<Self> {
-        let free = Elimination::new(&model.restrained, &[]);
-        let matrix: SparseSymmetric = stiffness.reduced(&free);
         let is_kept = are_of(model, nodes);
-        let dofs: Vec<Dof> = (0..free.size()).map(|column| free.dof(column)).collect();
-        let equations: Vec<usize> = (0..dofs.len()).filter(|e| is_kept[dofs[*e].index()]).collect();
-        let kept = equations.iter().map(|e| dofs[*e]).collect();
-        let norm = matrix.norm();
-        let condensed = Condensed::new(matrix, &equations)?;
+        let dofs: Vec<Dof> = model.all_dofs().filter(|dof| !model.is_restrained(*dof)).collect();
+        let mut equation = vec![None; model.dofs()];
+        dofs.iter().enumerate().for_each(|(e, dof)| equation[dof.index()] = Some(e));
+        let of_body = |body: &Body| {
+            let dofs = body.nodes.iter().flat_map(|node| node.dofs());
+            dofs.filter_map(|dof| equation[dof.index()]).collect()
+        };
+        let kept: Vec<usize> = (0..dofs.len()).filter(|e| is_kept[dofs[*e].index()]).collect();
+        // To those of a part all others are restrained.
+        let matrix = |equations: &[usize]| {
+            let mut restrained = vec![true; model.dofs()];
+            equations.iter().for_each(|e| restrained[dofs[*e].index()] = false);
+            stiffness.reduced(&Elimination::new(&restrained, &[]))
+        };
+        let parts = model.bodies.iter().map(of_body).collect();
+        let condensed = Condensed::new(parts, matrix, &kept)?;
+        let kept = kept.iter().map(|e| dofs[*e]).collect();
         let has_surfaces = surfaces(model).concat().iter().all(|node| nodes.contains(node));
         let model = Arc::clone(model);
-        Some(Factored { model, condensed, dofs, kept, is_kept, has_surfaces, norm })
+        Some(Factored { model, condensed, dofs, kept, is_kept, has_surfaces })
     }
 
     /// Returns whether they are condensed to a node, among others.
     pub(super) fn keeps(&self, node: NodeId) -> bool {
         self.is_kept[node.dofs()[0].index()]
+    }
+
+    /// Returns the largest row sum of |K|, force/length.
+    pub(super) fn norm(&self) -> f64 {
+        self.condensed.norm()
     }
 
     /// Returns the degrees of freedom to which they are condensed.

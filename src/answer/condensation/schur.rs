@@ -28,8 +28,6 @@ pub(super) fn holds(factors: &impl Factors<f64>, diagonal: &DVector<f64>) -> boo
 /// The stiffness condensed to some nodes.
 pub struct Condensation {
     bodies: Arc<Factored>,
-    /// The kept nodes.
-    pub nodes: BTreeSet<NodeId>,
     /// None where the bodies are factored for the kept nodes.
     further: Option<Further>,
     /// The degrees of freedom that are kept.
@@ -74,19 +72,23 @@ pub struct Eliminated {
 impl Condensation {
     /// Condenses bodies to `nodes`, which are among those for which they are factored; None where they
     /// cannot be.
-    pub fn new(bodies: &Arc<Factored>, nodes: BTreeSet<NodeId>) -> Option<Self> {
+    pub fn new(bodies: &Arc<Factored>, nodes: &BTreeSet<NodeId>) -> Option<Self> {
         let model = &bodies.model;
-        let is_kept = are_of(model, &nodes);
+        let is_kept = are_of(model, nodes);
         let (last, first): (Vec<usize>, Vec<usize>) =
             (0..bodies.kept.len()).partition(|k| is_kept[bodies.kept[*k].index()]);
         let kept = last.iter().map(|k| bodies.kept[*k]).collect();
         let further =
             if first.is_empty() { None } else { Some(Further::new(bodies, first, last)?) };
-        let (among_kept, bodies) = (AmongKept::new(model, &nodes), Arc::clone(bodies));
-        let mut made =
-            Condensation { bodies, nodes, further, kept, is_kept, among_kept, kept_norm: 0.0 };
+        let (among_kept, bodies) = (AmongKept::new(model, nodes), Arc::clone(bodies));
+        let mut made = Condensation { bodies, further, kept, is_kept, among_kept, kept_norm: 0.0 };
         made.kept_norm = made.schur().column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
         Some(made)
+    }
+
+    /// Returns the kept nodes, ascending.
+    pub fn nodes(&self) -> &[NodeId] {
+        &self.among_kept.nodes
     }
 
     /// Returns whether bodies that are factored for more nodes were condensed further.
@@ -101,7 +103,7 @@ impl Condensation {
 
     /// Returns the largest row sum of |K|, force/length.
     pub(super) fn norm(&self) -> f64 {
-        self.bodies.norm
+        self.bodies.norm()
     }
 
     /// Returns the degree of freedom of each equation of the unconstrained bodies.

@@ -17,16 +17,14 @@
 use std::panic::resume_unwind;
 use std::sync::Mutex;
 
-use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
 use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 
 use super::cholesky::{Cholesky, is_large};
+use super::ordering::{self, places};
 use super::symmetric::SparseSymmetric;
-use crate::numbers::joined::joined;
 
 /// A symmetric matrix condensed to the equations that are kept.
 pub struct Condensed {
@@ -35,6 +33,8 @@ pub struct Condensed {
     schur: DMatrix<f64>,
     /// The number of all equations.
     size: usize,
+    /// The largest row sum of |A|.
+    norm: f64,
 }
 
 /// A part of the matrix that no entry joins to the others, factored.
@@ -44,6 +44,8 @@ struct Part {
     order: Vec<usize>,
     /// The places of the latter among all that are kept.
     kept: Vec<usize>,
+    /// The largest row sum of the absolute values of its matrix.
+    norm: f64,
 }
 
 /// A right-hand side b on which the equations inside were eliminated.
@@ -61,19 +63,23 @@ const AT_ONCE: usize = 20_000;
 const FACTORED_AT_ONCE: usize = 1_000;
 
 impl Condensed {
-    /// Condenses `matrix` to the equations `kept`; None where A_ii is not far from a singular matrix,
-    /// or S has lost its digits against A_kk, and without equations.
-    pub fn new(matrix: SparseSymmetric, kept: &[usize]) -> Option<Self> {
-        let size = matrix.size();
-        let parts = match halves(&matrix).as_slice() {
+    /// Condenses a matrix to the equations `kept`. No entry joins its `parts`, the equations of each
+    /// ascending; of some of them `matrix` makes the rows and columns. None where A_ii is not far from a
+    /// singular matrix, or S has lost its digits against A_kk, and without equations.
+    pub fn new(
+        parts: Vec<Vec<usize>>,
+        matrix: impl Fn(&[usize]) -> SparseSymmetric + Sync,
+        kept: &[usize],
+    ) -> Option<Self> {
+        let halves = halves(parts);
+        let size = halves.iter().map(Vec::len).sum();
+        let part = |equations: &[usize]| Part::new(matrix(equations), equations, kept);
+        let parts = match halves.as_slice() {
             [] => return None,
-            [one] => vec![Part::new(matrix, one, kept)?],
+            [one] => vec![part(one)?],
             [one, other, ..] => {
-                let [a, b] = [one, other].map(|equations| matrix.part(equations));
-                drop(matrix);
                 let apart = size >= FACTORED_AT_ONCE && rayon::current_num_threads() > 1;
-                let (one, other) =
-                    both(apart, || Part::new(a, one, kept), || Part::new(b, other, kept));
+                let (one, other) = both(apart, || part(one), || part(other));
                 vec![one?, other?]
             }
         };
@@ -83,8 +89,14 @@ impl Condensed {
                 part.kept.iter().zip(&column).for_each(|(i, s)| schur[(*i, *j)] = *s);
             }
         }
-        let parts = parts.into_iter().map(|(part, _)| part).collect();
-        Some(Condensed { parts, schur, size })
+        let parts: Vec<Part> = parts.into_iter().map(|(part, _)| part).collect();
+        let norm = parts.iter().map(|part| part.norm).fold(0.0, f64::max);
+        Some(Condensed { parts, schur, size, norm })
+    }
+
+    /// Returns the largest row sum of |A|.
+    pub fn norm(&self) -> f64 {
+        self.norm
     }
 
     /// Returns S, in the order in which the kept equations were given.
@@ -139,9 +151,8 @@ impl Part {
         let (kept, own): (Vec<usize>, Vec<usize>) = own.into_iter().unzip();
         let order = order(&matrix, &own);
         let inside = order.len() - own.len();
-        let mut place = vec![0; order.len()];
-        order.iter().enumerate().for_each(|(k, e)| place[*e] = k);
-        let diagonal = matrix.diagonal();
+        let place = places(&order);
+        let (norm, diagonal) = (matrix.norm(), matrix.diagonal());
         let raised = matrix.map_diagonal(|e, a| if place[e] >= inside { a + a } else { a });
         let factor = Cholesky::ordered(&raised, &order, &place)?;
         let factor = Some(factor).filter(|factor| factor.has_large_pivots(&raised.diagonal()))?;
@@ -155,7 +166,7 @@ impl Part {
             }
         }
         let order = order.into_iter().map(|e| equations[e]).collect();
-        Some((Part { factor, order, kept }, schur))
+        Some((Part { factor, order, kept, norm }, schur))
     }
 
     /// Returns the number of equations inside.
@@ -201,22 +212,17 @@ fn both<A: Send, B>(
     })
 }
 
-/// Returns the equations in two parts that no entry joins, about as large as each other, each ascending;
-/// in one where all are joined, and none of a matrix without equations.
-fn halves(matrix: &SparseSymmetric) -> Vec<Vec<usize>> {
-    let of = joined(matrix.size(), matrix.entries().map(|(i, j, _)| (i, j)));
-    let mut sizes = vec![0; of.len()];
-    of.iter().for_each(|part| sizes[*part] += 1);
-    let mut parts: Vec<usize> = (0..of.len()).filter(|part| sizes[*part] > 0).collect();
-    parts.sort_by_key(|part| std::cmp::Reverse(sizes[*part]));
-    let (mut is_second, mut ahead) = (vec![false; of.len()], 0);
-    for part in parts {
-        // The smaller half takes the next one.
-        is_second[part] = ahead > 0;
-        ahead += if is_second[part] { -(sizes[part] as isize) } else { sizes[part] as isize };
+/// Returns parts put together to two about as large as each other, the equations of each ascending; one
+/// where there is but one, and none of none.
+fn halves(mut parts: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
+    parts.sort_by_key(|part| std::cmp::Reverse(part.len()));
+    let mut halves = [Vec::new(), Vec::new()];
+    for mut part in parts {
+        let smaller = usize::from(halves[1].len() < halves[0].len());
+        halves[smaller].append(&mut part);
     }
-    let (second, first): (Vec<usize>, Vec<usize>) = (0..of.len()).partition(|e| is_second[of[*e]]);
-    [first, second].into_iter().filter(|half| !half.is_empty()).collect()
+    halves.iter_mut().for_each(|half| half.sort_unstable());
+    halves.into_iter().filter(|half| !half.is_empty()).collect()
 }
 
 /// Returns the equations inside in an order of small fill, then those that are kept.
@@ -232,12 +238,7 @@ fn order(matrix: &SparseSymmetric, kept: &[usize]) -> Vec<usize> {
         starts.push(rows.len());
     }
     let n = inside.len();
-    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows);
-    let (mut order, mut place) = (vec![0; n], vec![0; n]);
-    let mut memory = MemBuffer::new(amd::order_scratch::<usize>(n, rows.len()));
-    let stack = MemStack::new(&mut memory);
-    amd::order(&mut order, &mut place, pattern, amd::Control::default(), stack)
-        .expect("the indices fit");
+    let order = ordering::order(SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows));
     order.iter().map(|k| inside[*k]).chain(kept.iter().copied()).collect()
 }
 

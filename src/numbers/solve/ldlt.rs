@@ -1,15 +1,13 @@
 //! Sparse LDLᵀ without pivoting, for numbers that no library factors: double-doubles and rationals.
 //!
 //! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS
-//! 31(4), 2005 (up-looking, by the elimination tree); the order of the equations is faer's
-//! approximate minimum degree.
+//! 31(4), 2005 (up-looking, by the elimination tree); the order of the equations is that
+//! of `ordering`.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::linalg::amd;
-use faer::sparse::{SparseColMat, Triplet};
-
+use super::elimination_tree::Tree;
 use super::factors::Singular;
 use super::field::Field;
+use super::ordering::{order, places};
 use super::symmetric::SparseSymmetric;
 
 /// A symmetric matrix as L D Lᵀ, in an order of its equations that keeps L sparse.
@@ -27,14 +25,17 @@ impl<F: Field> Ldlt<F> {
     /// that is not semidefinite may have one and yet a unique solution.
     pub fn new(matrix: &SparseSymmetric<F>) -> Result<Self, Singular> {
         let n = matrix.size();
-        let order = order(matrix);
+        let order = order(matrix.pattern());
         let upper = permuted(matrix, &order);
         let mut factors =
             Ldlt { order, columns: vec![Vec::new(); n], pivots: Vec::with_capacity(n) };
-        let mut tree = Tree { parent: vec![None; n], seen_in: vec![usize::MAX; n] };
+        let mut tree = Tree::new(n);
         let mut y = vec![F::zero(); n];
         for (k, column) in upper.into_iter().enumerate() {
-            let path = tree.row(k, column.iter().map(|(i, _)| *i));
+            let mut path = Vec::new();
+            tree.row(k, column.iter().map(|(i, _)| *i), |i| path.push(i));
+            // Each before what it changes.
+            path.sort_unstable();
             for (i, a) in column {
                 y[i] = a;
             }
@@ -90,52 +91,9 @@ impl<F: Field> Ldlt<F> {
     }
 }
 
-/// The elimination tree, as far as the rows done so far tell it.
-struct Tree {
-    parent: Vec<Option<usize>>,
-    seen_in: Vec<usize>,
-}
-
-impl Tree {
-    /// Returns where row k of L has entries, each before what it changes, from the places of its
-    /// entries in A.
-    fn row(&mut self, k: usize, entries: impl Iterator<Item = usize>) -> Vec<usize> {
-        self.seen_in[k] = k;
-        let mut path = Vec::new();
-        for mut i in entries {
-            while self.seen_in[i] != k {
-                self.seen_in[i] = k;
-                path.push(i);
-                i = *self.parent[i].get_or_insert(k);
-            }
-        }
-        // A parent comes after its children.
-        path.sort_unstable();
-        path
-    }
-}
-
-/// Returns the equations in an order of small fill.
-fn order<F: Field>(matrix: &SparseSymmetric<F>) -> Vec<usize> {
-    let n = matrix.size();
-    let upper: Vec<Triplet<usize, usize, f64>> =
-        matrix.entries().map(|(i, j, _)| Triplet::new(j, i, 1.0)).collect();
-    let upper = SparseColMat::try_new_from_triplets(n, n, &upper)
-        .expect("rows and columns are within the matrix");
-    let (mut order, mut place) = (vec![0; n], vec![0; n]);
-    let mut memory = MemBuffer::new(amd::order_scratch::<usize>(n, upper.compute_nnz()));
-    let stack = MemStack::new(&mut memory);
-    amd::order(&mut order, &mut place, upper.symbolic(), amd::Control::default(), stack)
-        .expect("the indices fit");
-    order
-}
-
 /// Returns the columns of the upper triangle in the new order: row and value.
 fn permuted<F: Field>(matrix: &SparseSymmetric<F>, order: &[usize]) -> Vec<Vec<(usize, F)>> {
-    let mut place = vec![0; order.len()];
-    for (k, &e) in order.iter().enumerate() {
-        place[e] = k;
-    }
+    let place = places(order);
     let mut columns = vec![Vec::new(); order.len()];
     for (i, j, value) in matrix.entries() {
         let (p, q) = (place[i], place[j]);

@@ -3,11 +3,12 @@
 //! | modules, each using only those above it | what they contain |
 //! |---|---|
 //! | `arithmetic` | the scalar and the solver that are asked for |
-//! | [`memory`], [`cost`], `symbolic` | what a solution needs: memory, time, entries of factors |
 //! | `factors`, `dense`, `dense_condensed` | what factorisations share; faer's of dense matrices; one that
 //!   leaves the last equations over |
 //! | `error_bound` | how far a solution may be from the true one |
-//! | `symmetric`, `cholesky` | sparse symmetric matrices; faer's factor of one |
+//! | `symmetric`, `ordering`, `elimination_tree`, `cholesky` | sparse symmetric matrices; orders of
+//!   their equations; where a factor has entries; faer's factor of one |
+//! | [`memory`], [`cost`], `symbolic` | what a solution needs: memory, time, entries of factors |
 //! | `sparse`, `condensed`, `iterative` | factors that tell a singular matrix; those that leave a few
 //!   equations over; solutions to a tolerance |
 //! | `square`, `sparse_lu` | sparse matrices that need not be symmetric; factors of one |
@@ -20,6 +21,7 @@ mod condensed;
 pub mod cost;
 mod dense;
 mod dense_condensed;
+mod elimination_tree;
 mod error_bound;
 mod factors;
 mod field;
@@ -28,6 +30,7 @@ mod ldlt;
 mod lifting;
 mod lu;
 pub mod memory;
+mod ordering;
 mod precision;
 mod sparse;
 mod sparse_lu;
@@ -47,6 +50,7 @@ pub use iterative::{NotConverged, conjugate_gradients, refine};
 pub use ldlt::Ldlt;
 pub use lifting::lift;
 pub use lu::solve_dense;
+pub use ordering::ORDERED_IN_GROUPS;
 pub use precision::{Iterates, Precision, Solved, Unsolved};
 pub use sparse::{SparseCholesky, largest_motion};
 pub use sparse_lu::{KnownLu, Quick, SparseLu};

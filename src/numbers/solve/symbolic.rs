@@ -1,11 +1,7 @@
-//! What Cholesky factors of a sparse matrix will cost, from its pattern alone: a symbolic
-//! factorisation by the library faer, with the same ordering as that of `sparse`.
+//! What Cholesky factors of a sparse matrix will cost, from its pattern alone.
 
-use faer::Side;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
-};
-
+use super::elimination_tree::Tree;
+use super::ordering::{order, places};
 use super::symmetric::Pattern;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema)]
@@ -13,7 +9,7 @@ pub struct FactorSize {
     pub equations: usize,
     /// The number of entries of the lower triangle of A that are not 0.
     pub entries: usize,
-    /// The number of entries that the factors keep.
+    /// The number of entries of the factors that are not 0 by the pattern.
     pub nonzeros: usize,
     /// The number of multiplications and additions of the factorisation.
     pub operations: f64,
@@ -30,24 +26,29 @@ impl FactorSize {
         FactorSize { operations: cube(n) / 3.0, ..FactorSize::full(n, n * n) }
     }
 
-    /// Returns the size of sparse Cholesky of a matrix with this pattern.
-    pub fn sparse_cholesky(pattern: &Pattern) -> Self {
-        let pattern = pattern.view();
-        let factors = factorize_symbolic_cholesky(
-            pattern,
-            Side::Lower,
-            SymmetricOrdering::Amd,
-            CholeskySymbolicParams::default(),
-        )
-        .expect("a pattern that fits in memory");
-        let columns = columns(factors.raw());
-        FactorSize {
-            equations: pattern.nrows(),
-            entries: pattern.compute_nnz(),
-            nonzeros: factors.len_val(),
-            // Column by column: a square root, divisions, and the update of what lies to its right.
-            operations: columns.map(|below| (below * below) as f64).sum(),
+    /// Returns the size of sparse Cholesky of a matrix whose equations stand in groups, in the order of
+    /// `ordering`: `pattern` has the groups whose equations are joined, `sizes` the number of equations of
+    /// each.
+    pub fn sparse_cholesky(pattern: &Pattern, sizes: &[usize]) -> Self {
+        let of_pair = |(i, j): (usize, usize)| match i == j {
+            true => sizes[i] * (sizes[i] + 1) / 2,
+            false => sizes[i] * sizes[j],
+        };
+        let mut size = FactorSize {
+            equations: sizes.iter().sum(),
+            entries: pattern.places().map(of_pair).sum(),
+            ..FactorSize::default()
+        };
+        let mut last_first = order(pattern.view());
+        last_first.reverse();
+        for (group, below) in last_first.iter().zip(below(pattern, sizes, &last_first)) {
+            for own in 1..=sizes[*group] {
+                size.nonzeros += below + own;
+                // A square root, divisions, and the update of what lies to its right.
+                size.operations += ((below + own) as f64).powi(2);
+            }
         }
+        size
     }
 
     /// Returns the size of sparse LU of a matrix with the pattern of these Cholesky factors, as long as
@@ -65,14 +66,20 @@ fn cube(n: usize) -> f64 {
     (n as f64).powi(3)
 }
 
-/// Returns the number of entries of each column of L, the diagonal included.
-fn columns(raw: &SymbolicCholeskyRaw<usize>) -> Box<dyn Iterator<Item = usize> + '_> {
-    match raw {
-        SymbolicCholeskyRaw::Simplicial(l) => Box::new(l.col_ptr().windows(2).map(|w| w[1] - w[0])),
-        SymbolicCholeskyRaw::Supernodal(l) => Box::new((0..l.n_supernodes()).flat_map(|s| {
-            let width = l.supernode_end()[s] - l.supernode_begin()[s];
-            let below = l.supernode(s).pattern().len();
-            (0..width).map(move |k| width - k + below)
-        })),
+/// Returns the number of equations of the other groups in which a column of L has entries, for each group of
+/// an order from the last to the first.
+fn below(pattern: &Pattern, sizes: &[usize], last_first: &[usize]) -> Vec<usize> {
+    let (n, places) = (last_first.len(), places(last_first));
+    // Those that come before each, and to which it is joined.
+    let before = Pattern::new(n, |visit| {
+        for (i, j) in pattern.places().filter(|(i, j)| i != j) {
+            visit(places[i].max(places[j]), places[i].min(places[j]));
+        }
+    });
+    let (mut tree, mut below) = (Tree::new(n), vec![0; n]);
+    for k in (0..n).rev() {
+        let size = sizes[last_first[k]];
+        tree.row(k, before.column(k), |i| below[i] += size);
     }
+    below
 }

@@ -45,14 +45,50 @@ impl Pattern {
         Pattern { starts, rows }
     }
 
+    /// Collects the places in the matrix of `n` equations that triangles make of their matrices: each joins
+    /// every equation of its nodes, of which there are `nodes`. `equations` returns those of a node.
+    pub fn of_triangles<E: IntoIterator<Item = usize, IntoIter: Clone>>(
+        n: usize,
+        nodes: usize,
+        triangles: impl Iterator<Item = [usize; 3]> + Clone,
+        equations: impl Fn(usize) -> E,
+    ) -> Self {
+        let of_nodes = Pattern::new(nodes, |visit| {
+            for [a, b, c] in triangles.clone() {
+                [a, b, c].iter().for_each(|node| visit(*node, *node));
+                [[a, b], [b, c], [c, a]].iter().for_each(|[p, q]| visit(*p.max(q), *p.min(q)));
+            }
+        });
+        Pattern::new(n, |visit| {
+            for q in 0..nodes {
+                let columns = equations(q).into_iter();
+                for p in of_nodes.column(q) {
+                    for i in equations(p) {
+                        columns.clone().for_each(|j| visit(i.max(j), i.min(j)));
+                    }
+                }
+            }
+        })
+    }
+
     /// Returns the number of rows, which is that of the columns.
     pub fn size(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// Returns where the values of a column stand.
-    fn column(&self, j: usize) -> Range<usize> {
+    fn values(&self, j: usize) -> Range<usize> {
         self.starts[j]..self.starts[j + 1]
+    }
+
+    /// Returns the rows of the entries of a column of the lower triangle.
+    pub(super) fn column(&self, j: usize) -> impl Iterator<Item = usize> {
+        self.rows[self.values(j)].iter().copied()
+    }
+
+    /// Returns the places of the entries of the lower triangle: row and column.
+    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> {
+        (0..self.size()).flat_map(|j| self.column(j).map(move |i| (i, j)))
     }
 
     /// Returns the pattern as faer takes it.
@@ -86,7 +122,7 @@ impl<T: Scalar> SparseSymmetric<T> {
         let mut values = vec![T::zero(); pattern.rows.len()];
         let mut begun = vec![false; values.len()];
         entries(&mut |i, j, value| {
-            let column = pattern.column(j);
+            let column = pattern.values(j);
             let at = column.start + pattern.rows[column].partition_point(|row| *row < i);
             // The first is no sum: of some numbers 0 + x is not quite x.
             match std::mem::replace(&mut begun[at], true) {
@@ -111,22 +147,9 @@ impl<T: Clone> SparseSymmetric<T> {
 
     /// Returns the entries of a column of the lower triangle: row, value.
     pub(super) fn column(&self, j: usize) -> impl Iterator<Item = (usize, T)> {
-        self.pattern.column(j).map(|at| (self.pattern.rows[at], self.values[at].clone()))
-    }
-
-    /// Returns the rows and columns of `equations`, ascending, which no entry joins to others.
-    pub(super) fn part(&self, equations: &[usize]) -> Self {
-        let mut place = vec![0; self.size()];
-        equations.iter().enumerate().for_each(|(k, e)| place[*e] = k);
-        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-        for j in equations {
-            for (i, value) in self.column(*j) {
-                rows.push(place[i]);
-                values.push(value);
-            }
-            starts.push(rows.len());
-        }
-        SparseSymmetric { pattern: Arc::new(Pattern { starts, rows }), values }
+        let at = self.pattern.values(j);
+        let (rows, values) = (&self.pattern.rows[at.clone()], &self.values[at]);
+        rows.iter().copied().zip(values.iter().cloned())
     }
 
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> SparseSymmetric<U> {
@@ -160,11 +183,17 @@ impl<T: Scalar> SparseSymmetric<T> {
 
     pub fn times(&self, x: &DVector<T>) -> DVector<T> {
         let mut product = DVector::from_element(x.len(), T::zero());
-        for (i, j, value) in self.entries() {
-            product[i] += value * x[j];
-            if i != j {
-                product[j] += value * x[i];
+        for j in 0..self.size() {
+            let (of_column, mut own) = (x[j], product[j]);
+            for (i, value) in self.column(j) {
+                if i == j {
+                    own += value * of_column;
+                } else {
+                    product[i] += value * of_column;
+                    own += value * x[i];
+                }
             }
+            product[j] = own;
         }
         product
     }
@@ -196,11 +225,13 @@ impl<T: Scalar> SparseSymmetric<T> {
     /// Returns the largest row sum of |A|.
     pub fn norm(&self) -> f64 {
         let mut sums = vec![0.0_f64; self.size()];
-        for (i, j, value) in self.entries() {
-            let size = Scalar::abs(value).to_f64();
-            sums[i] += size;
-            if i != j {
-                sums[j] += size;
+        for j in 0..self.size() {
+            for (i, value) in self.column(j) {
+                let size = Scalar::abs(value).to_f64();
+                sums[i] += size;
+                if i != j {
+                    sums[j] += size;
+                }
             }
         }
         sums.into_iter().fold(0.0, f64::max)

@@ -23,7 +23,7 @@ use cost::{Cost, Work};
 use crate::answer::{Request, dense_matrices, kept_equations};
 use crate::choices;
 use crate::error::Result;
-use crate::numbers::solve::{FactorSize, Pattern, ScalarName, Solver, memory};
+use crate::numbers::solve::{FactorSize, ORDERED_IN_GROUPS, Pattern, ScalarName, Solver, memory};
 use crate::problem::model::Model;
 use crate::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use crate::problem::scene::symmetry::half;
@@ -117,7 +117,9 @@ impl Plan {
         let plan = |candidates| ContactPlan { coupling, friction, status, candidates };
         let contact = Candidates::find(model).map(plan);
         let dense = dense_matrices(variant, arithmetic);
-        let sparse = FactorSize::sparse_cholesky(&pattern(model));
+        let (pattern, sizes) = pattern(model);
+        let sparse = FactorSize::sparse_cholesky(&pattern, &sizes);
+        drop(pattern);
         let factors = match solver {
             Solver::DenseLu => FactorSize::dense_lu(equations.solved),
             Solver::DenseCholesky => FactorSize::dense_cholesky(equations.solved),
@@ -168,18 +170,22 @@ fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations 
     Equations { all, restrained: all - free, free, solved, idle }
 }
 
-/// The pattern of K on the free equations. Contact is left out: it changes a few entries.
-fn pattern(model: &Model) -> Pattern {
-    let mut free = 0..;
-    let place = |restrained: &bool| if *restrained { None } else { free.next() };
-    let place: Vec<Option<usize>> = model.restrained.iter().map(place).collect();
-    Pattern::new(model.free_dofs(), |visit| {
+/// The groups of free equations that triangles join, and the number of equations of each: as they are
+/// ordered, each equation, of many those of a node together. Contact is left out: it changes a few entries.
+fn pattern(model: &Model) -> (Pattern, Vec<usize>) {
+    let together = model.free_dofs() >= ORDERED_IN_GROUPS;
+    let (mut sizes, mut groups) = (Vec::new(), Vec::with_capacity(model.nodes.len()));
+    for node in model.node_ids() {
+        let free = node.dofs().iter().filter(|dof| !model.is_restrained(**dof)).count();
+        let (count, size) = if together { (free.min(1), free) } else { (free, 1) };
+        groups.push(sizes.len()..sizes.len() + count);
+        sizes.resize(sizes.len() + count, size);
+    }
+    let pattern = Pattern::new(sizes.len(), |visit| {
         for triangle in &model.triangles {
-            let dofs = triangle.nodes.into_iter().flat_map(|node| node.dofs());
-            let equations = dofs.filter_map(|dof| place[dof.index()]);
-            for i in equations.clone() {
-                equations.clone().for_each(|j| visit(i, j));
-            }
+            let all = triangle.nodes.into_iter().flat_map(|node| groups[node.index()].clone());
+            all.clone().for_each(|i| all.clone().for_each(|j| visit(i, j)));
         }
-    })
+    });
+    (pattern, sizes)
 }
