@@ -170,8 +170,9 @@ fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations 
     Equations { all, restrained: all - free, free, solved, idle }
 }
 
-/// The groups of free equations that triangles join, and the number of equations of each: as they are
-/// ordered, each equation, of many those of a node together. Contact is left out: it changes a few entries.
+/// The groups of free equations that triangles join, and the number of equations of each: single equations,
+/// of many those of a node together, which are ordered in a third of the time and fill about as little.
+/// Contact is left out: it changes a few entries.
 fn pattern(model: &Model) -> (Pattern, Vec<usize>) {
     let together = model.free_dofs() >= ORDERED_IN_GROUPS;
     let (mut sizes, mut groups) = (Vec::new(), Vec::with_capacity(model.nodes.len()));
