@@ -121,15 +121,12 @@ pub fn run(args: &Args) -> Result<u8> {
     answer::check_memory(&request)?;
     let (plan, model) = (OnceLock::new(), &request.scene.model);
     let planned = || plan.get_or_init(|| Plan::new(&request));
-    let (begin, is_large) = (Once::new(), model.free_dofs() >= LARGE);
+    let (first_step, is_large) = (Once::new(), model.free_dofs() >= LARGE);
     let (own, others) = rayon::scope(|scope| {
-        let begin = || begin.call_once(|| scope.spawn(|_| _ = planned()));
-        let own = || {
-            own(&|| {
-                if is_large {
-                    begin()
-                }
-            })
+        let after_step = || {
+            if is_large {
+                first_step.call_once(|| scope.spawn(|_| _ = planned()));
+            }
         };
         let others = || {
             // Whoever waits until the other has factored the bodies has planned meanwhile.
@@ -138,7 +135,7 @@ pub fn run(args: &Args) -> Result<u8> {
             }
             Others::new(&request, with_estimates)
         };
-        side_by_side(model, own, others)
+        side_by_side(model, || own(&after_step), others)
     });
     planned();
     let plan = plan.into_inner().expect("it is made");

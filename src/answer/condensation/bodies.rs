@@ -137,9 +137,8 @@ impl Shared {
 
     /// Returns the bodies of `model` condensed to both surfaces; None where they cannot be, or are large.
     pub(in crate::answer) fn at_surfaces(&self, model: &Arc<Model>) -> Option<Arc<Factored>> {
-        let stiffness = || Stiffness::new(model, |x| x);
         self.factored(model, few_surfaces(model)?, |nodes| {
-            Factored::new(&stiffness(), model, nodes)
+            Factored::new(&Stiffness::new(model, |x| x), model, nodes)
         })
     }
 

@@ -33,8 +33,6 @@ pub struct Condensed {
     schur: DMatrix<f64>,
     /// The number of all equations.
     size: usize,
-    /// The largest row sum of |A|.
-    norm: f64,
 }
 
 /// A part of the matrix that no entry joins to the others, factored.
@@ -89,14 +87,13 @@ impl Condensed {
                 part.kept.iter().zip(&column).for_each(|(i, s)| schur[(*i, *j)] = *s);
             }
         }
-        let parts: Vec<Part> = parts.into_iter().map(|(part, _)| part).collect();
-        let norm = parts.iter().map(|part| part.norm).fold(0.0, f64::max);
-        Some(Condensed { parts, schur, size, norm })
+        let parts = parts.into_iter().map(|(part, _)| part).collect();
+        Some(Condensed { parts, schur, size })
     }
 
     /// Returns the largest row sum of |A|.
     pub fn norm(&self) -> f64 {
-        self.norm
+        self.parts.iter().map(|part| part.norm).fold(0.0, f64::max)
     }
 
     /// Returns S, in the order in which the kept equations were given.

@@ -47,7 +47,7 @@ impl Pattern {
 
     /// Collects the places in the matrix of `n` equations that triangles make of their matrices: each joins
     /// every equation of its nodes, of which there are `nodes`. `equations` returns those of a node.
-    pub fn of_triangles<E: IntoIterator<Item = usize, IntoIter: Clone>>(
+    pub fn of_triangles<E: Iterator<Item = usize> + Clone>(
         n: usize,
         nodes: usize,
         triangles: impl Iterator<Item = [usize; 3]> + Clone,
@@ -61,7 +61,7 @@ impl Pattern {
         });
         Pattern::new(n, |visit| {
             for q in 0..nodes {
-                let columns = equations(q).into_iter();
+                let columns = equations(q);
                 for p in of_nodes.column(q) {
                     for i in equations(p) {
                         columns.clone().for_each(|j| visit(i.max(j), i.min(j)));

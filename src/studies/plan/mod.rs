@@ -177,7 +177,7 @@ fn pattern(model: &Model) -> (Pattern, Vec<usize>) {
     let together = model.free_dofs() >= ORDERED_IN_GROUPS;
     let (mut sizes, mut groups) = (Vec::new(), Vec::with_capacity(model.nodes.len()));
     for node in model.node_ids() {
-        let free = node.dofs().iter().filter(|dof| !model.is_restrained(**dof)).count();
+        let free = model.restraints_of(node).iter().filter(|held| !**held).count();
         let (count, size) = if together { (free.min(1), free) } else { (free, 1) };
         groups.push(sizes.len()..sizes.len() + count);
         sizes.resize(sizes.len() + count, size);
