@@ -16,7 +16,7 @@ use crate::problem::modelling::Variant;
 
 /// The bodies as contact holds them in a step.
 pub(super) struct Held {
-    pub(super) stiffness: Stiffness,
+    pub(super) stiffness: Arc<Stiffness>,
     /// T of the contact state.
     pub(super) t: Elimination,
     factors: Made,
@@ -43,7 +43,7 @@ impl Held {
             Variant::Unilateral => Elimination::closing(&model.restrained, constraints),
             _ => Elimination::new(&model.restrained, constraints),
         };
-        let stiffness = Stiffness::new(model, |x| x);
+        let stiffness = solution.stiffness();
         let known = match &solution.factors.known() {
             LastFactors::Condensed(_, Some(bound)) if bound.is_of(constraints) => {
                 Some(Made::Condensed(Arc::clone(bound)))

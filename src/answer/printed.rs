@@ -72,8 +72,15 @@ impl AtSurfaces {
 /// Returns the entries of a matrix by degree of freedom at the equations of the surfaces.
 fn at_surfaces(bodies: &Factored, matrix: &SparseSquare) -> DMatrix<f64> {
     let surfaces = bodies.kept();
-    let entry = |i: usize, j: usize| matrix[(surfaces[i].index(), surfaces[j].index())];
-    DMatrix::from_fn(surfaces.len(), surfaces.len(), entry)
+    let mut place = vec![None; matrix.size()];
+    surfaces.iter().enumerate().for_each(|(i, dof)| place[dof.index()] = Some(i));
+    let mut entries = DMatrix::zeros(surfaces.len(), surfaces.len());
+    for (row, column, value) in matrix.written() {
+        if let (Some(i), Some(j)) = (place[row], place[column]) {
+            entries[(i, j)] = value;
+        }
+    }
+    entries
 }
 
 impl OfState {

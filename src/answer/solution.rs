@@ -11,6 +11,7 @@ use super::contact::{ContactNode, Pairing, Status};
 use super::elimination::Constraint;
 use super::factors::Kept;
 use super::request::Request;
+use super::stiffness::Stiffness;
 use crate::numbers::scalar::Scalar;
 use crate::paper::decisions::Decision;
 use crate::paper::mirror::Pairs;
@@ -275,6 +276,11 @@ impl Solution {
     /// Returns the sum of the target body's reactions against the direction of the load, force.
     pub fn target_force(&self) -> f64 {
         self.last().target_force.expect("the whole bodies are solved for in the last step")
+    }
+
+    /// Returns the stiffness of the bodies.
+    pub fn stiffness(&self) -> Arc<Stiffness> {
+        self.request.shared.stiffness(&self.model)
     }
 
     /// Lets go of the factors that serve further estimates, the largest part of its memory: to write it

@@ -1,11 +1,10 @@
 //! The sparse solvers of `tied` and `stepped`, which build no dense matrix of all equations.
 
-use std::cell::OnceCell;
 use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::condensation::{Bodies, Bound, refined};
+use super::condensation::{Bodies, Bound, Shared, refined};
 use super::elimination::{Constraint, Elimination};
 use super::factors::LastFactors;
 use super::request::Request;
@@ -21,7 +20,7 @@ use crate::problem::modelling::Variant;
 
 /// Tᵀ K T q = f under one contact state.
 pub(super) struct State<'a, T> {
-    pub(super) model: &'a Model,
+    pub(super) model: &'a Arc<Model>,
     pub(super) stiffness: &'a Stiffness<T>,
     pub(super) constraints: &'a [Constraint<T>],
     pub(super) t: &'a Elimination<T>,
@@ -70,19 +69,14 @@ impl<T: Iterates> Sparse<T> for Iterating {
 
 /// The factors of the condensed bodies, in `f64`; where they do not serve, those of the whole matrix.
 pub(super) struct Condensing {
-    /// The stiffness in `f64` of a run in other numbers, once it was asked for.
-    stiffness: OnceCell<Stiffness>,
     bodies: Bodies,
+    shared: Shared,
 }
 
 impl Condensing {
     pub(super) fn new(request: &Request, model: &Arc<Model>) -> Self {
-        Condensing { stiffness: OnceCell::new(), bodies: Bodies::new(model, &request.shared) }
-    }
-
-    /// Returns the stiffness of a model in `f64`.
-    fn stiffness(&self, model: &Model) -> &Stiffness {
-        self.stiffness.get_or_init(|| Stiffness::new(model, |x| x))
+        let shared = request.shared.clone();
+        Condensing { bodies: Bodies::new(model, &shared), shared }
     }
 
     /// Returns T of a state in `f64`, and its factors.
@@ -118,10 +112,10 @@ impl Sparse<f64> for Condensing {
 impl Sparse<Bounded> for Condensing {
     /// Solves as in `f64`, with a bound on the error of the solution.
     fn solve(&self, state: &State<Bounded>) -> Result<Solved<Bounded>, Unsolved> {
-        let (f, stiffness) = (state.f.map(Scalar::to_f64), self.stiffness(state.model));
-        let (t, bound) = self.factors(state, stiffness);
+        let (f, stiffness) = (state.f.map(Scalar::to_f64), self.shared.stiffness(state.model));
+        let (t, bound) = self.factors(state, &stiffness);
         let refined = |bound: Arc<Bound>| {
-            let (x, residual) = refined(stiffness, &t, (&bound, bound.norm()), &f).ok()?;
+            let (x, residual) = refined(&stiffness, &t, (&bound, bound.norm()), &f).ok()?;
             Some((bound, x, residual))
         };
         let with_error = |factors: &dyn Factors<f64>, x: DVector<f64>, residual: f64| {
@@ -141,7 +135,7 @@ impl Sparse<Bounded> for Condensing {
 impl Sparse<F64x2> for Condensing {
     fn solve(&self, state: &State<F64x2>) -> Result<Solved<F64x2>, Unsolved> {
         let matrix = state.stiffness.reduced(state.t);
-        let factors = self.factors(state, self.stiffness(state.model)).1;
+        let factors = self.factors(state, &self.shared.stiffness(state.model)).1;
         let (x, _) = in_double(&matrix, state.f, factors)?;
         Ok(Solved { residual: matrix.residual(&x, state.f), x })
     }
@@ -152,7 +146,7 @@ impl Sparse<BoundedDouble> for Condensing {
     fn solve(&self, state: &State<BoundedDouble>) -> Result<Solved<BoundedDouble>, Unsolved> {
         let matrix = state.stiffness.reduced(state.t).map(|x| x.value());
         let f = state.f.map(WithBound::value);
-        let factors = self.factors(state, self.stiffness(state.model)).1;
+        let factors = self.factors(state, &self.shared.stiffness(state.model)).1;
         let (x, bound) = in_double(&matrix, &f, factors)?;
         let factors: Box<dyn Factors<f64>> = match bound {
             Some(bound) => Box::new(bound),

@@ -42,9 +42,10 @@ const MARGIN: (usize, f64) = (8, 0.1);
 /// What is made while others wait for it must not wait for other threads.
 const FOR_ALL: (usize, usize) = (20_000, DenseCondensed::ON_ONE_THREAD / 2);
 
-/// What was factored of a scene, shared by all that is asked of it: each is factored once.
+/// What was computed and factored of a scene, shared by all that is asked of it: each is made once.
 #[derive(Clone, Default)]
 pub struct Shared {
+    stiffness: Arc<Known<(), Stiffness>>,
     /// By the nodes for which they are factored.
     factored: Arc<Known<Nodes, Factored>>,
     /// By the same, and the kept nodes.
@@ -85,7 +86,9 @@ impl<N: PartialEq, T> Known<N, T> {
     /// Returns the place of that, made or not.
     fn place(&self, model: &Arc<Model>, nodes: N) -> Arc<Made<N, T>> {
         let mut all = self.all();
-        let is_of = |known: &Arc<Made<N, T>>| are_same_bodies(&known.model, model);
+        let is_of = |known: &Arc<Made<N, T>>| {
+            Arc::ptr_eq(&known.model, model) || are_same_bodies(&known.model, model)
+        };
         if let Some(known) = all.iter().find(|known| known.nodes == nodes && is_of(known)) {
             return Arc::clone(known);
         }
@@ -106,8 +109,9 @@ impl fmt::Debug for Shared {
 }
 
 impl Shared {
-    /// Lets go of all that was factored so far.
+    /// Lets go of all that was made so far.
     pub(in crate::answer) fn let_go(&self) {
+        self.stiffness.all().clear();
         self.factored.all().clear();
         self.condensed.all().clear();
         self.known.let_go();
@@ -130,6 +134,12 @@ impl Shared {
         Ok(())
     }
 
+    /// Returns the stiffness of the bodies of `model`.
+    pub fn stiffness(&self, model: &Arc<Model>) -> Arc<Stiffness> {
+        let made = self.stiffness.of(model, (), || Some(Stiffness::new(model, |x| x)));
+        made.expect("it can be made of all")
+    }
+
     /// Returns the factors of `Km` so far.
     pub(in crate::answer) fn known_lu(&self) -> &KnownLu {
         &self.known
@@ -138,7 +148,7 @@ impl Shared {
     /// Returns the bodies of `model` condensed to both surfaces; None where they cannot be, or are large.
     pub(in crate::answer) fn at_surfaces(&self, model: &Arc<Model>) -> Option<Arc<Factored>> {
         self.factored(model, few_surfaces(model)?, |nodes| {
-            Factored::new(&Stiffness::new(model, |x| x), model, nodes)
+            Factored::new(&self.stiffness(model), model, nodes)
         })
     }
 

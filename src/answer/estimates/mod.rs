@@ -22,6 +22,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::held::Held;
+use super::side_by_side::side_by_side;
 use super::solution::{Solution, max_displacement};
 use crate::numbers::largest::is_as_large;
 use crate::paper::decisions::Decision;
@@ -85,16 +86,18 @@ impl ErrorEstimates {
     /// Estimates the errors of a run.
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
-        // Another run takes much memory: nothing is held yet that it does not need.
-        let of_run = arithmetic::of_published(solution);
-        let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
-        let of_last = || arithmetic::of_equilibrium(solution, held.as_ref(), &bounded);
-        let rounding = of_run.unwrap_or_else(of_last);
-        let arithmetic::Rounding { displacement, decisions, .. } = rounding;
-        let of_stress = || arithmetic::stress_bounds(solution, &bounded, displacement);
+        let of_rounding = || {
+            // Another run takes much memory: nothing is held yet that it does not need.
+            let of_run = arithmetic::of_published(solution);
+            let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
+            let of_last = || arithmetic::of_equilibrium(solution, held.as_ref(), &bounded);
+            let rounding = of_run.unwrap_or_else(of_last);
+            let stress = arithmetic::stress_bounds(solution, &bounded, rounding.displacement);
+            (held, rounding, stress)
+        };
         let of_mesh = || (Discretisation::new(model, &solution.elements), singular(solution));
-        let (stress, (mesh, points)) = rayon::join(of_stress, of_mesh);
-        drop(bounded);
+        let ((held, rounding, stress), (mesh, points)) = side_by_side(model, of_rounding, of_mesh);
+        let arithmetic::Rounding { displacement, decisions, .. } = rounding;
         let bodies = model.bodies.iter().map(|body| {
             let states = &solution.elements;
             let largest = mesh.largest_von_mises(model, states, &body.triangles);

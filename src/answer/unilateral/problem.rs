@@ -37,7 +37,7 @@ const UNSEEN: f64 = 1e-3;
 pub(super) struct Problem<'a> {
     pub(super) request: &'a Request,
     pub(super) model: &'a Arc<Model>,
-    pub(super) stiffness: Stiffness,
+    pub(super) stiffness: Arc<Stiffness>,
     pub(super) surfaces: Surfaces,
     /// The gap below which a node is closed, length.
     pub(super) closed: f64,
@@ -169,7 +169,7 @@ impl<'a> Problem<'a> {
             Geometry::Initial => bodies.facing(&initial, friction > 0.0),
             Geometry::Current => bodies,
         };
-        let stiffness = Stiffness::new(model, |x| x);
+        let stiffness = request.shared.stiffness(model);
         Ok(Problem {
             request,
             model,

@@ -266,7 +266,7 @@ fn end(run: &mut Run, solution: &Solution, rounding: Option<&Rounding>) {
     let stresses = solution.elements.iter().map(|state| <[f64; 3]>::from(state.sigma));
     run.numbers.set("stress", Numbers::rows(&units.stress, (1..).zip(stresses), stress_bound));
     largest(run, solution, bound);
-    let force = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
+    let force = solution.stiffness().times(&solution.u) - &model.load;
     let force_bound = within.as_ref().map(|(stiffness, u)| {
         let force = stiffness.times(u) - model.load_in(Bounded::from_f64);
         force.iter().map(|f| f.error()).fold(0.0, f64::max)
