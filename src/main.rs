@@ -68,6 +68,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    commands::huge_pages::set(false);
     #[cfg(unix)]
     heed_signals();
     let done = |()| 0;

@@ -17,7 +17,7 @@ use plane_contact::studies::audit::range::range;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
 use plane_contact::suggestion::did_you_mean;
 
-use super::{TablesArgs, print, print_either, progress, tell};
+use super::{TablesArgs, huge_pages, print, print_either, progress, tell};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -92,6 +92,8 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
 }
 
 fn whole(args: &Args) -> Result<()> {
+    // Many runs are held at once.
+    huge_pages::set(true);
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     let case = Case::within_memory(scene)?;
     let places = if args.range { range(Reading::default())? } else { Vec::new() };

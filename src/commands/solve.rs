@@ -18,11 +18,12 @@ use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::solve_to;
 
 use super::{
-    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, progress, tell, told,
+    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, huge_pages, print, progress,
+    tell, told,
 };
 
 /// The number of equations of bodies that are factored on both cores for so long that the plan waits for
-/// that.
+/// that, and that fill large pages.
 const LARGE: usize = 20_000;
 
 /// Run the iterations and write pictures and data.
@@ -108,6 +109,8 @@ pub fn run(args: &Args) -> Result<u8> {
     let scene = args.changes.change(Scene::open(&args.scene)?)?;
     let request = args.model.request(&scene, args.variant, &args.reading);
     let request = edited(args, request.arithmetic(args.arithmetic))?;
+    let is_large = scene.model.free_dofs() >= LARGE;
+    huge_pages::set(is_large);
     let with_estimates = !args.no_error_estimate;
     let own = |after_step: &dyn Fn()| {
         let (solution, accuracy) = solve(args, &request, after_step)?;
@@ -121,7 +124,7 @@ pub fn run(args: &Args) -> Result<u8> {
     answer::check_memory(&request)?;
     let (plan, model) = (OnceLock::new(), &request.scene.model);
     let planned = || plan.get_or_init(|| Plan::new(&request));
-    let (first_step, is_large) = (Once::new(), model.free_dofs() >= LARGE);
+    let first_step = Once::new();
     let (own, others) = rayon::scope(|scope| {
         let after_step = || {
             if is_large {
