@@ -14,6 +14,7 @@ use super::contact::{ContactNode, Mortar, Surfaces, Traction, reactions, status}
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Solved};
 use super::error::Error;
+use super::found::FoundPairs;
 use super::request::Request;
 use super::solution::{Cycle, Detail, Published, Solution, Step, StepBounds, max_displacement};
 use super::sparse::{MakeSparse, dense_matrices};
@@ -320,7 +321,7 @@ impl<'a, T: Precision> Run<'a, T> {
             target_force: Some(against_load(self.model, self.support.map(T::to_f64))),
             solve_residual: solved.residual,
             detail: Detail::Published(Published {
-                pairs: pairs.map(T::to_f64),
+                pairs: FoundPairs::new(pairs),
                 undecided: undecided.clone(),
                 bounds: self.bounds(pairs),
                 eq1_residual: residual(&self.u),

@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 use super::contact::{ContactNode, Pairing, Status};
 use super::elimination::Constraint;
 use super::factors::Kept;
+use super::found::FoundPairs;
 use super::request::Request;
 use super::stiffness::Stiffness;
 use crate::numbers::scalar::Scalar;
 use crate::paper::decisions::Decision;
-use crate::paper::mirror::Pairs;
 use crate::problem::element::State;
 use crate::problem::model::{Dof, Model, NodeId};
 
@@ -56,8 +56,8 @@ pub enum Detail {
 /// An iteration of a variant that the paper describes.
 #[derive(Clone, Debug)]
 pub struct Published {
-    /// The pairs that `c_cnt` found in the shape at the start, in its own arrays.
-    pub pairs: Pairs<f64>,
+    /// The pairs that `c_cnt` found in the shape at the start.
+    pub pairs: FoundPairs,
     /// The decisions on who is in contact that rounding may have taken; None where the numbers keep
     /// no bound on their error, or under a status rule whose decisions are not looked at.
     pub undecided: Option<Vec<Decision>>,

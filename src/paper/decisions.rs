@@ -190,15 +190,3 @@ fn status<T: Scalar>(
     }
     left
 }
-
-/// Returns the first contact node whose edge or status differs between two calls of `c_cnt`;
-/// `nodes` are those of the contact surface.
-pub fn first_difference<T: Scalar>(
-    nodes: &[NodeId],
-    one: &Pairs<T>,
-    other: &Pairs<T>,
-) -> Option<NodeId> {
-    let found = |pairs: &Pairs<T>, i1: usize| (pairs.ct[i1], pairs.dy[i1]);
-    let differs = |i1: &usize| found(one, *i1) != found(other, *i1);
-    (1..=rows(&one.dy)).find(differs).map(|i1| nodes[i1 - 1])
-}

@@ -207,7 +207,7 @@ fn beside(solution: &Solution, assessment: &Assessment) -> Value {
         Detail::Published(Published { pairs, .. }) => json!({
             "bound": step.constraints.len(),
             "ct": pairs.ct.as_slice(),
-            "weights": pairs.k_cnt.as_matrix().as_slice(),
+            "weights": pairs.k_cnt().as_matrix().as_slice(),
             "yt": pairs.yt.as_slice(),
         }),
         Detail::Unilateral(own) => json!({

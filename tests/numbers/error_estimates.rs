@@ -215,7 +215,7 @@ fn the_bounds_of_each_step_hold() {
                     unreachable!("a paper's variant")
                 };
                 let yt = own.pairs.yt.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-                [yt, own.pairs.k_cnt.as_matrix().amax(), largest(step)]
+                [yt, own.pairs.k_cnt().as_matrix().amax(), largest(step)]
             };
             for (step, bounds) in exact.steps.iter().zip(&written.steps) {
                 let bounds = bounds.as_ref().expect("exact numbers have them");
@@ -241,7 +241,7 @@ fn the_bounds_of_each_step_hold() {
                     let far = (a.pairs.yt.iter().zip(b.pairs.yt.iter()))
                         .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
                     assert!(far <= bounds.yt + yt, "{what}: yt {far:e} {bounds:?}");
-                    let far = (a.pairs.k_cnt.as_matrix() - b.pairs.k_cnt.as_matrix()).amax();
+                    let far = (a.pairs.k_cnt().as_matrix() - b.pairs.k_cnt().as_matrix()).amax();
                     assert!(far <= bounds.weights + weights, "{what}: weights {far:e} {bounds:?}");
                     let far = (largest(own) - largest(exact)).abs();
                     assert!(far <= bounds.u + u, "{what}: |u| {far:e} {bounds:?}");

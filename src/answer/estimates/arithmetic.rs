@@ -16,7 +16,7 @@ use crate::answer::residual::error_of_solution;
 use crate::answer::{Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::numbers::solve::{Arithmetic, ScalarName};
-use crate::paper::decisions::{Decision, first_difference};
+use crate::paper::decisions::Decision;
 use crate::problem::element::Plane;
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
@@ -158,7 +158,7 @@ fn written(step: &Step) -> Option<StepBounds> {
     let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     Some(StepBounds {
         yt: half(largest(own.pairs.yt.as_slice())),
-        weights: half(own.pairs.k_cnt.as_matrix().amax()),
+        weights: half(own.pairs.k_cnt().as_matrix().amax()),
         u: half(step.max_displacement?),
     })
 }
@@ -177,7 +177,7 @@ fn step_bounds(own: &Step, other: &Step) -> Option<StepBounds> {
     Some(StepBounds {
         yt: bounds.yt + far(a.pairs.yt.as_slice(), b.pairs.yt.as_slice()),
         weights: bounds.weights
-            + far(a.pairs.k_cnt.as_matrix().as_slice(), b.pairs.k_cnt.as_matrix().as_slice()),
+            + far(a.pairs.k_cnt().as_matrix().as_slice(), b.pairs.k_cnt().as_matrix().as_slice()),
         // |u| of a node moves by at most sqrt(2) of a component.
         u: 1.5 * bounds.u + far(&steps[..1], &steps[1..]),
     })
@@ -197,7 +197,8 @@ fn other_turn(solution: &Solution, again: &Solution) -> Option<Decision> {
         let (Detail::Published(a), Detail::Published(b)) = (&own.detail, &other.detail) else {
             return None;
         };
-        let node = first_difference(&solution.model.contact.nodes, &a.pairs, &b.pairs)?;
+        let at = a.pairs.first_difference(&b.pairs)?;
+        let node = solution.model.contact.nodes[at];
         let scalar = again.request.arithmetic.scalar;
         let condition = format!("the edge or status is another one in {scalar}");
         Some(Decision { iteration: own.k, node, condition, margin: None, bound: None })

@@ -10,10 +10,10 @@ use super::place::{of_iteration, place};
 use crate::answer::contact::{ContactNode, Pairing};
 use crate::answer::error::{Error, Result};
 use crate::answer::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
-use crate::answer::{Detail, Elimination, Request, Solution, Step, Stiffness, solve};
+use crate::answer::{Detail, Elimination, FoundPairs, Request, Solution, Step, Stiffness, solve};
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::paper::door;
-use crate::paper::mirror::{Km, Pairs};
+use crate::paper::mirror::Km;
 use crate::problem::element;
 use crate::problem::model::{Body, Model, NodeId, TriangleId};
 use crate::problem::modelling::Variant;
@@ -221,13 +221,9 @@ fn mates(step: &Step) -> (Vec<String>, Vec<f64>) {
     let (mut mates, mut weights) = (Vec::new(), Vec::new());
     match &step.detail {
         Detail::Published(own) => {
-            let table = &own.pairs.k_cnt;
-            for node in 1..=table.rows() {
-                let row: Vec<f64> = table.row(node).copied().collect();
-                if row.iter().any(|x| *x != 0.0) {
-                    mates.push(format!("{node}: {} {}", row[0], row[2]));
-                    weights.extend([row[1], row[3]]);
-                }
+            for (node, row) in &own.pairs.mates {
+                mates.push(format!("{node}: {} {}", row[0], row[2]));
+                weights.extend([row[1], row[3]]);
             }
         }
         Detail::Unilateral(_) => {
@@ -243,12 +239,12 @@ fn mates(step: &Step) -> (Vec<String>, Vec<f64>) {
 }
 
 /// Returns the matrix of `Km`, where it is no dense matrix of many nodes.
-fn printed(request: &Request, model: &Model, pairs: &Pairs<f64>) -> Option<DMatrix<f64>> {
+fn printed(request: &Request, model: &Model, pairs: &FoundPairs) -> Option<DMatrix<f64>> {
     /// The most nodes of a scene whose dense matrix is assembled once more.
     const NODES: usize = 400;
     (model.nodes.len() <= NODES).then_some(())?;
     let sheet = door::worksheet(model, |x| x);
-    let table = Km(&sheet, &request.reading, &pairs.k_cnt).ok()?;
+    let table = Km(&sheet, &request.reading, &pairs.k_cnt()).ok()?;
     Some(table.into_matrix())
 }
 

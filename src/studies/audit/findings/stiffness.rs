@@ -157,7 +157,7 @@ pub(super) fn pulls(case: &Case) -> Outcome<'_> {
 /// What `c_cnt` found in the last step of a published variant.
 fn last_statuses(solution: &Solution) -> Vec<door::ContactStatus> {
     match &solution.last().detail {
-        Detail::Published(step) => door::statuses(&solution.model, &step.pairs),
+        Detail::Published(step) => door::statuses(&solution.model, &step.pairs.whole()),
         Detail::Unilateral(_) => Vec::new(),
     }
 }

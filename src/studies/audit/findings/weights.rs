@@ -31,7 +31,7 @@ pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
 /// The nodes in contact that `c_cnt` found in a step.
 fn found_in(model: &Model, step: &Step) -> Vec<NodeToSegment> {
     match &step.detail {
-        Detail::Published(found) => linked(&worksheet(model, |x| x), &found.pairs),
+        Detail::Published(found) => linked(&worksheet(model, |x| x), &found.pairs.whole()),
         Detail::Unilateral(_) => Vec::new(),
     }
 }
