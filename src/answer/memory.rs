@@ -85,7 +85,8 @@ impl Bytes {
         let (each_equation, doubled, kept) = match request.variant {
             Variant::Printed => (1000.0, 1300.0, 1440.0),
             Variant::Unilateral if has_path => (2000.0, 150.0, 2500.0),
-            Variant::Tied | Variant::Stepped if model.has_contact() => (1000.0, 200.0, 1440.0),
+            Variant::Tied if model.has_contact() => (1000.0, 200.0, 1440.0),
+            Variant::Stepped if model.has_contact() => (1000.0, 240.0, 1440.0),
             _ => (2200.0, 70.0, 400.0),
         };
         let doublings = (equations / 1024.0).max(1.0).log2();
