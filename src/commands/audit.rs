@@ -92,6 +92,7 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
 }
 
 fn whole(args: &Args) -> Result<()> {
+    args.out.as_deref().map_or(Ok(()), files::check_folder)?;
     // Many runs are held at once.
     huge_pages::set(true);
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;

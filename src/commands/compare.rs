@@ -81,7 +81,7 @@ pub fn run(args: &Args) -> Result<()> {
     let mut asked = vec![format!("calculix-{}", args.deck.contact)];
     asked.extend(args.deck.penalty.map(|penalty| format!("penalty-{penalty:e}")));
     let start = format!("{}-{}", scene.name, request.variant);
-    let out = folder(&args.out, folder_name(start, &request, &asked));
+    let out = folder(&args.out, folder_name(start, &request, &asked))?;
     if args.json && args.out.is_none() {
         return print(&report::json(&compared));
     }

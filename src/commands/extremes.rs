@@ -45,12 +45,12 @@ pub fn run(args: &Args) -> Result<()> {
     if args.list {
         return print_fitted(&report::list(&chosen));
     }
+    let out = folder(&args.out, "extremes".into())?;
     let measured = waiting("sweeping", || measure(&chosen));
     let (text, json) = (report::text(&measured), report::json(&measured));
     if args.json && args.out.is_none() {
         return print(&json);
     }
-    let out = folder(&args.out, "extremes".into());
     let mut written = vec![("extremes.txt".into(), &text), ("extremes.json".into(), &json)];
     let pictures: Vec<_> = measured.iter().map(|of| (of.name, report::pictures(of))).collect();
     for (name, pictures) in &pictures {

@@ -284,8 +284,13 @@ pub fn waiting<R>(what: &'static str, work: impl FnOnce() -> R) -> R {
 }
 
 /// The folder that is asked for, else `name` in the folder `out`.
-pub fn folder(asked: &Option<PathBuf>, name: String) -> PathBuf {
-    asked.clone().unwrap_or_else(|| Path::new("out").join(name))
+///
+/// # Errors
+/// What is asked for cannot be a folder.
+pub fn folder(asked: &Option<PathBuf>, name: String) -> Result<PathBuf> {
+    let Some(folder) = asked else { return Ok(Path::new("out").join(name)) };
+    files::check_folder(folder)?;
+    Ok(folder.clone())
 }
 
 /// Where tables go beside standard output.

@@ -109,6 +109,11 @@ pub fn run(args: &Args) -> Result<u8> {
     let scene = args.changes.change(Scene::open(&args.scene)?)?;
     let request = args.model.request(&scene, args.variant, &args.reading);
     let request = edited(args, request.arithmetic(args.arithmetic))?;
+    let mut asked = args.changes.names();
+    asked.extend(args.accuracy.iter().map(|a| format!("accuracy-{a:e}")));
+    asked.extend(request.edited.iter().map(|edited| format!("edited-{}", edited.which)));
+    let start = format!("{}-{}", scene.name, request.variant);
+    let out = folder(&args.out, folder_name(start, &request, &asked))?;
     let is_large = scene.model.free_dofs() >= LARGE;
     huge_pages::set(is_large);
     let with_estimates = !args.no_error_estimate;
@@ -146,11 +151,6 @@ pub fn run(args: &Args) -> Result<u8> {
     let mut assessment = Assessment::beside(&solution, others, estimates);
     assessment.probe(&solution, &args.probe)?;
     solution.let_go_of_factors();
-    let mut asked = args.changes.names();
-    asked.extend(args.accuracy.iter().map(|a| format!("accuracy-{a:e}")));
-    asked.extend(request.edited.iter().map(|edited| format!("edited-{}", edited.which)));
-    let start = format!("{}-{}", scene.name, request.variant);
-    let out = folder(&args.out, folder_name(start, &request, &asked));
     let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
     if args.json {
         let result = match args.out {

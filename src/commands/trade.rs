@@ -65,6 +65,10 @@ pub fn run(args: &Args) -> Result<()> {
     }
     let only = if args.only.is_empty() { Knob::ALL.to_vec() } else { args.only.clone() };
     let options = Options { runs: usize::from(args.runs), only };
+    let differs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
+    let asked: Vec<String> = args.only.iter().map(Knob::to_string).chain(differs).collect();
+    let start = format!("trade-{}", scene.name);
+    let out = folder(&args.out, folder_name(start, &request, &asked))?;
     let bar = progress(trade::steps(&request, &options)?, "{pos} of {len} {wide_bar} {eta} {msg}");
     let watch = |trial: &str| {
         bar.set_message(trial.to_string());
@@ -72,10 +76,6 @@ pub fn run(args: &Args) -> Result<()> {
     };
     let measured = trade::measure(&request, &options, in_a_process, watch)?;
     bar.finish_and_clear();
-    let differs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
-    let asked: Vec<String> = args.only.iter().map(Knob::to_string).chain(differs).collect();
-    let start = format!("trade-{}", scene.name);
-    let out = folder(&args.out, folder_name(start, &request, &asked));
     if args.json && args.out.is_none() {
         return print(&report::json(&scene, &measured));
     }

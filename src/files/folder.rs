@@ -27,17 +27,32 @@ pub fn write_all<N: AsRef<str>, C: AsRef<[u8]>>(
     files: &[(N, C)],
 ) -> Result<()> {
     let files: Vec<(&str, &[u8])> = files.iter().map(|(n, c)| (n.as_ref(), c.as_ref())).collect();
-    write(folder, command, &files).map_err(|why| {
-        let what = format!("the folder cannot be written: {why}");
-        InputError::new(folder.display().to_string(), what, "choose another place")
-    })
+    write(folder, command, &files).map_err(|why| unwritable(folder, &why))
+}
+
+/// Checks that no file is in place of a folder that is to be written, before what is written is computed.
+///
+/// # Errors
+/// Says which file.
+pub fn check_folder(folder: &Path) -> Result<(), InputError> {
+    no_file(folder).map_err(|why| unwritable(folder, &why))
+}
+
+fn unwritable(folder: &Path, why: &io::Error) -> InputError {
+    let what = format!("the folder cannot be written: {why}");
+    InputError::new(folder.display().to_string(), what, "choose another place")
+}
+
+fn no_file(folder: &Path) -> io::Result<()> {
+    let Some(file) = folder.ancestors().find(|there| there.exists() && !there.is_dir()) else {
+        return Ok(());
+    };
+    let why = format!("{} is a file", file.display());
+    Err(io::Error::new(io::ErrorKind::NotADirectory, why))
 }
 
 fn write(folder: &Path, command: &str, files: &[(&str, &[u8])]) -> io::Result<()> {
-    if let Some(file) = folder.ancestors().find(|there| there.exists() && !there.is_dir()) {
-        let why = format!("{} is a file", file.display());
-        return Err(io::Error::new(io::ErrorKind::NotADirectory, why));
-    }
+    no_file(folder)?;
     if let Some((name, _)) = files.iter().find(|(name, _)| folder.join(name).is_dir()) {
         let why = format!("{name} is a folder in it");
         return Err(io::Error::new(io::ErrorKind::IsADirectory, why));

@@ -8,7 +8,7 @@ mod staged;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
-pub use folder::write_all;
+pub use folder::{check_folder, write_all};
 pub use manifest::MANIFEST;
 pub use staged::{Staged, abandon};
 
