@@ -226,6 +226,11 @@ fn hertz_scene(size: usize, folder: &Path) -> String {
     place.join("scene.json").to_str().expect("a path").into()
 }
 
+/// How many times a mesh of a size is run: the least time of several is what it takes.
+fn runs_of(size: usize) -> usize {
+    if size < 200 { 3 } else { 2 }
+}
+
 fn equations(scene: &str) -> f64 {
     Scene::open(scene).expect("the scene is sound").model.free_dofs() as f64
 }
@@ -238,7 +243,7 @@ fn hertz(folder: &Path, sizes: &[usize]) -> Table {
     let mut before: Option<(f64, f64)> = None;
     for size in sizes {
         let scene = hertz_scene(*size, folder);
-        let runs = if *size < 200 { 3 } else { 1 };
+        let runs = runs_of(*size);
         let all = process(&["solve", &scene], folder, runs);
         let bare = ["solve", &scene, "--no-pictures", "--no-error-estimate"];
         let bare = process(&bare, folder, runs);
@@ -260,7 +265,7 @@ fn factors_alone(folder: &Path, sizes: &[usize]) -> Table {
     );
     for size in sizes {
         let scene = hertz_scene(*size, folder);
-        let runs = if *size < 200 { 3 } else { 1 };
+        let runs = runs_of(*size);
         let taken = (0..runs).map(|_| alone(&scene));
         let least = taken.min_by(|a, b| a[1].total_cmp(&b[1])).expect("it is run");
         table.row(format!("{size} elements on the half width"), &least.map(Some));
