@@ -51,7 +51,6 @@ impl FoundPairs {
 
     /// Returns all arrays of `c_cnt`.
     pub fn whole(&self) -> Pairs<f64> {
-        let FoundPairs { ct, yt, dy, .. } = self.clone();
-        Pairs { ct, yt, dy, k_cnt: self.k_cnt() }
+        Pairs { ct: self.ct.clone(), yt: self.yt.clone(), dy: self.dy.clone(), k_cnt: self.k_cnt() }
     }
 }

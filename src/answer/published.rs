@@ -34,7 +34,7 @@ use crate::problem::modelling::{Coupling, StatusRule, Variant};
 
 /// Returns the bytes that `iterations` of a model take until the result is written: the steps, those of
 /// the run that bounds their rounding, and the tree of which `result.json` is written; measured on
-/// meshes of 13 to 481,570 nodes, with a third more for addresses that the allocator keeps.
+/// meshes of 13 to 3,875 nodes, with a third more for addresses that the allocator keeps.
 pub(super) fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
     const EACH: f64 = 4500.0;
     const NODE: f64 = 120.0;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::condensation::Shared;
 use super::contact;
+use super::stiffness::Stiffness;
 use crate::error::InputError;
 use crate::numbers::solve::{Arithmetic, Solver};
 use crate::paper::door;
@@ -33,7 +34,7 @@ pub struct Request {
     pub tolerance: Option<f64>,
     /// The edited listings that are executed in place of the paper's.
     pub edited: Vec<Edited>,
-    /// What was factored so far, shared with the requests that were made from this one.
+    /// What was computed and factored so far, shared with the requests that were made from this one.
     pub(super) shared: Shared,
 }
 
@@ -53,7 +54,7 @@ impl Request {
         }
     }
 
-    /// Returns the same request, for which nothing is factored yet.
+    /// Returns the same request, for which nothing is computed yet.
     #[must_use]
     pub fn afresh(self) -> Self {
         Request { shared: Shared::default(), ..self }
@@ -156,5 +157,10 @@ impl Request {
             }
         }
         door::under(model, &self.reading)
+    }
+
+    /// Returns the stiffness of the bodies of its `model`, which is computed once.
+    pub fn stiffness(&self, model: &Arc<Model>) -> Arc<Stiffness> {
+        self.shared.stiffness(model)
     }
 }

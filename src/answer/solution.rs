@@ -280,7 +280,7 @@ impl Solution {
 
     /// Returns the stiffness of the bodies.
     pub fn stiffness(&self) -> Arc<Stiffness> {
-        self.request.shared.stiffness(&self.model)
+        self.request.stiffness(&self.model)
     }
 
     /// Lets go of the factors that serve further estimates, the largest part of its memory: to write it

@@ -8,7 +8,7 @@ use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
 use super::{TablesArgs, export::DeckArgs};
-use super::{folder, folder_name, print, waiting};
+use super::{check_folders, folder, folder_name, print, waiting};
 
 plane_contact::choices! {
     /// A code whose results are compared.
@@ -61,6 +61,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
+    check_folders(&[&args.out, &args.tables.csv])?;
     let Code::Calculix = args.with;
     let solution = args.deck.solve(&args.scene)?;
     let request = solution.request.clone();
@@ -81,7 +82,7 @@ pub fn run(args: &Args) -> Result<()> {
     let mut asked = vec![format!("calculix-{}", args.deck.contact)];
     asked.extend(args.deck.penalty.map(|penalty| format!("penalty-{penalty:e}")));
     let start = format!("{}-{}", scene.name, request.variant);
-    let out = folder(&args.out, folder_name(start, &request, &asked))?;
+    let out = folder(&args.out, folder_name(start, &request, &asked));
     if args.json && args.out.is_none() {
         return print(&report::json(&compared));
     }

@@ -27,7 +27,7 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     let benchmark = args.kind.generate()?;
-    let out = folder(&args.out, format!("mesh-{}", benchmark.name))?;
+    let out = folder(&args.out, format!("mesh-{}", benchmark.name));
     benchmark.write(&out)?;
     let mesh = &benchmark.mesh;
     let (nodes, triangles) = (mesh.nodes.len(), mesh.of_dimension(2).count());

@@ -283,14 +283,17 @@ pub fn waiting<R>(what: &'static str, work: impl FnOnce() -> R) -> R {
     result
 }
 
-/// The folder that is asked for, else `name` in the folder `out`.
+/// Checks that folders which are asked for can be written, before what goes there is computed.
 ///
 /// # Errors
-/// What is asked for cannot be a folder.
-pub fn folder(asked: &Option<PathBuf>, name: String) -> Result<PathBuf> {
-    let Some(folder) = asked else { return Ok(Path::new("out").join(name)) };
-    files::check_folder(folder)?;
-    Ok(folder.clone())
+/// A file is in the place of one.
+pub fn check_folders(asked: &[&Option<PathBuf>]) -> Result<()> {
+    Ok(asked.iter().filter_map(|folder| folder.as_deref()).try_for_each(files::check_folder)?)
+}
+
+/// The folder that is asked for, else `name` in the folder `out`.
+pub fn folder(asked: &Option<PathBuf>, name: String) -> PathBuf {
+    asked.clone().unwrap_or_else(|| Path::new("out").join(name))
 }
 
 /// Where tables go beside standard output.

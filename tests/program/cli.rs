@@ -325,8 +325,10 @@ fn bad_input_is_exit_status_2_and_loses_no_file() {
     std::fs::write(folder.path().join("file"), "").unwrap();
     fails(folder.path(), &["solve", "fig1", "--out", "file"], 2, &["cannot be written"]);
     // Before anything is run: this run would end with exit status 3.
-    let failing = ["solve", "fig1", "--reading", "R4=eager", "--out", "file"];
-    fails(folder.path(), &failing, 2, &["file is a file"]);
+    for option in ["--out", "--csv"] {
+        let failing = ["solve", "fig1", "--reading", "R4=eager", option, "file"];
+        fails(folder.path(), &failing, 2, &["file is a file"]);
+    }
 }
 
 #[test]

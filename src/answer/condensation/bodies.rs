@@ -135,7 +135,7 @@ impl Shared {
     }
 
     /// Returns the stiffness of the bodies of `model`.
-    pub fn stiffness(&self, model: &Arc<Model>) -> Arc<Stiffness> {
+    pub(in crate::answer) fn stiffness(&self, model: &Arc<Model>) -> Arc<Stiffness> {
         let made = self.stiffness.of(model, (), || Some(Stiffness::new(model, |x| x)));
         made.expect("it can be made of all")
     }

@@ -169,7 +169,7 @@ impl<'a> Problem<'a> {
             Geometry::Initial => bodies.facing(&initial, friction > 0.0),
             Geometry::Current => bodies,
         };
-        let stiffness = request.shared.stiffness(model);
+        let stiffness = request.stiffness(model);
         Ok(Problem {
             request,
             model,

@@ -38,7 +38,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     let mut steps: Vec<Step> = Vec::new();
     let solved = solve(request, &mut |step| steps.push(step.clone()));
     let mut run = Run::new(Options::of(request));
-    let stiffness = Stiffness::new(&model, |x| x);
+    let stiffness = request.stiffness(&model);
     worksheet(&mut run, request, &model);
     let rounding = match (&solved, bounds) {
         (Ok(solution), Bounds::Computed) => Some(rounding(solution)),

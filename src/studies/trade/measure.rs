@@ -15,9 +15,7 @@ use super::{Knob, words};
 use crate::answer::error::Error;
 use crate::answer::estimates::discretisation::Discretisation;
 use crate::answer::estimates::{Certainty, certain};
-use crate::answer::{
-    Request, Solution, Stiffness, equilibrium, max_displacement, over, solve, summaries,
-};
+use crate::answer::{Request, Solution, equilibrium, max_displacement, over, solve, summaries};
 use crate::problem::scene::{Refined, Scene};
 
 /// Seconds beyond which a trial is not run again: what interrupts a run is short beside it, and the
@@ -273,7 +271,7 @@ impl Bench<'_> {
         let Some(&finest) = solutions.last().filter(|_| solutions.len() == self.runs.len()) else {
             return (Vec::new(), None);
         };
-        let stiffness = Stiffness::new(&finest.model, |x| x);
+        let stiffness = finest.stiffness();
         let levels = solutions.iter().enumerate();
         let on_finest: Vec<Solution> = levels
             .map(|(level, solution)| prolonged((*solution).clone(), &self.meshes[level..], finest))
