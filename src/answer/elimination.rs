@@ -276,7 +276,9 @@ impl<T: Scalar> Elimination<T> {
 
     /// Returns Tᵀ K T of a dense K, in the unit of K.
     pub fn matrix(&self, k: &DMatrix<T>) -> DMatrix<T> {
-        let mut reduced = DMatrix::from_element(self.size(), self.size(), T::zero());
+        let n = self.size();
+        // Zeros that the system has are not written.
+        let mut reduced = DMatrix::from_vec(n, n, vec![T::zero(); n * n]);
         for (j, column) in self.rows.iter().enumerate().filter(|(_, row)| !row.is_empty()) {
             for (i, row) in self.rows.iter().enumerate() {
                 let value = k[(i, j)];

@@ -51,7 +51,7 @@ pub(super) fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
 pub(super) fn published<T: Precision>(
     request: &Request,
     sparse: Option<MakeSparse<T>>,
-    watch: &mut dyn FnMut(&Step),
+    goes_on: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Solution, Error> {
     let model = request.model()?;
     check_size::<T>(request, &model)?;
@@ -69,8 +69,11 @@ pub(super) fn published<T: Precision>(
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
     for k in 1..=request.iterations {
         let step = run.iterate(k)?;
-        watch(&step);
+        let ends = !goes_on(&step);
         steps.push(step);
+        if ends {
+            break;
+        }
     }
     let in_contact = steps.last().expect("a request has an iteration").statuses();
     Ok(Solution {
@@ -92,8 +95,7 @@ pub(super) fn published<T: Precision>(
 /// a step is left to rounding, or that is not known.
 fn error_bound<T: Scalar>(u: &DVector<T>, steps: &[Step]) -> Option<f64> {
     let bound = u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e)))?;
-    let is_certain = |step: &Step| step.undecided().is_some_and(<[Decision]>::is_empty);
-    Some(if steps.iter().all(is_certain) { bound } else { f64::INFINITY })
+    Some(if steps.iter().all(Step::is_certain) { bound } else { f64::INFINITY })
 }
 
 /// Checks that no load vanished or is too small for all digits of the scalar: zero displacements

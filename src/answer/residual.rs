@@ -32,10 +32,11 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
         let none = Force { u: SumOfProducts::ZERO, size: 0.0, off: 0.0 };
         let mut force = vec![none; rows.len()];
         stiffness.visit(triangles, |dofs, k| {
-            for (i, row) in dofs.iter().enumerate() {
-                let force = &mut force[row.index()];
-                for (j, column) in dofs.iter().enumerate() {
-                    let (k, moved) = (k[(i, j)], &moved[column.index()]);
+            // Row by row within a column: sums that follow each other need not wait for each other.
+            for (j, column) in dofs.iter().enumerate() {
+                let moved = &moved[column.index()];
+                for (i, row) in dofs.iter().enumerate() {
+                    let (k, force) = (k[(i, j)], &mut force[row.index()]);
                     force.u.add(k.in_double(), moved.u);
                     force.size += size(k) * moved.size;
                     force.off += k.off() * moved.size + size(k) * moved.off;

@@ -189,6 +189,11 @@ impl Step {
         }
     }
 
+    /// Returns whether it is known that rounding took no decision in the step.
+    pub fn is_certain(&self) -> bool {
+        self.undecided().is_some_and(<[Decision]>::is_empty)
+    }
+
     /// Returns the residual of the contact condition, length: of eq. (1), or of the gaps.
     pub fn contact_residual(&self) -> f64 {
         match &self.detail {

@@ -26,13 +26,28 @@ use crate::problem::modelling::{StatusRule, Variant, check_iterations, check_tol
 /// solver; the scene is too large for exact numbers; or under `unilateral` contact and restraints do
 /// not restrain the bodies.
 pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
+    solve_while(request, &mut |step| {
+        watch(step);
+        true
+    })
+}
+
+/// Solves `request`; under a variant that the paper describes it ends with the step after which `goes_on`
+/// is false.
+///
+/// # Errors
+/// The errors of [`solve`].
+pub(super) fn solve_while(
+    request: &Request,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Solution, Error> {
     request.arithmetic.check()?;
     check_iterations(request.iterations)?;
     request.contact.check()?;
     request.tolerance.map_or(Ok(()), check_tolerance)?;
     check_edited(request)?;
     check_memory(request)?;
-    run(request, watch).map_err(|why| blamed(request, why))
+    run(request, goes_on).map_err(|why| blamed(request, why))
 }
 
 /// Checks that a large run has the memory that it takes, with the runs beside it. Of runs that share
@@ -72,7 +87,7 @@ fn blamed(request: &Request, why: Error) -> Error {
     {
         return SingularMatrix { untried: Some(bytes), ..singular.clone() }.into();
     }
-    match run(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
+    match run(&request.clone().arithmetic(arithmetic), &mut |_| true) {
         Ok(_) => {
             let what = format!("in {scalar} {why}; in {more} the run does not fail");
             InputError::new("--scalar", what, format!("use --scalar {more}")).into()
@@ -105,22 +120,22 @@ fn more_precise(request: &Request) -> Option<ScalarName> {
     (request.variant != Variant::Unilateral).then_some(more)
 }
 
-fn run(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
+fn run(request: &Request, goes_on: &mut dyn FnMut(&Step) -> bool) -> Result<Solution, Error> {
     let solution = match (request.variant, request.arithmetic.scalar) {
         (Variant::Unilateral, _) => {
             check_unilateral(request)?;
-            unilateral(request, watch)?
+            unilateral(request, &mut |step| _ = goes_on(step))?
         }
-        (_, ScalarName::F64) => published::<f64>(request, Some(sparse), watch)?,
+        (_, ScalarName::F64) => published::<f64>(request, Some(sparse), goes_on)?,
         (_, ScalarName::F32) => {
-            published::<f32>(request, Some(|request, _| or_iterating(request, || Whole)), watch)?
+            published::<f32>(request, Some(|request, _| or_iterating(request, || Whole)), goes_on)?
         }
-        (_, ScalarName::F64x2) => published::<F64x2>(request, Some(sparse), watch)?,
-        (_, ScalarName::Bounded) => published::<Bounded>(request, Some(condensing), watch)?,
+        (_, ScalarName::F64x2) => published::<F64x2>(request, Some(sparse), goes_on)?,
+        (_, ScalarName::Bounded) => published::<Bounded>(request, Some(condensing), goes_on)?,
         (_, ScalarName::BoundedDouble) => {
-            published::<BoundedDouble>(request, Some(condensing), watch)?
+            published::<BoundedDouble>(request, Some(condensing), goes_on)?
         }
-        (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(request, None, watch))?,
+        (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(request, None, goes_on))?,
     };
     check_finite(&solution)?;
     Ok(solution)

@@ -189,17 +189,16 @@ pub(super) fn takes_sparse(solver: Solver, scalar: ScalarName) -> bool {
 /// Returns the number of dense 2R x 2R matrices of the scalar in memory at once.
 pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
     let solver = arithmetic.solver(variant == Variant::Printed);
-    match (variant, solver) {
-        (Variant::Unilateral, _) => 0,
-        (Variant::Printed, Solver::DenseLu) => 3,
-        // K beside the matrix of the iteration and its two factors.
-        (_, Solver::DenseLu) => 4,
-        (Variant::Printed, Solver::SparseLu) => 0,
-        (_, Solver::SparseLu) => 2,
-        (Variant::Printed, Solver::DenseCholesky) => 2,
-        (_, Solver::DenseCholesky) => 3,
-        (Variant::Printed, _) => 1,
-        _ if takes_sparse(solver, arithmetic.scalar) => 0,
-        _ => 2,
+    // K beside the matrix of the iteration.
+    let beside = usize::from(variant != Variant::Printed);
+    let is_native = matches!(arithmetic.scalar, ScalarName::F32 | ScalarName::F64);
+    match solver {
+        _ if variant == Variant::Unilateral => 0,
+        // Factored in its place.
+        Solver::DenseLu if is_native => 1 + beside,
+        Solver::DenseLu | Solver::DenseCholesky => 2 + beside,
+        Solver::SparseLu => 2 * beside,
+        _ if beside == 1 && takes_sparse(solver, arithmetic.scalar) => 0,
+        _ => 1 + beside,
     }
 }

@@ -19,7 +19,7 @@ const RUNS: u16 = 3;
 #[derive(clap::Args)]
 #[command(after_help = "\
 Times are medians of several runs in one process, in turn (A B C A B C ...), each of which factors
-anew; what takes over 0.1 s is run once. Peak memory is that of a process of its own, program
+anew; what has taken 0.05 s is not run again. Peak memory is that of a process of its own, program
 included. Settings of contact are varied in f64 by sparse-cholesky, meshes under unilateral.
 Geometry is what the paper leaves open of its example: clearance, radius, mesh, shape of the
 stamp's top, unit of c_tol, each with the claims' verdicts; its runs are not timed. Writes

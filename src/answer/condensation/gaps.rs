@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::rows::Rows;
+use super::rows::{Row, Rows};
 use super::schur::{Condensation, holds};
 use crate::answer::contact::{Pairing, STEEP};
 use crate::answer::elimination::{Constraint, Motion};
@@ -93,7 +93,7 @@ impl Gaps {
             candidates.insert(pairing.node, Candidate { pairing, gap, slip });
         }
         let columns = first + held.iter().flatten().count() + gaps.len();
-        let m = Rows { rows: rows.into_values().collect(), columns };
+        let m = Rows { rows: rows.into_values().map(Row::from_vec).collect(), columns };
         let matrix = m.reduced(condensation.schur());
         let condensed = DenseCondensed::new(&matrix, first)?;
         let diagonal = matrix.diagonal();

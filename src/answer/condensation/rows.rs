@@ -7,16 +7,19 @@ use smallvec::SmallVec;
 /// The columns of Tᵀ S T that are worth a thread.
 const AT_ONCE: usize = 256;
 
-/// Rows of few entries: column and weight.
+/// Entries of a row: column and weight, of most rows one.
+pub(super) type Row = SmallVec<[(usize, f64); 1]>;
+
+/// Rows of few entries.
 pub(super) struct Rows {
-    pub(super) rows: Vec<Vec<(usize, f64)>>,
+    pub(super) rows: Vec<Row>,
     pub(super) columns: usize,
 }
 
 impl Rows {
     /// Returns the lower triangle of Tᵀ S T of a dense S.
     pub(super) fn reduced(&self, s: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut of_column: Vec<SmallVec<[(usize, f64); 1]>> = vec![SmallVec::new(); self.columns];
+        let mut of_column = vec![Row::new(); self.columns];
         for (l, row) in self.rows.iter().enumerate() {
             row.iter().for_each(|(column, weight)| of_column[*column].push((l, *weight)));
         }
@@ -51,7 +54,7 @@ impl Rows {
 
     /// Returns T q.
     pub(super) fn expand(&self, q: &DVector<f64>) -> DVector<f64> {
-        let of_row = |row: &Vec<(usize, f64)>| row.iter().map(|(column, w)| w * q[*column]).sum();
+        let of_row = |row: &Row| row.iter().map(|(column, w)| w * q[*column]).sum();
         DVector::from_iterator(self.rows.len(), self.rows.iter().map(of_row))
     }
 

@@ -13,7 +13,8 @@ use rayon::prelude::*;
 use super::ties::{Looking, State};
 use crate::answer::held::Held;
 use crate::answer::residual::error_of_solution;
-use crate::answer::{Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve};
+use crate::answer::solve::solve_while;
+use crate::answer::{Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness};
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::numbers::solve::{Arithmetic, ScalarName};
 use crate::paper::decisions::Decision;
@@ -60,8 +61,20 @@ pub(super) fn of_published(solution: &Solution) -> Option<Rounding> {
             decisions: Some(Vec::new()),
             steps: solution.steps.iter().map(written).collect(),
         },
-        _ => of_run(solution),
+        _ => of_run(solution, &mut |_| true),
     })
+}
+
+/// Returns whether rounding decides nothing in a solution. Of a variant that the paper describes the run
+/// is repeated up to its first doubt only.
+pub(super) fn decides_nothing(solution: &Solution) -> bool {
+    let request = &solution.request;
+    let is_repeated =
+        request.variant != Variant::Unilateral && request.arithmetic.scalar != ScalarName::Exact;
+    let rounding =
+        if is_repeated { of_run(solution, &mut Step::is_certain) } else { rounding(solution) };
+    // There is no bound where rounding may have decided.
+    rounding.displacement.is_finite()
 }
 
 /// Returns the same of an equilibrium, with the bodies as they are held at the end; None where they
@@ -129,8 +142,9 @@ fn looked_at<'a>(
     Some((reached?.1, looking))
 }
 
-fn of_run(solution: &Solution) -> Rounding {
-    let Some(again) = bounded_run(solution) else {
+/// Returns the same from the run repeated for as long as it `goes_on`.
+fn of_run(solution: &Solution, goes_on: &mut dyn FnMut(&Step) -> bool) -> Rounding {
+    let Some(again) = bounded_run(solution, goes_on) else {
         return Rounding::unknown(solution);
     };
     let undecided = again.steps.iter().map(|step| step.undecided().map(<[Decision]>::to_vec));
@@ -144,9 +158,9 @@ fn of_run(solution: &Solution) -> Rounding {
     let written = if again.digits.is_some() { f64::EPSILON / 2.0 } else { 0.0 };
     let u = again.u.map(|u| Bounded::new(u, bound + written * u.abs()));
     let first = decisions.iter().flatten().map(|decision| decision.iteration).min();
-    let is_sure = |k: usize| decisions.is_some() && first.is_none_or(|first| k < first);
+    let is_before = |k: usize| decisions.is_some() && first.is_none_or(|first| k < first);
     let pairs = solution.steps.iter().zip(&again.steps);
-    let steps = pairs.map(|(own, other)| step_bounds(own, other).filter(|_| is_sure(own.k)));
+    let steps = pairs.map(|(own, other)| step_bounds(own, other).filter(|_| is_before(own.k)));
     let steps = steps.collect();
     Rounding { displacement: error(solution, &u), decisions, steps }
 }
@@ -211,8 +225,8 @@ fn error(solution: &Solution, u: &DVector<Bounded>) -> f64 {
     (0..u.len()).map(error).fold(0.0, f64::max)
 }
 
-/// Repeats the run with a bound on each displacement.
-fn bounded_run(solution: &Solution) -> Option<Solution> {
+/// Repeats the run with a bound on each displacement, for as long as it `goes_on`.
+fn bounded_run(solution: &Solution, goes_on: &mut dyn FnMut(&Step) -> bool) -> Option<Solution> {
     let own = solution.request.arithmetic;
     let arithmetic = Arithmetic {
         scalar: match own.scalar {
@@ -223,7 +237,7 @@ fn bounded_run(solution: &Solution) -> Option<Solution> {
         ..Arithmetic::default()
     };
     let request = Request { arithmetic, ..solution.request.clone() };
-    solve(&request, &mut |_| ()).ok()
+    solve_while(&request, goes_on).ok()
 }
 
 /// Solves a contact state of `unilateral` again, under its friction, with a bound on each

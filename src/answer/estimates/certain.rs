@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::arithmetic::rounding;
-use crate::answer::{Request, Solution, solve};
+use super::arithmetic::decides_nothing;
+use crate::answer::solve::solve_while;
+use crate::answer::{Request, Solution, Step};
 use crate::numbers::solve::{Arithmetic, ScalarName};
 use crate::problem::modelling::Variant;
 
@@ -25,8 +26,7 @@ pub enum Certainty {
 /// double-doubles where it decides nothing there, and which of the two it is. Under `unilateral`,
 /// which has no other numbers, the solution stays as it is.
 pub fn certain(solution: Solution) -> (Solution, Certainty) {
-    // There is no bound where rounding may have decided.
-    if rounding(&solution).displacement.is_finite() {
+    if decides_nothing(&solution) {
         return (solution, Certainty::Certain);
     }
     if solution.request.variant == Variant::Unilateral {
@@ -39,7 +39,7 @@ pub fn certain(solution: Solution) -> (Solution, Certainty) {
         ..solution.request.arithmetic
     };
     let request = Request { arithmetic, ..solution.request.clone() };
-    match solve(&request, &mut |_| ()) {
+    match solve_while(&request, &mut Step::is_certain) {
         Ok(again) if again.error_bound.is_some_and(f64::is_finite) => {
             (again, Certainty::InDoubleDouble)
         }

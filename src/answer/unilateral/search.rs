@@ -15,6 +15,7 @@ use crate::answer::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::answer::elimination::Constraint;
 use crate::answer::error::{Error, NoEquilibrium};
 use crate::answer::solution::Cycle;
+use crate::numbers::solve::largest;
 
 /// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
 /// second set takes those that penetrate by more than this part of the deepest penetration.
@@ -62,13 +63,13 @@ impl Problem<'_> {
             let mut last = self.settle(&place, start, setting, &mut memory, &mut keep_first)?;
             let change = |last: &Iteration, before: &Option<(Moved, f64)>| match before {
                 _ if !self.is_current() => 0.0,
-                Some((moved, _)) => (&last.moved.u - &moved.u).amax(),
+                Some((moved, _)) => largest((&last.moved.u - &moved.u).as_slice()),
                 None => f64::INFINITY,
             };
             let of_surfaces = change(&last, &before);
             let stalled = before.as_ref().is_some_and(|(_, old)| of_surfaces > old / 2.0);
             let is_settled = |change: f64, last: &Iteration| {
-                let scale = last.moved.u.amax();
+                let scale = largest(last.moved.u.as_slice());
                 change <= SETTLED * scale || (stalled && change <= STALLED * scale)
             };
             if is_settled(of_surfaces, &last) {
@@ -265,9 +266,9 @@ impl Problem<'_> {
     ) -> Vec<Status> {
         let growth = first && setting.statuses.is_none();
         let deep = if growth { FIRST_GROWTH * iteration.violation } else { 0.0 }.max(self.closed);
-        let rounding = CONE * iteration.moved.u.amax();
+        let rounding = CONE * largest(iteration.moved.u.as_slice());
         let forces = iteration.moved.forces.iter().map(|f| f.normal);
-        let largest = forces.fold(setting.load.amax(), f64::max);
+        let most = forces.fold(largest(setting.load.as_slice()), f64::max);
         let status = |i: usize| {
             let (Some(pairing), Some(gap)) = (&place.pairings[i], iteration.gaps[i]) else {
                 return Status::Open;
@@ -276,7 +277,7 @@ impl Problem<'_> {
             match iteration.statuses[i] {
                 Status::Open if gap < -deep => self.closing(place, i),
                 Status::Open => Status::Open,
-                _ if normal < -ROUNDING_OF_A_FORCE * largest => Status::Open,
+                _ if normal < -ROUNDING_OF_A_FORCE * most => Status::Open,
                 _ if undetermined && gap > self.closed => Status::Open,
                 // A normal force may be less than nothing by rounding.
                 Status::Stick if tangent.abs() > self.friction * normal.abs() * (1.0 + CONE) => {

@@ -62,7 +62,11 @@ impl F64x2 {
 
     fn product(x: Self, y: Self) -> Self {
         let [product, error] = two_product(x.hi, y.hi);
-        let low = x.lo.mul_add(y.hi, x.hi.mul_add(y.lo, x.lo * y.lo));
+        // Where x is an f64 the rest is one product, of the same digits.
+        let low = match x.lo == 0.0 {
+            true => x.hi * y.lo,
+            false => x.lo.mul_add(y.hi, x.hi.mul_add(y.lo, x.lo * y.lo)),
+        };
         F64x2::settled(fast_two_sum(product, error + low), x.hi * y.hi)
     }
 

@@ -1,57 +1,89 @@
 //! Dense LU with partial pivoting and dense Cholesky, by the library faer, behind one narrow
 //! interface.
 
-use faer::linalg::solvers::{Llt, PartialPivLu};
-use faer::{MatRef, Par, Side};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
+use faer::linalg::lu::partial_pivoting::solve::{solve_in_place, solve_in_place_scratch};
+use faer::linalg::solvers::Llt;
+use faer::perm::Perm;
+use faer::{MatMut, MatRef, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
-use super::factors::{Factors, Lu, Native, Singular, backward_error, largest, solve};
+use super::factors::{Factors, Lu, Native, Singular, backward_error, column, largest, solve};
+use super::square::SparseSquare;
 use crate::numbers::scalar::Scalar;
 
+/// LU factors of a matrix, of which the entries that are not 0 are kept beside them.
 pub struct DenseLu<T: Native = f64> {
-    matrix: DMatrix<T>,
-    factors: PartialPivLu<T>,
+    matrix: SparseSquare<T>,
+    /// L, its diagonal of ones left out, and U.
+    factors: DMatrix<T>,
+    rows: Perm<usize>,
 }
 
 impl<T: Native> DenseLu<T> {
-    /// Factors an n x n `matrix`.
+    /// Factors an n x n `matrix`, in its place.
     /// Errors: names a pivot below 16 n · eps of its own column's largest entry, which counts as
     /// zero (rounding leaves some n · eps where the exact pivot is 0): column by column, so that a
     /// body of soft material beside one of hard material is not taken for singular.
     pub fn new(matrix: DMatrix<T>) -> Result<Self, Singular> {
         let n = matrix.nrows();
+        let (entries, mut factors) = (SparseSquare::of(&matrix), matrix);
+        let [mut order, mut back] = [0, 0].map(|at| vec![at; n]);
         // One thread: faer's bits depend on the number of threads.
-        faer::set_global_parallelism(Par::Seq);
-        let view = MatRef::from_column_major_slice(matrix.as_slice(), n, n);
-        let factors = PartialPivLu::new(view);
-        let pivots = factors.U().diagonal().column_vector();
+        let (par, params) = (Par::Seq, Default::default());
+        let mut memory = MemBuffer::new(lu_in_place_scratch::<usize, T>(n, n, par, params));
+        let (view, stack) = (of_columns_mut(&mut factors), MemStack::new(&mut memory));
+        lu_in_place(view, &mut order, &mut back, par, stack, params);
         let singular = (0..n).find(|&j| {
-            let largest = largest(matrix.column(j).iter());
-            let pivot = pivots[j].to_f64();
+            let sizes = entries.column(j).map(|(_, value)| Scalar::abs(*value).to_f64());
+            let largest = sizes.fold(0.0, f64::max);
+            let pivot = factors[(j, j)].to_f64();
             pivot.is_nan() || pivot.abs() <= 16.0 * n as f64 * T::EPSILON * largest
         });
         match singular {
-            Some(column) => Err(Singular { column, pivot: pivots[column].to_f64() }),
-            None => Ok(DenseLu { matrix, factors }),
+            Some(column) => Err(Singular { column, pivot: factors[(column, column)].to_f64() }),
+            None => {
+                let rows = Perm::new_checked(order.into(), back.into(), n);
+                Ok(DenseLu { matrix: entries, factors, rows })
+            }
         }
     }
 }
 
 impl<T: Native> Factors<T> for DenseLu<T> {
     fn solve(&self, b: &DVector<T>) -> DVector<T> {
-        solve(&self.factors, b)
+        let (mut x, par) = (b.clone(), Par::Seq);
+        let factors = of_columns(&self.factors);
+        let mut memory =
+            MemBuffer::new(solve_in_place_scratch::<usize, T>(self.matrix.size(), 1, par));
+        let stack = MemStack::new(&mut memory);
+        let rows = self.rows.as_ref();
+        solve_in_place(factors, factors, rows, column(x.as_mut_slice()), par, stack);
+        x
     }
 }
 
 impl<T: Native> Lu<T> for DenseLu<T> {
     fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
-        // The row sums of |A|, gathered column by column as the matrix lies in memory.
-        let mut row_sums = DVector::<T>::zeros(x.len());
-        for column in self.matrix.column_iter() {
-            row_sums.zip_apply(&column, |sum, a| *sum += Scalar::abs(a));
+        let [mut product, mut row_sums] = [0, 1].map(|_| DVector::<T>::zeros(x.len()));
+        for (i, j, a) in self.matrix.entries() {
+            product[i] += a * x[j];
+            row_sums[i] += Scalar::abs(a);
         }
-        backward_error(&(&self.matrix * x - b), largest(row_sums.iter()), x, b)
+        backward_error(&(product - b), largest(row_sums.as_slice()), x, b)
     }
+}
+
+/// A matrix as faer takes it.
+fn of_columns<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
+    MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
+}
+
+/// A matrix as faer changes it.
+fn of_columns_mut<T>(matrix: &mut DMatrix<T>) -> MatMut<'_, T> {
+    let (rows, columns) = matrix.shape();
+    MatMut::from_column_major_slice_mut(matrix.as_mut_slice(), rows, columns)
 }
 
 /// Cholesky factors of a symmetric positive definite matrix.
@@ -65,8 +97,8 @@ impl<T: Native> DenseCholesky<T> {
     pub fn new(matrix: &DMatrix<T>) -> Result<Self, Singular> {
         let n = matrix.nrows();
         faer::set_global_parallelism(Par::Seq);
-        let view = MatRef::from_column_major_slice(matrix.as_slice(), n, n);
-        let factors = Llt::new(view, Side::Lower).map_err(|_| not_positive(matrix))?;
+        let factors =
+            Llt::new(of_columns(matrix), Side::Lower).map_err(|_| not_positive(matrix))?;
         let diagonal = factors.L().diagonal().column_vector();
         let pivot = |j: usize| diagonal[j].to_f64() * diagonal[j].to_f64();
         let least = |j: usize| 16.0 * n as f64 * T::EPSILON * matrix[(j, j)].to_f64();

@@ -70,8 +70,18 @@ pub fn column<T>(x: &mut [T]) -> MatMut<'_, T> {
 }
 
 /// Returns the largest |x|, NaN left out.
-pub fn largest<'a, T: Scalar>(numbers: impl Iterator<Item = &'a T>) -> f64 {
-    numbers.fold(0.0, |largest, x| largest.max(Scalar::abs(*x).to_f64()))
+pub fn largest<T: Scalar>(numbers: &[T]) -> f64 {
+    // Of eight at a time, none of which waits for the one before it.
+    let (eights, rest) = numbers.as_chunks::<8>();
+    let mut most = [0.0_f64; 8];
+    let larger = |most: &mut f64, x: &T| {
+        let size = Scalar::abs(*x).to_f64();
+        *most = if size > *most { size } else { *most };
+    };
+    for eight in eights.iter().map(<[T; 8]>::as_slice).chain([rest]) {
+        most.iter_mut().zip(eight).for_each(|(most, x)| larger(most, x));
+    }
+    most.into_iter().fold(0.0, f64::max)
 }
 
 /// Returns |r| / (`norm` |x| + |b|) in the largest-entry norm, 0 where r is 0: Rigal and Gaches'
@@ -82,6 +92,6 @@ pub fn backward_error<T: Scalar>(
     x: &DVector<T>,
     b: &DVector<T>,
 ) -> f64 {
-    let residual = largest(residual.iter());
-    if residual == 0.0 { 0.0 } else { residual / (norm * largest(x.iter()) + largest(b.iter())) }
+    let [residual, x, b] = [residual, x, b].map(|numbers| largest(numbers.as_slice()));
+    if residual == 0.0 { 0.0 } else { residual / (norm * x + b) }
 }

@@ -32,6 +32,7 @@ pub fn conjugate_gradients<T: Scalar>(
         return Err(NotConverged { iterations: 0, residual: f64::INFINITY });
     }
     let precondition = |r: &DVector<T>| r.zip_map(&diagonal, |r, d| r / d);
+    let rows = rows(a);
     let mut x = DVector::from_element(b.len(), T::zero());
     let mut iterations = 0;
     loop {
@@ -42,10 +43,10 @@ pub fn conjugate_gradients<T: Scalar>(
             return Ok(x);
         }
         let mut z = precondition(&r);
-        let (mut p, mut rz) = (z.clone(), dot(&r, &z));
+        let (mut p, mut rz) = (z.clone(), r.dot(&z));
         loop {
-            let ap = a.times(&p);
-            let curvature = dot(&p, &ap);
+            let ap = times(&rows, &p);
+            let curvature = p.dot(&ap);
             let positive = curvature > T::zero() && rz > T::zero();
             if iterations >= limit || !positive {
                 let residual = a.residual(&x, b);
@@ -60,7 +61,7 @@ pub fn conjugate_gradients<T: Scalar>(
                 break;
             }
             z = precondition(&r);
-            let next = dot(&r, &z);
+            let next = r.dot(&z);
             p = &z + p * (next / rz);
             rz = next;
         }
@@ -92,18 +93,33 @@ pub fn refine<L: Scalar, T: Scalar>(
         }
         last = if iterations == 0 { f64::INFINITY } else { residual };
         // The residual of size 1: a small one would underflow in a scalar of smaller range.
-        let scale = T::from_f64(largest(r.iter()));
+        let scale = T::from_f64(largest(r.as_slice()));
         let correction = factors.solve(&r.map(|r| L::from_f64((r / scale).to_f64())));
         add(&mut x, scale, &correction.map(|c| T::from_f64(c.to_f64())));
         iterations += 1;
     }
 }
 
+/// Returns the rows of the whole matrix: column, value. A product by them is quicker than by the lower
+/// triangle, as no sum is left and taken up again.
+fn rows<T: Scalar>(a: &SparseSymmetric<T>) -> Vec<Vec<(usize, T)>> {
+    let mut rows = vec![Vec::new(); a.size()];
+    for (i, j, value) in a.entries() {
+        rows[i].push((j, value));
+        if i != j {
+            rows[j].push((i, value));
+        }
+    }
+    rows
+}
+
+fn times<T: Scalar>(rows: &[Vec<(usize, T)>], x: &DVector<T>) -> DVector<T> {
+    let x = x.as_slice();
+    let of_row = |row: &Vec<(usize, T)>| row.iter().fold(T::zero(), |sum, (j, a)| sum + *a * x[*j]);
+    DVector::from_iterator(x.len(), rows.iter().map(of_row))
+}
+
 /// Adds factor · y to x.
 fn add<T: Scalar>(x: &mut DVector<T>, factor: T, y: &DVector<T>) {
     x.zip_apply(y, |x, y| *x += factor * y);
-}
-
-fn dot<T: Scalar>(x: &DVector<T>, y: &DVector<T>) -> T {
-    x.iter().zip(y.iter()).fold(T::zero(), |sum, (x, y)| sum + *x * *y)
 }

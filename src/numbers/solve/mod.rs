@@ -3,15 +3,15 @@
 //! | modules, each using only those above it | what they contain |
 //! |---|---|
 //! | `arithmetic` | the scalar and the solver that are asked for |
-//! | `factors`, `dense`, `dense_condensed` | what factorisations share; faer's of dense matrices; one that
-//!   leaves the last equations over |
+//! | `factors`, `square` | what factorisations share; sparse matrices that need not be symmetric |
+//! | `dense`, `dense_condensed` | faer's factors of dense matrices; one that leaves the last equations over |
 //! | `error_bound` | how far a solution may be from the true one |
 //! | `symmetric`, `ordering`, `elimination_tree`, `cholesky` | sparse symmetric matrices; orders of
 //!   their equations; where a factor has entries; faer's factor of one |
 //! | [`memory`], [`cost`], `symbolic` | what a solution needs: memory, time, entries of factors |
 //! | `sparse`, `condensed`, `iterative` | factors that tell a singular matrix; those that leave a few
 //!   equations over; solutions to a tolerance |
-//! | `square`, `sparse_lu` | sparse matrices that need not be symmetric; factors of one |
+//! | `sparse_lu` | factors of a sparse matrix that need not be symmetric |
 //! | `field`, `lu`, `ldlt`, `lifting` | elimination in numbers that no library factors |
 //! | `precision` | the solution in each scalar by each solver |
 
@@ -44,7 +44,7 @@ pub use condensed::{Condensed, Eliminated};
 pub use dense::{DenseCholesky, DenseLu};
 pub use dense_condensed::DenseCondensed;
 pub use error_bound::{error_bound, error_of_rest, inverse_norm};
-pub use factors::{AnyLu, Factors, Lu, Native, Singular, backward_error};
+pub use factors::{AnyLu, Factors, Lu, Native, Singular, backward_error, largest};
 pub use field::Field;
 pub use iterative::{NotConverged, conjugate_gradients, refine};
 pub use ldlt::Ldlt;

@@ -60,8 +60,8 @@ impl<T: Native> SparseLu<T> {
 /// Returns the largest motion of a matrix by its factors, under loads of 1, both scaled to columns whose
 /// largest entry is 1.
 fn motion<T: Native>(factors: &impl Factors<T>, matrix: &SparseColMat<usize, T>) -> f64 {
-    let column = |j| matrix.val_of_col(j).iter();
-    let scale = DVector::from_fn(matrix.ncols(), |j, _| T::from_f64(largest(column(j))));
+    let scale = |j| T::from_f64(largest(matrix.val_of_col(j)));
+    let scale = DVector::from_fn(matrix.ncols(), |j, _| scale(j));
     largest_motion(factors, &scale)
 }
 
@@ -146,7 +146,7 @@ impl<T: Native> Lu<T> for SparseLu<T> {
             rest[entry.row] += *entry.val * x[entry.col];
             row_sums[entry.row] += Scalar::abs(*entry.val);
         }
-        backward_error(&rest, largest(row_sums.iter()), x, b)
+        backward_error(&rest, largest(row_sums.as_slice()), x, b)
     }
 }
 

@@ -43,6 +43,11 @@ impl<T: Scalar> SparseSquare<T> {
         columns.flat_map(|(j, column)| column.iter().map(move |(i, a)| (*i, j, *a)))
     }
 
+    /// Returns the entries of a column that were written, rows ascending: row, value.
+    pub(super) fn column(&self, j: usize) -> impl Iterator<Item = &(usize, T)> {
+        self.columns[j].iter()
+    }
+
     /// Returns the matrix with `f` of each entry.
     pub fn map<U: Scalar>(&self, f: impl Fn(T) -> U) -> SparseSquare<U> {
         let column = |column: &Vec<(usize, T)>| column.iter().map(|(i, a)| (*i, f(*a))).collect();

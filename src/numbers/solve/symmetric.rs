@@ -176,9 +176,16 @@ impl<T: Clone> SparseSymmetric<T> {
 impl<T: Scalar> SparseSymmetric<T> {
     /// Takes the lower triangle of a dense matrix, zeros left out.
     pub fn of_lower(matrix: &DMatrix<T>) -> Self {
-        let n = matrix.nrows();
-        let lower = (0..n).flat_map(|j| (j..n).map(move |i| (i, j, matrix[(i, j)])));
-        SparseSymmetric::new(n, lower.filter(|(_, _, value)| !value.is_zero()))
+        let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+        for (j, column) in matrix.column_iter().enumerate() {
+            let lower = column.iter().enumerate().skip(j).filter(|(_, value)| !value.is_zero());
+            lower.for_each(|(i, value)| {
+                rows.push(i);
+                values.push(*value);
+            });
+            starts.push(rows.len());
+        }
+        SparseSymmetric { pattern: Arc::new(Pattern { starts, rows }), values }
     }
 
     pub fn times(&self, x: &DVector<T>) -> DVector<T> {

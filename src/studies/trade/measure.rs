@@ -18,9 +18,8 @@ use crate::answer::estimates::{Certainty, certain};
 use crate::answer::{Request, Solution, equilibrium, max_displacement, over, solve, summaries};
 use crate::problem::scene::{Refined, Scene};
 
-/// Seconds beyond which a trial is not run again: what interrupts a run is short beside it, and the
-/// median of one is itself.
-pub const PATIENCE: f64 = 0.1;
+/// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
+pub const PATIENCE: f64 = 0.05;
 
 #[derive(Clone, Debug)]
 pub struct Options {
@@ -40,41 +39,31 @@ pub fn measure(
 ) -> Result<Trade, Error> {
     let model = &request.scene.model;
     let reference = model.target().and_then(|_| equilibrium(request).ok());
-    let (mut sections, mut measured) = (Vec::new(), Vec::<Measured>::new());
-    for knob in Knob::ALL.iter().filter(|knob| options.only.contains(knob)) {
-        if *knob == Knob::Geometry {
-            sections.push(geometry(request, &places(request)?, &watch));
-            continue;
-        }
-        let trials = trials(request, *knob);
-        let runs = timed(request, &trials, options.runs, &measured, &watch)?;
-        let meshes = match knob {
-            Knob::Mesh => meshes(&request.scene, trials.len() - 1)?,
-            _ => Vec::new(),
-        };
-        let reference = reference.as_ref();
-        let bench =
-            Bench { scene: &request.scene, trials: &trials, runs: &runs, meshes, reference };
-        let peak = |trial: &Trial| {
-            let same = measured.iter().find(|other| other.trial.is_same_run(trial));
-            let bytes = same.map_or_else(|| peak(trial), |same| same.peak_bytes);
-            watch("peak memory");
-            bytes
-        };
-        let peaks: Vec<Option<u64>> = trials.par_iter().map(peak).collect();
-        let rows = peaks.iter().enumerate().map(|(place, bytes)| bench.row(place, *bytes));
-        let mut rows: Vec<Row> = rows.collect();
-        mark_front(&mut rows);
-        let (orders, ladder) =
-            if *knob == Knob::Mesh { bench.ladder() } else { Default::default() };
-        let answers = words::answers(request, *knob, &rows, &orders, ladder.as_ref());
-        let against = words::against(*knob);
-        let claims = Vec::new();
-        sections.push(Section { knob: *knob, against, rows, orders, ladder, claims, answers });
-        let all = trials.into_iter().zip(runs).zip(peaks);
-        let all = all.map(|((trial, run), peak_bytes)| Measured { trial, run, peak_bytes });
-        measured.extend(all.filter(|measured| measured.trial.turns_nothing()));
+    let is_asked = |knob: &Knob| options.only.contains(knob);
+    let places = is_asked(&Knob::Geometry).then(|| places(request)).transpose()?;
+    let mut timed: Vec<Timed> = Vec::new();
+    for knob in Knob::ALL.iter().copied().filter(is_asked).filter(|k| *k != Knob::Geometry) {
+        let trials = trials(request, knob);
+        let runs = runs(request, &trials, options.runs, &timed, &watch)?;
+        timed.push(Timed { knob, trials, runs });
     }
+    // Nothing more is timed: what is left is computed side by side, in other processes too.
+    let all: Vec<&Trial> = timed.iter().flat_map(|timed| &timed.trials).collect();
+    let section = |timed: &Timed| timed.section(request, reference.as_ref());
+    let ((peaks, geometry), sections) = rayon::join(
+        || {
+            rayon::join(
+                || peaks(&all, &peak, &watch),
+                || places.map(|places| geometry(request, &places, &watch)),
+            )
+        },
+        || timed.par_iter().map(section).collect::<Result<Vec<Section>, Error>>(),
+    );
+    let mut sections = sections?;
+    let rows = sections.iter_mut().flat_map(|section| &mut section.rows);
+    rows.zip(peaks)
+        .for_each(|(row, bytes)| row.peak_bytes = bytes.filter(|_| row.seconds.is_some()));
+    sections.extend(geometry);
     Ok(Trade {
         scene: request.scene.name.clone(),
         nodes: model.nodes.len(),
@@ -104,26 +93,45 @@ struct Run {
     certainty: Option<Certainty>,
 }
 
-/// What was measured of a trial.
-struct Measured {
-    trial: Trial,
-    run: Arc<Run>,
-    peak_bytes: Option<u64>,
+/// The trials of a knob, and the runs of each.
+struct Timed {
+    knob: Knob,
+    trials: Vec<Trial>,
+    runs: Vec<Arc<Run>>,
 }
 
-/// Returns the runs of the trials, of those that were not `measured` before by [`timed_anew`].
-fn timed(
+impl Timed {
+    /// What there is to say of the knob, but for the memory that its trials take.
+    fn section(&self, request: &Request, reference: Option<&Solution>) -> Result<Section, Error> {
+        let Timed { knob, trials, runs } = self;
+        let meshes = match knob {
+            Knob::Mesh => meshes(&request.scene, trials.len() - 1)?,
+            _ => Vec::new(),
+        };
+        let bench = Bench { scene: &request.scene, trials, runs, meshes, reference };
+        let mut rows: Vec<Row> = (0..trials.len()).map(|place| bench.row(place)).collect();
+        mark_front(&mut rows);
+        let (orders, ladder) =
+            if *knob == Knob::Mesh { bench.ladder() } else { Default::default() };
+        let answers = words::answers(request, *knob, &rows, &orders, ladder.as_ref());
+        let (knob, against) = (*knob, words::against(*knob));
+        Ok(Section { knob, against, rows, orders, ladder, claims: Vec::new(), answers })
+    }
+}
+
+/// Returns the runs of the trials; [`timed_anew`] runs those that are not among the `timed` ones.
+fn runs(
     request: &Request,
     trials: &[Trial],
     rounds: usize,
-    measured: &[Measured],
+    timed: &[Timed],
     watch: &impl Fn(&str),
 ) -> Result<Vec<Arc<Run>>, Error> {
+    let before = || timed.iter().flat_map(|timed| timed.trials.iter().zip(&timed.runs));
     let known = |trial: &Trial| {
-        let is_known = |other: &&Measured| {
-            other.trial.is_same_run(trial) && judges(other.trial.knob) == judges(trial.knob)
-        };
-        measured.iter().find(is_known).map(|same| Arc::clone(&same.run))
+        let is_known =
+            |other: &Trial| other.is_same_run(trial) && judges(other.knob) == judges(trial.knob);
+        before().find(|(other, _)| is_known(other)).map(|(_, run)| Arc::clone(run))
     };
     let known: Vec<Option<Arc<Run>>> = trials.iter().map(known).collect();
     let is_new = |(_, known): &(&Trial, &Option<Arc<Run>>)| known.is_none();
@@ -135,6 +143,25 @@ fn timed(
         known.unwrap_or_else(|| Arc::new(runs.next().expect("the others were run")))
     };
     Ok(known.into_iter().map(next).collect())
+}
+
+/// Returns the peak memory of each trial; those that ask for the same have the one of the first.
+fn peaks(
+    trials: &[&Trial],
+    peak: &(impl Fn(&Trial) -> Option<u64> + Sync),
+    watch: &(impl Fn(&str) + Sync),
+) -> Vec<Option<u64>> {
+    let first = |place: usize| {
+        let is_same = |other: &&Trial| other.is_same_run(trials[place]);
+        trials[..place].iter().position(is_same).unwrap_or(place)
+    };
+    let of_first = |place: usize| {
+        let bytes = (first(place) == place).then(|| peak(trials[place])).flatten();
+        watch("peak memory");
+        bytes
+    };
+    let of_firsts: Vec<_> = (0..trials.len()).into_par_iter().map(of_first).collect();
+    (0..trials.len()).map(|place| of_firsts[first(place)]).collect()
 }
 
 /// Runs the trials in turn, `rounds` times, each from the scene alone: a time includes every
@@ -151,7 +178,7 @@ fn timed_anew(
     for round in 0..rounds {
         for (place, (trial, request)) in trials.iter().zip(&requests).enumerate() {
             let again = runs.get(place).is_none_or(|run: &Run| {
-                run.solution.is_ok() && run.seconds.iter().all(|s| *s < PATIENCE)
+                run.solution.is_ok() && run.seconds.iter().sum::<f64>() < PATIENCE
             });
             if again {
                 let request = request.clone().afresh();
@@ -208,7 +235,7 @@ struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    fn row(&self, place: usize, peak_bytes: Option<u64>) -> Row {
+    fn row(&self, place: usize) -> Row {
         let (trial, run) = (&self.trials[place], &self.runs[place]);
         let solution = run.solution.as_ref().ok();
         let last = solution.and_then(|solution| solution.steps.last());
@@ -222,7 +249,7 @@ impl Bench<'_> {
             cycle: last.and_then(|last| last.cycle.as_ref()).map(|cycle| cycle.length),
             seconds: solution.map(|_| median(&run.seconds)),
             runs: run.seconds.len(),
-            peak_bytes: peak_bytes.filter(|_| solution.is_some()),
+            peak_bytes: None,
             error: match trial.against {
                 Against::Trial(best) => self.between(place, self.best_that_ran(place, best)),
                 Against::Reference => {

@@ -108,7 +108,7 @@ fn commands() -> Vec<String> {
             pair.penalty * mean_edge() / stiffest()
         ),
         format!("keeps fewer than {} digits", extremes::LEAST),
-        format!("what takes over {} s is run once", trade::PATIENCE),
+        format!("what has taken {} s is not run again", trade::PATIENCE),
         format!("coordinate format, {figures} significant digits"),
         format!("Beyond {} triangles result.json leaves", thousands(MOST_TRIANGLES)),
     ]
