@@ -108,6 +108,16 @@ impl Case {
         rayon::join(|| rayon::join(unilateral, finer), published);
     }
 
+    /// Lets go of the factors of all runs so far, the largest part of their memory.
+    pub fn let_go_of_factors(&self) {
+        let certain = self.certain.iter().filter_map(OnceLock::get).map(|(solution, _)| solution);
+        let finer = self.finer.get().and_then(|run| run.as_ref().ok()).map(|(run, _)| run);
+        let own = self.runs.iter().filter_map(|run| run.get()?.as_ref().ok());
+        let beside =
+            [&self.reference, &self.equilibrium].into_iter().filter_map(|run| run.get()?.as_ref());
+        own.chain(certain).chain(finer).chain(beside).for_each(Solution::let_go_of_factors);
+    }
+
     /// The reference solution; nothing without contact, and where it does not run.
     pub fn reference(&self) -> Option<&Solution> {
         self.model().target()?;
