@@ -73,6 +73,9 @@ pub trait Rounded: Scalar {
 
     /// Returns the same number in double-double.
     fn double(self) -> F64x2;
+
+    /// Returns how far the number is from its `f64`.
+    fn beyond_f64(self) -> f64;
 }
 
 /// Covers the roundings of an error's own few operations.
@@ -103,6 +106,9 @@ impl Rounded for f64 {
     fn double(self) -> F64x2 {
         F64x2::from_f64(self)
     }
+    fn beyond_f64(self) -> f64 {
+        0.0
+    }
 }
 
 /// u² of double-double, 2^-106.
@@ -130,6 +136,9 @@ impl Rounded for F64x2 {
     fn double(self) -> F64x2 {
         self
     }
+    fn beyond_f64(self) -> f64 {
+        self.halves()[1].abs()
+    }
 }
 
 /// Returns the size of the rounding error of a product or quotient.
@@ -140,13 +149,12 @@ fn underflowing(value: f64, rounding: f64) -> f64 {
 impl<V: Rounded> WithBound<V> {
     /// Returns the same number and bound in double-double.
     pub fn in_double(self) -> BoundedDouble {
-        WithBound::new(self.value.double(), self.error)
+        WithBound { value: self.value.double(), error: self.error }
     }
 
     /// Returns how far its value, rounded to `f64`, may be from the true one.
     pub fn off(self) -> f64 {
-        let rounding = self.value.double() - self.value.to_f64().double();
-        self.error + rounding.to_f64().abs()
+        self.error + self.value.beyond_f64()
     }
 
     const ZERO: Self = WithBound { value: V::ZERO, error: 0.0 };
@@ -230,11 +238,15 @@ impl<V: Rounded> WithBound<V> {
     }
 }
 
-/// A sum of products in double-double. What rounding does to it is bounded at the end, of all terms at
-/// once: the sum of the same products and bounds one by one is the same, and takes four times as long.
+/// A sum of products of double-doubles. What rounding does to it is bounded at the end, of all terms at
+/// once: the sum of the same products and bounds one by one takes several times as long.
+///
+/// Source: T. Ogita, S. M. Rump, S. Oishi, *Accurate sum and dot product*, SIAM J. Sci. Comput. 26(6),
+/// 2005, algorithm 5.3; its two parts are both kept.
 #[derive(Clone, Copy, Debug)]
 pub struct SumOfProducts {
-    sum: F64x2,
+    /// The sum in `f64`, and what that rounds away.
+    parts: [f64; 2],
     terms: f64,
     /// The sum of the products' sizes.
     size: f64,
@@ -244,8 +256,7 @@ pub struct SumOfProducts {
 
 impl SumOfProducts {
     /// The sum of none.
-    pub const ZERO: Self =
-        SumOfProducts { sum: <F64x2 as Rounded>::ZERO, terms: 0.0, size: 0.0, passed: 0.0 };
+    pub const ZERO: Self = SumOfProducts { parts: [0.0; 2], terms: 0.0, size: 0.0, passed: 0.0 };
 
     /// Adds x · y.
     pub fn add(&mut self, x: BoundedDouble, y: BoundedDouble) {
@@ -253,7 +264,7 @@ impl SumOfProducts {
             return;
         }
         let size = x.size() * y.size();
-        self.sum += x.value * y.value;
+        self.parts = F64x2::gather(self.parts, x.value, y.value);
         self.terms += 1.0;
         self.size += size;
         self.passed += x.size() * y.error + y.size() * x.error + x.error * y.error;
@@ -264,18 +275,20 @@ impl SumOfProducts {
 
     /// Adds the terms of another sum.
     pub fn join(&mut self, other: &Self) {
-        self.sum += other.sum;
-        self.terms += other.terms + 1.0;
+        self.parts = F64x2::gathered(self.parts, other.parts);
+        self.terms += other.terms + 2.0;
         self.size += other.size;
         self.passed += other.passed;
     }
 
     /// Returns the sum within its bound.
     pub fn total(&self) -> BoundedDouble {
-        // A product rounds by 4 u² of its size, each sum by 3 u² of at most that of all terms.
-        let rounding = (3.0 * self.terms + 4.0) * SQUARE_UNIT * self.size;
-        let of_f64 = 1.0 + 4.0 * self.terms * f64::EPSILON;
-        BoundedDouble::new(self.sum, (self.passed + rounding) * of_f64)
+        let (n, of_f64) = (self.terms, 1.0 + 4.0 * self.terms * f64::EPSILON);
+        // With S the size of all terms and P that of one: of a term the second part takes up u S from the
+        // sum and 3 u P from the product, and rounds by 11 u² P and u² S beside u of itself, which by the
+        // k-th term has grown to (k + 3) u S.
+        let rounding = (n * (n + 1.0) / 2.0 + 4.0 * n + 11.0) * SQUARE_UNIT * self.size;
+        BoundedDouble::new(F64x2::of_parts(self.parts), (self.passed + rounding) * of_f64)
     }
 }
 

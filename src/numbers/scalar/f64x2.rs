@@ -35,6 +35,26 @@ impl F64x2 {
         }
     }
 
+    /// Adds x · y to a sum in two parts, of which the second gathers what rounding takes from the first.
+    pub(super) fn gather([sum, rest]: [f64; 2], x: Self, y: Self) -> [f64; 2] {
+        let [product, error] = two_product(x.hi, y.hi);
+        // Where x is an f64 there is but one more product.
+        let low = if x.lo == 0.0 { x.hi * y.lo } else { x.lo * y.hi + x.hi * y.lo };
+        let [sum, lost] = two_sum(sum, product);
+        [sum, rest + (lost + (error + low))]
+    }
+
+    /// Returns a sum in two such parts together with another one, in two parts.
+    pub(super) fn gathered([sum, rest]: [f64; 2], [other, of_other]: [f64; 2]) -> [f64; 2] {
+        let [sum, lost] = two_sum(sum, other);
+        [sum, rest + (lost + of_other)]
+    }
+
+    /// Returns the sum of two parts.
+    pub(super) fn of_parts([sum, rest]: [f64; 2]) -> Self {
+        F64x2::settled(two_sum(sum, rest), sum)
+    }
+
     pub fn halves(self) -> [f64; 2] {
         [self.hi, self.lo]
     }
