@@ -7,7 +7,8 @@ use plane_contact::numbers::scalar::{F64x2, Scalar};
 use plane_contact::numbers::solve::cost;
 use plane_contact::numbers::solve::memory::check;
 use plane_contact::numbers::solve::{
-    FactorSize, Pattern, Precision, Singular, Solver, SparseCholesky, SparseSymmetric, Unsolved,
+    DenseLu, FactorSize, Factors, Lu, Pattern, Precision, Singular, Solver, SparseCholesky,
+    SparseSymmetric, Unsolved,
 };
 
 /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
@@ -51,6 +52,22 @@ fn a_matrix_without_equations_is_solved() {
     let nothing = SparseSymmetric::<f64>::new(0, std::iter::empty());
     let cholesky = SparseCholesky::new(nothing).unwrap();
     assert_eq!(cholesky.solve(&DVector::zeros(0)).len(), 0);
+    let lu = DenseLu::new(DMatrix::<f64>::zeros(0, 0)).unwrap();
+    assert_eq!(lu.solve(&DVector::zeros(0)).len(), 0);
+}
+
+/// The first pivot is 0 without an exchange of rows.
+#[test]
+fn dense_lu_exchanges_rows() {
+    let matrix = DMatrix::from_row_slice(3, 3, &[0.0, 2.0, 1.0, 4.0, 0.0, 1.0, 2.0, 1.0, 0.0]);
+    let x = DVector::from_row_slice(&[1.0, -2.0, 3.0]);
+    let b = &matrix * &x;
+    let lu = DenseLu::new(matrix).unwrap();
+    assert!((lu.solve(&b) - &x).amax() < 1e-14);
+    assert_eq!(lu.residual(&x, &b), 0.0);
+    // |A| |x| + |b| is 5 · 3 + 7.
+    let off = DVector::from_row_slice(&[2.0, -2.0, 3.0]);
+    assert_eq!(lu.residual(&off, &b), 4.0 / (5.0 * 3.0 + 7.0));
 }
 
 #[test]

@@ -41,25 +41,28 @@ pub fn measure(
     let reference = model.target().and_then(|_| equilibrium(request).ok());
     let is_asked = |knob: &Knob| options.only.contains(knob);
     let places = is_asked(&Knob::Geometry).then(|| places(request)).transpose()?;
-    let mut timed: Vec<Timed> = Vec::new();
+    let (mut sections, mut measured) = (Vec::new(), Vec::<Measured>::new());
     for knob in Knob::ALL.iter().copied().filter(is_asked).filter(|k| *k != Knob::Geometry) {
         let trials = trials(request, knob);
-        let runs = runs(request, &trials, options.runs, &timed, &watch)?;
-        timed.push(Timed { knob, trials, runs });
+        let runs = runs(request, &trials, options.runs, &measured, &watch)?;
+        let meshes = match knob {
+            Knob::Mesh => meshes(&request.scene, trials.len() - 1)?,
+            _ => Vec::new(),
+        };
+        let reference = reference.as_ref();
+        let bench =
+            Bench { scene: &request.scene, trials: &trials, runs: &runs, meshes, reference };
+        sections.push((bench.section(request, knob), trials.clone()));
+        let all = trials.into_iter().zip(runs).map(|(trial, run)| Measured { trial, run });
+        measured.extend(all.filter(|measured| measured.trial.turns_nothing()));
     }
     // Nothing more is timed: what is left is computed side by side, in other processes too.
-    let all: Vec<&Trial> = timed.iter().flat_map(|timed| &timed.trials).collect();
-    let section = |timed: &Timed| timed.section(request, reference.as_ref());
-    let ((peaks, geometry), sections) = rayon::join(
-        || {
-            rayon::join(
-                || peaks(&all, &peak, &watch),
-                || places.map(|places| geometry(request, &places, &watch)),
-            )
-        },
-        || timed.par_iter().map(section).collect::<Result<Vec<Section>, Error>>(),
+    let all: Vec<&Trial> = sections.iter().flat_map(|(_, trials)| trials).collect();
+    let (peaks, geometry) = rayon::join(
+        || peaks(&all, &peak, &watch),
+        || places.map(|places| geometry(request, &places, &watch)),
     );
-    let mut sections = sections?;
+    let mut sections: Vec<Section> = sections.into_iter().map(|(section, _)| section).collect();
     let rows = sections.iter_mut().flat_map(|section| &mut section.rows);
     rows.zip(peaks)
         .for_each(|(row, bytes)| row.peak_bytes = bytes.filter(|_| row.seconds.is_some()));
@@ -93,45 +96,25 @@ struct Run {
     certainty: Option<Certainty>,
 }
 
-/// The trials of a knob, and the runs of each.
-struct Timed {
-    knob: Knob,
-    trials: Vec<Trial>,
-    runs: Vec<Arc<Run>>,
+/// What was measured of a trial.
+struct Measured {
+    trial: Trial,
+    run: Arc<Run>,
 }
 
-impl Timed {
-    /// What there is to say of the knob, but for the memory that its trials take.
-    fn section(&self, request: &Request, reference: Option<&Solution>) -> Result<Section, Error> {
-        let Timed { knob, trials, runs } = self;
-        let meshes = match knob {
-            Knob::Mesh => meshes(&request.scene, trials.len() - 1)?,
-            _ => Vec::new(),
-        };
-        let bench = Bench { scene: &request.scene, trials, runs, meshes, reference };
-        let mut rows: Vec<Row> = (0..trials.len()).map(|place| bench.row(place)).collect();
-        mark_front(&mut rows);
-        let (orders, ladder) =
-            if *knob == Knob::Mesh { bench.ladder() } else { Default::default() };
-        let answers = words::answers(request, *knob, &rows, &orders, ladder.as_ref());
-        let (knob, against) = (*knob, words::against(*knob));
-        Ok(Section { knob, against, rows, orders, ladder, claims: Vec::new(), answers })
-    }
-}
-
-/// Returns the runs of the trials; [`timed_anew`] runs those that are not among the `timed` ones.
+/// Returns the runs of the trials; [`timed_anew`] runs those that were not `measured` before.
 fn runs(
     request: &Request,
     trials: &[Trial],
     rounds: usize,
-    timed: &[Timed],
+    measured: &[Measured],
     watch: &impl Fn(&str),
 ) -> Result<Vec<Arc<Run>>, Error> {
-    let before = || timed.iter().flat_map(|timed| timed.trials.iter().zip(&timed.runs));
     let known = |trial: &Trial| {
-        let is_known =
-            |other: &Trial| other.is_same_run(trial) && judges(other.knob) == judges(trial.knob);
-        before().find(|(other, _)| is_known(other)).map(|(_, run)| Arc::clone(run))
+        let is_known = |other: &&Measured| {
+            other.trial.is_same_run(trial) && judges(other.trial.knob) == judges(trial.knob)
+        };
+        measured.iter().find(is_known).map(|same| Arc::clone(&same.run))
     };
     let known: Vec<Option<Arc<Run>>> = trials.iter().map(known).collect();
     let is_new = |(_, known): &(&Trial, &Option<Arc<Run>>)| known.is_none();
@@ -235,6 +218,17 @@ struct Bench<'a> {
 }
 
 impl Bench<'_> {
+    /// What there is to say of a knob, but for the memory that its trials take.
+    fn section(&self, request: &Request, knob: Knob) -> Section {
+        let places = (0..self.trials.len()).into_par_iter();
+        let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
+        mark_front(&mut rows);
+        let (orders, ladder) = if knob == Knob::Mesh { self.ladder() } else { Default::default() };
+        let answers = words::answers(request, knob, &rows, &orders, ladder.as_ref());
+        let against = words::against(knob);
+        Section { knob, against, rows, orders, ladder, claims: Vec::new(), answers }
+    }
+
     fn row(&self, place: usize) -> Row {
         let (trial, run) = (&self.trials[place], &self.runs[place]);
         let solution = run.solution.as_ref().ok();
@@ -299,7 +293,7 @@ impl Bench<'_> {
             return (Vec::new(), None);
         };
         let stiffness = finest.stiffness();
-        let levels = solutions.iter().enumerate();
+        let levels = solutions.par_iter().enumerate();
         let on_finest: Vec<Solution> = levels
             .map(|(level, solution)| prolonged((*solution).clone(), &self.meshes[level..], finest))
             .collect();
