@@ -40,7 +40,19 @@ pub struct Rounding {
 
 /// Returns what rounding may do to a solution.
 pub fn rounding(solution: &Solution) -> Rounding {
-    of_published(solution).unwrap_or_else(|| {
+    rounding_while(solution, &mut |_| true)
+}
+
+/// Returns whether rounding decides nothing in a solution. Of a variant that the paper describes the run
+/// is repeated up to its first doubt only.
+pub(super) fn decides_nothing(solution: &Solution) -> bool {
+    // There is no bound where rounding may have decided.
+    rounding_while(solution, &mut Step::is_certain).displacement.is_finite()
+}
+
+/// Returns what rounding may do, by the run repeated for as long as it `goes_on` where it is repeated.
+fn rounding_while(solution: &Solution, goes_on: &mut dyn FnMut(&Step) -> bool) -> Rounding {
+    of_published(solution, goes_on).unwrap_or_else(|| {
         let held = Held::new(solution);
         of_equilibrium(solution, held.as_ref(), &bounded(&solution.model))
     })
@@ -51,8 +63,12 @@ pub fn bounded(model: &Model) -> Stiffness<Bounded> {
     Stiffness::new(model, Bounded::from_f64)
 }
 
-/// Returns what rounding may do to a run of a variant that the paper describes; None of another.
-pub(super) fn of_published(solution: &Solution) -> Option<Rounding> {
+/// Returns what rounding may do to a run of a variant that the paper describes, repeated for as long as
+/// it `goes_on`; None of another.
+pub(super) fn of_published(
+    solution: &Solution,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Option<Rounding> {
     let request = &solution.request;
     (request.variant != Variant::Unilateral).then(|| match request.arithmetic.scalar {
         // What is rounded is the displacements themselves, to be written as f64.
@@ -61,20 +77,8 @@ pub(super) fn of_published(solution: &Solution) -> Option<Rounding> {
             decisions: Some(Vec::new()),
             steps: solution.steps.iter().map(written).collect(),
         },
-        _ => of_run(solution, &mut |_| true),
+        _ => of_run(solution, goes_on),
     })
-}
-
-/// Returns whether rounding decides nothing in a solution. Of a variant that the paper describes the run
-/// is repeated up to its first doubt only.
-pub(super) fn decides_nothing(solution: &Solution) -> bool {
-    let request = &solution.request;
-    let is_repeated =
-        request.variant != Variant::Unilateral && request.arithmetic.scalar != ScalarName::Exact;
-    let rounding =
-        if is_repeated { of_run(solution, &mut Step::is_certain) } else { rounding(solution) };
-    // There is no bound where rounding may have decided.
-    rounding.displacement.is_finite()
 }
 
 /// Returns the same of an equilibrium, with the bodies as they are held at the end; None where they
@@ -142,7 +146,6 @@ fn looked_at<'a>(
     Some((reached?.1, looking))
 }
 
-/// Returns the same from the run repeated for as long as it `goes_on`.
 fn of_run(solution: &Solution, goes_on: &mut dyn FnMut(&Step) -> bool) -> Rounding {
     let Some(again) = bounded_run(solution, goes_on) else {
         return Rounding::unknown(solution);

@@ -88,7 +88,7 @@ impl ErrorEstimates {
         let model = &*solution.model;
         let of_rounding = || {
             // Another run takes much memory: nothing is held yet that it does not need.
-            let of_run = arithmetic::of_published(solution);
+            let of_run = arithmetic::of_published(solution, &mut |_| true);
             let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
             let of_last = || arithmetic::of_equilibrium(solution, held.as_ref(), &bounded);
             let rounding = of_run.unwrap_or_else(of_last);

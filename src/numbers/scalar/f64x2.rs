@@ -37,11 +37,9 @@ impl F64x2 {
 
     /// Adds x · y to a sum in two parts, of which the second gathers what rounding takes from the first.
     pub(super) fn gather([sum, rest]: [f64; 2], x: Self, y: Self) -> [f64; 2] {
-        let [product, error] = two_product(x.hi, y.hi);
-        // Where x is an f64 there is but one more product.
-        let low = if x.lo == 0.0 { x.hi * y.lo } else { x.lo * y.hi + x.hi * y.lo };
+        let [product, beside] = F64x2::parts_of_product(x, y);
         let [sum, lost] = two_sum(sum, product);
-        [sum, rest + (lost + (error + low))]
+        [sum, rest + (lost + beside)]
     }
 
     /// Returns a sum in two such parts together with another one, in two parts.
@@ -81,13 +79,19 @@ impl F64x2 {
     }
 
     fn product(x: Self, y: Self) -> Self {
+        let [product, beside] = F64x2::parts_of_product(x, y);
+        F64x2::settled(fast_two_sum(product, beside), product)
+    }
+
+    /// Returns x · y in two parts that are not brought together yet.
+    fn parts_of_product(x: Self, y: Self) -> [f64; 2] {
         let [product, error] = two_product(x.hi, y.hi);
         // Where x is an f64 the rest is one product, of the same digits.
         let low = match x.lo == 0.0 {
             true => x.hi * y.lo,
             false => x.lo.mul_add(y.hi, x.hi.mul_add(y.lo, x.lo * y.lo)),
         };
-        F64x2::settled(fast_two_sum(product, error + low), x.hi * y.hi)
+        [product, error + low]
     }
 
     fn quotient(x: Self, y: Self) -> Self {

@@ -19,10 +19,11 @@ use std::sync::Mutex;
 
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::sparse::SymbolicSparseColMatRef;
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{Accum, Par};
 use nalgebra::{DMatrix, DVector};
 
 use super::cholesky::{Cholesky, is_large};
+use super::factors::{of_columns, of_columns_mut};
 use super::ordering::{self, places};
 use super::symmetric::SparseSymmetric;
 
@@ -243,9 +244,9 @@ fn order(matrix: &SparseSymmetric, kept: &[usize]) -> Vec<usize> {
 fn square(l: &DMatrix<f64>) -> DMatrix<f64> {
     let n = l.nrows();
     let mut square = DMatrix::zeros(n, n);
-    let view = MatRef::from_column_major_slice(l.as_slice(), n, n);
+    let view = of_columns(l);
     matmul(
-        MatMut::from_column_major_slice_mut(square.as_mut_slice(), n, n),
+        of_columns_mut(&mut square),
         BlockStructure::TriangularLower,
         Accum::Replace,
         view,

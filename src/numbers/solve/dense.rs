@@ -6,10 +6,13 @@ use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratc
 use faer::linalg::lu::partial_pivoting::solve::{solve_in_place, solve_in_place_scratch};
 use faer::linalg::solvers::Llt;
 use faer::perm::Perm;
-use faer::{MatMut, MatRef, Par, Side};
+use faer::{MatRef, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
-use super::factors::{Factors, Lu, Native, Singular, backward_error, column, largest, solve};
+use super::factors::{
+    Factors, Lu, Native, Singular, backward_error, column, largest, of_columns, of_columns_mut,
+    solve,
+};
 use super::square::SparseSquare;
 use crate::numbers::scalar::Scalar;
 
@@ -73,17 +76,6 @@ impl<T: Native> Lu<T> for DenseLu<T> {
         }
         backward_error(&(product - b), largest(row_sums.as_slice()), x, b)
     }
-}
-
-/// A matrix as faer takes it.
-fn of_columns<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
-    MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
-}
-
-/// A matrix as faer changes it.
-fn of_columns_mut<T>(matrix: &mut DMatrix<T>) -> MatMut<'_, T> {
-    let (rows, columns) = matrix.shape();
-    MatMut::from_column_major_slice_mut(matrix.as_mut_slice(), rows, columns)
 }
 
 /// Cholesky factors of a symmetric positive definite matrix.

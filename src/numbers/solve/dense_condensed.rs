@@ -10,12 +10,12 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{Accum, MatMut, Par};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::dense::DenseCholesky;
-use super::factors::column;
+use super::factors::{column, of_columns};
 
 /// The columns that are computed together, whatever the number of threads.
 const STRIP: usize = 64;
@@ -50,7 +50,7 @@ impl DenseCondensed {
             solve_lower_triangular_in_place(lower, strip, Par::Seq);
         });
         let mut schur = matrix.view((first, first), (last, last)).into_owned();
-        let x = MatRef::from_column_major_slice(across.as_slice(), first, last);
+        let x = of_columns(&across);
         let strips = schur.as_mut_slice().par_chunks_mut((last * STRIP).max(1)).enumerate();
         strips.with_min_len(AT_ONCE).for_each(|(k, strip)| {
             // Above its own columns nothing is read.

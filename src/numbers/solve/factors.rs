@@ -5,7 +5,7 @@ use std::sync::Arc;
 use faer::linalg::solvers::Solve;
 use faer::traits::RealField;
 use faer::{MatMut, MatRef};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use crate::numbers::scalar::Scalar;
 
@@ -67,6 +67,17 @@ pub fn solve<T: Native>(factors: &impl Solve<T>, b: &DVector<T>) -> DVector<T> {
 pub fn column<T>(x: &mut [T]) -> MatMut<'_, T> {
     let n = x.len();
     MatMut::from_column_major_slice_mut(x, n, 1)
+}
+
+/// A matrix as faer takes it.
+pub fn of_columns<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
+    MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())
+}
+
+/// A matrix as faer changes it.
+pub fn of_columns_mut<T>(matrix: &mut DMatrix<T>) -> MatMut<'_, T> {
+    let (rows, columns) = matrix.shape();
+    MatMut::from_column_major_slice_mut(matrix.as_mut_slice(), rows, columns)
 }
 
 /// Returns the largest |x|, NaN left out.

@@ -41,7 +41,7 @@ pub fn measure(
     let reference = model.target().and_then(|_| equilibrium(request).ok());
     let is_asked = |knob: &Knob| options.only.contains(knob);
     let places = is_asked(&Knob::Geometry).then(|| places(request)).transpose()?;
-    let (mut sections, mut measured) = (Vec::new(), Vec::<Measured>::new());
+    let (mut sections, mut all, mut measured) = (Vec::new(), Vec::new(), Vec::<Measured>::new());
     for knob in Knob::ALL.iter().copied().filter(is_asked).filter(|k| *k != Knob::Geometry) {
         let trials = trials(request, knob);
         let runs = runs(request, &trials, options.runs, &measured, &watch)?;
@@ -52,18 +52,17 @@ pub fn measure(
         let reference = reference.as_ref();
         let bench =
             Bench { scene: &request.scene, trials: &trials, runs: &runs, meshes, reference };
-        sections.push((bench.section(request, knob), trials.clone()));
-        let all = trials.into_iter().zip(runs).map(|(trial, run)| Measured { trial, run });
-        measured.extend(all.filter(|measured| measured.trial.turns_nothing()));
+        sections.push(bench.section(request, knob));
+        all.extend_from_slice(&trials);
+        let own = trials.into_iter().zip(runs).map(|(trial, run)| Measured { trial, run });
+        measured.extend(own.filter(|measured| measured.trial.turns_nothing()));
     }
     // Nothing more is timed: what is left is computed side by side, in other processes too.
-    let all: Vec<&Trial> = sections.iter().flat_map(|(_, trials)| trials).collect();
     let (peaks, geometry) = rayon::join(
         || peaks(&all, &peak, &watch),
         || places.map(|places| geometry(request, &places, &watch)),
     );
-    let mut sections: Vec<Section> = sections.into_iter().map(|(section, _)| section).collect();
-    let rows = sections.iter_mut().flat_map(|section| &mut section.rows);
+    let rows = sections.iter_mut().flat_map(|section: &mut Section| &mut section.rows);
     rows.zip(peaks)
         .for_each(|(row, bytes)| row.peak_bytes = bytes.filter(|_| row.seconds.is_some()));
     sections.extend(geometry);
@@ -130,16 +129,16 @@ fn runs(
 
 /// Returns the peak memory of each trial; those that ask for the same have the one of the first.
 fn peaks(
-    trials: &[&Trial],
+    trials: &[Trial],
     peak: &(impl Fn(&Trial) -> Option<u64> + Sync),
     watch: &(impl Fn(&str) + Sync),
 ) -> Vec<Option<u64>> {
     let first = |place: usize| {
-        let is_same = |other: &&Trial| other.is_same_run(trials[place]);
+        let is_same = |other: &Trial| other.is_same_run(&trials[place]);
         trials[..place].iter().position(is_same).unwrap_or(place)
     };
     let of_first = |place: usize| {
-        let bytes = (first(place) == place).then(|| peak(trials[place])).flatten();
+        let bytes = (first(place) == place).then(|| peak(&trials[place])).flatten();
         watch("peak memory");
         bytes
     };
