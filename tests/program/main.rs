@@ -16,6 +16,7 @@ mod common {
     pub mod tools;
 }
 
+mod cases;
 mod claims;
 mod cli;
 mod drawing;
