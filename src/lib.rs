@@ -47,6 +47,8 @@ pub mod error;
 pub mod files;
 pub mod input;
 #[doc(hidden)]
+pub mod memory;
+#[doc(hidden)]
 pub mod numbers;
 #[doc(hidden)]
 pub mod paper;

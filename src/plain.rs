@@ -2,10 +2,6 @@
 
 use std::fmt::Display;
 
-use serde::de::DeserializeOwned;
-
-use crate::error::{InputError, Result};
-
 /// What serde calls the kinds of values, found or expected.
 const KINDS: &[(&str, &str)] = &[
     ("sequence", "a list"),
@@ -23,24 +19,6 @@ const KINDS: &[(&str, &str)] = &[
     ("length", "a list of"),
 ];
 
-/// Reads a JSON document, which errors call `name`.
-///
-/// # Errors
-/// Names the field that is wrong or lacking, or what follows the document.
-pub fn document<T: DeserializeOwned>(text: &[u8], name: &str, fix: &str) -> Result<T> {
-    let mut deserializer = serde_json::Deserializer::from_slice(text);
-    let document = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
-        let place = match error.path().to_string() {
-            path if path == "." || path == "?" => format!("the {name}"),
-            path => format!("field {path} of the {name}"),
-        };
-        InputError::new(place, plain(error.inner()), fix)
-    })?;
-    let end = |why| InputError::new(format!("the end of the {name}"), plain(&why), fix);
-    deserializer.end().map_err(end)?;
-    Ok(document)
-}
-
 /// Returns what `error` says, with the kinds of JSON in place of those of Rust.
 ///
 /// ```
@@ -52,6 +30,9 @@ pub fn plain(error: &impl Display) -> String {
     let text = error.to_string();
     if let Some(at) = text.strip_prefix("trailing characters ") {
         return format!("the list is too long, {at}");
+    }
+    if let Some(rest) = text.strip_prefix("EOF while parsing ") {
+        return format!("the text ends within {rest}");
     }
     if let Some(rest) = text.strip_prefix("unknown variant ") {
         return format!("unknown value {rest}");
@@ -68,6 +49,9 @@ pub fn plain(error: &impl Display) -> String {
 
 /// Returns the words for a kind, and for a value whose kind comes first.
 fn of_json(words: &str) -> String {
+    if words.starts_with("struct ") {
+        return "an object".into();
+    }
     let known = |(rust, plain): &(&str, &str)| {
         let value = words.strip_prefix(rust)?;
         let is_whole = value.is_empty() || value.starts_with([' ', '`']) && !rust.starts_with("a ");

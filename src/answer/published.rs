@@ -20,8 +20,9 @@ use super::solution::{Cycle, Detail, Published, Solution, Step, StepBounds, max_
 use super::sparse::{MakeSparse, dense_matrices};
 use super::support::against_load;
 use crate::error::InputError;
+use crate::memory;
 use crate::numbers::scalar::Scalar;
-use crate::numbers::solve::{Inputs, Precision, ScalarName, cost, memory};
+use crate::numbers::solve::{Inputs, Precision, ScalarName, cost};
 use crate::paper::decisions::{Decision, decisions};
 use crate::paper::door::{self, NodeToSegment};
 use crate::paper::edited::Interpreter;

@@ -4,8 +4,7 @@ use std::path::Path;
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
-use plane_contact::files;
-use plane_contact::plain::plain;
+use plane_contact::files::{self, json};
 use plane_contact::report::answers::{self as report, Marked};
 use plane_contact::studies::lesson::exercise::{ANSWERS, Answers};
 
@@ -13,12 +12,7 @@ use super::print_either;
 
 /// Returns whether a file has answers: the kind that it names.
 pub fn are_in(file: &Path) -> bool {
-    #[derive(serde::Deserialize)]
-    struct Kind {
-        kind: String,
-    }
-    let text = files::read(file).unwrap_or_default();
-    serde_json::from_slice(&text).is_ok_and(|Kind { kind }| kind == ANSWERS)
+    json::has_field(&files::read(file).unwrap_or_default(), "kind")
 }
 
 /// Marks the answers of files; returns whether all are right.
@@ -30,11 +24,14 @@ pub fn verify(files: &[impl AsRef<Path>], json: bool) -> Result<bool> {
 
 fn marked(file: &Path) -> Result<Marked> {
     let name = file.display().to_string();
-    let fault = |why: String| {
-        let what = format!("these are no answers: {why}");
-        InputError::new(&name, what, "give files as the page of an exercise saves them")
-    };
-    let text = files::read(file).map_err(|why| fault(why.to_string()))?;
-    let answers: Answers = serde_json::from_slice(&text).map_err(|why| fault(plain(&why)))?;
+    let fix = "give files as the page of an exercise saves them";
+    let text = files::read(file)
+        .map_err(|why| InputError::new(&name, format!("the answers cannot be read: {why}"), fix))?;
+    let kind = json::Kind { name: "answers", fix, has_values: false };
+    let answers: Answers = json::read(&text, &kind).map_err(|error| error.within(&name))?;
+    if answers.kind != ANSWERS {
+        let what = format!("{:?} is no kind of answers", answers.kind);
+        return Err(InputError::new("field kind", what, fix).within(&name).into());
+    }
     Ok(Marked { file: name, marks: answers.marks(), answers })
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
-use plane_contact::files;
+use plane_contact::files::{self, json};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
@@ -93,11 +93,8 @@ fn first_pair<'a>(old: &'a Snapshot, verified: &'a Verified) -> Option<(&'a Run,
 
 /// Reads a snapshot, or runs a scene.
 fn side(args: &Args, side: usize, name: &str) -> Result<Snapshot> {
-    let is_snapshot = files::read(Path::new(name)).is_ok_and(|text| {
-        let document: Option<serde_json::Value> = serde_json::from_slice(&text).ok();
-        document.is_some_and(|document| document.get("runs").is_some())
-    });
-    if is_snapshot {
+    let text = files::read(Path::new(name)).unwrap_or_default();
+    if json::has_field(&text, "format") {
         return read(Path::new(name));
     }
     let scene = Scene::open(name)?;

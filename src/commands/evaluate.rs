@@ -7,7 +7,6 @@ use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::paper::mathcad::{Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
-use plane_contact::plain::plain;
 use plane_contact::report::evaluation as report;
 
 use super::{print, print_either, told};
@@ -90,8 +89,9 @@ fn call_of(program: &Listing) -> String {
 /// The worksheet that `--inputs` spells.
 fn inputs(text: &str) -> Result<Sheet, InputError> {
     let fix = "give an object such as {\"x\": 1, \"A\": [[1, 2], [3, 4]]}";
+    let kind = files::json::Kind { name: "object of inputs", fix, has_values: true };
     let names: serde_json::Map<String, serde_json::Value> =
-        serde_json::from_str(text).map_err(|why| InputError::new("--inputs", plain(&why), fix))?;
+        files::json::read(text.as_bytes(), &kind).map_err(|error| error.within("--inputs"))?;
     let mut sheet = Sheet::default();
     for (name, value) in names {
         let value = json::read(&value)

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use plane_contact::answer::Request;
 use plane_contact::answer::error::Result;
-use plane_contact::numbers::solve::memory;
+use plane_contact::memory;
 use plane_contact::paper::door::Call;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::matrix_market;

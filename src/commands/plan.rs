@@ -1,7 +1,7 @@
 //! `plane-contact plan`.
 
 use plane_contact::answer::error::Result;
-use plane_contact::numbers::solve::memory;
+use plane_contact::memory;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
 use plane_contact::studies::plan::Plan;

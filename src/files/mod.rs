@@ -2,6 +2,7 @@
 //! then renamed, so that no file is ever half written; those of a folder all at once.
 
 mod folder;
+pub mod json;
 mod manifest;
 mod staged;
 

@@ -10,13 +10,13 @@ use crate::answer::{
     Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Probe, Solution, Step,
 };
 use crate::error::{InputError, Result};
+use crate::files;
 use crate::numbers::scalar::rational;
 use crate::numbers::solve::{Arithmetic, ScalarName};
 use crate::paper::decisions::Decision;
 use crate::paper::edited::Edited;
 use crate::paper::listings::Which;
 use crate::paper::mirror::Reading;
-use crate::plain;
 use crate::problem::model::{NodeId, Triangle};
 use crate::problem::modelling::{ContactModel, Variant};
 use crate::problem::scene::sha256;
@@ -306,7 +306,8 @@ impl ResultFile {
     /// fields nor where they are is in it.
     pub fn from_json(text: &str) -> Result<Self> {
         let fix = "give a result.json as solve writes it";
-        let result: Self = plain::document(text.as_bytes(), "result", fix)?;
+        let kind = files::json::Kind { name: "result", fix, has_values: false };
+        let result: Self = files::json::read(text.as_bytes(), &kind)?;
         if result.fields_in.is_none() {
             result.fields()?;
         }

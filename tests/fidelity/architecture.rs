@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// The rooms of `src/`, each of which may import those before it: the folders that the listing of
 /// `src/` shows, from the bottom up.
 const LAYERS: &[&[&str]] = &[
-    &["choices", "error", "files", "plain", "suggestion", "xml"],
+    &["choices", "error", "files", "memory", "plain", "suggestion", "xml"],
     &["numbers"],
     &["problem"],
     &["paper"],

@@ -5,12 +5,13 @@ use std::fmt::Write;
 
 use fastrand::Rng;
 use nalgebra::{DMatrix, DVector};
+use plane_contact::memory;
 use plane_contact::numbers::scalar::{
     Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, compared, scope,
 };
 use plane_contact::numbers::solve::{
     Arithmetic, FactorSize, Inputs, Pattern, Precision, ScalarName, Solver, SparseCholesky,
-    SparseSquare, SparseSymmetric, cost, inverse_norm, largest_motion, memory,
+    SparseSquare, SparseSymmetric, cost, inverse_norm, largest_motion,
 };
 
 use crate::common::recorded::{assert_recorded, assert_recorded_exactly};

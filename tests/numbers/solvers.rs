@@ -3,9 +3,9 @@
 use std::ops::{Range, RangeInclusive};
 
 use nalgebra::{DMatrix, DVector};
+use plane_contact::memory::check;
 use plane_contact::numbers::scalar::{F64x2, Scalar};
 use plane_contact::numbers::solve::cost;
-use plane_contact::numbers::solve::memory::check;
 use plane_contact::numbers::solve::{
     DenseLu, FactorSize, Factors, Lu, Pattern, Precision, Singular, Solver, SparseCholesky,
     SparseSymmetric, Unsolved,

@@ -111,7 +111,7 @@ fn fields() {
     let e = refused(|s| s["materials"]["1"]["G"] = json!(1));
     says(&e, "materials.1", &["unknown field `G`, expected `E` or `nu`"]);
     let e = refused(|s| s["materials"] = json!([]));
-    says(&e, "materials", &["a list where an object is expected"]);
+    says(&e, "materials", &["a list where an object whose keys are physical groups"]);
     let e = refused(|s| drop(s.as_object_mut().unwrap().remove("materials")));
     says(&e, "the scene file", &["missing field `materials`"]);
     let e = refused(|s| s["variant"] = json!("glued"));
@@ -132,13 +132,22 @@ fn text_that_is_no_scene() {
         let error = Scene::build("test", text.as_bytes(), |_| Err("no".into()));
         error.expect_err("refused")
     };
-    says(&parse("{"), "the scene file", &["EOF", "line 1"]);
-    says(&parse("[1]"), "field", &["the number 1 where an object is expected"]);
+    says(&parse("{"), "the scene file", &["the text ends within an object", "line 1"]);
+    says(&parse("[1]"), "the scene file", &["a list where an object is expected"]);
     let whole = scene_json("fig1").to_string();
-    says(&parse(&(whole.clone() + "x")), "the end of the scene file", &["trailing characters"]);
+    says(&parse(&(whole.clone() + "x")), "the end of the scene file", &["more follows"]);
     says(&parse(&whole.replacen("0.001", "1e999", 1)), "c_tll", &["number out of range"]);
+    for (value, words) in [
+        ("NaN", "NaN where a finite number is expected"),
+        ("-Infinity", "-Infinity where a finite number is expected"),
+        ("+1", "+1 where a value is expected"),
+        ("None", "None where a value is expected"),
+        ("null", "null where a number is expected"),
+    ] {
+        says(&parse(&whole.replacen("0.001", value, 1)), "field contact.c_tll", &[words, "line 1"]);
+    }
     let twice = r#"{"plane":"strain","materials":{"1":{"E":1,"nu":0},"1":{"E":2,"nu":0}}}"#;
-    says(&parse(twice), "materials", &["material \"1\" is given twice"]);
+    says(&parse(twice), "materials", &["\"1\" is given twice"]);
 }
 
 #[test]

@@ -128,14 +128,18 @@ fn a_broken_snapshot_is_the_inputs_fault() {
     let folder = recorded();
     let text = std::fs::read(folder.path().join("s.json")).expect("a snapshot");
     std::fs::write(folder.path().join("half.json"), &text[..text.len() / 2]).expect("written");
-    assert_says(&ran(folder.path(), &["verify", "half.json"]), 2, &["EOF", "half.json"]);
+    assert_says(
+        &ran(folder.path(), &["verify", "half.json"]),
+        2,
+        &["the text ends within a list", "half.json"],
+    );
     let twice = String::from_utf8(text).expect("UTF-8").replacen(
         "\"iteration 1 dy\"",
         "\"iteration 1 ct\": [], \"iteration 1 dy\"",
         1,
     );
     std::fs::write(folder.path().join("twice.json"), twice).expect("written");
-    assert_says(&ran(folder.path(), &["verify", "twice.json"]), 2, &["stands there twice"]);
+    assert_says(&ran(folder.path(), &["verify", "twice.json"]), 2, &["is given twice"]);
     assert_says(&ran(folder.path(), &["verify", "none.json"]), 2, &["cannot be read"]);
 }
 

@@ -29,7 +29,6 @@ mod iterative;
 mod ldlt;
 mod lifting;
 mod lu;
-pub mod memory;
 mod ordering;
 mod precision;
 mod sparse;

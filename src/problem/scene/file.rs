@@ -1,76 +1,25 @@
 //! The scene file: a mesh and its description, as JSON.
 
-use std::collections::HashMap;
 use std::fmt;
 
 use serde::Deserialize;
-use serde::de::{self, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
-use serde_json::de::SliceRead;
 
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
-use crate::error::{InputError, Result};
-use crate::plain::plain;
-use crate::suggestion::did_you_mean;
+use crate::error::Result;
+use crate::files::json;
+
+/// Scene files.
+const SCENE: json::Kind =
+    json::Kind { name: "scene file", fix: "see the scene format in README.md", has_values: false };
 
 /// Parses a scene file, with the source of its mesh still in it.
 /// Errors: the text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
-    let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
-    let mut deserializer = serde_json::Deserializer::from_slice(text);
-    let _: Objects = read(&mut deserializer)?;
-    let mut deserializer = serde_json::Deserializer::from_slice(text);
-    let scene: Description = read(&mut deserializer)?;
-    deserializer.end().map_err(|error| {
-        let fix = "remove what follows the scene";
-        InputError::new("the end of the scene file", error.to_string(), fix)
-    })?;
-    Ok(scene)
-}
-
-/// The fields that are objects; serde would take a list in the order of their fields.
-#[derive(Deserialize)]
-struct Objects {
-    #[serde(default, rename = "units")]
-    _units: Object,
-    #[serde(default, rename = "contact")]
-    _contact: Option<Object>,
-    #[serde(default, rename = "materials")]
-    _materials: HashMap<String, Object>,
-    #[serde(default, rename = "restraints")]
-    _restraints: Vec<Object>,
-    #[serde(default, rename = "loads")]
-    _loads: Vec<Object>,
-}
-
-type Object = HashMap<String, IgnoredAny>;
-
-/// Reads what a scene file holds.
-/// Errors: it is malformed; the error names the field's path, the line and the column.
-fn read<'de, T: Deserialize<'de>>(
-    from: &mut serde_json::Deserializer<SliceRead<'de>>,
-) -> Result<T> {
-    serde_path_to_error::deserialize(from).map_err(|error| {
-        let place = match error.path().to_string() {
-            path if path == "." || path == "?" => "the scene file".into(),
-            path => format!("field {path}"),
-        };
-        let what = plain(error.inner());
-        let fix = meant(&what) + "see the scene format in README.md";
-        InputError::new(place, what, fix)
-    })
-}
-
-/// Returns the name that an unknown one was meant to be: serde's words name it first, then those that
-/// it expected, each in backticks.
-fn meant(what: &str) -> String {
-    let mut names = what.split('`').skip(1).step_by(2);
-    match names.next().filter(|_| what.starts_with("unknown ")) {
-        Some(typed) => did_you_mean(typed, names),
-        None => String::new(),
-    }
+    json::read(text, &SCENE)
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line
@@ -149,7 +98,7 @@ impl<'de> Deserialize<'de> for Materials {
     }
 }
 
-/// Reads an object of materials; a group that is named twice is refused.
+/// Reads an object of materials.
 struct MaterialsVisitor;
 
 impl<'de> Visitor<'de> for MaterialsVisitor {
@@ -166,9 +115,6 @@ impl<'de> Visitor<'de> for MaterialsVisitor {
         let mut materials: Vec<(GroupRef, Material)> = Vec::new();
         while let Some(name) = map.next_key::<String>()? {
             let group = GroupRef::Name(name);
-            if materials.iter().any(|(other, _)| *other == group) {
-                return Err(de::Error::custom(format!("material {group} is given twice")));
-            }
             materials.push((group, map.next_value()?));
         }
         Ok(Materials(materials))

@@ -6,7 +6,7 @@ use super::description::Description;
 use super::gmsh::{self, Fault};
 use super::mesh::Mesh;
 use crate::error::{InputError, Result};
-use crate::numbers::solve::memory;
+use crate::memory;
 
 /// A file beside a scene file, which is read once, as it comes.
 pub struct FileBeside {

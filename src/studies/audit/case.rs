@@ -8,7 +8,7 @@ use crate::answer::error::Error;
 use crate::answer::estimates::{Certainty, certain};
 use crate::answer::{Request, Solution, equilibrium, solve};
 use crate::error::InputError;
-use crate::numbers::solve::memory;
+use crate::memory;
 use crate::paper::door::Call;
 use crate::paper::mirror::{Failure, Reading};
 use crate::problem::model::Model;

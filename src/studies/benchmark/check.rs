@@ -1,7 +1,7 @@
 //! Checks of the parameters of benchmarks.
 
 use crate::error::{InputError, Result};
-use crate::numbers::solve::memory;
+use crate::memory;
 
 /// More divisions of a side than anybody has memory for.
 const MOST: usize = 2000;

@@ -32,8 +32,8 @@ use serde_json::Value;
 
 use crate::answer::{Request, error as answer};
 use crate::error::{InputError, Result};
+use crate::files::json;
 use crate::paper::decisions::Decision;
-use crate::plain;
 use crate::problem::scene::{Scene, Units};
 
 pub use accept::{Acceptance, Chosen, accept};
@@ -138,14 +138,14 @@ impl Snapshot {
         struct Head {
             format: Option<u32>,
         }
-        let head: std::result::Result<Head, _> = serde_json::from_slice(text);
-        if let Ok(Head { format }) = head
+        let head = json::utf8(text).ok().and_then(|text| serde_json::from_str(text).ok());
+        if let Some(Head { format }) = head
             && format != Some(FORMAT)
         {
             let found = format.map_or("names no format".into(), |n| format!("is of format {n}"));
             let what = format!("the snapshot {found}; this program reads format {FORMAT}");
             return Err(InputError::new("field format", what, fix));
         }
-        plain::document(text, "snapshot", fix)
+        json::read(text, &json::Kind { name: "snapshot", fix, has_values: true })
     }
 }

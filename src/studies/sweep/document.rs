@@ -9,10 +9,14 @@ use serde_json::{Map, Value, json};
 
 use crate::answer::Request;
 use crate::error::{InputError, Result};
-use crate::plain::plain;
+use crate::files;
 use crate::problem::scene::{FileBeside, SceneBuilder, SceneFile, file, sha256};
 use crate::studies::benchmark::Kind;
 use crate::studies::snapshot::{Options, VERSION};
+
+/// Files of sweeps.
+pub(super) const SWEEP: files::json::Kind =
+    files::json::Kind { name: "sweep", fix: "see `plane-contact sweep --help`", has_values: true };
 
 /// What a case runs.
 #[derive(Clone)]
@@ -40,10 +44,10 @@ impl Document {
         match (scene, generate.is_empty()) {
             (Some(scene), true) => {
                 let file = SceneFile::read(scene, folder)?;
-                let fields: Value = serde_json::from_slice(&file.text).map_err(|why| {
-                    let fix = "see the scene format in README.md";
-                    InputError::new(scene, why.to_string(), fix)
-                })?;
+                let fix = "see the scene format in README.md";
+                let kind = files::json::Kind { name: "scene file", fix, has_values: true };
+                let fields: Value =
+                    files::json::read(&file.text, &kind).map_err(|error| error.within(scene))?;
                 let mesh = fields.get("mesh").and_then(Value::as_str);
                 let bytes = mesh.map(|mesh| file.beside(mesh).and_then(read_all)).transpose();
                 let bytes = bytes.map_err(|why| {
@@ -97,11 +101,7 @@ impl Document {
             }
             None => self.generated()?.build()?,
         };
-        let options: Options =
-            serde_path_to_error::deserialize(&self.fields["options"]).map_err(|error| {
-                let place = format!("options.{}", error.path());
-                InputError::new(place, plain(error.inner()), "see `plane-contact sweep --help`")
-            })?;
+        let options: Options = files::json::read_field(&self.fields["options"], &SWEEP, "options")?;
         Ok(options.request(&scene))
     }
 

@@ -7,9 +7,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::document::Document;
+use super::document::{Document, SWEEP};
 use crate::error::{InputError, Result};
-use crate::plain;
+use crate::files::json;
 use crate::studies::benchmark::Kind;
 use crate::studies::snapshot::Options;
 
@@ -121,7 +121,7 @@ impl Sweep {
     /// # Errors
     /// Names the field that is wrong.
     pub fn read(text: &[u8]) -> Result<Self> {
-        let sweep: Self = plain::document(text, "sweep", "see `plane-contact sweep --help`")?;
+        let sweep: Self = json::read(text, &SWEEP)?;
         if sweep.format != FORMAT {
             let what = format!("the sweep is of format {}", sweep.format);
             return Err(InputError::new("field format", what, "this program reads format 1"));

@@ -7,4 +7,118 @@ fn meshes() {
     check("meshes", CASES);
 }
 
-const CASES: &[Case] = &[];
+/// Writes `sed`'s edit of the scene to edited.json and plans it.
+macro_rules! edited {
+    ($edit:literal, $status:literal, $contains:expr) => {
+        Case {
+            input: "json",
+            command: concat!(
+                "sed '",
+                $edit,
+                "' scene.json >edited.json; plane-contact plan edited.json"
+            ),
+            status: $status,
+            contains: $contains,
+            lacks: &[],
+        }
+    };
+}
+
+const CASES: &[Case] = &[
+    edited!(
+        "s/-2.5/NaN/",
+        2,
+        &["NaN where a finite number is expected", "field loads[0].force[1]"]
+    ),
+    edited!("s/-2.5/-Infinity/", 2, &["-Infinity where a finite number is expected"]),
+    edited!("s/-2.5/1e999/", 2, &["1e999 is a number out of range", "field loads[0].force[1]"]),
+    edited!("s/-2.5/null/", 2, &["null where a number is expected"]),
+    edited!("s/-2.5/\"-2.5\"/", 2, &["the text \"-2.5\" where a number is expected"]),
+    edited!("s/-2.5/-0/", 0, &["plan:"]),
+    edited!(
+        "s/\"7\"/\"7\": {\"E\": 1, \"nu\": 0}, \"7\"/",
+        2,
+        &["\"7\" is given twice", "materials"]
+    ),
+    edited!("s/\"force\"/\"node\": 3, \"force\"/", 2, &["\"node\" is given twice", "loads[0]"]),
+    edited!(
+        "s/\"E\": 3e4, \"nu\": 0.2/\"E\": \"\\\\ud800\"/",
+        2,
+        &["end of hex escape", "materials.7.E"]
+    ),
+    edited!(
+        "s/{\"node\": 1, \"fix\"/[1, 2, 3], {\"node\": 1, \"fix\"/",
+        2,
+        &["a list where an object"]
+    ),
+    edited!("1s/^/\\xEF\\xBB\\xBF/", 0, &["plan:"]),
+    edited!("s/$/\\r/", 0, &["plan:"]),
+    edited!("s/strain/str\\xE9in/", 2, &["line 2 is not in UTF-8", "save it as UTF-8"]),
+    Case {
+        input: "json",
+        command: "iconv -t UTF-16 scene.json >edited.json; plane-contact plan edited.json",
+        status: 2,
+        contains: &["the file is in UTF-16", "save it as UTF-8"],
+        lacks: &[],
+    },
+    Case {
+        input: "json",
+        command: "plane-contact record scene.json --out s.json; iconv -t UTF-16LE s.json >u.json; \
+                  plane-contact verify u.json",
+        status: 2,
+        contains: &["the file is in UTF-16"],
+        lacks: &[],
+    },
+    Case {
+        input: "json",
+        command: "plane-contact record scene.json --out s.json; sed '1s/^/\\xEF\\xBB\\xBF/' s.json \
+                  >b.json; plane-contact verify b.json && plane-contact diff b.json s.json",
+        status: 0,
+        contains: &["b.json: same"],
+        lacks: &[],
+    },
+    Case {
+        input: "json",
+        command: "(printf '{\"title\": '; head -c 100000 /dev/zero | tr '\\0' '[') >deep.json; \
+                  plane-contact plan deep.json",
+        status: 2,
+        contains: &["a list where a string is expected", "field title"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: "printf 'f(x) :=\\n  x\\n' >f.txt; plane-contact evaluate f.txt --inputs \
+                  '{\"x\": 1, \"x\": 2}'",
+        status: 2,
+        contains: &["\"x\" is given twice", "--inputs"],
+        lacks: &[],
+    },
+    // 60 MB of small values, which take a hundred times as much, where there is 1 GB.
+    Case {
+        input: "",
+        command: "(printf '{\"materials\": {}, \"elem\": [[]'; head -c 20000000 /dev/zero | \
+                  sed 's/\\x00/,[]/g'; echo ']}') >big.json; ulimit -v 1000000; \
+                  plane-contact plan big.json",
+        status: 2,
+        contains: &["big.json: the scene file", "need 6.5 GB"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: "(printf '{\"format\": 1, \"scene\": \"fig1\", \"list\": [{}'; \
+                  head -c 5000000 /dev/zero | sed 's/\\x00/,{}/g'; echo ']}') >big.json; \
+                  ulimit -v 1000000; plane-contact sweep big.json",
+        status: 2,
+        contains: &["big.json: the sweep", "GB are free"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: "(printf '{\"format\": 1, \"runs\": {\"a\": {\"facts\": {\"b\": [0'; \
+                  head -c 20000000 /dev/zero | sed 's/\\x00/,0/g'; echo ']}}}}') >big.json; \
+                  ulimit -v 1000000; plane-contact verify big.json",
+        status: 2,
+        contains: &["big.json: the snapshot", "need 2.9 GB"],
+        lacks: &[],
+    },
+];

@@ -7,7 +7,7 @@ use super::error::{Fault, GmshError, Result};
 use super::kinds::{ENTITIES, magnitude};
 use super::numbered::Numbered;
 use super::tokens::Tokens;
-use crate::numbers::solve::memory;
+use crate::memory;
 use crate::problem::scene::mesh::{Element, Mesh, Node, PhysicalName};
 
 /// The bytes of the shortest node or element: `1 0 0 0` or `1 15 0 1`, and what parts it from the next.

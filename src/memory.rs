@@ -61,8 +61,8 @@ pub fn check_bytes(needed: f64, place: &str, whose: &str, fix: &str) -> Result<(
     Err(InputError::new(place, what, fix))
 }
 
-/// Spells bytes: of less than 0.1 GB, in MB.
-fn readable(bytes: f64) -> String {
+/// Returns bytes in words: of less than 0.1 GB, in MB.
+pub fn readable(bytes: f64) -> String {
     if bytes < 1e8 { format!("{:.0} MB", bytes / 1e6) } else { format!("{:.1} GB", bytes / 1e9) }
 }
 

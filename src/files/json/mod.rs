@@ -1,0 +1,172 @@
+//! The one reader of JSON: scenes, snapshots, sweeps, results, answers, inputs of programs.
+
+mod fields;
+mod strict;
+
+use serde::de::{DeserializeOwned, Deserializer, IgnoredAny};
+use serde_json::Value;
+
+pub use fields::has_field;
+use strict::Strict;
+
+use crate::error::{InputError, Result};
+use crate::memory;
+use crate::plain::plain;
+use crate::suggestion::did_you_mean;
+
+/// A kind of document.
+pub struct Kind {
+    /// What errors call it, such as `snapshot`.
+    pub name: &'static str,
+    /// What to do about one that is malformed.
+    pub fix: &'static str,
+    /// Whether values of it are held as they come, as [`Value`], which takes more memory.
+    pub has_values: bool,
+}
+
+/// Reads a document in UTF-8, with or without a byte order mark.
+///
+/// # Errors
+/// Names the field that is malformed or given twice, with line and column, or what follows the
+/// document; or says that it is in another encoding, or needs more memory than is free.
+pub fn read<T: DeserializeOwned>(text: &[u8], kind: &Kind) -> Result<T> {
+    let whole = format!("the {}", kind.name);
+    let text = utf8(text).map_err(|what| InputError::new(&whole, what, "save it as UTF-8"))?;
+    let whose = format!("its values, {} of text,", memory::readable(text.len() as f64));
+    let fix = "give a smaller file, or use a machine with more memory";
+    memory::check_bytes(bytes_of_values(text, kind), &whole, &whose, fix)?;
+    let mut source = serde_json::Deserializer::from_str(text);
+    let place = |path: &str| if path.is_empty() { whole.clone() } else { format!("field {path}") };
+    let document = deserialize(&mut source, kind, place, |error| words(error, text))?;
+    source.end().map_err(|error| {
+        let what = format!("more follows, from line {} column {}", error.line(), error.column());
+        InputError::new(format!("the end of {whole}"), what, kind.fix)
+    })?;
+    Ok(document)
+}
+
+/// Reads what the values of a field of a document hold.
+///
+/// # Errors
+/// Names the field that is malformed.
+pub fn read_field<T: DeserializeOwned>(value: &Value, kind: &Kind, field: &str) -> Result<T> {
+    let place =
+        |path: &str| format!("field {field}{}{path}", if path.is_empty() { "" } else { "." });
+    deserialize(value, kind, place, plain)
+}
+
+/// Reads what `source` holds; `place` names a path, which is empty of the whole, and `words` says what
+/// is wrong.
+fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de, Error = serde_json::Error>>(
+    source: D,
+    kind: &Kind,
+    place: impl Fn(&str) -> String,
+    words: impl Fn(&serde_json::Error) -> String,
+) -> Result<T> {
+    serde_path_to_error::deserialize(Strict(source)).map_err(|error| {
+        let place = match error.path().to_string() {
+            path if path == "." || path == "?" => place(""),
+            path => place(path.trim_end_matches(".?")),
+        };
+        let what = words(error.inner());
+        InputError::new(place, &what, meant(&what) + kind.fix)
+    })
+}
+
+/// Returns a text in UTF-8 without its byte order mark.
+///
+/// # Errors
+/// Says in which encoding it is, or in which line it is not in UTF-8.
+pub fn utf8(text: &[u8]) -> Result<&str, String> {
+    match text {
+        [0xFF, 0xFE, 0, 0, ..] | [0, 0, 0xFE, 0xFF, ..] => Err("the file is in UTF-32".into()),
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [_, 0, _, 0, ..] | [0, _, 0, _, ..] => {
+            Err("the file is in UTF-16".into())
+        }
+        _ => {
+            let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
+            std::str::from_utf8(text).map_err(|wrong| {
+                let before = &text[..wrong.valid_up_to()];
+                let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+                format!("line {line} is not in UTF-8")
+            })
+        }
+    }
+}
+
+/// Returns the most bytes that the values of a document take: those of each scalar, of each list or
+/// object, and of each name in an object. Lists that grow have twice the room of what they hold.
+fn bytes_of_values(text: &str, kind: &Kind) -> f64 {
+    let [scalar, container, name] =
+        if kind.has_values { [144.0, 304.0, 256.0] } else { [16.0, 304.0, 128.0] };
+    let (mut scalars, mut containers, mut names) = (1.0, 0.0, 0.0);
+    let mut bytes = text.bytes();
+    while let Some(byte) = bytes.next() {
+        match byte {
+            b',' => scalars += 1.0,
+            b'[' | b'{' => containers += 1.0,
+            b':' => names += 1.0,
+            b'"' => skip_string(&mut bytes),
+            _ => (),
+        }
+    }
+    text.len() as f64 + scalars * scalar + containers * container + names * name
+}
+
+/// Skips a string behind its first quote.
+fn skip_string(bytes: &mut std::str::Bytes) {
+    while let Some(byte) = bytes.next() {
+        match byte {
+            b'"' => return,
+            b'\\' => drop(bytes.next()),
+            _ => (),
+        }
+    }
+}
+
+/// Returns what `error` says of `text`, and shows what stands there in place of JSON.
+fn words(error: &serde_json::Error, text: &str) -> String {
+    let said = plain(error);
+    let found = word(text, error.line(), error.column());
+    let bare = found.trim_start_matches(['-', '+']).to_lowercase();
+    let expected = match said.split(" at line ").next().unwrap_or_default() {
+        "number out of range" => return format!("{found} is a {said}"),
+        "key must be a string" => "text in double quotes",
+        "expected value" | "expected ident" | "invalid number" => {
+            if ["nan", "inf", "infinity"].contains(&bare.as_str()) {
+                "a finite number"
+            } else if found == "[" || serde_json::from_str::<IgnoredAny>(&found).is_ok() {
+                "text in double quotes"
+            } else {
+                "a value"
+            }
+        }
+        _ => return said,
+    };
+    let (line, column) = (error.line(), error.column());
+    format!("{found} where {expected} is expected, at line {line} column {column}")
+}
+
+/// Returns the word at a place: letters and digits with what may stand in a number, or the one
+/// character that is there.
+fn word(text: &str, line: usize, column: usize) -> String {
+    /// The most characters that are shown.
+    const MOST: usize = 40;
+    let line = text.split('\n').nth(line - 1).unwrap_or_default();
+    let is_of_word = |c: char| c.is_alphanumeric() || "+-._".contains(c);
+    let at = line.floor_char_boundary(column.saturating_sub(1));
+    let start = line[..at].trim_end_matches(is_of_word).len();
+    let end = line[at..].find(|c| !is_of_word(c)).map_or(line.len(), |length| at + length);
+    let word = if start < end { &line[start..end] } else { &line[at..] };
+    word.chars().take(if start < end { MOST } else { 1 }).collect()
+}
+
+/// Returns the name that an unknown one was meant to be: serde's words name it first, then those that
+/// it expected, each in backticks.
+fn meant(what: &str) -> String {
+    let mut names = what.split('`').skip(1).step_by(2);
+    match names.next().filter(|_| what.starts_with("unknown ")) {
+        Some(typed) => did_you_mean(typed, names),
+        None => String::new(),
+    }
+}
