@@ -17,7 +17,7 @@ use plane_contact::studies::audit::range::range;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
 use plane_contact::suggestion::did_you_mean;
 
-use super::{TablesArgs, check_folders, huge_pages, print, print_either, progress, tell};
+use super::{TablesArgs, huge_pages, print, print_either, progress, tell};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -92,7 +92,10 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
 }
 
 fn whole(args: &Args) -> Result<()> {
-    check_folders(&[&args.out, &args.tables.csv])?;
+    args.tables.check("audit")?;
+    if let Some(out) = &args.out {
+        files::check_folder(out, "audit", &["audit.txt", "audit.json"])?;
+    }
     // Many runs are held at once.
     huge_pages::set(true);
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;

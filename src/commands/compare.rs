@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use plane_contact::answer::error::Result;
 use plane_contact::answer::estimates::certain;
+use plane_contact::files;
 use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
 use super::{TablesArgs, export::DeckArgs};
-use super::{check_folders, folder, folder_name, print, waiting};
+use super::{folder, folder_name, print, waiting};
 
 plane_contact::choices! {
     /// A code whose results are compared.
@@ -61,7 +62,10 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    check_folders(&[&args.out, &args.tables.csv])?;
+    args.tables.check("compare")?;
+    if let Some(out) = &args.out {
+        files::check_folder(out, "compare", &["nodes.csv", "elements.csv", "compare.json"])?;
+    }
     let Code::Calculix = args.with;
     let solution = args.deck.solve(&args.scene)?;
     let request = solution.request.clone();

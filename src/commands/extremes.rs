@@ -8,7 +8,7 @@ use plane_contact::files;
 use plane_contact::report::extremes as report;
 use plane_contact::studies::extremes::{Generator, generators, measure};
 
-use super::{TablesArgs, check_folders, folder, print, print_fitted, waiting};
+use super::{TablesArgs, folder, print, print_fitted, waiting};
 
 /// Sweep magnitudes until something breaks down, every answer compared with exact numbers.
 #[derive(clap::Args)]
@@ -45,13 +45,17 @@ pub fn run(args: &Args) -> Result<()> {
     if args.list {
         return print_fitted(&report::list(&chosen));
     }
-    check_folders(&[&args.out, &args.tables.csv])?;
+    args.tables.check("extremes")?;
+    let out = folder(&args.out, "extremes".into());
+    let is_written = !args.json || args.out.is_some();
+    if is_written {
+        files::check_folder(&out, "extremes", &["extremes.txt", "extremes.json"])?;
+    }
     let measured = waiting("sweeping", || measure(&chosen));
     let (text, json) = (report::text(&measured), report::json(&measured));
-    if args.json && args.out.is_none() {
+    if !is_written {
         return print(&json);
     }
-    let out = folder(&args.out, "extremes".into());
     let mut written = vec![("extremes.txt".into(), &text), ("extremes.json".into(), &json)];
     let pictures: Vec<_> = measured.iter().map(|of| (of.name, report::pictures(of))).collect();
     for (name, pictures) in &pictures {

@@ -283,14 +283,6 @@ pub fn waiting<R>(what: &'static str, work: impl FnOnce() -> R) -> R {
     result
 }
 
-/// Checks that folders which are asked for can be written, before what goes there is computed.
-///
-/// # Errors
-/// A file is in the place of one.
-pub fn check_folders(asked: &[&Option<PathBuf>]) -> Result<()> {
-    Ok(asked.iter().filter_map(|folder| folder.as_deref()).try_for_each(files::check_folder)?)
-}
-
 /// The folder that is asked for, else `name` in the folder `out`.
 pub fn folder(asked: &Option<PathBuf>, name: String) -> PathBuf {
     asked.clone().unwrap_or_else(|| Path::new("out").join(name))
@@ -305,6 +297,15 @@ pub struct TablesArgs {
 }
 
 impl TablesArgs {
+    /// Checks that the tables of `command` can be written, before they are computed.
+    ///
+    /// # Errors
+    /// Those of [`files::check_folder`].
+    pub fn check(&self, command: &str) -> Result<()> {
+        let command = format!("{command} --csv");
+        Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &command, &[]))?)
+    }
+
     /// Prints a text with tables, which `command` made.
     pub fn print(&self, command: &str, text: &str) -> Result<()> {
         if let Some(folder) = &self.csv {

@@ -1,5 +1,6 @@
 //! `plane-contact record`.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
@@ -73,15 +74,23 @@ pub fn run(args: &Args) -> Result<()> {
 /// Writes a snapshot; an existing file with another content is kept. What is no ordinary file (a
 /// pipe, a device) has no content.
 fn write_new(file: &Path, text: &str) -> Result<()> {
-    if !file.is_file() {
+    if file.exists() && !file.is_file() {
         return Ok(files::write(file, text)?);
     }
-    let what = match files::read(file) {
-        Ok(there) if there == text.as_bytes() => return Ok(()),
-        Ok(_) => "there is another snapshot".into(),
-        Err(why) => format!("the file that is there cannot be read: {why}"),
-    };
-    let fix = "see what differs by `plane-contact verify`, take new values by `accept`, or delete \
-               the file";
-    Err(InputError::new(file.display().to_string(), what, fix).into())
+    let place = file.display().to_string();
+    if let Err(why) = files::write_new(file, text) {
+        if why.kind() != io::ErrorKind::AlreadyExists {
+            let what = format!("the file cannot be written: {why}");
+            return Err(InputError::new(place, what, "choose another place").into());
+        }
+        let what = match files::read(file) {
+            Ok(there) if there == text.as_bytes() => return Ok(()),
+            Ok(_) => "there is another snapshot".into(),
+            Err(why) => format!("the file that is there cannot be read: {why}"),
+        };
+        let fix = "see what differs by `plane-contact verify`, take new values by `accept`, or \
+                   delete the file";
+        return Err(InputError::new(place, what, fix).into());
+    }
+    Ok(())
 }

@@ -1,11 +1,12 @@
 //! `plane-contact report`.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::answer::{Assessment, Solution};
 use plane_contact::error::InputError;
-use plane_contact::files;
+use plane_contact::files::{self, Folder};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::page::report::{self as page, Report};
@@ -13,6 +14,9 @@ use plane_contact::studies::audit::{Case, audit};
 use plane_contact::studies::calculix::{self, Comparison, Contact, Fields, Pair, Part};
 
 use super::{say_written, waiting};
+
+/// The most bytes of a chart of `trade`; one has some 30,000.
+const CHART: u64 = 1 << 24;
 
 /// Write a page that testifies: what was run on a scene, the claims with their verdicts, readings,
 /// findings, and the fields of every variant side by side.
@@ -118,18 +122,15 @@ fn calculix(program: &str, case: &Case) -> Result<(Comparison, String)> {
 
 /// Reads the charts of a folder, by name.
 fn charts(folder: &Path) -> Result<Vec<(String, String)>> {
-    let fault = |why: std::io::Error| {
+    let fault = |why: io::Error| {
         let what = format!("the charts cannot be read: {why}");
         InputError::new(folder.display().to_string(), what, "give a folder that trade wrote")
     };
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(fault)? {
-        let path = entry.map_err(fault)?.path();
-        if path.extension().is_some_and(|extension| extension == "svg") {
-            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            found.push((name, files::read_text(&path).map_err(fault)?));
-        }
-    }
-    found.sort();
-    Ok(found)
+    let charts = Folder::open(folder).map_err(fault)?;
+    let read = |name: String| {
+        let text = charts.read(&name, CHART).and_then(files::text);
+        let text = text.map_err(|why| fault(io::Error::other(format!("{name}: {why}"))))?;
+        Ok((name.trim_end_matches(".svg").into(), text))
+    };
+    charts.names("svg").map_err(fault)?.into_iter().map(read).collect()
 }

@@ -7,6 +7,7 @@ use plane_contact::answer::error::{Error, NoEquilibrium, Result};
 use plane_contact::answer::estimates::ErrorEstimates;
 use plane_contact::answer::{self, Assessment, Others, Request, Solution, Step, side_by_side};
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::Which;
@@ -18,8 +19,8 @@ use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::solve_to;
 
 use super::{
-    ModelArgs, ReadingArg, SceneArgs, TablesArgs, check_folders, folder, folder_name, huge_pages,
-    print, progress, tell, told,
+    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, huge_pages, print, progress,
+    tell, told,
 };
 
 /// The number of equations of bodies that are factored on both cores for so long that the plan waits for
@@ -106,10 +107,20 @@ pub struct Args {
 
 /// Solves a scene and writes its files; returns the exit status.
 pub fn run(args: &Args) -> Result<u8> {
-    check_folders(&[&args.out, &args.tables.csv])?;
+    args.tables.check("solve")?;
     let scene = args.changes.change(Scene::open(&args.scene)?)?;
     let request = args.model.request(&scene, args.variant, &args.reading);
     let request = edited(args, request.arithmetic(args.arithmetic))?;
+    let mut asked = args.changes.names();
+    asked.extend(args.accuracy.iter().map(|a| format!("accuracy-{a:e}")));
+    asked.extend(request.edited.iter().map(|edited| format!("edited-{}", edited.which)));
+    let start = format!("{}-{}", scene.name, request.variant);
+    let out = folder(&args.out, folder_name(start, &request, &asked));
+    let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
+    let is_written = !args.json || args.out.is_some();
+    if is_written {
+        files::check_folder(&out, "solve", report::folder::names(wanted))?;
+    }
     let is_large = scene.model.free_dofs() >= LARGE;
     huge_pages::set(is_large);
     let with_estimates = !args.no_error_estimate;
@@ -147,16 +158,11 @@ pub fn run(args: &Args) -> Result<u8> {
     let mut assessment = Assessment::beside(&solution, others, estimates);
     assessment.probe(&solution, &args.probe)?;
     solution.let_go_of_factors();
-    let mut asked = args.changes.names();
-    asked.extend(args.accuracy.iter().map(|a| format!("accuracy-{a:e}")));
-    asked.extend(request.edited.iter().map(|edited| format!("edited-{}", edited.which)));
-    let start = format!("{}-{}", scene.name, request.variant);
-    let out = folder(&args.out, folder_name(start, &request, &asked));
-    let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
     if args.json {
-        let result = match args.out {
-            Some(_) => report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?,
-            None => report::folder::result(&solution, &assessment, Some(&plan), wanted),
+        let result = if is_written {
+            report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?
+        } else {
+            report::folder::result(&solution, &assessment, Some(&plan), wanted)
         };
         tell(&accuracy);
         print(&result)?;

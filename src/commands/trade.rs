@@ -6,11 +6,12 @@ use std::process::Command;
 use plane_contact::answer::error::Result;
 use plane_contact::answer::{Request, solve};
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
 use plane_contact::studies::trade::{self, Knob, Options, Trial, peak};
 
-use super::{ReadingArg, TablesArgs, check_folders, folder, folder_name, print, progress};
+use super::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
 
 /// The runs of each trial unless told otherwise.
 const RUNS: u16 = 3;
@@ -58,7 +59,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    check_folders(&[&args.out, &args.tables.csv])?;
+    args.tables.check("trade")?;
     let scene = Scene::open(&args.scene)?;
     let request = Request::new(&scene).reading(args.reading.reading);
     if let Some(name) = &args.peak_of {
@@ -66,6 +67,14 @@ pub fn run(args: &Args) -> Result<()> {
     }
     let only = if args.only.is_empty() { Knob::ALL.to_vec() } else { args.only.clone() };
     let options = Options { runs: usize::from(args.runs), only };
+    let differs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
+    let asked: Vec<String> = args.only.iter().map(Knob::to_string).chain(differs).collect();
+    let start = format!("trade-{}", scene.name);
+    let out = folder(&args.out, folder_name(start, &request, &asked));
+    let is_written = !args.json || args.out.is_some();
+    if is_written {
+        files::check_folder(&out, "trade", &["trade.json", "trade.csv"])?;
+    }
     let bar = progress(trade::steps(&request, &options)?, "{pos} of {len} {wide_bar} {eta} {msg}");
     let watch = |trial: &str| {
         bar.set_message(trial.to_string());
@@ -73,11 +82,7 @@ pub fn run(args: &Args) -> Result<()> {
     };
     let measured = trade::measure(&request, &options, in_a_process, watch)?;
     bar.finish_and_clear();
-    let differs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
-    let asked: Vec<String> = args.only.iter().map(Knob::to_string).chain(differs).collect();
-    let start = format!("trade-{}", scene.name);
-    let out = folder(&args.out, folder_name(start, &request, &asked));
-    if args.json && args.out.is_none() {
+    if !is_written {
         return print(&report::json(&scene, &measured));
     }
     let json = report::write(&out, &scene, &measured)?;

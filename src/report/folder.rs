@@ -43,9 +43,22 @@ pub fn write(
     Ok(String::from_utf8(files.swap_remove(0).1).expect("JSON is UTF-8"))
 }
 
-/// Returns the files of a run, each with its name: `result.json`, `fields.vtu` and, where pictures
-/// are wanted, `mesh.svg`, `von_mises_stress.svg`, `von_mises_strain.svg` and, with contact,
-/// `pressure.svg`.
+/// The names of the files of a run with pictures: data first, and last the one that needs contact.
+const NAMES: [&str; 6] = [
+    "result.json",
+    "fields.vtu",
+    "mesh.svg",
+    "von_mises_stress.svg",
+    "von_mises_strain.svg",
+    "pressure.svg",
+];
+
+/// Returns the names of the files that a run may leave.
+pub fn names(wanted: Wanted) -> &'static [&'static str] {
+    if wanted.pictures { &NAMES } else { &NAMES[..2] }
+}
+
+/// Returns the files of a run, each with its name.
 pub fn contents(
     solution: &Solution,
     assessment: &Assessment,
@@ -66,17 +79,13 @@ pub fn contents(
     let fields = || vtu::vtu(&drawing, solution, assessment);
     let mesh = || picture::mesh(&drawing).into_bytes();
     let pressure = || pressures(solution, assessment).into_bytes();
-    let mut files: Vec<(&str, &(dyn Fn() -> Vec<u8> + Sync))> =
-        vec![("result.json", &result), ("fields.vtu", &fields)];
-    if wanted.pictures {
-        files.push(("mesh.svg", &mesh));
-        files.push(("von_mises_stress.svg", &stress));
-        files.push(("von_mises_strain.svg", &strain));
-        if !solution.contact.is_empty() {
-            files.push(("pressure.svg", &pressure));
-        }
+    let contents: [&(dyn Fn() -> Vec<u8> + Sync); 6] =
+        [&result, &fields, &mesh, &stress, &strain, &pressure];
+    let mut files: Vec<_> = names(wanted).iter().zip(contents).collect();
+    if solution.contact.is_empty() {
+        files.truncate(NAMES.len() - 1);
     }
-    files.par_iter().with_max_len(1).map(|(name, content)| (*name, content())).collect()
+    files.par_iter().with_max_len(1).map(|(name, content)| (**name, content())).collect()
 }
 
 /// Returns the content of `result.json`, and writes nothing.

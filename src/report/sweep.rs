@@ -3,6 +3,8 @@
 //! Every case is `plane-contact sweep FILE --case K --row ROW`, which writes one file and leaves an
 //! equal one alone; `plane-contact sweep FILE --rows DIR` gathers the rows and runs what is missing.
 
+use serde_json::Value;
+
 use crate::choices;
 
 choices! {
@@ -56,19 +58,23 @@ impl Jobs<'_> {
         }
     }
 
-    /// Returns the command that runs the case that a variable of the shell numbers.
-    fn case(&self, variable: &str) -> String {
-        let (program, sweep, rows) = (quoted(self.program), quoted(self.sweep), quoted(self.rows));
-        format!("{program} sweep {sweep} --case \"${variable}\" --row {rows}/\"${variable}\".json")
+    /// Returns lines of the shell that name the program, the sweep and the rows; job files name them by
+    /// these variables alone, which no engine takes for its own signs.
+    fn variables(&self) -> String {
+        let [program, sweep, rows] = self.words().map(|word| quoted(&word));
+        format!("export PROGRAM={program} SWEEP={sweep} ROWS={rows}\n")
     }
 
-    fn gather(&self) -> String {
-        let (program, sweep, rows) = (quoted(self.program), quoted(self.sweep), quoted(self.rows));
-        format!("{program} sweep {sweep} --rows {rows}")
+    /// Returns the program, the sweep and the rows, none of which a program takes for an option.
+    fn words(&self) -> [String; 3] {
+        [self.program, self.sweep, self.rows].map(|word| {
+            let is_option = word.starts_with(['-', '+']);
+            if is_option { format!("./{word}") } else { word.into() }
+        })
     }
 
     fn hyperqueue(&self) -> String {
-        let text = |text: &str| serde_json::Value::from(text).to_string();
+        let [program, sweep, rows] = self.words().map(|word| Value::from(word).to_string());
         format!(
             "# HyperQueue (PyPI: hyperqueue): python this file, with a server and workers running; the\n\
              # server's folder is HQ_SERVER_DIR, or HyperQueue's own. Cases that a lost worker had go to\n\
@@ -93,9 +99,6 @@ impl Jobs<'_> {
                  client = Client(os.environ.get(\"HQ_SERVER_DIR\"))\n    \
                  client.wait_for_jobs([client.submit(job)], raise_on_error=False)\n\
              subprocess.run([PROGRAM, \"sweep\", SWEEP, \"--rows\", ROWS], check=True)\n",
-            program = text(self.program),
-            sweep = text(self.sweep),
-            rows = text(self.rows),
             cases = self.cases,
             memory = self.megabytes(),
         )
@@ -105,64 +108,69 @@ impl Jobs<'_> {
         format!(
             "#!/bin/sh\n\
              # Slurm: sbatch this file. A case whose row could not be written is queued again.\n\
+             # When all have ended: \"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"\n\
              #SBATCH --job-name=sweep\n\
              #SBATCH --array=0-{last}\n\
              #SBATCH --cpus-per-task=1\n\
              #SBATCH --mem={memory}M\n\
              #SBATCH --requeue\n\
-             mkdir -p {rows}\n\
-             {case}\n\
+             {variables}\
+             mkdir -p \"$ROWS\"\n\
+             case=$SLURM_ARRAY_TASK_ID\n\
+             \"$PROGRAM\" sweep \"$SWEEP\" --case \"$case\" --row \"$ROWS/$case.json\"\n\
              status=$?\n\
              if [ $status -eq {again} ]; then\n    \
-                 scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}\"\n\
+                 scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$case\"\n\
              fi\n\
-             exit $status\n\
-             # When all have ended: {gather}\n",
+             exit $status\n",
             last = self.last(),
             memory = self.megabytes(),
-            rows = quoted(self.rows),
-            case = self.case("SLURM_ARRAY_TASK_ID"),
+            variables = self.variables(),
             again = TRY_AGAIN,
-            gather = self.gather(),
         )
     }
 
+    /// The command is one word, which GNU parallel gives to a shell: what stands in the variables is
+    /// neither its sign nor the shell's.
     fn parallel(&self) -> String {
-        let (program, sweep, rows) = (quoted(self.program), quoted(self.sweep), quoted(self.rows));
         format!(
             "#!/bin/sh\n\
              # GNU parallel: sh this file; started again it goes on where it was.\n\
              set -e\n\
-             mkdir -p {rows}\n\
-             seq 0 {last} | parallel --joblog {rows}/joblog --resume-failed --retries 3 \\\n    \
-                 --memfree {memory}M {program} sweep {sweep} --case {{}} --row {rows}/{{}}.json\n\
-             {gather}\n",
+             export PARALLEL_SHELL=/bin/sh\n\
+             {variables}\
+             mkdir -p \"$ROWS\"\n\
+             seq 0 {last} | parallel --joblog \"$ROWS/joblog\" --resume-failed --retries 3 \\\n    \
+                 --memfree {memory}M \\\n    \
+                 '\"$PROGRAM\" sweep \"$SWEEP\" --case {{}} --row \"$ROWS/{{}}.json\"'\n\
+             \"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"\n",
             last = self.last(),
             memory = self.megabytes(),
-            gather = self.gather(),
+            variables = self.variables(),
         )
     }
 
+    /// The rows are named from within their folder: in a pattern braces are wildcards.
     fn snakemake(&self) -> String {
-        let text = |text: &str| serde_json::Value::from(text).to_string();
+        let [program, sweep, rows] = self.words().map(|word| Value::from(word).to_string());
         format!(
             "# Snakemake: snakemake -s this file --cores all. Rows that are there are not made again.\n\
-             import shlex\n\n\
-             PROGRAM, SWEEP, ROWS, CASES = {program}, {sweep}, {rows}, {cases}\n\n\
+             import os\n\n\
+             PROGRAM, SWEEP, ROWS, CASES = {program}, {sweep}, {rows}, {cases}\n\
+             HERE = os.getcwd()\n\
+             os.environ.update(PROGRAM=os.path.join(HERE, PROGRAM), SWEEP=os.path.join(HERE, SWEEP))\n\
+             os.environ.update(HERE=HERE, ROWS=os.path.join(HERE, ROWS))\n\
+             os.makedirs(ROWS, exist_ok=True)\n\n\
+             workdir: ROWS\n\n\
              rule all:\n    \
-                 input: expand(ROWS + \"/{{case}}.json\", case=range(CASES))\n    \
-                 params: program=shlex.quote(PROGRAM), sweep=shlex.quote(SWEEP), rows=shlex.quote(ROWS)\n    \
-                 shell: \"{{params.program}} sweep {{params.sweep}} --rows {{params.rows}}\"\n\n\
+                 input: expand(\"{{case}}.json\", case=range(CASES))\n    \
+                 shell: 'cd \"$HERE\" && \"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"'\n\n\
              rule case:\n    \
-                 output: ROWS + \"/{{case}}.json\"\n    \
+                 output: \"{{case}}.json\"\n    \
                  wildcard_constraints: case=r\"\\d+\"\n    \
-                 params: program=shlex.quote(PROGRAM), sweep=shlex.quote(SWEEP)\n    \
                  resources: mem_mb={memory}\n    \
                  retries: 2\n    \
-                 shell: \"{{params.program}} sweep {{params.sweep}} --case {{wildcards.case}} --row {{output:q}}\"\n",
-            program = text(self.program),
-            sweep = text(self.sweep),
-            rows = text(self.rows),
+                 shell: '\"$PROGRAM\" sweep \"$SWEEP\" --case {{wildcards.case}} --row {{output}}'\n",
             cases = self.cases,
             memory = self.megabytes(),
         )

@@ -177,7 +177,7 @@ fn a_scene_is_named_by_its_file_or_by_its_folder() {
     for file in ["mine/scene.json", "mine/plate.json"] {
         std::fs::write(folder.path().join(file), "{}").expect("it is written");
     }
-    let name = |path: &str| SceneFile::read(path, folder.path()).expect("it is there").name;
+    let name = |path: &str| SceneFile::read_in(folder.path(), path).expect("it is there").name;
     assert_eq!(["mine", "mine/scene.json", "mine/plate.json"].map(name), ["mine", "mine", "plate"]);
 }
 

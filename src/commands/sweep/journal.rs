@@ -8,9 +8,12 @@ use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
-use plane_contact::files;
+use plane_contact::files::Folder;
 use plane_contact::studies::sweep::Row;
 use serde_json::{Value, json};
+
+/// The most bytes of a row's file; one has some 600.
+const ROW: u64 = 1 << 20;
 
 pub struct Journal {
     path: PathBuf,
@@ -108,12 +111,11 @@ fn rows(text: &[u8]) -> Vec<(String, Row)> {
 /// # Errors
 /// The folder or a file cannot be read.
 pub fn in_folder(folder: &Path) -> Result<Vec<(String, Row)>> {
+    let there = Folder::open(folder).map_err(|why| fault(folder, &why))?;
     let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(|why| fault(folder, &why))? {
-        let path = entry.map_err(|why| fault(folder, &why))?.path();
-        if path.extension().is_some_and(|extension| extension == "json") {
-            found.extend(rows(&files::read(&path).map_err(|why| fault(&path, &why))?));
-        }
+    for name in there.names("json").map_err(|why| fault(folder, &why))? {
+        let text = there.read(&name, ROW).map_err(|why| fault(&folder.join(&name), &why))?;
+        found.extend(rows(&text));
     }
     Ok(found)
 }

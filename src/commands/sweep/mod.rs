@@ -4,6 +4,7 @@ mod journal;
 mod workers;
 
 use std::collections::HashMap;
+use std::fs::File;
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 
@@ -11,6 +12,7 @@ use plane_contact::Scene;
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::problem::scene::{SceneFile, sha256};
 use plane_contact::report::sweep::{Engine, Jobs, TRY_AGAIN};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::snapshot::Options;
@@ -20,6 +22,9 @@ use serde_json::{Map, Value, json};
 
 use super::{RunArgs, print, print_fitted, tell};
 use journal::Journal;
+
+/// The bytes of a sweep.
+const MOST: u64 = 1 << 24;
 
 /// Run a scene under many values of its fields and of options.
 #[derive(clap::Args)]
@@ -64,7 +69,8 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<u8> {
     let place = args.file.display().to_string();
-    let text = files::read(&args.file).map_err(|why| {
+    let text = File::open(&args.file).and_then(|file| files::read_up_to(file, MOST));
+    let text = text.map_err(|why| {
         let what = format!("the sweep cannot be read: {why}");
         InputError::new(&place, what, "see `plane-contact sweep --help`")
     })?;
@@ -97,7 +103,7 @@ fn line(cases: &Cases, case: usize, key: &str, row: &Row) -> String {
 fn key(cases: &Cases, case: usize) -> String {
     match cases.document(case) {
         Ok(document) => document.key(),
-        Err(_) => plane_contact::problem::scene::sha256(&cases.values(case)),
+        Err(_) => sha256(&cases.values(case)),
     }
 }
 
@@ -106,6 +112,11 @@ fn whole(args: &Args, cases: &Cases) -> Result<u8> {
     let stem = args.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let default = || Path::new("out").join(format!("{stem}.jsonl"));
     let out = args.out.clone().unwrap_or_else(default);
+    if !args.file.is_file() {
+        let what = "each process of a sweep reads its file, and this is no ordinary file";
+        let fix = "write the sweep to a file";
+        return Err(InputError::new(args.file.display().to_string(), what, fix).into());
+    }
     let mut journal = Journal::open(&out)?;
     let mut known: HashMap<String, Row> = journal.known(&out)?;
     if let Some(folder) = &args.rows {
@@ -212,8 +223,9 @@ pub struct KeyArgs {
 }
 
 pub fn run_key(args: &KeyArgs) -> Result<()> {
-    let scene = Scene::open(&args.scene)?;
+    let file = SceneFile::read(&args.scene)?;
+    let scene = Scene::of_file(&file)?;
     let options = Options::of(&args.run.request(&scene));
     let options = Options { variant: args.run.variant, ..options };
-    print(&(key_of(&args.scene, &options)? + "\n"))
+    print(&(key_of(file, &options)? + "\n"))
 }

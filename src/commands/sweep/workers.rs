@@ -109,7 +109,7 @@ impl Worker {
         };
         let program = std::env::current_exe().map_err(fault)?;
         let mut child = Command::new(program)
-            .args(["sweep", "--worker"])
+            .args(["sweep", "--worker", "--"])
             .arg(file)
             // A case computes on one core: the others have cases of their own.
             .env("RAYON_NUM_THREADS", "1")

@@ -23,7 +23,6 @@ mod source;
 pub mod surface;
 pub mod symmetry;
 
-use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::DVector;
@@ -80,7 +79,14 @@ impl Scene {
     /// # Errors
     /// The scene file, the mesh file, or the two together are at fault.
     pub fn open(name_or_path: &str) -> Result<Self> {
-        let file = SceneFile::read(name_or_path, Path::new(""))?;
+        Self::of_file(&SceneFile::read(name_or_path)?)
+    }
+
+    /// Builds the scene of a file.
+    ///
+    /// # Errors
+    /// The scene file, the mesh file, or the two together are at fault.
+    pub fn of_file(file: &SceneFile) -> Result<Self> {
         let built = Scene::build(&file.name, &file.text, |beside| file.beside(beside));
         built.map_err(|error| match file.place() {
             Some(place) => error.within(place),

@@ -1,12 +1,13 @@
 //! Where a scene file is: among the embedded ones, at a path, or on standard input; and what is
 //! beside it.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use super::source::FileBeside;
 use crate::error::{InputError, Result};
-use crate::files;
+use crate::files::{self, Folder};
 use crate::suggestion::did_you_mean;
 
 /// The text of a scene file, and the place where its mesh file is.
@@ -28,15 +29,13 @@ enum Files {
 
 impl SceneFile {
     /// Reads the file of an embedded scene by its name, of standard input for `-`, or at a path to it
-    /// or to its folder. A path that is not absolute starts in `from`.
+    /// or to its folder.
     ///
     /// # Errors
     /// The file cannot be read.
-    pub fn read(name_or_path: &str, from: &Path) -> Result<Self> {
-        let mut embedded = SCENES.iter().chain(FINDING_SCENES);
-        if let Some(embedded) = embedded.find(|s| s.name == name_or_path) {
-            let (name, text) = (embedded.name.into(), embedded.scene.into());
-            return Ok(SceneFile { name, text, files: Files::Embedded(embedded) });
+    pub fn read(name_or_path: &str) -> Result<Self> {
+        if let Some(embedded) = Self::embedded(name_or_path) {
+            return Ok(embedded);
         }
         if name_or_path == "-" {
             let text = files::read_from(std::io::stdin()).map_err(|why| {
@@ -46,18 +45,49 @@ impl SceneFile {
             let files = Files::Folder(PathBuf::new(), "standard input".into());
             return Ok(SceneFile { name: "stdin".into(), text, files });
         }
-        let path = from.join(name_or_path);
-        let path = if path.is_dir() { path.join("scene.json") } else { path };
-        let text = files::read(&path).map_err(|why| {
+        let path = Path::new(name_or_path);
+        let path = if path.is_dir() { path.join("scene.json") } else { path.into() };
+        let text = files::read(&path);
+        Self::at(&path, text, name_or_path)
+    }
+
+    /// Reads the file of an embedded scene by its name, or at a path to it or to its folder that a file
+    /// in `folder` names: it leads to no place outside that folder.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn read_in(folder: &Path, name_or_path: &str) -> Result<Self> {
+        if let Some(embedded) = Self::embedded(name_or_path) {
+            return Ok(embedded);
+        }
+        let is_folder = folder.join(name_or_path).is_dir();
+        let name = Path::new(name_or_path).join(if is_folder { "scene.json" } else { "" });
+        let text = Folder::open(folder).and_then(|folder| folder.read(&name, files::MOST));
+        Self::at(&folder.join(name), text, name_or_path)
+    }
+
+    fn embedded(name: &str) -> Option<Self> {
+        let embedded = SCENES.iter().chain(FINDING_SCENES).find(|scene| scene.name == name)?;
+        let (name, text) = (embedded.name.into(), embedded.scene.into());
+        Some(SceneFile { name, text, files: Files::Embedded(embedded) })
+    }
+
+    /// Returns the scene file at `path`, asked for as `name`, with what was read there.
+    fn at(path: &Path, text: io::Result<Vec<u8>>, name: &str) -> Result<Self> {
+        let text = text.map_err(|why| {
             let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
             let what = format!("the scene file cannot be read: {why}");
-            let near = did_you_mean(name_or_path, names.iter().copied());
+            let near = did_you_mean(name, names.iter().copied());
             let fix = format!("{near}give a path, or one of the scenes {}", names.join(", "));
             InputError::new(path.display().to_string(), what, fix)
         })?;
-        let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-        let files = Files::Folder(folder, path.display().to_string());
-        Ok(SceneFile { name: name_of(&path), text, files })
+        let place = path.display().to_string();
+        // The folder of a pipe (`<(...)`) holds nothing of the user's.
+        let (name, folder) = match path.parent().filter(|_| path.is_file()) {
+            Some(folder) => (name_of(path), folder),
+            None => ("stdin".into(), Path::new("")),
+        };
+        Ok(SceneFile { name, text, files: Files::Folder(folder.into(), place) })
     }
 
     /// Returns where an error of the scene stands; None of an embedded scene.
@@ -68,7 +98,7 @@ impl SceneFile {
         }
     }
 
-    /// Opens a file beside the scene file.
+    /// Opens a file beside the scene file or below: no name leads to another place.
     ///
     /// # Errors
     /// Says why it cannot be opened.
@@ -78,19 +108,13 @@ impl SceneFile {
                 let found = embedded.files.iter().find(|(name, _)| *name == file);
                 found.map(|(_, bytes)| (*bytes).into()).ok_or_else(|| "not embedded".to_string())
             }
-            Files::Folder(folder, _) => open_beside(&folder.join(file)),
+            Files::Folder(folder, _) => {
+                let opened = Folder::open(folder).and_then(|folder| folder.file(file));
+                let (file, length) = opened.map_err(|why| why.to_string())?;
+                Ok(FileBeside::new(file, length as usize))
+            }
         }
     }
-}
-
-/// Opens an ordinary file; a device would never end.
-fn open_beside(path: &Path) -> Result<FileBeside, String> {
-    let metadata = std::fs::metadata(path).map_err(|why| why.to_string())?;
-    if !metadata.is_file() {
-        return Err("it is no ordinary file".into());
-    }
-    let file = std::fs::File::open(path).map_err(|why| why.to_string())?;
-    Ok(FileBeside::new(file, metadata.len() as usize))
 }
 
 /// Returns a scene's name: `strand` for `golden/strand/scene.json`, `plate` for `my/plate.json`.

@@ -19,6 +19,9 @@ const TAIL: usize = 12;
 /// The bytes that a run may print.
 const PRINTED: u64 = 1 << 24;
 
+/// The most bytes of results: those of two million triangles in ten increments.
+const RESULTS: u64 = 1 << 31;
+
 /// What a run of `ccx` computed.
 pub struct Ran {
     /// The version that `ccx` reports.
@@ -47,13 +50,14 @@ fn print(program: &str, deck: &str) -> Result<String> {
         InputError::new("the temporary folder", what, "set TMPDIR to a place that can be written")
     };
     let folder = Staged::new(&std::env::temp_dir()).map_err(no_folder)?;
-    std::fs::write(folder.path().join("job.inp"), deck).map_err(no_folder)?;
+    folder.write("job.inp", deck).map_err(no_folder)?;
     let (status, text) = ended(program, &["job"], folder.path())?;
     if !status.success() || text.contains("*ERROR") {
         return Err(failed(program, &format!("failed ({status})"), &text));
     }
-    std::fs::read_to_string(folder.path().join("job.dat"))
-        .map_err(|why| failed(program, &format!("left no results ({why})"), &text))
+    let results = folder.folder().read("job.dat", RESULTS);
+    let results = results.and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
+    results.map_err(|why| failed(program, &format!("left no results ({why})"), &text))
 }
 
 /// The last word of `ccx -v`: "This is Version 2.20".
@@ -89,6 +93,10 @@ fn ended(program: &str, args: &[&str], folder: &Path) -> Result<(ExitStatus, Str
 /// in one.
 fn start(program: &str, args: &[&str], folder: &Path) -> io::Result<(Child, PipeReader)> {
     let (output, input) = io::pipe()?;
+    // A path is that of the folder where this program was started, a name that of a program.
+    let program = Path::new(program);
+    let is_path = program.components().count() > 1;
+    let program = if is_path { std::path::absolute(program)? } else { program.into() };
     let mut command = Command::new(program);
     command.args(args).current_dir(folder).env("OMP_NUM_THREADS", "1").stdin(Stdio::null());
     Ok((command.stdout(input.try_clone()?).stderr(input).spawn()?, output))

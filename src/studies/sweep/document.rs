@@ -1,8 +1,9 @@
 //! The document of a case: the scene's fields, a generator's parameters and options, in which JSON
 //! pointers set values; and its key.
 
+use std::collections::HashMap;
 use std::io::Read;
-use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::{Command, FromArgMatches, Subcommand};
 use serde_json::{Map, Value, json};
@@ -10,7 +11,7 @@ use serde_json::{Map, Value, json};
 use crate::answer::Request;
 use crate::error::{InputError, Result};
 use crate::files;
-use crate::problem::scene::{FileBeside, SceneBuilder, SceneFile, file, sha256};
+use crate::problem::scene::{SceneBuilder, SceneFile, file, sha256};
 use crate::studies::benchmark::Kind;
 use crate::studies::snapshot::{Options, VERSION};
 
@@ -18,51 +19,68 @@ use crate::studies::snapshot::{Options, VERSION};
 pub(super) const SWEEP: files::json::Kind =
     files::json::Kind { name: "sweep", fix: "see `plane-contact sweep --help`", has_values: true };
 
+/// The most bytes of a mesh file that tell it from another.
+const MOST_OF_MESH: u64 = 1 << 32;
+
 /// What a case runs.
 #[derive(Clone)]
 pub struct Document {
     /// `scene` and `options`, or `generate`, `scene` and `options`.
     fields: Value,
-    /// The scene file, and what is beside it; None of a generator.
-    source: Option<SceneFile>,
-    /// The SHA-256 of the mesh file, where the scene has one.
-    mesh_sha256: Option<String>,
+    /// Where the scene is from; None of a generator.
+    source: Option<Arc<Source>>,
+}
+
+/// A scene file and what is beside it.
+struct Source {
+    file: SceneFile,
+    /// The SHA-256 of each mesh file that a case names, or why it cannot be read: thousands of cases
+    /// have the same mesh, which is read once.
+    meshes: Mutex<HashMap<String, Result<String, String>>>,
+}
+
+impl Source {
+    fn mesh_sha256(&self, name: &str) -> Result<String, String> {
+        let mut meshes = self.meshes.lock().unwrap_or_else(PoisonError::into_inner);
+        let read = || {
+            let file = self.file.beside(name)?.take(MOST_OF_MESH);
+            files::sum_of(file).map_err(|why| why.to_string())
+        };
+        meshes.entry(name.into()).or_insert_with(read).clone()
+    }
 }
 
 impl Document {
-    /// Returns the document of which every case of a sweep is a copy with other values: of a scene,
-    /// by its name or its path from `folder`, or of what a generator makes of its parameters.
+    /// Returns the document of which every case of a sweep is a copy with other values: of a scene, or
+    /// of what a generator makes of its parameters.
     ///
     /// # Errors
-    /// Neither or both of a scene and a generator are named, or the scene cannot be read.
+    /// Neither or both of a scene and a generator are given, or the scene is no JSON.
     pub fn new(
-        scene: Option<&str>,
+        scene: Option<SceneFile>,
         generate: &Map<String, Value>,
         options: &Map<String, Value>,
-        folder: &Path,
     ) -> Result<Self> {
         match (scene, generate.is_empty()) {
-            (Some(scene), true) => {
-                let file = SceneFile::read(scene, folder)?;
+            (Some(file), true) => {
                 let fix = "see the scene format in README.md";
                 let kind = files::json::Kind { name: "scene file", fix, has_values: true };
                 let fields: Value =
-                    files::json::read(&file.text, &kind).map_err(|error| error.within(scene))?;
-                let mesh = fields.get("mesh").and_then(Value::as_str);
-                let bytes = mesh.map(|mesh| file.beside(mesh).and_then(read_all)).transpose();
-                let bytes = bytes.map_err(|why| {
-                    let what = format!("the mesh file cannot be read: {why}");
-                    InputError::new("field mesh", what, "the path is resolved beside the scene")
-                })?;
-                Ok(Document {
-                    fields: json!({"scene": fields, "options": options}),
-                    source: Some(file),
-                    mesh_sha256: bytes.map(|bytes| sha256(&bytes)),
-                })
+                    files::json::read(&file.text, &kind).map_err(|error| error.within(&file.name))?;
+                let source = Source { file, meshes: Mutex::default() };
+                if let Some(mesh) = fields.get("mesh").and_then(Value::as_str) {
+                    source.mesh_sha256(mesh).map_err(|why| {
+                        let what = format!("the mesh file cannot be read: {why}");
+                        let fix = "the mesh lies beside the scene file or below";
+                        InputError::new("field mesh", what, fix)
+                    })?;
+                }
+                let fields = json!({"scene": fields, "options": options});
+                Ok(Document { fields, source: Some(Arc::new(source)) })
             }
             (None, false) => {
                 let fields = json!({"generate": generate, "scene": {}, "options": options});
-                Ok(Document { fields, source: None, mesh_sha256: None })
+                Ok(Document { fields, source: None })
             }
             _ => {
                 let what = "the sweep needs either scene or generate";
@@ -95,7 +113,8 @@ impl Document {
     pub fn request(&self) -> Result<Request> {
         let scene = self.fields["scene"].to_string();
         let scene = match &self.source {
-            Some(file) => {
+            Some(source) => {
+                let file = &source.file;
                 let beside = |name: &str| file.beside(name);
                 SceneBuilder::read(&file.name, scene.as_bytes(), beside)?.build()?
             }
@@ -114,32 +133,26 @@ impl Document {
         Ok(builder)
     }
 
-    /// Returns the key of the case: the SHA-256 of all that it runs, and of the program's version.
+    /// Returns the key of the case: the SHA-256 of all that it reads, and of the program's version.
     pub fn key(&self) -> String {
+        let mesh = self.fields["scene"]["mesh"].as_str().zip(self.source.as_ref());
         let parts = json!({
             "document": sorted(&self.fields),
-            "mesh_sha256": self.mesh_sha256,
+            "mesh_sha256": mesh.map(|(name, source)| source.mesh_sha256(name)),
             "version": VERSION,
         });
         sha256(&parts)
     }
 }
 
-/// Reads a file to its end.
-fn read_all(mut file: FileBeside) -> Result<Vec<u8>, String> {
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes).map_err(|why| why.to_string())?;
-    Ok(bytes)
-}
-
 /// Returns the key of a scene under options.
 ///
 /// # Errors
-/// The scene cannot be read.
-pub fn key_of(scene: &str, options: &Options) -> Result<String> {
+/// The scene is no JSON.
+pub fn key_of(scene: SceneFile, options: &Options) -> Result<String> {
     let options = serde_json::to_value(options).expect("options have string keys");
     let options = options.as_object().cloned().expect("options are an object");
-    Ok(Document::new(Some(scene), &Map::new(), &options, Path::new(""))?.key())
+    Ok(Document::new(Some(scene), &Map::new(), &options)?.key())
 }
 
 /// The most levels of a pointer; a case's document has fewer.

@@ -5,11 +5,12 @@ use std::path::Path;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::{Map, Number, Value};
 
 use super::document::{Document, SWEEP};
 use crate::error::{InputError, Result};
 use crate::files::json;
+use crate::problem::scene::SceneFile;
 use crate::studies::benchmark::Kind;
 use crate::studies::snapshot::Options;
 
@@ -92,11 +93,16 @@ impl Values {
         }
     }
 
-    fn list(self) -> Vec<Value> {
+    /// Returns the values.
+    /// Errors: a step is no finite number.
+    fn list(self) -> Result<Vec<Value>, &'static str> {
         let Steps { from, to, count, log } = match self {
-            Values::List(list) => return list,
+            Values::List(list) => return Ok(list),
             Values::Steps(steps) => steps,
         };
+        if log && (from == 0.0 || to == 0.0 || from.signum() != to.signum()) {
+            return Err("equal factors need two ends of one sign, none of which is 0");
+        }
         let place = |k: usize| if count < 2 { 0.0 } else { k as f64 / (count - 1) as f64 };
         let value = |k: usize| match (log, place(k)) {
             (_, 0.0) => from,
@@ -104,7 +110,9 @@ impl Values {
             (false, t) => from + t * (to - from),
             (true, t) => from * (to / from).powf(t),
         };
-        (0..count).map(|k| Value::from(value(k))).collect()
+        // No number of JSON stands for what is not finite: it would be null, which is the default.
+        let step = |k| Number::from_f64(value(k)).map(Value::Number);
+        (0..count).map(step).collect::<Option<_>>().ok_or("the steps are no finite numbers")
     }
 }
 
@@ -134,15 +142,17 @@ impl Sweep {
     /// # Errors
     /// The scene cannot be read, the values of a pointer are no values, or there are too many cases.
     pub fn cases(&self, folder: &Path) -> Result<Cases> {
-        let scene = self.scene.as_deref();
-        let base = Document::new(scene, &self.generate, &self.options, folder)?;
+        let scene =
+            self.scene.as_deref().map(|name| SceneFile::read_in(folder, name)).transpose()?;
+        let base = Document::new(scene, &self.generate, &self.options)?;
+        self.grid.keys().chain(self.list.iter().flat_map(Map::keys)).try_for_each(check_pointer)?;
         let list = if self.list.is_empty() { vec![Map::new()] } else { self.list.clone() };
         let mut grid: Vec<(&String, Values)> = Vec::new();
         for (pointer, values) in &self.grid {
             let values = serde_json::from_value(values.clone()).map_err(|_| {
                 let what = "the values are neither a list nor steps";
                 let fix = "give a list, or {\"from\": 1, \"to\": 2, \"count\": 5}";
-                InputError::new(format!("grid {pointer:?}"), what, fix)
+                InputError::new(place(pointer), what, fix)
             })?;
             grid.push((pointer, values));
         }
@@ -152,10 +162,31 @@ impl Sweep {
             let what = format!("there are more than {MOST_CASES} cases");
             return Err(InputError::new("grid and list", what, "divide the sweep"));
         }
-        let listed = |(pointer, values): (&String, Values)| (pointer.clone(), values.list());
-        let grid = grid.into_iter().map(listed).collect();
+        let listed = |(pointer, values): (&String, Values)| {
+            let fix =
+                "give steps such as {\"from\": 1e-4, \"to\": 1e-2, \"count\": 5, \"log\": true}";
+            let values = values.list();
+            let values = values.map_err(|what| InputError::new(place(pointer), what, fix))?;
+            Ok((pointer.clone(), values))
+        };
+        let grid = grid.into_iter().map(listed).collect::<Result<_>>()?;
         Ok(Cases { base, grid, list })
     }
+}
+
+fn place(pointer: &str) -> String {
+    format!("grid {pointer:?}")
+}
+
+/// Checks that a pointer leads into one of the parts of a case's document.
+fn check_pointer(pointer: &String) -> Result<()> {
+    let parts = ["/scene/", "/options/", "/generate/"];
+    if parts.iter().any(|part| pointer.starts_with(part)) {
+        return Ok(());
+    }
+    let what = format!("the pointer {pointer:?} leads into no part of a case");
+    let fix = "begin it with /scene/, /options/ or /generate/, such as /scene/contact/c_tll";
+    Err(InputError::new("grid and list", what, fix))
 }
 
 impl Cases {
