@@ -10,7 +10,7 @@ use std::path::Path;
 use cap_std::ambient_authority;
 use cap_std::fs::{Dir, OpenOptions};
 
-use super::read_up_to;
+use super::read::read_up_to;
 
 /// A folder that the user named.
 #[derive(Debug)]
@@ -86,13 +86,16 @@ pub(super) fn no_ordinary_file() -> io::Error {
     io::Error::other("it is no ordinary file")
 }
 
+/// Returns whether a name was refused as it leads out of its folder: the system's own refusals have a
+/// number.
+pub(super) fn leads_out(why: &io::Error) -> bool {
+    why.kind() == io::ErrorKind::PermissionDenied && why.raw_os_error().is_none()
+}
+
 /// Says of a name that leads out of the folder what it does.
 pub(super) fn plain(why: io::Error) -> io::Error {
-    // The system's own refusals have a number.
-    match why.kind() {
-        io::ErrorKind::PermissionDenied if why.raw_os_error().is_none() => {
-            io::Error::new(why.kind(), "the name leads out of the folder")
-        }
-        _ => why,
+    if !leads_out(&why) {
+        return why;
     }
+    io::Error::new(why.kind(), "the name leads out of the folder")
 }

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::folder::{Folder, no_ordinary_file, plain};
+use super::folder::{Folder, leads_out, no_ordinary_file, plain};
 
 /// The name of the list.
 pub const MANIFEST: &str = "SHA256SUMS";
@@ -27,19 +27,27 @@ const COMMAND: &str = "# plane-contact ";
 pub(super) struct Manifest(BTreeMap<String, BTreeMap<String, String>>);
 
 impl Manifest {
-    /// Reads that of `folder`; an empty one where there is none.
+    /// Reads that of `folder`; an empty one where there is none, or where it is not exactly what this
+    /// program writes: then it tells of no file.
     ///
     /// # Errors
-    /// It is not exactly what this program writes.
+    /// It is a list of the user's.
     pub(super) fn read(folder: &Folder) -> io::Result<Self> {
         let text = match folder.read(MANIFEST, MOST) {
             Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(Manifest::default()),
             text => text.map_err(|why| in_folder(MANIFEST, why))?,
         };
+        if !text.starts_with(COMMAND.as_bytes()) {
+            return Err(in_folder(MANIFEST, io::Error::other("it is no list of this program")));
+        }
         let manifest = std::str::from_utf8(&text).ok().and_then(Manifest::parse);
-        manifest.ok_or_else(|| {
-            in_folder(MANIFEST, io::Error::other("it is not as this program writes it"))
-        })
+        Ok(manifest.filter(|manifest| manifest.is_within(folder)).unwrap_or_default())
+    }
+
+    /// Returns whether no name leads out of `folder`, through a link.
+    fn is_within(&self, folder: &Folder) -> bool {
+        let mut names = self.0.values().flat_map(BTreeMap::keys);
+        names.all(|name| !folder.0.symlink_metadata(name).is_err_and(|why| leads_out(&why)))
     }
 
     /// Reads a list; None where it is not what [`Manifest::text`] writes.
@@ -81,7 +89,7 @@ impl Manifest {
             return Err(in_folder(name, no_ordinary_file()));
         }
         let Some(listed) = self.0.values().find_map(|files| files.get(name)) else {
-            let why = format!("it is not from this program, as {MANIFEST} does not list it");
+            let why = format!("it is not from this program, as far as {MANIFEST} tells");
             return Err(in_folder(name, io::Error::other(why)));
         };
         let sum = folder.file(name).and_then(|(file, _)| sum_of(file.take(MOST_OF_FILE)));

@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::folder::Folder;
-use super::folder_of;
 use super::manifest::{MANIFEST, Manifest, sum_of};
 use super::staged::{Staged, locked, registry};
+use super::write::folder_of;
 use crate::error::{InputError, Result};
 
 /// Writes files of `command`, by their names in `folder`, all or none, and removes those that an

@@ -6,6 +6,7 @@
 use serde_json::Value;
 
 use crate::choices;
+use crate::problem::scene::sha256;
 
 choices! {
     /// An engine that runs jobs.
@@ -150,23 +151,24 @@ impl Jobs<'_> {
         )
     }
 
-    /// The rows are named from within their folder: in a pattern braces are wildcards.
+    /// The folder of the rows is named by a link: Snakemake takes braces in a name for wildcards.
     fn snakemake(&self) -> String {
-        let [program, sweep, rows] = self.words().map(|word| Value::from(word).to_string());
+        let words = self.words();
+        let link = format!(".rows-{}", &sha256(&words[2])[..16]);
+        let [program, sweep, rows] = words.map(|word| Value::from(word).to_string());
         format!(
             "# Snakemake: snakemake -s this file --cores all. Rows that are there are not made again.\n\
              import os\n\n\
              PROGRAM, SWEEP, ROWS, CASES = {program}, {sweep}, {rows}, {cases}\n\
-             HERE = os.getcwd()\n\
-             os.environ.update(PROGRAM=os.path.join(HERE, PROGRAM), SWEEP=os.path.join(HERE, SWEEP))\n\
-             os.environ.update(HERE=HERE, ROWS=os.path.join(HERE, ROWS))\n\
-             os.makedirs(ROWS, exist_ok=True)\n\n\
-             workdir: ROWS\n\n\
+             os.environ.update(PROGRAM=PROGRAM, SWEEP=SWEEP, ROWS=ROWS)\n\
+             os.makedirs(ROWS, exist_ok=True)\n\
+             if not os.path.islink(\"{link}\"):\n    \
+                 os.symlink(os.path.abspath(ROWS), \"{link}\")\n\n\
              rule all:\n    \
-                 input: expand(\"{{case}}.json\", case=range(CASES))\n    \
-                 shell: 'cd \"$HERE\" && \"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"'\n\n\
+                 input: expand(\"{link}/{{case}}.json\", case=range(CASES))\n    \
+                 shell: '\"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"'\n\n\
              rule case:\n    \
-                 output: \"{{case}}.json\"\n    \
+                 output: \"{link}/{{case}}.json\"\n    \
                  wildcard_constraints: case=r\"\\d+\"\n    \
                  resources: mem_mb={memory}\n    \
                  retries: 2\n    \

@@ -144,6 +144,20 @@ fn a_kill_leaves_the_old_files_or_the_new_ones() {
     assert_eq!(staged(folder.path()), [""; 0], "the next run removes what kills left");
 }
 
+/// Signals that come when a temporary folder is made, written or removed.
+#[test]
+fn a_signal_at_any_moment_leaves_nothing_temporary() {
+    let folder = TempDir::new().expect("a folder");
+    let mut random = fastrand::Rng::with_seed(16);
+    for k in 0..100 {
+        let mut child = start(folder.path(), &["mesh", "blocks", "--out", "o"]);
+        std::thread::sleep(Duration::from_micros(random.u64(1000..8000)));
+        kill(&mut child, "TERM");
+        assert_eq!(staged(folder.path()), [""; 0], "signal {k}");
+        let _ = std::fs::remove_dir_all(folder.path().join("o"));
+    }
+}
+
 #[test]
 fn a_long_run_ends_by_a_signal_and_leaves_the_old_files() {
     let folder = TempDir::new().expect("a folder");
@@ -174,8 +188,7 @@ fn two_runs_into_one_folder_leave_the_files_of_one() {
     assert_eq!(staged(folder.path()), [""; 0]);
 }
 
-/// What is not the program's, or was changed since, is left; what an earlier run of the command
-/// wrote is not.
+/// What is not the program's is left; what an earlier run of the command wrote is not.
 #[test]
 fn a_users_files_stay_and_those_of_an_earlier_run_go() {
     let folder = TempDir::new().expect("a folder");
@@ -183,17 +196,34 @@ fn a_users_files_stay_and_those_of_an_earlier_run_go() {
     let at = |name: &str| folder.path().join("o").join(name);
     assert!(run(folder.path(), RUNS[0]).status.success());
     std::fs::create_dir(at("mine")).expect("a folder");
-    for name in ["notes.txt", "mine/data.csv", "mesh.svg"] {
+    for name in ["notes.txt", "mine/data.csv"] {
         std::fs::write(at(name), "mine").expect("it is written");
     }
     assert!(run(folder.path(), RUNS[1]).status.success());
     let mut now = files(&folder.path().join("o"));
-    for name in ["notes.txt", "mine/data.csv", "mesh.svg"] {
+    for name in ["notes.txt", "mine/data.csv"] {
         assert_eq!(now.remove(name).expect(name), b"mine");
     }
     assert_eq!(now, expected[1]);
     let sums = shell(&folder.path().join("o"), "sha256sum --check --strict SHA256SUMS");
     assert!(sums.status.success(), "{}", String::from_utf8_lossy(&sums.stdout));
+}
+
+/// A folder below may be a link.
+#[test]
+fn no_file_is_written_through_a_link() {
+    let folder = TempDir::new().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    ["o", "d"].map(|name| std::fs::create_dir(at(name)).expect("a folder"));
+    std::os::unix::fs::symlink("../d", at("o/below")).expect("a link");
+    std::fs::write(at("o/notes.txt"), "mine").expect("it is written");
+    let write =
+        |name| plane_contact::files::write_all(&at("o"), "test", &[("a", "1"), (name, "2")]);
+    let why = write("below/b").expect_err("it leads out");
+    assert!(why.what.contains("below/b is in the way: the name leads out"), "{why}");
+    assert_eq!(files(folder.path()), Files::from([("o/notes.txt".into(), b"mine".to_vec())]));
+    write("there/b").expect("it is a folder of its own");
+    assert!(at("o/there/b").is_file());
 }
 
 /// Another command's files are not those of an earlier run: a scene is solved where it lies.

@@ -88,10 +88,11 @@ fn what_is_reserved_and_not_used_is_free_but_for_what_threads_keep() {
 #[test]
 fn what_has_no_end_is_not_read() {
     let folder = tempfile::tempdir().expect("a folder");
-    for command in ["solve", "trace fig1 --listing", "evaluate", "verify", "sweep", "mathcad"] {
+    for command in ["solve", "trace fig1 --listing", "evaluate", "verify", "mathcad"] {
         let words = ["/dev/zero", "more than 268435456 bytes"];
         refused(folder.path(), &format!("$P {command} /dev/zero"), &words);
     }
+    refused(folder.path(), "$P sweep /dev/zero", &["/dev/zero", "this is no ordinary file"]);
     refused(folder.path(), "$P solve - < /dev/zero", &["standard input", "more than"]);
     // What is no file has no snapshot and no rows that are kept.
     let sweep = r#"{"format": 1, "scene": "fig1", "list": []}"#;

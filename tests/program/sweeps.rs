@@ -281,12 +281,13 @@ fn same_as_here(at: &Path) {
         std::fs::read(at.join("out/sweep.jsonl")).expect("the job file gathers the rows");
     assert!(ran(at, &["sweep", "sweep.json", "--out", "here.jsonl"]).1.contains("1000 ran"));
     assert!(gathered == std::fs::read(at.join("here.jsonl")).expect("rows"));
-    assert_eq!(std::fs::read_dir(at.join("sweep.rows")).expect("rows").count(), 1000);
+    assert_eq!(rows_there(at), 1000);
 }
 
 /// The number of rows that an engine has written.
 fn rows_there(at: &Path) -> usize {
-    std::fs::read_dir(at.join("sweep.rows")).map_or(0, |rows| rows.count())
+    let rows = std::fs::read_dir(at.join("sweep.rows")).into_iter().flatten().flatten();
+    rows.filter(|row| row.path().extension().is_some_and(|extension| extension == "json")).count()
 }
 
 /// A server of HyperQueue with two workers, which runs a job file.
@@ -368,6 +369,130 @@ fn snakemake_runs_a_thousand_cases_of_which_three_are_killed() {
     }
     assert!(engine.wait().expect("it ends").success());
     same_as_here(at);
+}
+
+/// Names that a shell, an engine or an option would take for something else.
+const NAMES: &[&str] = &[
+    "a b",
+    "x;touch pwned;",
+    "$(touch pwned)",
+    "`touch pwned`",
+    "q'u\"o",
+    "{}{.}{case}{output}{{x}}",
+    "-dash",
+    "+plus",
+    "line\nbreak",
+    "back\\slash%n&|<>*?#~!$HOME",
+];
+
+/// Runs the job file that `engine` is given for a sweep of each of the names: its rows are those of
+/// a sweep on this machine, and nothing else is run.
+fn names_reach(engine: &str, run: impl Fn(&Path)) {
+    for name in NAMES {
+        let folder = folder(&of_fig1(2));
+        let at = folder.path();
+        let file = format!("{name}.json");
+        std::fs::rename(at.join("sweep.json"), at.join(&file)).expect("it is renamed");
+        let (status, jobs, errors) = ran(at, &["sweep", "--emit", engine, "--", &file]);
+        assert_eq!(status, 0, "{name}: {errors}");
+        std::fs::write(at.join("jobs.py"), jobs).expect("written");
+        run(at);
+        let gathered = std::fs::read(at.join("out").join(format!("{name}.jsonl")));
+        let gathered = gathered.unwrap_or_else(|why| panic!("{engine}, {name:?}: {why}"));
+        assert_eq!(ran(at, &["sweep", "--out", "here.jsonl", "--", &file]).0, 0);
+        assert!(gathered == std::fs::read(at.join("here.jsonl")).expect("rows"), "{name:?}");
+        assert!(!at.join("pwned").exists(), "{engine}, {name:?}");
+    }
+}
+
+fn succeeds(command: &mut Command, at: &Path) {
+    let output = command.current_dir(at).output().expect("it starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn any_name_reaches_parallel() {
+    let mut program = Command::new("parallel");
+    program.arg("--version");
+    if is_there(program, "REQUIRE_PARALLEL") {
+        names_reach("parallel", |at| succeeds(Command::new("sh").arg("jobs.py"), at));
+    }
+}
+
+#[test]
+fn any_name_reaches_hyperqueue() {
+    let mut package = Command::new("python3");
+    package.args(["-c", "import hyperqueue"]);
+    if is_there(package, "REQUIRE_HYPERQUEUE") {
+        names_reach("hyperqueue", |at| succeeds(Command::new("python3").args(["-c", CLUSTER]), at));
+    }
+}
+
+#[test]
+fn any_name_reaches_snakemake() {
+    let mut program = Command::new("snakemake");
+    program.arg("--version");
+    if is_there(program, "REQUIRE_SNAKEMAKE") {
+        let args = ["-s", "jobs.py", "--cores", "2"];
+        names_reach("snakemake", |at| succeeds(Command::new("snakemake").args(args), at));
+    }
+}
+
+/// Slurm runs the file once for each case, with its number in a variable.
+#[test]
+fn any_name_reaches_slurm() {
+    names_reach("slurm", |at| {
+        let text = std::fs::read_to_string(at.join("jobs.py")).expect("a job file");
+        let gather = "\n\"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"\n";
+        for case in ["0", "1"] {
+            succeeds(Command::new("sh").arg("jobs.py").env("SLURM_ARRAY_TASK_ID", case), at);
+        }
+        assert!(text.contains(gather.trim()), "{text}");
+        let variables = text.lines().skip_while(|line| line.starts_with('#'));
+        let variables: Vec<&str> =
+            variables.take_while(|line| !line.starts_with("mkdir")).collect();
+        let gather = variables.join("\n") + gather;
+        succeeds(Command::new("sh").args(["-c", &gather]), at);
+    });
+}
+
+/// A case runs again where a file that it reads has changed, and no other does.
+#[test]
+fn a_case_is_known_by_every_file_that_it_reads() {
+    let folder = folder(&json!({"format": 1, "scene": "c2/scene.json",
+        "grid": {"/scene/mesh": ["a.msh", "b.msh"], "/options/c_tll": [null]}}));
+    let at = folder.path();
+    for n in ["2", "3", "4"] {
+        assert_eq!(ran(at, &["mesh", "cook", "--n", n, "--out", &format!("c{n}")]).0, 0);
+    }
+    let copy = |from: &str, to: &str| {
+        std::fs::copy(at.join(from), at.join("c2").join(to)).expect("a copy");
+    };
+    let largest = || -> Vec<f64> {
+        let rows = rows(at, "r.jsonl");
+        rows.iter().map(|row| row["max_displacement"].as_f64().expect("a number")).collect()
+    };
+    let sweep = |ran_again: &str| {
+        let printed = ran(at, &["sweep", "sweep.json", "--out", "r.jsonl"]).1;
+        assert!(printed.contains(&format!("2 cases: {ran_again} ran, 0 failed")), "{printed}");
+        let found = largest();
+        std::fs::remove_file(at.join("r.jsonl")).expect("rows");
+        assert_eq!(ran(at, &["sweep", "sweep.json", "--out", "r.jsonl"]).0, 0);
+        assert_eq!(found, largest(), "the rows are those of a sweep from the start");
+    };
+    copy("c2/cook.msh", "a.msh");
+    copy("c3/cook.msh", "b.msh");
+    sweep("2");
+    sweep("0");
+    copy("c4/cook.msh", "b.msh");
+    sweep("1");
+    copy("c3/cook.msh", "a.msh");
+    sweep("1");
+    copy("c4/cook.msh", "cook.msh");
+    sweep("0");
+    let scene = std::fs::read_to_string(at.join("c2/scene.json")).expect("a scene");
+    std::fs::write(at.join("c2/scene.json"), scene.replace("0.0625", "0.125")).expect("written");
+    sweep("2");
 }
 
 /// Every engine's job file names the cases, the memory and how rows are gathered.

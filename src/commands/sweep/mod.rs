@@ -12,6 +12,7 @@ use plane_contact::Scene;
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::memory;
 use plane_contact::problem::scene::{SceneFile, sha256};
 use plane_contact::report::sweep::{Engine, Jobs, TRY_AGAIN};
 use plane_contact::studies::plan::Plan;
@@ -26,14 +27,19 @@ use journal::Journal;
 /// The bytes of a sweep.
 const MOST: u64 = 1 << 24;
 
+/// The bytes that a case takes while a sweep runs: its key, and its row twice, as what is known and as
+/// text.
+const CASE: f64 = 4000.0;
+
 /// Run a scene under many values of its fields and of options.
 #[derive(clap::Args)]
 #[command(after_help = "\
 SWEEP is a file of JSON: format, scene (a name or a path beside it) or generate (a kind of mesh and
 its parameters), options, and the values that take turns by JSON pointer: grid (every combination)
 or list. Writes a line of JSON for each case, in order. Each case runs in a process of its own; one
-that fails or crashes is a row. A case is known by its key, a hash of scene, options and version: a
-sweep that was interrupted goes on where it was, and nothing runs twice.
+that fails or crashes is a row. A case is known by its key, a hash of all that it reads (scene, mesh,
+options) and of the version: a sweep that was interrupted goes on where it was, and nothing runs
+twice.
 
 Examples:
   plane-contact sweep sweep.json --out rows.jsonl
@@ -69,6 +75,10 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<u8> {
     let place = args.file.display().to_string();
+    if args.file.exists() && !args.file.is_file() {
+        let what = "each process of a sweep reads its file, and this is no ordinary file";
+        return Err(InputError::new(place, what, "write the sweep to a file").into());
+    }
     let text = File::open(&args.file).and_then(|file| files::read_up_to(file, MOST));
     let text = text.map_err(|why| {
         let what = format!("the sweep cannot be read: {why}");
@@ -112,11 +122,8 @@ fn whole(args: &Args, cases: &Cases) -> Result<u8> {
     let stem = args.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let default = || Path::new("out").join(format!("{stem}.jsonl"));
     let out = args.out.clone().unwrap_or_else(default);
-    if !args.file.is_file() {
-        let what = "each process of a sweep reads its file, and this is no ordinary file";
-        let fix = "write the sweep to a file";
-        return Err(InputError::new(args.file.display().to_string(), what, fix).into());
-    }
+    let whose = format!("the rows of {} cases", cases.len());
+    memory::check_bytes(CASE * cases.len() as f64, "the sweep", &whose, "divide it")?;
     let mut journal = Journal::open(&out)?;
     let mut known: HashMap<String, Row> = journal.known(&out)?;
     if let Some(folder) = &args.rows {
@@ -199,13 +206,20 @@ fn emit(args: &Args, cases: &Cases, engine: Engine) -> Result<u8> {
     let rows = args.rows.clone().unwrap_or_else(|| args.file.with_extension("rows"));
     let jobs = Jobs {
         program: &program.unwrap_or_else(|| "plane-contact".into()),
-        sweep: &args.file.display().to_string(),
-        rows: &rows.display().to_string(),
+        sweep: name(&args.file)?,
+        rows: name(&rows)?,
         cases: cases.len(),
         memory,
     };
     print(&jobs.file(engine))?;
     Ok(0)
+}
+
+/// Returns the name of a file as a job file can have it.
+fn name(path: &Path) -> Result<&str, InputError> {
+    path.to_str().ok_or_else(|| {
+        InputError::new(path.display().to_string(), "its name is not in UTF-8", "rename it")
+    })
 }
 
 /// Print the key of a scene under options: the hash by which a sweep knows a case.

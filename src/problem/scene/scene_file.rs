@@ -60,8 +60,9 @@ impl SceneFile {
         if let Some(embedded) = Self::embedded(name_or_path) {
             return Ok(embedded);
         }
-        let is_folder = folder.join(name_or_path).is_dir();
-        let name = Path::new(name_or_path).join(if is_folder { "scene.json" } else { "" });
+        let name = Path::new(name_or_path);
+        let is_folder = folder.join(name).is_dir();
+        let name = if is_folder { name.join("scene.json") } else { name.into() };
         let text = Folder::open(folder).and_then(|folder| folder.read(&name, files::MOST));
         Self::at(&folder.join(name), text, name_or_path)
     }

@@ -60,7 +60,11 @@ pub fn mesh(
     };
     let file = beside(&name).map_err(|why| {
         let what = format!("the mesh file {name:?} cannot be read: {why}");
-        InputError::new("field mesh", what, "the path is resolved beside the scene file")
+        InputError::new(
+            "field mesh",
+            what,
+            "the path is resolved beside the scene file, in its folder or below",
+        )
     })?;
     let length = file.length;
     gmsh::read(file, length).map_err(|error| {

@@ -65,8 +65,8 @@ impl Document {
             (Some(file), true) => {
                 let fix = "see the scene format in README.md";
                 let kind = files::json::Kind { name: "scene file", fix, has_values: true };
-                let fields: Value =
-                    files::json::read(&file.text, &kind).map_err(|error| error.within(&file.name))?;
+                let fields: Value = files::json::read(&file.text, &kind)
+                    .map_err(|error| error.within(&file.name))?;
                 let source = Source { file, meshes: Mutex::default() };
                 if let Some(mesh) = fields.get("mesh").and_then(Value::as_str) {
                     source.mesh_sha256(mesh).map_err(|why| {

@@ -67,8 +67,8 @@ fn parameters(_: &mut SchemaGenerator) -> Schema {
 }
 
 /// The values of a pointer in a grid: a list, or equal steps from one number to another.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[derive(JsonSchema)]
+#[schemars(untagged)]
 pub enum Values {
     List(Vec<Value>),
     Steps(Steps),
@@ -86,6 +86,14 @@ pub struct Steps {
 }
 
 impl Values {
+    /// Returns the values that stand in a file; None where these are none. A list is not copied.
+    fn of(values: Value) -> Option<Self> {
+        match values {
+            Value::Array(list) => Some(Values::List(list)),
+            steps => serde_json::from_value(steps).ok().map(Values::Steps),
+        }
+    }
+
     fn count(&self) -> usize {
         match self {
             Values::List(list) => list.len(),
@@ -141,18 +149,18 @@ impl Sweep {
     ///
     /// # Errors
     /// The scene cannot be read, the values of a pointer are no values, or there are too many cases.
-    pub fn cases(&self, folder: &Path) -> Result<Cases> {
+    pub fn cases(self, folder: &Path) -> Result<Cases> {
         let scene =
             self.scene.as_deref().map(|name| SceneFile::read_in(folder, name)).transpose()?;
         let base = Document::new(scene, &self.generate, &self.options)?;
         self.grid.keys().chain(self.list.iter().flat_map(Map::keys)).try_for_each(check_pointer)?;
-        let list = if self.list.is_empty() { vec![Map::new()] } else { self.list.clone() };
-        let mut grid: Vec<(&String, Values)> = Vec::new();
-        for (pointer, values) in &self.grid {
-            let values = serde_json::from_value(values.clone()).map_err(|_| {
+        let list = if self.list.is_empty() { vec![Map::new()] } else { self.list };
+        let mut grid: Vec<(String, Values)> = Vec::new();
+        for (pointer, values) in self.grid {
+            let values = Values::of(values).ok_or_else(|| {
                 let what = "the values are neither a list nor steps";
                 let fix = "give a list, or {\"from\": 1, \"to\": 2, \"count\": 5}";
-                InputError::new(place(pointer), what, fix)
+                InputError::new(place(&pointer), what, fix)
             })?;
             grid.push((pointer, values));
         }
@@ -162,12 +170,12 @@ impl Sweep {
             let what = format!("there are more than {MOST_CASES} cases");
             return Err(InputError::new("grid and list", what, "divide the sweep"));
         }
-        let listed = |(pointer, values): (&String, Values)| {
+        let listed = |(pointer, values): (String, Values)| {
             let fix =
                 "give steps such as {\"from\": 1e-4, \"to\": 1e-2, \"count\": 5, \"log\": true}";
             let values = values.list();
-            let values = values.map_err(|what| InputError::new(place(pointer), what, fix))?;
-            Ok((pointer.clone(), values))
+            let values = values.map_err(|what| InputError::new(place(&pointer), what, fix))?;
+            Ok((pointer, values))
         };
         let grid = grid.into_iter().map(listed).collect::<Result<_>>()?;
         Ok(Cases { base, grid, list })
