@@ -93,7 +93,7 @@ fn of_sweep(sweep: &Sweep) {
     if sweep.scene.as_deref().is_some_and(|name| !["fig1", "two-blocks"].contains(&name)) {
         return;
     }
-    let cases = match sweep.cases(Path::new("")) {
+    let cases = match sweep.clone().cases(Path::new("")) {
         Ok(cases) => cases,
         Err(error) => return sound::input_error(&error),
     };

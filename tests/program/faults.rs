@@ -214,7 +214,7 @@ fn a_users_files_stay_and_those_of_an_earlier_run_go() {
 fn no_file_is_written_through_a_link() {
     let folder = TempDir::new().expect("a folder");
     let at = |name: &str| folder.path().join(name);
-    ["o", "d"].map(|name| std::fs::create_dir(at(name)).expect("a folder"));
+    ["o", "d"].iter().for_each(|name| std::fs::create_dir(at(name)).expect("a folder"));
     std::os::unix::fs::symlink("../d", at("o/below")).expect("a link");
     std::fs::write(at("o/notes.txt"), "mine").expect("it is written");
     let write =

@@ -40,6 +40,9 @@ impl Journal {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder).map_err(|why| fault(folder, &why))?;
         }
+        if path.symlink_metadata().is_ok_and(|there| !there.is_file()) {
+            return Err(fault(&path, &"it is no ordinary file").into());
+        }
         let file = OpenOptions::new().create(true).append(true).read(true).open(&path);
         let file = file.map_err(|why| fault(&path, &why))?;
         match file.try_lock() {

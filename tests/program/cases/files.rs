@@ -305,6 +305,22 @@ const CASES: &[Case] = &[
         contains: &["are free"],
         lacks: &[],
     },
+    Case {
+        input: "scene",
+        command: "echo mine > precious; ln -s precious r.jsonl.journal; \
+                  plane-contact sweep sweep.json --out r.jsonl; status=$?; cat precious; exit $status",
+        status: 2,
+        contains: &["r.jsonl.journal", "it is no ordinary file", "mine"],
+        lacks: &["exit_status"],
+    },
+    Case {
+        input: "scene",
+        command: "mkdir rows; mkfifo rows/0.json; \
+                  timeout 20 plane-contact sweep sweep.json --rows rows --out r.jsonl",
+        status: 2,
+        contains: &["rows/0.json", "it is no ordinary file"],
+        lacks: &[],
+    },
     // The results of another program.
     Case {
         input: "ccx",
