@@ -37,9 +37,9 @@ const CASE: f64 = 4000.0;
 SWEEP is a file of JSON: format, scene (a name or a path beside it) or generate (a kind of mesh and
 its parameters), options, and the values that take turns by JSON pointer: grid (every combination)
 or list. Writes a line of JSON for each case, in order. Each case runs in a process of its own; one
-that fails or crashes is a row. A case is known by its key, a hash of all that it reads (scene, mesh,
-options) and of the version: a sweep that was interrupted goes on where it was, and nothing runs
-twice.
+that fails or crashes is a row. A case is known by its key, a hash of all that it reads (scene,
+mesh, options) and of the version: a sweep that was interrupted goes on where it was, and nothing
+runs twice.
 
 Examples:
   plane-contact sweep sweep.json --out rows.jsonl

@@ -72,6 +72,13 @@ pub fn mesh(
             Fault::Memory { .. } => memory::FIX,
             _ => "save the mesh again from Gmsh",
         };
-        InputError::new(format!("mesh {name:?}"), error.to_string(), fix)
+        let what = match &error.fault {
+            // A file that is no mesh may hold secrets of who runs the scene.
+            Fault::Unexpected { expected, .. } if expected.starts_with("$MeshFormat") => {
+                format!("it is no mesh of Gmsh: expected {expected}")
+            }
+            _ => error.to_string(),
+        };
+        InputError::new(format!("mesh {name:?}"), what, fix)
     })
 }

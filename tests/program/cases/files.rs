@@ -185,6 +185,13 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "scene",
+        command: "echo 'root:*:20228' > cook.msh; plane-contact plan .",
+        status: 2,
+        contains: &["it is no mesh of Gmsh", "$MeshFormat"],
+        lacks: &["root:"],
+    },
+    Case {
+        input: "scene",
         command: "rm cook.msh; mkfifo cook.msh; timeout 20 plane-contact plan .",
         status: 2,
         contains: &["cook.msh", "it is no ordinary file"],
