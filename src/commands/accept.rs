@@ -15,11 +15,12 @@ use super::{print_fitted, waiting};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Runs the snapshot again, takes what differs, and adds to the log in the snapshot: what, from, to, by
-how much in units of its bound, the reason, the version of the program. Nothing is taken where a run
-fails that did not, unless --failing says that it should.
+how much in units of its bound, the reason, the version of the program; a summary of up to 20 lines
+is printed. Nothing is taken where a run fails that did not, unless --failing says that it should.
 
 Examples:
   plane-contact accept out/fig1.snapshot.json --reason \"the load was doubled\"
+  plane-contact accept my/snapshot.json --dry-run --reason \"not yet\"
   plane-contact accept my/snapshot.json --entry stepped/u --reason \"a finer solver\"
   plane-contact accept my/snapshot.json --scene my/scene.json --reason \"a stiffer block\"")]
 pub struct Args {
@@ -35,6 +36,9 @@ pub struct Args {
     /// Take a run that fails where it did not, or fails otherwise.
     #[arg(long)]
     failing: bool,
+    /// Print what would be taken, and leave the file as it is.
+    #[arg(long)]
+    dry_run: bool,
     /// Run this scene in place of the one in the snapshot, and take it too.
     #[arg(long, value_name = "SCENE")]
     scene: Option<String>,
@@ -48,6 +52,8 @@ pub fn run(args: &Args) -> Result<()> {
     let verified = verified.map_err(|error| super::within(error, &place))?;
     let (entry, reason, failing) = (args.entry.as_deref(), &args.reason[..], args.failing);
     let accepted = accept(&mut snapshot, &verified, Chosen { entry, reason, failing })?;
-    files::write(&args.file, &report::file(&snapshot))?;
+    if !args.dry_run {
+        files::write(&args.file, &report::file(&snapshot))?;
+    }
     print_fitted(&report::accepted(&accepted))
 }

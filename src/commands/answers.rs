@@ -1,31 +1,33 @@
 //! `plane-contact verify` on answers that pages of exercises exported.
 
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
-use plane_contact::files::{self, json};
+use plane_contact::files::json;
 use plane_contact::report::answers::{self as report, Marked};
 use plane_contact::studies::lesson::exercise::{ANSWERS, Answers};
 
 use super::print_either;
 
-/// Returns whether a file has answers: the kind that it names.
-pub fn are_in(file: &Path) -> bool {
-    json::has_field(&files::read(file).unwrap_or_default(), "kind")
+/// Returns whether the text of a file has answers: whether it names a kind.
+pub fn are_in(text: &[u8]) -> bool {
+    json::has_field(text, "kind")
 }
 
-/// Marks the answers of files; returns whether all are right.
-pub fn verify(files: &[impl AsRef<Path>], json: bool) -> Result<bool> {
-    let marked = files.iter().map(|file| marked(file.as_ref())).collect::<Result<Vec<_>>>()?;
+/// Marks the answers in the texts of files; returns whether all are right.
+pub fn verify(files: &[PathBuf], texts: Vec<io::Result<Vec<u8>>>, json: bool) -> Result<bool> {
+    let marked = files.iter().zip(texts).map(|(file, text)| marked(file, text));
+    let marked = marked.collect::<Result<Vec<_>>>()?;
     print_either(json, || report::json(&marked), || report::text(&marked))?;
     Ok(marked.iter().all(Marked::is_right))
 }
 
-fn marked(file: &Path) -> Result<Marked> {
+fn marked(file: &Path, text: io::Result<Vec<u8>>) -> Result<Marked> {
     let name = file.display().to_string();
     let fix = "give files as the page of an exercise saves them";
-    let text = files::read(file)
+    let text = text
         .map_err(|why| InputError::new(&name, format!("the answers cannot be read: {why}"), fix))?;
     let kind = json::Kind { name: "answers", fix, has_values: false };
     let answers: Answers = json::read(&text, &kind).map_err(|error| error.within(&name))?;

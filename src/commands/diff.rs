@@ -10,9 +10,9 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, Checked};
-use plane_contact::studies::snapshot::{Bounds, Snapshot, difference};
+use plane_contact::studies::snapshot::{Bounds, Run, Snapshot, Verified, difference};
 
-use super::verify::{DIFFERS, read};
+use super::verify::DIFFERS;
 use super::{print_either, waiting};
 
 /// Compare two snapshots, or a scene under two sets of options.
@@ -72,17 +72,15 @@ pub fn run(args: &Args) -> Result<u8> {
         Ok([side(args, 0, names[0])?, side(args, 1, names[1])?])
     })?;
     let file = format!("{} and {}", names[0], names[1]);
-    let checked = [Checked { file, verified: difference(&sides[0], &sides[1]) }];
+    let verified = difference(&sides[0], &sides[1]);
+    let checked = [Checked { file, verified: Ok(verified.clone()) }];
     print_either(args.json, || report::json(&checked), || report::text(&checked))?;
-    let verified = &checked[0].verified;
-    if let (Some(folder), Some((old, run))) = (&args.out, first_pair(&sides[0], verified)) {
+    if let (Some(folder), Some((old, run))) = (&args.out, first_pair(&sides[0], &verified)) {
         let written = report::difference_files(folder, &verified.input.build()?, [old, run])?;
         super::say_written(folder, written);
     }
     Ok(if verified.is_same() { 0 } else { DIFFERS })
 }
-
-use plane_contact::studies::snapshot::{Run, Verified};
 
 /// The first two runs that differ.
 fn first_pair<'a>(old: &'a Snapshot, verified: &'a Verified) -> Option<(&'a Run, &'a Run)> {
@@ -93,9 +91,10 @@ fn first_pair<'a>(old: &'a Snapshot, verified: &'a Verified) -> Option<(&'a Run,
 
 /// Reads a snapshot, or runs a scene.
 fn side(args: &Args, side: usize, name: &str) -> Result<Snapshot> {
+    // It is read once: a snapshot may come through a pipe.
     let text = files::read(Path::new(name)).unwrap_or_default();
     if json::has_field(&text, "format") {
-        return read(Path::new(name));
+        return Ok(Snapshot::read(&text).map_err(|error| error.within(name))?);
     }
     let scene = Scene::open(name)?;
     let mut request = plane_contact::answer::Request::new(&scene);

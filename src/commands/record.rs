@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use clap::builder::PossibleValuesParser;
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
@@ -10,7 +11,7 @@ use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot as report;
-use plane_contact::studies::snapshot::{Bounds, Snapshot};
+use plane_contact::studies::snapshot::{Bounds, FIELDS, Snapshot};
 
 use super::{ModelArgs, ReadingArg, print_fitted, waiting};
 
@@ -25,6 +26,7 @@ printed is a snapshot like any other. An existing snapshot is not replaced: see 
 Examples:
   plane-contact record fig1 --variant printed,tied,stepped,unilateral
   plane-contact record my/scene.json --out my/snapshot.json
+  plane-contact record fig1 --only u,pressure             a small one: what comes out at the end
   plane-contact record fig1 --reading R4=left-to-right    an expected failure")]
 pub struct Args {
     /// Paths of scenes, or names of embedded ones.
@@ -39,6 +41,11 @@ pub struct Args {
     arithmetic: Arithmetic,
     #[command(flatten)]
     reading: ReadingArg,
+    /// Record these numbers of the end alone, and no iterations: u, stress, reactions, gap, pressure,
+    /// "largest von Mises stress", "largest von Mises strain" [default: all, and the iterations].
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(FIELDS))]
+    only: Vec<String>,
     /// File of the snapshot, of one scene alone [default: <scene>.snapshot.json in the folder out].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -59,8 +66,11 @@ pub fn run(args: &Args) -> Result<()> {
             args.model.request(&scene, variant, &args.reading).arithmetic(args.arithmetic)
         });
         let requests: Vec<_> = requests.collect();
-        let snapshot =
+        let mut snapshot =
             waiting("recording", || Snapshot::record(&scene, &requests, Bounds::Computed))?;
+        if !args.only.is_empty() {
+            snapshot.keep_only(&args.only);
+        }
         let file = args
             .out
             .clone()

@@ -1,15 +1,16 @@
 //! `plane-contact verify` and `plane-contact explain`.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::error::Result;
+use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, Checked};
 use plane_contact::studies::snapshot::{self, Snapshot};
 
-use super::{answers, print_either, progress};
+use super::{answers, print_either, progress, waiting};
 
 /// The exit status where what was compared differs, or nothing was compared.
 pub const DIFFERS: u8 = 1;
@@ -49,27 +50,42 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<u8> {
-    if args.files.iter().any(|file| answers::are_in(file)) {
-        let all_right = answers::verify(&args.files, args.json)?;
+    // Each is read once: it may be a pipe.
+    let texts: Vec<_> = args.files.iter().map(|file| files::read(file)).collect();
+    if texts.iter().flatten().any(|text| answers::are_in(text)) {
+        let all_right = answers::verify(&args.files, texts, args.json)?;
         return Ok(if all_right { 0 } else { DIFFERS });
     }
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let checked = check(&args.files, scene.as_ref())?;
+    let snapshots = args.files.iter().zip(texts).map(|(file, text)| snapshot_of(file, text));
+    let checked = check(&args.files, snapshots.collect(), scene.as_ref());
     if let Some(file) = &args.junit {
         files::write(file, &report::junit(&checked))?;
     }
     if let Some(file) = &args.report {
         files::write(file, &report::markdown(&checked))?;
     }
-    print_either(args.json, || report::json(&checked), || report::text(&checked))?;
-    let is_same = checked.iter().all(|checked| checked.verified.is_same());
-    Ok(if is_same { 0 } else { DIFFERS })
+    report(&checked, args.json)
+}
+
+/// Prints what verifying found, and returns the exit status: that of the first file that could not be
+/// verified, else whether all is the same.
+fn report(checked: &[Checked], json: bool) -> Result<u8> {
+    print_either(json, || report::json(checked), || report::text(checked))?;
+    let failure = checked.iter().find_map(|checked| checked.verified.as_ref().err());
+    let is_same = checked.iter().all(Checked::is_same);
+    Ok(failure.map_or(if is_same { 0 } else { DIFFERS }, Error::exit_status))
 }
 
 /// Reads a snapshot.
 pub fn read(file: &Path) -> Result<Snapshot> {
+    snapshot_of(file, files::read(file))
+}
+
+/// Reads the snapshot in the text of a file.
+fn snapshot_of(file: &Path, text: io::Result<Vec<u8>>) -> Result<Snapshot> {
     let place = file.display().to_string();
-    let text = files::read(file).map_err(|why| {
+    let text = text.map_err(|why| {
         let what = format!("the snapshot cannot be read: {why}");
         InputError::new(&place, what, "give a file as `plane-contact record` writes it")
     })?;
@@ -77,17 +93,22 @@ pub fn read(file: &Path) -> Result<Snapshot> {
 }
 
 /// Verifies snapshots one by one, with a progress bar over their runs.
-fn check(files: &[PathBuf], scene: Option<&Scene>) -> Result<Vec<Checked>> {
-    let snapshots: Vec<Snapshot> = files.iter().map(|file| read(file)).collect::<Result<_>>()?;
-    let runs = snapshots.iter().map(|snapshot| snapshot.runs.len()).sum();
+fn check(
+    files: &[PathBuf],
+    snapshots: Vec<Result<Snapshot>>,
+    scene: Option<&Scene>,
+) -> Vec<Checked> {
+    let runs = snapshots.iter().flatten().map(|snapshot| snapshot.runs.len()).sum();
     let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
-    let check = |(file, snapshot): (&PathBuf, &Snapshot)| {
+    let check = |(file, snapshot): (&PathBuf, Result<Snapshot>)| {
         let file = file.display().to_string();
-        let verified = snapshot::verify(snapshot, scene, &|| bar.inc(1));
-        let verified = verified.map_err(|error| super::within(error, &file))?;
-        Ok(Checked { file, verified })
+        let verified = snapshot.and_then(|snapshot| {
+            let verified = snapshot::verify(&snapshot, scene, &|| bar.inc(1));
+            verified.map_err(|error| super::within(error, &file))
+        });
+        Checked { file, verified }
     };
-    let checked = files.iter().zip(&snapshots).map(check).collect();
+    let checked = files.iter().zip(snapshots).map(check).collect();
     bar.finish_and_clear();
     checked
 }
@@ -120,16 +141,17 @@ pub struct ExplainArgs {
 
 pub fn run_explain(args: &ExplainArgs) -> Result<u8> {
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let checked = check(std::slice::from_ref(&args.file), scene.as_ref())?;
     let snapshot = read(&args.file)?;
-    let verified = &checked[0].verified;
-    print_either(args.json, || report::json(&checked), || report::text(&checked))?;
-    let differing = verified.runs.iter().find(|run| !run.differences.is_empty());
+    let verified = waiting("verifying", || snapshot::verify(&snapshot, scene.as_ref(), &|| ()));
+    let file = args.file.display().to_string();
+    let verified = verified.map_err(|error| super::within(error, &file))?;
+    let differing = verified.runs.iter().find(|run| !run.differences.is_empty()).cloned();
+    let input = verified.input.clone();
+    let status = report(&[Checked { file, verified: Ok(verified) }], args.json)?;
     if let (Some(folder), Some(run)) = (&args.out, differing) {
         let old = snapshot.runs.get(&run.name).expect("the run was read from there");
-        let scene = verified.input.build()?;
-        let written = report::difference_files(folder, &scene, [old, &run.run])?;
+        let written = report::difference_files(folder, &input.build()?, [old, &run.run])?;
         super::say_written(folder, written);
     }
-    Ok(if verified.is_same() { 0 } else { DIFFERS })
+    Ok(status)
 }

@@ -15,8 +15,11 @@ pub fn sha256(document: &impl Serialize) -> String {
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Returns the hashes of a description and of a mesh.
-pub(super) fn of_source(description: &Description, mesh: &Mesh) -> [String; 2] {
+/// Returns the hashes of a description and of a mesh: those of their content, whatever the order of
+/// the keys in the files.
+pub fn source_hashes(description: &Description, mesh: &Mesh) -> [String; 2] {
+    let mut description = description.clone();
+    description.materials.0.sort_by_cached_key(|(group, _)| group.text());
     let scene = serde_json::to_value(description).expect("a description is an object");
     [sha256(&scene), sha256(mesh)]
 }

@@ -31,7 +31,7 @@ pub use builder::SceneBuilder;
 pub use description::{Axis, Contact, Description, Load, Material, Materials, Restraint, Units};
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use groups::GroupRef;
-pub use hashes::sha256;
+pub use hashes::{sha256, source_hashes};
 pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags};
 pub use refine::Refined;
 pub use scene_file::SceneFile;
@@ -115,7 +115,7 @@ impl Scene {
     /// without blanks; None for half a scene.
     pub fn hashes(&self) -> Option<&[String; 2]> {
         let Source { description, mesh, hashes } = self.source.as_deref()?;
-        Some(hashes.get_or_init(|| hashes::of_source(description, mesh)))
+        Some(hashes.get_or_init(|| source_hashes(description, mesh)))
     }
 
     fn assemble(

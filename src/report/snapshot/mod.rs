@@ -9,18 +9,31 @@ use serde::Serialize;
 pub use field::difference_files;
 pub use words::{difference, explanation};
 
+use super::failure::Failure;
 use super::json::{headed, pretty};
+use crate::answer::error::Error;
 use crate::problem::scene::Units;
 use crate::studies::snapshot::{
-    Acceptance, Difference, Explanation, Run, Snapshot, Verified, VerifiedRun,
+    Acceptance, Difference, Explanation, Presence, Run, Snapshot, Verified, VerifiedRun,
 };
 use crate::xml::Element;
 
-/// A snapshot's file and what verifying it found.
+/// A snapshot's file and what verifying it found, or why it could not be verified.
 pub struct Checked {
     /// The name of the file, as given.
     pub file: String,
-    pub verified: Verified,
+    pub verified: Result<Verified, Error>,
+}
+
+impl Checked {
+    /// Returns whether something was compared and nothing differs.
+    pub fn is_same(&self) -> bool {
+        self.verified.as_ref().is_ok_and(Verified::is_same)
+    }
+
+    fn runs(&self) -> &[VerifiedRun] {
+        self.verified.as_ref().map_or(&[], |verified| &verified.runs)
+    }
 }
 
 /// Returns the text of a snapshot's file.
@@ -53,6 +66,7 @@ pub fn recorded(snapshot: &Snapshot) -> String {
 /// Returns how a run compares, in a word or two.
 fn verdict(run: &VerifiedRun) -> String {
     match (run.compared, run.differences.is_empty()) {
+        _ if run.presence != Presence::Both => words::presence(run.presence).into(),
         (0, _) => "nothing was compared".into(),
         (compared, true) => format!("same, {compared} facts and numbers"),
         (_, false) => "differs".into(),
@@ -65,8 +79,12 @@ pub fn text(checked: &[Checked]) -> String {
 }
 
 fn of_file(checked: &Checked) -> String {
-    let mut text = format!("{}: {}\n", checked.file, of_runs(&checked.verified));
-    for run in &checked.verified.runs {
+    let verified = match &checked.verified {
+        Ok(verified) => verified,
+        Err(why) => return format!("{}: error: {why}\n", checked.file),
+    };
+    let mut text = format!("{}: {}\n", checked.file, of_runs(verified));
+    for run in &verified.runs {
         text += &format!("  {}: {}\n", run.name, verdict(run));
         text += &indent(&run_words(run), "    ");
     }
@@ -74,11 +92,11 @@ fn of_file(checked: &Checked) -> String {
 }
 
 fn of_runs(verified: &Verified) -> String {
-    let differ = verified.runs.iter().filter(|run| !run.differences.is_empty()).count();
-    match (verified.runs.len(), verified.is_same()) {
+    let differ = verified.runs.iter().filter(|run| !run.is_same()).count();
+    match (verified.runs.len(), differ) {
         (0, _) => "no run in it, nothing was compared".into(),
-        (runs, true) => format!("same, {runs} {}", if runs == 1 { "run" } else { "runs" }),
-        (runs, false) => format!("{differ} of {runs} runs differ"),
+        (runs, 0) => format!("same, {runs} {}", if runs == 1 { "run" } else { "runs" }),
+        (runs, _) => format!("{differ} of {runs} runs differ"),
     }
 }
 
@@ -99,50 +117,90 @@ fn indent(text: &str, by: &str) -> String {
 pub fn markdown(checked: &[Checked]) -> String {
     let mut text =
         String::from("# plane-contact verify\n\n| snapshot | run | verdict |\n|---|---|---|\n");
+    let row = |file: &str, run: &str, verdict: &str| {
+        format!("| {} | {} | {} |\n", escaped(file), escaped(run), escaped(verdict))
+    };
     for Checked { file, verified } in checked {
-        for run in &verified.runs {
-            text += &format!("| {file} | {} | {} |\n", run.name, verdict(run));
-        }
-        if verified.runs.is_empty() {
-            text += &format!("| {file} | - | {} |\n", of_runs(verified));
+        match verified {
+            Err(_) => text += &row(file, "-", "error"),
+            Ok(verified) if verified.runs.is_empty() => text += &row(file, "-", &of_runs(verified)),
+            Ok(verified) => {
+                text.extend(verified.runs.iter().map(|run| row(file, &run.name, &verdict(run))));
+            }
         }
     }
-    for Checked { file, verified } in checked {
-        for run in verified.runs.iter().filter(|run| !run.differences.is_empty()) {
-            text += &format!("\n## {file}: {}\n\n```text\n{}```\n", run.name, run_words(run));
+    for checked in checked {
+        let file = escaped(&checked.file);
+        if let Err(why) = &checked.verified {
+            text += &format!("\n## {file}\n\n{}", block(&format!("error: {why}\n")));
+        }
+        for run in checked.runs().iter().filter(|run| !run.differences.is_empty()) {
+            text += &format!("\n## {file}: {}\n\n{}", escaped(&run.name), block(&run_words(run)));
         }
     }
     text
 }
 
+/// Returns a text that stands in a line of Markdown or a cell of a table as it is.
+fn escaped(text: &str) -> String {
+    let escape = |c: char| match c {
+        '&' => "&amp;".into(),
+        '<' => "&lt;".into(),
+        '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '~' | '#' | '$' => format!("\\{c}"),
+        c if c.is_control() => " ".into(),
+        c => c.to_string(),
+    };
+    text.chars().map(escape).collect()
+}
+
+/// Returns lines as a block of Markdown, whose fence is longer than any in them.
+fn block(lines: &str) -> String {
+    let runs = lines.split(|c| c != '`').map(str::len);
+    let fence = "`".repeat(runs.max().unwrap_or(0).max(2) + 1);
+    format!("{fence}text\n{lines}{fence}\n")
+}
+
 /// Returns what verifying found as JUnit XML: a suite a file, a case a run.
 pub fn junit(checked: &[Checked]) -> String {
-    let failed = |run: &VerifiedRun| !run.differences.is_empty() || run.compared == 0;
-    let case = |run: &VerifiedRun| {
-        let case = Element::new("testcase").set("name", &run.name).set("classname", "snapshot");
-        match failed(run) {
-            false => case,
-            true => {
-                let failure = Element::with_text("failure", &run_words(run));
-                case.with(failure.set("message", words::headline(run)))
-            }
-        }
-    };
-    let suite = |Checked { file, verified }: &Checked| {
-        let failures = verified.runs.iter().filter(|run| failed(run)).count();
-        let is_empty = verified.runs.is_empty();
-        let nothing = is_empty.then(|| {
-            let failure = Element::with_text("failure", "nothing was compared");
-            Element::new("testcase").set("name", "runs").set("classname", "snapshot").with(failure)
-        });
-        Element::new("testsuite")
-            .set("name", file)
-            .set("tests", verified.runs.len().max(1).to_string())
-            .set("failures", failures.max(usize::from(is_empty)).to_string())
-            .with_all(verified.runs.iter().map(case))
-            .with_all(nothing)
-    };
     Element::new("testsuites").with_all(checked.iter().map(suite)).document()
+}
+
+fn suite(checked: &Checked) -> Element {
+    let runs = checked.runs();
+    let alone = match &checked.verified {
+        Err(why) => {
+            Some(Element::with_text("error", &why.to_string()).set("message", first_line(why)))
+        }
+        Ok(_) if runs.is_empty() => Some(Element::with_text("failure", "nothing was compared")),
+        Ok(_) => None,
+    };
+    let errors = usize::from(checked.verified.is_err());
+    let failures = runs.iter().filter(|run| !run.is_same()).count();
+    let failures = failures + usize::from(alone.is_some()) - errors;
+    Element::new("testsuite")
+        .set("name", &checked.file)
+        .set("tests", runs.len().max(1).to_string())
+        .set("failures", failures.to_string())
+        .set("errors", errors.to_string())
+        .with_all(runs.iter().map(case))
+        .with_all(alone.map(|outcome| test_case("runs").with(outcome)))
+}
+
+fn case(run: &VerifiedRun) -> Element {
+    let case = test_case(&run.name);
+    if run.is_same() {
+        return case;
+    }
+    let failure = Element::with_text("failure", &run_words(run));
+    case.with(failure.set("message", words::headline(run)))
+}
+
+fn test_case(name: &str) -> Element {
+    Element::new("testcase").set("name", name).set("classname", "snapshot")
+}
+
+fn first_line(why: &Error) -> String {
+    why.to_string().lines().next().unwrap_or_default().into()
 }
 
 /// What verifying found, as JSON.
@@ -158,13 +216,22 @@ pub struct Document<'a> {
 struct FileRow<'a> {
     file: &'a str,
     same: bool,
-    /// The names of the units of the scene that was run.
+    /// Why it could not be verified; null where it was.
+    failure: Option<Failure>,
+    #[serde(flatten)]
+    scene: Option<SceneRow<'a>>,
+    runs: Vec<RunRow<'a>>,
+}
+
+/// The scene that was run.
+#[derive(Serialize, JsonSchema)]
+struct SceneRow<'a> {
+    /// The names of its units.
     units: Units,
-    /// The SHA-256 of that scene.
+    /// Its SHA-256.
     scene_sha256: &'a str,
     /// The SHA-256 of its mesh.
     mesh_sha256: &'a str,
-    runs: Vec<RunRow<'a>>,
 }
 
 /// What verifying a run found.
@@ -172,6 +239,8 @@ struct FileRow<'a> {
 struct RunRow<'a> {
     run: &'a str,
     same: bool,
+    /// The side that has it; what one side alone has is not compared.
+    presence: Presence,
     /// How many facts and numbers were compared.
     compared: usize,
     /// Why it differs; null where it does not.
@@ -184,7 +253,8 @@ impl<'a> From<&'a VerifiedRun> for RunRow<'a> {
     fn from(run: &'a VerifiedRun) -> Self {
         RunRow {
             run: &run.name,
-            same: run.differences.is_empty() && run.compared > 0,
+            same: run.is_same(),
+            presence: run.presence,
             compared: run.compared,
             explanation: &run.explanation,
             differences: &run.differences,
@@ -193,40 +263,71 @@ impl<'a> From<&'a VerifiedRun> for RunRow<'a> {
 }
 
 impl<'a> From<&'a Checked> for FileRow<'a> {
-    fn from(Checked { file, verified }: &'a Checked) -> Self {
+    fn from(checked: &'a Checked) -> Self {
+        let scene = checked.verified.as_ref().ok().map(|Verified { input, .. }| SceneRow {
+            units: input.units(),
+            scene_sha256: &input.scene_sha256,
+            mesh_sha256: &input.mesh_sha256,
+        });
         FileRow {
-            file,
-            same: verified.is_same(),
-            units: verified.input.units(),
-            scene_sha256: &verified.input.scene_sha256,
-            mesh_sha256: &verified.input.mesh_sha256,
-            runs: verified.runs.iter().map(RunRow::from).collect(),
+            file: &checked.file,
+            same: checked.is_same(),
+            failure: checked.verified.as_ref().err().map(Failure::from),
+            scene,
+            runs: checked.runs().iter().map(RunRow::from).collect(),
         }
     }
 }
 
 /// Returns what verifying found as JSON.
 pub fn json(checked: &[Checked]) -> String {
-    let same = checked.iter().all(|checked| checked.verified.is_same());
+    let same = checked.iter().all(Checked::is_same);
     headed(&Document { same, files: checked.iter().map(FileRow::from).collect() })
 }
 
-/// Returns what was accepted, for people.
+/// The most lines of what was accepted.
+const LINES: usize = 20;
+
+/// Returns what was accepted, for people: a line for each entry, one for all iterations of a run.
 pub fn accepted(accepted: &[Acceptance]) -> String {
-    let one = |a: &Acceptance| {
-        let by = match (a.bounds, a.differing) {
-            (Some(bounds), Some(count)) => {
-                format!(" ({bounds:.3e} times what it may; {count} numbers)")
+    let mut lines: Vec<(String, usize)> = Vec::new();
+    for acceptance in accepted {
+        match in_iteration(&acceptance.entry) {
+            None => lines.push((line(acceptance), 1)),
+            Some(run) => {
+                let start = format!("accepted {run}/iteration ");
+                match lines.last_mut().filter(|(line, _)| line.starts_with(&start)) {
+                    Some((_, count)) => *count += 1,
+                    None => lines.push((line(acceptance), 1)),
+                }
             }
-            (None, Some(count)) => format!(" ({count} numbers)"),
-            _ => String::new(),
-        };
-        format!(
-            "accepted {}: {}, was {}{by}\n",
-            a.entry,
-            words::short(&a.to),
-            words::short(&a.from)
-        )
+        }
+    }
+    let entries = |lines: &[(String, usize)]| lines.iter().map(|(_, count)| count).sum::<usize>();
+    let shown = if lines.len() > LINES { LINES - 1 } else { lines.len() };
+    let mut text: String = lines[..shown]
+        .iter()
+        .map(|(line, count)| match count {
+            1 => format!("{line}\n"),
+            count => format!("{line}; and {} other entries of iterations\n", count - 1),
+        })
+        .collect();
+    if shown < lines.len() {
+        text += &format!("and {} other entries, see the log\n", entries(&lines[shown..]));
+    }
+    text
+}
+
+/// Returns the run of an entry that is one of an iteration.
+fn in_iteration(entry: &str) -> Option<&str> {
+    entry.split_once("/iteration ").map(|(run, _)| run)
+}
+
+fn line(a: &Acceptance) -> String {
+    let by = match (a.bounds, a.differing) {
+        (Some(bounds), Some(count)) => format!(" ({bounds:.3e} x tolerance; {count} numbers)"),
+        (None, Some(count)) => format!(" ({count} numbers)"),
+        _ => String::new(),
     };
-    accepted.iter().map(one).collect()
+    format!("accepted {}: {}, was {}{by}", a.entry, words::short(&a.to), words::short(&a.from))
 }

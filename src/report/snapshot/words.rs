@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::studies::snapshot::{Difference, Explanation, Kind, VerifiedRun};
+use crate::studies::snapshot::{Difference, Explanation, Kind, Number, Presence, VerifiedRun};
 
 /// The most characters of a fact that is printed whole.
 const WIDTH: usize = 70;
@@ -43,9 +43,19 @@ fn turn(flip: &crate::studies::snapshot::Flip) -> String {
     format!("iteration {}{node}{line}: {}", flip.iteration, flip.words)
 }
 
+/// Returns where a run is that one side alone has.
+pub fn presence(presence: Presence) -> &'static str {
+    match presence {
+        Presence::Both => "on both sides",
+        Presence::Missing => "missing: the old side alone has it",
+        Presence::New => "new: the old side does not have it",
+    }
+}
+
 /// Returns the cause of a run's differences, or the first of them, in a line.
 pub fn headline(run: &VerifiedRun) -> String {
     match (&run.explanation, run.differences.first()) {
+        _ if run.presence != Presence::Both => presence(run.presence).into(),
         (Some(explanation), _) => format!("{} ({})", explanation.cause, explanation.class),
         (None, Some(first)) => difference(first),
         (None, None) => "nothing was compared".into(),
@@ -56,8 +66,12 @@ pub fn headline(run: &VerifiedRun) -> String {
 pub fn difference(difference: &Difference) -> String {
     let entry = &difference.entry;
     match &difference.kind {
-        Kind::Missing => format!("{entry}: missing, was there"),
-        Kind::Extra => format!("{entry}: there, was missing"),
+        Kind::Missing => format!("{entry}: missing"),
+        Kind::Extra => format!("{entry}: new"),
+        Kind::Unit { was, is } => {
+            let [is, was] = [is, was].map(|unit| if unit.is_empty() { "none" } else { unit });
+            format!("unit of {entry}: {is}, was {was}")
+        }
         Kind::Fact { was, is } => format!("{entry}: {}", fact(was, is)),
         Kind::Shape { was, is, at } => {
             let at = at.map_or(String::new(), |at| format!(", first at row {at}"));
@@ -65,7 +79,7 @@ pub fn difference(difference: &Difference) -> String {
         }
         Kind::Numbers(w) => {
             let limit = if w.bounded { "limit" } else { "no bound is known, limit" };
-            let by = (w.is - w.was).abs();
+            let by = Number((w.is.0 - w.was.0).abs());
             format!(
                 "{entry}: {} of {} numbers differ, most at {} component {}: {:e}, was {:e}; by \
                  {by:.3e}, {limit} {:.3e}",

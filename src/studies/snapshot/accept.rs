@@ -1,13 +1,17 @@
 //! New values accepted into a snapshot, each with its reason.
 
+use std::collections::HashSet;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::compare::{Difference, Kind};
-use super::verify::Verified;
-use super::{Snapshot, VERSION};
+use super::place::place;
+use super::verify::{Verified, VerifiedRun};
+use super::{Numbers, Run, Snapshot, VERSION};
 use crate::error::{InputError, Result};
+use crate::suggestion::did_you_mean;
 
 /// A value that was accepted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,89 +57,114 @@ pub fn accept(
         let fix = "say why the new value is right";
         return Err(InputError::new("--reason", "the reason is empty", fix));
     }
+    chosen.entry.map_or(Ok(()), |entry| check_entry(entry, snapshot, verified))?;
+    let [was, is] = [&snapshot.input, &verified.input]
+        .map(|input| [input.scene_sha256.clone(), input.mesh_sha256.clone()]);
     let mut accepted = Vec::new();
-    let input_changed = snapshot.input != verified.input;
-    let all = chosen.entry.is_none();
+    if was != is {
+        if chosen.entry.is_some() {
+            let what = "another scene is accepted with all that it gives";
+            return Err(InputError::new("--entry", what, "leave it out"));
+        }
+        let (entry, from, to) = ("input".into(), json!(was), json!(is));
+        let (reason, version) = (chosen.reason.into(), VERSION.into());
+        let (bounds, differing) = (None, None);
+        accepted.push(Acceptance { entry, from, to, bounds, differing, reason, version });
+    }
     for new in &verified.runs {
         let Some(old) = snapshot.runs.get_mut(&new.name) else { continue };
-        let takes = |difference: &Difference| {
-            let entry = format!("{}/{}", new.name, difference.entry);
-            chosen.entry.is_none_or(|chosen| chosen == new.name || chosen == entry)
-        };
-        let taken: Vec<&Difference> = new.differences.iter().filter(|d| takes(d)).collect();
-        let fails = taken.iter().any(|d| d.entry == "exit status")
-            && new.run.exit_status().is_some_and(|status| status != 0);
-        if fails && !chosen.failing {
-            let failure = new.run.facts.get("failure").cloned().unwrap_or_default();
-            let what = format!("run {:?} fails now: {failure}", new.name);
-            let fix = "nothing was accepted; where the failure is expected, say so with --failing";
-            return Err(InputError::new("exit status", what, fix));
-        }
-        for difference in &taken {
-            if let Kind::Expected { .. } = difference.kind {
-                let what =
-                    format!("the run misses a number that is expected of {}", difference.entry);
-                let fix = "change or remove the number under `expected`, with its reason";
-                return Err(InputError::new(format!("run {:?}", new.name), what, fix));
-            }
-            accepted.push(acceptance(&new.name, difference, chosen.reason));
-            let entry = &difference.entry;
-            match new.run.facts.get(entry) {
-                Some(fact) => old.facts.set(entry, fact.clone()),
-                None => old.facts.remove(entry),
-            }
-            match new.run.numbers.get(entry) {
-                Some(numbers) => {
-                    let tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
-                    let numbers = super::Numbers { tolerance, ..numbers.clone() };
-                    old.numbers.set(entry, numbers);
-                }
-                None => old.numbers.remove(entry),
-            }
-        }
-        if taken.len() == new.differences.len() {
-            // Numbers that agree take their new bits with them: the run is whole again.
-            let given: Vec<_> =
-                old.numbers.iter().map(|(n, x)| (n.to_string(), x.tolerance)).collect();
-            old.facts = new.run.facts.clone();
-            old.numbers = new.run.numbers.clone();
-            old.decided_by_rounding = new.run.decided_by_rounding.clone();
-            for (name, tolerance) in given {
-                if let Some(numbers) = old.numbers.get_mut(&name) {
-                    numbers.tolerance = tolerance;
-                }
-            }
-        }
+        let taken: Vec<&Difference> =
+            new.differences.iter().filter(|d| chosen.takes(&new.name, d)).collect();
+        check_run(new, &taken, chosen.failing)?;
+        accepted.extend(taken.iter().map(|d| acceptance(&new.name, d, chosen.reason)));
+        let all = taken.len() == new.differences.len();
+        take(old, &new.run, (!all).then_some(&taken));
     }
-    if accepted.is_empty() && !input_changed {
+    if accepted.is_empty() {
         let what = "nothing differs in what is to be accepted";
         let fix = "see `plane-contact verify`; an entry is named run/entry, such as stepped/u";
         return Err(InputError::new("--entry", what, fix));
     }
-    if input_changed {
-        if !all {
-            let what = "another scene is accepted with all that it gives";
-            return Err(InputError::new("--entry", what, "leave it out"));
-        }
-        accepted.insert(
-            0,
-            Acceptance {
-                entry: "input".into(),
-                from: json!([snapshot.input.scene_sha256, snapshot.input.mesh_sha256]),
-                to: json!([verified.input.scene_sha256, verified.input.mesh_sha256]),
-                bounds: None,
-                differing: None,
-                reason: chosen.reason.into(),
-                version: VERSION.into(),
-            },
-        );
-        snapshot.input = verified.input.clone();
-    }
-    if all {
+    snapshot.input = verified.input.clone();
+    if chosen.entry.is_none() {
         snapshot.version = VERSION.into();
     }
     snapshot.log.extend(accepted.iter().cloned());
     Ok(accepted)
+}
+
+impl Chosen<'_> {
+    /// Returns whether a difference of a run is accepted.
+    fn takes(&self, run: &str, difference: &Difference) -> bool {
+        let is_of_run = |chosen: &str| match chosen.strip_prefix(run) {
+            Some("") => true,
+            Some(rest) => rest.strip_prefix('/') == Some(&difference.entry),
+            None => false,
+        };
+        self.entry.is_none_or(is_of_run)
+    }
+}
+
+/// Checks that `entry` names a run, or a run and an entry of it.
+///
+/// # Errors
+/// It names neither.
+fn check_entry(entry: &str, snapshot: &Snapshot, verified: &Verified) -> Result<()> {
+    let runs =
+        snapshot.runs.iter().chain(verified.runs.iter().map(|run| (&run.name[..], &run.run)));
+    let names = runs.flat_map(|(name, run)| {
+        let entries = run.facts.names().chain(run.numbers.names());
+        std::iter::once(name.into()).chain(entries.map(move |entry| format!("{name}/{entry}")))
+    });
+    let names: Vec<String> = names.collect();
+    if names.iter().any(|name| name == entry) {
+        return Ok(());
+    }
+    let fix = did_you_mean(entry, names.iter().map(String::as_str))
+        + "name a run, or run/entry, such as stepped/u";
+    Err(InputError::new("--entry", format!("no run or entry is named {entry:?}"), fix))
+}
+
+/// Checks that the differences `taken` of a run may be accepted.
+///
+/// # Errors
+/// The run fails that did not, unless `failing` says that it may; it misses a number that is expected.
+fn check_run(new: &VerifiedRun, taken: &[&Difference], failing: bool) -> Result<()> {
+    let fails = taken.iter().any(|d| d.entry == "exit status")
+        && new.run.exit_status().is_some_and(|status| status != 0);
+    if fails && !failing {
+        let failure = new.run.facts.get("failure").cloned().unwrap_or_default();
+        let what = format!("run {:?} fails now: {failure}", new.name);
+        let fix = "nothing was accepted; where the failure is expected, say so with --failing";
+        return Err(InputError::new("exit status", what, fix));
+    }
+    if let Some(missed) = taken.iter().find(|d| matches!(d.kind, Kind::Expected { .. })) {
+        let what = format!("the run misses a number that is expected of {}", missed.entry);
+        let fix = "change or remove the number under `expected`, with its reason";
+        return Err(InputError::new(format!("run {:?}", new.name), what, fix));
+    }
+    Ok(())
+}
+
+/// Takes the entries of `some` differences from `new`, with None all of it: numbers that agree take
+/// their new bits with them, and the run is whole again. Tolerances stay.
+fn take(old: &mut Run, new: &Run, some: Option<&Vec<&Difference>>) {
+    let chosen = some.map(|some| some.iter().map(|d| &d.entry[..]).collect::<HashSet<_>>());
+    let is_taken = |name: &str| chosen.as_ref().is_none_or(|chosen| chosen.contains(name));
+    old.facts.retain(|name| !is_taken(name) || new.facts.get(name).is_some());
+    for (name, fact) in new.facts.iter().filter(|(name, _)| is_taken(name)) {
+        old.facts.set(name, fact.clone());
+    }
+    old.numbers.retain(|name| !is_taken(name) || new.numbers.get(name).is_some());
+    for (name, numbers) in new.numbers.iter().filter(|(name, _)| is_taken(name)) {
+        let tolerance = old.numbers.get(name).and_then(|numbers| numbers.tolerance);
+        old.numbers.set(name, Numbers { tolerance, ..numbers.clone() });
+    }
+    if chosen.is_none() {
+        old.decided_by_rounding = new.decided_by_rounding.clone();
+    }
+    old.facts.sort_by_key(place);
+    old.numbers.sort_by_key(place);
 }
 
 fn acceptance(run: &str, difference: &Difference, reason: &str) -> Acceptance {
@@ -143,11 +172,12 @@ fn acceptance(run: &str, difference: &Difference, reason: &str) -> Acceptance {
         Kind::Missing => (json!("there"), json!("missing"), None, None),
         Kind::Extra => (json!("missing"), json!("there"), None, None),
         Kind::Fact { was, is } => (was.clone(), is.clone(), None, None),
+        Kind::Unit { was, is } => (json!(was), json!(is), None, None),
         Kind::Shape { was, is, .. } => {
             (json!(format!("{was} numbers")), json!(format!("{is} numbers")), None, None)
         }
         Kind::Numbers(worst) => {
-            let by = (worst.is - worst.was).abs() / worst.limit;
+            let by = (worst.is.0 - worst.was.0).abs() / worst.limit.0;
             let by = Some(by).filter(|by| by.is_finite());
             (json!(worst.was), json!(worst.is), by, Some(worst.differing))
         }

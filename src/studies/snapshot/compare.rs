@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::Run;
 use super::entries::Entries;
-use super::numbers::{Numbers, WITHOUT_BOUND};
+use super::numbers::{Number, Numbers, WITHOUT_BOUND};
 use super::place::place;
 
 /// A difference between two runs.
@@ -28,12 +28,14 @@ pub enum Kind {
     Extra,
     /// A discrete fact is another one.
     Fact { was: Value, is: Value },
+    /// The numbers of an array are in another unit.
+    Unit { was: String, is: String },
     /// The arrays have other lengths or other rows.
     Shape { was: usize, is: usize, at: Option<f64> },
     /// Numbers differ by more than the limit.
     Numbers(Worst),
     /// A number that the user expects is not reached.
-    Expected { was: f64, is: Option<f64>, limit: f64, reason: String },
+    Expected { was: f64, is: Option<Number>, limit: Number, reason: String },
 }
 
 /// The number that differs most, in units of what it may.
@@ -44,10 +46,12 @@ pub struct Worst {
     pub at: f64,
     /// The component of the row, from 1.
     pub component: usize,
-    pub was: f64,
-    pub is: f64,
-    /// The largest difference that is none.
-    pub limit: f64,
+    /// Null where it is no finite number.
+    pub was: Number,
+    /// Null where it is no finite number.
+    pub is: Number,
+    /// The largest difference that is none; null where any would do.
+    pub limit: Number,
     /// How many numbers of the array differ.
     pub differing: usize,
     /// How many numbers the array has.
@@ -61,25 +65,36 @@ impl Difference {
     pub fn is_discrete(&self) -> bool {
         !matches!(self.kind, Kind::Numbers(_) | Kind::Expected { .. })
     }
+
+    /// Returns whether both runs have the entry.
+    pub fn is_in_both(&self) -> bool {
+        !matches!(self.kind, Kind::Missing | Kind::Extra)
+    }
 }
 
 /// Returns the differences of two runs in the order of computation, discrete facts of an iteration in
-/// their place among its numbers, and how many facts and numbers were compared.
+/// their place among its numbers, and how many facts and numbers were compared. What a run was not
+/// asked to record is not compared.
 pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
     let mut found = Vec::new();
     let mut compared = 0;
-    unmatched(&mut found, &old.facts, &new.facts);
-    unmatched(&mut found, &old.numbers, &new.numbers);
-    for (name, was) in old.facts.iter() {
+    let keeps = |name: &str| old.keeps(name) && new.keeps(name);
+    unmatched(&mut found, &old.facts, &new.facts, keeps);
+    unmatched(&mut found, &old.numbers, &new.numbers, keeps);
+    for (name, was) in old.facts.iter().filter(|(name, _)| keeps(name)) {
         let Some(is) = new.facts.get(name) else { continue };
         compared += 1;
         if was != is {
             found.push(difference(name, Kind::Fact { was: was.clone(), is: is.clone() }));
         }
     }
-    for (name, was) in old.numbers.iter() {
+    for (name, was) in old.numbers.iter().filter(|(name, _)| keeps(name)) {
         let Some(is) = new.numbers.get(name) else { continue };
         compared += was.places().len();
+        if was.unit != is.unit {
+            let kind = Kind::Unit { was: was.unit.clone(), is: is.unit.clone() };
+            found.push(difference(name, kind));
+        }
         found.extend(numbers(was, is).map(|kind| difference(name, kind)));
     }
     for expected in &old.expected {
@@ -87,14 +102,14 @@ pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
         if let Some(missed) = expected.missed(new) {
             let kind = Kind::Expected {
                 was: expected.value,
-                is: missed.found,
-                limit: missed.limit,
+                is: missed.found.map(Number),
+                limit: Number(missed.limit),
                 reason: expected.reason.clone(),
             };
             found.push(difference(&expected.entry, kind));
         }
     }
-    found.sort_by_key(|difference| place(&difference.entry));
+    found.sort_by_cached_key(|difference| place(&difference.entry));
     (found, compared)
 }
 
@@ -102,14 +117,20 @@ fn difference(entry: &str, kind: Kind) -> Difference {
     Difference { entry: entry.into(), kind }
 }
 
-fn unmatched<T>(found: &mut Vec<Difference>, old: &Entries<T>, new: &Entries<T>) {
-    let lost = old.names().filter(|name| new.get(name).is_none());
+/// Adds the entries that one side alone has, of those that `keeps` names.
+fn unmatched<T>(
+    found: &mut Vec<Difference>,
+    old: &Entries<T>,
+    new: &Entries<T>,
+    keeps: impl Fn(&str) -> bool,
+) {
+    let lost = old.names().filter(|name| keeps(name) && new.get(name).is_none());
     found.extend(lost.map(|name| difference(name, Kind::Missing)));
-    let added = new.names().filter(|name| old.get(name).is_none());
+    let added = new.names().filter(|name| keeps(name) && old.get(name).is_none());
     found.extend(added.map(|name| difference(name, Kind::Extra)));
 }
 
-/// Returns how two arrays differ; None where they do not. NaN is equal to nothing.
+/// Returns how two arrays differ; None where they do not.
 fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
     if was.values == is.values {
         return None;
@@ -121,39 +142,29 @@ fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
     }
     let largest = was.largest();
     let bounds = was.bound.zip(is.bound).map(|(a, b)| a + b);
+    let floor = was.floor.max(is.floor);
     let limit = |value: f64| match (was.tolerance, bounds) {
-        (Some(tolerance), _) => tolerance.limit(value, largest),
-        (None, Some(bounds)) => bounds,
-        (None, None) => WITHOUT_BOUND * largest,
+        (Some(tolerance), _) => tolerance.limit(value, largest, floor),
+        (None, Some(bounds)) => bounds.max(floor),
+        (None, None) => (WITHOUT_BOUND * largest).max(floor),
     };
-    let given = was.tolerance.is_some();
+    let bounded = was.tolerance.is_some() || bounds.is_some();
     let mut worst: Option<(f64, Worst)> = None;
     let mut differing = 0;
     for ((at, was), (_, is)) in old.iter().zip(&new) {
         let (error, limit) = ((was - is).abs(), limit(*was));
-        // NaN is no number: its error is not within any limit.
-        if error <= limit {
+        // What is no finite number is within any limit of its kind, and of no other number.
+        let is_same = if error.is_finite() { error <= limit } else { Number(*was) == Number(*is) };
+        if is_same {
             continue;
         }
         differing += 1;
         let size = if error.is_nan() { f64::INFINITY } else { error };
         if worst.as_ref().is_none_or(|(other, _)| size > *other) {
-            let (label, component) = *at;
-            let (was, is, component) = (*was, *is, component + 1);
-            let bounded = given || bounds.is_some();
-            worst = Some((
-                size,
-                Worst {
-                    at: label,
-                    component,
-                    was,
-                    is,
-                    limit,
-                    differing: 0,
-                    of: old.len(),
-                    bounded,
-                },
-            ));
+            let (at, component) = (at.0, at.1 + 1);
+            let [was, is, limit] = [*was, *is, limit].map(Number);
+            let (differing, of) = (0, old.len());
+            worst = Some((size, Worst { at, component, was, is, limit, differing, of, bounded }));
         }
     }
     worst.map(|(_, worst)| Kind::Numbers(Worst { differing, ..worst }))

@@ -5,54 +5,56 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::marker::PhantomData;
 
+use indexmap::IndexMap;
+use indexmap::map::Entry;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use serde::ser::{Serialize, Serializer};
 
 /// Values by name, each name once, in the order in which they were written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entries<T>(Vec<(String, T)>);
+pub struct Entries<T>(IndexMap<String, T>);
 
 impl<T> Default for Entries<T> {
     fn default() -> Self {
-        Entries(Vec::new())
+        Entries(IndexMap::new())
     }
 }
 
 impl<T> Entries<T> {
     /// Adds an entry, or replaces that of the same name.
     pub fn set(&mut self, name: impl Into<String>, value: T) {
-        let name = name.into();
-        match self.0.iter_mut().find(|(other, _)| *other == name) {
-            Some((_, other)) => *other = value,
-            None => self.0.push((name, value)),
-        }
+        self.0.insert(name.into(), value);
     }
 
-    /// Takes an entry out.
-    pub fn remove(&mut self, name: &str) {
-        self.0.retain(|(other, _)| other != name);
+    /// Keeps the entries whose names are to be kept.
+    pub fn retain(&mut self, keeps: impl Fn(&str) -> bool) {
+        self.0.retain(|name, _| keeps(name));
     }
 
     pub fn get(&self, name: &str) -> Option<&T> {
-        self.iter().find(|(other, _)| *other == name).map(|(_, value)| value)
+        self.0.get(name)
     }
 
     pub fn get_mut(&mut self, name: &str) -> Option<&mut T> {
-        self.0.iter_mut().find(|(other, _)| other == name).map(|(_, value)| value)
+        self.0.get_mut(name)
     }
 
     pub fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
 
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = (&str, &mut T)> {
+        self.0.iter_mut().map(|(name, value)| (name.as_str(), value))
+    }
+
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.iter().map(|(name, _)| name)
+        self.0.keys().map(String::as_str)
     }
 
     /// Sorts the entries by a key of their names.
     pub fn sort_by_key<K: Ord>(&mut self, key: impl Fn(&str) -> K) {
-        self.0.sort_by_key(|(name, _)| key(name));
+        self.0.sort_by_cached_key(|name, _| key(name));
     }
 
     pub fn len(&self) -> usize {
@@ -107,13 +109,14 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for EntriesVisitor<T> {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Entries<T>, A::Error> {
-        let mut entries: Vec<(String, T)> = Vec::new();
-        let mut names = std::collections::HashSet::new();
+        let mut entries = IndexMap::new();
         while let Some((name, value)) = map.next_entry::<String, T>()? {
-            if !names.insert(name.clone()) {
-                return Err(A::Error::custom(format!("{name:?} stands there twice")));
+            match entries.entry(name) {
+                Entry::Vacant(place) => drop(place.insert(value)),
+                Entry::Occupied(there) => {
+                    return Err(A::Error::custom(format!("{:?} stands there twice", there.key())));
+                }
             }
-            entries.push((name, value));
         }
         Ok(Entries(entries))
     }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Run;
 use super::numbers::Tolerance;
 use crate::error::{InputError, Result};
+use crate::suggestion::did_you_mean;
 
 /// A number that a user expects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,14 +63,18 @@ pub struct Missed {
 }
 
 impl Expected {
-    /// Checks that the reason is given.
+    /// Checks what is expected of `run`.
     ///
     /// # Errors
-    /// It is empty.
-    pub fn check(&self) -> Result<()> {
+    /// The reason is empty, or the run has no numbers of that name.
+    pub fn check(&self, run: &Run) -> Result<()> {
+        let place = || format!("expected number of {:?}", self.entry);
         if self.reason.trim().is_empty() {
-            let place = format!("expected number of {:?}", self.entry);
-            return Err(InputError::new(place, "the reason is empty", "say why it is expected"));
+            return Err(InputError::new(place(), "the reason is empty", "say why it is expected"));
+        }
+        if run.numbers.get(&self.entry).is_none() {
+            let fix = did_you_mean(&self.entry, run.numbers.names()) + "name an entry of `numbers`";
+            return Err(InputError::new(place(), "the run has no such numbers", fix));
         }
         Ok(())
     }
@@ -81,7 +86,8 @@ impl Expected {
         let wanted = (self.row as f64, self.component.wrapping_sub(1));
         let found = places.iter().find(|(place, _)| *place == wanted).map(|(_, x)| *x);
         let largest = numbers.map_or(0.0, |numbers| numbers.largest());
-        let limit = self.tolerance.limit(self.value, largest);
+        let floor = numbers.map_or(0.0, |numbers| numbers.floor);
+        let limit = self.tolerance.limit(self.value, largest, floor);
         let is_near = found.is_some_and(|x| (x - self.value).abs() <= limit);
         (!is_near).then_some(Missed { found, limit })
     }

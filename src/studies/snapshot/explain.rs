@@ -75,10 +75,12 @@ pub struct Explanation {
     pub later: usize,
 }
 
-/// Explains why two runs differ, whose `differences` are known; None where neither these nor what
-/// went into them differ.
+/// Explains why two runs differ, whose `differences` are known; None where neither what both have nor
+/// what went into them differs.
 pub fn explain(old: Side, new: Side, differences: &[Difference]) -> Option<Explanation> {
     let causes = causes(old, new);
+    let in_both = differences.iter().filter(|difference| difference.is_in_both());
+    let differences: &[Difference] = &in_both.cloned().collect::<Vec<_>>();
     if causes.is_empty() && differences.is_empty() {
         return None;
     }
@@ -105,7 +107,10 @@ pub fn explain(old: Side, new: Side, differences: &[Difference]) -> Option<Expla
 fn causes(old: Side, new: Side) -> Vec<Cause> {
     let mut causes = Vec::new();
     if old.input.scene_sha256 != new.input.scene_sha256 {
-        values(&mut causes, "scene", &old.input.scene, &new.input.scene);
+        let [was, is] = [old, new].map(|side| {
+            serde_json::to_value(&side.input.scene).expect("a description is an object")
+        });
+        values(&mut causes, "scene", &was, &is);
     }
     if old.input.mesh_sha256 != new.input.mesh_sha256 {
         mesh(&mut causes, &old.input.mesh, &new.input.mesh);

@@ -6,7 +6,7 @@ use schemars::{Schema, SchemaGenerator, json_schema};
 pub fn schema(_: &mut SchemaGenerator) -> Schema {
     json_schema!({
         "type": "object",
-        "required": ["cnt", "trg", "restrained", "exit status", "failure", "iterations"],
+        "required": ["cnt", "trg", "restrained", "exit status", "failure"],
         "properties": {
             "cnt": { "type": "array", "items": { "type": "integer", "minimum": 1 } },
             "trg": { "type": "array", "items": { "type": "integer", "minimum": 1 } },

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{InputError, Result};
-use crate::problem::scene::{Description, Mesh, Scene, SceneBuilder, Units, file, sha256};
+use crate::problem::scene::{Description, Mesh, Scene, SceneBuilder, Units, source_hashes};
 
 /// A scene as a snapshot has it: from it alone the scene is built again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -12,13 +12,12 @@ use crate::problem::scene::{Description, Mesh, Scene, SceneBuilder, Units, file,
 pub struct Input {
     /// The name of the scene.
     pub name: String,
-    /// The SHA-256 of `scene`, as JSON without blanks.
+    /// The SHA-256 of `scene`, as JSON without blanks in the order of this program's keys.
     pub scene_sha256: String,
     /// The SHA-256 of `mesh`, as JSON without blanks.
     pub mesh_sha256: String,
     /// The fields of the scene file, without those of its mesh.
-    #[schemars(with = "Description")]
-    pub scene: serde_json::Value,
+    pub scene: Description,
     pub mesh: Mesh,
 }
 
@@ -31,21 +30,19 @@ impl Input {
         let (description, mesh) = scene.source().ok_or_else(|| {
             InputError::new("the scene", "half a scene has no file", "write it to a file first")
         })?;
-        let description: &Description = description;
-        let scene_value = serde_json::to_value(description).expect("a description is an object");
         let [scene_sha256, mesh_sha256] = scene.hashes().expect("it has a source").clone();
         Ok(Input {
             name: scene.name.clone(),
             scene_sha256,
             mesh_sha256,
-            scene: scene_value,
+            scene: description.clone(),
             mesh: mesh.clone(),
         })
     }
 
     /// Returns the names of the scene's units.
     pub fn units(&self) -> Units {
-        Units::deserialize(&self.scene["units"]).unwrap_or_default()
+        self.scene.units.clone()
     }
 
     /// Builds the scene again.
@@ -53,10 +50,10 @@ impl Input {
     /// # Errors
     /// A hash is not that of what it stands for, or the scene is at fault.
     pub fn build(&self) -> Result<Scene> {
-        for (field, said, is) in [
-            ("scene", &self.scene_sha256, sha256(&self.scene)),
-            ("mesh", &self.mesh_sha256, sha256(&self.mesh)),
-        ] {
+        let [scene, mesh] = source_hashes(&self.scene, &self.mesh);
+        for (field, said, is) in
+            [("scene", &self.scene_sha256, scene), ("mesh", &self.mesh_sha256, mesh)]
+        {
             if *said != is {
                 let what = format!(
                     "{field} was changed after it was recorded: its SHA-256 is {is}, and \
@@ -67,7 +64,7 @@ impl Input {
                 return Err(InputError::new(format!("input.{field}"), what, fix));
             }
         }
-        let description = file::parse(self.scene.to_string().as_bytes())?;
-        SceneBuilder { name: self.name.clone(), mesh: self.mesh.clone(), description }.build()
+        let (name, mesh, description) = (self.name.clone(), self.mesh.clone(), self.scene.clone());
+        SceneBuilder { name, mesh, description }.build()
     }
 }

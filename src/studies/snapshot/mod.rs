@@ -35,6 +35,7 @@ use crate::error::{InputError, Result};
 use crate::files::json;
 use crate::paper::decisions::Decision;
 use crate::problem::scene::{Scene, Units};
+use crate::suggestion::did_you_mean;
 
 pub use accept::{Acceptance, Chosen, accept};
 pub use compare::{Difference, Kind, compare};
@@ -43,10 +44,11 @@ pub use expected::{Expected, Origin};
 pub use explain::{Cause, Class, Explanation, Side, explain};
 pub use flip::Flip;
 pub use input::Input;
-pub use numbers::{Numbers, Tolerance, Values, WITHOUT_BOUND};
+pub use numbers::{Number, Numbers, Tolerance, Values, WITHOUT_BOUND};
 pub use options::Options;
+pub use place::FIELDS;
 pub use record::{Bounds, record};
-pub use verify::{Verified, VerifiedRun, difference, verify};
+pub use verify::{Presence, Verified, VerifiedRun, difference, verify};
 
 /// The version of the format.
 pub const FORMAT: u32 = 1;
@@ -80,6 +82,10 @@ pub struct Snapshot {
 pub struct Run {
     /// What was asked for in place of what the scene says.
     pub options: Options,
+    /// The numbers of the end that were asked for, without those of the iterations; all where it is
+    /// absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub only: Option<Vec<String>>,
     /// What is the same or not.
     #[schemars(schema_with = "facts::schema")]
     pub facts: Entries<Value>,
@@ -97,13 +103,63 @@ pub struct Run {
 impl Run {
     fn new(options: Options) -> Self {
         let (facts, numbers) = (Entries::default(), Entries::default());
-        Run { options, facts, numbers, expected: Vec::new(), decided_by_rounding: Vec::new() }
+        let (expected, decided_by_rounding) = (Vec::new(), Vec::new());
+        Run { options, only: None, facts, numbers, expected, decided_by_rounding }
+    }
+
+    /// Returns whether an entry is one that the run was asked to record.
+    fn keeps(&self, entry: &str) -> bool {
+        is_kept(&self.only, entry)
+    }
+
+    /// Leaves out what is not among the numbers `only`, where these are given.
+    fn keep_only(&mut self, only: Option<Vec<String>>) {
+        self.facts.retain(|name| is_kept(&only, name));
+        self.numbers.retain(|name| is_kept(&only, name));
+        self.only = only;
+    }
+
+    /// Checks what the types of its parts do not tell.
+    ///
+    /// # Errors
+    /// A bound is negative; a number that is asked for or expected has no name of one.
+    fn check(&self) -> Result<()> {
+        for (name, numbers) in self.numbers.iter() {
+            for (field, value) in [("bound", numbers.bound), ("floor", Some(numbers.floor))] {
+                if let Some(value) = value.filter(|value| *value < 0.0) {
+                    let what = format!("the {field} on a rounding error is {value}");
+                    let fix = "give a number from 0; null where no bound is known";
+                    return Err(InputError::new(format!("numbers.{name}.{field}"), what, fix));
+                }
+            }
+        }
+        self.only.iter().flatten().try_for_each(|name| check_field(name))?;
+        self.expected.iter().try_for_each(|expected| expected.check(self))
     }
 
     /// Returns the exit status of `solve` on this run, where the run has that fact.
     pub fn exit_status(&self) -> Option<u64> {
         self.facts.get("exit status")?.as_u64()
     }
+}
+
+/// Returns whether an entry is recorded where the numbers `only` are asked for.
+fn is_kept(only: &Option<Vec<String>>, entry: &str) -> bool {
+    let is_among = |only: &Vec<String>| only.iter().any(|name| name == entry);
+    only.as_ref().is_none_or(|only| is_among(only) || place::FACTS.contains(&entry))
+}
+
+/// Checks that there are numbers of the end of a run by that name.
+///
+/// # Errors
+/// There are none.
+fn check_field(name: &str) -> Result<()> {
+    if FIELDS.contains(&name) {
+        return Ok(());
+    }
+    let meant = did_you_mean(name, FIELDS.iter().copied());
+    let what = format!("no numbers at the end of a run are named {name:?}");
+    Err(InputError::new("only", what, format!("{meant}they are: {}", FIELDS.join(", "))))
 }
 
 impl Snapshot {
@@ -128,10 +184,15 @@ impl Snapshot {
         Ok(Snapshot { format: FORMAT, version, units, input, runs, log: Vec::new() })
     }
 
+    /// Leaves out all numbers but those of the end that `only` names ([`FIELDS`]), and all iterations.
+    pub fn keep_only(&mut self, only: &[String]) {
+        self.runs.iter_mut().for_each(|(_, run)| run.keep_only(Some(only.to_vec())));
+    }
+
     /// Reads a snapshot.
     ///
     /// # Errors
-    /// Names the field that is wrong or lacking, or a format that this program does not know.
+    /// Names the field that is wrong or lacking, a number that is out of its range, or a format that this program does not know.
     pub fn read(text: &[u8]) -> Result<Self> {
         let fix = "give a snapshot as `plane-contact record` writes it";
         #[derive(Deserialize)]
@@ -146,6 +207,10 @@ impl Snapshot {
             let what = format!("the snapshot {found}; this program reads format {FORMAT}");
             return Err(InputError::new("field format", what, fix));
         }
-        json::read(text, &json::Kind { name: "snapshot", fix, has_values: true })
+        let snapshot: Self = json::read(text, &json::Kind { name: "snapshot", fix, has_values: true })?;
+        for (name, run) in snapshot.runs.iter() {
+            run.check().map_err(|error| error.within(&format!("run {name:?}")))?;
+        }
+        Ok(snapshot)
     }
 }

@@ -1,9 +1,11 @@
 //! Numbers of a run, each array with the bound on the rounding error of its numbers.
 
 use std::borrow::Cow;
+use std::fmt;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// The tolerance of numbers without a bound on their error, relative to the largest of the array.
 pub const WITHOUT_BOUND: f64 = 1e-9;
@@ -17,6 +19,10 @@ pub struct Numbers {
     pub unit: String,
     /// A bound on the rounding error of each number; null where none is known.
     pub bound: Option<f64>,
+    /// What rounding may do at the least, by the sizes of which the numbers are differences: no limit
+    /// is smaller but an absolute tolerance.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub floor: f64,
     /// The tolerance of a comparison in place of the bounds, where a user gives one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Tolerance>,
@@ -41,10 +47,27 @@ pub struct Row {
     pub values: Vec<Number>,
 }
 
-/// A float; in a file null stands for one that is not finite, and reads back as NaN.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// A float; in a file null stands for one that is not finite, and reads back as NaN. Two that are not
+/// finite are equal.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "Option<f64>", into = "Option<f64>")]
 pub struct Number(pub f64);
+
+impl PartialEq for Number {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0 || !self.0.is_finite() && !other.0.is_finite()
+    }
+}
+
+impl fmt::LowerExp for Number {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if self.0.is_finite() {
+            fmt::LowerExp::fmt(&self.0, f)
+        } else {
+            f.write_str("no finite number")
+        }
+    }
+}
 
 impl From<Option<f64>> for Number {
     fn from(x: Option<f64>) -> Self {
@@ -92,49 +115,119 @@ impl From<Row> for Vec<serde_json::Value> {
     }
 }
 
-/// The tolerance of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Tolerance {
+/// The tolerance of a comparison: whatever it names suffices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Parts")]
+pub struct Tolerance {
     /// A number, in the unit of what is compared.
-    Absolute(f64),
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub absolute: Option<f64>,
     /// A part of the largest number of the array.
-    Relative(f64),
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative: Option<f64>,
     /// A number of units in the last place of the number itself.
-    Ulps(f64),
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ulps: Option<f64>,
 }
 
-impl Tolerance {
-    /// Returns the largest difference that is no difference from `value`, in an array whose largest
-    /// number is `largest`.
-    pub fn limit(self, value: f64, largest: f64) -> f64 {
-        match self {
-            Tolerance::Absolute(limit) => limit,
-            Tolerance::Relative(part) => part * largest,
-            Tolerance::Ulps(count) => count * (value.abs().next_up() - value.abs()),
+/// What a file says of a tolerance.
+#[derive(Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with `absolute`, `relative` or `ulps`, or several of them,"
+)]
+struct Parts {
+    absolute: Option<f64>,
+    relative: Option<f64>,
+    ulps: Option<f64>,
+}
+
+impl TryFrom<Parts> for Tolerance {
+    type Error = String;
+
+    fn try_from(Parts { absolute, relative, ulps }: Parts) -> Result<Self, String> {
+        let all = [("absolute", absolute), ("relative", relative), ("ulps", ulps)];
+        let mut given = all.into_iter().filter_map(|(name, value)| Some((name, value?))).peekable();
+        let rule = "a tolerance is `absolute`, `relative` or `ulps`, or several of them, each a number from 0";
+        if given.peek().is_none() {
+            return Err(format!("it is empty: {rule}"));
+        }
+        match given.find(|(_, value)| *value < 0.0) {
+            Some((name, value)) => Err(format!("`{name}` is {value}: {rule}")),
+            None => Ok(Tolerance { absolute, relative, ulps }),
         }
     }
 }
 
+impl JsonSchema for Tolerance {
+    fn schema_name() -> Cow<'static, str> {
+        "Tolerance".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let part = |description: &str| json!({ "type": ["number", "null"], "minimum": 0, "description": description });
+        json_schema!({
+            "type": "object",
+            "description": "The tolerance of a comparison: whatever it names suffices.",
+            "properties": {
+                "absolute": part("A number, in the unit of what is compared."),
+                "relative": part("A part of the largest number of the array."),
+                "ulps": part("A number of units in the last place of the number itself."),
+            },
+            "additionalProperties": false,
+            "minProperties": 1,
+        })
+    }
+}
+
+impl Tolerance {
+    /// Returns the largest difference that is no difference from `value`, in an array whose largest
+    /// number is `largest`; what is a part of a number has the floor of its array.
+    pub fn limit(self, value: f64, largest: f64, floor: f64) -> f64 {
+        let relative = self.relative.map(|part| (part * largest).max(floor));
+        let ulp = value.abs().next_up() - value.abs();
+        let ulps = self.ulps.map(|count| (count * ulp).max(floor));
+        [self.absolute, relative, ulps].into_iter().flatten().fold(0.0, f64::max)
+    }
+}
+
+/// What rounding may do to the numbers of an array.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Error {
+    /// A bound on the error of each; None where none is known.
+    pub bound: Option<f64>,
+    /// What it may do at the least.
+    pub floor: f64,
+}
+
+fn is_zero(floor: &f64) -> bool {
+    *floor == 0.0
+}
+
 impl Numbers {
     /// Returns numbers in a list.
-    pub fn list(unit: &str, values: impl IntoIterator<Item = f64>, bound: Option<f64>) -> Self {
-        let values = Values::List(values.into_iter().map(Number).collect());
-        Numbers { unit: unit.into(), bound: known(bound), tolerance: None, values }
+    pub fn list(unit: &str, values: impl IntoIterator<Item = f64>, error: Error) -> Self {
+        Numbers::new(unit, Values::List(values.into_iter().map(Number).collect()), error)
+    }
+
+    fn new(unit: &str, values: Values, Error { bound, floor }: Error) -> Self {
+        let is_finite = |error: &f64| error.is_finite();
+        let bound = bound.filter(is_finite);
+        let floor = Some(floor).filter(is_finite).unwrap_or_default();
+        Numbers { unit: unit.into(), bound, floor, tolerance: None, values }
     }
 
     /// Returns numbers in rows, each of a node's or a triangle's number and its values.
     pub fn rows<const N: usize>(
         unit: &str,
         rows: impl IntoIterator<Item = (usize, [f64; N])>,
-        bound: Option<f64>,
+        error: Error,
     ) -> Self {
         let row = |(label, values): (usize, [f64; N])| Row {
             label: label as f64,
             values: values.map(Number).to_vec(),
         };
-        let values = Values::Rows(rows.into_iter().map(row).collect());
-        Numbers { unit: unit.into(), bound: known(bound), tolerance: None, values }
+        Numbers::new(unit, Values::Rows(rows.into_iter().map(row).collect()), error)
     }
 
     /// Returns each number with its place: the row's label or the place in the list, from 1, and the
@@ -154,12 +247,9 @@ impl Numbers {
         }
     }
 
-    /// Returns the size of the largest number, 0 of none.
+    /// Returns the size of the largest finite number, 0 of none.
     pub fn largest(&self) -> f64 {
-        self.places().iter().fold(0.0, |m: f64, (_, x)| m.max(x.abs()))
+        let sizes = self.places().into_iter().map(|(_, x)| x.abs());
+        sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
     }
-}
-
-fn known(bound: Option<f64>) -> Option<f64> {
-    bound.filter(|bound| bound.is_finite())
 }

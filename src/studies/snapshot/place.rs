@@ -14,11 +14,11 @@ const WORKSHEET: &[&str] = &["cnt", "trg", "c_tll", "restrained", "load"];
 const ITERATION: &[&str] =
     &["load", "ct", "yt", "dy", "statuses", "in contact", "mates", "weights", "MJS", "u", "cycle"];
 
-/// What is recorded at the end.
-const END: &[&str] = &[
-    "exit status",
-    "failure",
-    "iterations",
+/// The facts that are recorded at the end.
+const END_FACTS: &[&str] = &["exit status", "failure", "iterations"];
+
+/// The numbers that are recorded at the end.
+pub const FIELDS: &[&str] = &[
     "u",
     "stress",
     "largest von Mises stress",
@@ -27,6 +27,9 @@ const END: &[&str] = &[
     "gap",
     "pressure",
 ];
+
+/// The facts that are recorded with some of these alone.
+pub const FACTS: &[&str] = &["cnt", "trg", "restrained", "exit status", "failure"];
 
 /// A place in the order of computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,7 +53,7 @@ pub fn iteration(entry: &str) -> Option<(usize, &str)> {
 
 /// Returns the JSON Schema of the names of entries.
 pub fn names() -> Value {
-    let (start, end) = (WORKSHEET.join("|"), END.join("|"));
+    let (start, end) = (WORKSHEET.join("|"), [END_FACTS, FIELDS].concat().join("|"));
     let pattern = format!("^({start}|iteration [1-9][0-9]* ({})|{end})$", ITERATION.join("|"));
     json!({ "pattern": pattern })
 }
@@ -65,6 +68,6 @@ pub fn place(entry: &str) -> Place {
     }
     match rank(WORKSHEET, entry) {
         rank if rank < WORKSHEET.len() => Place { iteration: 0, rank },
-        _ => Place { iteration: usize::MAX, rank: rank(END, entry) },
+        _ => Place { iteration: usize::MAX, rank: rank(&[END_FACTS, FIELDS].concat(), entry) },
     }
 }

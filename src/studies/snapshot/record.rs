@@ -4,22 +4,24 @@ use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 use super::Run;
-use super::numbers::Numbers;
+use super::numbers::{Error as Rounded, Numbers, WITHOUT_BOUND};
 use super::options::Options;
 use super::place::{of_iteration, place};
 use crate::answer::contact::{ContactNode, Pairing};
 use crate::answer::error::{Error, Result};
 use crate::answer::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
-use crate::answer::{Detail, Elimination, FoundPairs, Request, Solution, Step, Stiffness, solve};
+use crate::answer::{
+    Detail, Elimination, FoundPairs, Request, Solution, Step, StepBounds, Stiffness, solve,
+};
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::paper::door;
 use crate::paper::mirror::Km;
-use crate::problem::element;
-use crate::problem::model::{Body, Model, NodeId, TriangleId};
+use crate::problem::element::{self, State};
+use crate::problem::model::{Body, Model, TriangleId};
 use crate::problem::modelling::Variant;
 
-/// The roundings of a pressure and of an entry of a triangle's matrix, in units of 2^-53.
-const ROUNDINGS: f64 = 64.0;
+/// The relative effect of the roundings in a position, a pressure or an entry of a triangle's matrix.
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 /// Whether the bounds on rounding errors are computed, which takes another run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,10 +48,12 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     };
     // A solution may leave out steps that were taken back.
     let steps = solved.as_ref().map_or(&steps, |solution| &solution.steps);
-    let of = Recorded { request, model: &model, stiffness: &stiffness };
+    let displacement = steps.iter().filter_map(|step| step.max_displacement).fold(0.0, f64::max);
+    let scale = Scale::new(&model, displacement);
+    let of = Recorded { request, model: &model, stiffness: &stiffness, scale };
     for (k, step) in steps.iter().enumerate() {
         let bounds = rounding.as_ref().and_then(|rounding| rounding.steps[k]);
-        of.iteration(&mut run, step, bounds.map(|b| [b.yt, b.weights, b.u]));
+        of.iteration(&mut run, step, bounds);
     }
     run.facts.set("iterations", json!(steps.len()));
     let (status, failure) = outcome(&solved);
@@ -60,7 +64,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
         solved => solved.ok(),
     };
     if let Some(solution) = solution {
-        end(&mut run, &solution, rounding.as_ref());
+        end(&mut run, &solution, rounding.as_ref(), bounds);
         run.decided_by_rounding =
             rounding.and_then(|rounding| rounding.decisions).unwrap_or_default();
     }
@@ -111,11 +115,44 @@ fn worksheet(run: &mut Run, request: &Request, model: &Model) {
     let restrained: Vec<String> =
         restrained.map(|dof| format!("{}{}", dof.node(), dof.axis())).collect();
     run.facts.set("restrained", json!(restrained));
-    run.numbers.set("c_tll", Numbers::list(&units.length, [model.contact.tolerance], Some(0.0)));
+    let given = Rounded { bound: Some(0.0), floor: 0.0 };
+    run.numbers.set("c_tll", Numbers::list(&units.length, [model.contact.tolerance], given));
     let load: f64 = model.load.iter().map(|f| f.abs()).sum();
     // An edge's load is computed with a square root and some products.
-    let bound = load * ROUNDINGS * f64::EPSILON;
-    run.numbers.set("load", Numbers::list(&units.force, model.total_load(), Some(bound)));
+    let bound = load * ROUNDED;
+    let error = Rounded { bound: Some(bound), floor: bound };
+    run.numbers.set("load", Numbers::list(&units.force, model.total_load(), error));
+}
+
+/// The sizes of which positions and distances are differences, length.
+struct Scale {
+    /// The largest coordinate.
+    coordinate: f64,
+    /// The largest displacement of a node in any iteration.
+    displacement: f64,
+    /// The shortest edge of the target; infinite where there is none.
+    edge: f64,
+}
+
+impl Scale {
+    fn new(model: &Model, displacement: f64) -> Self {
+        let coordinate = model.nodes.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let length = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+        let lengths = model.target_edges().map(|edge| length(edge.nodes.map(|n| model.at(n))));
+        Scale { coordinate, displacement, edge: lengths.fold(f64::INFINITY, f64::min) }
+    }
+
+    /// Returns the least error of a displacement, length; without a bound it is what numbers that have
+    /// none may differ by.
+    fn moved(&self, is_bounded: bool) -> f64 {
+        self.displacement * if is_bounded { ROUNDED } else { WITHOUT_BOUND }
+    }
+
+    /// Returns the error of a node's distance from its edge where displacements are known to `moved`.
+    fn distance(&self, moved: f64) -> f64 {
+        // The node and both ends of its edge are displaced by at most 1.5 errors each.
+        6.0 * moved + ROUNDED * self.coordinate
+    }
 }
 
 /// What is recorded.
@@ -123,37 +160,46 @@ struct Recorded<'a> {
     request: &'a Request,
     model: &'a Model,
     stiffness: &'a Stiffness,
+    scale: Scale,
 }
 
 impl Recorded<'_> {
-    /// Records an iteration; `bounds` are those of yt, of the weights and of the displacements.
-    fn iteration(&self, run: &mut Run, step: &Step, bounds: Option<[f64; 3]>) {
+    /// Records an iteration, whose numbers are known within `bounds`.
+    fn iteration(&self, run: &mut Run, step: &Step, bounds: Option<StepBounds>) {
         let units = &self.request.scene.units;
         let name = |quantity: &str| of_iteration(step.k, quantity);
-        let bound = |k: usize| bounds.map(|bounds| bounds[k]);
+        let moved = self.scale.moved(bounds.is_some());
+        let distance = self.scale.distance(moved);
+        let yt = Rounded { bound: bounds.map(|bounds| bounds.yt), floor: distance };
+        let weights = distance / self.scale.edge + ROUNDED;
+        let weights = Rounded { bound: bounds.map(|bounds| bounds.weights), floor: weights };
         if let Detail::Unilateral(own) = &step.detail {
             // Where a node closes divides a step, so that this is a number like others.
-            run.numbers.set(name("load"), Numbers::list("", [own.load], None));
+            run.numbers.set(
+                name("load"),
+                Numbers::list("", [own.load], Rounded { bound: None, floor: ROUNDED }),
+            );
             let statuses: Vec<String> = own.statuses.iter().map(ToString::to_string).collect();
             run.facts.set(name("statuses"), json!(statuses));
         }
         let (faced, distances) = self.faced(step);
         run.facts.set(name("ct"), json!(faced));
-        run.numbers.set(name("yt"), Numbers::list(&units.length, distances, bound(0)));
+        run.numbers.set(name("yt"), Numbers::list(&units.length, distances, yt));
         let dy: Vec<u8> = step.statuses().into_iter().map(u8::from).collect();
         run.facts.set(name("dy"), json!(dy));
         run.facts.set(name("in contact"), json!(step.contact_set(self.model)));
-        let (mates, weights) = mates(step);
+        let (mates, of_mates) = mates(step);
         run.facts.set(name("mates"), json!(mates));
-        run.numbers.set(name("weights"), Numbers::list("", weights, bound(1)));
+        run.numbers.set(name("weights"), Numbers::list("", of_mates, weights));
         let matrix = match &step.cycle {
             // The matrix of a state that came before is the same.
             Some(cycle) => run.numbers.get(&of_iteration(cycle.members[0], "MJS")).cloned(),
-            None => self.matrix(step),
+            None => self.matrix(step, weights),
         };
         matrix.into_iter().for_each(|matrix| run.numbers.set(name("MJS"), matrix));
         if step.max_displacement.is_some() {
-            let largest = Numbers::list(&units.length, step.max_displacement, bound(2));
+            let error = Rounded { bound: bounds.map(|bounds| bounds.u), floor: moved };
+            let largest = Numbers::list(&units.length, step.max_displacement, error);
             run.numbers.set(name("u"), largest);
         }
         run.facts.set(name("cycle"), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
@@ -176,9 +222,9 @@ impl Recorded<'_> {
     }
 
     /// Returns the sum of the diagonal and the sum of the sizes of all entries of the matrix that the
-    /// iteration solved.
-    fn matrix(&self, step: &Step) -> Option<Numbers> {
-        let Recorded { request, model, stiffness } = self;
+    /// iteration solved, to which `weights` went.
+    fn matrix(&self, step: &Step, weights: Rounded) -> Option<Numbers> {
+        let Recorded { request, model, stiffness, .. } = self;
         let (mut diagonal, mut all, mut count) = (0.0, 0.0, 0.0);
         let mut add = |i: usize, j: usize, value: f64| {
             let times = if i == j { 1.0 } else { 2.0 };
@@ -210,8 +256,10 @@ impl Recorded<'_> {
             ("", _) | (_, "") => String::new(),
             (force, length) => format!("{force}/{length}"),
         };
-        let bound = (count + ROUNDINGS) * f64::EPSILON * all;
-        Some(Numbers::list(&unit, [diagonal, all], Some(bound)))
+        // An entry is multiplied by at most two weights.
+        let within = |weights: f64| (count * f64::EPSILON + ROUNDED + 2.0 * weights) * all;
+        let error = Rounded { bound: weights.bound.map(within), floor: within(weights.floor) };
+        Some(Numbers::list(&unit, [diagonal, all], error))
     }
 }
 
@@ -249,89 +297,115 @@ fn printed(request: &Request, model: &Model, pairs: &FoundPairs) -> Option<DMatr
 }
 
 /// Records the end of a run: displacements, stresses, reactions and the contact surface.
-fn end(run: &mut Run, solution: &Solution, rounding: Option<&Rounding>) {
+fn end(run: &mut Run, solution: &Solution, rounding: Option<&Rounding>, bounds: Bounds) {
     let (model, units) = (&*solution.model, &solution.request.scene.units);
     let bound = rounding.map(|rounding| rounding.displacement).filter(|bound| bound.is_finite());
-    let u = solution.displacements();
-    run.numbers.set("u", Numbers::rows(&units.length, (1..).zip(u), bound));
-    let within = bound.map(|bound| (bounded(model), solution.u.map(|u| Bounded::new(u, bound))));
-    let stress_bound = within.as_ref().map(|(stiffness, u)| {
-        let stresses = stiffness.stresses(u);
-        stresses.iter().flat_map(|s| s.iter().map(|s| s.error())).fold(0.0, f64::max)
-    });
+    let scale = Scale::new(model, solution.u.amax());
+    let moved = scale.moved(bound.is_some());
+    let errors = match bounds {
+        Bounds::LeftOut => None,
+        Bounds::Computed => {
+            let of = Propagated { solution, stiffness: &bounded(model), scale: &scale };
+            Some((bound.map(|bound| of.errors(bound)), of.errors(moved)))
+        }
+    };
+    let error = |of: fn(&Errors) -> f64| match &errors {
+        None => Rounded::default(),
+        Some((bound, floor)) => Rounded { bound: bound.as_ref().map(of), floor: of(floor) },
+    };
+    let mut set = |name: &str, numbers: Numbers| run.numbers.set(name, numbers);
+    let u = (1..).zip(solution.displacements());
+    set("u", Numbers::rows(&units.length, u, error(|errors| errors.displacement)));
     let stresses = solution.elements.iter().map(|state| <[f64; 3]>::from(state.sigma));
-    run.numbers.set("stress", Numbers::rows(&units.stress, (1..).zip(stresses), stress_bound));
-    largest(run, solution, bound);
+    let stresses = (1..).zip(stresses);
+    set("stress", Numbers::rows(&units.stress, stresses, error(|errors| errors.stress)));
+    let von_mises = largest(solution, |state| state.von_mises_stress);
+    let von_mises = Numbers::list(&units.stress, von_mises, error(|errors| errors.von_mises));
+    set("largest von Mises stress", von_mises);
+    let strains = largest(solution, |state| state.von_mises_strain);
+    let strains = Numbers::list("", strains, error(|errors| errors.strain));
+    set("largest von Mises strain", strains);
     let force = solution.stiffness().times(&solution.u) - &model.load;
-    let force_bound = within.as_ref().map(|(stiffness, u)| {
-        let force = stiffness.times(u) - model.load_in(Bounded::from_f64);
-        force.iter().map(|f| f.error()).fold(0.0, f64::max)
-    });
     let restrained = model.node_ids().filter(|node| model.restraints_of(*node) != [false; 2]);
-    let reaction = |node: NodeId| {
+    let reactions = restrained.map(|node| {
         let (of_node, restrained) = (node.of(&force), model.restraints_of(node));
         (node.number(), [0, 1].map(|d| if restrained[d] { of_node[d] } else { 0.0 }))
-    };
-    run.numbers
-        .set("reactions", Numbers::rows(&units.force, restrained.map(reaction), force_bound));
-    surface(run, solution, bound, force_bound);
+    });
+    set("reactions", Numbers::rows(&units.force, reactions, error(|errors| errors.force)));
+    let nodes = || solution.contact.iter();
+    let gaps = nodes().map(|c| (c.node.number(), [c.gap]));
+    set("gap", Numbers::rows(&units.length, gaps, error(|errors| errors.gap)));
+    let known = nodes().filter_map(|c| Some((c.node.number(), [c.pressure?])));
+    set("pressure", Numbers::rows(&units.stress, known, error(|errors| errors.pressure)));
 }
 
-/// Records the largest von Mises stress and strain of each body; displacements are known to `bound`.
-fn largest(run: &mut Run, solution: &Solution, bound: Option<f64>) {
-    let (model, unit) = (&*solution.model, &solution.request.scene.units.stress);
-    let most = |of: &dyn Fn(TriangleId) -> f64| {
-        let of_body = |body: &Body| body.triangles.iter().map(|id| of(*id)).fold(0.0, f64::max);
-        model.bodies.iter().map(of_body).collect::<Vec<_>>()
-    };
-    let state = |id: TriangleId| &solution.elements[id.index()];
-    let stress_bound = bound.map(|bound| {
-        stress_bounds(solution, &bounded(model), bound).into_iter().fold(0.0, f64::max)
-    });
-    let stresses = most(&|id| state(id).von_mises_stress);
-    run.numbers.set("largest von Mises stress", Numbers::list(unit, stresses, stress_bound));
-    // The value of a strain is at most the sum of the sizes of its components.
-    let strain_bound = bound.map(|bound| {
+/// Returns the largest value of each body, by triangle.
+fn largest(solution: &Solution, value: fn(&State) -> f64) -> Vec<f64> {
+    let of = |id: &TriangleId| value(&solution.elements[id.index()]);
+    let of_body = |body: &Body| body.triangles.iter().map(of).fold(0.0, f64::max);
+    solution.model.bodies.iter().map(of_body).collect()
+}
+
+/// What an error of the displacements does to the other numbers of a solution.
+struct Propagated<'a> {
+    solution: &'a Solution,
+    stiffness: &'a Stiffness<Bounded>,
+    scale: &'a Scale,
+}
+
+/// The largest error of any number of each array.
+struct Errors {
+    displacement: f64,
+    stress: f64,
+    von_mises: f64,
+    strain: f64,
+    force: f64,
+    gap: f64,
+    pressure: f64,
+}
+
+impl Propagated<'_> {
+    /// Returns the errors where displacements are known to `displacement`, length.
+    fn errors(&self, displacement: f64) -> Errors {
+        let Propagated { solution, stiffness, scale } = self;
+        let model = &*solution.model;
+        let u = solution.u.map(|u| Bounded::new(u, displacement));
+        let stresses = stiffness.stresses(&u);
+        let force = stiffness.times(&u) - model.load_in(Bounded::from_f64);
+        let force = force.iter().map(|f| f.error()).fold(0.0, f64::max);
+        let von_mises = stress_bounds(solution, stiffness, displacement);
+        Errors {
+            displacement,
+            stress: stresses.iter().flat_map(|s| s.iter().map(|s| s.error())).fold(0.0, f64::max),
+            von_mises: von_mises.into_iter().fold(0.0, f64::max),
+            strain: self.strain(displacement),
+            force,
+            gap: scale.distance(displacement),
+            pressure: self.pressure(displacement, force),
+        }
+    }
+
+    /// Returns the error of a strain, whose value is at most the sum of the sizes of its components.
+    fn strain(&self, displacement: f64) -> f64 {
+        let Propagated { solution, .. } = self;
+        let model = &*solution.model;
         let of_triangle = |id: TriangleId| {
             let b = element::B(&model.corners(id)).abs().sum();
-            b * (bound + ROUNDINGS * f64::EPSILON * solution.u.amax())
+            b * (displacement + ROUNDED * solution.u.amax())
         };
         model.triangle_ids().map(of_triangle).fold(0.0, f64::max)
-    });
-    let strains = most(&|id| state(id).von_mises_strain);
-    run.numbers.set("largest von Mises strain", Numbers::list("", strains, strain_bound));
-}
+    }
 
-/// Records gap and pressure of the contact nodes. Displacements are known to `bound`, forces to
-/// `force_bound`.
-fn surface(run: &mut Run, solution: &Solution, bound: Option<f64>, force_bound: Option<f64>) {
-    let (model, units) = (&*solution.model, &solution.request.scene.units);
-    let edges = || model.target_edges();
-    let length = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-    let shortest =
-        edges().map(|e| length(e.nodes.map(|n| model.at(n)))).fold(f64::INFINITY, f64::min);
-    let size = model.nodes.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let rounded = ROUNDINGS * f64::EPSILON;
-    // The node and both ends of its edge are displaced by at most 1.5 bounds each.
-    let gaps = bound.map(|bound| 6.0 * bound + rounded * size);
-    let nodes = || solution.contact.iter();
-    run.numbers.set(
-        "gap",
-        Numbers::rows(&units.length, nodes().map(|c| (c.node.number(), [c.gap])), gaps),
-    );
-    // The normal turns by at most the displacement of both ends over the length of the edge.
-    let pressures = bound.zip(force_bound).map(|(bound, force_bound)| {
-        let turned = 4.0 * bound / shortest + rounded;
-        let of = |force: f64, pressure: f64| {
-            let per_force = if force == 0.0 { 0.0 } else { (pressure / force).abs() };
-            1.5 * force_bound * per_force
+    /// Returns the error of a pressure where displacements and forces are known to `displacement` and
+    /// `force`.
+    fn pressure(&self, displacement: f64, force: f64) -> f64 {
+        // The normal turns by at most the displacement of both ends over the length of the edge.
+        let turned = 4.0 * displacement / self.scale.edge + ROUNDED;
+        let of = |c: &ContactNode| {
+            let (own, pressure) = (c.force?, c.pressure?);
+            let per_force = if own == 0.0 { 0.0 } else { (pressure / own).abs() };
+            Some(1.5 * force * per_force + turned * (pressure.abs() + c.shear.unwrap_or(0.0).abs()))
         };
-        let shear = |c: &ContactNode| c.shear.unwrap_or(0.0).abs();
-        nodes()
-            .filter_map(|c| Some((c, c.force?, c.pressure?)))
-            .map(|(c, force, pressure)| of(force, pressure) + turned * (pressure.abs() + shear(c)))
-            .fold(0.0, f64::max)
-    });
-    let known = nodes().filter_map(|c| Some((c.node.number(), [c.pressure?])));
-    run.numbers.set("pressure", Numbers::rows(&units.stress, known, pressures));
+        self.solution.contact.iter().filter_map(of).fold(0.0, f64::max)
+    }
 }

@@ -5,9 +5,9 @@ use rayon::prelude::*;
 use super::compare::{Difference, compare};
 use super::explain::{Explanation, Side, explain};
 use super::record::{Bounds, record};
-use super::{Input, Run, Snapshot, VERSION};
+use super::{Input, Numbers, Run, Snapshot, VERSION};
 use crate::answer::error::Result;
-use crate::error::InputError;
+use crate::choices;
 use crate::problem::scene::Scene;
 
 /// What came of verifying a snapshot.
@@ -19,11 +19,25 @@ pub struct Verified {
     pub runs: Vec<VerifiedRun>,
 }
 
+choices! {
+    /// Where a run is.
+    Presence {
+        /// On both sides.
+        Both = "both",
+        /// On the old side alone.
+        Missing = "missing",
+        /// On the new side alone.
+        New = "new",
+    }
+}
+
 /// What came of a run.
 #[derive(Clone, Debug)]
 pub struct VerifiedRun {
     /// The name of the run.
     pub name: String,
+    /// The side that has it; what one side alone has is not compared.
+    pub presence: Presence,
     /// The run as it is now.
     pub run: Run,
     /// What differs, in the order of computation.
@@ -37,8 +51,27 @@ pub struct VerifiedRun {
 impl Verified {
     /// Returns whether anything was compared and nothing differs.
     pub fn is_same(&self) -> bool {
-        self.runs.iter().all(|run| run.differences.is_empty() && run.compared > 0)
-            && !self.runs.is_empty()
+        self.runs.iter().all(VerifiedRun::is_same) && !self.runs.is_empty()
+    }
+}
+
+impl VerifiedRun {
+    /// Returns whether anything was compared and nothing differs.
+    pub fn is_same(&self) -> bool {
+        self.differences.is_empty() && self.compared > 0
+    }
+
+    fn compared(name: String, old: Side, new: Side) -> Self {
+        let (differences, compared) = compare(old.run, new.run);
+        let explanation = explain(old, new, &differences);
+        let (presence, run) = (Presence::Both, new.run.clone());
+        VerifiedRun { name, presence, run, differences, compared, explanation }
+    }
+
+    fn alone(name: &str, presence: Presence, run: &Run) -> Self {
+        let (name, run) = (name.into(), run.clone());
+        let (differences, compared, explanation) = (Vec::new(), 0, None);
+        VerifiedRun { name, presence, run, differences, compared, explanation }
     }
 }
 
@@ -59,11 +92,6 @@ pub fn verify(
     };
     let runs: Vec<(&str, &Run)> = snapshot.runs.iter().collect();
     let verified = runs.par_iter().map(|(name, old)| {
-        let place = || format!("run {name:?} of the snapshot");
-        old.expected
-            .iter()
-            .try_for_each(|e| e.check())
-            .map_err(|e: InputError| e.within(&place()))?;
         let verified = verify_run(snapshot, &scene, &input, name, old);
         done();
         verified
@@ -79,53 +107,41 @@ fn verify_run(
     old: &Run,
 ) -> Result<VerifiedRun> {
     let request = old.options.request(scene);
+    let again = |bounds: Bounds| -> Result<Run> {
+        let mut run = record(&request, bounds)?;
+        run.keep_only(old.only.clone());
+        Ok(run)
+    };
     // Equal bits need no bounds, which take another run.
-    let run = record(&request, Bounds::LeftOut)?;
+    let run = again(Bounds::LeftOut)?;
     let (differences, compared) = compare(old, &run);
-    let is_same = differences.is_empty()
-        && old
-            .numbers
-            .iter()
-            .all(|(name, was)| run.numbers.get(name).is_some_and(|is| is.values == was.values));
-    if is_same {
-        let (name, explanation) = (name.into(), None);
-        return Ok(VerifiedRun { name, run, differences, compared, explanation });
+    let has_bits = |(name, was): (&str, &Numbers)| {
+        run.numbers.get(name).is_some_and(|is| is.values == was.values)
+    };
+    if differences.is_empty() && old.numbers.iter().all(has_bits) {
+        let (name, presence) = (name.into(), Presence::Both);
+        return Ok(VerifiedRun { name, presence, run, differences, compared, explanation: None });
     }
-    let run = record(&request, Bounds::Computed)?;
-    let (differences, compared) = compare(old, &run);
-    let explanation = (!differences.is_empty())
-        .then(|| {
-            let was = Side { version: &snapshot.version, input: &snapshot.input, run: old };
-            let is = Side { version: VERSION, input, run: &run };
-            explain(was, is, &differences)
-        })
-        .flatten();
-    Ok(VerifiedRun { name: name.into(), run, differences, compared, explanation })
+    let was = Side { version: &snapshot.version, input: &snapshot.input, run: old };
+    let is = Side { version: VERSION, input, run: &again(Bounds::Computed)? };
+    Ok(VerifiedRun::compared(name.into(), was, is))
 }
 
 /// Compares two snapshots, the runs of the same name with each other; where each has one run, these.
 pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
     let single = old.runs.len() == 1 && new.runs.len() == 1;
-    let mut runs = Vec::new();
-    for (name, was) in old.runs.iter() {
-        let other = new.runs.iter().find(|(other, _)| single || *other == name);
-        let absent = Run::new(was.options.clone());
-        let (other, is) = other.unwrap_or(("nothing", &absent));
-        let (differences, compared) = compare(was, is);
-        let sides = [
-            Side { version: &old.version, input: &old.input, run: was },
-            Side { version: &new.version, input: &new.input, run: is },
-        ];
-        let explanation = explain(sides[0], sides[1], &differences);
+    let compared = old.runs.iter().map(|(name, was)| {
+        let other =
+            if single { new.runs.iter().next() } else { new.runs.get(name).map(|is| (name, is)) };
+        let Some((other, is)) = other else {
+            return VerifiedRun::alone(name, Presence::Missing, was);
+        };
         let name = if name == other { name.into() } else { format!("{name} and {other}") };
-        runs.push(VerifiedRun { name, run: is.clone(), differences, compared, explanation });
-    }
+        let was = Side { version: &old.version, input: &old.input, run: was };
+        let is = Side { version: &new.version, input: &new.input, run: is };
+        VerifiedRun::compared(name, was, is)
+    });
     let added = new.runs.iter().filter(|(name, _)| !single && old.runs.get(name).is_none());
-    for (name, is) in added {
-        let absent = Run::new(is.options.clone());
-        let (differences, compared) = compare(&absent, is);
-        let name = format!("nothing and {name}");
-        runs.push(VerifiedRun { name, run: is.clone(), differences, compared, explanation: None });
-    }
-    Verified { input: new.input.clone(), runs }
+    let added = added.map(|(name, is)| VerifiedRun::alone(name, Presence::New, is));
+    Verified { input: new.input.clone(), runs: compared.chain(added).collect() }
 }
