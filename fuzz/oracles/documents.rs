@@ -73,7 +73,7 @@ fn of_snapshot(snapshot: &Snapshot) {
     }
     match verify(snapshot, None, &|| ()) {
         Ok(verified) => {
-            let checked = [Checked { file: "fuzz".into(), verified }];
+            let checked = [Checked { file: "fuzz".into(), verified: Ok(verified) }];
             // What is no number differs, and is null.
             let json: Result<Value, _> = serde_json::from_str(&report::json(&checked));
             assert!(

@@ -42,6 +42,7 @@ mod pictures;
 mod plan;
 mod printed;
 mod printed_numbers;
+mod processors;
 mod recorded;
 mod result_file;
 mod scene_builder;
