@@ -68,7 +68,12 @@ fn verdict(run: &VerifiedRun) -> String {
     match (run.compared, run.differences.is_empty()) {
         _ if run.presence != Presence::Both => words::presence(run.presence).into(),
         (0, _) => "nothing was compared".into(),
-        (compared, true) => format!("same, {compared} facts and numbers"),
+        (compared, true) => {
+            let way = run.way.map_or(String::new(), |first| {
+                format!("; rounding decides the way there from iteration {first} on")
+            });
+            format!("same, {compared} facts and numbers{way}")
+        }
         (_, false) => "differs".into(),
     }
 }
@@ -243,6 +248,9 @@ struct RunRow<'a> {
     presence: Presence,
     /// How many facts and numbers were compared.
     compared: usize,
+    /// The iteration from which on rounding decides the way to the equilibrium, which is not compared
+    /// from there on; null where the runs go the same way.
+    way: Option<usize>,
     /// Why it differs; null where it does not.
     explanation: &'a Option<Explanation>,
     /// What differs, in the order of computation.
@@ -256,6 +264,7 @@ impl<'a> From<&'a VerifiedRun> for RunRow<'a> {
             same: run.is_same(),
             presence: run.presence,
             compared: run.compared,
+            way: run.way,
             explanation: &run.explanation,
             differences: &run.differences,
         }

@@ -24,6 +24,7 @@ mod options;
 mod place;
 mod record;
 mod verify;
+mod way;
 
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -192,7 +193,8 @@ impl Snapshot {
     /// Reads a snapshot.
     ///
     /// # Errors
-    /// Names the field that is wrong or lacking, a number that is out of its range, or a format that this program does not know.
+    /// Names the field that is wrong or lacking, a number that is out of its range, or a format that this
+    /// program does not know.
     pub fn read(text: &[u8]) -> Result<Self> {
         let fix = "give a snapshot as `plane-contact record` writes it";
         #[derive(Deserialize)]
@@ -207,7 +209,8 @@ impl Snapshot {
             let what = format!("the snapshot {found}; this program reads format {FORMAT}");
             return Err(InputError::new("field format", what, fix));
         }
-        let snapshot: Self = json::read(text, &json::Kind { name: "snapshot", fix, has_values: true })?;
+        let snapshot: Self =
+            json::read(text, &json::Kind { name: "snapshot", fix, has_values: true })?;
         for (name, run) in snapshot.runs.iter() {
             run.check().map_err(|error| error.within(&format!("run {name:?}")))?;
         }

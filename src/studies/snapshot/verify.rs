@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::compare::{Difference, compare};
 use super::explain::{Explanation, Side, explain};
 use super::record::{Bounds, record};
+use super::way::decided_by_rounding;
 use super::{Input, Numbers, Run, Snapshot, VERSION};
 use crate::answer::error::Result;
 use crate::choices;
@@ -44,6 +45,9 @@ pub struct VerifiedRun {
     pub differences: Vec<Difference>,
     /// How many facts and numbers were compared.
     pub compared: usize,
+    /// The iteration from which on rounding decides the way to the equilibrium, which the two runs
+    /// reach by different ones; these are not compared from there on.
+    pub way: Option<usize>,
     /// Why it differs; None where it does not.
     pub explanation: Option<Explanation>,
 }
@@ -65,13 +69,13 @@ impl VerifiedRun {
         let (differences, compared) = compare(old.run, new.run);
         let explanation = explain(old, new, &differences);
         let (presence, run) = (Presence::Both, new.run.clone());
-        VerifiedRun { name, presence, run, differences, compared, explanation }
+        VerifiedRun { name, presence, run, differences, compared, way: None, explanation }
     }
 
     fn alone(name: &str, presence: Presence, run: &Run) -> Self {
         let (name, run) = (name.into(), run.clone());
         let (differences, compared, explanation) = (Vec::new(), 0, None);
-        VerifiedRun { name, presence, run, differences, compared, explanation }
+        VerifiedRun { name, presence, run, differences, compared, way: None, explanation }
     }
 }
 
@@ -120,11 +124,26 @@ fn verify_run(
     };
     if differences.is_empty() && old.numbers.iter().all(has_bits) {
         let (name, presence) = (name.into(), Presence::Both);
-        return Ok(VerifiedRun { name, presence, run, differences, compared, explanation: None });
+        let (way, explanation) = (None, None);
+        return Ok(VerifiedRun { name, presence, run, differences, compared, way, explanation });
+    }
+    let run = again(Bounds::Computed)?;
+    let (differences, compared) = compare(old, &run);
+    if let Some(first) = decided_by_rounding(input, &run, &differences)? {
+        let (name, presence, way) = (name.into(), Presence::Both, Some(first));
+        let (differences, compared) = (Vec::new(), compared - differences.len());
+        return Ok(VerifiedRun {
+            name,
+            presence,
+            run,
+            differences,
+            compared,
+            way,
+            explanation: None,
+        });
     }
     let was = Side { version: &snapshot.version, input: &snapshot.input, run: old };
-    let is = Side { version: VERSION, input, run: &again(Bounds::Computed)? };
-    Ok(VerifiedRun::compared(name.into(), was, is))
+    Ok(VerifiedRun::compared(name.into(), was, Side { version: VERSION, input, run: &run }))
 }
 
 /// Compares two snapshots, the runs of the same name with each other; where each has one run, these.
