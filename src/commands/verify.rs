@@ -18,10 +18,10 @@ pub const DIFFERS: u8 = 1;
 /// Run what snapshots recorded again and compare.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Facts are the same or not; numbers agree within the bounds on both runs' rounding errors, or within
-the tolerance that the snapshot gives. What is missing or added, other lengths and what is no number
-are differences. A difference is explained: its first cause, and how that is known. The exit status
-also tells a difference, and that nothing was compared.
+Facts and units are the same or not; numbers agree within the bounds on both runs' rounding errors, or
+within the tolerance that the snapshot gives. What is new or missing and other lengths are differences.
+A difference is explained: its first cause, and how that is known. Exit status 1: something differs,
+or nothing was compared; 2: a snapshot cannot be read, and the others were verified all the same.
 
 Files that the page of an exercise saved (`lesson --exercise`) are marked: how many answers are right,
 and what the others should be.

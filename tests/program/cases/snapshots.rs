@@ -1,5 +1,3 @@
-//! Snapshots: record, verify, explain, diff, accept.
-
 use super::{Case, check};
 
 #[test]
@@ -7,4 +5,284 @@ fn snapshots() {
     check("snapshots", CASES);
 }
 
-const CASES: &[Case] = &[];
+/// Records `s.json`.
+macro_rules! recorded {
+    ($then:literal) => {
+        concat!("plane-contact record fig1 --variant tied --out s.json >record.txt; ", $then)
+    };
+}
+
+/// Records `s.json` and writes `t.json`, changed by Python, whose `d` is the document and `r` its run.
+macro_rules! changed {
+    ($change:literal, $then:literal) => {
+        recorded!(concat!(
+            "python3 -c 'import json; d = json.load(open(\"s.json\")); r = d[\"runs\"][\"tied\"]\n",
+            $change,
+            "\njson.dump(d, open(\"t.json\", \"w\"))'; ",
+            $then
+        ))
+    };
+}
+
+const CASES: &[Case] = &[
+    // A broken snapshot is an error among the results, and both reports are written.
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"numbers\"][\"u\"][\"values\"][2][1] = float(\"nan\")",
+            "mkdir folder; cp t.json \"a|b<c>&\\`d\\`.json\"; plane-contact verify s.json t.json folder none.json \
+             \"a|b<c>&\\`d\\`.json\" s.json --junit j.xml --report r.md; status=$?; cat j.xml r.md; exit $status"
+        ),
+        status: 2,
+        contains: &[
+            "s.json: same, 1 run",
+            "t.json: error: NaN where a finite number is expected",
+            "none.json: error: the snapshot cannot be read",
+            "folder: error: the snapshot cannot be read",
+            "<testsuite name=\"t.json\" tests=\"1\" failures=\"0\" errors=\"1\">",
+            "<error message=\"NaN where",
+            "| t.json | - | error |",
+            "| a\\|b&lt;c>&amp;\\`d\\`.json | - | error |",
+            "| s.json | tied | same, ",
+        ],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"format\"] = 1",
+            "plane-contact verify s.json t.json --json > v.json; plane-contact schema verify > schema.json; \
+             python3 -c 'import json; v = json.load(open(\"v.json\"))[\"files\"]; print(v[0][\"same\"], v[1][\"failure\"][\"kind\"])'"
+        ),
+        status: 0,
+        contains: &["True input"],
+        lacks: &[],
+    },
+    // A scene is its content, whatever the order of keys, line ends and a byte order mark.
+    Case {
+        input: "",
+        command: recorded!(
+            "python3 -c 'import json; d = json.load(open(\"s.json\"))\n\
+             t = json.dumps(d, sort_keys=True, indent=3).replace(\"\\n\", \"\\r\\n\")\n\
+             open(\"t.json\", \"wb\").write(b\"\\xef\\xbb\\xbf\" + t.encode())'; plane-contact verify t.json"
+        ),
+        status: 0,
+        contains: &["same, 1 run"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: changed!(
+            "m = d[\"input\"][\"scene\"][\"materials\"]; d[\"input\"][\"scene\"][\"materials\"] = dict(reversed(m.items()))",
+            "plane-contact verify t.json"
+        ),
+        status: 0,
+        contains: &["same, 1 run"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: changed!(
+            "d[\"input\"][\"scene\"][\"thickness\"] = 2",
+            "plane-contact verify t.json"
+        ),
+        status: 2,
+        contains: &["scene was changed after it was recorded"],
+        lacks: &[],
+    },
+    // Units are facts.
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"numbers\"][\"load\"][\"unit\"] = \"kN\"; del r[\"numbers\"][\"u\"][\"unit\"]",
+            "plane-contact verify t.json"
+        ),
+        status: 1,
+        contains: &["unit of load: N, was kN", "unit of u: mm, was none"],
+        lacks: &[],
+    },
+    Case {
+        input: "units",
+        command: "plane-contact diff scene.json kN.json",
+        status: 1,
+        contains: &[
+            "cause: scene units.force: \"kN\", was \"N\" (input)",
+            "unit of load: kN, was N",
+        ],
+        lacks: &["same, "],
+    },
+    // Tolerances.
+    Case {
+        input: "",
+        command: changed!(
+            "u = r[\"numbers\"][\"u\"]; u[\"values\"][4][2] *= 1.001; u[\"tolerance\"] = {\"absolute\": 1e-20, \"relative\": 0.01}",
+            "plane-contact verify t.json"
+        ),
+        status: 0,
+        contains: &["same, 1 run"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: changed!(
+            "y = r[\"numbers\"][\"iteration 1 yt\"]; y[\"values\"] = [1e-18 if x == 0 else x for x in y[\"values\"]]; y[\"tolerance\"] = {\"relative\": 0}",
+            "plane-contact verify t.json"
+        ),
+        status: 0,
+        contains: &["same, 1 run"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"numbers\"][\"u\"][\"tolerance\"] = {\"absolute\": 1, \"relative\": -0.5}",
+            "plane-contact verify t.json"
+        ),
+        status: 2,
+        contains: &[
+            "`relative` is -0.5: a tolerance is `absolute`, `relative` or `ulps`",
+            "field runs.tied.numbers.u.tolerance",
+        ],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"numbers\"][\"u\"][\"tolerance\"] = \"1e-3\"",
+            "plane-contact verify t.json"
+        ),
+        status: 2,
+        contains: &["the text \"1e-3\" where an object with `absolute`, `relative` or `ulps`"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"numbers\"][\"u\"][\"tolerance\"] = {}",
+            "plane-contact verify t.json"
+        ),
+        status: 2,
+        contains: &["it is empty: a tolerance is `absolute`, `relative` or `ulps`"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: changed!("r[\"numbers\"][\"u\"][\"bound\"] = -1", "plane-contact verify t.json"),
+        status: 2,
+        contains: &["the bound on a rounding error is -1", "numbers.u.bound"],
+        lacks: &[],
+    },
+    // What is no finite number.
+    Case {
+        input: "overflow",
+        command: "plane-contact record scene.json --variant tied --coupling mortar --status projection \
+                  --solver sparse-lu --out s.json && grep -q null s.json && plane-contact verify s.json",
+        status: 0,
+        contains: &["same, 1 run"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"numbers\"][\"u\"][\"values\"][2][1] = None",
+            "plane-contact verify t.json"
+        ),
+        status: 1,
+        contains: &["u: 1 of 26 numbers differ", "was no finite number"],
+        lacks: &["NaN"],
+    },
+    // What one side alone has.
+    Case {
+        input: "",
+        command: changed!(
+            "del r[\"numbers\"][\"stress\"]; r[\"facts\"][\"more\"] = 1",
+            "plane-contact verify t.json"
+        ),
+        status: 1,
+        contains: &["stress: new", "more: missing"],
+        lacks: &["defect", "exact"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact record fig1 --variant tied,stepped --out a.json >record.txt; \
+                  plane-contact record fig1 --variant tied,printed --out b.json >record.txt; \
+                  plane-contact diff a.json b.json",
+        status: 1,
+        contains: &[
+            "2 of 3 runs differ",
+            "stepped: missing: the old side",
+            "printed: new: the old side",
+        ],
+        lacks: &["defect", "nothing and"],
+    },
+    // Part of the numbers.
+    Case {
+        input: "",
+        command: "plane-contact record fig1 --variant tied --only u,pressure --out s.json && grep -c iteration s.json; \
+                  plane-contact verify s.json && plane-contact diff s.json fig1 --variant tied",
+        status: 0,
+        contains: &["5 facts, ", "s.json: same", "s.json and fig1: same"],
+        lacks: &["missing", "new"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact record fig1 --only presure",
+        status: 2,
+        contains: &["presure", "pressure"],
+        lacks: &[],
+    },
+    // What is accepted.
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"numbers\"][\"u\"][\"values\"][4][2] = 1",
+            "cp t.json before.json; plane-contact accept t.json --dry-run --reason why && cmp t.json before.json \
+             && plane-contact accept t.json --reason why && plane-contact verify t.json"
+        ),
+        status: 0,
+        contains: &["accepted tied/u: ", "t.json: same"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: recorded!("plane-contact accept s.json --entry tied/presure --reason why"),
+        status: 2,
+        contains: &["no run or entry is named \"tied/presure\"", "did you mean \"tied/pressure\"?"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: "plane-contact record fig1 --variant tied,stepped,printed --out s.json >record.txt; \
+                  plane-contact accept s.json --scene two-blocks --reason why > a.txt; wc -l < a.txt; cat a.txt",
+        status: 0,
+        contains: &["20\n", "accepted input", "other entries, see the log"],
+        lacks: &[],
+    },
+    // An expected number that no run has.
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"expected\"] = [{\"entry\": \"presure\", \"row\": 5, \"value\": 0, \"tolerance\": {\"absolute\": 1}, \"origin\": {\"closed-form\": \"0\"}, \"reason\": \"free\"}]",
+            "plane-contact verify t.json"
+        ),
+        status: 2,
+        contains: &["the run has no such numbers", "did you mean \"pressure\"?"],
+        lacks: &[],
+    },
+    // Time is linear in what a snapshot holds: 20,000 steps took minutes.
+    Case {
+        input: "steps",
+        command: "timeout 100 plane-contact record scene.json --out s.json && timeout 100 plane-contact diff s.json s.json",
+        status: 0,
+        contains: &["same, 1 run"],
+        lacks: &[],
+    },
+    // Through a pipe.
+    Case {
+        input: "",
+        command: recorded!("cat s.json | plane-contact verify /dev/stdin"),
+        status: 0,
+        contains: &["same, 1 run"],
+        lacks: &[],
+    },
+];
