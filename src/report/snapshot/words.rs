@@ -1,5 +1,6 @@
 //! Differences and their causes in words.
 
+use indexmap::IndexMap;
 use serde_json::Value;
 
 use crate::studies::snapshot::{Difference, Explanation, Kind, Number, Presence, VerifiedRun};
@@ -132,18 +133,12 @@ pub fn summary(differences: &[Difference]) -> String {
 
 /// Groups differences by what differs, whatever the iteration, in their order.
 fn by_quantity<'a>(differences: &[&'a Difference]) -> Vec<(&'a str, Vec<&'a Difference>)> {
-    let mut groups: Vec<(&str, Vec<&Difference>)> = Vec::new();
+    let mut groups: IndexMap<(bool, &str), Vec<&Difference>> = IndexMap::new();
     for difference in differences {
         let words: Vec<&str> = difference.entry.splitn(3, ' ').collect();
         let in_iteration = words.len() == 3 && words[0] == "iteration";
         let quantity = if in_iteration { words[2] } else { &difference.entry };
-        let same = |(other, group): &&mut (&str, Vec<&Difference>)| {
-            in_iteration && *other == quantity && group[0].entry.starts_with("iteration ")
-        };
-        match groups.iter_mut().find(same) {
-            Some((_, group)) => group.push(difference),
-            None => groups.push((quantity, vec![difference])),
-        }
+        groups.entry((in_iteration, quantity)).or_default().push(difference);
     }
-    groups
+    groups.into_iter().map(|((_, quantity), group)| (quantity, group)).collect()
 }

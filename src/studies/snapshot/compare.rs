@@ -1,11 +1,14 @@
 //! Two runs compared entry by entry: facts are the same or not, numbers agree within a limit.
 
+use std::collections::HashMap;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::Run;
 use super::entries::Entries;
+use super::expected::There;
 use super::numbers::{Number, Numbers, WITHOUT_BOUND};
 use super::place::place;
 
@@ -97,9 +100,12 @@ pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
         }
         found.extend(numbers(was, is).map(|kind| difference(name, kind)));
     }
+    let mut there = HashMap::new();
     for expected in &old.expected {
         compared += 1;
-        if let Some(missed) = expected.missed(new) {
+        let entry = &expected.entry[..];
+        let there = there.entry(entry).or_insert_with(|| There::of(new, entry));
+        if let Some(missed) = expected.missed(there) {
             let kind = Kind::Expected {
                 was: expected.value,
                 is: missed.found.map(Number),

@@ -1,5 +1,7 @@
 //! Numbers that a user expects of a run, each with its origin.
 
+use std::collections::HashMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -79,16 +81,28 @@ impl Expected {
         Ok(())
     }
 
-    /// Returns how far `run` misses the number; None where it does not.
-    pub fn missed(&self, run: &Run) -> Option<Missed> {
-        let numbers = run.numbers.get(&self.entry);
-        let places = numbers.map(|numbers| numbers.places()).unwrap_or_default();
-        let wanted = (self.row as f64, self.component.wrapping_sub(1));
-        let found = places.iter().find(|(place, _)| *place == wanted).map(|(_, x)| *x);
-        let largest = numbers.map_or(0.0, |numbers| numbers.largest());
-        let floor = numbers.map_or(0.0, |numbers| numbers.floor);
-        let limit = self.tolerance.limit(self.value, largest, floor);
+    /// Returns how the numbers of its entry miss it; None where they do not.
+    pub fn missed(&self, there: &There) -> Option<Missed> {
+        let found = there.numbers.get(&(self.row as u64, self.component)).copied();
+        let limit = self.tolerance.limit(self.value, there.largest, there.floor);
         let is_near = found.is_some_and(|x| (x - self.value).abs() <= limit);
         (!is_near).then_some(Missed { found, limit })
+    }
+}
+
+/// The numbers of an entry by row and component, both from 1; none where the run has no such entry.
+#[derive(Default)]
+pub struct There {
+    numbers: HashMap<(u64, usize), f64>,
+    largest: f64,
+    floor: f64,
+}
+
+impl There {
+    pub fn of(run: &Run, entry: &str) -> Self {
+        let Some(numbers) = run.numbers.get(entry) else { return There::default() };
+        let places = numbers.places().into_iter();
+        let by_place = places.map(|((row, component), x)| ((row as u64, component + 1), x));
+        There { numbers: by_place.collect(), largest: numbers.largest(), floor: numbers.floor }
     }
 }

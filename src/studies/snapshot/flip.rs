@@ -70,15 +70,15 @@ fn found(run: &Run, k: usize, i: usize) -> Option<Found> {
         let list = run.facts.get(&of_iteration(k, quantity))?.as_array()?;
         list.get(i).cloned()
     };
-    let yt = run.numbers.get(&of_iteration(k, "yt"))?.places();
-    let at = |i: Option<usize>| Some(yt.get(i?)?.1);
+    let yt = run.numbers.get(&of_iteration(k, "yt"))?;
+    let at = |i: Option<usize>| yt.listed(i?);
     Some(Found {
         ct: fact("ct")?.as_u64()?,
         dy: fact("dy")?.as_u64()?,
         yt: at(Some(i))?,
         before: at(i.checked_sub(1)),
         after: at(Some(i + 1)),
-        c_tll: run.numbers.get("c_tll")?.places().first()?.1,
+        c_tll: run.numbers.get("c_tll")?.listed(0)?,
         status: fact("statuses").and_then(|status| Some(status.as_str()?.to_string())),
     })
 }

@@ -247,6 +247,12 @@ impl Numbers {
         }
     }
 
+    /// Returns number `k` of a list, from 0; None of rows.
+    pub fn listed(&self, k: usize) -> Option<f64> {
+        let Values::List(list) = &self.values else { return None };
+        list.get(k).map(|x| x.0)
+    }
+
     /// Returns the size of the largest finite number, 0 of none.
     pub fn largest(&self) -> f64 {
         let sizes = self.places().into_iter().map(|(_, x)| x.abs());

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::compare::{Difference, compare};
 use super::explain::{Explanation, Side, explain};
 use super::record::{Bounds, record};
-use super::way::decided_by_rounding;
+use super::way::{decided_by_rounding, without_way};
 use super::{Input, Numbers, Run, Snapshot, VERSION};
 use crate::answer::error::Result;
 use crate::choices;
@@ -63,6 +63,11 @@ impl VerifiedRun {
     /// Returns whether anything was compared and nothing differs.
     pub fn is_same(&self) -> bool {
         self.differences.is_empty() && self.compared > 0
+    }
+
+    fn same(name: &str, run: Run, compared: usize, way: Option<usize>) -> Self {
+        let (name, presence, differences) = (name.into(), Presence::Both, Vec::new());
+        VerifiedRun { name, presence, run, differences, compared, way, explanation: None }
     }
 
     fn compared(name: String, old: Side, new: Side) -> Self {
@@ -123,24 +128,13 @@ fn verify_run(
         run.numbers.get(name).is_some_and(|is| is.values == was.values)
     };
     if differences.is_empty() && old.numbers.iter().all(has_bits) {
-        let (name, presence) = (name.into(), Presence::Both);
-        let (way, explanation) = (None, None);
-        return Ok(VerifiedRun { name, presence, run, differences, compared, way, explanation });
+        return Ok(VerifiedRun::same(name, run, compared, None));
     }
     let run = again(Bounds::Computed)?;
-    let (differences, compared) = compare(old, &run);
+    let (differences, _) = compare(old, &run);
     if let Some(first) = decided_by_rounding(input, &run, &differences)? {
-        let (name, presence, way) = (name.into(), Presence::Both, Some(first));
-        let (differences, compared) = (Vec::new(), compared - differences.len());
-        return Ok(VerifiedRun {
-            name,
-            presence,
-            run,
-            differences,
-            compared,
-            way,
-            explanation: None,
-        });
+        let (_, compared) = compare(&without_way(old, first), &without_way(&run, first));
+        return Ok(VerifiedRun::same(name, run, compared, Some(first)));
     }
     let was = Side { version: &snapshot.version, input: &snapshot.input, run: old };
     Ok(VerifiedRun::compared(name.into(), was, Side { version: VERSION, input, run: &run }))

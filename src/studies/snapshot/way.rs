@@ -24,9 +24,10 @@ pub fn decided_by_rounding(
     run: &Run,
     differences: &[Difference],
 ) -> Result<Option<usize>> {
-    let of_way = |d: &Difference| d.entry == "iterations" || iteration(&d.entry).is_some();
     let Some(first) = first_iteration(differences) else { return Ok(None) };
-    if run.options.variant != Some(Variant::Unilateral) || !differences.iter().all(of_way) {
+    if run.options.variant != Some(Variant::Unilateral)
+        || !differences.iter().all(|d| is_of_way(&d.entry, first))
+    {
         return Ok(None);
     }
     for units in TRIALS {
@@ -42,6 +43,18 @@ pub fn decided_by_rounding(
         }
     }
     Ok(None)
+}
+
+/// Returns a run without its way from iteration `first` on.
+pub fn without_way(run: &Run, first: usize) -> Run {
+    let mut run = run.clone();
+    run.facts.retain(|name| !is_of_way(name, first));
+    run.numbers.retain(|name| !is_of_way(name, first));
+    run
+}
+
+fn is_of_way(entry: &str, first: usize) -> bool {
+    entry == "iterations" || iteration(entry).is_some_and(|(k, _)| k >= first)
 }
 
 /// Returns the first iteration of which something differs; None where nothing does.

@@ -7,8 +7,8 @@ fn snapshots() {
 
 /// Records `s.json`.
 macro_rules! recorded {
-    ($then:literal) => {
-        concat!("plane-contact record fig1 --variant tied --out s.json >record.txt; ", $then)
+    ($($then:tt)*) => {
+        concat!("plane-contact record fig1 --variant tied --out s.json >record.txt; ", $($then)*)
     };
 }
 
