@@ -15,8 +15,8 @@ use super::{print_fitted, waiting};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Runs the snapshot again, takes what differs, and adds to the log in the snapshot: what, from, to, by
-how much in units of its bound, the reason, the version of the program; a summary of up to 20 lines
-is printed. Nothing is taken where a run fails that did not, unless --failing says that it should.
+how much in units of its bound, the reason, the version of the program; a short summary is
+printed. Nothing is taken where a run fails that did not, unless --failing says that it should.
 
 Examples:
   plane-contact accept out/fig1.snapshot.json --reason \"the load was doubled\"

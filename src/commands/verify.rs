@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::error::{Error, Result};
+use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::scene::Scene;
@@ -20,8 +20,9 @@ pub const DIFFERS: u8 = 1;
 #[command(after_help = "\
 Facts and units are the same or not; numbers agree within the bounds on both runs' rounding errors, or
 within the tolerance that the snapshot gives. What is new or missing and other lengths are differences.
-A difference is explained: its first cause, and how that is known. Exit status 1: something differs,
-or nothing was compared; 2: a snapshot cannot be read, and the others were verified all the same.
+A difference is explained: its first cause, and how that is known. The exit status also tells a
+difference, that nothing was compared, and that a snapshot cannot be read; the others are verified
+all the same.
 
 Files that the page of an exercise saved (`lesson --exercise`) are marked: how many answers are right,
 and what the others should be.
@@ -72,9 +73,10 @@ pub fn run(args: &Args) -> Result<u8> {
 /// verified, else whether all is the same.
 fn report(checked: &[Checked], json: bool) -> Result<u8> {
     print_either(json, || report::json(checked), || report::text(checked))?;
-    let failure = checked.iter().find_map(|checked| checked.verified.as_ref().err());
+    let failures = checked.iter().filter_map(|checked| checked.verified.as_ref().err());
+    let statuses: Vec<u8> = failures.map(super::told).collect();
     let is_same = checked.iter().all(Checked::is_same);
-    Ok(failure.map_or(if is_same { 0 } else { DIFFERS }, Error::exit_status))
+    Ok(statuses.first().copied().unwrap_or(if is_same { 0 } else { DIFFERS }))
 }
 
 /// Reads a snapshot.

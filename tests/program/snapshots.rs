@@ -131,7 +131,7 @@ fn a_broken_snapshot_is_the_inputs_fault() {
     assert_says(
         &ran(folder.path(), &["verify", "half.json"]),
         2,
-        &["the text ends within a list", "half.json"],
+        &["the text ends within a", "half.json"],
     );
     let twice = String::from_utf8(text).expect("UTF-8").replacen(
         "\"iteration 1 dy\"",

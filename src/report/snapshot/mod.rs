@@ -86,7 +86,7 @@ pub fn text(checked: &[Checked]) -> String {
 fn of_file(checked: &Checked) -> String {
     let verified = match &checked.verified {
         Ok(verified) => verified,
-        Err(why) => return format!("{}: error: {why}\n", checked.file),
+        Err(_) => return format!("{}: error, it cannot be verified\n", checked.file),
     };
     let mut text = format!("{}: {}\n", checked.file, of_runs(verified));
     for run in &verified.runs {
