@@ -27,7 +27,7 @@ pub struct Assessment<'a> {
     pub estimates: Option<ErrorEstimates>,
     /// What the run says of the points that were asked for: [`Assessment::probe`].
     pub probes: Vec<Probe>,
-    /// The change of the largest displacement component against a path of half as many steps of the
+    /// The largest difference of a displacement component from a path of half as many steps of the
     /// load, length: what is left of the size of the steps. None without a path, where there is none
     /// such to compare with, and where estimates are left out.
     pub path_change: Option<f64>,

@@ -1,5 +1,5 @@
-//! The distance of a run from the reference solution on the same mesh: `unilateral` with mortar,
-//! under the scene's friction.
+//! The distance of a run from another solution on the same mesh: the reference solution, or the
+//! equilibrium under the scene's own friction.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,16 +8,16 @@ use super::not_finite::or_nan;
 use super::solution::{Solution, max_displacement};
 use super::summary::summaries;
 
-/// The differences between a run and the reference solution.
+/// The differences between a run and the solution compared with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Distance {
     /// The largest difference of a node's displacement, length.
     pub displacement: f64,
-    /// That difference over the largest displacement of the reference solution.
+    /// That difference over the largest displacement of the solution compared with.
     #[serde(deserialize_with = "or_nan")]
     #[schemars(with = "Option<f64>")]
     pub displacement_relative: f64,
-    /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the reference solution.
+    /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the solution compared with.
     #[serde(deserialize_with = "or_nan")]
     #[schemars(with = "Option<f64>")]
     pub energy_relative: f64,
@@ -25,16 +25,16 @@ pub struct Distance {
     pub bodies: Vec<BodyDistance>,
 }
 
-/// A body's largest von Mises stress beside that of the reference solution.
+/// A body's largest von Mises stress beside that of the solution compared with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BodyDistance {
     /// The name of the body.
     pub name: String,
     /// The largest von Mises stress of the run.
     pub von_mises_stress: f64,
-    /// The largest von Mises stress of the reference solution.
+    /// The largest von Mises stress of the solution compared with.
     pub reference: f64,
-    /// The difference of the two over the reference.
+    /// The difference of the two over that of the solution compared with.
     #[serde(deserialize_with = "or_nan")]
     #[schemars(with = "Option<f64>")]
     pub relative: f64,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::contact::Surfaces;
+use super::contact::{Surfaces, hidden};
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
 use super::factors::LastFactors;
@@ -13,7 +13,7 @@ use super::printed::{AtSurfaces, condenses_printed};
 use super::request::Request;
 use super::sparse::{MakeSparse, Sparse, State, takes_sparse};
 use super::stiffness::Stiffness;
-use super::support::{support, supports_of_target};
+use super::support::{support, supports};
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{self, Precision, Solver, Unsolved};
@@ -49,7 +49,7 @@ pub(super) struct Equations<'a, T> {
     pub stiffness: Stiffness<T>,
     /// Whether the run takes each degree of freedom as restrained.
     restrained: Vec<bool>,
-    /// Whether each of them is one of the target body.
+    /// Whether each of them is one of the body to which contact passes its force.
     supports: Vec<bool>,
     /// The whole load by degree of freedom, force.
     load: DVector<T>,
@@ -66,7 +66,7 @@ pub(super) struct Solved<T> {
     pub u: DVector<T>,
     /// The relative residual of the solution.
     pub residual: f64,
-    /// The sum of the forces that support the target, force.
+    /// The sum of what holds the body to which contact passes its force, force.
     pub support: [T; 2],
 }
 
@@ -117,7 +117,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             assembly,
             interpreter,
             stiffness,
-            supports: supports_of_target(model, &restrained),
+            supports: supports(model, &restrained),
             restrained,
             load,
             f,
@@ -235,8 +235,8 @@ impl<'a, T: Precision> Equations<'a, T> {
         let bound = constraints.iter().flat_map(|constraint| constraint.node.dofs());
         bound.for_each(|dof| wanted[dof.index()] = true);
         let load = self.load.map(|f| f / self.share);
-        let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - load;
-        let support = support(self.model, &self.restrained, constraints, &force);
+        let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &load;
+        let support = support(self.model, &self.restrained, constraints, &force, &load);
         Solved { residual, support, u }
     }
 
@@ -284,6 +284,9 @@ impl<'a, T: Precision> Equations<'a, T> {
         let body = self.model.body_of(dof.node());
         let in_contact = pairs.dy.iter().sum();
         let first = iteration == 1 && in_contact == 0 && self.model.has_contact();
+        let hidden = (first && self.request.is_as_printed())
+            .then(|| hidden(self.model, &self.request.reading, &self.model.nodes))
+            .flatten();
         SingularMatrix {
             variant: self.request.variant.name(),
             iteration,
@@ -291,7 +294,8 @@ impl<'a, T: Precision> Equations<'a, T> {
             direction: dof.axis(),
             pivot,
             in_contact,
-            apart: first.then(|| self.smallest_gap()).flatten(),
+            apart: (first && hidden.is_none()).then(|| self.smallest_gap()).flatten(),
+            hidden,
             untried: None,
             body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
         }

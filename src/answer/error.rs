@@ -60,7 +60,7 @@ pub struct NoEquilibrium {
 /// A matrix that has no unique solution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "variant {variant} cannot go on: iteration {iteration}: the matrix is singular at node \
+    "variant {variant} stops: iteration {iteration}: the matrix is singular at node \
      {node}{body}, direction {direction} ({}); {} in contact, and {}",
     match .pivot.is_nan() {
         true => "no pivot: the matrix is not positive definite".into(),
@@ -77,7 +77,7 @@ pub struct NoEquilibrium {
     }.to_string() + &.apart.map_or(String::new(), |[gap, c_tll]| format!(
         ": the smallest gap is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
          larger c_tll"
-    )) + &.untried.map_or(String::new(), |bytes| format!(
+    )) + &.hidden.as_ref().map_or(String::new(), |why| format!(": {why}")) + &.untried.map_or(String::new(), |bytes| format!(
         "; whether it is so in double-doubles too was not looked at, which takes {:.1} GB",
         bytes / 1e9
     ))
@@ -95,8 +95,10 @@ pub struct SingularMatrix {
     pub pivot: f64,
     /// The number of contact nodes with dy = 1.
     pub in_contact: usize,
-    /// Where the first contact fails, the smallest gap of the initial shape, and c_tll, length.
+    /// Where the first contact fails for another reason, the smallest gap of the initial shape, and c_tll, length.
     pub apart: Option<[f64; 2]>,
+    /// Where the first contact fails because of the direction of a target edge, the cause in words.
+    pub hidden: Option<String>,
     /// The bytes that a run in more digits would take, which would tell whether rounding is the cause;
     /// None where that was run.
     pub untried: Option<f64>,

@@ -18,7 +18,7 @@ use super::found::FoundPairs;
 use super::request::Request;
 use super::solution::{Cycle, Detail, Published, Solution, Step, StepBounds, max_displacement};
 use super::sparse::{MakeSparse, dense_matrices};
-use super::support::against_load;
+use super::support::passed_on;
 use crate::error::InputError;
 use crate::memory;
 use crate::numbers::scalar::Scalar;
@@ -31,7 +31,7 @@ use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet};
 use crate::paper::near::c_cnt;
 use crate::problem::model::{Model, NodeId};
-use crate::problem::modelling::{Coupling, StatusRule, Variant};
+use crate::problem::modelling::{Coupling, Variant};
 
 /// Returns the bytes that `iterations` of a model take until the result is written: the steps, those of
 /// the run that bounds their rounding, and the tree of which `result.json` is written; measured on
@@ -153,7 +153,7 @@ struct Run<'a, T> {
     surfaces: Option<Surfaces>,
     /// The total displacements by degree of freedom, length.
     u: DVector<T>,
-    /// The sum of the forces that support the target so far, force.
+    /// The sum of what holds the body to which contact passes its force so far, force.
     support: [T; 2],
     /// The contact states visited, each with its solution and the last iteration that visited it.
     /// The load of an iteration is always the same, so a state that returns has the same matrix and
@@ -239,8 +239,8 @@ impl<'a, T: Precision> Run<'a, T> {
             let undecided = keeps_bound.then(Vec::new);
             return Ok(Found { node_n, pairs, constraints: vec![], places: vec![], undecided });
         }
-        let (rule, variant) = (self.request.contact.status, self.request.variant);
-        let by_listing = rule == StatusRule::Signs || variant == Variant::Printed;
+        let rule = self.request.contact.status;
+        let by_listing = self.request.decides_by_listing();
         let edited = self.interpreter.and_then(|interpreter| interpreter.c_cnt(&node_n));
         let pairs = if let Some(pairs) = edited {
             pairs?
@@ -321,7 +321,7 @@ impl<'a, T: Precision> Run<'a, T> {
             in_contact: pairs.dy.iter().sum(),
             max_displacement: Some(max_displacement(&self.u)),
             cycle,
-            target_force: Some(against_load(self.model, self.support.map(T::to_f64))),
+            target_force: Some(passed_on(self.model, self.support.map(T::to_f64))),
             solve_residual: solved.residual,
             detail: Detail::Published(Published {
                 pairs: FoundPairs::new(pairs),

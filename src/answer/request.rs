@@ -128,6 +128,20 @@ impl Request {
         self.edited.iter().any(|edited| edited.which == which)
     }
 
+    /// Returns whether `c_cnt`, as printed or as edited, decides who is in contact.
+    pub fn decides_by_listing(&self) -> bool {
+        match self.variant {
+            Variant::Printed => true,
+            Variant::Tied | Variant::Stepped => self.contact.status == StatusRule::Signs,
+            Variant::Unilateral => false,
+        }
+    }
+
+    /// Returns whether `c_cnt` as printed decides who is in contact.
+    pub fn is_as_printed(&self) -> bool {
+        self.decides_by_listing() && !self.is_edited(Which::CCnt)
+    }
+
     /// Returns the load of an iteration: R7 where the reading sets it, else the variant's own.
     pub fn schedule(&self) -> Schedule {
         match self.variant {

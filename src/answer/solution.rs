@@ -34,8 +34,9 @@ pub struct Step {
     pub max_displacement: Option<f64>,
     /// The earlier steps with this contact state; None where it is new.
     pub cycle: Option<Cycle>,
-    /// The sum of the target body's reactions against the direction of the load applied so far,
-    /// force; 0 without contact, and None where `max_displacement` is.
+    /// The force that contact passes from one body to the other, force: along the load where that acts
+    /// on one of the two bodies alone, else its size. 0 without contact; None where `max_displacement`
+    /// is.
     pub target_force: Option<f64>,
     /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations: under `unilateral`, but for
     /// the last step, mostly those of the condensed bodies.
@@ -267,7 +268,7 @@ pub struct Equilibrium {
     /// thousandth of the model's size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unseen: Option<(NodeId, f64)>,
-    /// The change of the largest displacement component when contact was last measured in the shape
+    /// The largest change of a displacement component when contact was last measured in the shape
     /// reached, length; 0 in the initial geometry.
     pub shape_change: f64,
 }
@@ -278,7 +279,7 @@ impl Solution {
         self.steps.last().expect("a run has a step")
     }
 
-    /// Returns the sum of the target body's reactions against the direction of the load, force.
+    /// Returns the force that contact passes on at the end ([`Step::target_force`]).
     pub fn target_force(&self) -> f64 {
         self.last().target_force.expect("the whole bodies are solved for in the last step")
     }

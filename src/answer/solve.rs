@@ -17,7 +17,7 @@ use crate::paper::listings::Which;
 use crate::paper::mirror::NodeTable;
 use crate::problem::element::State;
 use crate::problem::model::Model;
-use crate::problem::modelling::{StatusRule, Variant, check_iterations, check_tolerance};
+use crate::problem::modelling::{Variant, check_iterations, check_tolerance};
 
 /// Solves `request`; `watch` is called after each step.
 ///
@@ -179,7 +179,7 @@ fn check_edited(request: &Request) -> Result<(), InputError> {
     let Request { variant, contact, arithmetic, .. } = request;
     let c_cnt = request.is_edited(Which::CCnt);
     let km = request.is_edited(Which::Km);
-    let by_listing = contact.status == StatusRule::Signs || *variant == Variant::Printed;
+    let by_listing = request.decides_by_listing();
     let refuse = |place: &str, what: String, fix: &str| Err(InputError::new(place, what, fix));
     match () {
         () if !c_cnt && !km => Ok(()),

@@ -40,5 +40,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json::of_scene(&scene, &json::Found::from(&call.pairs)));
     }
-    args.tables.print("c-cnt", &tables::pairs(&scene, &model, &call))
+    args.tables.print("c-cnt", &tables::pairs(&scene, &model, &reading, &call))
 }

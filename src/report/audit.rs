@@ -62,9 +62,9 @@ fn readings(effects: &[Effect]) -> String {
         .column("reading", |effect| effect.reading.clone())
         .column("lines", |effect| effect.lines)
         .column("dy changed", |effect| count(effect.statuses))
-        .column("MJS entries", |effect| count(effect.entries))
+        .column("MJS entries changed", |effect| count(effect.entries))
         .column("largest difference", |effect| or_dash(effect.displacement, short))
-        .column("of", |effect| effect.of.clone() + &remark(effect))
+        .column("of what", |effect| effect.of.clone() + &remark(effect))
         .text();
     let notes = failures.iter().zip(1..).map(|(why, k)| format!("  ({k}) {why}\n"));
     table + &notes.collect::<String>()
@@ -88,15 +88,16 @@ fn findings(findings: &[(&Finding, Measured)]) -> String {
         .column("id", |(finding, _)| finding.id)
         .column("line", |(finding, _)| lines(finding).trim_end().to_string())
         .column("verdict", |(_, measured)| measured.verdict.name())
-        .column("number", |(_, measured)| short(measured.number))
-        .column("of", |(finding, _)| finding.number)
+        .column("value", |(_, measured)| short(measured.number))
+        .column("what the value is", |(finding, _)| finding.number)
         .column("what the listing does that the text does not say", |(finding, _)| finding.title)
         .text()
 }
 
 fn variants(rows: &[VariantRow]) -> String {
-    let head = "variant;in contact;contact state;force on target;eq. (1), total u;\
-                von Mises stress;error in |u|;error in energy;friction needed;pulling";
+    let head = "variant;in contact;contact state;force on target over load;eq. (1) left;\
+                largest von Mises stress;error in u;error in energy norm;largest friction needed;\
+                nodes pulling";
     let notes = rows
         .iter()
         .filter_map(|row| Some(format!("  {}: {}\n", row.variant, certainty(row.certainty?)?)));
@@ -159,7 +160,7 @@ fn against(audit: &Audit) -> String {
         other.as_ref().map_or(format!("  {what}: there is none\n"), |other| {
             format!(
                 "  {what} (unilateral, {}, friction {}, {} geometry): {} in contact, \
-                 von Mises stress {}\n",
+                 largest von Mises stress {}\n",
                 other.model.coupling,
                 other.model.friction,
                 other.model.geometry,
@@ -171,7 +172,10 @@ fn against(audit: &Audit) -> String {
     if audit.friction.is_empty() {
         return String::new();
     }
-    line("error: against the equilibrium under the scene's own friction", &audit.equilibrium)
+    "  error in u: largest difference of a node's displacement over the largest displacement; in energy \
+     norm: that of the difference over that of the whole\n"
+        .to_string()
+        + &line("error: against the equilibrium under the scene's own friction", &audit.equilibrium)
         + &line("the reference solution", &audit.reference)
 }
 

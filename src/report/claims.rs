@@ -15,14 +15,14 @@ pub fn text(claims: &[Judged], assumptions: &[Assumption]) -> String {
         .column("verdict", |judged| judged.measured.verdict)
         .column("scope", |judged| judged.scope)
         .column("certainty", |judged| judged.claim.basis)
-        .column("number", |judged| or_dash(judged.measured.number, short))
+        .column("value", |judged| or_dash(judged.measured.number, short))
         .column("the paper says that", |judged| judged.claim.says)
         .text();
     let numbers = Table::of(claims.iter().filter(|judged| !judged.claim.at.is_empty()))
         .column("id", |judged| judged.claim.id)
-        .column("its number", |judged| judged.claim.number)
+        .column("what the value is", |judged| judged.claim.number)
         .column("printed by", |judged| command(judged))
-        .column("at", |judged| judged.claim.at.join(" over "))
+        .column("JSON pointer", |judged| judged.claim.at.join(" over "))
         .text();
     let range = over_the_range(claims);
     let range = match range.is_empty() {
@@ -42,7 +42,7 @@ pub fn text(claims: &[Judged], assumptions: &[Assumption]) -> String {
 
 /// Writes the verdicts as a table in Markdown.
 pub fn markdown(claims: &[Judged]) -> String {
-    let head = "| line | the paper says that | verdict | scope | number | what the number is |\n\
+    let head = "| line | the paper says that | verdict | scope | value | what the value is |\n\
                 |---|---|---|---|---|---|\n";
     let row = |judged: &Judged| {
         format!(
@@ -71,7 +71,7 @@ pub fn range_markdown(claims: &[Judged]) -> String {
         };
         Parameter::ALL.iter().map(row)
     });
-    "| claim | what is varied | verdict at its values, with its number |\n|---|---|---|\n"
+    "| claim | what is varied | verdict at its values, with the value of the claim |\n|---|---|---|\n"
         .to_string()
         + &rows.collect::<String>()
 }

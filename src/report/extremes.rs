@@ -77,7 +77,7 @@ fn breaks(measured: &Measured) -> String {
     let there = |at: &Option<Break>| at.as_ref().map_or("-".into(), |at| at.verdict.to_string());
     Table::of(&measured.columns)
         .column("method", |column| column.name.clone())
-        .column("best", |column| {
+        .column("most digits", |column| {
             let digits = column.verdicts.iter().filter_map(|v| v.digits(column.carried));
             format!("{:.0}", digits.fold(0.0, f64::max).floor())
         })

@@ -20,8 +20,8 @@ struct Printed<'t> {
 }
 
 /// Returns the text as it is shown: what commands a terminal becomes U+FFFD, and no line is longer
-/// than `width` characters, but for words that are: a table that is wider becomes a record a row, and
-/// prose is broken between words.
+/// than `width` characters: a table that is wider becomes a record a row, prose is broken between
+/// words, and a word that is longer than a line is broken too.
 pub fn fitted(text: &str, width: usize) -> String {
     let text = text.replace(commands_a_terminal, "\u{fffd}");
     let part = |part| match part {
@@ -31,7 +31,22 @@ pub fn fitted(text: &str, width: usize) -> String {
         }
         Part::Table(table) => table.records(width),
     };
-    parts(&text).into_iter().map(part).collect()
+    let text: String = parts(&text).into_iter().map(part).collect();
+    text.lines().map(|line| broken(line, width)).collect()
+}
+
+/// Breaks a line within its words where it is longer than `width`, after a slash where there is one.
+fn broken(line: &str, width: usize) -> String {
+    let (mut text, mut rest) = (String::new(), line.to_string());
+    let indent = line.len() - line.trim_start_matches(' ').len();
+    while length(&rest) > width {
+        let fits: String = rest.chars().take(width).collect();
+        let slash = fits.rfind('/').map(|at| at + 1).filter(|at| *at > indent + 1);
+        let (start, end) = rest.split_at(slash.unwrap_or(fits.len()));
+        text += &format!("{}\n", start.trim_end());
+        rest = " ".repeat(indent) + end.trim_start();
+    }
+    text + &rest + "\n"
 }
 
 /// Whether a character is a control character that is not of a line's layout, or changes the

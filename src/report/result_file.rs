@@ -94,8 +94,8 @@ pub struct ResultFile {
     /// others; absent under the other variants.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium: Option<Equilibrium>,
-    /// What half as many steps of the load change of the largest displacement component, length;
-    /// absent without a path.
+    /// The largest difference of a displacement component from a run with half as many steps of the
+    /// load, length; absent without a path.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path_change: Option<f64>,
     /// How far the run is from the reference solution (no friction, initial geometry, mortar),
@@ -153,7 +153,8 @@ pub struct IterationRow {
     pub eq1_residual: f64,
     /// The same on what this iteration solved for, length: the increment where the load is stepped.
     pub eq1_residual_step: f64,
-    /// The sum of the reactions of the target against the direction of the load, force; nothing where
+    /// The force that contact passes from one body to the other, force: along the load where that acts
+    /// on one of the two bodies alone, else its size. 0 without contact; nothing where
     /// `max_displacement` is nothing.
     pub target_force: Option<f64>,
     /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations: under `unilateral`, but for

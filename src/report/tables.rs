@@ -3,7 +3,8 @@
 use super::layout::{Table, aligned, counted, listed};
 use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, with_unit};
 use super::pressure;
-use crate::answer::contact::{ContactNode, Status, oddity};
+use super::trace::in_figure;
+use crate::answer::contact::{ContactNode, Status, hidden, oddity};
 use crate::answer::error::Error;
 use crate::answer::estimates::{Certainty, NoLimit};
 use crate::answer::{
@@ -12,8 +13,9 @@ use crate::answer::{
 };
 use crate::paper::decisions::Decision;
 use crate::paper::door::Call;
+use crate::paper::mirror::Reading;
 use crate::problem::model::{EdgeId, Model, NodeId};
-use crate::problem::modelling::Variant;
+use crate::problem::modelling::{Coupling, Variant};
 use crate::problem::scene::{Scene, Units};
 
 /// The relative error of the mesh in the energy norm beyond which the estimates that rest on it
@@ -49,13 +51,18 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
             nodes => format!("nodes {}", listed(nodes)),
         };
         text += &format!("\nIn contact at the end: {nodes}\n");
+        if solution.request.is_as_printed() {
+            let shape = &solution.last().shape;
+            text += &direction(&solution.model, &solution.request.reading, shape);
+        }
     }
     text += &format!("\nBodies\n{}", bodies(&scene.units, &assessment.bodies));
     if solution.in_contact().next().is_some() {
         text += &format!("\nContact surface\n{}", contact_surface(solution));
         if solution.request.variant == Variant::Printed {
-            text += "  The pressures are what the blocks that Km adds to the stamp take up; nothing \
-                     couples the bodies (finding K1),\n  so that none of it reaches the target\n";
+            text += "  The pressures are what the blocks that Km adds to a body's own equations take up; \
+                     nothing couples the bodies\n  (finding K1), so that none of it reaches the other \
+                     body\n";
         }
         text += &list_of_contact(solution);
     }
@@ -109,7 +116,7 @@ fn arithmetic(solution: &Solution) -> String {
         let unit = &solution.request.scene.units.length;
         text += &match bound.is_finite() {
             true => format!("; rounding changes no displacement by more than {bound:.1e} {unit}"),
-            false => "; how far rounding leads is not known".into(),
+            false => "; rounding error unknown".into(),
         };
     }
     text
@@ -185,7 +192,7 @@ fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> Stri
     let largest = max_displacement(&solution.u);
     let change = match assessment.path_change {
         Some(change) => format!(
-            "half as many steps change displacements by {} = {}",
+            "half as many steps change a displacement component by at most {} = {} of the largest |u|",
             with_unit(&short(change), &units.length),
             percent(if largest > 0.0 { change / largest } else { 0.0 }, 2)
         ),
@@ -232,7 +239,7 @@ fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
                 }
             };
             match others.len() {
-                0 => format!("Equilibrium: no other one; {tried}\n"),
+                0 => format!("Equilibrium: no other equilibrium found; {tried}\n"),
                 n => format!("Equilibrium: NOT THE ONLY ONE: {n} more; {tried}\n"),
             }
         }
@@ -244,7 +251,7 @@ fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
                 nodes => format!("nodes {}", listed(nodes)),
             };
             text += &format!(
-                "  stick {}; slip {}: displacements change by {}\n",
+                "  stick {}; slip {}: displacement components change by at most {}\n",
                 nodes(&other.stick),
                 nodes(&other.slip),
                 length(other.change)
@@ -260,7 +267,7 @@ fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
     }
     if found.shape_change > 0.0 {
         text += &format!(
-            "Shape: contact was last measured where displacements changed by {}\n",
+            "Shape: when contact was last measured, no displacement component changed by more than {}\n",
             length(found.shape_change)
         );
     }
@@ -276,7 +283,7 @@ fn state(cycle: Option<&Cycle>) -> String {
 }
 
 fn bodies(units: &Units, bodies: &[BodySummary]) -> String {
-    let stress = quantity("von Mises stress", &units.stress);
+    let stress = quantity("largest von Mises stress", &units.stress);
     Table::of(bodies)
         .column("body", |body| body.name.clone())
         .column("nodes", |body| body.nodes)
@@ -284,7 +291,7 @@ fn bodies(units: &Units, bodies: &[BodySummary]) -> String {
         .column(quantity("largest |u|", &units.length), |body| short(body.max_displacement))
         .column(stress, |body| short(body.max_von_mises_stress))
         .column("at x, y", at)
-        .column("von Mises strain", |body| short(body.max_von_mises_strain))
+        .column("largest von Mises strain", |body| short(body.max_von_mises_strain))
         .text()
 }
 
@@ -300,10 +307,13 @@ fn at(body: &&BodySummary) -> String {
 /// Lays out the contact nodes that are in contact at the end.
 fn contact_surface(solution: &Solution) -> String {
     let units = &solution.request.scene.units;
+    let is_averaged = solution.request.contact.coupling == Coupling::Mortar
+        && solution.request.variant != Variant::Printed;
+    let gap = if is_averaged { "averaged gap" } else { "gap" };
     Table::of(solution.in_contact())
         .column("node", |c: &&ContactNode| c.node)
         .column(quantity("arc", &units.length), |c| short(c.arc))
-        .column(quantity("gap", &units.length), |c| format!("{:.1e}", c.gap))
+        .column(quantity(gap, &units.length), |c| format!("{:.1e}", c.gap))
         .column(quantity("pressure", &units.stress), |c| or_dash(c.pressure, short))
         .column(quantity("shear", &units.stress), |c| or_dash(c.shear, short))
         .column("friction needed", |c| or_dash(c.friction_needed, short))
@@ -322,14 +332,14 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
         "\nError estimates\n  largest |u|: {}\n",
         match estimates.unlimited {
             Some((node, cause)) => format!(
-                "{} on this mesh; in the plane it has no limit on finer ones: at node {node}, {cause}",
+                "{} on this mesh; in the plane it diverges under refinement: at node {node}, {cause}",
                 with_unit(&short(moved), &units.length)
             ),
             None => uncertain(moved, &units.length, &of_displacement),
         }
     );
     if solution.model.has_contact() && estimates.displacement_mesh.is_finite() {
-        text += "    with contact an estimate and no bound: a finer mesh touches otherwise\n";
+        text += "    with contact an estimate and no bound: contact changes with the mesh\n";
     }
     for body in &estimates.bodies {
         let of_stress = [(body.mesh, "mesh"), (body.arithmetic, "arithmetic")];
@@ -459,12 +469,12 @@ fn distance_from(solution: &Solution, what: &str, other: &Result<Measured, Error
     let whole = |name: String, difference| vec![name, "-".into(), "-".into(), difference];
     let moved = format!("{} = {}", short(of.displacement), percent(of.displacement_relative, 2));
     let wholes = [
-        whole(quantity("displacement, largest difference", &units.length), moved),
+        whole(quantity("largest difference of a displacement", &units.length), moved),
         whole("energy norm of the difference".into(), percent(of.energy_relative, 2)),
     ];
     let bodies = of.bodies.iter().map(|body| {
         vec![
-            quantity(&format!("von Mises stress, {}", body.name), &units.stress),
+            quantity(&format!("largest von Mises stress, {}", body.name), &units.stress),
             short(body.von_mises_stress),
             short(body.reference),
             percent(body.relative, 2),
@@ -481,32 +491,51 @@ fn distance_from(solution: &Solution, what: &str, other: &Result<Measured, Error
     )
 }
 
-/// Lays out a call of `c_cnt`: its contact nodes, then the rows of k_cnt that are not zero.
-pub fn pairs(scene: &Scene, model: &Model, call: &Call) -> String {
+/// Lays out a call of `c_cnt` at the initial shape: its contact nodes, then the rows of k_cnt that are
+/// not zero. In the scene of the paper's fig. 1 each node has its number there.
+pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> String {
     let number = |edge: Option<EdgeId>| edge.map_or(0, |edge| model.edge(edge).number);
-    let found = Table::of(call.statuses.iter().enumerate())
+    let in_figure = |node: NodeId| or_dash(in_figure(scene, model, node), |number| number);
+    let mut found = Table::of(call.statuses.iter().enumerate())
         .column("i1", |(k, _)| k + 1)
         .column("cnt", |(_, status)| status.node)
         .column("ct", |(_, status)| number(status.edge))
         .column("yt", |(_, status)| short(status.distance))
-        .column("dy", |(_, status)| u8::from(status.in_contact))
-        .text();
+        .column("dy", |(_, status)| u8::from(status.in_contact));
     let linked = model.node_ids().filter(|n| call.row(*n).iter().any(|x| *x != 0.0));
-    let rows: Vec<Vec<String>> = linked.map(|node| links(model, call, node)).collect();
+    let cell = |node: NodeId, j: usize| match (call.row(node)[j], j % 2) {
+        (mate, 0) => format!("{mate:.0}"),
+        (weight, _) => short(weight),
+    };
+    let mut rows = Table::of(linked)
+        .column("node", |node| *node)
+        .column("mate", |node| cell(*node, 0))
+        .column("weight", |node| cell(*node, 1))
+        .column("mate", |node| cell(*node, 2))
+        .column("weight", |node| cell(*node, 3))
+        .column("surface", |node| match model.contact.nodes.contains(node) {
+            true => "contact",
+            false => "target",
+        });
+    if scene.name == "fig1" {
+        found = found.column("in fig. 1", |(_, status)| in_figure(status.node));
+        rows = rows.column("in fig. 1", |node| in_figure(*node));
+    }
+    let count = model.node_ids().filter(|n| call.row(*n).iter().any(|x| *x != 0.0)).count();
     format!(
-        "{}Contact nodes (c_tll = {})\n{found}\nk_cnt: {} of {} rows are not zero\n{}",
+        "{}Contact nodes (c_tll = {})\n{}{}\nk_cnt: {count} of {} rows are not zero\n{}",
         dropped(scene),
         model.contact.tolerance,
-        rows.len(),
+        found.text(),
+        direction(model, reading, &model.nodes),
         model.nodes.len(),
-        aligned(["node", "mate", "weight", "mate", "weight", "surface"], rows)
+        rows.text()
     )
 }
 
-/// Returns the cells of a row of k_cnt: the node, its mates with their weights, its surface.
-fn links(model: &Model, call: &Call, node: NodeId) -> Vec<String> {
-    let surface = if model.contact.nodes.contains(&node) { "contact" } else { "target" };
-    let cell = |(j, x): (usize, f64)| if j % 2 == 0 { format!("{x:.0}") } else { short(x) };
-    let cells = call.row(node).into_iter().enumerate().map(cell);
-    std::iter::once(node.to_string()).chain(cells).chain([surface.to_string()]).collect()
+/// Says that no node is in contact because of the direction of the target's edges; nothing where
+/// that is not so.
+fn direction(model: &Model, reading: &Reading, shape: &[[f64; 2]]) -> String {
+    hidden(model, reading, shape)
+        .map_or(String::new(), |why| format!("  No node is in contact: {why}\n"))
 }

@@ -1,7 +1,7 @@
 //! A trace for people and for machines.
 
 use std::cell::OnceCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use schemars::JsonSchema;
@@ -20,6 +20,7 @@ use crate::paper::mathcad::{self, Listing};
 use crate::problem::model::{Model, NodeId, TriangleId};
 use crate::problem::scene::Scene;
 use crate::studies::audit::trace::{Access, Kept, Product, Step, text_of};
+use crate::studies::lesson::figure_numbers;
 
 /// How much of a trace is shown, and how.
 pub struct Shown {
@@ -234,15 +235,17 @@ fn heading(which: Which, turn: usize, scene: &Scene, model: &Model) -> String {
 
 /// Writes a node's number; in the scene of the paper's fig. 1, with the number that it has there.
 fn named(scene: &Scene, model: &Model, node: NodeId) -> String {
-    let target: BTreeSet<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
-    let own = match model.contact.nodes.iter().position(|other| *other == node) {
-        Some(k) => Some(format!("2.{}", k + 1)),
-        None => target.iter().position(|other| *other == node).map(|k| format!("1.{}", k + 1)),
-    };
-    match own.filter(|_| scene.name == "fig1") {
+    match in_figure(scene, model, node) {
         Some(own) => format!("{node} ({own} of fig. 1)"),
         None => node.to_string(),
     }
+}
+
+/// Returns the number of a node in the paper's fig. 1; nothing in another scene, and for a node that
+/// has none.
+pub(super) fn in_figure(scene: &Scene, model: &Model, node: NodeId) -> Option<String> {
+    let numbers = if scene.name == "fig1" { figure_numbers(model) } else { Vec::new() };
+    numbers.into_iter().find(|(other, _)| *other == node).map(|(_, number)| number)
 }
 
 /// Writes what a condition decided, and what followed: yes and what was written, or no and the first

@@ -77,8 +77,10 @@ pub fn text(trade: &Trade) -> String {
     let mut text = format!(
         "Speed against accuracy: scene {}, {} nodes, {} triangles; \
          median of up to {} runs, in turn\n\
-         errors are relative; * is on the Pareto front of its table, \
-         > where the scene has the knob\n",
+         displacement: largest difference of a node's displacement over the largest displacement; energy: \
+         energy norm of the difference over that of the whole; von Mises: largest relative difference of a \
+         body's largest von Mises stress; moved by: displacement, from the row marked >\n\
+         * is on the Pareto front (time, displacement) of its table, > where the scene has the knob\n",
         trade.scene, trade.nodes, trade.triangles, trade.runs
     );
     for section in &trade.sections {
@@ -201,8 +203,8 @@ fn over_parameter(section: &Section, parameter: Parameter) -> String {
         format!("{id}, {says}: {}.", over(judged, parameter))
     });
     let meaning = "Of a variant: error in the energy norm against the equilibrium under stick on \
-                   the same mesh. Change by c_tol: of the largest displacement, from c_tol to a \
-                   thousandth of it.";
+                   the same mesh. Change by c_tol: largest difference of a displacement between \
+                   c_tol and a thousandth of it, over the largest displacement.";
     let unknown = section.rows.iter().filter(|row| {
         row.certainty == Some(Certainty::Unknown) && row.place.and_then(here).is_some()
     });

@@ -129,5 +129,12 @@ fn octave_has_our_displacements_on_shipped_scenes() {
         for (ours, theirs) in u.iter().zip(&printed["U"]) {
             assert_near(scene, *theirs, *ours, largest, &OCTAVE);
         }
+        // Beside each result stands ours, and the largest difference.
+        assert_eq!(printed["ours_U"], u.as_slice(), "{scene}");
+        assert_near(scene, printed["difference_U"][0], 0.0, largest, &OCTAVE);
+        for name in ["ct", "yt", "dy", "k_cnt"] {
+            assert_eq!(printed[&format!("ours_{name}")], printed[name], "{name} of {scene}");
+            assert_eq!(printed[&format!("difference_{name}")], [0.0], "{name} of {scene}");
+        }
     }
 }

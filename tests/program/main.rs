@@ -48,6 +48,7 @@ mod result_file;
 mod scene_builder;
 mod scenes;
 mod schemas;
+mod sentences;
 mod snapshots;
 mod soak;
 mod sweeps;

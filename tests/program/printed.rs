@@ -56,6 +56,18 @@ fn cells_stand_behind_headings_where_they_do_not_fit_beside_them() {
     assert_eq!(fitted(wide, 40), narrow);
 }
 
+/// A word that is longer than a line is broken, behind a slash where it has one.
+#[test]
+fn words_longer_than_a_line_are_broken() {
+    let pointer = "  P10: /sections/0/rows/6/change/displacement/of\n";
+    let broken = "  P10:\n    /sections/0/rows/6/\n    change/displacement/\n    of\n";
+    assert_eq!(fitted(pointer, 25), broken);
+    assert_eq!(
+        fitted(&"x".repeat(60), 25),
+        format!("{0}\n{0}\n{1}\n", "x".repeat(25), "x".repeat(10))
+    );
+}
+
 #[test]
 fn nothing_printed_commands_a_terminal() {
     let controls = "\u{1b}[31m \u{7} \r \u{7f} \u{9b} \u{202e} \u{2066}";
@@ -129,6 +141,9 @@ const TEXTS: &[&str] = &[
     "extremes offset",
     "statuses --scenes 3",
     "trade fig1 --runs 1 --only solver",
+    "trade fig1 --runs 1 --only mesh,c_tll",
+    "compare fig1 --with calculix",
+    "c-cnt fig1 --reading R4=left-to-right",
     "mesh blocks",
     "scene fig1",
     "record fig1",
@@ -163,7 +178,7 @@ fn in_columns(folder: &Path, columns: &str, args: &[&str]) -> String {
 }
 
 #[test]
-fn every_text_fits_forty_columns_but_for_longer_words() {
+fn every_text_fits_forty_columns_and_more() {
     let folder = TempDir::new().expect("a folder");
     let at = folder.path();
     let listing = include_str!("../../listings/c_cnt.txt").replace('<', "≤");
@@ -181,11 +196,13 @@ fn every_text_fits_forty_columns_but_for_longer_words() {
     let helps = commands().into_iter().map(|command| format!("{command} --help"));
     for line in TEXTS.iter().map(|line| line.to_string()).chain(["--help".into()]).chain(helps) {
         let args: Vec<&str> = line.split(' ').collect();
-        let text = in_columns(at, "40", &args);
-        assert!(!text.is_empty(), "{line}");
-        let fits = |line: &str| line.chars().count() <= 40 || !line.trim().contains(' ');
-        let wide: Vec<&str> = text.lines().filter(|line| !fits(line)).collect();
-        assert!(wide.is_empty(), "{line}: {wide:#?}");
+        for columns in [40, 60, 80] {
+            let text = in_columns(at, &columns.to_string(), &args);
+            assert!(!text.is_empty(), "{line}");
+            let is_wide = |line: &&str| line.chars().count() > columns;
+            let wide: Vec<&str> = text.lines().filter(is_wide).collect();
+            assert!(wide.is_empty(), "{line} in {columns} columns: {wide:#?}");
+        }
     }
     let fewer = ["20", "40"].map(|columns| in_columns(at, columns, &["c-cnt", "fig1"]));
     assert_eq!(fewer[0], fewer[1]);

@@ -1,5 +1,6 @@
 //! Contact: the target that each contact node faces, the nodes in contact, and their traction.
 
+mod direction;
 mod mortar;
 mod nts;
 mod order;
@@ -10,6 +11,7 @@ pub mod search;
 mod sliding;
 pub mod status;
 mod surface;
+pub use direction::{hidden, turned};
 pub use mortar::Mortar;
 pub use order::{along, oddity};
 pub use pairing::{Pairing, STEEP};

@@ -24,7 +24,8 @@ pub struct ContactNode {
     #[serde(rename = "dy", with = "as_number")]
     #[schemars(with = "u8", range(max = 1))]
     pub in_contact: bool,
-    /// The distance from the target along its normal, length; < 0 where the node penetrates.
+    /// The distance from the target along its normal, length; < 0 where the node penetrates. Under
+    /// mortar its weighted mean over the surface around the node.
     pub gap: f64,
     /// The status under `unilateral`; None under the other variants.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -10,7 +10,7 @@ use super::problem::{Equilibrium, Iteration, Place, Problem, Setting};
 use crate::answer::contact::{ContactNode, Status, Traction};
 use crate::answer::error::{Error, NoEquilibrium};
 use crate::answer::solution::{self, Detail, Path, Solution, Step, max_displacement};
-use crate::answer::support::{against_load, restraints_of_target};
+use crate::answer::support::{held, passed_on};
 
 /// How often a step without an equilibrium is halved.
 const HALVINGS: usize = 6;
@@ -214,8 +214,7 @@ fn step(
         let contact = load_of(&place.pairings, &moved.forces, moved.u.len());
         let at_supports = problem.supports.iter().copied();
         let reaction = problem.stiffness.times_of(at_supports, &moved.u) - load - contact;
-        let support = restraints_of_target(problem.model, &problem.model.restrained, &reaction);
-        against_load(problem.model, support)
+        passed_on(problem.model, held(problem.model, &problem.model.restrained, &reaction, load))
     };
     let is_known = moved.inside.is_none();
     Step {

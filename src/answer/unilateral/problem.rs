@@ -14,7 +14,7 @@ use crate::answer::elimination::{Constraint, Motion};
 use crate::answer::request::Request;
 use crate::answer::solution::Cycle;
 use crate::answer::stiffness::Stiffness;
-use crate::answer::support::supports_of_target;
+use crate::answer::support::supports;
 use crate::error::InputError;
 use crate::problem::model::{Dof, Model, NodeId};
 use crate::problem::modelling::{Coupling, Geometry};
@@ -41,7 +41,7 @@ pub(super) struct Problem<'a> {
     pub(super) surfaces: Surfaces,
     /// The gap below which a node is closed, length.
     pub(super) closed: f64,
-    /// The triangles at a restraint of the target.
+    /// The triangles at a restraint of the body to which contact passes its force.
     pub(super) supports: Vec<usize>,
     /// Coulomb's coefficient, infinite where nodes stick.
     pub(super) friction: f64,
@@ -175,7 +175,7 @@ impl<'a> Problem<'a> {
             model,
             surfaces,
             closed: CLOSED * size(model),
-            supports: stiffness.about(&supports_of_target(model, &model.restrained)),
+            supports: stiffness.about(&supports(model, &model.restrained)),
             stiffness,
             friction,
             bodies,

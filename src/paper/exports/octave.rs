@@ -59,6 +59,12 @@ function show(name, x)
   fprintf(' %.17g', x);
   fprintf('\\n');
 end
+
+function beside(name, x, ours)
+  show(name, x);
+  show(['ours_' name], ours);
+  show(['difference_' name], max(abs(x(:) - ours(:))));
+end
 ";
 
 const STRAIN: &str = "
@@ -102,19 +108,25 @@ pub fn program(export: &Export, name: &str) -> String {
     text += &tables_text;
     text += &format!("  node_n = {};\n", literal(&Value::from(export.node_n)));
     text += "  [k_cnt, ct, yt, dy] = c_cnt(node_n);\n";
-    for result in ["ct", "yt", "dy", "k_cnt"] {
-        text += &format!("  show('{result}', {result});\n");
+    let ours = export.run.as_ref().map(|run| &run.pairs);
+    for (name, ours) in [
+        ("ct", ours.map(|pairs| Value::from(&pairs.ct))),
+        ("yt", ours.map(|pairs| Value::from(&pairs.yt))),
+        ("dy", ours.map(|pairs| Value::from(&pairs.dy))),
+        ("k_cnt", ours.map(|pairs| Value::from(&pairs.k_cnt))),
+    ] {
+        text += &shown(name, ours);
     }
     text += "  show('MJS', Km(k_cnt));\n";
     if let Some(run) = &export.run {
         let force = Value::from(Array::column(run.force.clone()));
         text += &format!(
             "  F = {};\n  x = node;\n  for k = 1:{}\n    U = Km(c_cnt(x)) \\ F;\n    x = node;\n\
-             \x20   x(:,2) = node(:,2) + U(1:2:end);\n    x(:,3) = node(:,3) + U(2:2:end);\n  end\n\
-             \x20 show('U', U);\n",
+             \x20   x(:,2) = node(:,2) + U(1:2:end);\n    x(:,3) = node(:,3) + U(2:2:end);\n  end\n",
             literal(&force),
             run.iterations
         );
+        text += &shown("U", Some(Value::from(Array::column(run.u.clone()))));
     }
     text += "end\n";
     for which in Which::ALL {
@@ -125,6 +137,14 @@ pub fn program(export: &Export, name: &str) -> String {
         Plane::Stress => STRESS,
     };
     text + HELPERS
+}
+
+/// Writes the statement that prints a result by its name, and what this program has for it beside.
+fn shown(name: &str, ours: Option<Value>) -> String {
+    match ours {
+        Some(ours) => format!("  beside('{name}', {name}, {});\n", literal(&ours)),
+        None => format!("  show('{name}', {name});\n"),
+    }
 }
 
 /// The names of the worksheet, and what they stand for.

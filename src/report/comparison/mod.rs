@@ -38,7 +38,8 @@ pub struct Compared<'a> {
 pub fn text(compared: &Compared) -> String {
     let Compared { scene, comparison, .. } = compared;
     format!(
-        "{}\n{}\n\nLargest differences, over CalculiX's largest value\n{}\n{}\n{}\nThe worst nodes\n{}",
+        "{}\n{}\n\nLargest differences: of a node's displacement, over CalculiX's largest; of sigma_x, sigma_y or \
+         tau_xy of a triangle, over CalculiX's largest von Mises stress\n{}\n{}\n{}\nThe worst nodes\n{}",
         scene.title,
         heading(compared),
         differences(compared),
@@ -100,7 +101,10 @@ fn differences(compared: &Compared) -> String {
         row(quantity("displacement", &scene.units.length), u, "node", model.at(u.largest.at)),
         row(quantity("stress", &scene.units.stress), s, "triangle", centre),
     ];
-    aligned(["of", "largest", "relative", "over", "at", "at x, y", "rms"], rows)
+    aligned(
+        ["of", "largest difference", "over CalculiX's", "which is", "at", "at x, y", "rms"],
+        rows,
+    )
 }
 
 /// Returns the cells of the largest difference: of what, how large, and where.

@@ -26,10 +26,10 @@ pub struct Effect {
     pub statuses: Option<usize>,
     /// Entries of MJS that change at the initial shape; likewise.
     pub entries: Option<usize>,
-    /// Largest difference of a displacement at the end, of the variant named; nothing where no
-    /// solution is asked for.
+    /// The largest difference at the end of what `of` names: of a node's displacement, length, or of a
+    /// triangle's von Mises strain; nothing where no solution is asked for.
     pub displacement: Option<f64>,
-    /// That variant, or where the number stands for something else, what it is.
+    /// What differs, and under which variant; or that the listings were executed once.
     pub of: String,
     /// Why the reading cannot be run on this scene.
     pub failure: Option<String>,
@@ -95,10 +95,10 @@ pub fn effects(case: &Case) -> Vec<Effect> {
     let effect =
         |(id, lines, reading, trial): (&'static str, &'static str, &'static str, Trial)| {
             let of = match trial {
-                Mirror(variant) => variant.name(),
-                Conjunction | Trial::Schedule(_) => own.name(),
-                Worksheet(_) => "listings executed once",
-                StrainFormula => "largest von Mises strain, difference",
+                Mirror(variant) => format!("displacement under {variant}"),
+                Conjunction | Trial::Schedule(_) => format!("displacement under {own}"),
+                Worksheet(_) => "listings executed once".into(),
+                StrainFormula => format!("von Mises strain under {own}"),
             };
             let mut effect = Effect {
                 id,
@@ -107,7 +107,7 @@ pub fn effects(case: &Case) -> Vec<Effect> {
                 statuses: None,
                 entries: None,
                 displacement: None,
-                of: of.into(),
+                of,
                 failure: None,
             };
             let outcome = match trial {
@@ -210,8 +210,8 @@ impl Effect {
         Ok(())
     }
 
-    /// R10: the largest von Mises strain by the formula of the von Mises stress on strains, divided
-    /// by 1 + nu, beside the default.
+    /// R10: the von Mises strain by the formula of the von Mises stress on strains, divided by
+    /// 1 + nu, beside the default: the largest difference of a triangle.
     fn strain_formula<'a>(&mut self, case: &'a Case, variant: Variant) -> Outcome<'a> {
         let solution = case.run(variant)?;
         let model = &*solution.model;

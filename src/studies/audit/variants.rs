@@ -28,7 +28,8 @@ pub enum End {
         in_contact: Vec<usize>,
         /// The contact nodes themselves at the last one.
         contact_set: Vec<NodeId>,
-        /// Force that reaches the target at the end, against the load applied.
+        /// The force that contact passes on at the end over the size of the whole load; 0 without a
+        /// load.
         target_share: f64,
         /// Residual of eq. (1) at the end, total displacements, length.
         eq1_residual: f64,

@@ -18,7 +18,7 @@ pub struct Errors {
     /// Energy norm of the difference over that of the solution compared with.
     #[schemars(with = "Option<f64>")]
     pub energy: f64,
-    /// Largest difference of a body's largest von Mises stress.
+    /// Largest difference of a body's largest von Mises stress, over that of the solution compared with.
     #[schemars(with = "Option<f64>")]
     pub von_mises: f64,
 }

@@ -55,7 +55,17 @@ pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync
         }
     };
     let (knob, against) = (Knob::Geometry, against(Knob::Geometry));
-    Section { knob, against, rows, orders: Vec::new(), ladder: None, claims, answers }
+    Section {
+        knob,
+        against,
+        rows,
+        orders: Vec::new(),
+        ladder: None,
+        exact_seconds: None,
+        asymmetry: None,
+        claims,
+        answers,
+    }
 }
 
 fn label(Place { parameter, value, .. }: Place) -> String {

@@ -10,13 +10,13 @@ use super::errors::{Errors, meshes, prolonged};
 use super::geometry::{geometry, places};
 use super::order::{Order, departure};
 use super::rows::{Ladder, Row, Section, Trade};
-use super::trials::{Against, Trial, trials};
+use super::trials::{Against, EXACT, Trial, exact_seconds, trials};
 use super::{Knob, words};
 use crate::answer::error::Error;
 use crate::answer::estimates::discretisation::Discretisation;
 use crate::answer::estimates::{Certainty, certain};
 use crate::answer::{Request, Solution, equilibrium, max_displacement, over, solve, summaries};
-use crate::problem::scene::{Refined, Scene};
+use crate::problem::scene::{Refined, Scene, symmetry};
 
 /// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
 pub const PATIENCE: f64 = 0.05;
@@ -223,9 +223,21 @@ impl Bench<'_> {
         let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
         mark_front(&mut rows);
         let (orders, ladder) = if knob == Knob::Mesh { self.ladder() } else { Default::default() };
-        let answers = words::answers(request, knob, &rows, &orders, ladder.as_ref());
-        let against = words::against(knob);
-        Section { knob, against, rows, orders, ladder, claims: Vec::new(), answers }
+        let exact = (knob == Knob::Arithmetic).then(|| exact_seconds(request));
+        let half = (knob == Knob::Symmetry).then(|| symmetry::half(self.scene)).flatten();
+        let mut section = Section {
+            knob,
+            against: words::against(knob),
+            rows,
+            orders,
+            ladder,
+            exact_seconds: exact.filter(|seconds| *seconds > EXACT),
+            asymmetry: half.map(|half| half.departure),
+            claims: Vec::new(),
+            answers: Vec::new(),
+        };
+        section.answers = words::answers(self.scene, &section);
+        section
     }
 
     fn row(&self, place: usize) -> Row {

@@ -33,6 +33,12 @@ pub struct Section {
     pub orders: Vec<Order>,
     /// The meshes beside their limit, of the element size only; nothing where one of them failed.
     pub ladder: Option<Ladder>,
+    /// How long exact numbers may take, s; of the arithmetic only, where they were left out for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exact_seconds: Option<f64>,
+    /// The largest distance of a node from the mirror image of another, length; of symmetry only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asymmetry: Option<f64>,
     /// The verdicts that rest on runs, over the range; of geometry only.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<Judged>,
@@ -74,7 +80,7 @@ pub struct Row {
     pub runs: usize,
     /// The most memory of a process that did nothing else, bytes.
     pub peak_bytes: Option<u64>,
-    /// How far it is from what the section measures against; nothing of a failure.
+    /// How far it is from what the section measures against, over that; nothing of a failure.
     pub error: Option<Errors>,
     /// How far it is from the same variant where the scene has the knob; nothing where the scene
     /// has none of the places.

@@ -3,13 +3,12 @@
 use super::Knob;
 use super::errors::Errors;
 use super::order::Order;
-use super::rows::{Ladder, Row};
-use super::trials::{cg, exact_seconds, sparse};
-use crate::answer::Request;
+use super::rows::{Ladder, Row, Section};
+use super::trials::{cg, sparse};
 use crate::answer::estimates::Certainty;
 use crate::numbers::solve::{ScalarName, Solver};
 use crate::problem::modelling::Variant;
-use crate::problem::scene::{Scene, symmetry};
+use crate::problem::scene::Scene;
 
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
@@ -25,27 +24,21 @@ pub fn against(knob: Knob) -> &'static str {
     }
 }
 
-/// What the rows of a knob say, a sentence for each question.
-pub fn answers(
-    request: &Request,
-    knob: Knob,
-    rows: &[Row],
-    orders: &[Order],
-    ladder: Option<&Ladder>,
-) -> Vec<String> {
-    let scene = &request.scene;
+/// What a section's numbers say, a sentence for each question; its own `answers` do not count.
+pub fn answers(scene: &Scene, section: &Section) -> Vec<String> {
+    let Section { knob, rows, exact_seconds, asymmetry, .. } = section;
     match knob {
         Knob::Symmetry if rows.is_empty() => {
             vec!["The scene is not symmetric about a vertical line: it has no half.".into()]
         }
-        _ if rows.is_empty() => vec!["The scene has no contact: there is nothing to turn.".into()],
-        Knob::Arithmetic => arithmetic(request, rows),
+        _ if rows.is_empty() => vec!["The scene has no contact: there is nothing to vary.".into()],
+        Knob::Arithmetic => arithmetic(rows, *exact_seconds),
         Knob::Solver => solver(rows),
-        Knob::Mesh => mesh(scene, rows, orders, ladder),
+        Knob::Mesh => mesh(scene, section),
         Knob::Tolerance => by_variant(scene, rows, tolerance),
         Knob::Iterations => by_variant(scene, rows, iterations),
         Knob::Status | Knob::Coupling => by_variant(scene, rows, nearest),
-        Knob::Symmetry => halves(scene, rows),
+        Knob::Symmetry => halves(scene, rows, asymmetry.unwrap_or(0.0)),
         Knob::Geometry => unreachable!("its section has words of its own"),
     }
 }
@@ -105,54 +98,70 @@ fn both(errors: &Errors) -> String {
     format!("displacements by {displacement}, von Mises stresses by {stress}")
 }
 
-fn arithmetic(request: &Request, rows: &[Row]) -> Vec<String> {
+fn arithmetic(rows: &[Row], exact_seconds: Option<f64>) -> Vec<String> {
     let error = |scalar: ScalarName| {
         let row = rows.iter().find(|row| row.arithmetic == sparse(scalar))?;
         row.error.map(|e| e.displacement)
     };
+    // What has more digits is what the others are measured against.
+    let has_more = [ScalarName::F64x2, ScalarName::Exact].map(error).iter().any(Option::is_some);
+    let rounding = error(ScalarName::F32).zip(error(ScalarName::F64)).filter(|_| has_more);
     let mut sentences = Vec::new();
-    if let (Some(single), Some(double)) = (error(ScalarName::F32), error(ScalarName::F64)) {
+    if let Some((single, double)) = rounding {
         sentences.push(format!(
             "Rounding changes displacements by {single:.0e} of the largest in f32, by {double:.0e} \
              in f64; below 1e-16 nothing shows, for rows are compared in f64."
         ));
     }
-    if error(ScalarName::Exact).is_none() {
-        let seconds = exact_seconds(request);
-        sentences.push(format!("Exact numbers were left out: they may take {seconds:.0e} s here."));
-    }
+    sentences.extend(exact_seconds.map(|seconds| {
+        format!("Exact numbers were left out: they may take {seconds:.0e} s here.")
+    }));
     sentences
 }
 
 fn solver(rows: &[Row]) -> Vec<String> {
+    let ran = |row: &Row| row.failure.is_none();
     // The row in f64x2 is what the others are measured against.
+    if !rows.iter().any(|row| row.arithmetic.scalar == ScalarName::F64x2 && ran(row)) {
+        return Vec::new();
+    }
     let direct = rows.iter().filter(|row| {
         row.arithmetic.scalar == ScalarName::F64 && row.arithmetic.solver != Some(Solver::Cg)
     });
-    let direct = direct.filter_map(|row| row.error.map(|e| e.displacement)).fold(0.0, f64::max);
+    let direct = direct.filter_map(|row| row.error.map(|e| e.displacement)).reduce(f64::max);
     let loose = rows.iter().find(|row| row.arithmetic == cg(1e-4)).and_then(|row| row.error);
-    let mut sentences =
-        vec![format!("Direct solvers differ by {direct:.0e} of the largest displacement at most.")];
-    sentences.extend(loose.map(|loose| {
+    let direct = direct.map(|direct| {
         format!(
-            "A residual is no error: conjugate gradients stopped at a relative residual of 1e-4 \
-             are wrong by {:.0e}.",
+            "Direct solvers in f64 differ from f64x2 by {direct:.0e} of the largest displacement \
+             at most."
+        )
+    });
+    let loose = loose.map(|loose| {
+        format!(
+            "A residual is no error: displacements of conjugate gradients stopped at a relative \
+             residual of 1e-4 are wrong by {:.0e} of the largest.",
             loose.displacement
         )
-    }));
-    sentences
+    });
+    direct.into_iter().chain(loose).collect()
 }
 
-fn mesh(scene: &Scene, rows: &[Row], orders: &[Order], ladder: Option<&Ladder>) -> Vec<String> {
+fn mesh(scene: &Scene, section: &Section) -> Vec<String> {
+    let Section { rows, orders, ladder, .. } = section;
     let mut sentences: Vec<String> = orders.iter().map(order).collect();
-    sentences.extend(rows.first().and_then(|row| row.error).map(|error| {
-        let [displacement, energy, stress] =
-            [error.displacement, error.energy, error.von_mises].map(percent);
-        format!(
-            "The scene's own mesh is {displacement} of the largest displacement from the finest \
-             one, {energy} in the energy norm, {stress} of the largest von Mises stress."
-        )
-    }));
+    let has_finer = rows.iter().skip(1).any(|row| row.failure.is_none());
+    let own = rows.first().and_then(|row| row.error).filter(|_| has_finer);
+    sentences.push(match own {
+        Some(Errors { displacement, energy, von_mises }) => {
+            let [displacement, energy, stress] = [displacement, energy, von_mises].map(percent);
+            format!(
+                "From the finest mesh that ran the scene's own differs by {displacement} of the \
+                 largest displacement, {energy} in the energy norm, and in a body's largest von \
+                 Mises stress by {stress} of it."
+            )
+        }
+        None => "No finer mesh ran to compare the scene's own with.".into(),
+    });
     if let (Some(energy), Some(ladder)) = (orders.first(), ladder) {
         sentences.extend(pythagoras(scene, ladder));
         sentences.extend(estimate(energy, ladder));
@@ -224,34 +233,44 @@ fn order(order: &Order) -> String {
     )
 }
 
-fn from_the_reference([a, b]: [&Row; 2]) -> String {
-    let far = |row: &Row| row.error.map_or("-".into(), |e| percent(e.displacement));
-    format!(
-        "From the equilibrium under the scene's own friction: {} at {}, {} at {}.",
-        far(a),
-        a.label,
-        far(b),
-        b.label
-    )
+/// Says how far the displacements of rows are from the equilibrium.
+fn from_the_reference(rows: &[&Row]) -> String {
+    let far = |row: &&Row| {
+        let far = row.error.map_or("-".into(), |e| percent(e.displacement));
+        format!("{far} at {}", row.label)
+    };
+    let mut listed: Vec<String> = rows.iter().map(far).collect();
+    listed.dedup();
+    format!("From the equilibrium under the scene's own friction: {}.", listed.join(", "))
 }
 
 fn tolerance(scene: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
-    let own = rows.iter().find(|row| row.own)?;
-    let below = rows.iter().take_while(|row| !row.own);
-    let most = below.filter_map(|row| row.change).max_by(|a, b| seen(a).total_cmp(&seen(b)))?;
-    let verdict = if seen(&most) < NOTICEABLE { "is" } else { "is not" };
-    let above = rows.iter().rev().find(|row| !row.own).and_then(|row| row.change);
-    let above = above.map_or(String::new(), |change| {
-        format!(" The largest c_tll tried moves {}.", both(&change))
-    });
-    Some(format!(
-        "{variant}: c_tll = {} {} {verdict} small enough: going down to {} moves {}. {}{above}",
-        own.label,
-        scene.units.length,
-        rows[0].label,
-        both(&most),
-        from_the_reference([own, rows[0]])
-    ))
+    let at = rows.iter().position(|row| row.own)?;
+    let own = rows[at];
+    let changed = |rows: &[&'_ Row]| -> Vec<(String, Errors)> {
+        rows.iter().filter_map(|row| Some((row.label.clone(), row.change?))).collect()
+    };
+    let (smaller, larger) = (changed(&rows[..at]), changed(&rows[at + 1..]));
+    let value = format!("{} {}", own.label, scene.units.length);
+    let mut text = format!("{variant}: c_tll = {}", value.trim_end());
+    match smaller.iter().max_by(|(_, a), (_, b)| seen(a).total_cmp(&seen(b))) {
+        Some(most) => {
+            let verdict = if seen(&most.1) < NOTICEABLE { "is" } else { "is not" };
+            let (least, change) = &smaller[0];
+            text +=
+                &format!(" {verdict} small enough: going down to {least} moves {}", both(change));
+            if both(&most.1) != both(change) {
+                text += &format!("; of the smaller ones {} moves most: {}", most.0, both(&most.1));
+            }
+        }
+        None => text += " is the smallest that ran",
+    }
+    let lowest = rows.iter().find(|row| row.change.is_some())?;
+    text += &format!(". {}", from_the_reference(&[own, lowest]));
+    if let Some((largest, change)) = larger.last() {
+        text += &format!(" Going up to {largest} moves {}.", both(change));
+    }
+    Some(text)
 }
 
 fn iterations(_: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
@@ -271,28 +290,34 @@ fn iterations(_: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
         both(&next),
         last.label,
         both(&change),
-        from_the_reference([own, last])
+        from_the_reference(&[own, last])
     ))
 }
 
 fn nearest(_: &Scene, variant: Variant, rows: &[&Row]) -> Option<String> {
-    let errors = rows.iter().filter_map(|row| Some((row, row.error?.displacement)));
-    let (best, least) = errors.clone().min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-    let all_same = errors.clone().all(|(_, error)| error == least);
-    let listed = errors.map(|(row, error)| format!("{} {}", row.label, percent(error)));
-    let verdict =
-        if all_same { "all the same".into() } else { format!("{} is nearest", best.label) };
-    let listed = listed.collect::<Vec<_>>().join(", ");
+    let errors = rows.iter().filter_map(|row| Some((&row.label, row.error?.displacement)));
+    let errors: Vec<(&String, f64)> = errors.collect();
+    let least = errors.iter().map(|(_, error)| *error).min_by(f64::total_cmp)?;
+    let best = errors.iter().filter(|(_, error)| *error == least).map(|(label, _)| label.as_str());
+    let best: Vec<&str> = best.collect();
+    let verdict = match best[..] {
+        _ if best.len() == errors.len() => "all the same".into(),
+        [one] => format!("{one} is nearest"),
+        _ => format!("{} are nearest", best.join(" and ")),
+    };
+    let listed = errors.iter().map(|(label, error)| format!("{label} {}", percent(*error)));
     Some(format!(
-        "{variant}: {verdict} ({listed} from the equilibrium under the scene's own friction)."
+        "{variant}: {verdict} ({} from the equilibrium under the scene's own friction).",
+        listed.collect::<Vec<_>>().join(", ")
     ))
 }
 
-fn halves(scene: &Scene, rows: &[Row]) -> Vec<String> {
-    let departure = symmetry::half(scene).map_or(0.0, |half| half.departure);
+fn halves(scene: &Scene, rows: &[Row], asymmetry: f64) -> Vec<String> {
     let mut sentences = vec![format!(
-        "The mesh is symmetric within {departure:.0e} {}; half of it has {} of {} equations.",
-        scene.units.length, rows[1].equations, rows[0].equations
+        "The mesh is symmetric within {}; half of it has {} of {} equations.",
+        format!("{asymmetry:.0e} {}", scene.units.length).trim_end(),
+        rows[1].equations,
+        rows[0].equations
     )];
     for pair in rows.chunks(2) {
         let [whole, half] = pair else { continue };

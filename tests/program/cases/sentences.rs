@@ -1,4 +1,4 @@
-//! Sentences, labels and answers of solvers.
+//! Sentences and labels.
 
 use super::{Case, check};
 
@@ -7,4 +7,158 @@ fn sentences() {
     check("sentences", CASES);
 }
 
-const CASES: &[Case] = &[];
+/// The force that contact passes on is the same whichever body is restrained, and whatever else is
+/// loaded; and a contact that is not found for the direction of an edge is called so.
+const CASES: &[Case] = &[
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+                  \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant tied",
+        status: 0,
+        contains: &["force on target", " 12.60000  100.0 % "],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+                  \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant stepped",
+        status: 0,
+        contains: &[" 0.63000 ", " 12.60000  100.0 % "],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+                  \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant unilateral",
+        status: 0,
+        contains: &[" 0.78750", " 12.60000"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+                  \"trg\": 20/' d/scene.json && plane-contact audit d/scene.json",
+        status: 0,
+        contains: &["force on target over load", "  100.0 %"],
+        lacks: &["panicked"],
+    },
+    // Under `printed` nothing couples the bodies.
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+                  \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant printed",
+        status: 0,
+        contains: &["nothing couples the bodies", " 0.0 % "],
+        lacks: &[" 100.0 % "],
+    },
+    // A load on the target as well: it is no force of contact.
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/\"pressure\": 6.3 }/\"pressure\": 6.3 }, \
+                  { \"node\": 5, \"force\": [0.0, -100.0] }/' d/scene.json && plane-contact solve \
+                  d/scene.json --variant tied",
+        status: 0,
+        contains: &[" 12.60000  11.2 % ", "of 112.6"],
+        lacks: &[" 112.60000 "],
+    },
+    // Opposite loads on both bodies: the sum is 0, and contact passes 12.6 all the same.
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/\"pressure\": 6.3 }/\"pressure\": 6.3 }, \
+                  { \"node\": 5, \"force\": [0.0, 12.6] }/' d/scene.json && plane-contact solve \
+                  d/scene.json --variant unilateral",
+        status: 0,
+        contains: &[" 12.60000"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
+                  9/11, 11, 9, 8/' d/scene.json && plane-contact solve d/scene.json",
+        status: 3,
+        contains: &[
+            "ct of node 10 is 0",
+            "runs towards -x",
+            "finding C1",
+            "turn the target's edges round",
+        ],
+        lacks: &["larger c_tll", "move the bodies together"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
+                  9/11, 11, 9, 8/' d/scene.json && plane-contact c-cnt d/scene.json",
+        status: 0,
+        contains: &["No node is in contact: ct of node 10 is 0", "finding C1"],
+        lacks: &["panicked"],
+    },
+    // The upper block is held: the run ends, and says why it has no contact.
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
+                  9/11, 11, 9, 8/; s/{ \"on\": 10, \"fix\"/{ \"node\": 17, \"fix\": [\"y\"] }, { \"on\": 10, \
+                  \"fix\"/' d/scene.json && plane-contact solve d/scene.json --variant tied",
+        status: 0,
+        contains: &[
+            "In contact at the end: no node",
+            "No node is in contact: ct of node",
+            "finding C1",
+        ],
+        lacks: &["panicked"],
+    },
+    // A real gap is called a gap.
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i -E 's/\\[(1[0-8]), (.\\..), (.)\\.0/[\\1, \\2, \
+                  \\3.5/' d/scene.json && plane-contact solve d/scene.json",
+        status: 3,
+        contains: &["the smallest gap is 5e-1", "give a larger c_tll"],
+        lacks: &["finding C1"],
+    },
+    // A rule other than the listing's has no box.
+    Case {
+        input: "",
+        command: "plane-contact scene two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
+                  9/11, 11, 9, 8/' d/scene.json && plane-contact solve d/scene.json --status projection",
+        status: 0,
+        contains: &["In contact at the end: nodes 10, 11, 12"],
+        lacks: &["finding C1"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact c-cnt fig1",
+        status: 0,
+        contains: &["in fig. 1", "2.1", "2.2", "2.3", "2.4", "2.5", "1.4"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact c-cnt two-blocks",
+        status: 0,
+        contains: &["dy"],
+        lacks: &["fig. 1"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact export fig1 --to octave",
+        status: 0,
+        contains: &["beside('U', U, [", "beside('ct', ct, [", "beside('k_cnt', k_cnt, ["],
+        lacks: &["show('U', U)"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact audit fig1",
+        status: 0,
+        contains: &[
+            "largest difference of a node's displacement between c_tol and a thousandth of it",
+        ],
+        lacks: &["change of the largest displacement"],
+    },
+    Case {
+        input: "",
+        command: "COLUMNS=40 plane-contact audit fig1",
+        status: 0,
+        contains: &["/rows/6/change/\n"],
+        lacks: &["/sections/0/rows/6/change/displacement"],
+    },
+];

@@ -55,6 +55,10 @@ pub const PASSAGES: Passages = Passages {
         ("LE1, 8² .. 64²", "as above"),
         ("limit 92.7", "the published number of a benchmark"),
         ("(or `COLUMNS`) from 40 characters up", "held by tests/program/printed.rs"),
+        (
+            "prescribed displacements other than 0, a crack",
+            "the meaning of a value, its definition",
+        ),
         ("in at most 20 iterations under one load", "held by tests/contact/unilateral.rs"),
         ("at 1 − 2nu =", "a formula"),
         ("| c_cnt 14: weights", "lines of the listings"),
@@ -432,8 +436,8 @@ fn statuses() -> Vec<String> {
         ),
         format!(
             "the text's other remedy is wrong in {worst:.1} % at most up to 128 times and in \
-             {:.0} to {:.0} % at 512, where whole elements have sunk, and takes {:.1} times the \
-             operations; the signed distance takes {:.1} times.",
+             {:.0} to {:.0} % at 512, where whole elements have sunk, and takes, over all sizes \
+             tried, {:.1} times the operations; the signed distance takes {:.1} times.",
             at(512.0, "below", intersection),
             at(512.0, "above", intersection),
             operations(intersection) / operations(signs),

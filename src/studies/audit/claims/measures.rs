@@ -89,8 +89,8 @@ pub(super) fn fewer_operations(_: &Case) -> Outcome<'_> {
     measured(holds_if(signs < intersection), intersection / signs, "on the largest surfaces tried")
 }
 
-/// What a tolerance of a thousandth changes of the largest displacement, under the scene's variant
-/// of the paper.
+/// The largest difference of a node's displacement between c_tll and a thousandth of it, over the largest
+/// displacement, under the scene's variant of the paper.
 pub(super) fn tolerance(case: &Case) -> Outcome<'_> {
     case.model().target().ok_or("the scene has no contact")?;
     let variant = case.published_variant();
@@ -114,7 +114,7 @@ fn numbers(runs: &[Certainty]) -> &'static str {
     }
 }
 
-/// After how many iterations the contact state returns at the end of `tied`; 1 = settled.
+/// The final period of the contact state of `tied`, iterations; 1 = settled, 0 = none yet.
 pub(super) fn settles(case: &Case) -> Outcome<'_> {
     let (tied, certainty) = case.certain(Variant::Tied)?;
     let length = tied.last().cycle.as_ref().map_or(0, |cycle| cycle.length);
@@ -127,11 +127,11 @@ pub(super) fn settles(case: &Case) -> Outcome<'_> {
     measured(holds_if(length == 1), length as f64, detail)
 }
 
-/// The error in the energy norm of the scene's variant of the paper against the equilibrium under
-/// stick on the same mesh.
+/// The smallest distance in the energy norm of the paper's variants from the equilibrium under the
+/// scene's own friction on the same mesh.
 pub(super) fn error_of_the_reading(case: &Case) -> Outcome<'_> {
     let equilibrium = case.equilibrium().ok_or("there is no equilibrium to compare with")?;
-    let (mut least, mut nearest) = (f64::INFINITY, "none is the nearest reading".into());
+    let (mut least, mut nearest) = (f64::INFINITY, "no variant of the paper runs".into());
     // `printed` passes no load on, whoever is in contact: rounding makes it no nearer.
     let printed = case.run(Variant::Printed).map(|solution| (solution, Certainty::Certain));
     let certain =
@@ -142,7 +142,7 @@ pub(super) fn error_of_the_reading(case: &Case) -> Outcome<'_> {
         let error = distance(solution, equilibrium).energy_relative;
         if error < least {
             let (variant, numbers) = (solution.request.variant, numbers(&[certainty]));
-            (least, nearest) = (error, format!("{variant} is the nearest reading{numbers}"));
+            (least, nearest) = (error, format!("{variant} is the nearest variant{numbers}"));
         }
     }
     measured(holds_if(least < NOTICEABLE), least, nearest)

@@ -13,7 +13,8 @@ pub const FINDINGS: &[Finding] = &[
         why: "the direction in which a mesh generator happened to write an edge decides who is in \
               contact",
         repair: "order the two coordinates first: min − c_tll .. max + c_tll",
-        number: "contact nodes found or flagged otherwise once every target edge is turned round",
+        number: "contact nodes that get or lose a target edge or dy = 1 once every target edge is turned \
+                 round",
         measure: search::turned_edges,
     },
     Finding {
@@ -71,7 +72,7 @@ pub const FINDINGS: &[Finding] = &[
         title: "the weights come from initial coordinates, the partners from current ones",
         why: "after sliding over an edge's end the weights leave [0, 1] and extrapolate",
         repair: "node_n in place of node (reading R5)",
-        number: "furthest that a weight of a node in contact leaves [0, 1]",
+        number: "largest excess of a weight of a node in contact beyond [0, 1]",
         measure: weights::outside_the_edge,
     },
     Finding {
@@ -158,8 +159,8 @@ pub const FINDINGS: &[Finding] = &[
                 2 · c_tll)",
         why: "a node that lies on the edge is not found; of a symmetric scene one half is",
         repair: "as C1",
-        number: "contact nodes over a target edge and nearer to it than c_tll without a target \
-                 edge",
+        number: "contact nodes over or under a target edge, vertically nearer to it than c_tll, that \
+                 have no target edge",
         measure: search::missed_near,
     },
     Finding {
@@ -224,7 +225,7 @@ pub const FINDINGS: &[Finding] = &[
         why: "the node leaves contact and returns: the contact set cycles, and where in the cycle \
               the 20th iteration falls decides the result",
         repair: "increments (variant stepped), or the gap itself in eq. (1)",
-        number: "iterations after which the contact state of tied comes back, 1 = settled",
+        number: "final period of the contact state under tied, iterations; 1 = settled",
         measure: stiffness::cycle,
     },
     Finding {
@@ -268,7 +269,7 @@ pub const FINDINGS: &[Finding] = &[
         why: "a contact that carries tension stays, against the text's own condition of no \
               penetration and friction",
         repair: "release a node whose contact force pulls",
-        number: "nodes that the target holds with a pull at the end of stepped",
+        number: "nodes kept in contact under tension at the end of stepped",
         measure: stiffness::pulls,
     },
 ];

@@ -4,19 +4,15 @@ use super::experiment::{
     Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, ends, inside_target, place, rise,
 };
 use super::{Measured, Outcome};
+use crate::answer::contact::turned;
 use crate::paper::door::{Call, ContactStatus};
 use crate::problem::model::{EdgeId, Model};
 use crate::studies::audit::Case;
 
 /// C1: the target edges turned round.
 pub(super) fn turned_edges(case: &Case) -> Outcome<'_> {
-    let mut turned = case.model().clone();
-    for edge in &case.model().contact.target {
-        let [a, b] = case.model().edge(*edge).nodes;
-        turned.edges[edge.index()].nodes = [b, a];
-    }
     let state = |status: &ContactStatus| (status.edge.is_some(), status.in_contact);
-    compared(case, &turned, "turned round", |own, other| state(own) != state(other))
+    compared(case, &turned(case.model()), "turned round", |own, other| state(own) != state(other))
 }
 
 /// C2: `trg` in reverse.
