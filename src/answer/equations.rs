@@ -264,14 +264,23 @@ impl<'a, T: Precision> Equations<'a, T> {
         InputError::new("--solver, --tol", what, "give a larger --tol or another solver").into()
     }
 
-    /// Returns the smallest gap of the initial shape and c_tll, length; None where no contact node
-    /// faces the target.
-    fn smallest_gap(&self) -> Option<[f64; 2]> {
+    /// Returns why the first contact has no node, in words: the direction of the target's edges, or the
+    /// smallest gap of the initial shape. None where no contact node faces the target.
+    fn no_contact(&self) -> Option<String> {
+        let hidden = || hidden(self.model, &self.request.reading, &self.model.nodes);
+        self.request.is_as_printed().then(hidden).flatten().or_else(|| self.too_far())
+    }
+
+    fn too_far(&self) -> Option<String> {
         let surfaces = Surfaces::new(self.model).ok()?;
         let pairings = surfaces.pairings(Coupling::Nts, &self.model.nodes);
         let gaps = pairings.iter().flatten().map(|pairing| pairing.gap);
         let gap = gaps.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
-        Some([gap, self.model.contact.tolerance])
+        let c_tll = self.model.contact.tolerance;
+        Some(format!(
+            "the smallest gap is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
+             larger c_tll"
+        ))
     }
 
     fn singular_matrix(
@@ -284,9 +293,6 @@ impl<'a, T: Precision> Equations<'a, T> {
         let body = self.model.body_of(dof.node());
         let in_contact = pairs.dy.iter().sum();
         let first = iteration == 1 && in_contact == 0 && self.model.has_contact();
-        let hidden = (first && self.request.is_as_printed())
-            .then(|| hidden(self.model, &self.request.reading, &self.model.nodes))
-            .flatten();
         SingularMatrix {
             variant: self.request.variant.name(),
             iteration,
@@ -294,8 +300,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             direction: dof.axis(),
             pivot,
             in_contact,
-            apart: (first && hidden.is_none()).then(|| self.smallest_gap()).flatten(),
-            hidden,
+            no_contact: first.then(|| self.no_contact()).flatten(),
             untried: None,
             body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
         }

@@ -74,10 +74,7 @@ pub struct NoEquilibrium {
     match .in_contact {
         0 => "the restraints alone do not hold the body",
         _ => "that does not hold the body (finding K6), or to the last digit it does not",
-    }.to_string() + &.apart.map_or(String::new(), |[gap, c_tll]| format!(
-        ": the smallest gap is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
-         larger c_tll"
-    )) + &.hidden.as_ref().map_or(String::new(), |why| format!(": {why}")) + &.untried.map_or(String::new(), |bytes| format!(
+    }.to_string() + &.no_contact.as_ref().map_or(String::new(), |why| format!(": {why}")) + &.untried.map_or(String::new(), |bytes| format!(
         "; whether it is so in double-doubles too was not looked at, which takes {:.1} GB",
         bytes / 1e9
     ))
@@ -95,10 +92,8 @@ pub struct SingularMatrix {
     pub pivot: f64,
     /// The number of contact nodes with dy = 1.
     pub in_contact: usize,
-    /// Where the first contact fails for another reason, the smallest gap of the initial shape, and c_tll, length.
-    pub apart: Option<[f64; 2]>,
-    /// Where the first contact fails because of the direction of a target edge, the cause in words.
-    pub hidden: Option<String>,
+    /// Where the first contact fails, why, and what to do, in words.
+    pub no_contact: Option<String>,
     /// The bytes that a run in more digits would take, which would tell whether rounding is the cause;
     /// None where that was run.
     pub untried: Option<f64>,

@@ -3,11 +3,14 @@
 
 use std::path::Path;
 
-use plane_contact::answer::Request;
+use plane_contact::answer::estimates::Certainty;
+use plane_contact::answer::{Request, solve};
+use plane_contact::problem::modelling::{Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::printed::tables;
-use plane_contact::report::trade as report;
+use plane_contact::report::{comparison, trade as report};
 use plane_contact::studies::benchmark::{Annulus, Strand};
+use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair};
 use plane_contact::studies::trade::{Knob, Options, measure};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -22,14 +25,17 @@ fn parts<'t>(text: &'t str, pattern: &str) -> Option<Vec<&'t str>> {
     let literals: Vec<&str> = literals.collect();
     for (k, literal) in literals.iter().enumerate() {
         let is_last = k + 1 == literals.len();
-        let at = if is_last && literal.is_empty() { rest.len() } else { rest.find(literal)? };
+        let at = match is_last {
+            true => rest.strip_suffix(literal)?.len(),
+            false => rest.find(literal)?,
+        };
         parts.push(&rest[..at]);
         rest = &rest[at + literal.len()..];
     }
     rest.is_empty().then_some(parts)
 }
 
-/// Whether a number is printed as `text`: within half a unit of its last digit; a share in per cent
+/// Whether a number is printed as `text`: within half a unit of its last digit, a whole one exactly; a share in per cent
 /// where it ends so, and without a value where `x` has none.
 fn shows(text: &str, x: &Value) -> bool {
     let Some(x) = x.as_f64() else { return ["-", "an undefined share (of 0)"].contains(&text) };
@@ -40,7 +46,9 @@ fn shows(text: &str, x: &Value) -> bool {
     let Ok(value) = text.parse::<f64>() else { return false };
     let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
-    let step = 10f64.powi(exponent.parse::<i32>().expect("an exponent") - decimals);
+    let exponent: i32 = exponent.parse().expect("an exponent");
+    // A whole number is exact.
+    let step = if text.contains(['.', 'e']) { 10f64.powi(exponent - decimals) } else { 0.0 };
     (value - factor * x).abs() <= 0.501 * step
 }
 
@@ -60,7 +68,6 @@ fn parts_and_numbers_are_read() {
 
 /// A section of `trade --json`.
 struct Section<'a> {
-    json: &'a Value,
     /// Those of the variant that the sentence is about, or all.
     rows: Vec<&'a Value>,
 }
@@ -69,7 +76,7 @@ impl<'a> Section<'a> {
     fn of(json: &'a Value, variant: Option<&str>) -> Self {
         let rows = json["rows"].as_array().expect("rows").iter();
         let rows = rows.filter(|row| variant.is_none_or(|variant| row["variant"] == variant));
-        Section { json, rows: rows.collect() }
+        Section { rows: rows.collect() }
     }
 
     fn row(&self, setting: &str) -> &'a Value {
@@ -530,6 +537,55 @@ fn tables_of_statuses_are_those_of_their_json() {
         for (rule, cell) in of["rules"].as_array().expect("rules").iter().zip(&row[2..]) {
             assert_shows(cell, &(number(&rule["operations"]) / number(&of["nodes"])).into(), cell);
         }
+    }
+}
+
+/// The tables of `compare`, of two runs of our own: CalculiX need not be installed.
+#[test]
+fn tables_of_compare_are_those_of_its_json() {
+    let scene = open("fig1");
+    let solved =
+        |variant| solve(&Request::new(&scene).variant(variant), &mut |_| ()).expect("it runs");
+    let [ours, theirs] = [Variant::Tied, Variant::Unilateral].map(solved);
+    let contact = Contact::Pair(Pair::new(&scene.model, None, Friction::STICK));
+    let comparison = Comparison::new(&scene.model, Fields::of(&ours), Fields::of(&theirs));
+    let compared = comparison::Compared {
+        scene: &scene,
+        model: &scene.model,
+        variant: Variant::Tied,
+        certainty: Certainty::Certain,
+        contact: &contact,
+        decks: 1,
+        version: "2.20",
+        comparison: &comparison,
+    };
+    let text = comparison::text(&compared);
+    let json: Value = serde_json::from_str(&comparison::json(&compared)).expect("JSON");
+    let penalty = text.lines().find_map(|line| line.strip_prefix("contact pair, penalty "));
+    assert_shows(
+        penalty.expect("it is said").split(' ').next().unwrap(),
+        &json["contact"]["penalty"],
+        &text,
+    );
+    let all: Vec<_> = tables(&text).into_iter().map(|(name, _)| cells(&text, &name)).collect();
+    for (row, of) in all[0].iter().zip(["displacement", "stress"]) {
+        let largest = &json[of]["largest"];
+        assert_shows(&row[1], &largest["difference"], &row.join(" | "));
+        assert_shows(&row[2], &largest["relative"], &row.join(" | "));
+        assert_shows(&row[3], &largest["scale"], &row.join(" | "));
+        assert_shows(&row[6], &json[of]["rms"], &row.join(" | "));
+        let place = row[4].rsplit(' ').next().unwrap();
+        assert_eq!(place, largest["at"].to_string());
+        let rows =
+            json[if of == "stress" { "elements" } else { "nodes" }].as_array().expect("rows");
+        let most = rows.iter().map(|row| number(&row["difference"])).fold(0.0, f64::max);
+        assert_eq!(most, number(&largest["difference"]), "{of}");
+    }
+    for (row, body) in all[1].iter().zip(json["bodies"].as_array().expect("bodies")) {
+        let [ours, theirs] = ["ours", "calculix"].map(|name| number(&body[name]));
+        assert_shows(&row[1], &body["ours"], &row.join(" | "));
+        assert_shows(&row[2], &body["calculix"], &row.join(" | "));
+        assert_shows(&row[3], &((ours - theirs) / theirs).into(), &row.join(" | "));
     }
 }
 

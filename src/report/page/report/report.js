@@ -27,25 +27,25 @@ function showAudit() {
   fill("claims", tableOf("Claims", [
     ["id", (c) => c.id], ["line", (c) => c.line], ["the paper says that", (c) => c.says, "text wide"],
     ["verdict", (c) => c.verdict, "text verdict"], ["scope", (c) => c.scope, "text"], ["certainty", (c) => c.basis, "text"],
-    ["number", (c) => c.number], ["what the number is", (c) => c.of, "text wide"],
-    ["command", commandOf, "text wide"], ["at", (c) => c.at.join(" over "), "text"], ["detail", (c) => c.detail, "text wide"],
+    ["value", (c) => c.number], ["what the value is", (c) => c.of, "text wide"],
+    ["command", commandOf, "text wide"], ["JSON pointer", (c) => c.at.join(" over "), "text"], ["detail", (c) => c.detail, "text wide"],
   ], audit.claims));
   fill("readings", tableOf("Readings", [
     ["id", (r) => r.id], ["reading", (r) => r.reading, "text"], ["lines", (r) => r.lines, "text"],
     ["dy changed", (r) => r.statuses], ["MJS entries changed", (r) => r.entries], ["largest difference", (r) => r.displacement],
-    ["of", (r) => r.of, "text"], ["fails", (r) => first(r.failure), "text wide"],
+    ["of what", (r) => r.of, "text"], ["fails", (r) => first(r.failure), "text wide"],
   ], audit.readings));
   fill("findings", tableOf("Findings", [
     ["id", (f) => f.id], ["line", (f) => `${f.listing} ${cells(f.lines)}`, "text"], ["verdict", (f) => f.verdict, "text verdict"],
-    ["number", (f) => f.number], ["of", (f) => f.of, "text wide"],
+    ["value", (f) => f.number], ["what the value is", (f) => f.of, "text wide"],
     ["what the listing does that the text does not say", (f) => f.title, "text wide"], ["on this scene", (f) => f.detail, "text wide"],
   ], audit.findings));
   fill("variants", tableOf("Variants", [
     ["variant", (v) => v.variant, "text"], ["nodes in contact at the end", (v) => v.in_contact?.at(-1)],
-    ["state", (v) => stateOf(v), "text"], ["force on the target", (v) => v.target_share], ["residual of eq. (1)", (v) => v.eq1_residual],
-    ["von Mises stress", (v) => v.bodies?.map((b) => `${b.name} ${short(Number(b.max_von_mises_stress.toPrecision(5)))}`).join(", "), "text"],
-    ["error in |u|", (v) => v.distance?.displacement_relative], ["error in energy", (v) => v.distance?.energy_relative],
-    ["friction needed", (v) => v.friction_needed], ["pulling nodes", (v) => v.pulling?.length], ["fails", (v) => first(v.failure), "text wide"],
+    ["state", (v) => stateOf(v), "text"], ["force on target over load", (v) => v.target_share], ["residual of eq. (1)", (v) => v.eq1_residual],
+    ["largest von Mises stress", (v) => v.bodies?.map((b) => `${b.name} ${short(Number(b.max_von_mises_stress.toPrecision(5)))}`).join(", "), "text"],
+    ["error in u", (v) => v.distance?.displacement_relative], ["error in energy norm", (v) => v.distance?.energy_relative],
+    ["largest friction needed", (v) => v.friction_needed], ["nodes pulling", (v) => v.pulling?.length], ["fails", (v) => first(v.failure), "text wide"],
   ], audit.variants), audit.friction.length > 0 && frictionTable(audit.friction));
 }
 
@@ -73,7 +73,7 @@ function showIterations(run) {
     ...(run.result ? [tableOf(`Iterations of ${run.name}`, [
       ["iteration", (row) => row.k], ["nodes in contact", (row) => row.in_contact], ["largest displacement", (row) => row.max_displacement],
       ["cycle of", (row) => row.cycle?.length], ["residual of the contact condition", (row) => row.eq1_residual],
-      ["force on the target", (row) => row.target_force],
+      ["force on target", (row) => row.target_force],
     ], run.result.iterations)] : []),
   );
 }
@@ -103,13 +103,13 @@ function showSurface() {
   const all = [
     ["Contact pressure", "stress", [...series((c) => c.pressure), ...(curve ? [curve] : [])]],
     ["Shear on the contact surface", "stress", series((c) => c.shear)],
-    ["Gap, < 0 where the node penetrates", "length", series((c) => c.gap)],
+    ["Gap (averaged under mortar), < 0 where the node penetrates", "length", series((c) => c.gap)],
   ];
   const rows = runs.flatMap(({ name, result }) => result.contact.map((c) => ({ name, ...c })));
   fill("surface", ...all.flatMap(([title, unit, curves]) => [make("h3", {}, title), chart(title, across, `${title.split(",")[0]}, ${data.units[unit]}`, curves)]),
     hertz && make("p", { class: "muted" }, `Hertz: half width ${short(hertz.half_width)}, peak ${short(hertz.peak)}, relative radius ${short(hertz.radius)}.`),
     tableOf("Contact nodes", [
-      ["run", (c) => c.name, "text"], ["node", (c) => c.node], ["arc", (c) => c.arc], ["in contact", (c) => c.dy], ["gap", (c) => c.gap],
+      ["run", (c) => c.name, "text"], ["node", (c) => c.node], ["arc", (c) => c.arc], ["in contact", (c) => c.dy], ["gap (averaged under mortar)", (c) => c.gap],
       ["status", (c) => c.status, "text"], ["pressure", (c) => c.pressure], ["shear", (c) => c.shear], ["friction needed", (c) => c.friction_needed],
     ], rows.filter(({ arc }) => from <= arc && arc <= to)));
 }
