@@ -111,7 +111,7 @@ fn main() -> ExitCode {
         Command::Statuses(args) => commands::statuses::run(&args).map(done),
         Command::Trace(args) => commands::trace::run(&args),
         Command::Evaluate(args) => commands::evaluate::run(&args),
-        Command::Mathcad(args) => commands::mathcad::run(&args).map(done),
+        Command::Mathcad(args) => commands::mathcad::run(&args),
         Command::Listing(args) => commands::listing::run(&args).map(done),
         Command::Lesson(args) => commands::lesson::run(&args).map(done),
         Command::Report(args) => commands::report::run(&args).map(done),

@@ -4,7 +4,7 @@
 use plane_contact::paper::exports::probe;
 use plane_contact::paper::mathcad::Listing;
 use plane_contact::paper::mathcad::worksheet::execute;
-use plane_contact::paper::mathcad::xmcd::document::{Content, Region, read};
+use plane_contact::paper::mathcad::xmcd::document::{Region, read};
 use plane_contact::report::worksheet;
 
 use super::{listing, sound};
@@ -25,12 +25,5 @@ pub fn hold(data: &[u8]) {
 
 /// Returns the program of a region, which has one if it can be read in the text notation.
 fn program(region: &Region) -> Option<Listing> {
-    let text = match &region.content {
-        Content::Function { text, .. } => text.clone(),
-        Content::Definition { name, entry: None, lines, .. } if lines.len() > 1 => {
-            format!("{name}() :=\n  {}\n", lines.join("\n  "))
-        }
-        _ => return None,
-    };
-    Listing::parse_within("fuzz", &text, &listing::limits()).ok()
+    Listing::parse_within("fuzz", &region.listing()?, &listing::limits()).ok()
 }

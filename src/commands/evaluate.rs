@@ -5,11 +5,12 @@ use std::rc::Rc;
 
 use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
-use plane_contact::files;
-use plane_contact::paper::mathcad::{Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
+use plane_contact::paper::mathcad::{
+    Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json,
+};
 use plane_contact::report::evaluation as report;
 
-use super::{print, print_either, told};
+use super::{print, print_either, read_listing, told, waiting};
 
 /// Run a program in the notation of the listings.
 #[derive(clap::Args)]
@@ -37,6 +38,10 @@ pub struct Args {
     /// guarded|left-to-right|eager, descending counts-down|empty, last-if previous|0, tiny itself|0.
     #[arg(long, value_name = "LIST", default_value = "")]
     settings: Settings,
+    /// The most steps that are executed. A step is a statement or a turn of a loop; what is computed
+    /// counts too, by the time that it takes.
+    #[arg(long, value_name = "STEPS", default_value_t = Limits::default().steps)]
+    limit: u64,
     /// Print JSON: {\"value\": ..., \"trace\": [...]}, or {\"error\": {...}}.
     #[arg(long)]
     json: bool,
@@ -45,10 +50,7 @@ pub struct Args {
 /// Runs the call; returns the exit status.
 pub fn run(args: &Args) -> Result<u8> {
     let place = args.file.display().to_string();
-    let text = files::read_text(&args.file).map_err(|why| {
-        let what = format!("the file cannot be read: {why}");
-        InputError::new(&place, what, "give the path of a text file")
-    })?;
+    let text = read_listing(&place)?;
     let notation = "see the notation in listings/README.md";
     let programs = file::listings(&place, &text, &Limits::default())
         .map_err(|error| InputError::new(&place, error.to_string(), notation))?;
@@ -62,7 +64,9 @@ pub fn run(args: &Args) -> Result<u8> {
     }
     let call = Listing::parse("--call", &format!("_() :=\n  {call}"))
         .map_err(|error| InputError::new("--call", error.to_string(), notation))?;
-    let outcome = call.runner_in(&sheet, &args.settings, &Limits::default()).call(&[]);
+    let limits = Limits { steps: args.limit, ..Limits::default() };
+    let outcome =
+        waiting("executing", || call.runner_in(&sheet, &args.settings, &limits).call(&[]));
     let failure = match outcome {
         Ok(outcome) => {
             let printed = print_either(args.json, || report::json(&outcome), || shown(&outcome));
@@ -70,7 +74,13 @@ pub fn run(args: &Args) -> Result<u8> {
         }
         Err(failure) => failure,
     };
-    let fix = "correct the program or its inputs";
+    let fix = match failure.cause {
+        Cause::Unsupported { .. } | Cause::Complex { .. } => {
+            "the program may be right: write it with what src/paper/mathcad/README.md lists"
+        }
+        Cause::Limit { of: "steps", .. } => "correct the program, or give more steps by --limit",
+        _ => "correct the program or its inputs",
+    };
     let wrong = Error::from(InputError::new(&place, failure.to_string(), fix));
     if !args.json {
         return Err(wrong);

@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
-use plane_contact::files;
 use plane_contact::paper::listings::Which;
 use plane_contact::paper::mathcad::xmcd::document::{self, Content};
 use plane_contact::paper::mathcad::xmcd::page;
 use plane_contact::paper::mathcad::{Limits, Listing, file};
 
-use super::{mathcad, write_or_print};
+use super::{LARGEST_LISTING, mathcad, write_or_print};
 
 plane_contact::choices! {
     /// A notation of listings.
@@ -57,22 +56,23 @@ fn read(name: &str) -> Result<Vec<Listing>> {
     let wrong = |what: String| {
         InputError::new(name, what, "give c_cnt, Km, a file of listings or a worksheet")
     };
-    let text = files::read_text(Path::new(name))
+    let text = mathcad::read_text(Path::new(name))
         .map_err(|why| wrong(format!("the listing cannot be read: {why}")))?;
     if !text.trim_start_matches('\u{feff}').starts_with('<') {
+        if text.len() as u64 > LARGEST_LISTING {
+            return Err(wrong(format!("it has more than {LARGEST_LISTING} bytes")).into());
+        }
         let listings = file::listings(name, &text, &Limits::default());
         return Ok(listings.map_err(|error| wrong(error.to_string()))?);
     }
     let mut listings = Vec::new();
     for region in document::read(&text, name)?.regions {
-        let text = match region.content {
-            Content::Function { text, .. } => text,
-            Content::Definition { name, entry: None, lines, .. } if lines.len() > 1 => {
-                format!("{name}() :=\n  {}\n", lines.join("\n  "))
-            }
-            Content::Beyond { names, construct } if !names.is_empty() => {
+        let text = match (region.listing(), region.content) {
+            (Some(text), _) => text,
+            (None, Content::Unsupported { names, construct }) if !names.is_empty() => {
                 let names = names.join(", ");
-                return Err(wrong(format!("region {}, {names}: {construct}", region.id)).into());
+                let what = format!("region {}, {names}: unsupported: {construct}", region.id);
+                return Err(wrong(what).into());
             }
             _ => continue,
         };

@@ -1,57 +1,88 @@
 //! `plane-contact mathcad`.
 
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 
+use flate2::read::GzDecoder;
 use plane_contact::answer::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::paper::exports::probe;
-use plane_contact::paper::mathcad::{Limits, worksheet, xmcd::document};
+use plane_contact::paper::mathcad::worksheet::{self, Verdict};
+use plane_contact::paper::mathcad::{Limits, xmcd::document};
 use plane_contact::report::worksheet as report;
 
-use super::{print_either, waiting};
+use super::{print_either, progress};
 
 /// Execute a worksheet of Mathcad 13 to 15 beside the results that it saved.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Regions are executed in the worksheet's order and settings, and each result is compared with the one
 that Mathcad saved: same to the last bit, to so many digits, or differing. Units, symbolics, plots,
-solve blocks, derivatives, integrals and random numbers are named as beyond us. Where the worksheet
-shows a name's value and ours is not the same to the last bit, or beyond us, the saved value goes on
+solve blocks, derivatives, integrals and random numbers are named as unsupported. Where the worksheet
+shows a name's value and ours is not the same to the last bit, or unsupported, the saved value goes on
 as input, so that each result is judged for itself; results that rest on it say so.
+
+Exit status: 0 where results were compared and all agree, 1 where one differs or none could be
+compared, 2 where the file is no worksheet.
 
 Examples:
   plane-contact mathcad worksheet.xmcd
-  plane-contact mathcad worksheet.xmcd --json")]
+  plane-contact mathcad worksheet.xmcdz --json")]
 pub struct Args {
-    /// The worksheet.
+    /// The worksheet, .xmcd or .xmcdz.
     #[arg(value_name = "FILE.xmcd")]
     file: PathBuf,
+    /// The most steps of all regions together, as those of `evaluate`; one region may take half of
+    /// those that are left.
+    #[arg(long, value_name = "STEPS", default_value_t = Limits::default().steps)]
+    limit: u64,
     /// Print JSON.
     #[arg(long)]
     json: bool,
 }
 
-pub fn run(args: &Args) -> Result<()> {
+/// Executes the worksheet; returns the exit status.
+pub fn run(args: &Args) -> Result<u8> {
     let sheet = open(&args.file)?;
-    let checked = waiting("executing", || worksheet::execute(&sheet, &limits()));
+    let limits = Limits { steps: args.limit, ..limits() };
+    let bar = progress(0, "region {pos} of {len} {wide_bar} {elapsed}");
+    let checked = worksheet::execute_watched(&sheet, &limits, &mut |done, of| {
+        bar.set_length(of as u64);
+        bar.set_position(done as u64);
+    });
+    bar.finish_and_clear();
     let decided = probe::decided(&sheet, &checked);
     let json = || report::json(&args.file.display().to_string(), &checked, &decided);
-    print_either(args.json, json, || report::text(&checked, &decided))
+    print_either(args.json, json, || report::text(&checked, &decided))?;
+    let some = |is: fn(&Verdict) -> bool| checked.iter().any(|region| is(&region.verdict));
+    let differs = some(|verdict| matches!(verdict, Verdict::Differs { .. }));
+    Ok(u8::from(differs || !some(Verdict::agrees)))
 }
 
 /// Reads a worksheet's file.
 pub fn open(file: &Path) -> Result<document::Worksheet, InputError> {
     let place = file.display().to_string();
-    let text = files::read_text(file).map_err(|why| {
+    let text = read_text(file).map_err(|why| {
         let what = format!("the file cannot be read: {why}");
-        InputError::new(&place, what, "give an .xmcd file, which is text in UTF-8")
+        InputError::new(&place, what, "give an .xmcd file, which is text in UTF-8, or an .xmcdz")
     })?;
     document::read(&text, &place)
 }
 
-/// The limits of a region: arrays that are spelled out make long lines; a worksheet has many regions,
-/// so that each has but seconds.
+/// Reads the text of a worksheet, packed or not.
+pub fn read_text(file: &Path) -> io::Result<String> {
+    let most = document::LARGEST as u64;
+    let bytes = files::read_up_to(File::open(file)?, most)?;
+    let bytes = match bytes.starts_with(&[0x1f, 0x8b]) {
+        true => files::read_up_to(GzDecoder::new(&*bytes), most)?,
+        false => bytes,
+    };
+    files::text(bytes)
+}
+
+/// The limits of a region: arrays that are spelled out make long lines.
 pub fn limits() -> Limits {
     Limits { lines: 10_000, characters: 1 << 20, entries: 1 << 22, ..Limits::default() }
 }

@@ -21,11 +21,11 @@ choices! {
     }
 }
 
-/// Returns the limits of an execution: 16 million steps, and the demand of arrays of the size of
-/// MJS (a step for each entry and operation).
+/// Returns the limits of an execution: 67 million steps, and the demand of arrays of the size of
+/// MJS (a step for each entry, and its operations).
 fn limits(sheet: &Worksheet<f64>) -> Limits {
     let matrix = 4 * sheet.R() as u64 * sheet.R() as u64;
-    Limits { steps: (1 << 24) + 8 * matrix, entries: 1 << 27, ..Limits::default() }
+    Limits { steps: (1 << 26) + 32 * matrix, entries: 1 << 27, ..Limits::default() }
 }
 
 /// The result of an execution: its values, and the lines that `trace` wrote.

@@ -43,7 +43,7 @@ fn words(region: &Checked) -> String {
         Verdict::Differs { saved, ours } => {
             format!("differs: saved {}; here {}", short(saved), short(ours))
         }
-        Verdict::Beyond(construct) => return format!("beyond us: {construct}"),
+        Verdict::Unsupported(construct) => return format!("unsupported: {construct}"),
     };
     verdict + &from
 }
@@ -60,10 +60,10 @@ fn summary(regions: &[Checked]) -> String {
     let digits = count(&|v| matches!(v, Verdict::Digits(_)));
     let failures = count(&|v| matches!(v, Verdict::SameFailure { .. }));
     let differ = count(&|v| matches!(v, Verdict::Differs { .. }));
-    let beyond = count(&|v| matches!(v, Verdict::Beyond(_)));
+    let unsupported = count(&|v| matches!(v, Verdict::Unsupported(_)));
     format!(
         "{same} results same to the last bit, {digits} to ten digits or more, {failures} failures in \
-         both, {differ} differ, {beyond} regions beyond us\n"
+         both, {differ} differ, {unsupported} regions unsupported\n"
     )
 }
 
@@ -118,7 +118,7 @@ enum VerdictRow<'a> {
         ours: &'a str,
     },
     /// The interpreter does not have this.
-    Beyond {
+    Unsupported {
         construct: &'a str,
     },
 }
@@ -153,6 +153,6 @@ fn verdict(verdict: &Verdict) -> VerdictRow<'_> {
         Verdict::SameFailure { saved, ours } => VerdictRow::Failure { saved, ours },
         Verdict::Differs { saved, ours } => VerdictRow::Differs { saved, ours },
         Verdict::Fails(ours) => VerdictRow::Fails { ours },
-        Verdict::Beyond(construct) => VerdictRow::Beyond { construct },
+        Verdict::Unsupported(construct) => VerdictRow::Unsupported { construct },
     }
 }

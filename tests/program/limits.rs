@@ -263,7 +263,7 @@ fn steps_of_a_listing_have_a_limit_which_is_named() {
     let times = "    for i2 ∈ 1 .. 1000\n      for i3 ∈ 1 .. 1000\n        x ← 1\n";
     let listing = format!("c_cnt(node_n) :=\n  for i1 ∈ 1 .. 1000\n{times}  x\n");
     std::fs::write(folder.path().join("l.txt"), listing).expect("it is written");
-    let words = ["The limit of 16782624 steps is reached", "correct the edited listing"];
+    let words = ["The limit of 67130496 steps is reached", "correct the edited listing"];
     refused(folder.path(), "$P trace fig1 --listing l.txt", &words);
     refused(folder.path(), "$P solve fig1 --c-cnt l.txt", &words);
 }

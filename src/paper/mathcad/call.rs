@@ -1,14 +1,15 @@
 //! Calling a function on the values of its arguments.
 
 use super::arithmetic::{finite, fold, identity, kind, map, sum};
+use super::eval::FUNCTION;
 use super::failure::{Cause, Fallible};
 use super::function::Function;
 use super::listing::Listing;
 use super::matrices;
 use super::observe::Observer;
-use super::state::{Cell, Run};
+use super::state::{Run, Variable};
 use super::syntax::{Slot, Span};
-use super::value::Value;
+use super::value::{Array, Value};
 use crate::numbers::scalar::Scalar;
 
 impl<O: Observer> Run<'_, '_, O> {
@@ -17,7 +18,7 @@ impl<O: Observer> Run<'_, '_, O> {
         let listing = self.listing;
         let name = || listing.names.name(slot).into();
         let result = match &mut self.functions[slot] {
-            None => return Err(self.undefined(slot, span)),
+            None => return Err(self.undefined(slot, true, span)),
             Some(Function::Program(program)) => {
                 let program = program.clone();
                 return self.call_program(&program, arguments);
@@ -26,12 +27,26 @@ impl<O: Observer> Run<'_, '_, O> {
             Some(Function::Rows) => one(arguments).map(|x| extent(x).0.into()),
             Some(Function::Cols) => one(arguments).map(|x| extent(x).1.into()),
             Some(Function::Length) => one(arguments).map(|x| extent(x).0.into()),
+            Some(Function::Last) => one(arguments).and_then(|v| last(v, self.settings.origin)),
+            Some(Function::Mean) => {
+                self.spend(size(arguments) as u64)?;
+                mean(arguments)
+            }
+            Some(Function::Sort) => {
+                // A comparison for each halving.
+                let size = size(arguments) as u64;
+                self.room(size as usize)?;
+                self.spend(size.saturating_mul(1 + u64::from(size.max(1).ilog2())))?;
+                one(arguments).and_then(sort)
+            }
+            Some(Function::Round) => round(arguments).map(Value::Number),
             Some(Function::Min) => return self.extreme(arguments, <f64 as Scalar>::min, span),
             Some(Function::Max) => return self.extreme(arguments, <f64 as Scalar>::max, span),
             Some(Function::Trace) => return self.write_trace(arguments),
             Some(Function::Elementary(function)) => {
                 let function = *function;
                 self.afford(size(arguments))?;
+                self.spend(FUNCTION * size(arguments) as u64)?;
                 one(arguments).and_then(|x| each(x, |x| real(function(x), x, &name)))
             }
             Some(Function::Root) => root(arguments, &name).map(Value::Number),
@@ -40,6 +55,8 @@ impl<O: Observer> Run<'_, '_, O> {
                 numbers(arguments).and_then(|[x, y]| real(x % y, y, &name)).map(Value::Number)
             }
             Some(Function::Factorial) => {
+                // So many products, at most.
+                self.spend(50)?;
                 numbers(arguments).and_then(|[n]| factorial(n, &name)).map(Value::Number)
             }
             Some(Function::Outside(function)) => {
@@ -52,7 +69,9 @@ impl<O: Observer> Run<'_, '_, O> {
 
     /// Calls one of the functions of matrices, once there is room and time for it.
     fn matrices(&mut self, slot: Slot, arguments: &[Value], span: &Span) -> Fallible<Value> {
+        // Each number is read and written.
         self.afford(size(arguments))?;
+        self.spend(size(arguments) as u64)?;
         if let Some(matrix @ Value::Array(_)) = arguments.first() {
             let cubic =
                 matches!(self.functions[slot], Some(Function::Lsolve | Function::Determinant));
@@ -81,6 +100,8 @@ impl<O: Observer> Run<'_, '_, O> {
             let limit = self.limits.calls as u64;
             return Err(self.fail_line(Cause::Limit { limit, of: "levels of calls" }));
         }
+        // Each name is looked up in the worksheet.
+        self.spend(16 + 8 * program.names.len() as u64)?;
         let names = || program.names.all();
         let sheet = self.sheet;
         let value = |name| sheet.and_then(|sheet| sheet.value(name));
@@ -88,7 +109,7 @@ impl<O: Observer> Run<'_, '_, O> {
             Some(sheet) => sheet.function(name),
             None => Function::builtin(name),
         };
-        let cells = names().map(|name| Cell { value: value(name), local: false }).collect();
+        let cells = names().map(|name| Variable { value: value(name), local: false }).collect();
         let mut functions: Vec<_> = names().map(function).collect();
         let run = Run {
             listing: program,
@@ -99,14 +120,13 @@ impl<O: Observer> Run<'_, '_, O> {
             functions: &mut functions,
             observer: &mut (),
             line: 0,
-            steps: self.steps,
+            spent: self.spent,
             stored: self.stored,
             depth,
             last: None,
             trace: vec![],
         };
-        let (value, steps, trace) = run.run(arguments)?.into_value()?;
-        self.steps = steps;
+        let (value, trace) = run.run(arguments)?.into_value()?;
         self.trace.extend(trace);
         Ok(value)
     }
@@ -131,6 +151,7 @@ impl<O: Observer> Run<'_, '_, O> {
         // The line is kept twice, as output and as a value; a number takes eight bytes.
         let characters = arguments.iter().map(characters).fold(0, usize::saturating_add);
         self.afford(characters.saturating_mul(2).div_ceil(8))?;
+        self.spend(characters as u64)?;
         let line = arguments.iter().map(Value::to_string).collect::<Vec<_>>().join(" ");
         let value = Value::Text(line.as_str().into());
         self.stored += value.count();
@@ -215,6 +236,44 @@ fn extent(value: &Value) -> (usize, usize) {
         Value::Array(_) | Value::Nested(_) => value.size(),
         Value::Number(_) | Value::Text(_) => (0, 0),
     }
+}
+
+/// Returns the subscript of a column's last entry.
+fn last(value: &Value, origin: i32) -> Result<Value, Cause> {
+    match (value, value.size()) {
+        (Value::Array(_) | Value::Nested(_), (rows, 1)) if rows > 0 => {
+            Ok(Value::Number(f64::from(origin) + rows as f64 - 1.0))
+        }
+        _ => Err(kind("a column", value)),
+    }
+}
+
+/// Returns the mean of all numbers of all arguments, which are added one after another.
+fn mean(arguments: &[Value]) -> Result<Value, Cause> {
+    let total = fold(arguments, |sum, x| sum + x)?;
+    let mean = total.number().map(|total| total / size(arguments) as f64);
+    mean.map_or(Ok(total), |mean| finite(mean).map(Value::Number))
+}
+
+fn sort(value: &Value) -> Result<Value, Cause> {
+    match value {
+        Value::Array(column) if column.cols() == 1 => {
+            let mut entries = column.entries().to_vec();
+            entries.sort_by(f64::total_cmp);
+            Ok(Array::column(entries).into())
+        }
+        _ => Err(kind("a column of numbers", value)),
+    }
+}
+
+/// Rounds a number, halves away from 0, to so many decimal places.
+fn round(arguments: &[Value]) -> Result<f64, Cause> {
+    if arguments.len() == 1 {
+        return numbers(arguments).map(|[x]| x.round());
+    }
+    let [x, places] = numbers(arguments)?;
+    let scale = 10_f64.powf(places);
+    finite((x * scale).round() / scale)
 }
 
 fn root(arguments: &[Value], name: &dyn Fn() -> String) -> Result<f64, Cause> {

@@ -6,7 +6,7 @@ use super::arithmetic::kind;
 use super::failure::{Cause, Fallible, Subscripts};
 use super::listing::Listing;
 use super::observe::{Access, Observer};
-use super::state::{Cell, Run};
+use super::state::{Run, Variable};
 use super::syntax::{Reference, Slot};
 use super::value::{Array, Grid, Nested, Value};
 
@@ -25,7 +25,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             (None, Some(_)) if self.listing.assigned[reference.name] => {
                 Err(kind("an array", &Value::default()))
             }
-            (None, _) => return Err(self.undefined(reference.name, &reference.span)),
+            (None, _) => return Err(self.undefined(reference.name, false, &reference.span)),
         };
         let value = value.map_err(|cause| self.fail(&reference.span, cause))?;
         if O::ACTIVE {
@@ -48,7 +48,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         if O::ACTIVE {
             self.observer.write(self.access(slot, &[], &value));
         }
-        self.cells[slot] = Cell { value: Some(value), local: true };
+        self.cells[slot] = Variable { value: Some(value), local: true };
         Ok(())
     }
 
@@ -130,7 +130,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         (i, j): (usize, usize),
         x: f64,
     ) -> bool {
-        let Cell { value: Some(Value::Array(array)), local: true } = &mut self.cells[slot] else {
+        let Variable { value: Some(Value::Array(array)), local: true } = &mut self.cells[slot]
+        else {
             return false;
         };
         match Rc::get_mut(array) {

@@ -8,14 +8,18 @@ use super::matrices;
 use super::observe::{Observer, Operand};
 use super::settings::Conjunction;
 use super::state::Run;
-use super::syntax::{Expr, Kind, Operation, Reference, Slot, Span};
+use super::syntax::{Comparison, Expr, Kind, Operation, Reference, Slot, Span};
 use super::value::{Array, Grid, Value};
+
+/// The steps that a function of a number takes, such as a sine or a power.
+pub const FUNCTION: u64 = 8;
 
 /// The largest power of a matrix: numbers up to it are whole or not.
 const LARGEST_POWER: f64 = 9_007_199_254_740_992.0;
 
 impl<O: Observer> Run<'_, '_, O> {
     pub fn eval(&mut self, expr: &Expr) -> Fallible<Value> {
+        self.spend(1)?;
         match &expr.kind {
             Kind::Number(x) => Ok(Value::Number(*x)),
             Kind::Text(text) => Ok(Value::Text(text.clone())),
@@ -34,6 +38,7 @@ impl<O: Observer> Run<'_, '_, O> {
             Kind::Not(x) => Ok(truth_value(!self.truth(x)?)),
             Kind::Power(x, y) => {
                 let (x, y) = (self.eval(x)?, self.number(y)?);
+                self.spend(FUNCTION)?;
                 let power = match x {
                     Value::Number(x) => power(x, y).map(Value::Number),
                     matrix if y == -1.0 => {
@@ -44,6 +49,7 @@ impl<O: Observer> Run<'_, '_, O> {
                     }
                     Value::Array(column) if column.cols() == 1 => {
                         self.afford(column.rows())?;
+                        self.spend(FUNCTION * column.rows() as u64)?;
                         map(column, |x| power(x, y))
                     }
                     matrix if (1.0..=LARGEST_POWER).contains(&y) && y.fract() == 0.0 => {
@@ -69,14 +75,23 @@ impl<O: Observer> Run<'_, '_, O> {
             Kind::Transpose(x) => self.change(x, &expr.span, transpose),
             Kind::Arithmetic(operation, x, y) => self.arithmetic(*operation, x, y, &expr.span),
             Kind::Compare(comparison, x, y) => {
-                let (x, y) = (self.number(x)?, self.number(y)?);
-                Ok(truth_value(compare(*comparison, x, y, self.settings)))
+                let left = self.eval(x)?;
+                self.compared(*comparison, (x, &left), y).map(|(truth, _)| truth_value(truth))
             }
+            Kind::Chain(x, rest) => self.chain(x, rest).map(truth_value),
             Kind::All(operands) => Ok(truth_value(self.all(operands, &expr.span)?)),
             Kind::Any(operands) => Ok(truth_value(self.any(operands)?)),
+            Kind::Call(name, _) if self.functions[*name].is_none() => {
+                Err(self.undefined(*name, true, &expr.span))
+            }
             Kind::Call(name, arguments) => {
                 let arguments = self.arguments(arguments)?;
+                self.spend(FUNCTION)?;
                 self.call(*name, &arguments, &expr.span)
+            }
+            Kind::If(parts) => {
+                let [condition, x, y] = &**parts;
+                if self.truth(condition)? { self.eval(x) } else { self.eval(y) }
             }
         }
     }
@@ -86,6 +101,45 @@ impl<O: Observer> Run<'_, '_, O> {
             Value::Number(x) => Ok(x),
             other => Err(self.fail(&expr.span, kind("a number", &other))),
         }
+    }
+
+    /// Compares a value with that of an expression: a number with a number, a string with a string by
+    /// the codes of their characters. Returns the other value too.
+    fn compared(
+        &mut self,
+        comparison: Comparison,
+        (at, left): (&Expr, &Value),
+        right: &Expr,
+    ) -> Fallible<(bool, Value)> {
+        let expected = match left {
+            Value::Number(_) => "a number",
+            Value::Text(_) => "a string",
+            other => return Err(self.fail(&at.span, kind("a number", other))),
+        };
+        let other = self.eval(right)?;
+        let truth = match (left, &other) {
+            (Value::Number(x), Value::Number(y)) => compare(comparison, *x, *y, self.settings),
+            (Value::Text(x), Value::Text(y)) => {
+                self.spend(left.count() as u64)?;
+                comparison.holds(x.cmp(y))
+            }
+            _ => return Err(self.fail(&right.span, kind(expected, &other))),
+        };
+        Ok((truth, other))
+    }
+
+    /// Returns whether all comparisons of a chain are true; after a false one the rest is evaluated
+    /// only if `∧` evaluates everything.
+    fn chain(&mut self, first: &Expr, rest: &[(Comparison, Expr)]) -> Fallible<bool> {
+        let (mut at, mut left, mut all) = (first, self.eval(first)?, true);
+        for (comparison, right) in rest {
+            if !all && self.settings.conjunction != Conjunction::Eager {
+                break;
+            }
+            let (truth, value) = self.compared(*comparison, (at, &left), right)?;
+            (at, left, all) = (right, value, all && truth);
+        }
+        Ok(all)
     }
 
     /// Returns whether an expression is true: everything but 0 is.
@@ -113,7 +167,7 @@ impl<O: Observer> Run<'_, '_, O> {
     }
 
     /// Returns the values of arguments; each counts as stored while the next is evaluated.
-    fn arguments(&mut self, arguments: &[Expr]) -> Fallible<Vec<Value>> {
+    pub fn arguments(&mut self, arguments: &[Expr]) -> Fallible<Vec<Value>> {
         let stored = self.stored;
         let values = arguments.iter().map(|argument| {
             let value = self.eval(argument)?;
@@ -235,7 +289,7 @@ impl<O: Observer> Run<'_, '_, O> {
         let operation = match &self.functions[function] {
             Some(Function::Sum) => Operation::Add,
             Some(Function::Product) => Operation::Multiply,
-            _ => return Err(self.undefined(function, span)),
+            _ => return Err(self.undefined(function, true, span)),
         };
         let [from, to, term] = parts;
         let (from, to) = (self.number(from)?, self.number(to)?);
@@ -283,7 +337,10 @@ impl<O: Observer> Run<'_, '_, O> {
                 Err(error) if method != Conjunction::Guarded || error.is_limit() => {
                     return Err(error);
                 }
-                Err(error) => drop(failure.get_or_insert(error)),
+                Err(error) => {
+                    self.spend_on(&error)?;
+                    failure.get_or_insert(error);
+                }
             }
         }
         failure.filter(|_| !any).map_or(Ok(any), Err)
@@ -303,6 +360,7 @@ impl<O: Observer> Run<'_, '_, O> {
                     return Err(error);
                 }
                 Err(error) => {
+                    self.spend_on(&error)?;
                     failure.get_or_insert(error);
                     None
                 }

@@ -82,6 +82,9 @@ pub enum Cause {
     },
     #[error("This variable or function is not defined above: {name}.")]
     Undefined { name: String },
+    /// The interpreter does not have this of Mathcad.
+    #[error("unsupported: {construct}.")]
+    Unsupported { construct: String },
     #[error("Expected {expected}, found {found}.")]
     Kind { expected: &'static str, found: String },
     #[error("These array sizes do not match: {left} {operation} {right}.")]
@@ -104,7 +107,7 @@ pub enum Cause {
     Singular,
     #[error("The function is not defined at this point: {name} of {argument}.")]
     Domain { name: String, argument: f64 },
-    #[error("The result of {name} is a complex number, which this interpreter does not have.")]
+    #[error("unsupported: complex numbers, of which the result of {name} is one.")]
     Complex { name: String },
     /// The listing asks for more than [`Limits`](super::settings::Limits) allows.
     #[error("The limit of {limit} {of} is reached.")]

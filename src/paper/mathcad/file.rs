@@ -23,9 +23,7 @@ pub fn listings(name: &str, text: &str, limits: &Limits) -> Result<Vec<Listing>,
     }
     let lines: Vec<&str> = text.lines().collect();
     let ends = starts.iter().skip(1).copied().chain([lines.len()]);
-    let part = |(&start, end): (&usize, usize)| {
-        let above = "\n".repeat(start);
-        Listing::parse_within(name, &(above + &lines[start..end].join("\n")), limits)
-    };
+    let part =
+        |(&start, end): (&usize, usize)| Listing::parse_at(name, &lines[start..end], start, limits);
     starts.iter().zip(ends).map(part).collect()
 }

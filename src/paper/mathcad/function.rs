@@ -16,6 +16,14 @@ pub enum Function<'l> {
     Cols,
     /// `length(v)`, the number of entries of a column.
     Length,
+    /// `last(v)`, the subscript of the last entry of a column.
+    Last,
+    /// `mean(x, y, ...)`, of all the numbers of all arguments.
+    Mean,
+    /// `sort(v)`, a column in ascending order.
+    Sort,
+    /// `round(x)`, or `round(x, n)` to n decimal places.
+    Round,
     /// `min(x, y, ...)`, of all the numbers of all arguments.
     Min,
     /// `max(x, y, ...)`, of all the numbers of all arguments.
@@ -89,6 +97,10 @@ impl Function<'_> {
             "rows" => Function::Rows,
             "cols" => Function::Cols,
             "length" => Function::Length,
+            "last" => Function::Last,
+            "mean" => Function::Mean,
+            "sort" => Function::Sort,
+            "round" => Function::Round,
             "min" => Function::Min,
             "max" => Function::Max,
             "trace" => Function::Trace,

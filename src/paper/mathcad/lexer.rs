@@ -10,6 +10,7 @@
 //! A bar closes what the last open bracket is a bar for, if an operand stands before it; otherwise
 //! it opens.
 
+use std::collections::HashMap;
 use std::fmt;
 use std::rc::Rc;
 
@@ -94,33 +95,37 @@ fn typed(sign: &'static str) -> &'static str {
 
 /// The names of a listing in the order of their first appearance.
 #[derive(Clone, Debug, Default)]
-pub struct Names(Vec<String>);
+pub struct Names {
+    names: Vec<String>,
+    slots: HashMap<String, Slot>,
+}
 
 impl Names {
     /// Returns the slot of `name`, a new one where the name is new.
     fn intern(&mut self, name: &str) -> Slot {
         self.find(name).unwrap_or_else(|| {
-            self.0.push(name.into());
-            self.0.len() - 1
+            self.names.push(name.into());
+            self.slots.insert(name.into(), self.names.len() - 1);
+            self.names.len() - 1
         })
     }
 
     /// Returns the slot of `name`, if the listing has it.
     pub fn find(&self, name: &str) -> Option<Slot> {
-        self.0.iter().position(|known| known == name)
+        self.slots.get(name).copied()
     }
 
     pub fn name(&self, slot: Slot) -> &str {
-        &self.0[slot]
+        &self.names[slot]
     }
 
     /// Returns all names, in the order of their slots.
     pub fn all(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(String::as_str)
+        self.names.iter().map(String::as_str)
     }
 
     pub fn len(&self) -> usize {
-        self.0.len()
+        self.names.len()
     }
 }
 
@@ -272,7 +277,8 @@ fn text(rest: &str) -> Result<(Token, usize), String> {
 
 fn starts_operand(token: &Token) -> bool {
     let operand = matches!(token, Token::Number(_) | Token::Text(_) | Token::Name(_));
-    operand || matches!(token, Token::Function(_) | Token::Sign("(" | "|"))
+    // Within brackets `if` is the function.
+    operand || matches!(token, Token::Function(_) | Token::Sign("(" | "|" | "if"))
 }
 
 fn ends_operand(token: &Token) -> bool {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::failure::ParseError;
-use super::lexer::{self, Complaint, Names, Spanned};
+use super::lexer::{self, Complaint, Names, Spanned, Token};
 use super::parser;
 use super::settings::Limits;
 use super::syntax::{Expr, Kind, Slot, Statement, Step};
@@ -86,10 +86,20 @@ impl Listing {
     /// Errors: names the first place at which the text leaves the notation, or the limit that it
     /// exceeds.
     pub fn parse_within(name: &str, text: &str, limits: &Limits) -> Result<Self, ParseError> {
-        let numbered = text.lines().enumerate().map(|(k, text)| (k + 1, text));
-        let lines = numbered.filter(|(_, text)| !text.starts_with('#') && !text.trim().is_empty());
+        Self::parse_at(name, &text.lines().collect::<Vec<_>>(), 0, limits)
+    }
+
+    /// Reads a listing from lines of a file, before which so many others stand.
+    pub(super) fn parse_at(
+        name: &str,
+        lines: &[&str],
+        before: usize,
+        limits: &Limits,
+    ) -> Result<Self, ParseError> {
+        let numbered = lines.iter().zip(before + 1..);
+        let lines = numbered.filter(|(text, _)| !text.starts_with('#') && !text.trim().is_empty());
         let lines =
-            lines.enumerate().map(|(k, (in_file, text))| Line::new(k + 1, in_file, text)).collect();
+            lines.enumerate().map(|(k, (text, in_file))| Line::new(k + 1, in_file, text)).collect();
         Self::from_lines(name, lines, limits)
     }
 
@@ -100,10 +110,17 @@ impl Listing {
         limits: &Limits,
     ) -> Result<Self, ParseError> {
         let mut reader = Reader { name, lines: &lines, names: Names::default(), limits, next: 0 };
-        let parameters = reader.header()?;
-        let program = reader.block(1)?;
+        let (parameters, body) = reader.header()?;
+        let program = match body {
+            Some(body) => vec![body],
+            None => reader.block(1)?,
+        };
         if let Some(line) = lines.get(reader.next) {
-            return reader.refuse(line, "found a line beside the header, expected it indented");
+            let message = match line.level {
+                0 => "found a line beside the header, expected it indented",
+                _ => "found a line below a function whose body stands behind `:=`",
+            };
+            return reader.refuse(line, message);
         }
         let names = reader.names;
         let mut assigned = vec![false; names.len()];
@@ -125,8 +142,8 @@ impl Listing {
     pub fn free_names(&self) -> Vec<&str> {
         let mut used = vec![false; self.names.len()];
         uses(&self.program, &mut used);
-        let own = |slot: &Slot| self.assigned[*slot] || self.parameters.contains(slot);
-        let free = (0..self.names.len()).filter(|slot| used[*slot] && !own(slot));
+        self.parameters.iter().for_each(|slot| used[*slot] = false);
+        let free = (0..self.names.len()).filter(|slot| used[*slot] && !self.assigned[*slot]);
         free.map(|slot| self.names.name(slot)).collect()
     }
 
@@ -168,7 +185,8 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn header(&mut self) -> Result<Vec<Slot>, ParseError> {
+    /// Reads the first line: the parameters, and the body if it stands on that line too.
+    fn header(&mut self) -> Result<(Vec<Slot>, Option<Statement>), ParseError> {
         let empty = Line::new(1, 1, "");
         let line = self.lines.first().unwrap_or(&empty);
         if self.lines.len() > self.limits.lines {
@@ -178,7 +196,20 @@ impl<'a> Reader<'a> {
         }
         let tokens = self.tokens(line)?;
         self.next = 1;
-        parser::header(&tokens).map_err(|complaint| self.error(line, complaint))
+        let sign = tokens.iter().position(|(token, _)| *token == Token::Sign(":="));
+        let (header, body) = tokens.split_at(sign.map_or(tokens.len(), |at| at + 1));
+        let parameters = parser::header(header).map_err(|wrong| self.error(line, wrong))?;
+        if body.is_empty() {
+            return Ok((parameters, None));
+        }
+        let body = parser::statement(body, 0).map_err(|wrong| self.error(line, wrong))?;
+        self.check_depth(line, &body.step)?;
+        match body.step {
+            Step::Assign { .. } | Step::Evaluate { .. } | Step::Return { .. } => {
+                Ok((parameters, Some(body)))
+            }
+            _ => self.refuse(line, "found a block behind `:=`, expected it indented below"),
+        }
     }
 
     /// Reads the lines that stand `level` deep from here on, with all blocks within them.
@@ -215,10 +246,10 @@ impl<'a> Reader<'a> {
         self.check_depth(line, &statement.step)?;
         self.next += 1;
         match &mut statement.step {
-            Step::For { body, .. }
-            | Step::While { body, .. }
-            | Step::If { body, .. }
-            | Step::Otherwise { body } => *body = self.block(line.level + 1)?,
+            Step::For { body, .. } | Step::While { body, .. } | Step::If { body, .. } => {
+                *body = self.block(line.level + 1)?
+            }
+            Step::Otherwise { body } if body.is_empty() => *body = self.block(line.level + 1)?,
             Step::Try { body, fallback } => {
                 *body = self.block(line.level + 1)?;
                 self.on_error(line)?;
@@ -258,7 +289,10 @@ impl<'a> Reader<'a> {
     fn check_depth(&self, line: &Line, step: &Step) -> Result<(), ParseError> {
         let limit = self.limits.depth;
         let deep = |expr: &&Expr| expr.depth(limit + 1) > limit;
-        match step.expressions().into_iter().find(deep) {
+        // What stands on the line: `x otherwise` has it in its block.
+        let inside = step.blocks().into_iter().flatten();
+        let inside = inside.flat_map(|statement| statement.step.expressions());
+        match step.expressions().into_iter().chain(inside).find(deep) {
             Some(expr) => {
                 let message = format!("found operators and brackets more than {limit} deep");
                 Err(self.error(line, (expr.span.start, message)))

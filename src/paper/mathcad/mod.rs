@@ -22,10 +22,12 @@
 //! | [`edit`], [`file`] | the alternative readings of a listing; files of several listings |
 //! | [`observe`] | watching a run: traces and coverage |
 //! | `arithmetic`, `matrices`, `x87`, `function` | operations on values, and the functions a listing may call |
+//! | `lacking` | Mathcad's functions and units that are not here |
 //! | [`json`] | values as JSON |
 //! | [`sheet`] | what a worksheet defines above a program |
 //! | `state`, `entry`, `call`, `eval`, [`run`] | running a listing |
 //! | [`xmcd`] | the second notation: worksheets as Mathcad saves them |
+//! | `words` | what Mathcad's error messages mean |
 //! | [`worksheet`] | executing a worksheet beside its saved results |
 //!
 //! `README.md` in this directory lists Mathcad's semantics one by one, with the source of each.
@@ -49,11 +51,13 @@ mod call;
 mod entry;
 mod eval;
 mod function;
+mod lacking;
 mod lexer;
 mod matrices;
 mod parser;
 mod state;
 pub mod syntax;
+mod words;
 mod x87;
 
 pub use edit::Edit;

@@ -3,6 +3,8 @@
 //! From the loosest to the tightest: `∨`, `∧`, `¬`, comparisons, `+ −`, `· /`, the sign `−x`,
 //! one power, and behind an operand `xᵀ`, `x[i]`, `x⟨j⟩`. Operators of one level group from the
 //! left, but for a chain of comparisons, `a < b < c`, which is `a < b ∧ b < c`.
+//!
+//! No alternative reads a bracket a second time: nested ones would take twice as long a level.
 
 use std::collections::BTreeSet;
 
@@ -24,9 +26,9 @@ pub fn header(tokens: &[Spanned]) -> Result<Vec<Slot>, Complaint> {
 }
 
 /// Reads a line of a program, `line` being its place in the listing from 0. Blocks below it are
-/// left empty.
+/// left empty; that of `x otherwise` is `x`.
 pub fn statement(tokens: &[Spanned], line: usize) -> Result<Statement, Complaint> {
-    Ok(Statement { line, step: parse(step_grammar(), tokens)? })
+    Ok(Statement { line, step: parse(step_grammar(line), tokens)? })
 }
 
 fn parse<'t, T>(grammar: Grammar<'t, T>, tokens: &'t [Spanned]) -> Result<T, Complaint> {
@@ -81,7 +83,7 @@ fn header_grammar<'t>() -> Grammar<'t, Vec<Slot>> {
     function().ignore_then(parameters).then_ignore(sign(":=")).boxed()
 }
 
-fn step_grammar<'t>() -> Grammar<'t, Step> {
+fn step_grammar<'t>(line: usize) -> Grammar<'t, Step> {
     let guard = sign("if").ignore_then(expression()).or_not().boxed();
     let every = sign("for").ignore_then(name()).then_ignore(sign("∈")).then(range());
     let every = every.then(guard.clone()).map(|((name, range), guard)| Step::For {
@@ -104,17 +106,32 @@ fn step_grammar<'t>() -> Grammar<'t, Step> {
     let assign = reference(expression()).then_ignore(arrow).then(expression()).then(guard.clone());
     let assign = assign.map(|((target, value), guard)| Step::Assign { target, value, guard });
     let evaluate = expression().then(guard).map(|(value, guard)| Step::Evaluate { value, guard });
-    let words = choice((while_, otherwise, attempt, result, leave, next));
-    choice((every, when, words, assign, evaluate)).boxed()
+    let words = choice((while_, otherwise, attempt));
+    let alone = choice((result, leave, next, assign, evaluate)).then(sign("otherwise").or_not());
+    let alone = alone.try_map(move |(step, otherwise), span| match otherwise {
+        None => Ok(step),
+        Some(()) if step.condition().is_some() => {
+            Err(Rich::custom(span, "`if` and `otherwise` on one line"))
+        }
+        Some(()) => Ok(Step::Otherwise { body: vec![Statement { line, step }] }),
+    });
+    choice((every, when, words, alone)).boxed()
 }
 
-/// Reads `from .. to`, `from, second .. to`, or an array.
+/// Reads `from .. to`, `from, second .. to`, or values one after another.
 fn range<'t>() -> Grammar<'t, Range> {
-    let second = sign(",").ignore_then(expression()).or_not();
-    let end = second.then_ignore(sign("..")).then(expression()).or_not();
-    let range = expression().then(end).map(|(from, end)| match end {
-        Some((second, to)) => Range::Span { from, second, to },
-        None => Range::Over(from),
+    let values = expression().separated_by(sign(",")).at_least(1).collect::<Vec<_>>();
+    let end = sign("..").ignore_then(expression()).or_not();
+    let range = values.then(end).try_map(|(mut values, end), _| match (end, values.len()) {
+        (None, _) => Ok(Range::Over(values)),
+        (Some(to), 1 | 2) => {
+            let from = values.remove(0);
+            Ok(Range::Span { from, second: values.pop(), to })
+        }
+        (Some(to), _) => {
+            let span = values[0].span.start..to.span.end;
+            Err(Rich::custom(span.into(), "a range within a list"))
+        }
     });
     range.boxed()
 }
@@ -189,12 +206,29 @@ fn behind<'t>(atom: Grammar<'t, Expr>, expression: Grammar<'t, Expr>) -> Grammar
         let of = Box::new(x);
         let kind = match behind {
             Behind::Transpose => Kind::Transpose(of),
+            Behind::Subscripts(subscripts) if is_name(&of) => entry(of, subscripts, e.span()),
             Behind::Subscripts(subscripts) => Kind::Entry { of, subscripts },
             Behind::Column(column) => Kind::Column(of, Box::new(column)),
         };
         node(kind, e.span())
     });
     whole.boxed()
+}
+
+fn is_name(expr: &Expr) -> bool {
+    matches!(&expr.kind, Kind::Read(reference) if reference.row.is_none())
+}
+
+/// Makes the entry of a name.
+fn entry(name: Box<Expr>, subscripts: Vec<Expr>, span: SimpleSpan) -> Kind {
+    let mut subscripts = subscripts.into_iter().map(Box::new);
+    let (row, col) = (subscripts.next(), subscripts.next());
+    match name.kind {
+        Kind::Read(reference) => {
+            Kind::Read(Reference { row, col, span: span.into_range(), ..reference })
+        }
+        other => other,
+    }
 }
 
 fn atom<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
@@ -213,7 +247,15 @@ fn atom<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
     let arguments =
         expression.clone().separated_by(sign(",")).collect().delimited_by(sign("("), sign(")"));
     let call = function().then(arguments).map(|(name, arguments)| Kind::Call(name, arguments));
-    let read = reference(expression.clone()).map(Kind::Read);
+    let parts = [(); 2].map(|()| sign(",").ignore_then(expression.clone()));
+    let [then, other] = parts;
+    let parts = expression.clone().then(then).then(other).delimited_by(sign("("), sign(")"));
+    let choice_of = sign("if").ignore_then(parts);
+    let choice_of = choice_of.map(|((condition, x), y)| Kind::If(Box::new([condition, x, y])));
+    let read = name().map_with(|name, e| {
+        let span = e.span().into_range();
+        Kind::Read(Reference { name, row: None, col: None, span })
+    });
     let row = expression.clone().separated_by(just(Token::Gap)).at_least(1).collect::<Vec<_>>();
     let rows = row.separated_by(sign(";")).at_least(1).collect::<Vec<_>>();
     let rows = rows.delimited_by(sign("("), sign(")")).try_map(|rows, span| {
@@ -227,7 +269,7 @@ fn atom<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
         Kind::Group(x) => Kind::Transpose(x),
         array => Kind::Transpose(Box::new(node(array, e.span()))),
     });
-    choice((plain, series, call, read, rows, magnitude, transpose))
+    choice((plain, series, call, choice_of, read, rows, magnitude, transpose))
         .map_with(|kind, e| node(kind, e.span()))
         .boxed()
 }
@@ -252,17 +294,17 @@ fn calculation(operation: Operation, l: Expr, r: Expr) -> Expr {
     Expr { kind: Kind::Arithmetic(operation, Box::new(l), Box::new(r)), span }
 }
 
-/// Compares each operand with the next; all comparisons must hold.
-fn chained(first: Expr, rest: Vec<(Comparison, Expr)>) -> Expr {
-    let mut comparisons = Vec::new();
-    let mut l = first;
-    for (comparison, r) in rest {
-        let span = l.span.start..r.span.end;
-        let kind = Kind::Compare(comparison, Box::new(l), Box::new(r.clone()));
-        comparisons.push(Expr { kind, span });
-        l = r;
-    }
-    if comparisons.is_empty() { l } else { joined(comparisons, Kind::All) }
+/// Compares each operand with the next; one alone is itself.
+fn chained(first: Expr, mut rest: Vec<(Comparison, Expr)>) -> Expr {
+    let Some((_, last)) = rest.last() else { return first };
+    let (span, first) = (first.span.start..last.span.end, Box::new(first));
+    let kind = if rest.len() == 1 {
+        let (comparison, second) = rest.remove(0);
+        Kind::Compare(comparison, first, Box::new(second))
+    } else {
+        Kind::Chain(first, rest)
+    };
+    Expr { kind, span }
 }
 
 /// Joins operands, at least one; one alone is itself.

@@ -1,16 +1,18 @@
 //! Running a listing: the worksheet around it, and its statements.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
+use super::eval::FUNCTION;
 use super::failure::{Cause, Fallible};
 use super::function::Function;
 use super::listing::Listing;
 use super::observe::Observer;
 use super::settings::{Limits, Settings};
-use super::sheet::Sheet;
-use super::state::{Cell, Run};
-use super::syntax::{Expr, Range, Reference, Slot, Statement, Step};
-use super::value::Value;
+use super::sheet::{Numbers, Sheet};
+use super::state::{Run, Variable};
+use super::syntax::{Expr, Kind, Range, Reference, Slot, Statement, Step};
+use super::value::{Grid, Value};
 
 /// A listing in a worksheet: what is defined above it, and the settings.
 pub struct Runner<'l> {
@@ -20,6 +22,7 @@ pub struct Runner<'l> {
     limits: Limits,
     values: Vec<Option<Value>>,
     functions: Vec<Option<Function<'l>>>,
+    spent: Cell<u64>,
 }
 
 /// What a run leaves behind.
@@ -43,6 +46,7 @@ impl Listing {
             limits: limits.clone(),
             values: vec![None; self.names.len()],
             functions: self.names.all().map(Function::builtin).collect(),
+            spent: Cell::default(),
         }
     }
 
@@ -60,6 +64,7 @@ impl Listing {
             limits: limits.clone(),
             values: self.names.all().map(|name| sheet.value(name)).collect(),
             functions: self.names.all().map(|name| sheet.function(name)).collect(),
+            spent: Cell::default(),
         }
     }
 }
@@ -90,6 +95,11 @@ impl<'l> Runner<'l> {
         self.call_observed(arguments, &mut ())
     }
 
+    /// Returns the steps that the last call took.
+    pub fn steps(&self) -> u64 {
+        self.spent.get()
+    }
+
     /// Calls the listing's function under the eyes of an observer.
     /// Errors: returns the failure that stopped the program; the observer has then seen all that
     /// came before.
@@ -98,8 +108,9 @@ impl<'l> Runner<'l> {
         arguments: &[Value],
         observer: &mut O,
     ) -> Fallible<Outcome> {
-        let Runner { listing, sheet, settings, limits, values, functions } = self;
-        let cell = |value: &Option<Value>| Cell { value: value.clone(), local: false };
+        let Runner { listing, sheet, settings, limits, values, functions, spent } = self;
+        let cell = |value: &Option<Value>| Variable { value: value.clone(), local: false };
+        spent.set(0);
         let run = Run {
             listing,
             sheet: *sheet,
@@ -109,7 +120,7 @@ impl<'l> Runner<'l> {
             functions,
             observer,
             line: 0,
-            steps: 0,
+            spent,
             stored: 0,
             depth: listing.depth,
             last: None,
@@ -196,10 +207,10 @@ impl<O: Observer> Run<'_, '_, O> {
         self.room(0)
     }
 
-    /// Returns the value of a program that has run, its steps and what it traced.
-    pub fn into_value(mut self) -> Fallible<(Value, u64, Vec<String>)> {
+    /// Returns the value of a program that has run, and what it traced.
+    pub fn into_value(mut self) -> Fallible<(Value, Vec<String>)> {
         match self.last.take() {
-            Some(value) => Ok((value, self.steps, self.trace)),
+            Some(value) => Ok((value, self.trace)),
             None => Err(self.fail_line(Cause::NoValue)),
         }
     }
@@ -280,7 +291,10 @@ impl<O: Observer> Run<'_, '_, O> {
 
     fn attempt(&mut self, body: &[Statement], fallback: &[Statement]) -> Fallible<Flow> {
         match self.block(body) {
-            Err(failure) if !failure.is_limit() => self.block(fallback),
+            Err(failure) if !failure.is_limit() => {
+                self.spend_on(&failure)?;
+                self.block(fallback)
+            }
             outcome => outcome,
         }
     }
@@ -320,20 +334,45 @@ impl<O: Observer> Run<'_, '_, O> {
 
     fn turns(&mut self, range: &Range) -> Fallible<Turns> {
         let (from, second, to) = match range {
-            Range::Over(expr) => {
-                let value = self.eval(expr)?;
-                self.afford(value.count())?;
-                return Ok(Turns::Over(value));
+            Range::Over(values) => match self.range_variable(values) {
+                Some(numbers) => numbers,
+                None => return self.values(values).map(Turns::Over),
+            },
+            Range::Span { from, second, to } => {
+                let from = self.number(from)?;
+                let second = second.as_ref().map(|second| self.number(second)).transpose()?;
+                (from, second, self.number(to)?)
             }
-            Range::Span { from, second, to } => (from, second, to),
         };
-        let from = self.number(from)?;
-        let second = second.as_ref().map(|second| self.number(second)).transpose()?;
-        let to = self.number(to)?;
         let turns = span(from, second, to, self.settings.descending_is_empty);
         turns.ok_or_else(|| {
             self.fail_line(Cause::Range { from, second: second.unwrap_or(from), to })
         })
+    }
+
+    /// Returns the numbers of the worksheet's range variable, if a loop runs over one.
+    fn range_variable(&self, values: &[Expr]) -> Option<Numbers> {
+        let [Expr { kind: Kind::Read(Reference { name, row: None, .. }), .. }] = values else {
+            return None;
+        };
+        let has_value = self.cells[*name].value.is_some();
+        self.sheet.filter(|_| !has_value)?.range(self.listing.names.name(*name))
+    }
+
+    /// Returns what a loop runs over: a value, or the entries of several as one column.
+    fn values(&mut self, values: &[Expr]) -> Fallible<Value> {
+        let mut entries = self.arguments(values)?;
+        let count = entries.iter().map(Value::count).sum();
+        self.afford(count)?;
+        if entries.len() == 1 {
+            return Ok(entries.remove(0));
+        }
+        self.spend(FUNCTION * count as u64)?;
+        let entries = entries.into_iter().map(Turns::Over);
+        let entries = entries.flat_map(|turns| (0..).map_while(move |turn| turns.value(turn)));
+        let entries: Vec<Value> = entries.collect();
+        self.check_nesting(entries.iter().map(Value::depth).max().unwrap_or(0))?;
+        Ok(Value::grid(Grid::column(entries)))
     }
 
     /// Writes a value to a name or entry. The value of the statement is what was written.

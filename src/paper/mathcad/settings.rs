@@ -103,7 +103,8 @@ pub struct Limits {
     pub calls: usize,
     /// The numbers that all arrays and trace lines of a run may store together, eight bytes each.
     pub entries: usize,
-    /// The statements executed, plus the numbers that array operations work through.
+    /// The statements and expressions executed, plus the numbers that array operations work through,
+    /// and what functions take: about 15 ns each.
     pub steps: u64,
 }
 

@@ -14,13 +14,17 @@ use super::value::Value;
 pub struct Sheet {
     values: BTreeMap<String, Value>,
     programs: BTreeMap<String, Rc<Listing>>,
+    ranges: BTreeMap<String, Numbers>,
 }
+
+/// The numbers of a range: the first, the second if it is given, and the last.
+pub type Numbers = (f64, Option<f64>, f64);
 
 impl Default for Sheet {
     fn default() -> Self {
         let constants = [("π", PI), ("e", E), ("deg", PI / 180.0), ("rad", 1.0)];
         let values = constants.map(|(name, x)| (name.into(), x.into())).into();
-        Sheet { values, programs: BTreeMap::new() }
+        Sheet { values, programs: BTreeMap::new(), ranges: BTreeMap::new() }
     }
 }
 
@@ -37,14 +41,25 @@ impl Sheet {
         self
     }
 
+    /// Defines a range variable.
+    pub fn define_range(&mut self, name: &str, numbers: Numbers) -> &mut Self {
+        self.ranges.insert(name.into(), numbers);
+        self
+    }
+
     /// Forgets what a name stands for.
     pub fn remove(&mut self, name: &str) {
         self.values.remove(name);
         self.programs.remove(name);
+        self.ranges.remove(name);
     }
 
     pub fn value(&self, name: &str) -> Option<Value> {
         self.values.get(name).cloned()
+    }
+
+    pub fn range(&self, name: &str) -> Option<Numbers> {
+        self.ranges.get(name).copied()
     }
 
     pub fn program(&self, name: &str) -> Option<&Rc<Listing>> {

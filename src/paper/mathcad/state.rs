@@ -1,8 +1,11 @@
 //! The state of a run: the values of its names, its current line, and how much of the limits it has
 //! used.
 
+use std::cell::Cell;
+
 use super::failure::{Cause, Failure, Fallible};
 use super::function::Function;
+use super::lacking;
 use super::listing::Listing;
 use super::observe::Place;
 use super::settings::{Limits, Settings};
@@ -11,7 +14,7 @@ use super::syntax::{Slot, Span};
 use super::value::Value;
 
 /// A name's value, and whether the program wrote it.
-pub struct Cell {
+pub struct Variable {
     pub value: Option<Value>,
     pub local: bool,
 }
@@ -22,13 +25,13 @@ pub struct Run<'r, 'l, O> {
     pub sheet: Option<&'r Sheet>,
     pub settings: &'r Settings,
     pub limits: &'r Limits,
-    pub cells: Vec<Cell>,
+    pub cells: Vec<Variable>,
     pub functions: &'r mut [Option<Function<'l>>],
     pub observer: &'r mut O,
     /// The current line, counted from 0 through the listing's lines.
     pub line: usize,
-    /// Steps taken, which `limits.steps` bounds.
-    pub steps: u64,
+    /// The steps taken, those of the functions that were called too; `limits.steps` bounds them.
+    pub spent: &'r Cell<u64>,
     /// Numbers stored by all names and trace lines, which `limits.entries` bounds.
     pub stored: usize,
     /// How deep blocks and expressions stand within each other, the calls that led here included;
@@ -41,12 +44,18 @@ pub struct Run<'r, 'l, O> {
 
 impl<'r, 'l, O> Run<'r, 'l, O> {
     /// Counts `steps` against the limit.
-    pub fn spend(&mut self, steps: u64) -> Fallible<()> {
-        self.steps = self.steps.saturating_add(steps);
-        if self.steps > self.limits.steps {
+    pub fn spend(&self, steps: u64) -> Fallible<()> {
+        let spent = self.spent.get().saturating_add(steps);
+        self.spent.set(spent);
+        if spent > self.limits.steps {
             return Err(self.fail_line(Cause::Limit { limit: self.limits.steps, of: "steps" }));
         }
         Ok(())
+    }
+
+    /// Counts a failure that does not end the program: its message takes the time of its line.
+    pub fn spend_on(&self, failure: &Failure) -> Fallible<()> {
+        self.spend(16 + failure.statement.len() as u64 / 4)
     }
 
     /// Checks that `more` numbers can be stored within the limit.
@@ -59,7 +68,7 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
     }
 
     /// Checks that there is room for the numbers of a new value, and takes a step for each.
-    pub fn afford(&mut self, numbers: usize) -> Fallible<()> {
+    pub fn afford(&self, numbers: usize) -> Fallible<()> {
         self.room(numbers)?;
         self.spend(numbers as u64)
     }
@@ -86,7 +95,21 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
         self.fail(&(0..self.listing.lines[self.line].text.len()), cause)
     }
 
-    pub fn undefined(&self, slot: Slot, span: &Span) -> Box<Failure> {
-        self.fail(span, Cause::Undefined { name: self.listing.names.name(slot).into() })
+    /// Returns the failure of a name that has no value, or, where it is `called`, is no function.
+    pub fn undefined(&self, slot: Slot, called: bool, span: &Span) -> Box<Failure> {
+        let name = self.listing.names.name(slot);
+        let range = self.sheet.and_then(|sheet| sheet.range(name));
+        let construct = if range.is_some() {
+            Some(format!("a range variable in an expression ({name})"))
+        } else if !called && self.functions[slot].is_some() {
+            Some(format!("a function as a value ({name})"))
+        } else {
+            lacking::construct(name, called)
+        };
+        let cause = match construct {
+            Some(construct) => Cause::Unsupported { construct },
+            None => Cause::Undefined { name: name.into() },
+        };
+        self.fail(span, cause)
     }
 }

@@ -3,6 +3,7 @@
 //! Names are numbered as they are read: a [`Slot`] indexes the listing's names, and a run keeps
 //! each name's value at that place.
 
+use std::cmp::Ordering;
 use std::rc::Rc;
 
 /// The number of a name, counted from 0 in the order of first appearance.
@@ -47,8 +48,8 @@ pub enum Step {
 pub enum Range {
     /// `from .. to`, or `from, second .. to`.
     Span { from: Expr, second: Option<Expr>, to: Expr },
-    /// The entries of an array, column by column.
-    Over(Expr),
+    /// The values one after another, of an array its entries, column by column: `v`, or `1, 5, 9`.
+    Over(Vec<Expr>),
 }
 
 /// A name, or an entry of the array of that name.
@@ -107,12 +108,16 @@ pub enum Kind {
     Arithmetic(Operation, Box<Expr>, Box<Expr>),
     /// A comparison `x < y`, or its kin.
     Compare(Comparison, Box<Expr>, Box<Expr>),
+    /// Comparisons of each operand with the next, `x < y ≤ z`, of three operands or more.
+    Chain(Box<Expr>, Vec<(Comparison, Expr)>),
     /// A conjunction `x ∧ y ∧ z` of two operands or more.
     All(Vec<Expr>),
     /// A disjunction `x ∨ y ∨ z` of two operands or more.
     Any(Vec<Expr>),
     /// A call of a function, `name(x, y)`.
     Call(Slot, Vec<Expr>),
+    /// Mathcad's function `if(condition, x, y)`, which evaluates one of the two.
+    If(Box<[Expr; 3]>),
     /// A sum or product over a range, `∑(i ∈ from .. to, term)`: the function, the variable, and
     /// the expressions from, to and term.
     Series {
@@ -149,7 +154,7 @@ impl Step {
             Step::For { range: Range::Span { from, second, to }, .. } => {
                 [from].into_iter().chain(second).chain([to]).collect()
             }
-            Step::For { range: Range::Over(value), .. } => vec![value],
+            Step::For { range: Range::Over(values), .. } => values.iter().collect(),
             Step::Assign { target, value, .. } => target.subscripts().chain([value]).collect(),
             Step::Evaluate { value, .. } | Step::Return { value, .. } => vec![value],
             _ => vec![],
@@ -222,6 +227,18 @@ impl Comparison {
         Comparison::GreaterOrEqual,
     ];
 
+    /// Returns whether the comparison is true of what stands so.
+    pub fn holds(self, order: Ordering) -> bool {
+        match self {
+            Comparison::Equal => order.is_eq(),
+            Comparison::Unequal => order.is_ne(),
+            Comparison::Less => order.is_lt(),
+            Comparison::LessOrEqual => order.is_le(),
+            Comparison::Greater => order.is_gt(),
+            Comparison::GreaterOrEqual => order.is_ge(),
+        }
+    }
+
     /// Returns the sign by which the listing writes it.
     pub fn sign(self) -> &'static str {
         match self {
@@ -254,7 +271,8 @@ impl Expr {
             Kind::Array { entries: xs, .. } | Kind::All(xs) | Kind::Any(xs) | Kind::Call(_, xs) => {
                 xs.iter().collect()
             }
-            Kind::Series { parts, .. } => parts.iter().collect(),
+            Kind::Chain(x, rest) => [&**x].into_iter().chain(rest.iter().map(|(_, y)| y)).collect(),
+            Kind::Series { parts, .. } | Kind::If(parts) => parts.iter().collect(),
         }
     }
 

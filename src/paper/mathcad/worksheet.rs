@@ -1,13 +1,15 @@
 //! Executing a worksheet region by region, beside the results that Mathcad saved.
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::failure::{Cause, Fallible};
 use super::listing::Listing;
 use super::settings::{Limits, Settings};
-use super::sheet::Sheet;
+use super::sheet::{Numbers, Sheet};
 use super::value::Value;
+use super::words;
 use super::xmcd::document::{Content, Region, Saved, Worksheet};
 
 /// Fewer digits than these in common are a difference.
@@ -40,24 +42,42 @@ pub enum Verdict {
     Same,
     /// The numbers agree to so many digits, at least [`LEAST_DIGITS`].
     Digits(u32),
-    /// Both fail; the words that Mathcad saved, and ours.
+    /// Both fail of the same cause; the words that Mathcad saved, and ours.
     SameFailure { saved: String, ours: String },
     /// Ours fails where nothing is saved; why.
     Fails(String),
     /// They differ: what Mathcad saved, and ours.
     Differs { saved: String, ours: String },
-    /// The interpreter does not have this construct, or what it rests on.
-    Beyond(String),
+    /// The interpreter does not have this construct, or what the region rests on.
+    Unsupported(String),
 }
 
-/// Executes a worksheet's regions in order, each under `limits`.
+impl Verdict {
+    /// Returns whether what Mathcad saved agrees with what is computed here.
+    pub fn agrees(&self) -> bool {
+        matches!(self, Verdict::Same | Verdict::Digits(_) | Verdict::SameFailure { .. })
+    }
+}
+
+/// Executes a worksheet's regions in order under `limits`. The steps are those of all regions
+/// together; one region may take half of those that are left, so that an endless one leaves some.
 pub fn execute(worksheet: &Worksheet, limits: &Limits) -> Vec<Checked> {
+    execute_watched(worksheet, limits, &mut |_, _| ())
+}
+
+/// Executes a worksheet as [`execute`] does; `watch` is told how many regions are done, and of how
+/// many.
+pub fn execute_watched(
+    worksheet: &Worksheet,
+    limits: &Limits,
+    watch: &mut dyn FnMut(usize, usize),
+) -> Vec<Checked> {
     let mut run = Execution {
         settings: worksheet.settings.clone(),
         limits,
+        steps: Cell::new(limits.steps),
         sheet: Sheet::default(),
-        ranges: BTreeMap::new(),
-        beyond: BTreeMap::new(),
+        unsupported: BTreeMap::new(),
         inputs: BTreeMap::new(),
     };
     run.sheet.define(ORIGIN, f64::from(run.settings.origin));
@@ -67,18 +87,24 @@ pub fn execute(worksheet: &Worksheet, limits: &Limits) -> Vec<Checked> {
         run.region(region);
     }
     let regions = worksheet.regions.iter();
-    let checked = regions.filter(|region| !matches!(region.content, Content::Silent));
-    checked.map(|region| run.region(region)).collect()
+    let regions: Vec<_> =
+        regions.filter(|region| !matches!(region.content, Content::Silent)).collect();
+    let mut checked = Vec::new();
+    for region in &regions {
+        watch(checked.len(), regions.len());
+        checked.push(run.region(region));
+    }
+    checked
 }
 
 struct Execution<'a> {
     settings: Settings,
     limits: &'a Limits,
+    /// The steps that are left.
+    steps: Cell<u64>,
     sheet: Sheet,
-    /// Range variables, as the text of a loop has their numbers.
-    ranges: BTreeMap<String, String>,
-    /// Names that are beyond the interpreter, and why.
-    beyond: BTreeMap<String, String>,
+    /// Names that the interpreter cannot know, and why.
+    unsupported: BTreeMap<String, String>,
     /// The saved results that a name's value rests on.
     inputs: BTreeMap<String, BTreeSet<String>>,
 }
@@ -88,7 +114,7 @@ enum Outcome {
     Defined,
     Value(Value),
     Failed(Cause),
-    Beyond(String),
+    Unsupported(String),
 }
 
 impl Execution<'_> {
@@ -96,10 +122,10 @@ impl Execution<'_> {
         let mut inputs = BTreeSet::new();
         let (text, outcome) = match &region.content {
             Content::Silent => (String::new(), Outcome::Defined),
-            Content::Beyond { names, construct } => {
+            Content::Unsupported { names, construct } => {
                 names.iter().for_each(|name| self.lose(name, construct));
                 let text = names.iter().map(|name| format!("{name} := ...")).collect::<Vec<_>>();
-                (text.join(", "), Outcome::Beyond(construct.clone()))
+                (text.join(", "), Outcome::Unsupported(construct.clone()))
             }
             Content::Table { name, value } => {
                 self.keep(name, value.clone(), BTreeSet::new());
@@ -144,11 +170,11 @@ impl Execution<'_> {
     fn take_saved(&mut self, region: &Region, value: &Value) {
         let is_known = |name: &String| self.sheet.value(name).is_some();
         let name = match &region.content {
-            Content::Evaluation(name) if self.beyond.contains_key(name) || is_known(name) => {
+            Content::Evaluation(name) if self.unsupported.contains_key(name) || is_known(name) => {
                 name.clone()
             }
             Content::Definition { name, entry: None, .. } => name.clone(),
-            Content::Beyond { names, .. } if names.len() == 1 => names[0].clone(),
+            Content::Unsupported { names, .. } if names.len() == 1 => names[0].clone(),
             _ => return,
         };
         self.keep(&name, value.clone(), BTreeSet::from([region.id.clone()]));
@@ -163,19 +189,19 @@ impl Execution<'_> {
 
     fn lose(&mut self, name: &str, construct: &str) {
         self.forget(name);
-        self.beyond.insert(name.into(), construct.into());
+        self.unsupported.insert(name.into(), construct.into());
     }
 
     fn forget(&mut self, name: &str) {
         self.sheet.remove(name);
-        self.ranges.remove(name);
-        self.beyond.remove(name);
+        self.unsupported.remove(name);
         self.inputs.remove(name);
     }
 
     fn parse(&self, text: &str) -> Result<Listing, Outcome> {
         let listing = Listing::parse_within("region", text, self.limits);
-        listing.map_err(|error| Outcome::Beyond(format!("its size or form: {}", error.message)))
+        listing
+            .map_err(|error| Outcome::Unsupported(format!("its size or form: {}", error.message)))
     }
 
     fn function(&mut self, name: &str, text: &str) -> Outcome {
@@ -201,20 +227,29 @@ impl Execution<'_> {
         };
         match self.run(&[format!("  {numbers}")], inputs) {
             Outcome::Value(Value::Array(numbers)) => {
-                let spelled = |x: &f64| super::xmcd::write::number(*x).replace('-', "−");
-                let numbers: Vec<_> = numbers.entries().iter().map(spelled).collect();
-                let (last, start) = numbers.split_last().expect("two numbers or three");
+                let numbers = match *numbers.entries() {
+                    [from, second, to] => (from, Some(second), to),
+                    ref ends => (ends[0], None, ends[1]),
+                };
                 self.forget(name);
-                self.ranges.insert(name.into(), format!("{} .. {last}", start.join(", ")));
+                self.sheet.define_range(name, numbers);
                 self.inputs.insert(name.into(), inputs.clone());
                 Outcome::Defined
             }
-            Outcome::Value(other) => Outcome::Beyond(format!("a range of {}", other.kind())),
-            outcome => {
-                self.lose(name, "a range");
-                outcome
-            }
+            Outcome::Value(other) => self
+                .lose_outcome(name, Outcome::Unsupported(format!("a range of {}", other.kind()))),
+            outcome => self.lose_outcome(name, outcome),
         }
+    }
+
+    /// Takes a name's value away for want of another.
+    fn lose_outcome(&mut self, name: &str, outcome: Outcome) -> Outcome {
+        match &outcome {
+            Outcome::Unsupported(construct) => self.lose(name, construct),
+            Outcome::Failed(cause) => self.lose(name, &format!("an error: {cause}")),
+            Outcome::Value(_) | Outcome::Defined => {}
+        }
+        outcome
     }
 
     fn definition(
@@ -228,7 +263,7 @@ impl Execution<'_> {
         if entry.is_some()
             && let Some(construct) = self.rests_on(name)
         {
-            return Outcome::Beyond(construct);
+            return Outcome::Unsupported(construct);
         }
         let outcome = match entry {
             None => self.run(&indented(lines, 1), inputs),
@@ -241,18 +276,16 @@ impl Execution<'_> {
                 self.run(&program, inputs)
             }
         };
-        match &outcome {
-            Outcome::Value(value) => self.keep(name, value.clone(), inputs.clone()),
-            Outcome::Beyond(construct) => self.lose(name, construct),
-            Outcome::Failed(cause) => self.lose(name, &format!("an error: {cause}")),
-            Outcome::Defined => {}
+        if let Outcome::Value(value) = &outcome {
+            self.keep(name, value.clone(), inputs.clone());
         }
+        let outcome = self.lose_outcome(name, outcome);
         match (name, &outcome) {
             (ORIGIN, Outcome::Value(Value::Number(x))) if *x == f64::from(*x as i32) => {
                 self.settings.origin = *x as i32;
                 outcome
             }
-            (ORIGIN, _) => Outcome::Beyond("an ORIGIN that is no whole number".into()),
+            (ORIGIN, _) => Outcome::Unsupported("an ORIGIN that is no whole number".into()),
             _ => outcome,
         }
     }
@@ -270,7 +303,7 @@ impl Execution<'_> {
                 program.push("  _values".into());
                 self.run(&program, inputs)
             }
-            _ => Outcome::Beyond("a table over several range variables".into()),
+            _ => Outcome::Unsupported("a table over several range variables".into()),
         }
     }
 
@@ -280,8 +313,13 @@ impl Execution<'_> {
             return (vec![], 1);
         };
         let names = listing.free_names();
-        let ranges = names.iter().filter_map(|name| Some((name, self.ranges.get(*name)?)));
-        let line = |(k, (name, range))| format!("{:1$}for {name} ∈ {range}", "", 2 * (k + 1));
+        let ranges = names.iter().filter_map(|name| Some((name, self.sheet.range(name)?)));
+        let spelled = |x: f64| super::xmcd::write::number(x).replace('-', "−");
+        let line = |(k, (name, (from, second, to))): (usize, (&&str, Numbers))| {
+            let second = second.map(|second| format!(", {}", spelled(second))).unwrap_or_default();
+            let range = format!("{}{second} .. {}", spelled(from), spelled(to));
+            format!("{:1$}for {name} ∈ {range}", "", 2 * (k + 1))
+        };
         let loops: Vec<_> = ranges.enumerate().map(line).collect();
         let level = loops.len() + 1;
         (loops, level)
@@ -293,47 +331,47 @@ impl Execution<'_> {
             Ok(program) => program,
             Err(outcome) => return outcome,
         };
-        let mut seen = BTreeSet::new();
-        if let Some(construct) = self.trace_names(&program, &mut seen, inputs) {
-            return Outcome::Beyond(construct);
+        if let Some(construct) = self.trace_names(&program, inputs) {
+            return Outcome::Unsupported(construct);
         }
-        let outcome: Fallible<_> =
-            program.runner_in(&self.sheet, &self.settings, self.limits).call(&[]);
+        let limits = Limits { steps: self.steps.get() / 2, ..self.limits.clone() };
+        let mut runner = program.runner_in(&self.sheet, &self.settings, &limits);
+        let outcome: Fallible<_> = runner.call(&[]);
+        self.steps.set(self.steps.get().saturating_sub(runner.steps()));
         match outcome.map_err(|failure| failure.cause) {
             Ok(outcome) => Outcome::Value(outcome.value),
-            Err(Cause::Complex { .. }) => Outcome::Beyond("complex numbers".into()),
-            Err(limit @ Cause::Limit { .. }) => Outcome::Beyond(limit.to_string()),
+            Err(Cause::Unsupported { construct }) => Outcome::Unsupported(construct),
+            Err(Cause::Complex { .. }) => Outcome::Unsupported("complex numbers".into()),
+            Err(limit @ Cause::Limit { .. }) => Outcome::Unsupported(limit.to_string()),
             Err(cause) => Outcome::Failed(cause),
         }
     }
 
-    /// Returns why what reads a name is beyond the interpreter, if the name is.
+    /// Returns why what reads a name is unsupported, if the name is.
     fn rests_on(&self, name: &str) -> Option<String> {
-        let construct = self.beyond.get(name)?;
-        let follows = construct.contains("rests on");
-        Some(if follows { construct.clone() } else { format!("it rests on {name}: {construct}") })
+        let construct = self.unsupported.get(name)?;
+        let follows = construct.contains("(it rests on ");
+        Some(if follows { construct.clone() } else { format!("{construct} (it rests on {name})") })
     }
 
-    /// Collects the saved results that a program rests on, its functions' included. Returns why it
-    /// is beyond the interpreter, if a name that it reads is.
-    fn trace_names(
-        &self,
-        program: &Listing,
-        seen: &mut BTreeSet<String>,
-        inputs: &mut BTreeSet<String>,
-    ) -> Option<String> {
-        for name in program.free_names() {
-            if !seen.insert(name.into()) {
-                continue;
-            }
-            if let Some(construct) = self.rests_on(name) {
+    /// Collects the saved results that a program rests on, its functions' included, each name of which
+    /// takes a step. Returns why it is unsupported, if a name that it reads is.
+    fn trace_names(&self, program: &Listing, inputs: &mut BTreeSet<String>) -> Option<String> {
+        let names_of = |program: &Listing| {
+            let names: Vec<_> = program.free_names().into_iter().map(String::from).collect();
+            self.steps.set(self.steps.get().saturating_sub(names.len() as u64));
+            names.into_iter().rev()
+        };
+        let mut seen = BTreeSet::new();
+        let mut names: Vec<String> = names_of(program).collect();
+        while let Some(name) = names.pop().filter(|_| self.steps.get() > 0) {
+            if let Some(construct) = self.rests_on(&name) {
                 return Some(construct);
             }
-            inputs.extend(self.inputs.get(name).into_iter().flatten().cloned());
-            if let Some(program) = self.sheet.program(name).cloned()
-                && let Some(construct) = self.trace_names(&program, seen, inputs)
-            {
-                return Some(construct);
+            if !seen.contains(&name) {
+                inputs.extend(self.inputs.get(&name).into_iter().flatten().cloned());
+                names.extend(self.sheet.program(&name).into_iter().flat_map(|f| names_of(f)));
+                seen.insert(name);
             }
         }
         None
@@ -346,16 +384,26 @@ fn indented(lines: &[String], level: usize) -> Vec<String> {
 
 fn verdict(outcome: &Outcome, saved: Option<&Saved>) -> Verdict {
     match (outcome, saved) {
-        (Outcome::Beyond(construct), _) => Verdict::Beyond(construct.clone()),
-        (Outcome::Defined, _) => Verdict::NothingSaved,
-        (_, Some(Saved::Beyond(construct))) => Verdict::Beyond(construct.clone()),
-        (Outcome::Failed(cause), Some(Saved::Error(words))) => {
-            Verdict::SameFailure { saved: words.clone(), ours: cause.to_string() }
+        (Outcome::Unsupported(construct), Some(Saved::Error(words))) => {
+            Verdict::Unsupported(format!("{construct}; Mathcad saved an error: «{words}»"))
         }
-        // A function of Mathcad's that the interpreter does not have.
-        (Outcome::Failed(Cause::Undefined { name }), _) => Verdict::Beyond(format!("`{name}`")),
+        (Outcome::Unsupported(construct), _) => Verdict::Unsupported(construct.clone()),
+        (Outcome::Defined, _) => Verdict::NothingSaved,
+        (_, Some(Saved::Unsupported(construct))) => Verdict::Unsupported(construct.clone()),
+        (Outcome::Failed(cause), Some(Saved::Error(words))) => {
+            let (saved, ours) = (words.clone(), cause.to_string());
+            match words::is_of(words, cause) {
+                Some(true) => Verdict::SameFailure { saved, ours },
+                Some(false) => Verdict::Differs { saved: format!("«{saved}»"), ours },
+                None => Verdict::Unsupported(format!("Mathcad's error «{saved}»; here: {ours}")),
+            }
+        }
+        // Mathcad may know it from elsewhere.
+        (Outcome::Failed(Cause::Undefined { name }), _) => {
+            Verdict::Unsupported(format!("`{name}`, which nothing above defines"))
+        }
         (Outcome::Failed(Cause::Arguments { expected, found }), _) if found < expected => {
-            Verdict::Beyond("a call with fewer arguments, which is a function".into())
+            Verdict::Unsupported("a call with fewer arguments, which is a function".into())
         }
         (Outcome::Failed(cause), None) => Verdict::Fails(cause.to_string()),
         (Outcome::Failed(cause), Some(saved)) => {
@@ -373,7 +421,7 @@ fn spelled(saved: &Saved) -> String {
     match saved {
         Saved::Value(value) => value.to_string(),
         Saved::Error(words) => format!("«{words}»"),
-        Saved::Beyond(construct) => construct.clone(),
+        Saved::Unsupported(construct) => construct.clone(),
     }
 }
 

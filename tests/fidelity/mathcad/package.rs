@@ -52,7 +52,7 @@ fn mathcad_s_own_worksheets() {
                 Verdict::Differs { .. } | Verdict::Fails(_) => {
                     panic!("{}, {}: {:?}", file.display(), region.id, region.verdict)
                 }
-                Verdict::Beyond(_) => "beyond",
+                Verdict::Unsupported(_) => "unsupported",
             };
             *counts.entry(kind).or_default() += 1;
         }

@@ -8,7 +8,8 @@ use std::path::Path;
 use fastrand::Rng;
 use plane_contact::paper::mathcad::failure::Fallible;
 use plane_contact::paper::mathcad::worksheet::execute;
-use plane_contact::paper::mathcad::xmcd::page::Page;
+use plane_contact::paper::mathcad::xmcd::document::Region;
+use plane_contact::paper::mathcad::xmcd::page::{self, Page};
 use plane_contact::paper::mathcad::xmcd::{document, write};
 use plane_contact::paper::mathcad::{
     Array, Limits, Listing, Outcome, Settings, Sheet, Value, json,
@@ -285,6 +286,50 @@ fn program(rng: &mut Rng) -> String {
         Err(error) => format!("no listing: {error}"),
     };
     format!("{asked} {text}{result}\n\n")
+}
+
+/// Writes listings into a worksheet and reads them back.
+fn back(listings: &[Listing]) -> Vec<Listing> {
+    let sheet = document::read(&page::listings(listings), "sheet").expect("a worksheet");
+    let limits = Limits { characters: 1 << 20, ..Limits::default() };
+    let read = |text: String| Listing::parse_within("f", &text, &limits).expect("a listing");
+    sheet.regions.iter().filter_map(Region::listing).map(read).collect()
+}
+
+/// Random functions, those of one line and those without parameters among them, come back from a
+/// worksheet: none is lost, and the worksheet that they make is the same again.
+#[test]
+fn listings_come_back_from_worksheets() {
+    let mut rng = Rng::with_seed(41);
+    let lines = ["b <- \"x\"", "x if n > 1", "1 < x < n ≤ 3", "if(x < 1, v, (1 2; 3 4))", "g()"];
+    let mut listings = Vec::new();
+    for k in 0..600 {
+        let name = format!("f{k}{}", one_of(&mut rng, &["()", "(x)", "(x, n)"]));
+        let text = match rng.u8(..3) {
+            0 => format!("{name} := {}", any(&mut rng, 2, number)),
+            1 => format!("{name} :=\n  {}\n", one_of(&mut rng, &lines)),
+            _ => {
+                let mut text = format!("{name} :=\n");
+                statements(&mut rng, 0, &mut text);
+                text
+            }
+        };
+        listings.extend(Listing::parse("f", &text));
+    }
+    assert!(listings.len() > 400);
+    let again = back(&listings);
+    let names = |all: &[Listing]| all.iter().map(|l| l.function().to_owned()).collect::<Vec<_>>();
+    assert_eq!(names(&again), names(&listings));
+    for (one, other) in listings.iter().zip(&again) {
+        let written = [one, other].map(|listing| page::listings(std::slice::from_ref(listing)));
+        let [one_math, other_math] = written.map(|text| math(&text));
+        assert_eq!(one_math, other_math, "{one}{other}");
+    }
+}
+
+/// The elements of a worksheet's regions, without where they stand on the page.
+fn math(worksheet: &str) -> String {
+    worksheet.split("<math").skip(1).filter_map(|part| part.split("</math>").next()).collect()
 }
 
 fn record(part: u64) {

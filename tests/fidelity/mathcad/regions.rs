@@ -48,8 +48,8 @@ fn matrix(rows: usize, cols: usize, entries: &[String]) -> String {
     format!("<matrix rows=\"{rows}\" cols=\"{cols}\">{}</matrix>", entries.concat())
 }
 
-fn beyond(words: &str) -> Verdict {
-    Verdict::Beyond(words.into())
+fn unsupported(words: &str) -> Verdict {
+    Verdict::Unsupported(words.into())
 }
 
 fn verdicts(checked: &[Checked]) -> Vec<Verdict> {
@@ -58,7 +58,7 @@ fn verdicts(checked: &[Checked]) -> Vec<Verdict> {
 
 /// Each with the words that name it; nothing is half understood.
 #[test]
-fn constructs_beyond_the_interpreter_are_named() {
+fn unsupported_constructs_are_named() {
     let [one, a, b] = [real(1.0), id("a"), id("b")];
     let lambda = format!("<lambda><boundVars>{a}</boundVars>{b}</lambda>");
     let three = [one.clone(), one.clone(), one.clone()];
@@ -76,15 +76,15 @@ fn constructs_beyond_the_interpreter_are_named() {
         ("<real>1e999</real>".into(), "the number \"1e999\""),
     ] {
         let checked = executed(&[eval(&expression, None)]);
-        assert_eq!(checked[0].verdict, beyond(words), "{expression}");
+        assert_eq!(checked[0].verdict, unsupported(words), "{expression}");
     }
     let symbolic = executed(&[format!("<symEval>{a}</symEval>")]);
-    assert_eq!(verdicts(&symbolic), [beyond("symbolics")]);
+    assert_eq!(verdicts(&symbolic), [unsupported("symbolics")]);
     // Of a saved result too.
     for entries in [&three[..2], &[one.clone(), one.clone(), one.clone(), one.clone(), one]] {
         let result = format!("<result>{}</result>", matrix(2, 2, entries));
         let checked = executed(&[format!("<eval>{}{result}</eval>", real(2.0))]);
-        assert_eq!(checked[0].verdict, beyond("a matrix that is not full"));
+        assert_eq!(checked[0].verdict, unsupported("a matrix that is not full"));
     }
 }
 
@@ -102,15 +102,15 @@ fn several_names_at_once_are_all_unknown() {
     let construct = "a definition of several names at once";
     let expected = [
         Verdict::NothingSaved,
-        beyond(construct),
-        beyond(&format!("it rests on a: {construct}")),
-        beyond(&format!("it rests on b: {construct}")),
+        unsupported(construct),
+        unsupported(&format!("{construct} (it rests on a)")),
+        unsupported(&format!("{construct} (it rests on b)")),
     ];
     assert_eq!(verdicts(&checked), expected);
     assert_eq!(checked[1].text, "a := ..., b := ...");
 }
 
-/// What a name stood for is gone: a range, a function, a construct beyond the interpreter.
+/// What a name stood for is gone: a range, a function, a construct that is unsupported.
 #[test]
 fn a_name_defined_anew_is_what_it_was_defined_as() {
     let range = format!("<range>{}{}</range>", real(1.0), real(3.0));
@@ -134,12 +134,16 @@ fn a_name_defined_anew_is_what_it_was_defined_as() {
     let values: Vec<_> =
         checked.iter().filter_map(|c| Some(c.value.as_ref()?.to_string())).collect();
     assert_eq!(values, ["1; 2; 3", "5", "5", "4", "6", "6"], "each definition is a value too");
-    let rests = beyond("it rests on y: an integral");
-    assert_eq!(verdicts(&checked)[6..9], [beyond("an integral"), rests.clone(), rests]);
-    assert_eq!(checked[11].verdict, beyond("`y`"), "it is a function no more");
+    let rests = unsupported("an integral (it rests on y)");
+    assert_eq!(verdicts(&checked)[6..9], [unsupported("an integral"), rests.clone(), rests]);
+    assert_eq!(
+        checked[11].verdict,
+        unsupported("`y`, which nothing above defines"),
+        "it is a function no more"
+    );
 }
 
-/// The saved value of a definition that is beyond the interpreter goes on; that of a name that
+/// The saved value of a definition that is unsupported goes on; that of a name that
 /// nothing defines does not, for it may be a unit.
 #[test]
 fn a_saved_value_goes_on_only_where_a_name_is_defined() {
@@ -150,7 +154,12 @@ fn a_saved_value_goes_on_only_where_a_name_is_defined() {
         eval(&id("kg"), Some(2.0)),
         eval(&id("kg"), Some(2.0)),
     ]);
-    let expected = [beyond("an integral"), Verdict::Same, beyond("`kg`"), beyond("`kg`")];
+    let expected = [
+        unsupported("an integral"),
+        Verdict::Same,
+        unsupported("units: kg"),
+        unsupported("units: kg"),
+    ];
     assert_eq!(verdicts(&checked), expected);
     assert_eq!(checked[1].inputs.iter().collect::<Vec<_>>(), ["0"]);
     let too_many = format!("<apply>{}{}{}</apply>", id("sin"), real(1.0), real(2.0));
@@ -176,7 +185,7 @@ fn regions_are_read_three_hundred_deep() {
     let deep = |parens: usize| {
         let [open, close] = ["<parens>", "</parens>"].map(|tag| tag.repeat(parens));
         match &executed(&[eval(&format!("{open}{}{close}", real(1.0)), None)])[0].verdict {
-            Verdict::Beyond(words) => words.clone(),
+            Verdict::Unsupported(words) => words.clone(),
             other => panic!("{other:?}"),
         }
     };
@@ -318,4 +327,79 @@ fn operators_within_operators_need_no_parentheses() {
         let found = checked.value.as_ref().and_then(Value::number);
         assert_eq!(found, value, "{} {tree}: {:?}", checked.text, checked.verdict);
     }
+}
+
+/// An evaluation at which Mathcad saved an error.
+fn failed(expression: &str, words: &str) -> Verdict {
+    let region =
+        format!("<region><math error=\"{words}\"><eval>{expression}</eval></math></region>");
+    execute(&worksheet(&region), &Limits::default()).remove(0).verdict
+}
+
+/// Both fail: they agree only if the cause is the same.
+#[test]
+fn failures_agree_where_their_cause_is_the_same() {
+    let division = apply("div", &[&real(1.0), &real(0.0)]);
+    let undefined = id("nobody");
+    for (expression, words, agrees) in [
+        (&division, "Деление на ноль.", true),
+        (&division, "Found a singularity. You may be dividing by zero.", true),
+        (&division, "This variable is undefined.", false),
+        (&undefined, "Эта переменная не определена.", true),
+        (&undefined, "Деление на ноль.", false),
+    ] {
+        match failed(expression, words) {
+            Verdict::SameFailure { .. } => assert!(agrees, "{expression} {words}"),
+            Verdict::Differs { .. } => assert!(!agrees, "{expression} {words}"),
+            other => panic!("{other:?}"),
+        }
+    }
+    let Verdict::Unsupported(words) = failed(&division, "Решение не было найдено.")
+    else {
+        panic!("a message that is not known")
+    };
+    assert!(
+        words.starts_with("Mathcad's error «Решение не было найдено.»; here: Division"),
+        "{words}"
+    );
+    let Verdict::Unsupported(words) = failed(&id("kg"), "Деление на ноль.") else {
+        panic!("units")
+    };
+    assert_eq!(words, "units: kg; Mathcad saved an error: «Деление на ноль.»");
+}
+
+/// A range variable is one only as long as nothing defines its name anew; a loop's own variable, a
+/// parameter and a local name stand before it.
+#[test]
+fn loops_run_over_range_variables() {
+    let range = |from: f64, to: f64| format!("<range>{}{}</range>", real(from), real(to));
+    let sum = |over: &str| {
+        let add = format!(
+            "<localDefine>{}{}</localDefine>",
+            id("s"),
+            apply("plus", &[&id("s"), &id("x")])
+        );
+        let every = format!("<for>{}{}{add}</for>", id("x"), id(over));
+        let zero = format!("<localDefine>{}{}</localDefine>", id("s"), real(0.0));
+        format!("<program>{zero}{every}{}</program>", id("s"))
+    };
+    let function = |name: &str, parameter: &str| {
+        format!("<function>{}<boundVars>{}</boundVars></function>", id(name), id(parameter))
+    };
+    let call = |name: &str, x: &str| eval(&format!("<apply>{}{x}</apply>", id(name)), None);
+    let checked = executed(&[
+        define(&id("X"), &range(1.0, 4.0)),
+        define(&function("f", "y"), &sum("X")),
+        define(&function("g", "X"), &sum("X")),
+        call("f", &real(0.0)),
+        call("g", &matrix(2, 1, &[real(7.0), real(8.0)])),
+        define(&id("X"), &range(3.0, 1.0)),
+        call("f", &real(0.0)),
+        define(&id("X"), &real(5.0)),
+        call("f", &real(0.0)),
+        eval(&apply("plus", &[&id("X"), &real(1.0)]), None),
+    ]);
+    let values: Vec<_> =
+        checked.iter().filter_map(|c| Some(c.value.as_ref()?.to_string())).collect();
+    assert_eq!(values, ["10", "15", "6", "5", "5", "6"], "of X := 5 the value too");
 }

@@ -53,7 +53,7 @@ impl Display for Spelled<'_, Step> {
                         let second: String = second.collect();
                         write!(f, "{}{second} .. {}", show(from), show(to))?;
                     }
-                    Range::Over(value) => write!(f, "{}", show(value))?,
+                    Range::Over(values) => f.write_str(&join(self.listing, values, ", "))?,
                 }
             }
             Step::If { condition, .. } => return write!(f, "if {}", show(condition)),
@@ -115,6 +115,11 @@ impl Display for Spelled<'_, Expr> {
             Kind::Power(x, y) => write!(f, "{}^{}", show(x), show(y)),
             Kind::Arithmetic(o, x, y) => write!(f, "{} {} {}", show(x), o.sign(), show(y)),
             Kind::Compare(c, x, y) => write!(f, "{} {} {}", show(x), c.sign(), show(y)),
+            Kind::Chain(x, rest) => {
+                write!(f, "{}", show(x))?;
+                rest.iter().try_for_each(|(c, y)| write!(f, " {} {}", c.sign(), show(y)))
+            }
+            Kind::If(parts) => write!(f, "if({})", join(&**parts, ", ")),
             Kind::All(operands) => f.write_str(&join(operands, " ∧ ")),
             Kind::Any(operands) => f.write_str(&join(operands, " ∨ ")),
             Kind::Call(name, arguments) => {

@@ -103,15 +103,26 @@ fn results_are_compared_number_by_number() {
     assert!(matches!(verdict("(1 2)", matrix), Verdict::Differs { .. }), "another shape");
     assert!(matches!(verdict("(1; 2; 3)", matrix), Verdict::Differs { .. }), "one entry more");
     assert!(matches!(verdict("1 / 0", ""), Verdict::Fails(_)), "nothing saved");
+    let two = "<ml:real>2</ml:real>";
+    for (expression, construct) in [
+        ("7·cm", "units: cm"),
+        ("kN.m", "units: kN.m"),
+        ("root(t^2 − t,t,0,1)", "the function root"),
+        ("nobody(t)", "`nobody`, which nothing above defines"),
+        ("sin·2", "a function as a value (sin)"),
+    ] {
+        let expected = Verdict::Unsupported(construct.into());
+        assert_eq!(verdict(expression, two), expected, "{expression}");
+    }
     let fewer = "a call with fewer arguments, which is a function";
-    assert_eq!(verdict("mod(t)", "<ml:real>1</ml:real>"), Verdict::Beyond(fewer.into()));
+    assert_eq!(verdict("mod(t)", "<ml:real>1</ml:real>"), Verdict::Unsupported(fewer.into()));
     assert_eq!(
         verdict("linterp(t,t,1)", "<ml:real>1</ml:real>"),
-        Verdict::Beyond("`linterp`".into())
+        Verdict::Unsupported("the function linterp".into())
     );
     assert_eq!(
         verdict("t", "<ml:complex><ml:real>1</ml:real></ml:complex>"),
-        Verdict::Beyond("complex numbers".into())
+        Verdict::Unsupported("complex numbers".into())
     );
 }
 
@@ -134,7 +145,7 @@ fn regions_are_in_the_order_of_the_page() {
     assert_eq!(found, ["first", "second", "third", "last"]);
 }
 
-/// Where a construct is beyond the interpreter, its saved value goes on as input, and is marked.
+/// Where a construct is unsupported, its saved value goes on as input, and is marked.
 #[test]
 fn saved_values_go_on_as_input() {
     let math = |inside: &str| format!("<region region-id=\"ID\"><math>{inside}</math></region>");
@@ -159,12 +170,15 @@ fn saved_values_go_on_as_input() {
     );
     let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
     let verdicts: Vec<_> = checked.iter().map(|c| c.verdict.clone()).collect();
-    let beyond = |words: &str| Verdict::Beyond(words.into());
-    let rests = "it rests on y: an integral";
-    assert_eq!(verdicts[..4], [beyond("an integral"), beyond(rests), beyond(rests), Verdict::Same]);
+    let unsupported = |words: &str| Verdict::Unsupported(words.into());
+    let rests = "an integral (it rests on y)";
+    assert_eq!(
+        verdicts[..4],
+        [unsupported("an integral"), unsupported(rests), unsupported(rests), Verdict::Same]
+    );
     // One entry that is known does not make the others so.
-    let rests = "it rests on z: an integral";
-    assert_eq!(verdicts[4..], [beyond("an integral"), beyond(rests), beyond(rests)]);
+    let rests = "an integral (it rests on z)";
+    assert_eq!(verdicts[4..], [unsupported("an integral"), unsupported(rests), unsupported(rests)]);
     assert_eq!(checked[3].inputs.iter().collect::<Vec<_>>(), ["2"]);
 }
 
@@ -221,7 +235,7 @@ fn origin_is_set_by_a_region_and_entries_show_themselves() {
     let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
     let verdicts: Vec<_> = checked.into_iter().map(|c| c.verdict).collect();
     let none = Verdict::NothingSaved;
-    let half = Verdict::Beyond("an ORIGIN that is no whole number".into());
+    let half = Verdict::Unsupported("an ORIGIN that is no whole number".into());
     let same = Verdict::Same;
     let defined = [none.clone(), same.clone(), none.clone(), none];
     assert_eq!(verdicts, [&defined[..], &[same.clone(), same, half]].concat());
@@ -336,7 +350,7 @@ fn run(listing: &Listing) -> Result<String, std::mem::Discriminant<Cause>> {
     kind.map(|outcome| outcome.value.to_string())
 }
 
-/// What has no operator, or an operator that is none, is beyond the interpreter; it was once a
+/// What has no operator, or an operator that is none, is unsupported; it was once a
 /// recursion without end.
 #[test]
 fn an_empty_operator_is_named() {
@@ -349,7 +363,7 @@ fn an_empty_operator_is_named() {
              </worksheet>"
         );
         let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
-        assert_eq!(checked[0].verdict, Verdict::Beyond(words.into()), "{expression}");
+        assert_eq!(checked[0].verdict, Verdict::Unsupported(words.into()), "{expression}");
     }
 }
 
@@ -365,7 +379,7 @@ fn a_solve_block_is_named() {
     let text = format!("<worksheet><regions>{}</regions></worksheet>", regions.concat());
     let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
     let verdicts: Vec<_> = checked.iter().map(|checked| &checked.verdict).collect();
-    assert_eq!(verdicts, [&Verdict::Beyond("a solve block".into())]);
+    assert_eq!(verdicts, [&Verdict::Unsupported("a solve block".into())]);
     assert_eq!(checked[0].id, "1", "the region of the word");
 }
 
@@ -381,6 +395,6 @@ fn what_is_no_worksheet_is_refused() {
         "</parens>".repeat(5_000)
     );
     let checked = document::read(&deep, "deep").map(|s| execute(&s, &Limits::default()));
-    let refused = |c: &[Checked]| c.iter().all(|c| matches!(c.verdict, Verdict::Beyond(_)));
+    let refused = |c: &[Checked]| c.iter().all(|c| matches!(c.verdict, Verdict::Unsupported(_)));
     assert!(checked.is_err() || checked.is_ok_and(|checked| refused(&checked)));
 }

@@ -2,14 +2,18 @@
 
 use roxmltree::{Document as Xml, Node, ParsingOptions};
 
-use super::Beyond;
 use super::read::{self, Math};
+use super::{Unsupported, scan};
 use crate::error::{InputError, Result};
 use crate::paper::mathcad::settings::Settings;
 use crate::paper::mathcad::value::{Grid, Value};
 
 /// The most bytes of a file that is read: its regions become text and then trees.
 pub const LARGEST: usize = 1 << 26;
+
+/// The most regions, each of which may rest on all others; the largest of 266 public worksheets has
+/// 631.
+const REGIONS: usize = 5_000;
 
 /// A worksheet as its file has it.
 #[derive(Clone, Debug)]
@@ -28,6 +32,20 @@ pub struct Region {
     pub saved: Option<Saved>,
 }
 
+impl Region {
+    /// Returns the text of the listing that a region is: a function, or a program, which is a function
+    /// without parameters.
+    pub fn listing(&self) -> Option<String> {
+        match &self.content {
+            Content::Function { text, .. } => Some(text.clone()),
+            Content::Definition { name, lines, is_program: true, .. } => {
+                Some(format!("{name}() :=\n  {}\n", lines.join("\n  ")))
+            }
+            _ => None,
+        }
+    }
+}
+
 /// What a region says, in the text notation.
 #[derive(Clone, Debug)]
 pub enum Content {
@@ -35,8 +53,15 @@ pub enum Content {
     Silent,
     /// `name(parameters) :=` and a program.
     Function { name: String, text: String },
-    /// `target := value`: the name, the target if it has subscripts, and the program's lines.
-    Definition { name: String, entry: Option<String>, lines: Vec<String>, global: bool },
+    /// `target := value`: the name, the target if it has subscripts, and the lines of the value, which
+    /// may be a program.
+    Definition {
+        name: String,
+        entry: Option<String>,
+        lines: Vec<String>,
+        is_program: bool,
+        global: bool,
+    },
     /// `name :=` an array of numbers.
     Table { name: String, value: Value },
     /// `name := from, second .. to`.
@@ -44,7 +69,7 @@ pub enum Content {
     /// `expression =`.
     Evaluation(String),
     /// A construct that the interpreter does not have; the names that the region would define.
-    Beyond { names: Vec<String>, construct: String },
+    Unsupported { names: Vec<String>, construct: String },
 }
 
 /// A result that Mathcad saved.
@@ -54,15 +79,15 @@ pub enum Saved {
     /// The words of the error.
     Error(String),
     /// A result that is no real number, array or string.
-    Beyond(String),
+    Unsupported(String),
 }
 
 /// Reads a worksheet.
 /// Errors: the text is no XML, or no worksheet of Mathcad 13 to 15.
 pub fn read(text: &str, place: &str) -> Result<Worksheet> {
     let wrong = |what: String| {
-        let fix = "give an .xmcd file that Mathcad 13, 14 or 15 saved (an .xmcdz unpacked, a Prime \
-                   worksheet saved anew)";
+        let fix = "give an .xmcd or .xmcdz file that Mathcad 13, 14 or 15 saved (a Prime worksheet saved \
+                   anew)";
         InputError::new(place, what, fix)
     };
     if text.len() > LARGEST {
@@ -71,6 +96,7 @@ pub fn read(text: &str, place: &str) -> Result<Worksheet> {
             text.len()
         )));
     }
+    scan::check(text).map_err(|why| wrong(format!("the file is refused: {why}")))?;
     let options = ParsingOptions { nodes_limit: 1 << 24, ..ParsingOptions::default() };
     let xml = Xml::parse_with_options(text.trim_start_matches('\u{feff}'), options)
         .map_err(|why| wrong(format!("the file is no XML: {why}")))?;
@@ -81,6 +107,9 @@ pub fn read(text: &str, place: &str) -> Result<Worksheet> {
     let mut regions = Vec::new();
     if let Some(list) = child(root, "regions") {
         collect(list, &mut regions);
+    }
+    if regions.len() > REGIONS {
+        return Err(wrong(format!("the file has more than {REGIONS} regions")));
     }
     Ok(Worksheet { settings: settings(root), regions })
 }
@@ -130,8 +159,8 @@ fn region(node: Node<'_, '_>) -> Region {
         let construct = ["plot", "component", "picture", "ole"];
         let other = construct.into_iter().find(|name| child(node, name).is_some());
         let content = match other {
-            Some("plot") => beyond(vec![], "a plot"),
-            Some(name) => beyond(vec![], name),
+            Some("plot") => unsupported(vec![], "a plot"),
+            Some(name) => unsupported(vec![], name),
             None => Content::Silent,
         };
         return Region { id, tag, content, saved: None };
@@ -141,7 +170,7 @@ fn region(node: Node<'_, '_>) -> Region {
         Some(_) if math.attribute("disable-calc") == Some("true") => Content::Silent,
         Some(inside) => match read::check_depth(math) {
             Ok(()) => content(inside),
-            Err(Beyond(construct)) => beyond(names(inside), &construct),
+            Err(Unsupported(construct)) => unsupported(names(inside), &construct),
         },
         None => Content::Silent,
     };
@@ -155,8 +184,8 @@ fn region(node: Node<'_, '_>) -> Region {
     Region { id, tag, content, saved }
 }
 
-fn beyond(names: Vec<String>, construct: &str) -> Content {
-    Content::Beyond { names, construct: construct.into() }
+fn unsupported(names: Vec<String>, construct: &str) -> Content {
+    Content::Unsupported { names, construct: construct.into() }
 }
 
 /// The names that a region defines, whatever it says of them.
@@ -177,19 +206,19 @@ fn content(node: Math<'_, '_>) -> Content {
     let content = match node.tag() {
         "define" | "globalDefine" => definition(node),
         "eval" => node.part(0).and_then(evaluation),
-        "id" if node.text() == "Given" => Err(Beyond("a solve block".into())),
-        "symEval" => Err(read::beyond(node)),
+        "id" if node.text() == "Given" => Err(Unsupported("a solve block".into())),
+        "symEval" => Err(read::unsupported(node)),
         // An equation that nothing evaluates, such as a condition of a solve block.
         _ => Ok(Content::Silent),
     };
-    content.unwrap_or_else(|Beyond(construct)| beyond(names(node), &construct))
+    content.unwrap_or_else(|Unsupported(construct)| unsupported(names(node), &construct))
 }
 
-fn evaluation(node: Math<'_, '_>) -> Result<Content, Beyond> {
+fn evaluation(node: Math<'_, '_>) -> Result<Content, Unsupported> {
     read::expression(node).map(Content::Evaluation)
 }
 
-fn definition(node: Math<'_, '_>) -> Result<Content, Beyond> {
+fn definition(node: Math<'_, '_>) -> Result<Content, Unsupported> {
     let (left, mut right) = (node.part(0)?, node.part(1)?);
     let global = node.tag() == "globalDefine";
     if right.tag() == "eval" {
@@ -212,18 +241,19 @@ fn definition(node: Math<'_, '_>) -> Result<Content, Beyond> {
             if let Some(value) = table(right).filter(|_| !global) {
                 return Ok(Content::Table { name, value });
             }
-            Ok(Content::Definition { name, entry: None, lines: lines(0)?, global })
+            let is_program = right.tag() == "program";
+            Ok(Content::Definition { name, entry: None, lines: lines(0)?, is_program, global })
         }
         "apply" => {
             if right.tag() == "program" {
-                return Err(Beyond("a program that defines entries of an array".into()));
+                return Err(Unsupported("a program that defines entries of an array".into()));
             }
             let name = read::name(left.part(1)?)?;
-            let entry = Some(read::expression(left)?);
-            Ok(Content::Definition { name, entry, lines: lines(0)?, global })
+            let entry = Some(read::target(left)?);
+            Ok(Content::Definition { name, entry, lines: lines(0)?, is_program: false, global })
         }
-        "matrix" => Err(Beyond("a definition of several names at once".into())),
-        _ => Err(read::beyond(left)),
+        "matrix" => Err(Unsupported("a definition of several names at once".into())),
+        _ => Err(read::unsupported(left)),
     }
 }
 
@@ -236,28 +266,29 @@ fn saved(node: Node<'_, '_>) -> Saved {
     let depth = read::check_depth(node);
     match depth.and_then(|()| saved_value(Math::new(node))) {
         Ok(value) => Saved::Value(value),
-        Err(Beyond(construct)) => Saved::Beyond(construct),
+        Err(Unsupported(construct)) => Saved::Unsupported(construct),
     }
 }
 
-fn saved_value(node: Math<'_, '_>) -> Result<Value, Beyond> {
+fn saved_value(node: Math<'_, '_>) -> Result<Value, Unsupported> {
     match node.tag() {
         "real" => {
             let x = node.text().parse().ok().filter(|x: &f64| x.is_finite());
-            x.map(Value::Number).ok_or_else(|| Beyond(format!("the number {:?}", node.text())))
+            x.map(Value::Number).ok_or_else(|| Unsupported(format!("the number {:?}", node.text())))
         }
         "str" => Ok(Value::Text(node.text().into())),
         "matrix" => {
             let size = |name| node.attribute(name).and_then(|n| n.parse::<usize>().ok());
-            let entries = node.parts().map(saved_value).collect::<Result<Vec<Value>, Beyond>>()?;
+            let entries =
+                node.parts().map(saved_value).collect::<Result<Vec<Value>, Unsupported>>()?;
             match (size("rows"), size("cols")) {
                 (Some(rows), Some(cols)) if rows.checked_mul(cols) == Some(entries.len()) => {
                     let entry = |i: usize, j: usize| -> Value { entries[j * rows + i].clone() };
                     Ok(Value::grid(Grid::from_fn(rows, cols, entry)))
                 }
-                _ => Err(Beyond("a matrix that is not full".into())),
+                _ => Err(Unsupported("a matrix that is not full".into())),
             }
         }
-        _ => Err(read::beyond(node)),
+        _ => Err(read::unsupported(node)),
     }
 }

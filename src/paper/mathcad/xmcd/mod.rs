@@ -9,11 +9,12 @@ pub mod document;
 pub mod page;
 mod places;
 pub mod read;
+mod scan;
 pub mod write;
 
 /// A construct that the interpreter does not have, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Beyond(pub String);
+pub struct Unsupported(pub String);
 
 /// The operators of one operand or two that are functions in the text: the operator's element, the
 /// function, and the number of operands.

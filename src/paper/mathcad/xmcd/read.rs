@@ -3,11 +3,12 @@
 use roxmltree::Node;
 
 use super::places::{Level, Placed, in_exponent, in_fraction, in_transpose};
-use super::{Beyond, COMPARISONS, FUNCTIONS};
+use super::{COMPARISONS, FUNCTIONS, Unsupported};
+use crate::paper::mathcad::lacking::is_unit;
 use crate::paper::mathcad::lexer::{KEYWORDS, name_length};
 use crate::paper::mathcad::syntax::Comparison;
 
-type Read<T> = Result<T, Beyond>;
+type Read<T> = Result<T, Unsupported>;
 
 /// How deep the elements of a region may stand within each other.
 const DEPTH: usize = 300;
@@ -35,7 +36,7 @@ impl<'a, 'i> Math<'a, 'i> {
     }
 
     pub fn part(self, k: usize) -> Read<Math<'a, 'i>> {
-        self.parts().nth(k).ok_or_else(|| Beyond(format!("an incomplete `{}`", self.tag())))
+        self.parts().nth(k).ok_or_else(|| Unsupported(format!("an incomplete `{}`", self.tag())))
     }
 
     pub fn text(self) -> &'a str {
@@ -63,13 +64,17 @@ pub fn check_depth(node: Node<'_, '_>) -> Read<()> {
         let above = descendant.ancestors().take(DEPTH + 1);
         deepest = deepest.max(above.take_while(|above| *above != node).count());
     }
-    if deepest < DEPTH { Ok(()) } else { Err(Beyond("an expression nested too deeply".into())) }
+    if deepest < DEPTH {
+        Ok(())
+    } else {
+        Err(Unsupported("an expression nested too deeply".into()))
+    }
 }
 
 /// Reads a name.
 pub fn name(id: Math<'_, '_>) -> Read<String> {
     if id.tag() != "id" {
-        return Err(beyond(id));
+        return Err(unsupported(id));
     }
     let mut name = id.text().to_string();
     if let Some(subscript) = id.attribute("subscript") {
@@ -80,7 +85,8 @@ pub fn name(id: Math<'_, '_>) -> Read<String> {
     let starts = name.starts_with(|c: char| !c.is_numeric() && c != '\'' && c != '.');
     match starts && name_length(&name) == name.len() && !KEYWORDS.contains(&name.as_str()) {
         true => Ok(name),
-        false => Err(Beyond(format!("the name {name:?}"))),
+        false if is_unit(&name) => Err(Unsupported(format!("units: {name}"))),
+        false => Err(Unsupported(format!("the name {name:?}"))),
     }
 }
 
@@ -129,7 +135,7 @@ fn statement(node: Math<'_, '_>, level: usize, lines: &mut Vec<String>) -> Read<
             }
         }
         "localDefine" if node.part(1)?.tag() == "tryCatch" => {
-            let (target, attempt) = (expression(node.part(0)?)?, node.part(1)?);
+            let (target, attempt) = (target(node.part(0)?)?, node.part(1)?);
             for (word, k) in [("try", 0), ("on error", 1)] {
                 block(word.into(), None)?;
                 block(format!("  {target} ← {}", expression(attempt.part(k)?)?), None)?;
@@ -148,16 +154,35 @@ fn head(node: Math<'_, '_>) -> Read<String> {
         "otherwise" | "break" | "continue" => node.tag().into(),
         "return" => format!("return {}", expression(node.part(0)?)?),
         "localDefine" => {
-            format!("{} ← {}", expression(node.part(0)?)?, expression(node.part(1)?)?)
+            format!("{} ← {}", target(node.part(0)?)?, expression(node.part(1)?)?)
         }
         _ => expression(node)?,
     })
 }
 
+/// Reads what is assigned to: a name, or an entry of a name.
+pub fn target(node: Math<'_, '_>) -> Read<String> {
+    let what = match node.tag() {
+        "id" => return name(node),
+        "matrix" => "several names at once",
+        _ if node.is_entry() => return expression(node),
+        _ if node.operator() == "matcol" => "a column",
+        _ => "an entry of an expression",
+    };
+    Err(Unsupported(format!("an assignment to {what}")))
+}
+
 /// Reads what a loop runs over.
 pub fn range(node: Math<'_, '_>) -> Read<String> {
-    if node.tag() != "range" {
-        return expression(node);
+    match node.tag() {
+        "range" => {}
+        "sequence" if node.parts().any(|part| part.tag() == "range") => {
+            return Err(Unsupported("a range within a list".into()));
+        }
+        "sequence" => {
+            return Ok(node.parts().map(expression).collect::<Read<Vec<_>>>()?.join(", "));
+        }
+        _ => return expression(node),
     }
     let (start, end) = (node.part(0)?, expression(node.part(1)?)?);
     let start = match start.tag() {
@@ -192,13 +217,13 @@ fn text(node: Math<'_, '_>, subscript: bool) -> Read<String> {
         "parens" => format!("({})", text(node.part(0)?, subscript)?),
         "matrix" => matrix(node)?,
         "apply" => apply(node, subscript)?,
-        _ => return Err(beyond(node)),
+        _ => return Err(unsupported(node)),
     })
 }
 
 /// Spells a number as the text does: Mathcad's own spelling where the text reads it.
 fn number(text: &str) -> Read<String> {
-    let not_finite = || Beyond(format!("the number {text:?}"));
+    let not_finite = || Unsupported(format!("the number {text:?}"));
     let x: f64 = text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(not_finite)?;
     let spelled = super::write::number(x.abs());
     Ok(if x.is_sign_negative() { format!("−{spelled}") } else { spelled })
@@ -208,10 +233,10 @@ fn matrix(node: Math<'_, '_>) -> Read<String> {
     let size = |name| node.attribute(name).and_then(|n| n.parse::<usize>().ok());
     let entries: Vec<_> = node.parts().collect();
     let (Some(rows), Some(cols)) = (size("rows"), size("cols")) else {
-        return Err(Beyond("a matrix without its size".into()));
+        return Err(Unsupported("a matrix without its size".into()));
     };
     if entries.is_empty() || rows.checked_mul(cols) != Some(entries.len()) {
-        return Err(Beyond("a matrix that is not full".into()));
+        return Err(Unsupported("a matrix that is not full".into()));
     }
     let plain = entries.iter().all(|entry| entry.level() == Level::Atom);
     let between = if plain { " " } else { "   " };
@@ -224,6 +249,9 @@ fn matrix(node: Math<'_, '_>) -> Read<String> {
 
 fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
     let operator = node.part(0)?;
+    if operator.tag() == "id" && operator.text() == "if" {
+        return Ok(format!("if({})", list(node, 1)?));
+    }
     if operator.tag() == "id" {
         return Ok(format!("{}({})", name(operator)?, list(node, 1)?));
     }
@@ -294,7 +322,7 @@ fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
             let (from, to) = (expression(y()?.part(0)?)?, expression(y()?.part(1)?)?);
             Ok(format!("{sign}({variable} ∈ {from} .. {to}, {term})"))
         }
-        _ => Err(beyond(operator)),
+        _ => Err(unsupported(operator)),
     }
 }
 
@@ -319,14 +347,14 @@ fn subscripts(node: Math<'_, '_>) -> Read<String> {
 }
 
 /// Names the construct that an element is.
-pub fn beyond(node: Math<'_, '_>) -> Beyond {
+pub fn unsupported(node: Math<'_, '_>) -> Unsupported {
     let words = match node.tag() {
         "apply" => match node.parts().next() {
-            Some(operator) => return beyond(operator),
+            Some(operator) => return unsupported(operator),
             None => "an empty place",
         },
         "imag" | "complex" | "conjugate" => "complex numbers",
-        "unitedValue" | "unitMonomial" | "unitReference" => "units",
+        "unitedValue" | "unitMonomial" | "unitReference" => return units(node),
         "symEval" | "symResult" => "symbolics",
         "derivative" => "a derivative",
         "integral" => "an integral",
@@ -336,9 +364,20 @@ pub fn beyond(node: Math<'_, '_>) -> Beyond {
         "range" => "a range in an expression",
         "program" => "a program in an expression",
         "placeholder" => "an empty place",
-        tag => return Beyond(format!("`{tag}`")),
+        tag => return Unsupported(format!("`{tag}`")),
     };
-    Beyond(words.into())
+    Unsupported(words.into())
+}
+
+/// Names the units of a result.
+fn units(node: Math<'_, '_>) -> Unsupported {
+    let inside = node.0.descendants();
+    let names: Vec<_> = inside.filter_map(|unit| unit.attribute("unit")).collect();
+    Unsupported(if names.is_empty() {
+        "units".into()
+    } else {
+        format!("units: {}", names.join("·"))
+    })
 }
 
 impl Placed for Math<'_, '_> {

@@ -22,7 +22,11 @@ pub fn definition(listing: &Listing) -> Element {
             Element::new("ml:function").with(name).with(parameters)
         }
     };
-    Element::new("ml:define").with(left).with(writer.block(&listing.program))
+    let body = writer.block(&listing.program);
+    let is_line = listing.parameters.is_empty() && listing.program.len() == 1;
+    // Without parameters a line alone would be the definition of a value.
+    let body = if is_line { Element::new("ml:program").with(body) } else { body };
+    Element::new("ml:define").with(left).with(body)
 }
 
 /// Writes an expression, the only line of a listing.
@@ -146,7 +150,7 @@ impl Writer<'_> {
 
     fn range(&self, range: &Range) -> Element {
         match range {
-            Range::Over(value) => self.expr(value),
+            Range::Over(values) => sequence(values.iter().map(|x| self.expr(x)).collect()),
             Range::Span { from, second, to } => {
                 let start = [from].into_iter().chain(second).map(|x| self.expr(x)).collect();
                 Element::new("ml:range").with(sequence(start)).with(self.expr(to))
@@ -207,12 +211,20 @@ impl Writer<'_> {
                 apply(operator, [self.expr(x), self.expr(y)])
             }
             Kind::Compare(comparison, x, y) => {
-                let at = Comparison::ALL.iter().position(|c| c == comparison).unwrap_or_default();
-                apply(PREFIXED[at], [self.expr(x), self.expr(y)])
+                apply(compared(*comparison), [self.expr(x), self.expr(y)])
+            }
+            Kind::Chain(first, rest) => {
+                rest.iter().fold(self.expr(first), |left, (comparison, x)| {
+                    apply(compared(*comparison), [left, self.expr(x)])
+                })
             }
             Kind::All(operands) => self.chain("ml:and", operands),
             Kind::Any(operands) => self.chain("ml:or", operands),
             Kind::Call(name, arguments) => self.call(self.names.name(*name), arguments),
+            Kind::If(parts) => {
+                let parts = parts.iter().map(|x| self.expr(x)).collect();
+                Element::new("ml:apply").with(id("if")).with(sequence(parts))
+            }
             Kind::Series { function, name, parts } => {
                 let [from, to, term] = &**parts;
                 let product = self.names.name(*function) == "∏";
@@ -270,13 +282,18 @@ const PREFIXED: [&str; COMPARISONS.len()] = [
     "ml:greaterOrEqual",
 ];
 
+fn compared(comparison: Comparison) -> &'static str {
+    let at = Comparison::ALL.iter().position(|c| *c == comparison).unwrap_or_default();
+    PREFIXED[at]
+}
+
 impl Placed for &Expr {
     fn level(self) -> Level {
         match &self.kind {
             Kind::Any(_) => Level::Any,
             Kind::All(_) => Level::All,
             Kind::Not(_) => Level::Not,
-            Kind::Compare(..) => Level::Comparison,
+            Kind::Compare(..) | Kind::Chain(..) => Level::Comparison,
             Kind::Arithmetic(Operation::Add | Operation::Subtract, ..) => Level::Sum,
             Kind::Arithmetic(Operation::Multiply | Operation::Divide, ..) => Level::Product,
             Kind::Negative(_) => Level::Negative,
