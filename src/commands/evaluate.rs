@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use plane_contact::answer::error::{Error, Result};
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::paper::mathcad::{
     Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json,
 };

@@ -73,7 +73,7 @@ fn listings_change_notation() {
     let (_, text, _) = ran(at, &["listing", "km.xmcd", "--to", "text"]);
     assert_eq!(text, ran(at, &["listing", "Km", "--to", "text"]).1);
     let (status, text, _) = ran(at, &["mathcad", "km.xmcd"]);
-    assert_eq!(status, 0);
+    assert_eq!(status, 1, "nothing is saved to compare with");
     assert!(text.contains("Km(c_cnt) :="), "{text}");
     std::fs::write(at.join("no.xmcd"), "<html/>").expect("a file");
     for command in [&["mathcad", "no.xmcd"][..], &["listing", "no.xmcd", "--to", "text"]] {

@@ -98,18 +98,21 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
     /// Returns the failure of a name that has no value, or, where it is `called`, is no function.
     pub fn undefined(&self, slot: Slot, called: bool, span: &Span) -> Box<Failure> {
         let name = self.listing.names.name(slot);
-        let range = self.sheet.and_then(|sheet| sheet.range(name));
-        let construct = if range.is_some() {
-            Some(format!("a range variable in an expression ({name})"))
-        } else if !called && self.functions[slot].is_some() {
-            Some(format!("a function as a value ({name})"))
+        let of_sheet =
+            |has: fn(&Sheet, &str) -> bool| self.sheet.is_some_and(|sheet| has(sheet, name));
+        let construct = if called && lacking::is_function(name) {
+            format!("the function {name}")
+        } else if of_sheet(|sheet, name| sheet.range(name).is_some()) {
+            format!("a range variable in an expression ({name})")
+        } else if called {
+            return self.fail(span, Cause::Undefined { name: name.into() });
+        } else if lacking::is_unit(name) && !of_sheet(|sheet, name| sheet.program(name).is_some()) {
+            format!("units: {name}")
+        } else if self.functions[slot].is_some() {
+            format!("a function as a value ({name})")
         } else {
-            lacking::construct(name, called)
+            return self.fail(span, Cause::Undefined { name: name.into() });
         };
-        let cause = match construct {
-            Some(construct) => Cause::Unsupported { construct },
-            None => Cause::Undefined { name: name.into() },
-        };
-        self.fail(span, cause)
+        self.fail(span, Cause::Unsupported { construct })
     }
 }

@@ -329,7 +329,7 @@ fn listings_come_back_from_worksheets() {
 
 /// The elements of a worksheet's regions, without where they stand on the page.
 fn math(worksheet: &str) -> String {
-    worksheet.split("<math").skip(1).filter_map(|part| part.split("</math>").next()).collect()
+    worksheet.split("<math ").skip(1).filter_map(|part| part.split("</math>").next()).collect()
 }
 
 fn record(part: u64) {

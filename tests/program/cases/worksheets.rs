@@ -47,7 +47,7 @@ const CASES: &[Case] = &[
     case!(
         "for-over-a-range-variable",
         "plane-contact mathcad for-list.xmcd",
-        ["for x ∈ 1, 5, 9", "1 results same"],
+        ["1 results same"],
         []
     ),
     case!(
@@ -104,7 +104,7 @@ const CASES: &[Case] = &[
     case!(
         "the-function-if",
         "plane-contact mathcad if-function.xmcd",
-        ["if(x > 2,10,20) =", "2 results same", "0 differ"],
+        ["if(x > 2,10,20) =", "3 results same", "0 differ"],
         ["unsupported:"]
     ),
     case!("the-function-if", "plane-contact evaluate iffun.txt --call 'f(-3)'", ["9\n"], []),

@@ -38,6 +38,12 @@ pub const PASSAGES: Passages = Passages {
             "exit statuses are held by tests/program/cli.rs",
         ),
         ("4 no equilibrium was found", "as above"),
+        ("Exit status: 0 where results were compared", "held by tests/program/cases/worksheets.rs"),
+        (
+            "1 where one differs or none could be compared, 2 where the file is no worksheet",
+            "as above",
+        ),
+        ("[default: 1073741824]", "the default limit of steps, of `Limits`"),
         ("1 = in contact", "the meaning of a value, its definition"),
         ("Coulomb's coefficient, 0 (contact nodes slide freely)", "as above"),
         ("NAFEMS CGS-1", "the name of a benchmark"),

@@ -42,6 +42,7 @@ pub const PASSAGES: Passages = Passages {
         ("NAFEMS CGS-1", "the name of a benchmark"),
         ("with exit status 3", "exit statuses are held by tests/program/cli.rs"),
         ("the exit status is 4", "as above"),
+        ("exit status 1 where one differs", "held by tests/program/cases/worksheets.rs"),
         ("Exit status: 0 done, 1 what was compared differs, 2 the input is at fault", "as above"),
         ("3 the published algorithm fails as printed, 4 no equilibrium", "as above"),
         ("friction 0.2 both |", "which runs are compared"),
