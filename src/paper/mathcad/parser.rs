@@ -206,7 +206,7 @@ fn behind<'t>(atom: Grammar<'t, Expr>, expression: Grammar<'t, Expr>) -> Grammar
         let of = Box::new(x);
         let kind = match behind {
             Behind::Transpose => Kind::Transpose(of),
-            Behind::Subscripts(subscripts) if is_name(&of) => entry(of, subscripts, e.span()),
+            Behind::Subscripts(subscripts) if is_name(&of) => entry(*of, subscripts, e.span()),
             Behind::Subscripts(subscripts) => Kind::Entry { of, subscripts },
             Behind::Column(column) => Kind::Column(of, Box::new(column)),
         };
@@ -220,7 +220,7 @@ fn is_name(expr: &Expr) -> bool {
 }
 
 /// Makes the entry of a name.
-fn entry(name: Box<Expr>, subscripts: Vec<Expr>, span: SimpleSpan) -> Kind {
+fn entry(name: Expr, subscripts: Vec<Expr>, span: SimpleSpan) -> Kind {
     let mut subscripts = subscripts.into_iter().map(Box::new);
     let (row, col) = (subscripts.next(), subscripts.next());
     match name.kind {
