@@ -1,4 +1,4 @@
-//! What serde says of a value of the wrong kind, in words for people.
+//! Words for people: what serde says of a value of the wrong kind, and numbers in messages.
 
 use std::fmt::Display;
 
@@ -58,4 +58,13 @@ fn of_json(words: &str) -> String {
         is_whole.then(|| format!("{plain}{value}").replace('`', ""))
     };
     KINDS.iter().find_map(known).unwrap_or_else(|| words.into())
+}
+
+/// Writes a number with six digits at most, and a very large or a very small one as 2.5e-7.
+pub fn six_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    match rounded.abs() {
+        size if size == 0.0 || (1e-5..1e9).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
 }

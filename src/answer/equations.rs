@@ -23,6 +23,7 @@ use crate::paper::listings::Which;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{self, Pairs, RestraintIndex, Schedule, Worksheet};
 use crate::paper::near::Assembler;
+use crate::plain::six_digits;
 use crate::problem::model::{Dof, Model};
 use crate::problem::modelling::{Coupling, Variant};
 
@@ -255,11 +256,11 @@ impl<'a, T: Precision> Equations<'a, T> {
             Unsolved::NotConverged(stopped) => stopped,
         };
         let what = format!(
-            "{} in {} stopped after {} iterations at a relative residual of {:e}",
+            "{} in {} stopped after {} iterations at a relative residual of {}",
             self.request.solver(),
             self.request.arithmetic.scalar,
             stopped.iterations,
-            stopped.residual
+            six_digits(stopped.residual)
         );
         InputError::new("--solver, --tol", what, "give a larger --tol or another solver").into()
     }

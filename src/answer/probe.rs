@@ -13,6 +13,7 @@ use super::held::Held;
 use super::solution::Solution;
 use crate::error::InputError;
 use crate::numbers::scalar::Bounded;
+use crate::plain::six_digits;
 use crate::problem::element::{self, Corners, Plane};
 use crate::problem::model::{Body, Model, TriangleId};
 
@@ -240,12 +241,13 @@ fn outside(model: &Model, p: [f64; 2]) -> InputError {
         (closest.distance_square, [0, 1].map(|d| a[d] + xi * (b[d] - a[d])), body)
     };
     let outline = sides.filter(|side| model.sides.boundary(*side).is_some()).map(nearest);
-    let (square, [x, y], body) =
+    let (square, nearest, body) =
         outline.min_by(|a, b| a.0.total_cmp(&b.0)).expect("a body has an outline");
-    let what = format!("the point {},{} lies outside every body", p[0], p[1]);
+    let what = format!("the point {} lies outside every body", p.map(six_digits).join(","));
     let name = body.map_or("", |body| &body.name);
+    let nearest = nearest.map(six_digits).join(",");
     let fix = format!(
-        "give a point of the undeformed mesh; the nearest is {x},{y} of body {name}, {:.3e} away",
+        "give a point of the undeformed mesh; the nearest is {nearest} of body {name}, {:.3e} away",
         square.sqrt()
     );
     InputError::new("--probe", what, fix)

@@ -30,6 +30,7 @@ use crate::paper::listings::Which;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet};
 use crate::paper::near::c_cnt;
+use crate::plain::six_digits;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::{Coupling, Variant};
 
@@ -117,7 +118,8 @@ fn check_load<T: Scalar>(
         None => Ok(()),
         Some((x, _)) => {
             let scalar = request.arithmetic.scalar;
-            let what = format!("the force {x:e} is too small to represent in {scalar}");
+            let what =
+                format!("the force {} is too small to represent in {scalar}", six_digits(*x));
             Err(InputError::new("loads", what, "choose other units, or use --scalar f64"))
         }
     }

@@ -39,6 +39,7 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::paper::mirror::Reading;
+use plane_contact::plain::six_digits;
 use plane_contact::problem::modelling::{
     ContactModel, Coupling, Friction, Geometry, StatusRule, Variant, check_iterations,
     check_tolerance,
@@ -168,7 +169,7 @@ impl SceneArgs {
         if let Some(factor) = self.load_factor {
             description.loads.iter_mut().for_each(|load| load.scale(factor));
             if !description.loads.iter().all(Load::is_finite) {
-                let what = format!("{factor:e} times the loads is no finite number");
+                let what = format!("{} times the loads is no finite number", six_digits(factor));
                 let fix = "give a number such as 0.5";
                 return Err(InputError::new("--load-factor", what, fix).into());
             }

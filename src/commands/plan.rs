@@ -11,7 +11,8 @@ use super::{RunArgs, TablesArgs, print};
 /// What solve will build and what not, why, and what it will cost; nothing is solved.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Bodies, free equations, contact candidates after a test of boxes, the solver, dense or sparse, the
+Bodies and their size, the load and its nominal strain, by which a mesh in metres or E in GPa shows;
+free equations, contact candidates after a test of boxes, the solver, dense or sparse, the
 numbers in the factors (exact: from a symbolic factorisation), predicted bytes and operations, and
 what is left out or could be: orphan nodes, restrained equations, bodies that nothing moves, half
 of a symmetric scene.
@@ -39,5 +40,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&report::json(&scene, &plan));
     }
-    args.tables.print("plan", &report::text(&plan, memory::free()))
+    args.tables.print("plan", &report::text(&plan, &scene.units, memory::free()))
 }

@@ -15,6 +15,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::choices;
 use crate::error::{InputError, Result};
 use crate::numbers::scalar::Scalar;
+use crate::plain::six_digits;
 
 choices! {
     /// The plane problem behind `D` (reading R6: the paper does not print which).
@@ -37,7 +38,7 @@ impl Plane {
         if nu > -1.0 && nu < below {
             return Ok(());
         }
-        let what = format!("nu = {nu} is outside (-1, {below}) in {name}");
+        let what = format!("nu = {} is outside (-1, {below}) in {name}", six_digits(nu));
         Err(InputError::new(place, what, "give a Poisson's ratio inside"))
     }
 }

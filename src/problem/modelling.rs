@@ -11,6 +11,7 @@ use serde_json::Value;
 
 use crate::choices;
 use crate::error::{InputError, Result};
+use crate::plain::six_digits;
 
 choices! {
     /// A variant: how the contact pairs enter the equations, and what load an iteration carries.
@@ -97,13 +98,16 @@ impl JsonSchema for Friction {
 }
 
 impl<'de> Deserialize<'de> for Friction {
-    /// Reads a coefficient, as a number or as text, or `"stick"`.
+    /// Reads a coefficient or `"stick"`.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = match Value::deserialize(deserializer)? {
-            Value::String(text) => text,
-            other => other.to_string(),
+        let read = match Value::deserialize(deserializer)? {
+            Value::String(text) if text == "stick" => Ok(Friction::STICK),
+            Value::Number(mu) => mu.to_string().parse(),
+            other => {
+                Err(format!("friction {other} is neither a number of 0 or more nor \"stick\""))
+            }
         };
-        text.parse().map_err(de::Error::custom)
+        read.map_err(de::Error::custom)
     }
 }
 
@@ -166,7 +170,7 @@ pub fn check_tolerance(tolerance: f64) -> Result<()> {
         return Ok(());
     }
     let fault = if tolerance.is_finite() { "negative" } else { "no finite number" };
-    let what = format!("c_tll = {tolerance} is {fault}");
+    let what = format!("c_tll = {} is {fault}", six_digits(tolerance));
     Err(InputError::new("contact.c_tll", what, "give 0 or more; the paper's is 0.001"))
 }
 

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::json;
 use super::layout::{Table, aligned};
-use super::numbers::short;
-use crate::problem::scene::Scene;
+use super::numbers::{quantity, short, six_digits};
+use crate::problem::scene::{Scene, Units};
 use crate::studies::plan::{BodyPlan, ContactPlan, MARGIN, Plan, Storage};
 
 /// Writes the plan on one line, which is the same on every machine.
@@ -36,15 +36,16 @@ pub fn line(plan: &Plan) -> String {
     text
 }
 
-/// Lays out the plan in tables; `free` is the memory that is free, bytes.
-pub fn text(plan: &Plan, free: Option<u128>) -> String {
+/// Lays out the plan in tables with the units of the scene; `free` is the memory that is free, bytes.
+pub fn text(plan: &Plan, units: &Units, free: Option<u128>) -> String {
     let refused = plan.check_memory(free).err().map_or(String::new(), |why| format!("\n{why}\n"));
     format!(
-        "{}\n\nWhat is built\n{}\nBodies\n{}\nWhat it takes\n{}{refused}\n\
+        "{}\n\nWhat is built\n{}\nBodies\n{}\nLoad\n{}\nWhat it takes\n{}{refused}\n\
          What is left out, or could be\n{}",
         line(plan),
         built(plan),
-        bodies(&plan.bodies),
+        bodies(&plan.bodies, units),
+        load(plan, units),
         cost(plan),
         left_out(plan)
     )
@@ -107,15 +108,27 @@ fn of_contact(contact: &ContactPlan) -> [Vec<String>; 3] {
     ]
 }
 
-fn bodies(bodies: &[BodyPlan]) -> String {
+fn bodies(bodies: &[BodyPlan], units: &Units) -> String {
     Table::of(bodies)
         .column("body", |body| body.name.clone())
+        .column(quantity("size", &units.length), |body| body.size.map(six_digits).join(" x "))
         .column("nodes", |body| body.nodes)
         .column("triangles", |body| body.triangles)
         .column("free equations", |body| body.free)
         .column("contact", |body| if body.in_contact { "yes" } else { "no" })
         .column("moved", |body| body.idle.map_or("yes".into(), |idle| format!("no: {idle}")))
         .text()
+}
+
+fn load(plan: &Plan, units: &Units) -> String {
+    let total = format!("{} along x and y", quantity("sum of the loads", &units.force));
+    let mut rows = vec![row(&total, plan.load.map(six_digits).join(", "), "with their signs")];
+    rows.extend(plan.nominal_strain.map(|strain| {
+        let why =
+            "largest of a body: its loads, without signs, / (width or height x thickness x E)";
+        row("nominal strain", six_digits(strain), why)
+    }));
+    aligned(["", "", "of that"], rows)
 }
 
 fn cost(plan: &Plan) -> String {

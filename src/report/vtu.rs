@@ -91,7 +91,8 @@ pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> V
         ("mesh_sha256", &mesh_sha256),
         ("run", &run),
     ];
-    document(&about, &drawing.points, &drawing.triangles, &points, &triangles)
+    let known: Vec<About> = about.into_iter().filter(|(_, text)| !text.is_empty()).collect();
+    document(&known, &drawing.points, &drawing.triangles, &points, &triangles)
 }
 
 /// Returns status, pressure and gap of every node, as [`vtu`] says.
@@ -142,14 +143,15 @@ pub fn document(
     file
 }
 
-/// Returns texts as a viewer reads them: the codes of their bytes, and 0 at the end.
+/// Returns texts as every viewer reads them: arrays of the bytes of UTF-8. Not all read arrays of type
+/// `String`.
 fn field_data(about: &[About]) -> Option<Element> {
     let array = |(name, text): &About| {
-        let codes = text.bytes().chain([0]).map(|byte| byte.to_string());
-        Element::with_text("DataArray", &codes.collect::<Vec<_>>().join(" "))
-            .set("type", "String")
+        let bytes: Vec<String> = text.bytes().map(|byte| byte.to_string()).collect();
+        Element::with_text("DataArray", &bytes.join(" "))
+            .set("type", "UInt8")
             .set("Name", name)
-            .set("NumberOfTuples", "1")
+            .set("NumberOfTuples", text.len().to_string())
             .set("format", "ascii")
     };
     (!about.is_empty()).then(|| Element::new("FieldData").with_all(about.iter().map(array)))

@@ -204,7 +204,7 @@ fn fields_vtu_has_tensors_contact_units_and_where_it_is_from() {
     let words = |name: &str| {
         let codes = array(name).text().unwrap().split_whitespace();
         let bytes: Vec<u8> = codes.map(|code| code.parse().unwrap()).collect();
-        String::from_utf8(bytes).unwrap().trim_end_matches('\0').to_string()
+        String::from_utf8(bytes).unwrap()
     };
     assert!(words("program").starts_with("plane-contact "));
     assert_eq!((words("run"), words("scene_sha256").len()), ("stepped".to_string(), 64));

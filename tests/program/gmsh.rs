@@ -326,6 +326,58 @@ fn other_sections_are_skipped() {
     }
 }
 
+#[test]
+fn what_other_programs_write_before_the_format_is_skipped() {
+    for before in
+        ["\u{feff}", "\n\n", "$Comments\n$Nodes\n$EndComments\n", "\u{feff}$A\n$EndA\n$B\n$EndB\n"]
+    {
+        for (text, mesh) in [(SMALL_2, small()), (SMALL_4, small_4())] {
+            assert_eq!(read(format!("{before}{text}").as_bytes()), Ok(mesh), "{before:?}");
+        }
+        for name in BLOCKS {
+            let file = [before.as_bytes(), &blocks(name)].concat();
+            assert_eq!(read(&file), read(&blocks(name)), "{name}, {before:?}");
+        }
+    }
+    let wide: Vec<u8> = SMALL_2.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let error = read(&[&[0xFF, 0xFE], &wide[..]].concat()).expect_err("UTF-16").to_string();
+    assert!(error.contains("found a file in UTF-16"), "{error}");
+}
+
+#[test]
+fn names_that_are_not_in_utf_8_are_called_so() {
+    for text in [SMALL_2, SMALL_4] {
+        let latin: Vec<u8> = text.replace("base", "b\u{e4}se").chars().map(|c| c as u8).collect();
+        let error = read(&latin).expect_err("Latin-1").to_string();
+        assert!(error.starts_with("line 7: found \"b"), "{error}");
+        assert!(error.contains("not in UTF-8 (as Latin-1 is not)"), "{error}");
+    }
+}
+
+/// Physical groups and nodes of the triangles.
+fn triangles(mesh: &Mesh) -> Vec<(Vec<usize>, Vec<usize>)> {
+    let of = |element: &Element| (element.physical.to_vec(), element.nodes.to_vec());
+    mesh.of_dimension(2).map(of).collect()
+}
+
+#[test]
+fn a_triangle_of_several_groups_is_one_in_both_versions() {
+    let row = "9 2 2 1 4 10 20 30\n";
+    let with = |rows: &str| {
+        let text =
+            SMALL_2.replace("Elements\n3\n", &format!("Elements\n{}\n", 3 + rows.lines().count()));
+        triangles(&read(text.replace(row, &format!("{row}{rows}")).as_bytes()).expect("a mesh"))
+    };
+    let of_4 = SMALL_4.replace("1 1 0 1 1 1 -3", "1 1 0 3 2 1 5 1 -3");
+    let joined = with("12 2 2 5 4 10 20 30\n10 2 2 2 4 10 20 30\n");
+    assert_eq!(joined, triangles(&read(of_4.as_bytes()).expect("a mesh")));
+    assert_eq!(joined, [(vec![1, 2, 5], vec![10, 20, 30])]);
+    // Of one group, of none, on another surface, and turned round.
+    for other in ["2 1 4 10 20 30", "2 0 4 10 20 30", "2 5 6 10 20 30", "2 5 4 10 30 20"] {
+        assert_eq!(with(&format!("10 2 {other}\n")).len(), 2, "{other}");
+    }
+}
+
 /// Writes binary files in a byte order of choice; Gmsh knows the machine's own only.
 struct Writer {
     big: bool,
@@ -439,9 +491,18 @@ fn error_of(text: &str, from: &str, to: &str) -> String {
 fn faults_of_2_2_are_named_with_their_line() {
     #[rustfmt::skip]
     let faults = [
+        ("$MeshFormat\n", "MeshFormat\n",
+         "line 1: found \"MeshFormat\", expected $MeshFormat, the first section of a Gmsh mesh (MSH \
+          2.2 or 4.1)"),
         ("$MeshFormat", "$NOD",
-         "line 1: found \"$NOD\", expected $MeshFormat, the first line of a Gmsh mesh (MSH 2.2 or \
+         "line 1: the file has MSH version 1; versions 2.2 and 4.1 can be read: in Gmsh set \
+          Mesh.MshFileVersion = 4.1 and save the mesh again"),
+        ("$MeshFormat", "$Nodes\n$EndNodes\n$MeshFormat",
+         "line 1: found $Nodes, expected $MeshFormat, the first section of a Gmsh mesh (MSH 2.2 or \
           4.1)"),
+        ("30 0 1 0", "3000000000 0 1 0",
+         "line 11: found \"3000000000\", beyond the largest number 2147483647, expected a node's \
+          number, 1 or more"),
         ("2.2 0 8", "3 0 8",
          "line 2: the file has MSH version 3; versions 2.2 and 4.1 can be read: in Gmsh set \
           Mesh.MshFileVersion = 4.1 and save the mesh again"),

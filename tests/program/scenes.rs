@@ -161,7 +161,27 @@ fn meshes() {
     let e = refused(|s| s["node"][12][0] = json!(12.0));
     says(&e, "nodes", &["node 12 is given twice"]);
     let e = refused(|s| s["node"][12][3] = json!(1.0));
-    says(&e, "nodes", &["the mesh is not plane", "node 13 has z = 1"]);
+    says(
+        &e,
+        "nodes",
+        &[
+            "the mesh is not plane",
+            "node 13 has z = 1",
+            "a difference of 1 in a mesh of the size 3",
+        ],
+    );
+    // Rounding of a rotation to the plane is none; the mesh is 3 wide.
+    let rounded = |z: f64| {
+        let mut scene = scene_json("fig1");
+        (0..13).for_each(|k| scene["node"][k][3] = json!(5.0 + z * (k % 3) as f64));
+        build(&scene)
+    };
+    rounded(1e-12).expect("a plane mesh at z = 5");
+    says(
+        &rounded(1e-11).expect_err("tilted"),
+        "nodes",
+        &["a difference of 2e-11 in a mesh of the size 3"],
+    );
     let e = refused(|s| s["elem"][9] = json!([10, 2, 2, 1, 1, 1, 2, 10]));
     says(&e, "triangles", &["triangle 10 (nodes [1, 2, 10]) runs clockwise", "area is -0.5"]);
     let e = refused(|s| s["node"][9] = json!([10, 2.0, 0.04, 0.0]));

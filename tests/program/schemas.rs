@@ -6,7 +6,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use plane_contact::studies::lesson::exercise::{ANSWERS, Exercise};
+use plane_contact::files::json as reader;
+use plane_contact::problem::scene::file;
+use plane_contact::studies::lesson::exercise::{ANSWERS, Answers, Exercise};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -122,24 +124,31 @@ impl Documents {
 
     /// Validates all, and returns what the schemas leave open.
     fn validate(&self) -> String {
-        let golden = Path::new(ROOT).join("golden/schema");
         let line =
             |(schema, document): &(String, PathBuf)| json!([format!("{schema}.json"), document]);
-        let list = Value::from(self.list.iter().map(line).collect::<Vec<_>>()).to_string();
-        let mut python = Command::new("python3")
-            .arg(Path::new(ROOT).join("tests/program/schemas/validate.py"))
-            .current_dir(golden)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("python");
-        let mut input = python.stdin.take().expect("it is piped");
-        input.write_all(list.as_bytes()).expect("it reads");
-        drop(input);
-        let output = python.wait_with_output().expect("it ends");
-        assert!(output.status.success(), "a document is refused: see standard error");
-        String::from_utf8(output.stdout).expect("UTF-8")
+        python(
+            "validate.py",
+            &Value::from(self.list.iter().map(line).collect::<Vec<_>>()).to_string(),
+        )
     }
+}
+
+/// Runs a script of `tests/program/schemas/` in the folder of the golden schemas, and returns what it
+/// prints.
+fn python(script: &str, input: &str) -> String {
+    let mut python = Command::new("python3")
+        .arg(Path::new(ROOT).join("tests/program/schemas").join(script))
+        .current_dir(Path::new(ROOT).join("golden/schema"))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("python");
+    let mut pipe = python.stdin.take().expect("it is piped");
+    pipe.write_all(input.as_bytes()).expect("it reads");
+    drop(pipe);
+    let output = python.wait_with_output().expect("it ends");
+    assert!(output.status.success(), "{script} fails: see standard error");
+    String::from_utf8(output.stdout).expect("UTF-8")
 }
 
 /// Documents of every command, of every shape.
@@ -267,6 +276,94 @@ fn inputs(documents: &mut Documents) {
     documents.text("answers", &answers.to_string());
     documents.write("answers.json", &answers.to_string());
     documents.printed("marks", 0, "verify answers.json");
+}
+
+const ANSWERS_FILE: reader::Kind =
+    reader::Kind { name: "answers", fix: "give answers", has_values: false };
+
+/// What stands in place of each value of a document in turn.
+const VALUES: &str = r#"["words", "1e9", "0.5", "stick", "x", -0.5, 2.5, 3, -1, true, null, {},
+    {"x": 1}, [], [3], [[]], [1, 2], [1, 0, 0, 0]]"#;
+
+/// Returns the JSON pointers of a document; of a list only those of its first item.
+fn pointers(value: &Value, at: &str, found: &mut Vec<String>) {
+    found.push(at.into());
+    match value {
+        Value::Object(fields) => {
+            fields.iter().for_each(|(name, item)| pointers(item, &format!("{at}/{name}"), found));
+        }
+        Value::Array(items) => {
+            items.iter().take(1).for_each(|item| pointers(item, &format!("{at}/0"), found));
+        }
+        _ => (),
+    }
+}
+
+/// Returns copies of a document, in each another value in the place of one, or without one.
+fn edits(document: &Value) -> Vec<(String, Value)> {
+    let values: Vec<Value> = serde_json::from_str(VALUES).expect("a list");
+    let mut all = Vec::new();
+    pointers(document, "", &mut all);
+    let mut edited = Vec::new();
+    for pointer in all {
+        for value in &values {
+            let mut copy = document.clone();
+            *copy.pointer_mut(&pointer).expect("it is there") = value.clone();
+            edited.push((format!("{pointer} = {value}"), copy));
+        }
+        let mut copy = document.clone();
+        let (parent, name) = pointer.rsplit_once('/').unwrap_or_default();
+        if let Some(fields) = copy.pointer_mut(parent).and_then(Value::as_object_mut) {
+            fields.remove(name);
+            edited.push((format!("{pointer} is left out"), copy));
+        }
+    }
+    edited
+}
+
+/// A reader takes what its schema takes, and no more: whatever stands in place of a value.
+#[test]
+fn readers_take_what_their_schemas_take() {
+    let mut package = Command::new("python3");
+    package.args(["-c", "import jsonschema_rs"]);
+    if !is_there(package, "REQUIRE_JSONSCHEMA") {
+        return;
+    }
+    let scene = json!({
+        "title": "all fields", "plane": "strain", "thickness": 1.5, "mesh": "a.msh",
+        "units": { "length": "mm", "stress": "MPa", "force": "N" },
+        "node": [[1, 0, 0, 0]], "elem": [[1, 2, 2, 7, 7, 1, 2, 3]],
+        "materials": { "7": { "E": 3e4, "nu": 0.2 } },
+        "restraints": [{ "on": 1, "node": 1, "fix": ["x", "y"] }],
+        "loads": [{ "on": "top", "pressure": 1.5, "traction": [0.5, 1], "node": 3,
+            "force": [0.5, -2.5], "stage": 1 }],
+        "contact": { "cnt": [1, 2], "trg": "target", "c_tll": 0.001, "coupling": "nts",
+            "friction": 0.25, "geometry": "initial", "load_steps": 2, "status": "signs" },
+        "iterations": 20, "variant": "tied", "drop_orphans": false
+    });
+    let answers = json!({ "kind": ANSWERS, "exercise": 7, "seed": 2026, "student": "A. Student",
+        "answers": [{ "node": 5, "ct": 1.5, "dy": 1, "k1": 0.25 }] });
+    type Read = fn(&[u8]) -> bool;
+    let readers: [(&str, Value, Read); 2] = [
+        ("scene", scene, |text| file::parse(text).is_ok()),
+        ("answers", answers, |text| reader::read::<Answers>(text, &ANSWERS_FILE).is_ok()),
+    ];
+    for (schema, document, read) in readers {
+        assert!(read(document.to_string().as_bytes()), "{schema}");
+        let edited = edits(&document);
+        let documents: Vec<&Value> = edited.iter().map(|(_, copy)| copy).collect();
+        let schema = Path::new(ROOT).join(format!("golden/schema/{schema}.json"));
+        let allowed: Vec<bool> =
+            serde_json::from_str(&python("verdicts.py", &json!([schema, documents]).to_string()))
+                .expect("a list");
+        let differing: Vec<&String> = edited
+            .iter()
+            .zip(allowed)
+            .filter(|((_, copy), allowed)| read(copy.to_string().as_bytes()) != *allowed)
+            .map(|((edit, _), _)| edit)
+            .collect();
+        assert!(differing.is_empty(), "{}: {differing:#?}", schema.display());
+    }
 }
 
 /// Every document is valid by its schema, and `golden/schema/open.txt` shows what the schemas leave

@@ -1,11 +1,17 @@
 //! XML files read back: texts, and the arrays of a VTU file.
 
 use std::io::Read;
+use std::path::Path;
+use std::process::Command;
 
 use flate2::read::ZlibDecoder;
 use plane_contact::report::vtu::document;
 use plane_contact::xml::Element;
 use roxmltree::Document;
+use tempfile::TempDir;
+
+use crate::common::program::run;
+use crate::common::tools::is_there;
 
 #[test]
 fn text_reads_back() {
@@ -122,4 +128,31 @@ fn long_arrays_read_back() {
 #[should_panic(expected = "displacement: 2 values for each of 4")]
 fn missing_values_are_refused() {
     document(&[], &POINTS, &TRIANGLES, &[("displacement", "", 2, &DISPLACEMENT[..6])], &[]);
+}
+
+/// Four readers find in `fields.vtu` what `result.json` has, with contact and without, of scenes whose
+/// names need quoting and of a mesh of several blocks.
+#[test]
+fn fields_are_read_by_other_programs() {
+    let mut packages = Command::new("python3");
+    packages.args(["-c", "import fieldcompare, meshio, pyvista, vtkmodules"]);
+    if !is_there(packages, "REQUIRE_VTU") {
+        return;
+    }
+    let folder = TempDir::new().expect("a folder");
+    let write = |args: &[&str]| {
+        let output = run(folder.path(), args);
+        assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    };
+    write(&["mesh", "cook", "--out", "a <--> \"b\" & c\u{e4}"]);
+    write(&["mesh", "cook", "--n", "80", "--out", "many"]);
+    for scene in ["fig1", "two-blocks", "strand", "a <--> \"b\" & c\u{e4}", "many"] {
+        write(&["solve", scene, "--no-pictures", "--fields", "--out", "out"]);
+        let output = Command::new("python3")
+            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/vtu/read.py"))
+            .current_dir(folder.path())
+            .output()
+            .expect("python");
+        assert!(output.status.success(), "{scene}: {}", String::from_utf8_lossy(&output.stderr));
+    }
 }

@@ -1,15 +1,20 @@
 //! Bodies, which are the parts of a mesh that share no node, and whether each is restrained.
 
+use std::collections::{BTreeMap, HashMap, HashSet};
+
 use nalgebra::{Matrix3, Vector3};
 
 use super::ids::{NodeId, TriangleId};
 use super::{Model, Triangle};
 use crate::numbers::joined::joined;
 
+/// The most materials that the name of a body lists.
+const MOST_NAMES: usize = 10;
+
 /// A part of the mesh that shares no node with another part.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body {
-    /// The names of its materials, joined by `+`; numbered where two bodies would share the name.
+    /// The names of its materials, at most ten, joined by `+`; numbered where two bodies would share the name.
     pub name: String,
     /// The triangles of the body, ascending.
     pub triangles: Vec<TriangleId>,
@@ -36,41 +41,38 @@ pub fn bodies<'a>(
         [(a, b), (b, c)]
     });
     let lowest = joined(nodes, sides);
-    let mut found: Vec<(usize, Body)> = Vec::new();
+    let mut bodies: BTreeMap<usize, Body> = BTreeMap::new();
     for (id, triangle) in TriangleId::all(triangles.len()).zip(triangles) {
-        let key = lowest[triangle.nodes[0].index()];
-        let at = found.iter().position(|(other, _)| *other == key).unwrap_or_else(|| {
-            let nodes = NodeId::all(nodes).filter(|n| lowest[n.index()] == key).collect();
-            found.push((key, Body { name: String::new(), triangles: Vec::new(), nodes }));
-            found.len() - 1
-        });
-        found[at].1.triangles.push(id);
+        let body = bodies.entry(lowest[triangle.nodes[0].index()]).or_default();
+        body.triangles.push(id);
     }
-    found.sort_by_key(|(key, _)| *key);
-    let mut bodies: Vec<Body> = found.into_iter().map(|(_, body)| body).collect();
+    for node in NodeId::all(nodes) {
+        if let Some(body) = bodies.get_mut(&lowest[node.index()]) {
+            body.nodes.push(node);
+        }
+    }
+    let mut bodies: Vec<Body> = bodies.into_values().collect();
     for body in &mut bodies {
-        body.name = joined_names(body.triangles.iter().map(|id| material(*id)));
+        let mut distinct = HashSet::new();
+        let names = body.triangles.iter().map(|id| material(*id));
+        let names: Vec<&str> = names.filter(|name| distinct.insert(*name)).collect();
+        body.name = match names.len().saturating_sub(MOST_NAMES) {
+            0 => names.join("+"),
+            more => format!("{}+{more} more", names[..MOST_NAMES].join("+")),
+        };
     }
     number_equal_names(&mut bodies);
     bodies
 }
 
-fn joined_names<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let mut distinct: Vec<&str> = Vec::new();
-    for name in names {
-        if !distinct.contains(&name) {
-            distinct.push(name);
-        }
-    }
-    distinct.join("+")
-}
-
 fn number_equal_names(bodies: &mut [Body]) {
-    let names: Vec<String> = bodies.iter().map(|b| b.name.clone()).collect();
-    for (k, body) in bodies.iter_mut().enumerate() {
-        if names.iter().filter(|n| **n == body.name).count() > 1 {
-            let before = names[..k].iter().filter(|n| **n == body.name).count();
-            body.name = format!("{} {}", body.name, before + 1);
+    let mut counts: HashMap<String, [usize; 2]> = HashMap::new();
+    bodies.iter().for_each(|body| counts.entry(body.name.clone()).or_default()[0] += 1);
+    for body in bodies {
+        let [count, before] = counts.get_mut(&body.name).expect("it was counted");
+        if *count > 1 {
+            *before += 1;
+            body.name = format!("{} {before}", body.name);
         }
     }
 }

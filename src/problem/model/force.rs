@@ -19,6 +19,15 @@ pub enum Force {
 }
 
 impl Force {
+    /// Returns the nodes on which it acts.
+    pub fn nodes(&self) -> impl Iterator<Item = NodeId> + use<> {
+        let [node, other] = match *self {
+            Force::Node(node, _) => [Some(node), None],
+            Force::Pressure(edge, _) | Force::Traction(edge, _) => edge.map(Some),
+        };
+        node.into_iter().chain(other)
+    }
+
     /// Adds it to the forces `f` on all degrees of freedom of `model`; each number of the scene
     /// passes through `number`. Linear edges have half of their load on each end.
     pub fn add_to<T: Scalar>(&self, f: &mut DVector<T>, model: &Model, number: &impl Fn(f64) -> T) {

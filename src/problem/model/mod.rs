@@ -9,6 +9,8 @@ mod force;
 mod ids;
 mod sides;
 
+use std::collections::HashSet;
+
 use nalgebra::DVector;
 
 pub use body::{Body, bodies, freedom};
@@ -216,6 +218,12 @@ impl Model {
     /// Returns the target edges, in the order in which they are searched.
     pub fn target_edges(&self) -> impl Iterator<Item = &Edge> + Clone {
         self.contact.target.iter().map(|id| self.edge(*id))
+    }
+
+    /// Returns the nodes of both contact surfaces.
+    pub fn surface_nodes(&self) -> HashSet<NodeId> {
+        let ends = self.target_edges().flat_map(|edge| edge.nodes);
+        self.contact.nodes.iter().copied().chain(ends).collect()
     }
 
     /// Returns the body that has the target surface; None without contact.

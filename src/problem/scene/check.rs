@@ -3,9 +3,11 @@
 use std::collections::{HashMap, HashSet};
 
 use super::description::{Axis, Description};
+use super::groups::Groups;
 use super::mesh::Mesh;
-use super::{groups, surface};
+use super::surface;
 use crate::error::{InputError, Result};
+use crate::plain::six_digits;
 use crate::problem::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
 use crate::problem::modelling::{check_iterations, check_tolerance};
 
@@ -13,7 +15,7 @@ use crate::problem::modelling::{check_iterations, check_tolerance};
 /// Errors: the thickness is not positive, or the number of iterations is 0 or too large.
 pub fn numbers(file: &Description) -> Result<()> {
     if !(file.thickness > 0.0 && file.thickness.is_finite()) {
-        let what = format!("the thickness {} is not positive", file.thickness);
+        let what = format!("the thickness {} is not positive", six_digits(file.thickness));
         return Err(InputError::new("field thickness", what, "give one above 0; the paper's is 1"));
     }
     check_iterations(file.iterations)
@@ -22,30 +24,27 @@ pub fn numbers(file: &Description) -> Result<()> {
 /// Returns the place of each triangle's material in the scene file, in the order of `EL`.
 /// Errors: a material is out of its range, a triangle has no material or two, or a group has no
 /// triangle.
-pub fn materials(mesh: &Mesh, file: &Description) -> Result<Vec<u32>> {
-    let mut of_triangle: Vec<Option<u32>> = vec![None; mesh.of_dimension(2).count()];
+pub fn materials(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec<u32>> {
+    let mut of_element: Vec<Option<u32>> = vec![None; mesh.elements.len()];
     for (k, (group, material)) in (0_u32..).zip(&file.materials.0) {
         let place = format!("materials.{}", group.text());
         if !(material.e > 0.0 && material.e.is_finite()) {
-            let what = format!("E = {} is not positive", material.e);
+            let what = format!("E = {} is not positive", six_digits(material.e));
             let place = format!("{place}.E");
             return Err(InputError::new(place, what, "give an elastic modulus above 0"));
         }
         file.plane.check_poisson(material.nu, &format!("{place}.nu"))?;
-        // Both are in the order of the mesh.
-        let mut places = mesh.of_dimension(2).zip(&mut of_triangle);
-        for member in groups::members(mesh, 2, group, &place)? {
-            let own = places.find(|(triangle, _)| triangle.number == member.number);
-            let (_, own) = own.expect("a member is a triangle of the mesh");
-            if let Some(other) = own.replace(k) {
+        for member in groups.places(2, group, &place)? {
+            if let Some(other) = of_element[*member as usize].replace(k) {
                 let [other, name] = [other, k].map(|k| file.materials.0[k as usize].0.text());
-                let number = member.number;
+                let number = mesh.elements[*member as usize].number;
                 let what = format!("triangle {number} has two materials, {other} and {name}");
                 return Err(InputError::new(place, what, "give each triangle one material"));
             }
         }
     }
-    let found = of_triangle.into_iter().zip(mesh.of_dimension(2)).map(|(own, triangle)| {
+    let of_triangle = of_element.into_iter().zip(&mesh.elements).filter(|(_, e)| e.dim() == 2);
+    let found = of_triangle.map(|(own, triangle)| {
         own.ok_or_else(|| {
             let what = format!(
                 "triangle {} has no material (its physical groups: {:?})",
@@ -59,29 +58,34 @@ pub fn materials(mesh: &Mesh, file: &Description) -> Result<Vec<u32>> {
 
 /// Returns whether each degree of freedom is restrained.
 /// Errors: a restraint names no place or two, or a node or group that does not exist.
-pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>> {
+pub fn restraints(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec<bool>> {
     let mut restrained = vec![false; 2 * mesh.nodes.len()];
+    let mut restrain = |n: usize, axis: &Axis| {
+        let [x, y] = NodeId::from_number(n).dofs();
+        restrained[if *axis == Axis::X { x } else { y }.index()] = true;
+    };
+    // Many restraints may name one group, which has many nodes.
+    let mut done = HashSet::new();
     for (k, restraint) in file.restraints.iter().enumerate() {
         let place = format!("restraints[{k}]");
-        let nodes = match (&restraint.on, restraint.node) {
-            (Some(on), None) => groups::nodes(mesh, on, &format!("{place}.on"))?,
-            (None, Some(n)) => {
-                mesh.check_node(n, &format!("{place}.node"))?;
-                vec![n]
-            }
-            _ => {
-                let what = "a restraint is {on, fix} or {node, fix}";
-                return Err(InputError::new(place, what, "give exactly one of on and node"));
-            }
-        };
         if restraint.fix.is_empty() {
             let what = "a restraint that fixes no direction";
             return Err(InputError::new(format!("{place}.fix"), what, "name \"x\", \"y\" or both"));
         }
-        for n in nodes {
-            for axis in &restraint.fix {
-                let [x, y] = NodeId::from_number(n).dofs();
-                restrained[if *axis == Axis::X { x } else { y }.index()] = true;
+        match (&restraint.on, restraint.node) {
+            (Some(on), None) => {
+                for axis in restraint.fix.iter().filter(|axis| done.insert((on, **axis))) {
+                    let nodes = groups.nodes(on, &format!("{place}.on"))?;
+                    nodes.into_iter().for_each(|n| restrain(n, axis));
+                }
+            }
+            (None, Some(n)) => {
+                mesh.check_node(n, &format!("{place}.node"))?;
+                restraint.fix.iter().for_each(|axis| restrain(n, axis));
+            }
+            _ => {
+                let what = "a restraint is {on, fix} or {node, fix}";
+                return Err(InputError::new(place, what, "give exactly one of on and node"));
             }
         }
     }
@@ -91,12 +95,12 @@ pub fn restraints(mesh: &Mesh, file: &Description) -> Result<Vec<bool>> {
 /// Returns the two contact surfaces and their tolerance; empty where the scene has no contact.
 /// Errors: the tolerance is negative, the number of steps is 0 or too large, or the surfaces do not
 /// exist or share a node.
-pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces> {
+pub fn contact(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<ContactSurfaces> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
     check_tolerance(contact.tolerance)?;
     contact.model().check()?;
-    let nodes = surface::contact_nodes(mesh, &contact.contact)?;
-    let target = surface::target_edges(mesh, &contact.target)?;
+    let nodes = surface::contact_nodes(mesh, groups, &contact.contact)?;
+    let target = surface::target_edges(mesh, groups, &contact.target)?;
     let (on_contact, on_target): (HashSet<usize>, HashSet<usize>) =
         (nodes.iter().copied().collect(), target.iter().copied().collect());
     for edge in mesh.of_dimension(1).filter(|e| on_target.contains(&e.number)) {
@@ -121,11 +125,9 @@ pub fn contact(mesh: &Mesh, file: &Description) -> Result<ContactSurfaces> {
 /// bodies that contact joins.
 /// Errors: a body can still move; the error says how.
 pub fn restrained_bodies(model: &Model) -> Result<()> {
-    let target_nodes = model.target_edges().map(|edge| edge.nodes[0]);
-    let in_contact: Vec<NodeId> = model.contact.nodes.iter().copied().chain(target_nodes).collect();
-    let touched = |body: &Body| in_contact.iter().any(|n| body.has(*n));
+    let surfaces = model.surface_nodes();
     let (joined, alone): (Vec<&Body>, Vec<&Body>) =
-        model.bodies.iter().partition(|body| touched(body));
+        model.bodies.iter().partition(|body| body.nodes.iter().any(|n| surfaces.contains(n)));
     for body in alone {
         if let Some(freedom) = model::freedom(model, &body.nodes) {
             let what =

@@ -1,6 +1,6 @@
 //! Physical groups: the elements that belong to a name or a tag.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt;
 
 use schemars::JsonSchema;
@@ -10,7 +10,7 @@ use super::mesh::{Element, Mesh};
 use crate::error::{InputError, Result};
 use crate::suggestion::did_you_mean;
 
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum GroupRef {
     Name(String),
@@ -55,66 +55,102 @@ impl From<usize> for GroupRef {
 
 const ELEMENT_NAMES: [&str; 3] = ["points", "edges", "triangles"];
 
-/// Returns the group's elements of dimension `dim` (1: edges, 2: triangles), in mesh order.
-/// Errors: no such group exists in that dimension, or it has no element.
-pub fn members<'m>(
+/// The most groups that an error lists.
+const MOST_LISTED: usize = 20;
+
+/// The physical groups of a mesh.
+pub struct Groups<'m> {
     mesh: &'m Mesh,
-    dim: usize,
-    group: &GroupRef,
-    place: &str,
-) -> Result<Vec<&'m Element>> {
-    let what = ELEMENT_NAMES[dim];
-    let typed = group.text();
-    let names = mesh.names.iter().filter(|n| n.dim == dim).map(|n| n.name.as_str());
-    let fix = did_you_mean(&typed, names) + &known(mesh, dim);
-    let error = |what: String| InputError::new(place, what, fix.clone());
-    let tag = tag(mesh, dim, group)
-        .ok_or_else(|| error(format!("there is no physical group {group} of {what}")))?;
-    let members: Vec<_> = mesh.of_dimension(dim).filter(|e| e.physical.contains(&tag)).collect();
-    if members.is_empty() {
-        return Err(error(format!(
-            "the physical group {group} has no element among the mesh's {what}"
-        )));
+    /// The places in the mesh of the elements of each group, ascending, by dimension and tag.
+    places: BTreeMap<(usize, usize), Vec<u32>>,
+    /// The tags of groups with a name, by dimension and name.
+    tags: HashMap<(usize, &'m str), usize>,
+}
+
+impl<'m> Groups<'m> {
+    /// Sorts the elements of `mesh` by their groups.
+    pub fn new(mesh: &'m Mesh) -> Self {
+        let mut places: BTreeMap<_, Vec<u32>> = BTreeMap::new();
+        for (element, place) in mesh.elements.iter().zip(0..) {
+            for tag in &element.physical {
+                places.entry((element.dim(), *tag)).or_default().push(place);
+            }
+        }
+        let names = mesh.names.iter().map(|group| ((group.dim, &*group.name), group.tag));
+        Groups { mesh, places, tags: names.collect() }
     }
-    Ok(members)
-}
 
-/// Returns the nodes of a group, ascending: a group of edges, else of points, else of triangles.
-pub fn nodes(mesh: &Mesh, group: &GroupRef, place: &str) -> Result<Vec<usize>> {
-    let dim = [1, 0, 2].into_iter().find(|&dim| {
-        tag(mesh, dim, group)
-            .is_some_and(|tag| mesh.of_dimension(dim).any(|e| e.physical.contains(&tag)))
-    });
-    let members = members(mesh, dim.unwrap_or(1), group, place)?;
-    let nodes: BTreeSet<usize> = members.iter().flat_map(|e| e.nodes.iter().copied()).collect();
-    Ok(nodes.into_iter().collect())
-}
+    /// Returns the places in the mesh of a group's elements of dimension `dim` (1: edges, 2: triangles),
+    /// ascending.
+    /// Errors: no such group exists in that dimension, or it has no element.
+    pub fn places(&self, dim: usize, group: &GroupRef, place: &str) -> Result<&[u32]> {
+        let tag = self.tag(dim, group);
+        if let Some(places) = tag.and_then(|tag| self.places.get(&(dim, tag))) {
+            return Ok(places);
+        }
+        let kind = ELEMENT_NAMES[dim];
+        let what = match tag {
+            Some(_) => format!("the physical group {group} has no element among the mesh's {kind}"),
+            None => format!("there is no physical group {group} of {kind}"),
+        };
+        let fix = if self.places.is_empty() && tag.is_some() {
+            "no element has a physical group, though $PhysicalNames names some: in Gmsh set \
+             Mesh.SaveAll = 0, and save the mesh again"
+                .into()
+        } else {
+            let names = self.mesh.names.iter().filter(|n| n.dim == dim).map(|n| n.name.as_str());
+            did_you_mean(&group.text(), names) + &self.known(dim)
+        };
+        Err(InputError::new(place, what, fix))
+    }
 
-/// Returns the tag of a group with elements of dimension `dim`. A name may be a tag as text.
-fn tag(mesh: &Mesh, dim: usize, group: &GroupRef) -> Option<usize> {
-    let used = |tag: &usize| mesh.of_dimension(dim).any(|e| e.physical.contains(tag));
-    match group {
-        GroupRef::Tag(tag) => Some(*tag).filter(used),
-        GroupRef::Name(name) => {
-            let named = mesh.names.iter().find(|n| n.dim == dim && n.name == *name);
-            named.map(|n| n.tag).or_else(|| name.parse().ok().filter(used))
+    /// Returns a group's elements of dimension `dim` (1: edges, 2: triangles), in mesh order.
+    /// Errors: those of [`Self::places`].
+    pub fn members(
+        &self,
+        dim: usize,
+        group: &GroupRef,
+        place: &str,
+    ) -> Result<impl Iterator<Item = &'m Element> + use<'_, 'm>> {
+        let places = self.places(dim, group, place)?;
+        Ok(places.iter().map(|place| &self.mesh.elements[*place as usize]))
+    }
+
+    /// Returns the nodes of a group, ascending: a group of edges, else of points, else of triangles.
+    pub fn nodes(&self, group: &GroupRef, place: &str) -> Result<BTreeSet<usize>> {
+        let has_elements = |dim: &usize| {
+            self.tag(*dim, group).is_some_and(|tag| self.places.contains_key(&(*dim, tag)))
+        };
+        let dim = [1, 0, 2].into_iter().find(has_elements).unwrap_or(1);
+        let members = self.members(dim, group, place)?;
+        Ok(members.flat_map(|element| element.nodes.iter().copied()).collect())
+    }
+
+    /// Returns the tag of a group of elements of dimension `dim`. A name may be a tag as text.
+    fn tag(&self, dim: usize, group: &GroupRef) -> Option<usize> {
+        let used = |tag: &usize| self.places.contains_key(&(dim, *tag));
+        match group {
+            GroupRef::Tag(tag) => Some(*tag).filter(used),
+            GroupRef::Name(name) => {
+                let named = self.tags.get(&(dim, &**name)).copied();
+                named.or_else(|| name.parse().ok().filter(used))
+            }
         }
     }
-}
 
-/// Returns the groups that exist, in the words of an error.
-fn known(mesh: &Mesh, dim: usize) -> String {
-    let tags: BTreeSet<usize> =
-        mesh.of_dimension(dim).flat_map(|e| e.physical.iter().copied()).collect();
-    let names: Vec<String> = tags
-        .iter()
-        .map(|tag| match mesh.names.iter().find(|n| n.dim == dim && n.tag == *tag) {
-            Some(name) => format!("{:?} ({tag})", name.name),
-            None => tag.to_string(),
-        })
-        .collect();
-    match names.as_slice() {
-        [] => format!("the mesh has no physical group of {}", ELEMENT_NAMES[dim]),
-        names => format!("the mesh's groups of {} are {}", ELEMENT_NAMES[dim], names.join(", ")),
+    /// Returns the groups that exist, in the words of an error.
+    fn known(&self, dim: usize) -> String {
+        let kind = ELEMENT_NAMES[dim];
+        let tags = self.places.range((dim, 0)..(dim + 1, 0)).map(|((_, tag), _)| *tag);
+        let named = |tag: usize| {
+            let name = self.mesh.names.iter().find(|n| n.dim == dim && n.tag == tag);
+            name.map_or(tag.to_string(), |name| format!("{:?} ({tag})", name.name))
+        };
+        let names: Vec<String> = tags.clone().take(MOST_LISTED).map(named).collect();
+        match tags.count() - names.len() {
+            _ if names.is_empty() => format!("the mesh has no physical group of {kind}"),
+            0 => format!("the mesh's groups of {kind} are {}", names.join(", ")),
+            more => format!("the mesh's groups of {kind} are {} and {more} more", names.join(", ")),
+        }
     }
 }

@@ -31,6 +31,7 @@ pub use builder::SceneBuilder;
 pub use description::{Axis, Contact, Description, Load, Material, Materials, Restraint, Units};
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use groups::GroupRef;
+use groups::Groups;
 pub use hashes::{sha256, source_hashes};
 pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags};
 pub use refine::Refined;
@@ -125,10 +126,11 @@ impl Scene {
         dropped: Vec<NodeId>,
     ) -> Result<Self> {
         check::numbers(&description)?;
-        let materials = check::materials(&mesh, &description)?;
+        let physical = Groups::new(&mesh);
+        let materials = check::materials(&mesh, &physical, &description)?;
         let kinds = &description.materials.0;
         let groups: Vec<String> = kinds.iter().map(|(group, _)| group.text()).collect();
-        let mut restrained = check::restraints(&mesh, &description)?;
+        let mut restrained = check::restraints(&mesh, &physical, &description)?;
         dropped.iter().flat_map(|n| n.dofs()).for_each(|dof| restrained[dof.index()] = true);
         let mut triangles = Vec::with_capacity(materials.len());
         triangles.extend(mesh.of_dimension(2).zip(&materials).map(|(element, kind)| {
@@ -144,7 +146,7 @@ impl Scene {
             nodes: mesh.nodes.iter().map(|node| [node.xyz[0], node.xyz[1]]).collect(),
             z: mesh.nodes[0].xyz[2],
             edges: mesh.of_dimension(1).map(edge).collect(),
-            contact: check::contact(&mesh, &description)?,
+            contact: check::contact(&mesh, &physical, &description)?,
             forces: Vec::new(),
             load: DVector::zeros(0),
             stages: Vec::new(),
@@ -157,8 +159,8 @@ impl Scene {
         };
         check::restrained_bodies(&model)?;
         (model.forces, model.load) =
-            load::forces(&mesh, &model, description.loads.iter().enumerate())?;
-        model.stages = load::stages(&mesh, &model, &description.loads)?;
+            load::forces(&mesh, &physical, &model, description.loads.iter().enumerate())?;
+        model.stages = load::stages(&mesh, &physical, &model, &description.loads)?;
         Ok(Scene {
             name: name.into(),
             title: description.title.clone(),

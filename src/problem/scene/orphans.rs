@@ -14,7 +14,7 @@ pub fn drop(mesh: &mut Mesh, dropped: &[usize], description: &Description) -> Re
             "nodes {} belong to no triangle (finding K4: Km would be singular)",
             short_list(dropped)
         );
-        let fix = "remove them, or set \"drop_orphans\": true";
+        let fix = "remove them (in Gmsh: Mesh.SaveAll = 0), or set \"drop_orphans\": true";
         return Err(InputError::new("the mesh's nodes", what, fix));
     }
     let is_dropped = |n: &usize| dropped.binary_search(n).is_ok();

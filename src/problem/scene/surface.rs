@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::groups::{self, GroupRef};
-use super::mesh::{Element, Mesh};
+use super::groups::{GroupRef, Groups};
+use super::mesh::Mesh;
 use crate::error::{InputError, Result};
 
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -38,12 +38,12 @@ impl From<Vec<usize>> for Surface {
 /// Returns the node numbers of the contact surface `cnt`, in order along it. A list is taken as it
 /// is; a group's edges are followed as a chain from its first end.
 /// Errors: a group is no single chain, or a number is no node.
-pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
+pub fn contact_nodes(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<Vec<usize>> {
     let place = "contact.cnt";
     match surface {
         Surface::Group(group) => {
-            let members = groups::members(mesh, 1, group, place)?;
-            let edges: Vec<_> = members.iter().map(|e| [e.nodes[0], e.nodes[1]]).collect();
+            let members = groups.members(1, group, place)?;
+            let edges: Vec<_> = members.map(|e| [e.nodes[0], e.nodes[1]]).collect();
             chain(&edges).map_err(|why| {
                 let what = format!("group {group}: {why}");
                 InputError::new(place, what, "give the node numbers as a list, in order")
@@ -59,28 +59,26 @@ pub fn contact_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
 
 /// Returns the `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
 /// Errors: a number is no edge.
-pub fn target_edges(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
+pub fn target_edges(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<Vec<usize>> {
     let place = "contact.trg";
     match surface {
-        Surface::Group(group) => {
-            Ok(groups::members(mesh, 1, group, place)?.iter().map(|e| e.number).collect())
-        }
+        Surface::Group(group) => Ok(groups.members(1, group, place)?.map(|e| e.number).collect()),
         Surface::Numbers(numbers) => {
             not_empty(numbers, place)?;
-            for &number in numbers {
-                edge(mesh, number, place)?;
-            }
+            numbers.iter().try_for_each(|&number| check_edge(mesh, number, place))?;
             Ok(numbers.clone())
         }
     }
 }
 
-/// Returns the edge with `elem` number `number`.
-fn edge<'m>(mesh: &'m Mesh, number: usize, place: &str) -> Result<&'m Element> {
-    mesh.of_dimension(1).find(|e| e.number == number).ok_or_else(|| {
-        let what = format!("elem {number} is no edge of the mesh");
-        InputError::new(place, what, "name elem rows of type 1")
-    })
+/// Checks that an edge has the `elem` number `number`.
+fn check_edge(mesh: &Mesh, number: usize, place: &str) -> Result<()> {
+    let found = mesh.elements.binary_search_by_key(&number, |element| element.number);
+    if found.is_ok_and(|at| mesh.elements[at].dim() == 1) {
+        return Ok(());
+    }
+    let what = format!("elem {number} is no edge of the mesh");
+    Err(InputError::new(place, what, "name elem rows of type 1"))
 }
 
 fn not_empty(numbers: &[usize], place: &str) -> Result<()> {

@@ -11,6 +11,8 @@ pub use typeset::{common_exponent, power_of_ten, shifted, significant, ticks};
 pub use uncertain::uncertain;
 pub use undefined::{NO_LIMIT, note, reason};
 
+pub use crate::plain::six_digits;
+
 /// Writes a whole number as it is, another one with five decimals, and one that is very large or
 /// very small in scientific notation; `-` stands for what is no number.
 pub fn short(x: f64) -> String {
@@ -22,15 +24,6 @@ pub fn short(x: f64) -> String {
         }
         size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),
         _ => format!("{x:.3e}"),
-    }
-}
-
-/// Writes a number with six digits at most, and a very large or a very small one as 2.5e-7.
-pub fn six_digits(x: f64) -> String {
-    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
-    match rounded.abs() {
-        size if size == 0.0 || (1e-5..1e9).contains(&size) => rounded.to_string(),
-        _ => format!("{rounded:e}"),
     }
 }
 

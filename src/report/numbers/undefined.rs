@@ -44,6 +44,7 @@ const REASONS: &[(&str, &str)] = &[
     ("seconds", "the run failed, or is not timed"),
     ("peak_bytes", "it was not measured"),
     ("solver", "the scalar's own solver"),
+    ("nominal_strain", "no load acts"),
     ("tol", "the solver has no tolerance, or the scalar's own"),
 ];
 

@@ -2,6 +2,7 @@
 
 use crate::error::{InputError, Result};
 use crate::memory;
+use crate::plain::six_digits;
 
 /// More divisions of a side than anybody has memory for.
 const MOST: usize = 2000;
@@ -37,7 +38,11 @@ pub fn positive(option: &str, x: f64) -> Result<()> {
     if x > 0.0 && x.is_finite() {
         return Ok(());
     }
-    Err(InputError::new(option, format!("{x} is not positive"), "give a number above 0"))
+    Err(InputError::new(
+        option,
+        format!("{} is not positive", six_digits(x)),
+        "give a number above 0",
+    ))
 }
 
 /// Checks that a ratio lies in a range.
@@ -45,6 +50,6 @@ pub fn between(option: &str, x: f64, [least, most]: [f64; 2]) -> Result<()> {
     if (least..=most).contains(&x) {
         return Ok(());
     }
-    let what = format!("{x} is outside {least} .. {most}");
+    let what = format!("{} is outside {least} .. {most}", six_digits(x));
     Err(InputError::new(option, what, format!("give a number from {least} to {most}")))
 }

@@ -8,6 +8,7 @@ use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, frictionless, scene};
 use crate::error::{InputError, Result};
+use crate::plain::six_digits;
 use crate::problem::element::Plane;
 use crate::problem::modelling::Geometry;
 use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
@@ -90,7 +91,8 @@ impl Hertz {
         if a > 1e-3 * self.radius && a < most {
             return Ok(());
         }
-        let what = format!("the contact's half width {a} mm is outside 0.001 to 0.25 radii");
+        let what =
+            format!("the contact's half width {} mm is outside 0.001 to 0.25 radii", six_digits(a));
         Err(InputError::new("--load", what, "choose a load for which Hertz's theory holds"))
     }
 

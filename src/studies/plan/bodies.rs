@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::choices;
-use crate::problem::model::{Body, Dof, Model};
+use crate::problem::model::{Body, Bounds, Dof, Model};
 use crate::problem::modelling::Variant;
 
 choices! {
@@ -26,6 +26,8 @@ pub struct BodyPlan {
     pub nodes: usize,
     pub triangles: usize,
     pub free: usize,
+    /// Width and height, length.
+    pub size: [f64; 2],
     pub in_contact: bool,
     /// Why it does not move; nothing where it may.
     pub idle: Option<Idle>,
@@ -33,14 +35,15 @@ pub struct BodyPlan {
 
 /// The bodies of a model as `variant` runs it.
 pub fn plan(model: &Model, variant: Variant) -> Vec<BodyPlan> {
-    model.bodies.iter().map(|body| of_body(model, variant, body)).collect()
+    let surfaces = model.surface_nodes();
+    let is_touched = |body: &Body| body.nodes.iter().any(|node| surfaces.contains(node));
+    model.bodies.iter().map(|body| of_body(model, variant, body, is_touched(body))).collect()
 }
 
-fn of_body(model: &Model, variant: Variant, body: &Body) -> BodyPlan {
+fn of_body(model: &Model, variant: Variant, body: &Body, in_contact: bool) -> BodyPlan {
     let dofs = body.nodes.iter().flat_map(|n| n.dofs());
     let free: Vec<Dof> = dofs.filter(|dof| !model.is_restrained(*dof)).collect();
     let loaded = free.iter().any(|dof| model.load[dof.index()] != 0.0);
-    let in_contact = touched(model, body);
     let idle = match (free.is_empty(), loaded, in_contact) {
         (true, ..) => Some(Idle::Restrained),
         (_, true, _) => None,
@@ -52,13 +55,31 @@ fn of_body(model: &Model, variant: Variant, body: &Body) -> BodyPlan {
         nodes: body.nodes.len(),
         triangles: body.triangles.len(),
         free: free.len(),
+        size: size(model, body),
         in_contact,
         idle,
     }
 }
 
-/// Whether an entry of the contact surface or an end of a target edge lies on it.
-fn touched(model: &Model, body: &Body) -> bool {
-    let ends = model.target_edges().flat_map(|edge| edge.nodes);
-    model.contact.nodes.iter().copied().chain(ends).any(|n| body.has(n))
+/// Returns width and height of a body, length.
+fn size(model: &Model, body: &Body) -> [f64; 2] {
+    Bounds::of(body.nodes.iter().map(|node| &model.nodes[node.index()])).size()
+}
+
+/// Returns the largest nominal strain of the bodies: of each the loads on it, without their signs, over
+/// the section that they act on and its smallest elastic modulus. None without a load.
+pub fn nominal_strain(model: &Model) -> Option<f64> {
+    let strain = |body: &Body| {
+        let [width, height] = size(model, body);
+        let moduli = body.triangles.iter().map(|id| model.triangle(*id).material.e);
+        let modulus = moduli.fold(f64::INFINITY, f64::min);
+        let along = |direction: usize, section: f64| {
+            let loads =
+                body.nodes.iter().map(|node| model.load[node.dofs()[direction].index()].abs());
+            loads.sum::<f64>() / (section * model.thickness * modulus)
+        };
+        along(0, height).max(along(1, width))
+    };
+    let strains = model.bodies.iter().map(strain).filter(|strain| strain.is_finite());
+    strains.reduce(f64::max).filter(|strain| *strain > 0.0)
 }

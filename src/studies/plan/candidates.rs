@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::answer::contact::search::Segment;
-use crate::problem::model::{Bounds, Edge, Model};
+use crate::problem::model::{Bounds, Model};
 
 /// How far a node may move, in lengths of the edge: one that moves further passes over half of it
 /// in one step, which the contact search is not made for either.
@@ -37,26 +37,36 @@ impl Candidates {
     /// The candidates of a model; nothing without contact.
     pub fn find(model: &Model) -> Option<Self> {
         let tolerance = model.contact.tolerance;
-        let ends = |edge: &Edge| edge.nodes.map(|node| model.at(node));
-        let edges: Vec<[[f64; 2]; 2]> = model.target_edges().map(ends).collect();
-        let points = || model.contact.nodes.iter().map(|node| model.at(*node));
-        let grown = |ends: &[[f64; 2]; 2]| {
-            let [[ax, ay], [bx, by]] = *ends;
-            Bounds::of(ends).padded(tolerance + MARGIN * (bx - ax).hypot(by - ay))
-        };
-        let boxes: Vec<Bounds> = edges.iter().map(grown).collect();
-        let near = |p| boxes.iter().filter(|edge| edge.contains(p)).count();
-        let of_node: Vec<usize> = points().map(near).collect();
-        let segments: Vec<Segment<f64>> = edges.iter().copied().map(Segment::new).collect();
-        let touches = |p: &[f64; 2]| {
-            segments.iter().any(|edge| edge.closest(*p).distance().abs() <= tolerance)
-        };
-        (!of_node.is_empty()).then(|| Candidates {
-            nodes: of_node.len(),
-            edges: edges.len(),
-            pairs: of_node.iter().sum(),
-            near: of_node.iter().filter(|count| **count > 0).count(),
-            touching: points().filter(touches).count(),
+        let points: Vec<[f64; 2]> =
+            model.contact.nodes.iter().map(|node| model.at(*node)).collect();
+        if points.is_empty() {
+            return None;
+        }
+        // Each edge looks only at the nodes beside it along the longer side of the surface.
+        let [width, height] = Bounds::of(&points).size();
+        let axis = usize::from(height > width);
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by(|a, b| points[*a][axis].total_cmp(&points[*b][axis]));
+        let mut found: Vec<(usize, bool)> = vec![(0, false); points.len()];
+        for edge in model.target_edges() {
+            let [a, b] = edge.nodes.map(|node| model.at(node));
+            let grown = tolerance + MARGIN * (b[0] - a[0]).hypot(b[1] - a[1]);
+            let near = Bounds::of(&[a, b]).padded(grown);
+            let segment = Segment::new([a, b]);
+            let from = order.partition_point(|k| points[*k][axis] < near.low[axis]);
+            let beside = order[from..].iter().take_while(|k| points[**k][axis] <= near.high[axis]);
+            for k in beside.filter(|k| near.contains(points[**k])) {
+                let (pairs, touches) = &mut found[*k];
+                *pairs += 1;
+                *touches |= segment.closest(points[*k]).distance().abs() <= tolerance;
+            }
+        }
+        Some(Candidates {
+            nodes: points.len(),
+            edges: model.contact.target.len(),
+            pairs: found.iter().map(|(pairs, _)| pairs).sum(),
+            near: found.iter().filter(|(pairs, _)| *pairs > 0).count(),
+            touching: found.iter().filter(|(_, touches)| *touches).count(),
         })
     }
 

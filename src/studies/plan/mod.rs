@@ -50,6 +50,11 @@ pub struct Plan {
     pub nodes: usize,
     pub triangles: usize,
     pub bodies: Vec<BodyPlan>,
+    /// The sum of the loads along x and y, force.
+    pub load: [f64; 2],
+    /// The largest nominal strain of a body: the loads on it, without their signs, over width or height,
+    /// thickness and elastic modulus; nothing without a load.
+    pub nominal_strain: Option<f64>,
     pub equations: Equations,
     /// The contact; nothing where the scene has none.
     pub contact: Option<ContactPlan>,
@@ -137,6 +142,8 @@ impl Plan {
             variant,
             nodes: model.nodes.len(),
             triangles: model.triangles.len(),
+            load: model.total_load(),
+            nominal_strain: bodies::nominal_strain(model),
             cost,
             bodies,
             equations,

@@ -24,6 +24,19 @@ macro_rules! edited {
     };
 }
 
+/// Plans the scene on `sed`'s edit of its mesh; no suggestion is what was given.
+macro_rules! mesh_edited {
+    ($edit:literal, $status:literal, $contains:expr) => {
+        Case {
+            input: "gmsh",
+            command: concat!("sed -i '", $edit, "' square.msh; plane-contact plan scene.json"),
+            status: $status,
+            contains: $contains,
+            lacks: &["did you mean \"low\""],
+        }
+    };
+}
+
 const CASES: &[Case] = &[
     edited!(
         "s/-2.5/NaN/",
@@ -121,4 +134,67 @@ const CASES: &[Case] = &[
         contains: &["big.json: the snapshot", "need 2.9 GB"],
         lacks: &[],
     },
+    // What is not linear takes minutes for these.
+    Case {
+        input: "",
+        command: "python3 -c 'import json; n = 100000
+json.dump({\"plane\": \"strain\", \"node\": [[1, 0, 0, 0], [2, 1, 0, 0], [3, 0, 1, 0]],
+    \"elem\": [[1, 2, 2, 1, 1, 1, 2, 3]],
+    \"materials\": {str(i): {\"E\": 1, \"nu\": 0} for i in range(1, n + 1)}}, open(\"m.json\", \"w\"))' && \
+                  timeout 20 plane-contact plan m.json",
+        status: 2,
+        contains: &["there is no physical group \"2\" of triangles"],
+        lacks: &[],
+    },
+    Case {
+        input: "gmsh",
+        command: "plane-contact solve scene.json --no-pictures",
+        status: 0,
+        contains: &["low"],
+        lacks: &["same nodes"],
+    },
+    Case {
+        input: "gmsh",
+        command: "plane-contact plan scene.json",
+        status: 0,
+        contains: &["size, mm", "1 x 1", "sum of the loads, N", "0, -2.5", "nominal strain", "0.0025"],
+        lacks: &[],
+    },
+    Case {
+        input: "gmsh",
+        command: "sed -i 's/1000/1/' scene.json; plane-contact plan scene.json",
+        status: 0,
+        contains: &["nominal strain                     2.5"],
+        lacks: &[],
+    },
+    mesh_edited!("s/^3 1 1 0/3 1 1 1.1e-16/", 0, &["plan:"]),
+    mesh_edited!(
+        "s/^3 1 1 0/3 1 1 0.0000000000000123456789/",
+        0,
+        &["plan:"]
+    ),
+    mesh_edited!(
+        "s/^3 1 1 0/3 1 1 0.00000123456789/",
+        2,
+        &["node 3 has z = 1.23457e-6, node 1 z = 0, a difference of 1.23457e-6 in a mesh of the size 1"]
+    ),
+    mesh_edited!("1s/^/$Comments\\nof $Nodes\\n$EndComments\\n/", 0, &["plan:"]),
+    mesh_edited!("1s/^/\\xEF\\xBB\\xBF/", 0, &["plan:"]),
+    mesh_edited!("s/$/\\r/", 0, &["plan:"]),
+    mesh_edited!("s/bottom/b\\xF6den/", 2, &["line 6: found \"b", "not in UTF-8 (as Latin-1 is not)"]),
+    mesh_edited!(
+        "s/^3 1 1 0/3000000000 1 1 0/",
+        2,
+        &["found \"3000000000\", beyond the largest number 2147483647"]
+    ),
+    mesh_edited!("s/^6 2 2 8 1/6 2 2 8 2/", 2, &["triangles 5 and 6 have the same nodes [1, 3, 4]"]),
+    // Gmsh's Mesh.SaveAll = 1 in MSH 2.2.
+    mesh_edited!(
+        "s/ 2 [5-8] / 2 0 /; /^[46] 2 2 0/d; s/^6$/4/",
+        2,
+        &["\"low\" has no element among the mesh's triangles", "in Gmsh set Mesh.SaveAll = 0"]
+    ),
+    mesh_edited!("/^[46] 2 2 8/d; s/^6$/4/; s/ 2 7 / 2 8 /", 2, &["\"low\" has no element", "groups of triangles are \"all\" (8)"]),
+    edited!("s/\"loads\"/\"contact\": {\"cnt\": [3], \"trg\": [1], \"c_tll\": 0, \"friction\": \"1e9\"}, \"loads\"/",
+        2, &["friction \"1e9\" is neither a number of 0 or more nor \"stick\""]),
 ];

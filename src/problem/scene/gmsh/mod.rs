@@ -1,6 +1,7 @@
 //! Meshes as files of Gmsh: reads MSH 2.2 and 4.1, text or binary, and writes MSH 2.2 as text.
 //!
 //! ```text
+//! $...               sections of other programs are skipped
 //! $MeshFormat        version, text or binary, bytes of a number
 //! $PhysicalNames     dimension, tag, "name"                          always text
 //! $Entities          4.1: point, curve, ... with its physical tags

@@ -162,7 +162,18 @@ impl<'a> Tokens<'a> {
         self.word();
         let word = std::str::from_utf8(self.token()).ok().filter(|word| !word.is_empty());
         let parsed = word.and_then(|word| word.parse().ok());
-        parsed.ok_or_else(|| self.unexpected(shown(self.token()), expected))
+        parsed.ok_or_else(|| {
+            let digits = word.unwrap_or_default().trim_start_matches('-');
+            let is_large = digits.len() > 9 && digits.bytes().all(|byte| byte.is_ascii_digit());
+            let largest = if size_of::<T>() == 4 { i32::MAX as u64 } else { u64::MAX };
+            let found = shown(self.token());
+            let found = if is_large {
+                format!("{found}, beyond the largest number {largest}")
+            } else {
+                found
+            };
+            self.unexpected(found, expected)
+        })
     }
 
     /// Reads the next word if it is up to nine digits, as most are; any number type holds them.
@@ -195,8 +206,12 @@ impl<'a> Tokens<'a> {
     pub fn quoted(&mut self, expected: &str) -> Result<String> {
         self.line();
         let line = String::from_utf8_lossy(self.token());
+        if let Cow::Owned(line) = &line {
+            let found = format!("{}, which is not in UTF-8 (as Latin-1 is not)", line.trim());
+            return Err(self.unexpected(found, "a name in UTF-8: rename the group, and save again"));
+        }
         let name = line.trim().strip_prefix('"').and_then(|line| line.strip_suffix('"'));
-        let name = name.filter(|_| matches!(line, Cow::Borrowed(_))).map(str::to_owned);
+        let name = name.map(str::to_owned);
         name.ok_or_else(|| self.unexpected(format!("{:?}", line.trim()), expected))
     }
 
@@ -217,7 +232,8 @@ impl<'a> Tokens<'a> {
     }
 
     /// Reads the name of the section that begins here, without `$`; None at the file's end.
-    pub fn section(&mut self) -> Result<Option<String>> {
+    /// Errors: something else is there than what was `expected`.
+    pub fn section(&mut self, expected: &str) -> Result<Option<String>> {
         self.word();
         if self.token().is_empty() && self.broken.is_none() {
             return Ok(None);
@@ -228,10 +244,7 @@ impl<'a> Tokens<'a> {
                 self.line_end()?;
                 Ok(Some(name))
             }
-            None => {
-                let expected = "the beginning of a section, such as $Nodes";
-                Err(self.unexpected(shown(self.token()), expected))
-            }
+            None => Err(self.unexpected(shown(self.token()), expected)),
         }
     }
 
@@ -245,7 +258,7 @@ impl<'a> Tokens<'a> {
     }
 
     /// Skips to the next occurrence of `keyword`.
-    pub fn skip_to(&mut self, keyword: &str) -> Result<()> {
+    fn skip_to(&mut self, keyword: &str) -> Result<()> {
         loop {
             self.begin();
             let rest = &self.held[self.at..];
@@ -271,6 +284,27 @@ impl<'a> Tokens<'a> {
             [0, 0, 0, 1] => Ok(Encoding::BigEndian),
             found => Err(self.unexpected(format!("the bytes {found:?}"), expected)),
         }
+    }
+
+    /// Skips the section `name`, of which the first line is read.
+    pub fn skip(&mut self, name: &str) -> Result<()> {
+        let end = format!("$End{name}");
+        self.skip_to(&end)?;
+        self.keyword(&end, &end)
+    }
+
+    /// Skips a byte order mark at the beginning of the file.
+    /// Errors: it is that of UTF-16.
+    pub fn skip_mark(&mut self) -> Result<()> {
+        self.begin();
+        match self.held[..] {
+            [0xEF, 0xBB, 0xBF, ..] => self.at = 3,
+            [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => {
+                return Err(self.unexpected("a file in UTF-16", "ASCII or UTF-8: save it so"));
+            }
+            _ => (),
+        }
+        Ok(())
     }
 
     /// Returns an error at the last token: `found` in place of `expected`.

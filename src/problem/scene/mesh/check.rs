@@ -1,8 +1,15 @@
 //! The conditions on a mesh that every computation assumes.
 
-use super::{Element, Mesh, PhysicalName};
+use std::collections::HashMap;
+
+use super::{Element, Mesh, Node, PhysicalName};
 use crate::error::{InputError, Result};
+use crate::plain::six_digits;
 use crate::problem::element::{self, Corners};
+
+/// The largest difference of z that is rounding, over the size of the mesh: a drawing that was rotated
+/// to the plane has some.
+const PLANE: f64 = 1e-12;
 
 /// The largest tag that a Gmsh file can hold.
 const LARGEST_TAG: usize = i32::MAX as usize;
@@ -32,13 +39,11 @@ impl Mesh {
     }
 
     fn check_names(&self) -> Result<()> {
-        for (k, a) in self.names.iter().enumerate() {
-            let same = |b: &&PhysicalName| a.dim == b.dim && a.name == b.name && a.tag != b.tag;
-            if let Some(b) = self.names[..k].iter().find(same) {
-                let what = format!(
-                    "the physical groups {} and {} are both named {:?}",
-                    b.tag, a.tag, a.name
-                );
+        let mut tags = HashMap::new();
+        for PhysicalName { dim, tag, name } in &self.names {
+            let first = *tags.entry((dim, name)).or_insert(tag);
+            if first != tag {
+                let what = format!("the physical groups {first} and {tag} are both named {name:?}");
                 let fix = "give each a name of its own";
                 return Err(InputError::new("the mesh's physical groups", what, fix));
             }
@@ -58,15 +63,35 @@ impl Mesh {
                 let what = format!("node {} has a coordinate that is not finite", node.number);
                 return Err(InputError::new(place, what, "give finite coordinates"));
             }
-            if node.xyz[2] != self.nodes[0].xyz[2] {
-                let what = format!(
-                    "node {} has z = {}, node {} z = {}: the mesh is not plane",
-                    node.number, node.xyz[2], self.nodes[0].number, self.nodes[0].xyz[2]
-                );
-                return Err(InputError::new(place, what, "give all nodes the same z"));
-            }
         }
-        Ok(())
+        self.check_plane()
+    }
+
+    /// Checks that all nodes have the same z, apart from rounding.
+    fn check_plane(&self) -> Result<()> {
+        let along = |k: usize| {
+            let by_k = |a: &&Node, b: &&Node| a.xyz[k].total_cmp(&b.xyz[k]);
+            let [least, most] =
+                [self.nodes.iter().min_by(by_k), self.nodes.iter().rev().max_by(by_k)];
+            least.zip(most)
+        };
+        let range = |k| along(k).map_or(0.0, |(least, most)| most.xyz[k] - least.xyz[k]);
+        let (extent, difference) = (range(0).max(range(1)), range(2));
+        let Some((low, high)) = along(2).filter(|_| difference > PLANE * extent) else {
+            return Ok(());
+        };
+        let [z, lower] = [high, low].map(|node| six_digits(node.xyz[2]));
+        let what = format!(
+            "the mesh is not plane: node {} has z = {z}, node {} z = {lower}, a difference of {} in \
+             a mesh of the size {}",
+            high.number,
+            low.number,
+            six_digits(difference),
+            six_digits(extent)
+        );
+        let fix =
+            "give all nodes the same z: draw in the plane of x and y, or rotate the mesh to it";
+        Err(InputError::new("the mesh's nodes", what, fix))
     }
 
     fn check_elements(&self) -> Result<()> {
@@ -93,7 +118,7 @@ impl Mesh {
         let same = triangles.windows(2).filter(|pair| pair[0].0 == pair[1].0);
         if let Some([(_, first), (nodes, second)]) = same.min_by_key(|pair| pair[1].1) {
             let what = format!("triangles {first} and {second} have the same nodes {nodes:?}");
-            let fix = "keep one: a triangle in two physical groups of Gmsh is written twice";
+            let fix = "keep one, or give both the same geometric tag and different physical groups";
             return Err(InputError::new(place, what, fix));
         }
         Ok(())
@@ -133,8 +158,7 @@ impl Mesh {
             return Ok(());
         }
         let (what, fix) = if area < 0.0 {
-            // Debug writes a large number with its exponent.
-            let what = format!("runs clockwise: its area is {area:?}");
+            let what = format!("runs clockwise: its area is {}", six_digits(area));
             (what, "list its nodes counter-clockwise (in Gmsh: ReverseMesh Surface)")
         } else if area == 0.0 && is_flat(&self.corners(triangle)) {
             ("has the area 0".into(), "move or merge its nodes")

@@ -8,6 +8,7 @@
 
 mod builder;
 mod check;
+mod join;
 mod tables;
 
 pub use builder::MeshBuilder;
@@ -17,6 +18,12 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::problem::element::Corners;
+
+/// The bytes that a node takes while a scene is read and built, and an element with what its share of
+/// the nodes takes once they are read; measured on grids of 0.4 and 1.6 million elements, with what
+/// those out of order take.
+pub const NODE: f64 = 130.0;
+pub const ELEMENT: f64 = 310.0;
 
 /// Nodes and elements in ascending order of number. As a document, of which the SHA-256 is taken, it
 /// is rows of numbers.
@@ -30,9 +37,9 @@ pub struct Mesh {
     /// The nodes: number, x, y, z.
     #[schemars(with = "Vec<(usize, f64, f64, f64)>")]
     pub nodes: Vec<Node>,
-    /// The points, edges and triangles: number, type, physical tags, geometric tag, nodes. An element
-    /// of two physical groups occurs twice in a Gmsh file of version 2.2, under two numbers, and once,
-    /// with two tags, in one of version 4.1.
+    /// The points, edges and triangles: number, type, physical tags, geometric tag, nodes. A point or
+    /// an edge of two physical groups occurs twice in a Gmsh file of version 2.2, under two numbers, and
+    /// once, with two tags, in one of version 4.1.
     #[schemars(with = "Vec<(usize, usize, Vec<usize>, usize, Vec<usize>)>")]
     pub elements: Vec<Element>,
 }
@@ -71,6 +78,13 @@ pub struct Element {
     pub physical: Tags,
     pub geometric: usize,
     pub nodes: NodeNumbers,
+}
+
+impl Element {
+    /// Returns its dimension: 0 point, 1 edge, 2 triangle.
+    pub fn dim(&self) -> usize {
+        self.nodes.len() - 1
+    }
 }
 
 type ElementRow = (usize, usize, Tags, usize, NodeNumbers);

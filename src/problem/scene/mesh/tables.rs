@@ -1,13 +1,17 @@
 //! Meshes from the paper's own tables.
 
-use super::{Element, KINDS, Mesh, Node};
+use super::{ELEMENT, Element, KINDS, Mesh, NODE, Node};
 use crate::error::{InputError, Result};
+use crate::memory;
 
 impl Mesh {
     /// Reads the paper's own tables: rows of `node` are number, x, y, z; rows of `elem` are number,
     /// type, 2, physical tag, geometric tag, nodes.
-    /// Errors: a row has another form.
+    /// Errors: a row has another form, or there is no memory for so many.
     pub fn from_tables(node: &[[f64; 4]], elem: &[Vec<usize>]) -> Result<Self> {
+        let whose = format!("{} nodes and {} elements", node.len(), elem.len());
+        let bytes = NODE * node.len() as f64 + ELEMENT * elem.len() as f64;
+        memory::check_bytes(bytes, "fields node, elem", &whose, memory::FIX)?;
         let mut mesh = Mesh::default();
         for (k, &[number, x, y, z]) in node.iter().enumerate() {
             if number.fract() != 0.0 || !(1.0..9e15).contains(&number) {
@@ -22,6 +26,7 @@ impl Mesh {
         }
         mesh.nodes.sort_by_key(|n| n.number);
         mesh.elements.sort_by_key(|e| e.number);
+        mesh.join_groups();
         Ok(mesh)
     }
 }

@@ -1,0 +1,63 @@
+"""Reads out/fields.vtu by meshio, VTK, pyvista and fieldcompare, and compares what each finds with
+out/result.json.
+"""
+import json
+
+import fieldcompare.io
+import meshio
+import numpy as np
+import pyvista
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+FILE = "out/fields.vtu"
+result = json.load(open("out/result.json", encoding="utf-8"))
+nodes = np.array(result["nodes"])
+expected = {
+    "points": nodes,
+    "corners": np.array([row["nodes"] for row in result["elements"]]) - 1,
+    "displacement": np.array(result["u"]),
+    "von_mises_stress": np.array([row["von_mises_stress"] for row in result["elements"]]),
+}
+
+
+def check(reader, found):
+    for name, values in found.items():
+        values, wanted = np.asarray(values), expected[name]
+        if name in ("points", "displacement"):
+            assert not values[:, 2].any(), (reader, name)
+            values = values[:, :2]
+        assert np.array_equal(values.reshape(wanted.shape), wanted), (reader, name)
+
+
+mesh = meshio.read(FILE)
+check("meshio", {
+    "points": mesh.points,
+    "corners": mesh.cells_dict["triangle"],
+    "displacement": mesh.point_data["displacement"],
+    "von_mises_stress": mesh.cell_data["von_mises_stress"][0],
+})
+assert bytes(mesh.field_data["scene"].astype("uint8")).decode() == result["scene"]
+
+reader = vtkXMLUnstructuredGridReader()
+reader.SetFileName(FILE)
+reader.Update()
+grid = reader.GetOutput()
+check("VTK", {
+    "points": vtk_to_numpy(grid.GetPoints().GetData()),
+    "corners": vtk_to_numpy(grid.GetCells().GetConnectivityArray()),
+    "displacement": vtk_to_numpy(grid.GetPointData().GetArray("displacement")),
+    "von_mises_stress": vtk_to_numpy(grid.GetCellData().GetArray("von_mises_stress")),
+})
+
+mesh = pyvista.read(FILE)
+check("pyvista", {
+    "points": mesh.points,
+    "corners": mesh.cells.reshape(-1, 4)[:, 1:],
+    "displacement": mesh.point_data["displacement"],
+    "von_mises_stress": mesh.cell_data["von_mises_stress"],
+})
+assert bytes(mesh.field_data["scene"]).decode() == result["scene"]
+
+fields = {field.name.split(" @ ")[0]: field.values for field in fieldcompare.io.read(FILE)}
+check("fieldcompare", {name: fields[name] for name in ("displacement", "von_mises_stress")})
