@@ -37,14 +37,14 @@ pub use found::FoundPairs;
 pub use hertz::Hertz;
 pub use memory::Bytes;
 pub use printed::condenses_printed;
-pub use probe::{Probe, Quantity};
+pub use probe::{Probe, Quantity, check_points};
 pub use request::Request;
 pub use side_by_side::side_by_side;
 pub use solution::{
     Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, StepBounds, Unilateral,
     Uniqueness, max_displacement,
 };
-pub use solve::{check_memory, equilibrium, solve};
+pub use solve::{check, check_memory, equilibrium, solve};
 pub use sparse::dense_matrices;
 pub use stiffness::Stiffness;
-pub use summary::{BodySummary, summaries};
+pub use summary::{BodySummary, large_strain, summaries};

@@ -68,6 +68,7 @@ pub fn probes(
         return Ok(Vec::new());
     }
     let model = &*solution.model;
+    check_points(model, points)?;
     let stiffness = bounded(model);
     let bench = Bench {
         solution,
@@ -77,15 +78,23 @@ pub fn probes(
         of_stress: stress_bounds(solution, &stiffness, estimates.displacement),
         bounded: stiffness.stresses(&solution.u.map(|u| Bounded::new(u, estimates.displacement))),
     };
-    let mut found = Vec::new();
-    for point in points {
-        let before = found.len();
-        found.extend(model.bodies.iter().filter_map(|body| bench.probe(body, *point)));
-        if found.len() == before {
-            return Err(outside(model, *point));
-        }
-    }
-    Ok(found)
+    let bodies = |at| model.bodies.iter().map(move |body| (body, at));
+    let places = points.iter().flat_map(|at| bodies(*at));
+    Ok(places.filter_map(|(body, at)| bench.probe(body, at)).collect())
+}
+
+/// Checks that each of `points` lies in a body of the undeformed shape.
+///
+/// # Errors
+/// Names a point that lies outside every body.
+pub fn check_points(model: &Model, points: &[[f64; 2]]) -> Result<(), InputError> {
+    let is_inside = |at: &[f64; 2]| model.triangle_ids().any(|id| has(model, id, *at));
+    points.iter().find(|at| !is_inside(at)).map_or(Ok(()), |at| Err(outside(model, *at)))
+}
+
+/// Returns whether a triangle has a point.
+fn has(model: &Model, id: TriangleId, at: [f64; 2]) -> bool {
+    weights(&model.corners(id), at).iter().all(|weight| *weight >= -NEAR)
 }
 
 struct Bench<'a> {
@@ -102,8 +111,7 @@ struct Bench<'a> {
 impl Bench<'_> {
     fn probe(&self, body: &Body, at: [f64; 2]) -> Option<Probe> {
         let model = &*self.solution.model;
-        let has = |id: &&TriangleId| weights(&model.corners(**id), at).iter().all(|w| *w >= -NEAR);
-        let mut triangles = body.triangles.iter().filter(has);
+        let mut triangles = body.triangles.iter().filter(|id| has(model, **id, at));
         let id = *triangles.next()?;
         let weights = weights(&model.corners(id), at);
         let [displacement, stress, strain] =

@@ -56,14 +56,9 @@ pub(super) fn published<T: Precision>(
     goes_on: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Solution, Error> {
     let model = request.model()?;
-    check_size::<T>(request, &model)?;
-    let number = |x: f64| match request.arithmetic.inputs {
-        Inputs::Binary => T::from_f64(x),
-        Inputs::Decimal => T::from_decimal(x),
-    };
+    let number = |x: f64| number_of(request, x);
     let sheet = door::worksheet(&model, number);
     let load = model.load_in(number);
-    check_load(request, &model, &load)?;
     let interpreter = (!request.edited.is_empty())
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
     let interpreter = interpreter.as_ref();
@@ -91,6 +86,27 @@ pub(super) fn published<T: Precision>(
         model: Arc::clone(&model),
         steps,
     })
+}
+
+/// Checks what is known of a request in a scalar before it runs.
+///
+/// # Errors
+/// The matrices do not fit in memory, exact numbers do not end within a bearable time, the load vanishes
+/// in T, or mortar does not run in it.
+pub(super) fn check<T: Precision>(request: &Request, model: &Model) -> Result<(), InputError> {
+    check_size::<T>(request, model)?;
+    if request.contact.coupling == Coupling::Mortar && request.variant != Variant::Printed {
+        check_mortar(request.arithmetic.scalar)?;
+    }
+    check_load(request, model, &model.load_in(|x| number_of::<T>(request, x)))
+}
+
+/// Returns what a number of the scene stands for.
+fn number_of<T: Scalar>(request: &Request, x: f64) -> T {
+    match request.arithmetic.inputs {
+        Inputs::Binary => T::from_f64(x),
+        Inputs::Decimal => T::from_decimal(x),
+    }
 }
 
 /// Returns the bound on the error of an entry of `u`, where T keeps one; infinite where a decision of
@@ -197,7 +213,7 @@ impl<'a, T: Precision> Run<'a, T> {
         let mortar = request.contact.coupling == Coupling::Mortar;
         let equations = Equations::new(request, model, sheet, load, sparse, interpreter, number)?;
         let surfaces = (mortar && request.variant != Variant::Printed)
-            .then(|| mortar_surfaces(request, model))
+            .then(|| Surfaces::new(model))
             .transpose()?;
         Ok(Run {
             request,
@@ -399,14 +415,14 @@ fn numbers<T: Scalar>(shape: &[[T; 2]]) -> Vec<[f64; 2]> {
     shape.iter().map(|place| place.map(T::to_f64)).collect()
 }
 
-/// Returns the surfaces for mortar, whose integrals need square roots and more digits than `f32` has.
-fn mortar_surfaces(request: &Request, model: &Model) -> Result<Surfaces, InputError> {
-    let why = match request.arithmetic.scalar {
+/// Checks that a scalar has the square roots and the digits that the integrals of mortar need.
+fn check_mortar(scalar: ScalarName) -> Result<(), InputError> {
+    let why = match scalar {
         ScalarName::Exact => "its integrals take square roots",
         ScalarName::F32 => "its integrals lose too many digits",
-        _ => return Surfaces::new(model),
+        _ => return Ok(()),
     };
-    let what = format!("mortar coupling does not run in {}: {why}", request.arithmetic.scalar);
+    let what = format!("mortar coupling does not run in {scalar}: {why}");
     Err(InputError::new("--scalar", what, "use f64 or f64x2, or --coupling nts"))
 }
 

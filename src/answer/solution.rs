@@ -268,6 +268,11 @@ pub struct Equilibrium {
     /// thousandth of the model's size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unseen: Option<(NodeId, f64)>,
+    /// The contact node that lies deepest inside the target's body in the shape reached, and its
+    /// distance from the target's edges, length; None where none lies deeper than a thousandth of the
+    /// model's size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inside: Option<(NodeId, f64)>,
     /// The largest change of a displacement component when contact was last measured in the shape
     /// reached, length; 0 in the initial geometry.
     pub shape_change: f64,

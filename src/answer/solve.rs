@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::error::{Error, SingularMatrix};
-use super::memory::Bytes;
-use super::published::published;
+use super::memory::{Bytes, FEWER_STEPS, bytes_of_paths};
+use super::published::{self, published};
 use super::request::Request;
 use super::solution::{Solution, Step};
 use super::sparse::{Condensing, Iterating, Sparse, Whole, dense_matrices};
@@ -42,13 +42,35 @@ pub(super) fn solve_while(
     request: &Request,
     goes_on: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Solution, Error> {
+    check(request)?;
+    run(request, goes_on).map_err(|why| blamed(request, why))
+}
+
+/// Checks what is known of a request before it runs.
+///
+/// # Errors
+/// A number that is asked for is out of its range, the variant or the coupling does not run in the
+/// scalar or by the solver, what is edited is not executed, the load vanishes in the scalar, or the run
+/// does not fit in memory or in a bearable time.
+pub fn check(request: &Request) -> Result<(), InputError> {
     request.arithmetic.check()?;
     check_iterations(request.iterations)?;
     request.contact.check()?;
     request.tolerance.map_or(Ok(()), check_tolerance)?;
     check_edited(request)?;
-    check_memory(request)?;
-    run(request, goes_on).map_err(|why| blamed(request, why))
+    let model = request.model()?;
+    match (request.variant, request.arithmetic.scalar) {
+        (Variant::Unilateral, _) => check_unilateral(request)?,
+        (_, ScalarName::F64) => published::check::<f64>(request, &model)?,
+        (_, ScalarName::F32) => published::check::<f32>(request, &model)?,
+        (_, ScalarName::F64x2) => published::check::<F64x2>(request, &model)?,
+        (_, ScalarName::Bounded) => published::check::<Bounded>(request, &model)?,
+        (_, ScalarName::BoundedDouble) => published::check::<BoundedDouble>(request, &model)?,
+        (_, ScalarName::Exact) => {
+            scalar::scope(|| published::check::<Exact>(request, &model))?;
+        }
+    }
+    check_memory(request)
 }
 
 /// Checks that a large run has the memory that it takes, with the runs beside it. Of runs that share
@@ -61,6 +83,10 @@ pub fn check_memory(request: &Request) -> Result<(), InputError> {
     /// The number of equations of a large one.
     const LARGE: usize = 20_000;
     let model = &request.scene.model;
+    let path = bytes_of_paths(request, model);
+    let whose =
+        format!("{} steps of the load on {} nodes", request.contact.load_steps, model.nodes.len());
+    memory::check_bytes(path, "contact.load_steps", &whose, FEWER_STEPS)?;
     let equations = model.free_dofs();
     if equations < LARGE {
         return Ok(());
@@ -88,7 +114,8 @@ fn blamed(request: &Request, why: Error) -> Error {
     {
         return SingularMatrix { untried: Some(bytes), ..singular.clone() }.into();
     }
-    match run(&request.clone().arithmetic(arithmetic), &mut |_| true) {
+    let request = request.clone().arithmetic(arithmetic);
+    match check(&request).map_err(Error::from).and_then(|()| run(&request, &mut |_| true)) {
         Ok(_) => {
             let what = format!("in {scalar} {why}; in {more} the run does not fail");
             InputError::new("--scalar", what, format!("use --scalar {more}")).into()
@@ -123,10 +150,7 @@ fn more_precise(request: &Request) -> Option<ScalarName> {
 
 fn run(request: &Request, goes_on: &mut dyn FnMut(&Step) -> bool) -> Result<Solution, Error> {
     let solution = match (request.variant, request.arithmetic.scalar) {
-        (Variant::Unilateral, _) => {
-            check_unilateral(request)?;
-            unilateral(request, &mut |step| _ = goes_on(step))?
-        }
+        (Variant::Unilateral, _) => unilateral(request, &mut |step| _ = goes_on(step))?,
         (_, ScalarName::F64) => published::<f64>(request, Some(sparse), goes_on)?,
         (_, ScalarName::F32) => {
             published::<f32>(request, Some(|request, _| or_iterating(request, || Whole)), goes_on)?

@@ -67,6 +67,7 @@ pub fn run(args: &Args) -> Result<()> {
         files::check_folder(out, "compare", &["nodes.csv", "elements.csv", "compare.json"])?;
     }
     let Code::Calculix = args.with;
+    calculix::check(&args.ccx)?;
     let solution = args.deck.solve(&args.scene)?;
     let request = solution.request.clone();
     let (solution, certainty) = certain(solution);

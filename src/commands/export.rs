@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use plane_contact::answer::error::Result;
 use plane_contact::answer::{self, Solution};
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::paper::door;
 use plane_contact::paper::exports::{Export, Run, mathcad, octave, probe};
 use plane_contact::problem::modelling::Variant;
@@ -94,6 +95,9 @@ impl DeckArgs {
     pub fn solve(&self, scene: &str) -> Result<Solution> {
         let scene = Scene::open(scene)?;
         let request = self.model.request(&scene, self.variant, &self.reading);
+        if self.contact == ContactKind::Equation {
+            Contact::check_equations(request.variant)?;
+        }
         waiting("solving", || answer::solve(&request, &mut |_| ()))
     }
 
@@ -111,6 +115,7 @@ impl DeckArgs {
 }
 
 pub fn run(args: &Args) -> Result<()> {
+    args.out.as_deref().map_or(Ok(()), files::check_file)?;
     let text = match args.to {
         Code::Mathcad if args.probe => probe::worksheet(),
         _ if args.probe => {

@@ -56,6 +56,7 @@ pub fn run(args: &Args) -> Result<()> {
         let what = "one file cannot hold the snapshots of several scenes";
         return Err(InputError::new("--out", what, "leave it out, or record one by one").into());
     }
+    args.out.as_deref().map_or(Ok(()), files::check_file)?;
     for name in &args.scenes {
         let scene = Scene::open(name)?;
         let variants: Vec<Option<Variant>> = match args.variant.is_empty() {

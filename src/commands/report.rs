@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use plane_contact::answer::error::Result;
 use plane_contact::answer::{Assessment, Solution};
 use plane_contact::error::InputError;
+use plane_contact::files;
 use plane_contact::files::{self, Folder};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
@@ -23,7 +24,8 @@ const CHART: u64 = 1 << 24;
 #[derive(clap::Args)]
 #[command(after_help = "\
 The page is one file that opens offline. Fields are shown under the pointer and at probes, on the
-undeformed shape or with displacements magnified; every table copies as CSV.
+undeformed shape or with displacements magnified; every table copies as CSV. It takes 30 to 80 times
+as long as solve, and 3 times with --no-audit.
 
 Examples:
   plane-contact report
@@ -53,6 +55,8 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
+    files::check_file(&args.out)?;
+    args.ccx.as_deref().map_or(Ok(()), calculix::check)?;
     let scene = Scene::open(&args.scene)?;
     let case = if args.no_audit { Case::new(scene) } else { Case::within_memory(scene)? };
     let charts = args.charts.as_deref().map_or(Ok(Vec::new()), charts)?;

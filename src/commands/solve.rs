@@ -16,7 +16,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::Wanted;
 use plane_contact::report::{self, tables};
 use plane_contact::studies::plan::Plan;
-use plane_contact::studies::trade::solve_to;
+use plane_contact::studies::trade::{check_accuracy, solve_to};
 
 use super::{
     ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, huge_pages, print, progress,
@@ -132,8 +132,10 @@ pub fn run(args: &Args) -> Result<u8> {
         }
         Ok::<_, Error>((solution, accuracy, estimates))
     };
-    // Before anything takes of it.
-    answer::check_memory(&request)?;
+    // Before anything takes of the memory.
+    answer::check(&request)?;
+    answer::check_points(&scene.model, &args.probe)?;
+    args.accuracy.map_or(Ok(()), check_accuracy)?;
     let (plan, model) = (OnceLock::new(), &request.scene.model);
     let planned = || plan.get_or_init(|| Plan::new(&request));
     let first_step = Once::new();

@@ -14,7 +14,8 @@ use super::{TablesArgs, print, waiting};
 #[command(after_help = "\
 For a node that jumped deeper into the target than c_tol the paper names two remedies and takes
 the cheaper: signs, as the listing prints it, and intersection. projection is the exact answer.
-Wrong statuses are counted by depth of the jump, operations by size.
+Wrong statuses are counted by depth of the jump, operations by size. It takes 150 times as long as
+solve on fig1.
 
 Examples:
   plane-contact statuses

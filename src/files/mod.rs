@@ -14,4 +14,4 @@ pub use manifest::{MANIFEST, sum_of};
 pub use read::{MOST, read, read_from, read_text, read_up_to, text};
 pub use set::{check_folder, write_all};
 pub use staged::{Staged, abandon};
-pub use write::{write, write_new};
+pub use write::{check_file, write, write_new};

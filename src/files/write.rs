@@ -24,6 +24,16 @@ pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
     })
 }
 
+/// Checks that a file can be written to `path`, before its content is computed.
+/// Errors: a folder is in its place.
+pub fn check_file(path: &Path) -> Result<()> {
+    if !path.is_dir() {
+        return Ok(());
+    }
+    let what = "the file cannot be written: it is a folder";
+    Err(InputError::new(path.display().to_string(), what, "name a file"))
+}
+
 /// Writes `content` to a new file at `path`, and creates its folder where it is missing.
 /// Errors: there is a file, or it cannot be written.
 pub fn write_new(path: &Path, content: &str) -> io::Result<()> {

@@ -8,14 +8,14 @@ use crate::answer::contact::{ContactNode, Status, hidden, oddity};
 use crate::answer::error::Error;
 use crate::answer::estimates::{Certainty, NoLimit};
 use crate::answer::{
-    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Probe, Quantity, Solution,
-    Step, Uniqueness, max_displacement,
+    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Probe, Quantity, Request,
+    Solution, Step, Uniqueness, large_strain, max_displacement,
 };
 use crate::paper::decisions::Decision;
 use crate::paper::door::Call;
 use crate::paper::mirror::Reading;
 use crate::problem::model::{EdgeId, Model, NodeId};
-use crate::problem::modelling::{Coupling, Variant};
+use crate::problem::modelling::{Coupling, Geometry, Variant};
 use crate::problem::scene::{Scene, Units};
 
 /// The relative error of the mesh in the energy norm beyond which the estimates that rest on it
@@ -57,6 +57,8 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
         }
     }
     text += &format!("\nBodies\n{}", bodies(&scene.units, &assessment.bodies));
+    text +=
+        &large_strain(&solution.elements).map_or(String::new(), |what| format!("  NOTE: {what}\n"));
     if solution.in_contact().next().is_some() {
         text += &format!("\nContact surface\n{}", contact_surface(solution));
         if solution.request.variant == Variant::Printed {
@@ -265,6 +267,13 @@ fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
             length(depth)
         );
     }
+    if let Some((node, depth)) = found.inside {
+        text += &format!(
+            "Contact node {node} lies {} INSIDE THE TARGET in the shape reached{}\n",
+            length(depth),
+            why_inside(solution, node)
+        );
+    }
     if found.shape_change > 0.0 {
         text += &format!(
             "Shape: when contact was last measured, no displacement component changed by more than {}\n",
@@ -272,6 +281,21 @@ fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
         );
     }
     text
+}
+
+/// Says how a contact node may lie inside the target.
+fn why_inside(solution: &Solution, node: NodeId) -> &'static str {
+    let contact = solution.request.contact;
+    let is_closed = solution.in_contact().any(|contact| contact.node == node);
+    match (is_closed, contact.coupling, contact.geometry) {
+        (false, ..) => {
+            ": it is treated as separated, as no edge of the target faced it, so that this is NO EQUILIBRIUM \
+             of that shape; give smaller loads, or list the side of the target that it meets"
+        }
+        (_, Coupling::Mortar, _) => ": mortar closes the averaged gap of the edges at a node",
+        (_, _, Geometry::Initial) => ": gaps were closed along the normals of the initial shape",
+        (_, _, Geometry::Current) => "",
+    }
 }
 
 fn state(cycle: Option<&Cycle>) -> String {

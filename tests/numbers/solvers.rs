@@ -2,6 +2,7 @@
 
 use std::ops::{Range, RangeInclusive};
 
+use fastrand::Rng;
 use nalgebra::{DMatrix, DVector};
 use plane_contact::memory::check;
 use plane_contact::numbers::scalar::{F64x2, Scalar};
@@ -54,6 +55,10 @@ fn a_matrix_without_equations_is_solved() {
     assert_eq!(cholesky.solve(&DVector::zeros(0)).len(), 0);
     let lu = DenseLu::new(DMatrix::<f64>::zeros(0, 0)).unwrap();
     assert_eq!(lu.solve(&DVector::zeros(0)).len(), 0);
+    for solver in [Solver::Cg, Solver::Refined] {
+        let solved = f64::solve(DMatrix::zeros(0, 0), &DVector::zeros(0), solver, None).unwrap();
+        assert_eq!(solved.x.len(), 0);
+    }
 }
 
 /// The first pivot is 0 without an exchange of rows.
@@ -142,4 +147,104 @@ fn a_matrix_that_does_not_fit_is_refused_with_its_size() {
     assert!(check(1000, 3, Some(96_000_000)).is_ok());
     let error = check(1000, 3, Some(95_999_999)).unwrap_err();
     assert!(error.what.contains("0.1 GB for 3 dense matrices of 2000 x 2000"), "{error}");
+}
+
+/// Two networks of springs, of stiffness 1 and of stiffness `soft`, the first tied to the ground by a
+/// spring of stiffness 1, the other by one of stiffness `ground`; the soft ones' equations stand between
+/// the others.
+fn networks(rng: &mut Rng, n: usize, soft: f64, ground: f64) -> DMatrix<f64> {
+    let mut a = DMatrix::zeros(2 * n, 2 * n);
+    for (part, stiffness, ground) in [(0, 1.0, 1.0), (1, soft, ground)] {
+        a[(part, part)] += ground;
+        for i in 1..n {
+            for j in [i - 1, rng.usize(0..i)] {
+                let (p, q, k) = (2 * i + part, 2 * j + part, stiffness * (0.5 + rng.f64()));
+                a[(p, p)] += k;
+                a[(q, q)] += k;
+                a[(p, q)] -= k;
+                a[(q, p)] -= k;
+            }
+        }
+    }
+    a
+}
+
+/// Checks that every solver calls a network that nothing holds singular, whatever load it has, and
+/// finds what holds the force `ground` on one that a spring of that stiffness holds.
+fn check_networks<T: Precision>(solvers: &[Solver], epsilon: f64) {
+    let mut rng = Rng::with_seed(41);
+    for round in 0..12 {
+        let n = [2, 3, 7, 30][round % 4];
+        let soft = [1.0, 1e-3, 1e3][round % 3];
+        let part = |i: usize| (i % 2 == 1) as u8 as f64;
+        let loads = [
+            DVector::from_fn(2 * n, |_, _| rng.f64() - 0.5),
+            // In balance, and none at all.
+            DVector::from_fn(2 * n, |i, _| if i == 1 { -1.0 } else { f64::from(i == 2 * n - 1) }),
+            DVector::from_fn(2 * n, |i, _| 1.0 - part(i)),
+        ];
+        let free = networks(&mut rng, n, soft, 0.0).map(T::from_f64);
+        for (load, solver) in loads.iter().flat_map(|load| solvers.iter().map(move |s| (load, s))) {
+            for tol in [None, Some(1e-3)].iter().filter(|tol| tol.is_none() || solver.iterates()) {
+                let found = T::solve(free.clone(), &load.map(T::from_f64), *solver, *tol);
+                assert!(matches!(found, Err(Unsolved::Singular(_))), "{solver} {round} {found:?}");
+            }
+        }
+        for digits in [0.25, 0.5] {
+            let ground = soft * epsilon.powf(digits);
+            let held = networks(&mut rng, n, soft, ground).map(T::from_f64);
+            let load = DVector::from_fn(2 * n, |i, _| if i == 1 { ground } else { 0.0 });
+            for solver in solvers.iter().filter(|s| digits < 0.5 || **s != Solver::Refined) {
+                let found = T::solve(held.clone(), &load.map(T::from_f64), *solver, None);
+                let x = found.unwrap_or_else(|why| panic!("{solver} {round} {digits} {why:?}")).x;
+                let off = |i: usize| (x[i] - T::from_f64(part(i))).to_f64().abs();
+                let most = (0..2 * n).map(off).fold(0.0, f64::max);
+                let limit = 100.0 * n as f64 * epsilon.powf(1.0 - digits);
+                assert!(most < limit, "{solver} {round} {digits}: {most:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_solver_tells_what_nothing_holds_from_what_is_held_softly() {
+    use Solver::{Cg, DenseCholesky, DenseLu, Refined, SparseCholesky, SparseLu};
+    check_networks::<f32>(
+        &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg],
+        f32::EPSILON.into(),
+    );
+    check_networks::<f64>(
+        &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg, Refined],
+        f64::EPSILON,
+    );
+    check_networks::<F64x2>(&[DenseLu, SparseCholesky, Cg, Refined], f64::EPSILON.powi(2));
+}
+
+/// A soft bar at the end of a stiff one: forces on the soft nodes are small beside |A| |x|.
+#[test]
+fn solvers_to_a_tolerance_are_as_near_as_direct_ones_where_moduli_are_far_apart() {
+    let n = 40;
+    let stiffness = |i: usize| if i < n / 2 { 1e7 } else { 1.0 };
+    let springs = (1..n).flat_map(|i| {
+        let k = stiffness(i);
+        [(i, i, k), (i - 1, i - 1, k), (i, i - 1, -k)]
+    });
+    let matrix = SparseSymmetric::new(n, springs.chain([(0, 0, 1e7)]));
+    let dense = DMatrix::from_fn(n, n, |i, j| {
+        let entry = |(p, q, a)| if (p, q) == (i.max(j), i.min(j)) { a } else { 0.0 };
+        matrix.entries().map(entry).sum::<f64>()
+    });
+    let pull = DVector::from_fn(n, |i, _| f64::from(i == n - 1));
+    let exact = F64x2::solve(
+        dense.map(F64x2::from_f64),
+        &pull.map(F64x2::from_f64),
+        Solver::SparseCholesky,
+        None,
+    );
+    let exact = exact.unwrap().x.map(Scalar::to_f64);
+    for solver in [Solver::SparseCholesky, Solver::Cg, Solver::Refined] {
+        let x = f64::solve(dense.clone(), &pull, solver, None).unwrap().x;
+        let off = (&x - &exact).amax() / exact.amax();
+        assert!(off < 1e-12, "{solver}: {off:e}");
+    }
 }

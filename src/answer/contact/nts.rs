@@ -6,9 +6,11 @@ use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
 
 use super::outline::{Faced, Outline};
 use super::pairing::{Pairing, Vector, unit};
+use super::search::Segment;
 use super::surface::{Edge, Surfaces};
 use crate::error::InputError;
-use crate::problem::model::{Model, NodeId};
+use crate::numbers::scalar::Scalar;
+use crate::problem::model::{Bounds, Model, NodeId, TriangleId};
 
 /// The initial penetration, over the longest contact edge beside the node, beyond which a scene is
 /// refused. An interference that is modelled, as of a press fit, is a small part of an edge; a node
@@ -118,6 +120,34 @@ impl Surfaces {
             (faced.over && faced.gap < 0.0).then_some((node, -faced.gap))
         };
         nodes.into_iter().filter_map(depth).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Returns the contact node that lies deepest inside a triangle of the target's body, and its distance
+    /// from the nearest target edge, length, in a shape given as the coordinates of each node; None where
+    /// none lies in it. No normal has a say in it.
+    pub fn deepest_contact_node(&self, model: &Model, shape: &[Vector]) -> Option<(NodeId, f64)> {
+        let at = |node: &NodeId| shape[node.index()];
+        let near = Bounds::of(&self.nodes.iter().map(at).collect::<Vec<_>>());
+        let corners = |id: &TriangleId| model.triangle(*id).nodes.map(|node| at(&node));
+        let target = model.target()?.triangles.iter().map(corners);
+        let close: Vec<[Vector; 3]> =
+            target.filter(|corners| Bounds::of(corners).meets(near)).collect();
+        let is_inside = |p: Vector| {
+            close.iter().any(|[a, b, c]| {
+                let sides = [[a, b], [b, c], [c, a]];
+                let side = |[from, to]: [&Vector; 2]| f64::orientation(*from, *to, p);
+                sides.into_iter().all(|ends| side(ends) > 0.0)
+            })
+        };
+        let edges: Vec<Segment<f64>> =
+            self.target.iter().map(|edge| Segment::new(edge.nodes.map(|node| at(&node)))).collect();
+        let depth = |p: Vector| {
+            let squares = edges.iter().map(|edge| edge.closest(p).distance_square);
+            squares.fold(f64::INFINITY, f64::min).sqrt()
+        };
+        let inside = self.nodes.iter().filter(|node| is_inside(at(node)));
+        let depths = inside.map(|node| (*node, depth(at(node))));
+        depths.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
     }
 
     /// Checks that no contact node lies deep in the target before the loads act. What counts as

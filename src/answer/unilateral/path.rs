@@ -9,8 +9,11 @@ use super::forces::load_of;
 use super::problem::{Equilibrium, Iteration, Place, Problem, Setting};
 use crate::answer::contact::{ContactNode, Status, Traction};
 use crate::answer::error::{Error, NoEquilibrium};
+use crate::answer::memory::{FEWER_STEPS, HELD, bytes_of_path};
 use crate::answer::solution::{self, Detail, Path, Solution, Step, max_displacement};
 use crate::answer::support::{held, passed_on};
+use crate::error::InputError;
+use crate::memory;
 
 /// How often a step without an equilibrium is halved.
 const HALVINGS: usize = 6;
@@ -74,7 +77,15 @@ fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> 
         let to = step as f64 / per_stage as f64;
         let placed = |why| placed(why, to, stages, step == total);
         walk.closings = if with_friction { CLOSINGS } else { 0 };
-        let (before, equilibrium) = walk.advance(&point, to, HALVINGS).map_err(placed)?;
+        let slides = |why| match why {
+            Error::Equilibrium(_) if with_friction => {
+                let slides = problem.slides(&point.u, [point.load, to]);
+                slides.map_or_else(|| placed(why), Error::from)
+            }
+            other => placed(other),
+        };
+        let (before, equilibrium) = walk.advance(&point, to, HALVINGS).map_err(slides)?;
+        walk.check_memory(step, total)?;
         if step == total {
             let equilibrium = walk.confirmed(&before, to, equilibrium).map_err(placed)?;
             let Walk { steps, factored, halved, .. } = walk;
@@ -90,10 +101,21 @@ fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> 
 fn placed(why: Error, to: f64, stages: usize, at_the_end: bool) -> Error {
     match why {
         Error::Equilibrium(NoEquilibrium { what }) if !at_the_end || stages > 1 => {
-            let of = if stages > 1 { format!(" of {stages} stages") } else { String::new() };
-            NoEquilibrium { what: format!("{what} (on the way to {to} times the load{of})") }.into()
+            let what = format!("{what} (on the way to {})", part_of_load(to, stages));
+            NoEquilibrium { what }.into()
         }
         other => other,
+    }
+}
+
+/// Names a part of the path, to three decimals: 1.5 of two stages is half of the second.
+pub(super) fn part_of_load(part: f64, stages: usize) -> String {
+    let stage = part.ceil().max(1.0);
+    let of_stage = (1000.0 * (part - (stage - 1.0))).floor() / 1000.0;
+    match stages {
+        1 => format!("{of_stage} of the load"),
+        _ if of_stage == 1.0 => format!("the end of stage {stage}"),
+        _ => format!("{of_stage} of stage {stage}"),
     }
 }
 
@@ -146,6 +168,27 @@ impl Walk<'_> {
                 found.or(Err(why)).map(|equilibrium| (from.u.clone(), equilibrium))
             }
         }
+    }
+
+    /// Checks now and then that the whole path will fit in memory if it goes on as so far.
+    ///
+    /// # Errors
+    /// Says how much it needs where that is not free.
+    fn check_memory(&self, step: usize, total: usize) -> Result<(), InputError> {
+        /// How often a long path is checked.
+        const TIMES: usize = 64;
+        let every = total / TIMES;
+        if every < TIMES || !step.is_multiple_of(every) {
+            return Ok(());
+        }
+        let bytes = |steps: usize, iterations: usize| {
+            bytes_of_path(self.problem.model, steps as f64, iterations as f64)
+        };
+        let iterations = self.steps.len();
+        let held = HELD * bytes(step, iterations);
+        let needed = bytes(total, iterations * total / step) - held;
+        let whose = format!("{total} steps of the load with {} iterations each", iterations / step);
+        memory::check_bytes(needed, "contact.load_steps", &whose, FEWER_STEPS)
     }
 
     /// Returns the load at a part of the path, restrained degrees of freedom included, force.
@@ -248,6 +291,7 @@ fn solution(
 ) -> Solution {
     let Equilibrium { place, last, shape_change, .. } = end.equilibrium;
     let unseen = problem.unseen(&last);
+    let inside = problem.inside(&last);
     Solution {
         request: problem.request.clone(),
         model: problem.model.clone(),
@@ -259,7 +303,7 @@ fn solution(
         digits: None,
         error_bound: None,
         factors: problem.last_factors().into(),
-        equilibrium: Some(solution::Equilibrium { path, uniqueness, unseen, shape_change }),
+        equilibrium: Some(solution::Equilibrium { path, uniqueness, unseen, inside, shape_change }),
     }
 }
 

@@ -263,6 +263,14 @@ impl<'a> Problem<'a> {
         (deepest.1 > UNSEEN * size(self.model)).then_some(deepest)
     }
 
+    /// Returns the contact node that lies deepest inside the target's body in the shape reached, whatever
+    /// edges it faces; None where none lies deeper than [`UNSEEN`].
+    pub(super) fn inside(&self, last: &Iteration) -> Option<(NodeId, f64)> {
+        let shape = self.model.shape(&last.moved.u);
+        let deepest = self.surfaces.deepest_contact_node(self.model, &shape)?;
+        (deepest.1 > UNSEEN * size(self.model)).then_some(deepest)
+    }
+
     /// Returns the constraints that impose statuses.
     pub(super) fn constraints(
         &self,

@@ -9,7 +9,6 @@ use super::forces::{Force, tangent};
 use super::problem::{
     CONE, Equilibrium, Iteration, Moved, Place, Problem, Setting, Solved, Watch, violation,
 };
-use super::rigid;
 use super::status::{Memory, first_closed, nearest_open, next_closed};
 use crate::answer::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::answer::elimination::Constraint;
@@ -86,8 +85,10 @@ impl Problem<'_> {
             start = Some(last.statuses);
             before = Some((last.moved, of_surfaces));
         }
-        let what =
-            format!("the shape did not settle when contact was measured in it {SHAPES} times");
+        let strained = before.map_or(String::new(), |(moved, _)| self.strained(&moved.u));
+        let what = format!(
+            "the shape did not settle when contact was measured in it {SHAPES} times{strained}"
+        );
         Err(NoEquilibrium { what }.into())
     }
 
@@ -157,7 +158,7 @@ impl Problem<'_> {
         }
         let Err(Error::Equilibrium(NoEquilibrium { what })) = found else { return found };
         if self.friction == 0.0
-            && let Some(dof) = rigid::escape(self.model, &place.pairings, &setting.load)
+            && let Some(dof) = self.escape(place, &setting.load, 0.0)
         {
             return Err(self.escapes(dof).into());
         }
@@ -192,7 +193,8 @@ impl Problem<'_> {
                 return Ok(iteration);
             }
             if k == limit {
-                against = self.against(&iteration, &wanted);
+                self.complete(place, &mut iteration);
+                against = self.against(&iteration, &wanted) + &self.strained(&iteration.moved.u);
             }
             statuses = memory.next(&iteration.statuses, wanted);
             if memory.one_at_a_time {

@@ -1,10 +1,14 @@
 //! What is said of bodies that neither contact nor restraints hold.
 
+use nalgebra::DVector;
+
+use super::path::part_of_load;
 use super::problem::{Place, Problem, Setting};
 use super::rigid;
 use crate::answer::contact::{Pairing, Status};
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::error::NoEquilibrium;
+use crate::answer::summary::large_strain;
 use crate::error::InputError;
 use crate::numbers::solve::SparseCholesky;
 use crate::problem::model::{Dof, NodeId};
@@ -20,6 +24,55 @@ impl Problem<'_> {
              and neither restraints nor contact oppose that motion; restrain it"
         );
         NoEquilibrium { what }
+    }
+
+    /// Returns the degree of freedom that moves most where contact in a place does not oppose a motion of
+    /// the bodies as rigid ones under a load; None where there is no such motion.
+    pub(super) fn escape(&self, place: &Place, load: &DVector<f64>, friction: f64) -> Option<Dof> {
+        let shape = if self.is_current() { &*place.shape } else { &self.model.nodes };
+        let friction = |pairing: &Pairing| match self.transmits_shear(pairing) {
+            true => friction,
+            false => 0.0,
+        };
+        rigid::escape((self.model, shape), &place.pairings, friction, load)
+    }
+
+    /// Says of a step of the path between two loads that friction does not hold the bodies as rigid ones:
+    /// from where on, and which coefficient would. None where it can, and where that is not known.
+    pub(super) fn slides(&self, u: &DVector<f64>, [from, to]: [f64; 2]) -> Option<NoEquilibrium> {
+        let place = self.place(u);
+        let free =
+            |part: f64, friction: f64| self.escape(&place, &self.model.load_after(part), friction);
+        let dof = free(to, self.friction)?;
+        if free(to, f64::INFINITY).is_some() {
+            return Some(self.escapes(dof));
+        }
+        let stages = self.model.stages.len();
+        let last = bisected([from, to], |part| free(part, self.friction).is_none());
+        // What holds the loads at both ends of a stage holds those between them.
+        let ends: Vec<f64> = (to.ceil() as usize..=stages).map(|stage| stage as f64).collect();
+        let holds = |friction: f64| ends.iter().all(|end| free(*end, friction).is_none());
+        let more = (0..60).map(|k| self.friction * 2_f64.powi(k)).find(|more| holds(*more));
+        let needed = more.map_or(String::new(), |more| {
+            let [_, least] = bisected([more, more / 2.0], holds);
+            format!("; it needs a coefficient of {}", rounded_up(least))
+        });
+        let body = self.model.body_of(dof.node());
+        let body = body.map_or("a body".into(), |body| format!("body {:?}", body.name));
+        let when = match last[0] > 0.0 {
+            true => format!("from {} on", part_of_load(last[0], stages)),
+            false => "under any part of the load".into(),
+        };
+        let what = format!(
+            "there is no equilibrium: friction cannot hold the load: {body} slides as a whole {when}{needed}"
+        );
+        Some(NoEquilibrium { what })
+    }
+
+    /// Says that displacements strain the bodies beyond small strains; no text where they do not.
+    pub(super) fn strained(&self, u: &DVector<f64>) -> String {
+        let words = large_strain(&self.stiffness.states(u));
+        words.map_or(String::new(), |words| format!("; {words}"))
     }
 
     /// Returns the words for a node and its body.
@@ -80,4 +133,19 @@ impl Problem<'_> {
         let singular = SparseCholesky::new(self.stiffness.reduced(&t)).err()?;
         Some(t.dof(singular.column).node())
     }
+}
+
+/// Narrows a range down to 1e-6 of it, so that `holds` at the first end and does not at the second.
+fn bisected([mut held, mut free]: [f64; 2], holds: impl Fn(f64) -> bool) -> [f64; 2] {
+    let least = 1e-6 * (free - held).abs();
+    while (free - held).abs() > least {
+        let middle = (held + free) / 2.0;
+        if holds(middle) { held = middle } else { free = middle }
+    }
+    [held, free]
+}
+
+/// Rounds up to three decimals, but for what bisection leaves open.
+fn rounded_up(x: f64) -> f64 {
+    (1000.0 * x * (1.0 - 2e-6)).ceil() / 1000.0
 }

@@ -80,8 +80,9 @@ pub struct Arithmetic {
     /// sparse-lu under printed in f64, f32 and f64-bounded].
     #[arg(long, value_name = "NAME")]
     pub solver: Option<Solver>,
-    /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop [default:
-    /// 16 eps of the scalar].
+    /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop; cg also
+    /// takes that of A scaled to a unit diagonal, refined the next change of x over x [default: 16 eps
+    /// of the scalar].
     #[arg(long, value_name = "T")]
     pub tol: Option<f64>,
     /// What the numbers of the scene stand for: binary, the exact value of their f64; decimal, the

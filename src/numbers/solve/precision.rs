@@ -17,9 +17,9 @@ use nalgebra::{DMatrix, DVector};
 use super::arithmetic::Solver;
 use super::dense::{DenseCholesky, DenseLu};
 use super::error_bound::error_bound;
-use super::factors::{AnyLu, Factors, Lu, Native, Singular};
+use super::factors::{AnyLu, Factors, Lu, Native};
 use super::field::Field;
-use super::iterative::{NotConverged, conjugate_gradients, refine};
+use super::iterative::{Unsolved, conjugate_gradients, refine};
 use super::ldlt::Ldlt;
 use super::lifting::lift;
 use super::lu::solve_dense;
@@ -36,27 +36,6 @@ pub struct Solved<T> {
     pub x: DVector<T>,
     /// The relative residual |A x − b| / (|A| |x| + |b|), exactly 0 of an exact solution.
     pub residual: f64,
-}
-
-/// Why A x = b was not solved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Unsolved {
-    /// A has no unique solution, or is too near to such a matrix.
-    Singular(Singular),
-    /// An iteration stopped short of its tolerance.
-    NotConverged(NotConverged),
-}
-
-impl From<Singular> for Unsolved {
-    fn from(singular: Singular) -> Self {
-        Unsolved::Singular(singular)
-    }
-}
-
-impl From<NotConverged> for Unsolved {
-    fn from(not_converged: NotConverged) -> Self {
-        Unsolved::NotConverged(not_converged)
-    }
 }
 
 /// What came of A x = b.
@@ -318,8 +297,8 @@ fn solved<T: Native>(lu: &impl Lu<T>, b: &DVector<T>) -> Solved<T> {
     Solved { residual: lu.residual(&x, b), x }
 }
 
-fn by_gradients<T: Scalar>(a: &SparseSymmetric<T>, b: &DVector<T>, tol: f64) -> Outcome<T> {
-    let x = conjugate_gradients(a, b, tol)?;
+fn by_gradients<T: Iterates>(a: &SparseSymmetric<T>, b: &DVector<T>, tol: f64) -> Outcome<T> {
+    let x = conjugate_gradients(a, b, tol, T::EPSILON)?;
     Ok(Solved { residual: a.residual(&x, b), x })
 }
 

@@ -12,7 +12,7 @@ use crate::numbers::scalar::Scalar;
 
 /// Beyond this over the scalar's epsilon (5e14 in f64), the displacements under a load of the size
 /// of the stiffness mean a singular matrix; both are scaled to a unit diagonal.
-const UNBOUNDED: f64 = 0.1;
+pub(super) const UNBOUNDED: f64 = 0.1;
 
 /// Where every pivot is large and one trial load moves less than this part of what means a singular
 /// matrix, no other load is tried.
@@ -91,13 +91,17 @@ impl<T: Native, F: Factors<T>> Factors<f64> for Scaled<'_, T, F> {
     }
 }
 
+/// Returns the entry of a trial load: 1 or −1, without a pattern that a motion of the body could be
+/// orthogonal to.
+pub(super) fn trial_load(i: usize) -> f64 {
+    if (i * i + i / 3) % 5 < 2 { 1.0 } else { -1.0 }
+}
+
 /// Returns the equation that moves most under a trial load, and how far, both scaled to a unit
 /// diagonal; nothing without equations.
 fn probe<T: Native>(factors: &Cholesky<T>, diagonal: &DVector<T>) -> Option<(usize, f64)> {
     let scale = diagonal.map(|d| d.to_f64().sqrt());
-    // Signs without a pattern that a motion of the body could be orthogonal to.
-    let sign = |i: usize| if (i * i + i / 3) % 5 < 2 { 1.0 } else { -1.0 };
-    let load = DVector::from_fn(scale.len(), |i, _| T::from_f64(sign(i) * scale[i]));
+    let load = DVector::from_fn(scale.len(), |i, _| T::from_f64(trial_load(i) * scale[i]));
     let moved = factors.solve(&load).map(Scalar::to_f64).component_mul(&scale);
     let largest = moved.iter().map(|x| x.abs()).enumerate();
     largest.reduce(|a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a })

@@ -35,6 +35,11 @@ impl Bounds {
         Self { low: self.low.map(|x| x - margin), high: self.high.map(|x| x + margin) }
     }
 
+    /// Returns whether the two have a point in common.
+    pub fn meets(&self, other: Bounds) -> bool {
+        (0..2).all(|d| self.low[d] <= other.high[d] && other.low[d] <= self.high[d])
+    }
+
     pub fn contains(&self, point: [f64; 2]) -> bool {
         (0..2).all(|axis| (self.low[axis]..=self.high[axis]).contains(&point[axis]))
     }

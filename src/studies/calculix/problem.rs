@@ -53,17 +53,23 @@ pub struct Part {
 }
 
 impl Contact {
+    /// Checks that a variant constrains something, so that there are equations to write.
+    pub fn check_equations(variant: Variant) -> Result<()> {
+        if variant != Variant::Printed {
+            return Ok(());
+        }
+        let what = "the variant printed adds stiffness and constrains nothing: there are no \
+                    equations to write";
+        let fix = "choose tied, stepped or unilateral, or --contact pair";
+        Err(InputError::new("--variant", what, fix))
+    }
+
     /// The problems whose sum a solution is. With total load that is its last step. With stepped
     /// load it is the sum of the increments: each contact state that came, with the whole load,
     /// times its share of the steps. The last step's state comes last.
     /// Errors: the variant is `printed`, which constrains nothing.
     pub fn parts(solution: &Solution) -> Result<Vec<Part>> {
-        if solution.request.variant == Variant::Printed {
-            let what = "the variant printed adds stiffness and constrains nothing: there are no \
-                        equations to write";
-            let fix = "choose tied, stepped or unilateral, or --contact pair";
-            return Err(InputError::new("--variant", what, fix));
-        }
+        Contact::check_equations(solution.request.variant)?;
         let steps = solution.steps.len();
         let carried = match solution.request.schedule() {
             Schedule::Total => steps - 1..steps,

@@ -43,6 +43,12 @@ pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Resul
     Ok(Ran { version, fields })
 }
 
+/// Checks that `program` can be started.
+/// Errors: says how to install or to name it.
+pub fn check(program: &str) -> Result<()> {
+    version(program).map(drop)
+}
+
 /// What `program` prints to its `.dat` file for `deck`, in a temporary folder.
 fn print(program: &str, deck: &str) -> Result<String> {
     let no_folder = |why| {

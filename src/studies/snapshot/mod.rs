@@ -26,12 +26,14 @@ mod record;
 mod verify;
 mod way;
 
+use std::collections::HashSet;
+
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::answer::{Request, error as answer};
+use crate::answer::{Request, check, error as answer};
 use crate::error::{InputError, Result};
 use crate::files::json;
 use crate::paper::decisions::Decision;
@@ -169,17 +171,19 @@ impl Snapshot {
     /// # Errors
     /// The input is at fault, or two of the requests are the same.
     pub fn record(scene: &Scene, requests: &[Request], bounds: Bounds) -> answer::Result<Self> {
-        let recorded: answer::Result<Vec<Run>> =
-            requests.par_iter().map(|request| record(request, bounds)).collect();
-        let mut runs = Entries::default();
-        for run in recorded? {
-            let name = run.options.name();
-            if runs.get(&name).is_some() {
+        let mut names = HashSet::new();
+        for request in requests {
+            check(request)?;
+            let name = Options::of(request).name();
+            if !names.insert(name.clone()) {
                 let what = format!("{name} is asked for twice");
                 return Err(InputError::new("--variant", what, "name it once").into());
             }
-            runs.set(name, run);
         }
+        let recorded: answer::Result<Vec<Run>> =
+            requests.par_iter().map(|request| record(request, bounds)).collect();
+        let mut runs = Entries::default();
+        recorded?.into_iter().for_each(|run| runs.set(run.options.name(), run));
         let (version, units) = (VERSION.into(), scene.units.clone());
         let input = Input::of(scene)?;
         Ok(Snapshot { format: FORMAT, version, units, input, runs, log: Vec::new() })

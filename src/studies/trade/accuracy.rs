@@ -41,16 +41,22 @@ pub struct Reached {
     pub mesh: f64,
 }
 
+/// Checks that an accuracy is between 0 and 1.
+pub fn check_accuracy(accuracy: f64) -> Result<(), InputError> {
+    if accuracy > 0.0 && accuracy < 1.0 {
+        return Ok(());
+    }
+    let what = format!("the accuracy {accuracy:e} is not between 0 and 1");
+    let fix = "give a relative error of the displacements, as 1e-3";
+    Err(InputError::new("--accuracy", what, fix))
+}
+
 /// Solves `request` in the cheapest precision in which the relative error of the displacements, by
 /// rounding alone, is at most `accuracy`; the request's own arithmetic does not count.
 /// Errors: an accuracy that is not between 0 and 1, or that no precision meets; those of [`solve`]
 /// in the last precision where none has a result.
 pub fn solve_to(request: &Request, accuracy: f64) -> Result<Reached, Error> {
-    if !(accuracy > 0.0 && accuracy < 1.0) {
-        let what = format!("the accuracy {accuracy:e} is not between 0 and 1");
-        let fix = "give a relative error of the displacements, as 1e-3";
-        return Err(InputError::new("--accuracy", what, fix).into());
-    }
+    check_accuracy(accuracy)?;
     let (mut attempts, mut failure) = (Vec::new(), None);
     for arithmetic in precisions(request) {
         let came = match not_run(request, arithmetic.scalar, accuracy) {

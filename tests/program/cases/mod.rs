@@ -7,6 +7,7 @@ mod files;
 mod meshes;
 mod sentences;
 mod snapshots;
+mod solvers;
 mod worksheets;
 
 use std::path::Path;

@@ -1,0 +1,186 @@
+//! Solvers and equilibria: what is singular, what does not fit in memory, what slides, what lies inside.
+
+use super::{Case, check};
+
+#[test]
+fn solvers() {
+    check("solvers", CASES);
+}
+
+const CASES: &[Case] = &[
+    Case {
+        input: "free-body",
+        command: "plane-contact solve scene.json --variant tied --coupling nts --solver cg",
+        status: 3,
+        contains: &["the matrix is singular at node", "of body \"2\""],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "free-body",
+        command: "plane-contact solve scene.json --variant tied --coupling nts --solver cg --tol 1e-3",
+        status: 3,
+        contains: &["the matrix is singular at node"],
+        lacks: &["panicked"],
+    },
+    // Nothing pushes the body that nothing holds.
+    Case {
+        input: "free-body",
+        command: "python3 -c 'import json; s = json.load(open(\"scene.json\")); s[\"loads\"] = [{\"on\": 10, \"traction\": [1, -1]}]; \
+                  json.dump(s, open(\"scene.json\", \"w\"))' && \
+                  plane-contact solve scene.json --variant tied --coupling nts --solver cg",
+        status: 3,
+        contains: &["the matrix is singular at node"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "free-later",
+        command: "plane-contact solve scene.json --variant tied --coupling nts --solver cg",
+        status: 3,
+        contains: &["the matrix is singular at node"],
+        lacks: &["panicked"],
+    },
+    // 82 kB a step.
+    Case {
+        input: "load-steps",
+        command: "ulimit -v 8000000; plane-contact solve scene.json --friction 1e-12 --json",
+        status: 2,
+        contains: &["steps of the load", "need", "GB", "ask for fewer load steps"],
+        lacks: &["memory allocation"],
+    },
+    Case {
+        input: "listed-inside",
+        command: "plane-contact solve scene.json --variant unilateral --friction 1",
+        status: 0,
+        contains: &["Contact node 21 lies 0.2", "INSIDE THE TARGET", "NO EQUILIBRIUM"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "mean-gap",
+        command: "plane-contact solve scene.json --coupling mortar",
+        status: 0,
+        contains: &["averaged gap", "INSIDE THE TARGET", "mortar closes the averaged gap"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact solve fig1 --variant tied --scalar exact --probe 900,900",
+        status: 2,
+        contains: &["the point 900,900 lies outside every body"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact solve strand --variant unilateral --load-steps 99999 --scalar f64-bounded",
+        status: 2,
+        contains: &["unilateral does not run in f64-bounded"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact record fig1 --variant tied,unilateral --scalar f64x2",
+        status: 2,
+        contains: &["unilateral does not run in f64x2"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "mkdir o && plane-contact report strand --out o",
+        status: 2,
+        contains: &["the file cannot be written: it is a folder", "where: o"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact compare strand --with calculix --ccx ./none",
+        status: 2,
+        contains: &["./none cannot be started"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "gross-sliding",
+        command: "plane-contact solve scene.json --no-pictures --no-error-estimate",
+        status: 4,
+        contains: &[
+            "friction cannot hold the load",
+            "slides as a whole from 0.857 of stage 2 on",
+            "it needs a coefficient of 0.35",
+        ],
+        lacks: &["no contact state", "times the load"],
+    },
+    Case {
+        input: "gross-sliding",
+        command: "plane-contact solve scene.json --no-pictures --friction 0.2 --geometry initial --coupling mortar",
+        status: 4,
+        contains: &["slides as a whole from 0.571 of stage 2 on", "a coefficient of 0.35"],
+        lacks: &["no contact state", "times the load"],
+    },
+    Case {
+        input: "gross-sliding",
+        command: "sed -i 's/\\[3.5, 0.0\\]/[-3.5, 0.0]/' scene.json && \
+                  plane-contact solve scene.json --no-pictures --geometry current",
+        status: 4,
+        contains: &[
+            "slides as a whole from 0.87",
+            "of stage 2 on",
+            "it needs a coefficient of 0.34",
+        ],
+        lacks: &["no contact state", "times the load"],
+    },
+    // Both loads at once.
+    Case {
+        input: "gross-sliding",
+        command: "sed -i 's/, \"stage\": [12]//g' scene.json && plane-contact solve scene.json --no-pictures",
+        status: 4,
+        contains: &["slides as a whole under any part of the load", "a coefficient of 0.35"],
+        lacks: &["no contact state", "times the load"],
+    },
+    // Turned by half a radian.
+    Case {
+        input: "gross-sliding",
+        command: "python3 -c 'import json, math; s = json.load(open(\"scene.json\")); c, d = math.cos(0.5), math.sin(0.5); \
+                  s[\"node\"] = [[n, c * x - d * y, d * x + c * y, z] for n, x, y, z in s[\"node\"]]; \
+                  s[\"loads\"][1][\"traction\"] = [3.5 * c, 3.5 * d]; json.dump(s, open(\"scene.json\", \"w\"))' && \
+                  plane-contact solve scene.json --no-pictures",
+        status: 4,
+        contains: &["slides as a whole from 0.857 of stage 2 on", "a coefficient of 0.35"],
+        lacks: &["no contact state", "times the load"],
+    },
+    Case {
+        input: "gross-sliding",
+        command: "plane-contact solve scene.json --no-pictures --no-error-estimate --friction 0.36",
+        status: 0,
+        contains: &["Equilibrium"],
+        lacks: &["cannot hold"],
+    },
+    Case {
+        input: "gross-sliding",
+        command: "plane-contact solve scene.json --no-pictures --friction 0",
+        status: 2,
+        contains: &["can move in x with every contact node in contact"],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "units",
+        command: "plane-contact solve scene.json --no-pictures",
+        status: 4,
+        contains: &["check the units of E and of the load"],
+        lacks: &["panicked"],
+    },
+    // The same in steel ends, and one a tenth as stiff says how large its strains are.
+    Case {
+        input: "units",
+        command: "sed -i 's/\"E\": 30,/\"E\": 30000,/; s/\"E\": 210,/\"E\": 210000,/' scene.json && \
+                  plane-contact solve scene.json --no-pictures",
+        status: 0,
+        contains: &["Equilibrium"],
+        lacks: &["check the units"],
+    },
+    Case {
+        input: "units",
+        command: "sed -i 's/\"E\": 30,/\"E\": 100,/; s/\"E\": 210,/\"E\": 1000,/; s/\"pressure\": 10/\"pressure\": 20/' scene.json && \
+                  plane-contact solve scene.json --no-pictures --geometry initial",
+        status: 0,
+        contains: &["the von Mises strain reaches 0.", "check the units of E and of the load"],
+        lacks: &["panicked"],
+    },
+];
