@@ -57,9 +57,6 @@ pub fn conjugate_gradients<T: Scalar>(
     tol: f64,
     epsilon: f64,
 ) -> Result<DVector<T>, Unsolved> {
-    /// The part of the trial load that is left where no motion is free: one that nothing holds keeps
-    /// its share of the load, of the order of 1 / √n.
-    const TRIED: f64 = 1e-6;
     let entries = a.entries().map(|(_, _, value)| value);
     if !entries.chain(b.iter().copied()).all(Scalar::is_finite) {
         return Err(NotConverged { iterations: 0, residual: f64::INFINITY }.into());
@@ -68,11 +65,9 @@ pub fn conjugate_gradients<T: Scalar>(
         return Ok(b.clone());
     }
     let scaled = Scaled::new(a, epsilon)?;
-    let (n, limit) = (b.len(), 20 * b.len() + 200);
-    let zero = DVector::from_element(n, T::zero());
-    let trial = DVector::from_fn(n, |i, _| T::from_f64(trial_load(i)));
-    scaled.descend(&mut zero.clone(), trial, limit, |_, r| largest(r.as_slice()) <= TRIED)?;
-
+    let limit = 20 * b.len() + 200;
+    scaled.check_held(limit)?;
+    let zero = DVector::from_element(b.len(), T::zero());
     if largest(b.as_slice()) == 0.0 {
         return Ok(zero);
     }
@@ -162,6 +157,17 @@ impl<T: Scalar> Scaled<T> {
         let of_row =
             |row: &Vec<(usize, T)>| row.iter().fold(T::zero(), |sum, (j, a)| sum + *a * x[*j]);
         DVector::from_iterator(x.len(), self.rows.iter().map(of_row))
+    }
+
+    /// Checks with a trial load that no motion is free, as far as `limit` iterations tell.
+    fn check_held(&self, limit: usize) -> Result<(), Singular> {
+        /// The part of the trial load that is left where no motion is free: one that nothing holds
+        /// keeps its share of the load, of the order of 1 / √n.
+        const TRIED: f64 = 1e-6;
+        let n = self.roots.len();
+        let trial = DVector::from_fn(n, |i, _| T::from_f64(trial_load(i)));
+        let mut x = DVector::from_element(n, T::zero());
+        self.descend(&mut x, trial, limit, |_, r| largest(r.as_slice()) <= TRIED).map(drop)
     }
 
     /// Goes from `x`, whose residual is `r`, until `is_done` of both, or for `limit` iterations; returns
