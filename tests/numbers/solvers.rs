@@ -176,7 +176,7 @@ fn check_networks<T: Precision>(solvers: &[Solver], epsilon: f64) {
     for round in 0..12 {
         let n = [2, 3, 7, 30][round % 4];
         let soft = [1.0, 1e-3, 1e3][round % 3];
-        let part = |i: usize| (i % 2 == 1) as u8 as f64;
+        let part = |i: usize| f64::from(i % 2 == 1);
         let loads = [
             DVector::from_fn(2 * n, |_, _| rng.f64() - 0.5),
             // In balance, and none at all.

@@ -116,7 +116,7 @@ impl<T: Scalar> Scaled<T> {
     /// A diagonal entry is not positive.
     fn new(a: &SparseSymmetric<T>, epsilon: f64) -> Result<Self, Singular> {
         let diagonal = a.diagonal();
-        if let Some(column) = diagonal.iter().position(|d| !(*d > T::zero())) {
+        if let Some(column) = diagonal.iter().position(|d| *d <= T::zero()) {
             return Err(Singular { column, pivot: diagonal[column].to_f64() });
         }
         let roots = diagonal.map(Scalar::root);
@@ -186,7 +186,8 @@ impl<T: Scalar> Scaled<T> {
         for iterations in 1..=limit {
             let ap = self.times(&p);
             let (curvature, pp) = (p.dot(&ap), p.dot(&p));
-            if !(curvature > self.least * pp) {
+            let is_held = curvature > self.least * pp;
+            if !is_held {
                 let column = p.map(|p| Scalar::abs(p).to_f64()).imax();
                 return Err(Singular { column, pivot: (curvature / pp).to_f64() });
             }
