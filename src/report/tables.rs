@@ -8,8 +8,8 @@ use crate::answer::contact::{ContactNode, Status, hidden, oddity};
 use crate::answer::error::Error;
 use crate::answer::estimates::{Certainty, NoLimit};
 use crate::answer::{
-    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Probe, Quantity, Request,
-    Solution, Step, Uniqueness, large_strain, max_displacement,
+    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Probe, Quantity, Solution,
+    Step, Uniqueness, large_strain, max_displacement,
 };
 use crate::paper::decisions::Decision;
 use crate::paper::door::Call;
