@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use plane_contact::answer::error::Result;
 use plane_contact::answer::{Assessment, Solution};
 use plane_contact::error::InputError;
-use plane_contact::files;
 use plane_contact::files::{self, Folder};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
