@@ -152,13 +152,14 @@ fn a_matrix_that_does_not_fit_is_refused_with_its_size() {
 /// Two networks of springs, of stiffness 1 and of stiffness `soft`, the first tied to the ground by a
 /// spring of stiffness 1, the other by one of stiffness `ground`; the soft ones' equations stand between
 /// the others.
-fn networks(rng: &mut Rng, n: usize, soft: f64, ground: f64) -> DMatrix<f64> {
-    let mut a = DMatrix::zeros(2 * n, 2 * n);
+fn networks<T: Scalar>(rng: &mut Rng, n: usize, soft: f64, ground: f64) -> DMatrix<T> {
+    let mut a = DMatrix::from_element(2 * n, 2 * n, T::zero());
     for (part, stiffness, ground) in [(0, 1.0, 1.0), (1, soft, ground)] {
-        a[(part, part)] += ground;
+        a[(part, part)] += T::from_f64(ground);
         for i in 1..n {
             for j in [i - 1, rng.usize(0..i)] {
-                let (p, q, k) = (2 * i + part, 2 * j + part, stiffness * (0.5 + rng.f64()));
+                let (p, q, k) =
+                    (2 * i + part, 2 * j + part, T::from_f64(stiffness * (0.5 + rng.f64())));
                 a[(p, p)] += k;
                 a[(q, q)] += k;
                 a[(p, q)] -= k;
@@ -183,7 +184,7 @@ fn check_networks<T: Precision>(solvers: &[Solver], epsilon: f64) {
             DVector::from_fn(2 * n, |i, _| if i == 1 { -1.0 } else { f64::from(i == 2 * n - 1) }),
             DVector::from_fn(2 * n, |i, _| 1.0 - part(i)),
         ];
-        let free = networks(&mut rng, n, soft, 0.0).map(T::from_f64);
+        let free = networks::<T>(&mut rng, n, soft, 0.0);
         for (load, solver) in loads.iter().flat_map(|load| solvers.iter().map(move |s| (load, s))) {
             for tol in [None, Some(1e-3)].iter().filter(|tol| tol.is_none() || solver.iterates()) {
                 let found = T::solve(free.clone(), &load.map(T::from_f64), *solver, *tol);
@@ -192,7 +193,7 @@ fn check_networks<T: Precision>(solvers: &[Solver], epsilon: f64) {
         }
         for digits in [0.125, 0.25, 0.5] {
             let ground = soft * epsilon.powf(digits);
-            let held = networks(&mut rng, n, soft, ground).map(T::from_f64);
+            let held = networks::<T>(&mut rng, n, soft, ground);
             let load = DVector::from_fn(2 * n, |i, _| if i == 1 { ground } else { 0.0 });
             // Its factors have half the digits.
             for solver in solvers.iter().filter(|s| digits < 0.2 || **s != Solver::Refined) {
