@@ -474,10 +474,9 @@ fn the_load_without_an_equilibrium_is_told() {
         let scene = bodies.modelled(&Writing::default(), model).force(10, [3.0, 0.0]);
         let request = Request::new(&scene.in_stage(stage).build().expect("a sound scene"));
         let why = solve(&request, &mut |_| ()).expect_err("it slides away").to_string();
-        why.rsplit_once(" slides as a whole ").map_or(why.clone(), |(_, end)| end.to_owned())
+        why.rsplit_once(" (").map_or(why.clone(), |(_, end)| end.to_owned())
     };
-    let needed = "it needs a coefficient of 1.5";
-    assert_eq!(end(1, 1), format!("under any part of the load; {needed}"));
-    assert_eq!(end(1, 2), format!("under any part of the load; {needed}"));
-    assert_eq!(end(2, 1), format!("from 0.333 of stage 2 on; {needed}"));
+    assert_eq!(end(1, 1), "under any part of the load)");
+    assert_eq!(end(1, 2), "under any part of the load)");
+    assert_eq!(end(2, 1), "from 0.333 of stage 2 on)");
 }

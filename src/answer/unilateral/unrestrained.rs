@@ -44,11 +44,16 @@ impl Problem<'_> {
         let free =
             |part: f64, friction: f64| self.escape(&place, &self.model.load_after(part), friction);
         let dof = free(to, self.friction)?;
-        if free(to, f64::INFINITY).is_some() {
-            return Some(self.escapes(dof));
-        }
         let stages = self.model.stages.len();
-        let last = bisected([from, to], |part| free(part, self.friction).is_none());
+        let [last, _] = bisected([from, to], |part| free(part, self.friction).is_none());
+        let when = match last > 0.0 {
+            true => format!("from {} on", part_of_load(last, stages)),
+            false => "under any part of the load".into(),
+        };
+        if free(to, f64::INFINITY).is_some() {
+            let NoEquilibrium { what } = self.escapes(dof);
+            return Some(NoEquilibrium { what: format!("{what} ({when})") });
+        }
         // What holds the loads at both ends of a stage holds those between them.
         let ends: Vec<f64> = (to.ceil() as usize..=stages).map(|stage| stage as f64).collect();
         let holds = |friction: f64| ends.iter().all(|end| free(*end, friction).is_none());
@@ -59,10 +64,6 @@ impl Problem<'_> {
         });
         let body = self.model.body_of(dof.node());
         let body = body.map_or("a body".into(), |body| format!("body {:?}", body.name));
-        let when = match last[0] > 0.0 {
-            true => format!("from {} on", part_of_load(last[0], stages)),
-            false => "under any part of the load".into(),
-        };
         let what = format!(
             "there is no equilibrium: friction cannot hold the load: {body} slides as a whole {when}{needed}"
         );
