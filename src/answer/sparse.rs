@@ -168,7 +168,9 @@ fn in_double(
     /// The relative residual at which refinement ends, in units of the scalar's epsilon.
     const TOL: f64 = 4.0;
     let refined = factors.and_then(|factors| {
-        let x = refine(&factors, matrix, f, TOL * <F64x2 as Field>::EPSILON).ok()?;
+        // Far more digits than are shown, whatever |A| hides.
+        let limits = [TOL * <F64x2 as Field>::EPSILON, f64::INFINITY];
+        let x = refine(&factors, matrix, f, limits).ok()?;
         Some((x, Some(factors)))
     });
     match refined {

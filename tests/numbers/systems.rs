@@ -134,7 +134,7 @@ impl Factors<f64> for Shrinking {
 #[test]
 fn a_refinement_goes_on_as_long_as_its_changes_halve() {
     let identity = SparseSymmetric::new(2, [(0, 0, 1.0), (1, 1, 1.0)].into_iter());
-    let refined = |part| refine(&Shrinking { part }, &identity, &dvector![1.0, 0.0], 1e-6);
+    let refined = |part| refine(&Shrinking { part }, &identity, &dvector![1.0, 0.0], [1e-6; 2]);
     assert_eq!(refined(0.5), Ok(dvector![1.0, 2_f64.powi(-19)]));
     assert_eq!(refined(0.75), Err(NotConverged { iterations: 2, residual: 0.1875 }));
 }

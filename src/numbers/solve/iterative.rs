@@ -206,9 +206,9 @@ impl<T: Scalar> Scaled<T> {
 }
 
 /// Solves A x = `b` with `factors` of A rounded to another scalar: x ← x + (factors)⁻¹ (b − A x), until
-/// |A x − b| / (|A| |x| + |b|) is at most `tol`, and so is what the next change of x would be over x,
-/// foreseen from the last two changes. Where stiff parts are beside soft ones, the first alone would
-/// leave forces on the soft ones that |A| hides.
+/// |A x − b| / (|A| |x| + |b|) is at most `tol`, and what the next change of x would be over x, foreseen
+/// from the last two changes, at most `settled`. Where stiff parts are beside soft ones, the first alone
+/// would leave forces on the soft ones that |A| hides.
 ///
 /// # Errors
 /// Stops where the changes no longer halve at a residual above `tol`: A is too near to a singular
@@ -217,7 +217,7 @@ pub fn refine<L: Scalar, T: Scalar>(
     factors: &impl Factors<L>,
     a: &SparseSymmetric<T>,
     b: &DVector<T>,
-    tol: f64,
+    [tol, settled]: [f64; 2],
 ) -> Result<DVector<T>, NotConverged> {
     let norm = a.norm();
     let mut x = DVector::from_element(b.len(), T::zero());
@@ -226,7 +226,7 @@ pub fn refine<L: Scalar, T: Scalar>(
     loop {
         let r = b - a.times(&x);
         let residual = backward_error(&r, norm, &x, b);
-        if residual == 0.0 || residual <= tol && next <= tol {
+        if residual == 0.0 || residual <= tol && next <= settled {
             return Ok(x);
         }
         // The residual of size 1: a small one would underflow in a scalar of smaller range.

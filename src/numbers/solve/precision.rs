@@ -309,6 +309,6 @@ fn refined<L: Native, T: Scalar>(
     tol: f64,
 ) -> Outcome<T> {
     let factors = SparseCholesky::new(matrix.map(|x| L::from_f64(x.to_f64())))?;
-    let x = refine(&factors, matrix, b, tol)?;
+    let x = refine(&factors, matrix, b, [tol, tol])?;
     Ok(Solved { residual: matrix.residual(&x, b), x })
 }
