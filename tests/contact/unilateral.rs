@@ -284,7 +284,7 @@ fn friction_is_a_coefficient_or_stick() {
     };
     for wrong in ["-0.1", "\"slippery\"", "\"NaN\"", "null"] {
         let error = read(wrong).unwrap_err().to_string();
-        assert!(error.contains("neither a coefficient of 0 or more"), "{wrong}: {error}");
+        assert!(error.contains("neither a number of 0 or more nor"), "{wrong}: {error}");
     }
     assert!(read("0.3").is_ok() && read("\"stick\"").is_ok());
 }

@@ -104,7 +104,7 @@ fn rows(reading: &str) -> BTreeMap<String, String> {
 /// `R1`, `C15`, `K9`: a letter and a number.
 fn is_id(word: &str) -> bool {
     let number = word.strip_prefix(['R', 'C', 'K']).unwrap_or("");
-    !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit())
+    number.bytes().all(|b| b.is_ascii_digit()) && !matches!(number, "" | "0")
 }
 
 /// The words of a line, in order.

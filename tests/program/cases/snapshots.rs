@@ -31,7 +31,7 @@ const CASES: &[Case] = &[
         command: changed!(
             "r[\"numbers\"][\"u\"][\"values\"][2][1] = float(\"nan\")",
             "mkdir folder; cp t.json \"a|b<c>&\\`d\\`.json\"; plane-contact verify s.json t.json folder none.json \
-             \"a|b<c>&\\`d\\`.json\" s.json --junit j.xml --report r.md; status=$?; cat j.xml r.md; exit $status"
+             \"a|b<c>&\\`d\\`.json\" s.json --junit j.xml --report r.txt; status=$?; cat j.xml r.txt; exit $status"
         ),
         status: 2,
         contains: &[
