@@ -70,10 +70,12 @@ impl FromStr for Friction {
     fn from_str(text: &str) -> Result<Self, String> {
         let number = || text.parse().ok().filter(|mu: &f64| mu.is_finite()).and_then(Friction::new);
         let read = if text == "stick" { Some(Friction::STICK) } else { number() };
-        read.ok_or_else(|| {
-            format!("friction {text} is neither a coefficient of 0 or more nor \"stick\"")
-        })
+        read.ok_or_else(|| no_friction(text))
     }
+}
+
+fn no_friction(found: impl fmt::Display) -> String {
+    format!("friction {found} is neither a number of 0 or more nor \"stick\"")
 }
 
 impl Serialize for Friction {
@@ -103,9 +105,7 @@ impl<'de> Deserialize<'de> for Friction {
         let read = match Value::deserialize(deserializer)? {
             Value::String(text) if text == "stick" => Ok(Friction::STICK),
             Value::Number(mu) => mu.to_string().parse(),
-            other => {
-                Err(format!("friction {other} is neither a number of 0 or more nor \"stick\""))
-            }
+            other => Err(no_friction(other)),
         };
         read.map_err(de::Error::custom)
     }
