@@ -15,8 +15,8 @@ use super::{TablesArgs, folder, print, print_fitted, waiting};
 #[command(after_help = "\
 Each generator sweeps one magnitude. A cell is exact, a number of right digits, WRONG (an answer
 without a right digit, or another contact), or refused (and by which error). A method breaks down
-where it is refused or keeps fewer than 3 digits; that point is bisected. It takes 300 times as long as
-solve on fig1.
+where it is refused or keeps fewer than 3 digits; that point is bisected. It takes 300 times as
+long as solve on fig1.
 
 Examples:
   plane-contact extremes

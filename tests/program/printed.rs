@@ -153,7 +153,6 @@ const TEXTS: &[&str] = &[
     "diff fig1 --variant tied,stepped",
     "accept out/fig1.snapshot.json --scene two-blocks --reason because",
     "sweep sweep.json",
-    "key fig1",
     "evaluate fact.txt --call fact(3)",
     "evaluate fact.txt --call g(3)",
     "evaluate wrong.txt --call f(1)",

@@ -167,7 +167,7 @@ fn printed_says_what_its_pressures_are() {
         let output = run(folder.path(), &["solve", "fig1", "--variant", variant]);
         String::from_utf8(output.stdout).unwrap()
     };
-    let words = "nothing couples the bodies (finding K1)";
+    let words = "none of it reaches the other body";
     assert!(text("printed").contains(words));
     assert!(!text("tied").contains(words));
 }

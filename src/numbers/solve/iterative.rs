@@ -211,7 +211,7 @@ impl<T: Scalar> Scaled<T> {
 /// would leave forces on the soft ones that |A| hides.
 ///
 /// # Errors
-/// Stops where the changes no longer halve at a residual above `tol`: A is too near to a singular
+/// Stops where the changes no longer halve, or vanish, at a residual above `tol`: A is too near to a singular
 /// matrix for those factors, or `tol` is below what T can reach.
 pub fn refine<L: Scalar, T: Scalar>(
     factors: &impl Factors<L>,
@@ -235,7 +235,8 @@ pub fn refine<L: Scalar, T: Scalar>(
         let mut refined = x.clone();
         add(&mut refined, scale, &correction.map(|c| T::from_f64(c.to_f64())));
         let change = largest((&refined - &x).as_slice()) / largest(refined.as_slice());
-        if change.is_nan() || change > last / 2.0 {
+        let comes_nearer = 0.0 < change && change <= last / 2.0;
+        if !comes_nearer {
             return if residual <= tol {
                 Ok(x)
             } else {
