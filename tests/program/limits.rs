@@ -91,7 +91,7 @@ fn what_has_no_end_is_not_read() {
     for (command, most) in [
         ("solve", 1 << 28),
         ("verify", 1 << 28),
-        ("mathcad", 1 << 28),
+        ("mathcad", 1 << 26),
         ("trace fig1 --listing", 1 << 24),
         ("evaluate", 1 << 24),
     ] {
@@ -258,7 +258,7 @@ fn a_run_of_each_variant_fits_in_the_memory_or_is_refused() {
             let error = String::from_utf8_lossy(&output.stderr);
             let code = output.status.code().expect(&error);
             assert!(codes.contains(&code), "{run}, {limit}: {code} {error}");
-            assert!(code == 0 || error.contains("free equations need 0."), "{run}: {error}");
+            assert!(code == 0 || error.contains(" need "), "{run}: {error}");
         }
     }
 }
