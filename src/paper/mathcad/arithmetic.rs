@@ -36,13 +36,32 @@ pub fn calculate(operation: Operation, x: f64, y: f64, settings: &Settings) -> R
     }
 }
 
-/// Returns `x^y`.
+/// Returns `x^y`: by repeated squaring from the last bit where y is whole.
 pub fn power(x: f64, y: f64) -> Result<f64, Cause> {
-    match x.powf(y) {
+    let result = if y.fract() != 0.0 || y.abs() >= 1e15 {
+        x.powf(y)
+    } else if y < 0.0 {
+        1.0 / whole_power(x, -y as u64)
+    } else {
+        whole_power(x, y as u64)
+    };
+    match result {
         _ if x == 0.0 && y < 0.0 => Err(Cause::Singularity { numerator: 1.0, denominator: 0.0 }),
         result if result.is_nan() => Err(Cause::Complex { name: "a power".into() }),
         result => finite(result),
     }
+}
+
+fn whole_power(x: f64, mut n: u64) -> f64 {
+    let (mut power, mut square) = (1.0, x);
+    while n > 0 {
+        if n % 2 == 1 {
+            power *= square;
+        }
+        square *= square;
+        n /= 2;
+    }
+    power
 }
 
 /// Returns whether `x` and `y` compare so, under the worksheet's `exact-boolean`.

@@ -4,9 +4,9 @@ use super::arithmetic::{finite, fold, identity, kind, map, sum};
 use super::eval::FUNCTION;
 use super::failure::{Cause, Fallible};
 use super::function::Function;
-use super::listing::Listing;
 use super::matrices;
 use super::observe::Observer;
+use super::sheet::Defined;
 use super::state::{Run, Variable};
 use super::syntax::{Slot, Span};
 use super::value::{Array, Value};
@@ -94,7 +94,8 @@ impl<O: Observer> Run<'_, '_, O> {
     }
 
     /// Runs a function of the worksheet; its steps and numbers count with those of the caller.
-    fn call_program(&mut self, program: &Listing, arguments: &[Value]) -> Fallible<Value> {
+    fn call_program(&mut self, defined: &Defined, arguments: &[Value]) -> Fallible<Value> {
+        let program = &*defined.program;
         let depth = self.depth + program.depth;
         if depth > self.limits.calls {
             let limit = self.limits.calls as u64;
@@ -103,11 +104,16 @@ impl<O: Observer> Run<'_, '_, O> {
         // Each name is looked up in the worksheet.
         self.spend(16 + 8 * program.names.len() as u64)?;
         let names = || program.names.all();
-        let sheet = self.sheet;
+        let sheet = defined.above.as_deref().or(self.sheet);
         let value = |name| sheet.and_then(|sheet| sheet.value(name));
-        let function = |name| match sheet {
-            Some(sheet) => sheet.function(name),
-            None => Function::builtin(name),
+        let function = |name| {
+            let above = match sheet {
+                Some(sheet) => sheet.function(name),
+                None => Function::builtin(name),
+            };
+            let itself =
+                || (name == program.function()).then(|| Function::Program(defined.clone()));
+            above.or_else(itself)
         };
         let cells = names().map(|name| Variable { value: value(name), local: false }).collect();
         let mut functions: Vec<_> = names().map(function).collect();

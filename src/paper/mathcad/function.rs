@@ -1,9 +1,7 @@
 //! The functions that a listing may call: some of Mathcad's own, those of its worksheet, and those
 //! that the caller defines.
 
-use std::rc::Rc;
-
-use super::listing::Listing;
+use super::sheet::Defined;
 use super::value::Value;
 use super::x87;
 
@@ -55,7 +53,7 @@ pub enum Function<'l> {
     /// A function of one number, or of each number of an array.
     Elementary(Elementary),
     /// A function of the worksheet.
-    Program(Rc<Listing>),
+    Program(Defined),
     Outside(Outside<'l>),
 }
 

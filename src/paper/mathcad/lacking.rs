@@ -52,6 +52,17 @@ pub fn is_function(name: &str) -> bool {
     contains(FUNCTIONS, name)
 }
 
+/// Returns what a name that nothing defines is of Mathcad's, in the words of an unsupported construct.
+pub fn construct(name: &str) -> Option<String> {
+    if is_function(name) {
+        Some(format!("the function {name}"))
+    } else if is_unit(name) {
+        Some(format!("units: {name}"))
+    } else {
+        None
+    }
+}
+
 /// Returns whether a name is one of Mathcad's units, or made of them, as `kN.m` is.
 pub fn is_unit(name: &str) -> bool {
     let parts = || name.split(['.', '·', '⋅', '*', '/', '^']);

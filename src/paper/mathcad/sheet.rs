@@ -13,8 +13,16 @@ use super::value::Value;
 #[derive(Clone, Debug)]
 pub struct Sheet {
     values: BTreeMap<String, Value>,
-    programs: BTreeMap<String, Rc<Listing>>,
+    programs: BTreeMap<String, Defined>,
     ranges: BTreeMap<String, Numbers>,
+}
+
+/// A function of a worksheet.
+#[derive(Clone, Debug)]
+pub struct Defined {
+    pub program: Rc<Listing>,
+    /// What its names are, where its definition decides that; else what they are at the call.
+    pub(super) above: Option<Rc<Sheet>>,
 }
 
 /// The numbers of a range: the first, the second if it is given, and the last.
@@ -35,9 +43,25 @@ impl Sheet {
         self
     }
 
-    /// Defines the function that a listing's first line names.
+    /// Defines the function that a listing's first line names, in a file of functions: its names are
+    /// those at the call, wherever they stand.
     pub fn define_program(&mut self, program: Rc<Listing>) -> &mut Self {
-        self.programs.insert(program.function().into(), program);
+        self.programs.insert(program.function().into(), Defined { program, above: None });
+        self
+    }
+
+    /// Defines the function that a listing's first line names, as a region of a worksheet does: its
+    /// names are those above, its own name too where a function of that name stands there.
+    pub fn define_below(&mut self, program: Rc<Listing>) -> &mut Self {
+        let names: Vec<&str> = program.names.all().collect();
+        let above = Sheet {
+            values: entries(&self.values, &names),
+            programs: entries(&self.programs, &names),
+            ranges: entries(&self.ranges, &names),
+        };
+        let name = program.function().to_string();
+        self.remove(&name);
+        self.programs.insert(name, Defined { program, above: Some(above.into()) });
         self
     }
 
@@ -63,12 +87,27 @@ impl Sheet {
     }
 
     pub fn program(&self, name: &str) -> Option<&Rc<Listing>> {
-        self.programs.get(name)
+        self.programs.get(name).map(|defined| &defined.program)
+    }
+
+    /// Returns whether a name has a value, a function or a range, Mathcad's own functions included.
+    pub fn has(&self, name: &str) -> bool {
+        let [value, range] = [self.values.contains_key(name), self.ranges.contains_key(name)];
+        value || range || self.function(name).is_some()
     }
 
     /// Returns the function that a name stands for: the worksheet's, or else Mathcad's own.
     pub(super) fn function<'l>(&self, name: &str) -> Option<Function<'l>> {
-        let program = self.programs.get(name).map(|program| Function::Program(program.clone()));
+        let program = self.programs.get(name).map(|defined| Function::Program(defined.clone()));
         program.or_else(|| Function::builtin(name))
     }
+}
+
+/// Returns the entries that have one of the names.
+fn entries<T: Clone>(all: &BTreeMap<String, T>, names: &[&str]) -> BTreeMap<String, T> {
+    names
+        .iter()
+        .filter_map(|name| all.get_key_value(*name))
+        .map(|(k, v)| (k.clone(), v.clone()))
+        .collect()
 }

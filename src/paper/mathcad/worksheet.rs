@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::failure::{Cause, Fallible};
+use super::lacking;
 use super::listing::Listing;
 use super::settings::{Limits, Settings};
 use super::sheet::{Numbers, Sheet};
@@ -131,7 +132,9 @@ impl Execution<'_> {
                 self.keep(name, value.clone(), BTreeSet::new());
                 (format!("{name} := {}", value.kind()), Outcome::Value(value.clone()))
             }
-            Content::Function { name, text } => (text.clone(), self.function(name, text)),
+            Content::Function { name, text } => {
+                (text.clone(), self.function(name, text, &mut inputs))
+            }
             Content::Range { name, range } => {
                 (format!("{name} := {range}"), self.range(name, range, &mut inputs))
             }
@@ -204,18 +207,30 @@ impl Execution<'_> {
             .map_err(|error| Outcome::Unsupported(format!("its size or form: {}", error.message)))
     }
 
-    fn function(&mut self, name: &str, text: &str) -> Outcome {
-        match self.parse(text) {
-            Ok(program) => {
-                self.forget(name);
-                self.sheet.define_program(Rc::new(program));
-                Outcome::Defined
-            }
+    /// Defines a function, whose names are those above it.
+    fn function(&mut self, name: &str, text: &str, inputs: &mut BTreeSet<String>) -> Outcome {
+        let program = match self.parse(text) {
+            Ok(program) => program,
             Err(outcome) => {
                 self.lose(name, "a function that cannot be read");
-                outcome
+                return outcome;
             }
+        };
+        if let Some(construct) = self.trace_names(&program, inputs) {
+            return self.lose_outcome(name, Outcome::Unsupported(construct));
         }
+        let unknown = |of: &&str| *of != name && !self.sheet.has(of);
+        if let Some(of) = program.free_names().into_iter().find(unknown) {
+            let outcome = match lacking::construct(of) {
+                Some(construct) => Outcome::Unsupported(construct),
+                None => Outcome::Failed(Cause::Undefined { name: of.into() }),
+            };
+            return self.lose_outcome(name, outcome);
+        }
+        self.unsupported.remove(name);
+        self.sheet.define_below(Rc::new(program));
+        self.inputs.insert(name.into(), inputs.clone());
+        Outcome::Defined
     }
 
     /// Keeps a range variable: its numbers, as a loop spells them.
@@ -354,27 +369,14 @@ impl Execution<'_> {
         Some(if follows { construct.clone() } else { format!("{construct} (it rests on {name})") })
     }
 
-    /// Collects the saved results that a program rests on, its functions' included, each name of which
-    /// takes a step. Returns why it is unsupported, if a name that it reads is.
+    /// Collects the saved results that a program rests on. Returns why it is unsupported, if a name
+    /// that it reads is.
     fn trace_names(&self, program: &Listing, inputs: &mut BTreeSet<String>) -> Option<String> {
-        let names_of = |program: &Listing| {
-            let names: Vec<_> = program.free_names().into_iter().map(String::from).collect();
-            self.steps.set(self.steps.get().saturating_sub(names.len() as u64));
-            names.into_iter().rev()
-        };
-        let mut seen = BTreeSet::new();
-        let mut names: Vec<String> = names_of(program).collect();
-        while let Some(name) = names.pop().filter(|_| self.steps.get() > 0) {
-            if let Some(construct) = self.rests_on(&name) {
-                return Some(construct);
-            }
-            if !seen.contains(&name) {
-                inputs.extend(self.inputs.get(&name).into_iter().flatten().cloned());
-                names.extend(self.sheet.program(&name).into_iter().flat_map(|f| names_of(f)));
-                seen.insert(name);
-            }
+        let names = program.free_names();
+        for name in &names {
+            inputs.extend(self.inputs.get(*name).into_iter().flatten().cloned());
         }
-        None
+        names.into_iter().find_map(|name| self.rests_on(name))
     }
 }
 

@@ -1,49 +1,31 @@
-//! Sine, cosine and tangent of x87, which are Mathcad's: exact but for π, which has 66 bits there.
+//! Sine, cosine and tangent of x87, which are Mathcad's: those of the angle that is left once multiples
+//! of a π/2 of 66 bits are taken away.
 
 use std::f64::consts::FRAC_PI_2;
 
-/// What x87's π/2 has beyond the double's.
-const REST: f64 = 1.224_606_353_822_377_3e-16 / 2.0;
+/// What π/2 has beyond that of x87.
+const BEYOND: f64 = 2.022_266_248_795_950_6e-21;
 
-/// From here on x87 has no sine; multiples of π/2 are exact below.
+/// From so many multiples of π/2 on x87 has no sine; they are exact below.
 const LARGEST: f64 = 9_007_199_254_740_992.0;
 
 pub fn sin(x: f64) -> f64 {
-    let (quarter, r, rest) = reduced(x);
-    match quarter {
-        0 => r.sin() + rest * r.cos(),
-        1 => r.cos() - rest * r.sin(),
-        2 => -(r.sin() + rest * r.cos()),
-        _ => -(r.cos() - rest * r.sin()),
-    }
+    let more = turned(x);
+    x.sin() * more.cos() + x.cos() * more.sin()
 }
 
 pub fn cos(x: f64) -> f64 {
-    let (quarter, r, rest) = reduced(x);
-    match quarter {
-        0 => r.cos() - rest * r.sin(),
-        1 => -(r.sin() + rest * r.cos()),
-        2 => -(r.cos() - rest * r.sin()),
-        _ => r.sin() + rest * r.cos(),
-    }
+    let more = turned(x);
+    x.cos() * more.cos() - x.sin() * more.sin()
 }
 
 pub fn tan(x: f64) -> f64 {
-    let (quarter, r, rest) = reduced(x);
-    let tan = r.tan() + rest * (1.0 + r.tan() * r.tan());
-    if quarter % 2 == 0 { tan } else { -1.0 / tan }
+    let (tan, more) = (x.tan(), turned(x).tan());
+    (tan + more) / (1.0 - tan * more)
 }
 
-/// Returns the quarter of the circle, 0 to 3, and what x is beyond its multiple of π/2, in two
-/// parts whose sum it is.
-fn reduced(x: f64) -> (i64, f64, f64) {
-    let k = (x / FRAC_PI_2).round();
-    if k == 0.0 || k.abs() >= LARGEST || !k.is_finite() {
-        return (0, x, 0.0);
-    }
-    let multiple = k * FRAC_PI_2;
-    let tail = k.mul_add(FRAC_PI_2, -multiple) + k * REST;
-    let head = x - multiple;
-    let r = head - tail;
-    ((k as i64).rem_euclid(4), r, (head - r) - tail)
+/// Returns the angle by which too little is taken away from x.
+fn turned(x: f64) -> f64 {
+    let multiples = (x / FRAC_PI_2).round();
+    if multiples.abs() < LARGEST { multiples * BEYOND } else { 0.0 }
 }

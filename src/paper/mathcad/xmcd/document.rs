@@ -2,6 +2,7 @@
 
 use roxmltree::{Document as Xml, Node, ParsingOptions};
 
+use super::places::Placed;
 use super::read::{self, Math};
 use super::{Unsupported, scan};
 use crate::error::{InputError, Result};
@@ -142,7 +143,13 @@ fn collect(list: Node<'_, '_>, found: &mut Vec<Region>) {
     for (_, node) in placed {
         match child(node, "area") {
             Some(area) if area.ancestors().count() < 64 => collect(area, found),
-            _ => found.push(region(node)),
+            _ => {
+                found.push(region(node));
+                // Text has regions of its own within its lines.
+                let text = child(node, "text").into_iter().flat_map(|text| text.descendants());
+                let within = text.filter(|node| node.tag_name().name() == "region");
+                found.extend(within.map(region));
+            }
         }
     }
 }
@@ -157,10 +164,13 @@ fn region(node: Node<'_, '_>) -> Region {
     let (id, tag) = (attribute("region-id"), attribute("tag"));
     let Some(math) = child(node, "math") else {
         let construct = ["plot", "component", "picture", "ole"];
-        let other = construct.into_iter().find(|name| child(node, name).is_some());
-        let content = match other {
-            Some("plot") => unsupported(vec![], "a plot"),
-            Some(name) => unsupported(vec![], name),
+        let other = construct.into_iter().find_map(|name| child(node, name));
+        let content = match other.map(|other| (other.tag_name().name(), other)) {
+            Some(("plot", _)) => unsupported(vec![], "a plot"),
+            Some((name, other)) => {
+                let outputs = child(other, "outputs").map(Math::new);
+                unsupported(outputs.map(|all| targets(all.parts())).unwrap_or_default(), name)
+            }
             None => Content::Silent,
         };
         return Region { id, tag, content, saved: None };
@@ -176,10 +186,12 @@ fn region(node: Node<'_, '_>) -> Region {
     };
     let error = math.descendants().find_map(|node| node.attribute("error"));
     let result = math.descendants().find(|node| node.tag_name().name() == "result");
-    let saved = match (error, result) {
-        (Some(error), _) => Some(Saved::Error(error.into())),
-        (None, Some(result)) => result.children().find(Node::is_element).map(saved),
-        (None, None) => None,
+    let shown_in = math.descendants().find(|node| node.tag_name().name() == "unitOverride");
+    let saved = match (error, result, shown_in) {
+        (Some(error), ..) => Some(Saved::Error(error.into())),
+        (None, Some(_), Some(unit)) => Some(Saved::Unsupported(read::shown_in(Math::new(unit)))),
+        (None, Some(result), None) => result.children().find(Node::is_element).map(saved),
+        (None, None, _) => None,
     };
     Region { id, tag, content, saved }
 }
@@ -191,15 +203,25 @@ fn unsupported(names: Vec<String>, construct: &str) -> Content {
 /// The names that a region defines, whatever it says of them.
 fn names(node: Math<'_, '_>) -> Vec<String> {
     let defines = matches!(node.tag(), "define" | "globalDefine");
-    let left = node.part(0).ok().filter(|_| defines);
-    let ids = left.into_iter().flat_map(|left| match left.tag() {
-        "id" => vec![left],
-        "matrix" => left.parts().collect(),
-        // The name of a function or of an array.
-        "function" => left.parts().take(1).collect(),
-        _ => left.parts().skip(1).take(1).collect(),
-    });
-    ids.filter_map(|id| read::name(id).ok()).collect()
+    targets(node.parts().take(usize::from(defines)))
+}
+
+/// The names that left sides define, in their order, whatever else stands in them.
+fn targets<'a, 'i: 'a>(left: impl Iterator<Item = Math<'a, 'i>>) -> Vec<String> {
+    let mut open: Vec<_> = left.collect();
+    let mut names = Vec::new();
+    while let Some(left) = open.pop() {
+        match left.tag() {
+            "id" => names.extend(read::name(left)),
+            "function" => open.extend(left.parts().take(1)),
+            // The array of an entry.
+            "apply" => open.extend(left.parts().skip(1).take(1)),
+            "parens" | "matrix" => open.extend(left.parts()),
+            _ => {}
+        }
+    }
+    names.reverse();
+    names
 }
 
 fn content(node: Math<'_, '_>) -> Content {
@@ -219,7 +241,10 @@ fn evaluation(node: Math<'_, '_>) -> Result<Content, Unsupported> {
 }
 
 fn definition(node: Math<'_, '_>) -> Result<Content, Unsupported> {
-    let (left, mut right) = (node.part(0)?, node.part(1)?);
+    let (mut left, mut right) = (node.part(0)?, node.part(1)?);
+    while let Some(inside) = left.inside() {
+        left = inside;
+    }
     let global = node.tag() == "globalDefine";
     if right.tag() == "eval" {
         right = right.part(0)?;

@@ -380,6 +380,13 @@ fn units(node: Math<'_, '_>) -> Unsupported {
     })
 }
 
+/// Names the unit in which a result is shown, of which the saved number is a multiple.
+pub fn shown_in(unit: Math<'_, '_>) -> String {
+    let names = unit.0.descendants().filter(|node| node.tag_name().name() == "id");
+    let names: Vec<_> = names.filter_map(|id| id.text()).collect();
+    format!("units: {}", names.join("·"))
+}
+
 impl Placed for Math<'_, '_> {
     fn level(self) -> Level {
         if self.tag() == "real" {
