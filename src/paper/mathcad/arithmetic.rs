@@ -105,8 +105,8 @@ pub fn operate(
     let of = |x, y| calculate(operation, x, y, settings);
     match (operation, left, right) {
         (_, Value::Number(x), Value::Number(y)) => of(x, y).map(Value::Number),
-        (Operation::Divide, _, Value::Array(a)) => {
-            Err(kind("a number to divide by", &Value::Array(a)))
+        (Operation::Divide, _, Value::Array(a)) if a.cols() > 1 => {
+            Err(kind("a number or a column to divide by", &Value::Array(a)))
         }
         (_, Value::Number(x), Value::Array(a)) => map(a, |y| of(x, y)),
         (_, Value::Array(a), Value::Number(y)) => map(a, |x| of(x, y)),

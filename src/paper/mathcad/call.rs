@@ -39,7 +39,11 @@ impl<O: Observer> Run<'_, '_, O> {
                 self.spend(size.saturating_mul(1 + u64::from(size.max(1).ilog2())))?;
                 one(arguments).and_then(sort)
             }
-            Some(Function::Round) => round(arguments).map(Value::Number),
+            Some(Function::Round) => {
+                self.afford(size(arguments))?;
+                self.spend(size(arguments) as u64)?;
+                round(arguments)
+            }
             Some(Function::Min) => return self.extreme(arguments, <f64 as Scalar>::min, span),
             Some(Function::Max) => return self.extreme(arguments, <f64 as Scalar>::max, span),
             Some(Function::Trace) => return self.write_trace(arguments),
@@ -272,14 +276,18 @@ fn sort(value: &Value) -> Result<Value, Cause> {
     }
 }
 
-/// Rounds a number, halves away from 0, to so many decimal places.
-fn round(arguments: &[Value]) -> Result<f64, Cause> {
-    if arguments.len() == 1 {
-        return numbers(arguments).map(|[x]| x.round());
-    }
-    let [x, places] = numbers(arguments)?;
+/// Rounds a number, or each number of an array, halves away from 0, to so many decimal places.
+fn round(arguments: &[Value]) -> Result<Value, Cause> {
+    let (x, places) = match arguments {
+        [x] => (x, 0.0),
+        _ => {
+            let (x, places) = two(arguments)?;
+            let [places] = numbers(std::slice::from_ref(places))?;
+            (x, places)
+        }
+    };
     let scale = 10_f64.powf(places);
-    finite((x * scale).round() / scale)
+    each(x, |x| finite((x * scale).round() / scale))
 }
 
 fn root(arguments: &[Value], name: &dyn Fn() -> String) -> Result<f64, Cause> {

@@ -31,6 +31,29 @@ macro_rules! program {
 }
 
 const CASES: &[Case] = &[
+    // A function's names are those above its definition, its own name too.
+    case!("public", "plane-contact mathcad bind-variable.xmcd", ["1 results same"], []),
+    case!("public", "plane-contact mathcad bind-function.xmcd", ["1 results same"], []),
+    case!("public", "plane-contact mathcad bind-self.xmcd", ["1 results same"], []),
+    // Mathematics within text counts.
+    case!("public", "plane-contact mathcad text.xmcd", ["2 results same", "0 differ"], []),
+    // What is no plain name on the left side, or comes from a component, loses its old value.
+    case!("public", "plane-contact mathcad left-side.xmcd", ["5 results same", "0 differ"], []),
+    case!(
+        "public",
+        "plane-contact mathcad component.xmcd" => 1,
+        ["unsupported: component (it rests on D)", "0 differ, 3 regions"],
+        []
+    ),
+    // A result shown in a unit is neither compared nor goes on as input.
+    case!(
+        "public",
+        "plane-contact mathcad override.xmcd" => 1,
+        ["unsupported: units: %", "0 differ, 4 regions"],
+        ["as input"]
+    ),
+    // A number over a column.
+    case!("public", "plane-contact mathcad over-column.xmcd", ["2 results same"], []),
     // Loops over range variables, vectors and lists.
     case!(
         "for-over-a-range-variable",

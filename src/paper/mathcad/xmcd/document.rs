@@ -175,7 +175,7 @@ fn region(node: Node<'_, '_>) -> Region {
         };
         return Region { id, tag, content, saved: None };
     };
-    let inside = math.children().find(Node::is_element).map(Math::new);
+    let inside = math.children().find(Node::is_element).map(Math::new).map(shown_definition);
     let content = match inside {
         Some(_) if math.attribute("disable-calc") == Some("true") => Content::Silent,
         Some(inside) => match read::check_depth(math) {
@@ -194,6 +194,13 @@ fn region(node: Node<'_, '_>) -> Region {
         (None, None, _) => None,
     };
     Region { id, tag, content, saved }
+}
+
+/// Returns the definition that a region shows the result of, as `x := 3 =`; else the region.
+fn shown_definition<'a, 'i>(node: Math<'a, 'i>) -> Math<'a, 'i> {
+    let is_definition = |part: &Math<'_, '_>| matches!(part.tag(), "define" | "globalDefine");
+    let first = node.part(0).ok().filter(|_| node.tag() == "eval");
+    first.filter(is_definition).unwrap_or(node)
 }
 
 fn unsupported(names: Vec<String>, construct: &str) -> Content {
