@@ -110,15 +110,10 @@ impl<O: Observer> Run<'_, '_, O> {
         let names = || program.names.all();
         let sheet = defined.above.as_deref().or(self.sheet);
         let value = |name| sheet.and_then(|sheet| sheet.value(name));
-        let function = |name| {
-            let above = match sheet {
-                Some(sheet) => sheet.function(name),
-                None => Function::builtin(name),
-            };
-            let itself =
-                || (name == program.function()).then(|| Function::Program(defined.clone()));
-            above.or_else(itself)
-        };
+        // Its own name is itself where nothing above it has that name.
+        let itself =
+            |name| (name == program.function()).then(|| Function::Program(defined.clone()));
+        let function = |name| Function::named(sheet, name).or_else(|| itself(name));
         let cells = names().map(|name| Variable { value: value(name), local: false }).collect();
         let mut functions: Vec<_> = names().map(function).collect();
         let run = Run {

@@ -1,7 +1,7 @@
 //! The functions that a listing may call: some of Mathcad's own, those of its worksheet, and those
 //! that the caller defines.
 
-use super::sheet::Defined;
+use super::sheet::{Defined, Sheet};
 use super::value::Value;
 use super::x87;
 
@@ -89,6 +89,14 @@ const ELEMENTARY: [(&str, Elementary); 20] = [
 ];
 
 impl Function<'_> {
+    /// Returns the function that a name stands for: the worksheet's, or else Mathcad's own.
+    pub fn named(sheet: Option<&Sheet>, name: &str) -> Option<Self> {
+        let defined = sheet.and_then(|sheet| sheet.defined(name));
+        defined
+            .map(|defined| Function::Program(defined.clone()))
+            .or_else(|| Function::builtin(name))
+    }
+
     pub fn builtin(name: &str) -> Option<Self> {
         Some(match name {
             "identity" => Function::Identity,

@@ -63,7 +63,7 @@ impl Listing {
             settings: settings.clone(),
             limits: limits.clone(),
             values: self.names.all().map(|name| sheet.value(name)).collect(),
-            functions: self.names.all().map(|name| sheet.function(name)).collect(),
+            functions: self.names.all().map(|name| Function::named(Some(sheet), name)).collect(),
             spent: Cell::default(),
         }
     }

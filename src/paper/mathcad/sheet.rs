@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::f64::consts::{E, PI};
 use std::rc::Rc;
 
-use super::function::Function;
 use super::listing::Listing;
 use super::value::Value;
 
@@ -90,16 +89,14 @@ impl Sheet {
         self.programs.get(name).map(|defined| &defined.program)
     }
 
-    /// Returns whether a name has a value, a function or a range, Mathcad's own functions included.
-    pub fn has(&self, name: &str) -> bool {
-        let [value, range] = [self.values.contains_key(name), self.ranges.contains_key(name)];
-        value || range || self.function(name).is_some()
+    pub(super) fn defined(&self, name: &str) -> Option<&Defined> {
+        self.programs.get(name)
     }
 
-    /// Returns the function that a name stands for: the worksheet's, or else Mathcad's own.
-    pub(super) fn function<'l>(&self, name: &str) -> Option<Function<'l>> {
-        let program = self.programs.get(name).map(|defined| Function::Program(defined.clone()));
-        program.or_else(|| Function::builtin(name))
+    /// Returns whether a name has a value, a function or a range.
+    pub fn has(&self, name: &str) -> bool {
+        let [values, ranges] = [self.values.contains_key(name), self.ranges.contains_key(name)];
+        values || ranges || self.programs.contains_key(name)
     }
 }
 

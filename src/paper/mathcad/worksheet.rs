@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::failure::{Cause, Fallible};
+use super::function::Function;
 use super::lacking;
 use super::listing::Listing;
 use super::settings::{Limits, Settings};
@@ -219,7 +220,8 @@ impl Execution<'_> {
         if let Some(construct) = self.trace_names(&program, inputs) {
             return self.lose_outcome(name, Outcome::Unsupported(construct));
         }
-        let unknown = |of: &&str| *of != name && !self.sheet.has(of);
+        let unknown =
+            |of: &&str| *of != name && !self.sheet.has(of) && Function::builtin(of).is_none();
         if let Some(of) = program.free_names().into_iter().find(unknown) {
             let outcome = match lacking::construct(of) {
                 Some(construct) => Outcome::Unsupported(construct),

@@ -401,5 +401,5 @@ fn loops_run_over_range_variables() {
     ]);
     let values: Vec<_> =
         checked.iter().filter_map(|c| Some(c.value.as_ref()?.to_string())).collect();
-    assert_eq!(values, ["10", "15", "6", "5", "5", "6"], "of X := 5 the value too");
+    assert_eq!(values, ["10", "15", "10", "5", "10", "6"], "f has the X above it");
 }
