@@ -27,6 +27,9 @@ use journal::Journal;
 /// The bytes of a sweep.
 const MOST: u64 = 1 << 24;
 
+/// The most bytes that a byte of the file takes: a case has its values several times, and its row too.
+const COPIES: f64 = 500.0;
+
 /// The bytes that a case takes while a sweep runs: its key, and its row twice, as what is known and as
 /// text.
 const CASE: f64 = 4000.0;
@@ -84,6 +87,8 @@ pub fn run(args: &Args) -> Result<u8> {
         let what = format!("the sweep cannot be read: {why}");
         InputError::new(&place, what, "see `plane-contact sweep --help`")
     })?;
+    let needed = COPIES * text.len() as f64;
+    memory::check_bytes(needed, &place, "its values and their copies in a case", "give fewer")?;
     let sweep = Sweep::read(&text).map_err(|error| error.within(&place))?;
     let folder = args.file.parent().unwrap_or(Path::new(""));
     let cases = sweep.cases(folder).map_err(|error| error.within(&place))?;
