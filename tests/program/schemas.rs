@@ -224,7 +224,9 @@ fn failing(documents: &mut Documents) {
     for command in commands_with_json() {
         let place = if command == "diff" { "nowhere nowhere" } else { "nowhere" };
         let more = if command == "compare" { " --with calculix" } else { "" };
-        documents.printed("failure", 2, &format!("{command} {place}{more}"));
+        // To verify, a file that cannot be read is a result among others.
+        let schema = if command == "verify" { "verify" } else { "failure" };
+        documents.printed(schema, 2, &format!("{command} {place}{more}"));
         // What the command line does not know is an error of the input too.
         documents.printed("failure", 2, &format!("{command} --nothing"));
     }

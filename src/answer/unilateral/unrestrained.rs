@@ -57,7 +57,8 @@ impl Problem<'_> {
         // What holds the loads at both ends of a stage holds those between them.
         let ends: Vec<f64> = (to.ceil() as usize..=stages).map(|stage| stage as f64).collect();
         let holds = |friction: f64| ends.iter().all(|end| free(*end, friction).is_none());
-        let more = (0..60).map(|k| self.friction * 2_f64.powi(k)).find(|more| holds(*more));
+        let larger = (0..60).map(|k| self.friction * 2_f64.powi(k));
+        let more = larger.take_while(|more| more.is_finite()).find(|more| holds(*more));
         let needed = more.map_or(String::new(), |more| {
             let [_, least] = bisected([more, more / 2.0], holds);
             format!("; it needs a coefficient of {}", rounded_up(least))

@@ -88,7 +88,8 @@ pub fn run(args: &Args) -> Result<u8> {
         InputError::new(&place, what, "see `plane-contact sweep --help`")
     })?;
     let needed = COPIES * text.len() as f64;
-    memory::check_bytes(needed, &place, "its values and their copies in a case", "give fewer")?;
+    let what = format!("{place}: the sweep");
+    memory::check_bytes(needed, &what, "its values and their copies in a case", "give fewer")?;
     let sweep = Sweep::read(&text).map_err(|error| error.within(&place))?;
     let folder = args.file.parent().unwrap_or(Path::new(""));
     let cases = sweep.cases(folder).map_err(|error| error.within(&place))?;
