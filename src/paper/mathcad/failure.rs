@@ -1,5 +1,6 @@
 //! What can go wrong: a listing that cannot be read, and a listing that fails as it runs.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use thiserror::Error;
@@ -33,7 +34,11 @@ impl fmt::Display for ParseError {
 /// A listing failed as it ran: the published algorithm's fault or the scene's, not the
 /// interpreter's.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{listing}, line {line}: {cause} In `{text}`, column {column} of `{statement}`.")]
+#[error(
+    "{listing}, line {line}: {cause} In `{}`, column {column} of `{}`.",
+    shown(text),
+    shown(statement)
+)]
 pub struct Failure {
     pub listing: String,
     /// The number of the printed line, from 1.
@@ -45,6 +50,15 @@ pub struct Failure {
     /// The text of the whole line, without indentation.
     pub statement: String,
     pub cause: Cause,
+}
+
+/// Returns as much of a text as a message shows.
+fn shown(text: &str) -> Cow<'_, str> {
+    const MOST: usize = 100;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{} ...", &text[..end]).into(),
+        None => text.into(),
+    }
 }
 
 pub type Fallible<T> = Result<T, Box<Failure>>;

@@ -93,13 +93,21 @@ impl<'m> Groups<'m> {
             Some(_) => format!("the physical group {group} has no element among the mesh's {kind}"),
             None => format!("there is no physical group {group} of {kind}"),
         };
-        let fix = if self.places.is_empty() && tag.is_some() {
-            "no element has a physical group, though $PhysicalNames names some: in Gmsh set \
-             Mesh.SaveAll = 0, and save the mesh again"
-                .into()
-        } else {
-            let names = self.mesh.names.iter().filter(|n| n.dim == dim).map(|n| n.name.as_str());
-            did_you_mean(&group.text(), names) + &self.known(dim)
+        let fix = match tag {
+            Some(_) if self.places.is_empty() => {
+                "no element has a physical group, though $PhysicalNames names some: in Gmsh set \
+                 Mesh.SaveAll = 0, and save the mesh again"
+                    .into()
+            }
+            Some(_) => format!(
+                "in Gmsh, add {kind} of the final geometry to the group (a rotation or a cut makes new \
+                 ones), and save the mesh again; {}",
+                self.known(dim)
+            ),
+            None => {
+                let names = self.mesh.names.iter().filter(|n| n.dim == dim);
+                did_you_mean(&group.text(), names.map(|n| n.name.as_str())) + &self.known(dim)
+            }
         };
         Err(InputError::new(place, what, fix))
     }
