@@ -46,8 +46,7 @@ fn golden_snapshots_verify_on_other_processors() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
     let folders = std::fs::read_dir(folder).expect("golden files").flatten();
     let files = folders.map(|entry| entry.path().join("snapshot.json"));
-    let of_scenes = files.filter(|file| file.exists() && !file.ends_with("schema/snapshot.json"));
-    verify(&of_scenes.collect::<Vec<_>>());
+    verify(&files.filter(|file| file.exists()).collect::<Vec<_>>());
 }
 
 /// Draws a block of `height` on `bottom` from `left` on: the rows of its nodes, from below.

@@ -45,11 +45,11 @@ fn golden_schemas_are_those_that_the_program_prints() {
     for (name, commands) in schemas() {
         let (status, schema) = ran(Path::new(ROOT), &["schema", &name]);
         assert_eq!(status, Some(0), "{name}");
-        assert_file(&golden.join(format!("{name}.json")), &schema);
+        assert_file(&golden.join(format!("{name}.schema.json")), &schema);
         for command in commands {
             assert_eq!(ran(Path::new(ROOT), &["schema", &command]).1, schema, "{command}");
         }
-        files.insert(format!("{name}.json"));
+        files.insert(format!("{name}.schema.json"));
     }
     let there = std::fs::read_dir(&golden)
         .expect("a folder")
@@ -124,8 +124,9 @@ impl Documents {
 
     /// Validates all, and returns what the schemas leave open.
     fn validate(&self) -> String {
-        let line =
-            |(schema, document): &(String, PathBuf)| json!([format!("{schema}.json"), document]);
+        let line = |(schema, document): &(String, PathBuf)| {
+            json!([format!("{schema}.schema.json"), document])
+        };
         python(
             "validate.py",
             &Value::from(self.list.iter().map(line).collect::<Vec<_>>()).to_string(),
@@ -355,7 +356,7 @@ fn readers_take_what_their_schemas_take() {
         assert!(read(document.to_string().as_bytes()), "{schema}");
         let edited = edits(&document);
         let documents: Vec<&Value> = edited.iter().map(|(_, copy)| copy).collect();
-        let schema = Path::new(ROOT).join(format!("golden/schema/{schema}.json"));
+        let schema = Path::new(ROOT).join(format!("golden/schema/{schema}.schema.json"));
         let allowed: Vec<bool> =
             serde_json::from_str(&python("verdicts.py", &json!([schema, documents]).to_string()))
                 .expect("a list");
