@@ -13,7 +13,7 @@ use super::hertz::Hertz;
 use super::probe::{Probe, probes};
 use super::request::Request;
 use super::side_by_side::side_by_side;
-use super::solution::Solution;
+use super::solution::{Solution, Start};
 use super::solve::solve;
 use super::summary::{BodySummary, summaries};
 use crate::error::InputError;
@@ -191,9 +191,13 @@ fn without_factors(solution: Solution) -> Solution {
     Solution { factors: Kept::default(), ..solution }
 }
 
-/// Returns the largest difference of other displacements from those of a solution, length.
-fn change(other: Option<DVector<f64>>, solution: &Solution) -> Option<f64> {
-    other.map(|u| (u - &solution.u).amax())
+/// Returns the largest difference of displacements at the end of a path of half as many steps from those
+/// of a solution, length; None where it says nothing of the size of the steps, as the first of them brings
+/// the bodies into contact.
+fn change(half: Option<DVector<f64>>, solution: &Solution) -> Option<f64> {
+    let path = solution.equilibrium.as_ref()?.path.as_ref()?;
+    let counts = matches!(path.start, Start::Held | Start::Closed);
+    half.filter(|_| counts).map(|u| (u - &solution.u).amax())
 }
 
 /// Follows the path of a request's load in half as many steps; returns the displacements at its end.

@@ -308,8 +308,13 @@ impl<T: Scalar> Elimination<T> {
 
     /// Returns T q + s, the displacements of all degrees of freedom, length.
     pub fn expand(&self, q: &DVector<T>) -> DVector<T> {
+        self.motion(q) + &self.shift
+    }
+
+    /// Returns T q, the motion of all degrees of freedom that one of the equations that remain is, length.
+    pub fn motion(&self, q: &DVector<T>) -> DVector<T> {
         let of_row = |row: &Row<T>| sum(row.iter().map(|&(p, w)| w * q[p]));
-        DVector::from_fn(self.rows.len(), |e, _| of_row(&self.rows[e]) + self.shift[e])
+        DVector::from_iterator(self.rows.len(), self.rows.iter().map(of_row))
     }
 
     /// Returns s, the displacements where all equations that remain are 0, length.

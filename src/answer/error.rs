@@ -1,5 +1,10 @@
 //! The reasons why a run ends without a result, by cause: the input or the published algorithm.
 
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::error::InputError;
 use crate::paper::mathcad;
 use crate::paper::mirror::Failure;
@@ -22,7 +27,7 @@ pub enum Error {
     /// The matrix of an iteration cannot be solved: exit status 3, an audit result.
     #[error("{0}")]
     Singular(#[from] SingularMatrix),
-    /// No equilibrium was found, or several: exit status 4.
+    /// No equilibrium, or several: exit status 4.
     #[error("{0}")]
     Equilibrium(#[from] NoEquilibrium),
 }
@@ -39,6 +44,16 @@ impl From<Box<mathcad::Failure>> for Error {
 }
 
 impl Error {
+    /// Returns the same with words before what a search for an equilibrium tells.
+    pub fn told(self, before: &str) -> Self {
+        match self {
+            Error::Equilibrium(NoEquilibrium { cause, what }) => {
+                NoEquilibrium { cause, what: format!("{before}{what}") }.into()
+            }
+            other => other,
+        }
+    }
+
     /// Returns the exit status of the process, which reports the cause.
     pub fn exit_status(&self) -> u8 {
         match self {
@@ -49,12 +64,39 @@ impl Error {
     }
 }
 
-/// No equilibrium was found, or more than one.
+/// The end of a search for an equilibrium without the one that there should be.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what}")]
+#[error("{cause}: {what}")]
 pub struct NoEquilibrium {
-    /// What was found, with the members.
+    /// Which of the ends it is.
+    pub cause: Cause,
+    /// What was found or tried.
     pub what: String,
+}
+
+/// Why a search for an equilibrium ends without one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cause {
+    /// It is proved that there is none.
+    NoneExists,
+    /// There are several.
+    Several,
+    /// None was found, which does not say that there is none.
+    NotFound,
+    /// The shape that was reached is none that the model describes.
+    OutOfRange,
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Cause::NoneExists => "there is no equilibrium",
+            Cause::Several => "there are several equilibria",
+            Cause::NotFound => "no equilibrium was found",
+            Cause::OutOfRange => "the model leaves its range",
+        })
+    }
 }
 
 /// A matrix that has no unique solution.

@@ -84,6 +84,6 @@ impl Held {
     /// Returns the displacements under one more load by degree of freedom, length.
     pub(super) fn under(&self, model: &Model, load: &DVector<f64>) -> DVector<f64> {
         let q = self.factors().solve(&self.t.load(&model.free_part(load)));
-        self.t.expand(&q) - self.t.shift()
+        self.t.motion(&q)
     }
 }

@@ -17,6 +17,7 @@ mod not_finite;
 mod printed;
 mod probe;
 mod published;
+mod range;
 mod request;
 mod residual;
 mod side_by_side;
@@ -38,13 +39,14 @@ pub use hertz::Hertz;
 pub use memory::Bytes;
 pub use printed::condenses_printed;
 pub use probe::{Probe, Quantity, check_points};
+pub use range::{beyond_range, locking};
 pub use request::Request;
 pub use side_by_side::side_by_side;
 pub use solution::{
-    Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Step, StepBounds, Unilateral,
-    Uniqueness, max_displacement,
+    Choice, Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Start, Step, StepBounds,
+    Unilateral, Uniqueness, max_displacement,
 };
 pub use solve::{check, check_memory, equilibrium, solve};
 pub use sparse::dense_matrices;
 pub use stiffness::Stiffness;
-pub use summary::{BodySummary, large_strain, summaries};
+pub use summary::{BodySummary, summaries};

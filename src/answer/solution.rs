@@ -104,6 +104,22 @@ pub struct Unilateral {
     pub undetermined: Vec<bool>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub violation: f64,
+    /// The stiffness of the springs that held the nodes to their places in the shape before, over that of
+    /// the bodies; 0 where there were none.
+    pub springs: f64,
+    /// How its statuses were chosen.
+    pub choice: Choice,
+}
+
+/// How the statuses of an iteration were chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// The iteration before asked for them, or they are the first ones.
+    Asked,
+    /// A fixed point on the bounds of friction led to them.
+    Bounds,
+    /// They are in equilibrium, and were found among all that there are.
+    Enumerated,
 }
 
 impl Unilateral {
@@ -124,11 +140,34 @@ pub struct Path {
     pub stages: usize,
     /// The number of steps that were halved because no equilibrium was found.
     pub halved: usize,
+    /// How it starts.
+    pub start: Start,
+    /// The number of steps in which a node came to stick, to slide or to open: when it did is known to the
+    /// length of the step only.
+    pub changes: usize,
+}
+
+/// How a path starts, before any load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// Restraints, and the contact nodes that touch the target, hold the bodies.
+    Held,
+    /// They do, once nodes that overlapped the target closed in a step of their own.
+    Closed,
+    /// Nothing holds the bodies: the first step moves them to where contact does, and how long that step is
+    /// changes the result.
+    Loose,
+    /// Nodes overlap the target, and no equilibrium was found without load in which they do not: they close
+    /// with the first step, and how long that is changes the result.
+    Overlapping,
 }
 
 /// An equilibrium beside the one that was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Other {
+    /// The part of the path at the end of the step that could end in it; whole numbers end stages.
+    pub load: f64,
     /// The nodes that stick in it.
     pub stick: Vec<NodeId>,
     /// The nodes that slide in it.
@@ -148,12 +187,23 @@ pub enum Uniqueness {
         /// A node that can move.
         node: NodeId,
     },
-    /// Other contact states of the last step were tried.
+    /// Whether there is another one is not known: it was found on springs in the current geometry, where
+    /// the problem is not convex.
+    Unknown {
+        /// A node that can move without work as long as the normals of contact stay as they are.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        node: Option<NodeId>,
+    },
+    /// Other contact states were tried, each in the shape to which its step led.
     Tried {
-        /// The number of contact states that were tried.
+        /// The number of contact states that were tried, in all steps.
         states: usize,
-        /// Whether these are all that there are.
+        /// The number of steps of the load that were looked at: the last one, or all.
+        steps: usize,
+        /// Whether these are all contact states of the steps that were looked at.
         all: bool,
+        /// Whether there were earlier steps, which were not looked at.
+        last_only: bool,
         /// Those among them that are in equilibrium too.
         others: Vec<Other>,
     },
@@ -163,7 +213,7 @@ impl Uniqueness {
     /// Returns whether another equilibrium is known.
     pub fn is_refuted(&self) -> bool {
         match self {
-            Uniqueness::Unique => false,
+            Uniqueness::Unique | Uniqueness::Unknown { .. } => false,
             Uniqueness::Indifferent { .. } => true,
             Uniqueness::Tried { others, .. } => !others.is_empty(),
         }
@@ -276,6 +326,10 @@ pub struct Equilibrium {
     /// The largest change of a displacement component when contact was last measured in the shape
     /// reached, length; 0 in the initial geometry.
     pub shape_change: f64,
+    /// The largest force of the springs on which it was found, over the largest of the loads and of those
+    /// of contact; None where it was found without springs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springs: Option<f64>,
 }
 
 impl Solution {

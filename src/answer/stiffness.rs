@@ -33,6 +33,9 @@ pub struct Stiffness<T = f64> {
     triangles: Vec<Element<T>>,
     /// The matrix of each triangle, where they are few; else empty.
     matrices: Vec<SMatrix<T, 6, 6>>,
+    /// The stiffness of the springs on which each node of a triangle stands, over the mean diagonal entry
+    /// of its matrix.
+    springs: T,
 }
 
 /// A material in the numbers of a run.
@@ -80,13 +83,19 @@ impl<T: Scalar> Stiffness<T> {
         let matrices =
             triangles[..kept_matrices(model)].iter().map(|triangle| triangle.matrix(&materials));
         let matrices = matrices.collect();
-        Stiffness { plane: model.plane, dofs: model.dofs(), materials, triangles, matrices }
+        let (plane, dofs) = (model.plane, model.dofs());
+        Stiffness { plane, dofs, materials, triangles, matrices, springs: T::zero() }
     }
 
     /// Returns the matrix Ae·Bᵀ·D·B of a triangle, force/length.
     fn matrix(&self, i: usize) -> Cow<'_, SMatrix<T, 6, 6>> {
         let kept = self.matrices.get(i).map(Cow::Borrowed);
-        kept.unwrap_or_else(|| Cow::Owned(self.triangles[i].matrix(&self.materials)))
+        let own = kept.unwrap_or_else(|| Cow::Owned(self.triangles[i].matrix(&self.materials)));
+        if self.springs.is_zero() {
+            return own;
+        }
+        let spring = self.springs * own.trace() / T::from_f64(6.0);
+        Cow::Owned(*own + SMatrix::identity() * spring)
     }
 
     /// Returns K u, the forces that keep the shape `u`, force.
@@ -167,6 +176,12 @@ impl<T: Scalar> Stiffness<T> {
 }
 
 impl Stiffness {
+    /// Computes the same with every node of a triangle on springs of `part` times the mean diagonal entry
+    /// of the triangle's matrix.
+    pub fn on_springs(model: &Model, part: f64) -> Self {
+        Stiffness { springs: part, ..Stiffness::new(model, |x| x) }
+    }
+
     /// Returns the energy norm sqrt(uᵀ K u), sqrt(force·length). It is summed by triangle, so that
     /// no cancellation leaves a negative number.
     pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use super::solution::Solution;
 use crate::numbers::largest::{Largest, largest};
-use crate::problem::element::State;
 use crate::problem::model::{Body, TriangleId};
 
 /// The largest displacement, stress and strain of a body.
@@ -30,22 +29,6 @@ pub struct BodySummary {
     pub centre: [f64; 2],
     /// The largest von Mises strain of its triangles.
     pub max_von_mises_strain: f64,
-}
-
-/// The strain beyond which small strains describe a body badly: they leave out squares of strains, half
-/// of which is then 5 % of the strain itself.
-const LARGE_STRAIN: f64 = 0.1;
-
-/// Says how large strains are where they are no small ones; None where they are.
-pub fn large_strain(elements: &[State]) -> Option<String> {
-    let most = elements.iter().map(|state| state.von_mises_strain).fold(0.0, f64::max);
-    (most > LARGE_STRAIN).then(|| {
-        let size = if most >= 1.0 { "displacements are as large as the bodies: " } else { "" };
-        format!(
-            "{size}the von Mises strain reaches {most:.2}, and linear elasticity is for strains below \
-             {LARGE_STRAIN}; check the units of E and of the load"
-        )
-    })
 }
 
 /// Returns a summary of each body, in the model's order.

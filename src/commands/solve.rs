@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::{Once, OnceLock};
 
-use plane_contact::answer::error::{Error, NoEquilibrium, Result};
+use plane_contact::answer::error::{Cause, Error, NoEquilibrium, Result};
 use plane_contact::answer::estimates::ErrorEstimates;
 use plane_contact::answer::{self, Assessment, Others, Request, Solution, Step, side_by_side};
 use plane_contact::error::InputError;
@@ -231,8 +231,8 @@ fn status(solution: &Solution) -> u8 {
     if !found.is_some_and(|found| found.uniqueness.is_refuted()) {
         return 0;
     }
-    let what = "the equilibrium is not the only one: see the line Equilibrium".into();
-    told(&NoEquilibrium { what }.into())
+    let what = "the one that was found is not the only one: see the line Equilibrium".into();
+    told(&NoEquilibrium { cause: Cause::Several, what }.into())
 }
 
 /// The solution, and under `--accuracy` how its precision was found; `after_step` is called after each

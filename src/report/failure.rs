@@ -4,13 +4,13 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json::headed;
-use crate::answer::error::Error;
+use crate::answer::error::{self, Error};
 
 /// Why a command ended without a result.
 #[derive(Serialize, JsonSchema)]
 pub struct Failure {
     /// The exit status: 2 the input is at fault, 3 the published algorithm fails as printed, 4 no
-    /// equilibrium was found, or more than one.
+    /// equilibrium, or several.
     exit_status: u8,
     #[serde(flatten)]
     cause: Cause,
@@ -41,8 +41,8 @@ enum Cause {
         direction: char,
         in_contact: usize,
     },
-    /// No equilibrium was found, or more than one.
-    Equilibrium,
+    /// There is no equilibrium, there are several, none was found, or the model leaves its range.
+    Equilibrium { cause: error::Cause, what: String },
 }
 
 /// The document of a command that ended without a result.
@@ -87,7 +87,7 @@ fn cause(error: &Error) -> Cause {
             direction: why.direction,
             in_contact: why.in_contact,
         },
-        Error::Equilibrium(_) => Cause::Equilibrium,
+        Error::Equilibrium(why) => Cause::Equilibrium { cause: why.cause, what: why.what.clone() },
     }
 }
 

@@ -118,6 +118,12 @@ fn bodies(bodies: &[BodyPlan], units: &Units) -> String {
         .column("contact", |body| if body.in_contact { "yes" } else { "no" })
         .column("moved", |body| body.idle.map_or("yes".into(), |idle| format!("no: {idle}")))
         .text()
+        + &bodies.iter().filter_map(locking).collect::<String>()
+}
+
+fn locking(body: &BodyPlan) -> Option<String> {
+    let why = body.locking.as_ref()?;
+    Some(format!("  NOTE: body {}: {why}; the error of the mesh is not estimated\n", body.name))
 }
 
 fn load(plan: &Plan, units: &Units) -> String {

@@ -6,10 +6,11 @@ use super::pressure;
 use super::trace::in_figure;
 use crate::answer::contact::{ContactNode, Status, hidden, oddity};
 use crate::answer::error::Error;
+use crate::answer::estimates::ErrorEstimates;
 use crate::answer::estimates::{Certainty, NoLimit};
 use crate::answer::{
     Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Probe, Quantity, Solution,
-    Step, Uniqueness, large_strain, max_displacement,
+    Start, Step, Uniqueness, beyond_range, locking, max_displacement,
 };
 use crate::paper::decisions::Decision;
 use crate::paper::door::Call;
@@ -21,6 +22,10 @@ use crate::problem::scene::{Scene, Units};
 /// The relative error of the mesh in the energy norm beyond which the estimates that rest on it
 /// missed the truth now and then (`answer::estimates::discretisation`).
 const FAIR: f64 = 0.2;
+
+/// The change of displacements, over the largest, below which a path of half as many steps comes to the
+/// same: where nodes changed their status within steps, both may have missed when.
+const UNMOVED: f64 = 1e-6;
 
 /// Says in which numbers a run was made where rounding in f64 may decide; nothing where it decides
 /// nothing.
@@ -57,8 +62,8 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> String {
         }
     }
     text += &format!("\nBodies\n{}", bodies(&scene.units, &assessment.bodies));
-    text +=
-        &large_strain(&solution.elements).map_or(String::new(), |what| format!("  NOTE: {what}\n"));
+    text += &beyond_range(&solution.model, &solution.elements, &solution.u)
+        .map_or(String::new(), |what| format!("  NOTE: {what}\n"));
     if solution.in_contact().next().is_some() {
         text += &format!("\nContact surface\n{}", contact_surface(solution));
         if solution.request.variant == Variant::Printed {
@@ -149,8 +154,24 @@ fn iterations(solution: &Solution) -> String {
     let share = |force: Option<f64>| {
         or_dash(force.filter(|_| load != 0.0), |force| percent(force / load, 1))
     };
-    Table::of(&solution.steps)
-        .column("k", |step| step.k)
+    let springs = |step: &Step| match &step.detail {
+        Detail::Unilateral(own) => own.springs,
+        Detail::Published(_) => 0.0,
+    };
+    // Of a shape that was reached on springs, the last iteration.
+    let shown = |i: &usize| {
+        let next = solution.steps.get(i + 1);
+        let own = springs(&solution.steps[*i]);
+        own == 0.0 || next.is_none_or(|next| springs(next) != own)
+    };
+    let steps: Vec<&Step> =
+        (0..solution.steps.len()).filter(shown).map(|i| &solution.steps[i]).collect();
+    let on_springs = steps.iter().any(|step| springs(step) > 0.0);
+    let mut table = Table::of(&steps).column("k", |step| step.k);
+    if on_springs {
+        table = table.column("springs", |step| short(springs(step)));
+    }
+    table
         .column("in contact", |step| step.in_contact)
         .column(length("largest |u|"), |step| or_dash(step.max_displacement, short))
         .column(length(residual), |step| short(step.contact_residual()))
@@ -193,13 +214,31 @@ fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> Stri
         .text();
     let largest = max_displacement(&solution.u);
     let change = match assessment.path_change {
-        Some(change) => format!(
-            "half as many steps change a displacement component by at most {} = {} of the largest |u|",
-            with_unit(&short(change), &units.length),
-            percent(if largest > 0.0 { change / largest } else { 0.0 }, 2)
-        ),
+        Some(change) => {
+            let says_little = match path.changes {
+                n if n > 0 && change <= UNMOVED * largest => format!(
+                    "; that says little, as nodes come to stick, to slide or to open in {}",
+                    counted(n, "step", "steps")
+                ),
+                _ => String::new(),
+            };
+            format!(
+                "half as many steps change a displacement component by at most {} = {} of the largest \
+                 |u|{says_little}",
+                with_unit(&short(change), &units.length),
+                percent(if largest > 0.0 { change / largest } else { 0.0 }, 2)
+            )
+        }
         None => {
             let why = match () {
+                () if path.start == Start::Loose => {
+                    "is not known: nothing holds the bodies before the first step, which moves them to \
+                     where contact does"
+                }
+                () if path.start == Start::Overlapping => {
+                    "is not known: nodes that overlap the target close with the first step, as no \
+                     equilibrium was found without load"
+                }
                 () if path.steps % 2 == 1 => "is not known: ask for an even number",
                 () if assessment.estimates.is_none() => "was not asked for",
                 () => "is not known: half as many find no equilibrium",
@@ -233,16 +272,20 @@ fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
             "Equilibrium: NOT THE ONLY ONE: node {node} can move without work, as contacts that carry \
              nothing may open\n"
         ),
-        Uniqueness::Tried { states, all, others } => {
-            let tried = match all {
-                true => format!("all {states} contact states of the last step were tried"),
-                false => {
-                    format!("{states} neighbouring contact states of the last step were tried")
-                }
-            };
+        Uniqueness::Unknown { node } => {
+            let free = node.map_or(String::new(), |node| {
+                format!(
+                    "; node {node} can move without work as long as the normals of contact stay as they \
+                     are"
+                )
+            });
+            format!("Equilibrium: whether it is the only one is not known{free}\n")
+        }
+        Uniqueness::Tried { states, steps, all, last_only, others } => {
+            let tried = tried(solution, (*states, *steps), [*all, *last_only]);
             match others.len() {
-                0 => format!("Equilibrium: no other equilibrium found; {tried}\n"),
-                n => format!("Equilibrium: NOT THE ONLY ONE: {n} more; {tried}\n"),
+                0 => format!("Equilibrium: no other one found among {tried}\n"),
+                n => format!("Equilibrium: NOT THE ONLY ONE: {n} more among {tried}\n"),
             }
         }
     };
@@ -253,12 +296,19 @@ fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
                 nodes => format!("nodes {}", listed(nodes)),
             };
             text += &format!(
-                "  stick {}; slip {}: displacement components change by at most {}\n",
+                "  at load {}: stick {}; slip {}: displacement components change by at most {}\n",
+                short(other.load),
                 nodes(&other.stick),
                 nodes(&other.slip),
                 length(other.change)
             );
         }
+    }
+    if let Some(carried) = found.springs {
+        text += &format!(
+            "Found on springs, which hold the bodies on the way to rest: in the end they carry at most \
+             {carried:.0e} of the largest force\n"
+        );
     }
     if let Some((node, depth)) = found.unseen {
         text += &format!(
@@ -281,6 +331,31 @@ fn equilibrium(solution: &Solution, found: &Equilibrium) -> String {
         );
     }
     text
+}
+
+/// Names the contact states that were tried for other equilibria, and those that were not.
+fn tried(
+    solution: &Solution,
+    (states, steps): (usize, usize),
+    [all, last_only]: [bool; 2],
+) -> String {
+    let shapes = match solution.request.contact.geometry {
+        Geometry::Initial => "",
+        Geometry::Current => ", each in the shape reached",
+    };
+    let steps = match last_only {
+        true => "the last step".into(),
+        false => counted(steps, "step of the load", "steps of the load"),
+    };
+    let states = match all {
+        true => format!("all {states} contact states of {steps}"),
+        false => {
+            let states = counted(states, "contact state", "contact states");
+            format!("{states} of {steps} that differ at one node")
+        }
+    };
+    let earlier = if last_only { "; earlier steps were not looked at" } else { "" };
+    format!("{states}{shapes}{earlier}")
 }
 
 /// Says how a contact node may lie inside the target.
@@ -382,17 +457,7 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
         };
         text += &format!("  largest von Mises stress, {}: {stress}\n", body.name);
     }
-    let relative = estimates.mesh.relative();
-    text += &match relative.is_finite() {
-        true => format!("  error of the mesh: {} in the energy norm", percent(relative, 1)),
-        false => "  error of the mesh: unknown, a body is too small for an estimate".into(),
-    };
-    if relative > FAIR {
-        text += ": too coarse for its estimates to be relied on";
-    } else if estimates.bodies.iter().any(|body| body.no_limit.is_some()) {
-        text += ": too low where the stress has no limit; trade --only mesh measures it";
-    }
-    text += "\n";
+    text += &error_of_mesh(solution, estimates);
     text += &by_rounding(solution, estimates.decisions.as_deref());
     if solution.request.variant == Variant::Unilateral && solution.model.has_contact() {
         text += match solution.way_counts() {
@@ -406,6 +471,25 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
         };
     }
     text
+}
+
+/// Tells the error of the mesh in the energy norm, and how far it is to be relied on.
+fn error_of_mesh(solution: &Solution, estimates: &ErrorEstimates) -> String {
+    let relative = estimates.mesh.relative();
+    if relative.is_infinite() {
+        let model = &solution.model;
+        let why = model.triangles.iter().find_map(|t| locking(model.plane, t.material.nu));
+        let why = why.unwrap_or("a body is too small for an estimate".into());
+        return format!("  error of the mesh: unknown: {why}\n");
+    }
+    let how_far = match () {
+        () if relative > FAIR => ": too coarse for its estimates to be relied on",
+        () if estimates.bodies.iter().any(|body| body.no_limit.is_some()) => {
+            ": too low where the stress has no limit; trade --only mesh measures it"
+        }
+        () => "",
+    };
+    format!("  error of the mesh: {} in the energy norm{how_far}\n", percent(relative, 1))
 }
 
 /// Tells what rounding may have decided, its first decision and how many there are; nothing where it

@@ -26,19 +26,19 @@ const RUBBING_IMAGES: usize = 3;
 const COUNTS: &str = "\
     mortar 0 Same 4990\n\
     mortar 0 NoAnswer 10\n\
-    mortar 0.3 Same 215\n\
-    mortar 0.3 OtherPath 1\n\
-    mortar stick Same 201\n\
+    mortar 0.3 Same 213\n\
+    mortar 0.3 OtherPath 3\n\
+    mortar stick Same 192\n\
     mortar stick NoAnswer 15\n\
+    mortar stick Several 9\n\
     nts 0 Same 4955\n\
     nts 0 NoAnswer 45\n\
-    nts 0.3 Same 209\n\
+    nts 0.3 Same 211\n\
     nts 0.3 Several 3\n\
-    nts 0.3 FoundOnce 1\n\
-    nts 0.3 OtherPath 3\n\
-    nts stick Same 192\n\
+    nts 0.3 OtherPath 2\n\
+    nts stick Same 189\n\
     nts stick NoAnswer 18\n\
-    nts stick Several 6\n";
+    nts stick Several 9\n";
 
 fn writings() -> Vec<Writing> {
     let w = Writing::default();
@@ -203,8 +203,8 @@ fn random_scenes_have_one_answer_however_they_are_written() {
     println!("on another path: {other_paths:#?}");
     let of =
         |said: bool| says.iter().filter(|(key, _)| key.1 == said).map(|(_, n)| n).sum::<usize>();
-    // Lemke's method is asked in some twentieth of these scenes.
-    assert!(7 * of(true) < of(false), "it is seldom said in vain");
+    // The bounds of friction are asked in some twentieth of these scenes.
+    assert!(5 * of(true) < of(false), "it is seldom said in vain");
     let mut found = String::new();
     for ((model, verdict), count) in &counts {
         found += &format!("{model} {verdict:?} {count}\n");

@@ -98,7 +98,7 @@ fn a_step_is_divided_sixteen_times() {
 /// one. Nodes of no triangle count too.
 #[test]
 fn of_a_large_model_fewer_contact_states_are_tried() {
-    for (more, expected, is_all) in [(0, 256, true), (10_000, 1 + 2_000_000 / 20_038, false)] {
+    for (more, expected, is_all) in [(0, 256, true), (25_000, 1 + 500_000 / 50_038, false)] {
         let mut scene = hanging(&[0.0; 2], in_one_step(0.5));
         scene.description.drop_orphans = true;
         let mut mesh = scene.mesh.clone();
@@ -165,7 +165,8 @@ fn a_small_force_lifts_a_body_off_too() {
     for force in [1.0, 1e-7, 1e7] {
         let scene = stacked([0.0, force], &[Axis::X], Friction::NONE);
         let text = solved(&scene).expect_err("nothing holds it").to_string();
-        assert!(text.starts_with("there is no equilibrium: the load moves node"), "{text}");
+        assert!(text.starts_with("no equilibrium was found: "), "{text}");
+        assert!(text.contains("; in the last the load moves node"), "{text}");
     }
 }
 
@@ -218,19 +219,20 @@ fn why_a_body_has_no_equilibrium_is_told_of_up_to_150_contact_nodes() {
     }
 }
 
-/// Under friction an equilibrium that only Lemke's method finds is found of up to 150 contact
+/// Under friction an equilibrium that only a fixed point on its bounds finds is found of up to 150 contact
 /// nodes. The square stands on its lower right corner, which carries the whole load of 1 along y.
 /// As that acts above it, and the guide is as high as the load, the moments leave the corner no
 /// friction.
 #[test]
-fn lemkes_method_is_tried_of_up_to_150_contact_nodes() {
+fn bounds_of_friction_are_tried_of_up_to_150_contact_nodes() {
     let scene = |count: usize| beside_a_strip(count, &[6], (7, [2.0, -1.0]), 0.3);
     let solution = solved(&scene(150)).expect("it stands on a corner");
     let [corner] = solution.in_contact().collect::<Vec<_>>()[..] else { panic!("not on a corner") };
     assert_near("force", corner.force.expect("it is determined"), 1.0, 1.0, &BALANCE);
     assert_near("friction", corner.friction_needed.expect("it presses"), 0.0, 1.0, &BALANCE);
-    let text = solved(&scene(151)).expect_err("Lemke's method is not tried").to_string();
-    assert!(text.starts_with("no contact state in equilibrium was found"), "{text}");
+    let solution = solved(&scene(151)).expect("it stands on a corner");
+    let on_springs = solution.equilibrium.as_ref().expect("it is one").springs;
+    assert!(on_springs.is_some(), "the bounds of friction are not tried");
 }
 
 /// A block that a force lifts off its target turns about its upper left corner: the 200 nodes

@@ -22,6 +22,7 @@ mod faced;
 mod facing;
 mod friction;
 mod gaps;
+mod hard;
 mod invariance;
 mod limits;
 mod orders;

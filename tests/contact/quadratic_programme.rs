@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The programme is solved by an interior point method (S. Mehrotra, SIAM J. Optim. 2 (1992)
-//! 575-601), which has nothing in common with the active set of the solver and with Lemke's method;
+//! 575-601), which has nothing in common with the active set of the solver;
 //! then the equations of the constraints that it found active are solved, and the conditions of
 //! Karush, Kuhn and Tucker are checked. Where the load moves a body away from its target, the
 //! programme has no solution: a motion d shows it with K d = 0, g d ≥ 0 and fᵀ d > 0, as

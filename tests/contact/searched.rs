@@ -71,12 +71,13 @@ fn of(solution: &Solution, watched: usize) -> String {
     let unique = match &equilibrium.uniqueness {
         Uniqueness::Unique => json!("unique"),
         Uniqueness::Indifferent { node } => json!(["indifferent", node.index()]),
-        Uniqueness::Tried { states, all, others } => {
+        Uniqueness::Unknown { node } => json!(["unknown", node.map(|node| node.index())]),
+        Uniqueness::Tried { states, steps, all, last_only, others } => {
             let others: Vec<_> = others
                 .iter()
                 .map(|other| json!([other.stick.len(), other.slip.len(), other.change]))
                 .collect();
-            json!([states, all, others])
+            json!([states, steps, all, last_only, others])
         }
     };
     let unseen = equilibrium.unseen.map(|(node, depth)| json!([node.index(), depth]));
@@ -163,7 +164,7 @@ fn loose(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
 }
 
 /// Seeds of runs that take milliseconds, as a search without success takes hundreds of iterations;
-/// and one in which no node may slide, so that Lemke's method is not tried.
+/// and one in which no node may slide, so that a fixed point on its bounds is not tried.
 const QUICK: [u64; 67] = [
     0, 1, 3, 6, 8, 9, 10, 14, 19, 20, 21, 22, 23, 24, 25, 28, 29, 31, 33, 36, 37, 39, 40, 41, 43,
     44, 52, 54, 55, 56, 58, 59, 60, 62, 66, 69, 72, 75, 82, 85, 87, 88, 89, 90, 91, 93, 97, 99,
@@ -260,7 +261,7 @@ fn rubbing(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
     (scene, model)
 }
 
-/// Seeds of runs in which the active set finds no equilibrium, and Lemke's method is tried.
+/// Seeds of runs in which the active set finds no equilibrium, and a fixed point on the bounds of friction is tried.
 const COMPLEMENTARY: [u64; 25] = [
     8, 13, 63, 108, 138, 271, 296, 343, 386, 458, 697, 772, 795, 838, 843, 942, 946, 971, 977,
     1015, 1019, 1041, 1065, 1119, 1128,

@@ -68,15 +68,15 @@ fn forces(ended: &Ended) -> Vec<(u64, Option<f64>)> {
 #[test]
 fn no_force_is_larger_than_the_load_where_a_restraint_is_near_the_normal() {
     let variants = ["printed", "tied", "stepped", "unilateral"];
-    let runs = variants.map(|variant| format!("--variant {variant}"));
+    let runs = variants.map(|variant| format!("--variant {variant} --load-factor 0.01"));
     for (name, load) in [
-        ("two-blocks-10y", 12.6),
-        ("two-blocks-11y", 12.6),
-        ("absurd-pressure-held-y", 18.9),
-        ("panic-held-along-normal", 1.0),
+        ("two-blocks-10y", 0.126),
+        ("two-blocks-11y", 0.126),
+        ("absurd-pressure-held-y", 0.189),
+        ("panic-held-along-normal", 0.01),
     ] {
         for options in &runs {
-            if (name, options.as_str()) == ("panic-held-along-normal", "--variant printed") {
+            if name == "panic-held-along-normal" && options.contains("printed") {
                 continue;
             }
             let forces = forces(&solved(name, options));
@@ -90,7 +90,7 @@ fn no_force_is_larger_than_the_load_where_a_restraint_is_near_the_normal() {
 #[test]
 fn a_force_that_restraints_leave_undetermined_is_a_dash() {
     for (name, options, of) in [
-        ("panic-held-along-normal", "--variant unilateral", &[4][..]),
+        ("panic-held-along-normal", "--variant unilateral --load-factor 0.01", &[4][..]),
         ("nan-pressure-held-along-normal", "--variant printed", &[4]),
         ("wrong-pressure-stick-held-node", "--variant unilateral --friction stick", &[10, 12]),
     ] {
@@ -104,7 +104,9 @@ fn a_force_that_restraints_leave_undetermined_is_a_dash() {
 fn no_number_of_a_table_is_undefined() {
     solved("accuracy-inf", "--accuracy 1e-3");
     solved("inf-percent", "--variant unilateral");
-    solved("friction-inf", "--variant unilateral");
+    let several = ended("solve", "friction-inf", "--variant unilateral --geometry initial");
+    assert_eq!(several.status, Some(4), "{}", several.text);
+    has_no_undefined_number(&several.text);
     for (name, knob) in [("trade-NaN", "mesh"), ("pivot-NaN", "solver")] {
         let ended = ended("trade", name, &format!("--runs 1 --only {knob}"));
         assert_eq!(ended.status, Some(0), "{name}: {}", ended.text);
@@ -154,8 +156,10 @@ fn the_order_of_the_list_decides_nothing_under_unilateral() {
 #[test]
 fn an_equilibrium_that_is_not_the_only_one_is_named() {
     for x in ["a", "b"] {
-        let words = ["the equilibrium is not the only one", "can move without work"];
-        fails(&format!("rocking-two-answers-{x}"), "", 4, &words);
+        let text = solved(&format!("rocking-two-answers-{x}"), "").text;
+        assert!(text.contains("whether it is the only one is not known"), "{text}");
+        let words = ["there are several equilibria", "can move without work"];
+        fails(&format!("rocking-two-answers-{x}"), "--geometry initial", 4, &words);
         let words = ["NOT THE ONLY ONE: node 11 can move without work"];
         fails(&format!("indifferent-verdict-{x}"), "", 4, &words);
     }
@@ -165,7 +169,7 @@ fn an_equilibrium_that_is_not_the_only_one_is_named() {
 /// which no state is in equilibrium as long as nodes may not slide: the node would have to be pulled.
 #[test]
 fn no_node_is_reported_open_that_lies_inside() {
-    let words = ["no contact state in equilibrium was found", "node 23 is closed and pulls"];
+    let words = ["no equilibrium was found", "node 23 is closed and pulls"];
     let found = fails("stick-penetrates", "", 4, &words);
     assert!(found.result.is_null(), "no file is written");
 }
@@ -184,7 +188,7 @@ fn the_last_change_of_shape_is_that_of_the_whole_bodies() {
     assert!(bound.is_some_and(|bound| bound >= change), "{bound:?}");
 }
 
-/// All forces are rounding, and condensing twice leaves more of it: then the bodies are condensed once.
+/// All forces are rounding, or nearly.
 #[test]
 fn an_overlap_without_a_load_comes_to_rest() {
     let options = "--variant unilateral --friction stick --coupling mortar --geometry current \

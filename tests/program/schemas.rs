@@ -238,8 +238,11 @@ fn failing(documents: &mut Documents) {
         std::fs::read_to_string(Path::new(ROOT).join("listings/c_cnt.txt")).expect("text");
     documents.write("edited.txt", &listing.replace("if dy[i1] = 1", "if dy[i1+9] = 1"));
     documents.printed("trace", 2, "trace fig1 --listing edited.txt");
-    let two_answers = Path::new(ROOT).join("tests/program/hostile/rocking-two-answers-a.json");
-    documents.printed("failure", 4, &format!("solve {}", two_answers.display()));
+    let hostile = Path::new(ROOT).join("tests/program/hostile");
+    let two_answers = hostile.join("rocking-two-answers-a.json");
+    documents.printed("result", 4, &format!("solve {} --geometry initial", two_answers.display()));
+    let none = hostile.join("stick-penetrates.json");
+    documents.printed("failure", 4, &format!("solve {}", none.display()));
     // A stamp that nothing holds at first.
     let mut scene = scene(-0.2, 0.25);
     let both = json!(["x", "y"]);

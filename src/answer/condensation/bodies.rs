@@ -152,17 +152,15 @@ impl Shared {
         })
     }
 
-    /// Returns the bodies of `model` condensed to `nodes`, and small ones factored `apart` from what else
-    /// they are condensed to; None where they cannot be.
+    /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.
     fn condensed(
         &self,
         stiffness: &Stiffness,
         model: &Arc<Model>,
         nodes: Nodes,
-        apart: bool,
     ) -> Option<Arc<Condensation>> {
         // An edited listing may bind others.
-        let for_all = few_surfaces(model).filter(|surfaces| !apart && surfaces.is_superset(&nodes));
+        let for_all = few_surfaces(model).filter(|surfaces| surfaces.is_superset(&nodes));
         let wide = for_all.unwrap_or_else(|| nodes.clone());
         self.condensed.of(model, [wide.clone(), nodes.clone()], || {
             let factor = |nodes: &Nodes| Factored::new(stiffness, model, nodes);
@@ -210,8 +208,6 @@ pub struct Bodies {
     /// The nodes to keep for the first contact state of large surfaces, beside those that it binds, the
     /// nearest first; none afterwards.
     expected: RefCell<Vec<NodeId>>,
-    /// Whether they are factored for the kept nodes alone, though they are small.
-    apart: Cell<bool>,
     /// Whether they cannot be, or need not, as there is no contact.
     impossible: Cell<bool>,
 }
@@ -259,7 +255,6 @@ impl Bodies {
             imposed: RefCell::default(),
             loaded: RefCell::default(),
             expected: RefCell::default(),
-            apart: Cell::new(false),
             impossible: Cell::new(!model.has_contact()),
         }
     }
@@ -333,18 +328,6 @@ impl Bodies {
         Some(bound)
     }
 
-    /// From now on factors small bodies for the kept nodes alone, which rounds less; false where that is
-    /// done already.
-    pub fn factor_apart(&self) -> bool {
-        let is_new = !self.apart.get()
-            && self.current.borrow().as_ref().is_some_and(|current| current.is_made_further());
-        if is_new {
-            self.apart.set(true);
-            self.forget();
-        }
-        is_new
-    }
-
     fn forget(&self) {
         self.loaded.take();
         self.gaps.take();
@@ -385,7 +368,7 @@ impl Bodies {
             nodes = self.nodes(constraints, &expected);
         }
         self.forget();
-        let made = self.shared.condensed(stiffness, &self.model, nodes, self.apart.get());
+        let made = self.shared.condensed(stiffness, &self.model, nodes);
         self.impossible.set(made.is_none());
         self.current.replace(made.clone());
         made

@@ -7,9 +7,8 @@
 //!
 //! Kept are all nodes of small surfaces, else those that a state binds and their neighbours; when a
 //! state binds others, the bodies are condensed anew (`bodies`): small ones from their surfaces, for which
-//! they are factored once, large ones from the whole. The second step rounds more than the first: a search
-//! that finds no state is made again with small bodies factored for the kept nodes alone. Where none of it
-//! can be done or trusted, a state has no such factors: its whole matrix is to be factored.
+//! they are factored once, large ones from the whole. Where none of it can be done or trusted, a state has
+//! no such factors: its whole matrix is to be factored.
 //!
 //! The search for a contact state goes on with S alone (`OnKept`), where it can be in terms of gaps and
 //! slips, of which a state holds some: then all else is eliminated once (`gaps`). In the current geometry

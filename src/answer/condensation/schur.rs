@@ -91,11 +91,6 @@ impl Condensation {
         &self.among_kept.nodes
     }
 
-    /// Returns whether bodies that are factored for more nodes were condensed further.
-    pub(super) fn is_made_further(&self) -> bool {
-        self.further.is_some()
-    }
-
     /// Returns S on the kept equations, force/length.
     pub(super) fn schur(&self) -> &DMatrix<f64> {
         self.further.as_ref().map_or(self.bodies.schur(), |further| &further.schur)

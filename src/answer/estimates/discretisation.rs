@@ -35,6 +35,7 @@ use nalgebra::Matrix3;
 
 use super::patches::Patches;
 use super::recovery::{Stress, recover};
+use crate::answer::range::locks;
 use crate::numbers;
 use crate::problem::element::{self, Plane, State};
 use crate::problem::model::{Model, Triangle, TriangleId};
@@ -58,7 +59,7 @@ pub struct Discretisation {
     pub stress_errors: Vec<f64>,
     /// The energy norm of the solution, sqrt(∫ sigma_hᵀ D⁻¹ sigma_h dV), sqrt(force·length).
     pub energy_norm: f64,
-    /// The triangles of parts that are too small to estimate their error.
+    /// The triangles whose error is unknown: of parts that are too small to estimate it, or that lock.
     pub unrecovered: Vec<TriangleId>,
     patches: Arc<Patches>,
 }
@@ -91,7 +92,10 @@ impl Discretisation {
     fn on(patches: Arc<Patches>, model: &Model, elements: &[State]) -> Self {
         let stresses: Vec<Stress> = elements.iter().map(|state| state.sigma).collect();
         let at_sites = recover(&patches, &stresses);
-        let known = |k: usize| patches.corners[k].iter().all(|s| at_sites[*s as usize].is_some());
+        let known = |k: usize| {
+            !locks(model.plane, model.triangles[k].material.nu)
+                && patches.corners[k].iter().all(|s| at_sites[*s as usize].is_some())
+        };
         let corners =
             |k: usize| patches.corners[k].map(|s| at_sites[s as usize].unwrap_or(stresses[k]));
         let triangles = || model.triangles.iter().enumerate();

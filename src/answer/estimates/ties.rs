@@ -5,8 +5,8 @@
 //! Under node to segment the latter is tried: each node is moved by the bound of its place. Under
 //! mortar its integrals are computed again with that bound.
 //!
-//! Under friction the search for a state may end by Lemke's method, which finds one of those that there
-//! may be, or none: which one is left to rounding.
+//! Under friction the search for a state may end by a fixed point on the bounds of friction, which finds one
+//! of those that there may be, or none: which one is left to rounding. So is the shape to which springs lead.
 //!
 //! Not looked at are forces on a node that its restraints share without leaving them open.
 //!
@@ -22,8 +22,8 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use crate::answer::contact::{Pairing, Status, Surfaces};
-use crate::answer::solution::Unilateral;
-use crate::answer::unilateral::{FIRST_GROWTH, PATIENCE};
+use crate::answer::solution::{Choice, Start, Unilateral};
+use crate::answer::unilateral::FIRST_GROWTH;
 use crate::answer::{Detail, Solution, Step, Stiffness};
 use crate::numbers::scalar::{Bounded, Scalar, Unsure};
 use crate::paper::decisions::Decision;
@@ -155,31 +155,45 @@ impl<'a> Looking<'a> {
         Elsewhere::Mortar(surfaces.mortar(&shape).unsure)
     }
 
-    /// Looks at how the contact states were found: by the active set alone, or also by Lemke's method,
-    /// which is asked where that has gone through many, and where it finds none has the step halved.
+    /// Looks at how the contact states were found: by the active set alone, or in other ways too.
     pub fn searches(&mut self) {
         let path = self.solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
-        let halved = path.is_some_and(|path| path.halved > 0);
-        let part = |step: &Step| match &step.detail {
-            Detail::Unilateral(own) => own.load,
-            Detail::Published(_) => 0.0,
-        };
-        let mut loads = self.solution.steps.chunk_by(|a, b| part(a) == part(b));
-        if self.rubs() && (halved || loads.any(|steps| steps.len() > PATIENCE)) {
-            self.only_ties = false;
-            self.decisions.push(Decision {
-                iteration: 1,
-                node: self.solution.model.contact.nodes[0],
-                condition: "which contact state of a step Lemke's method finds, if any".into(),
-                margin: None,
-                bound: None,
-            });
+        if self.rubs() && path.is_some_and(|path| path.halved > 0) {
+            self.decide(1, "whether a step of the load finds an equilibrium, or is halved");
         }
+        if self.rubs() && path.is_some_and(|path| path.start == Start::Overlapping) {
+            self.decide(1, "whether nodes that overlap the target close without load");
+        }
+        let own = |step: &'a Step| match &step.detail {
+            Detail::Unilateral(own) => Some((step.k, own)),
+            Detail::Published(_) => None,
+        };
+        let steps = || self.solution.steps.iter().filter_map(own);
+        let on_springs = steps().find(|(_, own)| own.springs > 0.0);
+        let otherwise = steps().find(|(_, own)| own.choice != Choice::Asked);
+        if let Some((k, _)) = on_springs {
+            self.decide(k, "to which shape springs lead");
+        }
+        if let Some((k, _)) = otherwise.filter(|_| self.rubs()) {
+            self.decide(k, "which of the contact states in equilibrium is found");
+        }
+    }
+
+    /// Keeps that rounding may decide in an iteration how the search goes on.
+    fn decide(&mut self, iteration: usize, condition: &str) {
+        self.only_ties = false;
+        let node = self.solution.model.contact.nodes[0];
+        let condition = condition.into();
+        self.decisions.push(Decision { iteration, node, condition, margin: None, bound: None });
     }
 
     /// Looks at a contact state.
     pub fn at(&mut self, state: &State) {
         let Detail::Unilateral(detail) = &state.step.detail else { return };
+        if detail.springs > 0.0 {
+            // Their forces are not among those of the bodies.
+            return;
+        }
         let friction = detail.friction(state.u.len()).map(Bounded::from_f64);
         let force = self.stiffness.times_of(self.at_surface.iter().copied(), state.u);
         let reaction = force - (&state.load + friction);

@@ -15,48 +15,89 @@ const WEAK: f64 = 1e-9;
 const DISTINCT: f64 = 1e-6;
 
 /// The number of equations that may be factored in all to try contact states.
-const WORK: usize = 2_000_000;
+const WORK: usize = 500_000;
 
-/// The number of contact states up to which all of them are tried.
-const ALL: usize = 256;
+/// The number of contact states of a step up to which all of them are tried: those of six nodes under
+/// friction, or of twelve without.
+const ALL: usize = 4096;
 
-/// Returns what is known of equilibria beside the one that was found in a step that started from
-/// `before`.
-pub(super) fn uniqueness(
-    problem: &Problem,
-    found: &Equilibrium,
-    before: &DVector<f64>,
-) -> Uniqueness {
-    let load = problem.model.load.clone();
-    let setting = Setting { load, before, statuses: None, whole: false };
-    if let Some(node) = indifferent(problem, found, &setting) {
+/// A step of the load that was taken.
+pub(super) struct Taken {
+    /// The part of the path at its end.
+    pub(super) to: f64,
+    /// The displacements before it, length.
+    pub(super) before: DVector<f64>,
+    pub(super) place: Place,
+    pub(super) statuses: Vec<Status>,
+    /// The displacements at its end, length.
+    pub(super) u: DVector<f64>,
+}
+
+/// Returns what is known of equilibria beside those of the steps that were `taken`, of which the last led to
+/// `found`: of small problems in every step, else in the last one alone.
+pub(super) fn uniqueness(problem: &Problem, found: &Equilibrium, taken: &[Taken]) -> Uniqueness {
+    let last = taken.last().expect("a path has a step");
+    if let Some(node) = indifferent(problem, found, &setting(problem, last)) {
         return Uniqueness::Indifferent { node };
+    }
+    if found.springs.is_some() {
+        let setting = setting(problem, last);
+        let free = problem.unrestrained_node(&found.place, &found.last.statuses, &setting);
+        match (problem.is_current(), free) {
+            (true, node) => return Uniqueness::Unknown { node },
+            (false, Some(node)) => return Uniqueness::Indifferent { node },
+            (false, None) => (),
+        }
     }
     if problem.friction == 0.0 {
         return Uniqueness::Unique;
     }
-    let place = &found.place;
-    let choices: Vec<Vec<Status>> =
-        (0..found.last.statuses.len()).map(|i| problem.choices(place, i)).collect();
-    let number = choices.iter().try_fold(1_usize, |n, c| n.checked_mul(c.len()));
-    let all = number.is_some_and(|n| n <= ALL);
-    let mut states = if all { every(&choices) } else { neighbours(&found.last.statuses, &choices) };
-    let all = all && states.len() <= most(problem);
-    states.truncate(most(problem));
-    let scale = found.last.moved.u.amax();
+    let every: Option<Vec<Vec<Vec<Status>>>> =
+        taken.iter().map(|step| problem.every(&step.place)).collect();
+    let number = |every: &Vec<Vec<Vec<Status>>>| every.iter().map(Vec::len).sum::<usize>();
+    let all = every.filter(|every| number(every) <= most(problem));
+    let (steps, states) = match &all {
+        Some(states) => (taken, states.clone()),
+        None => {
+            let mut states = problem.neighbours(last);
+            states.truncate(most(problem));
+            (std::slice::from_ref(last), vec![states])
+        }
+    };
+    let others = steps.iter().zip(&states).flat_map(|(step, states)| others(problem, step, states));
+    Uniqueness::Tried {
+        others: others.collect(),
+        states: number(&states),
+        steps: steps.len(),
+        all: all.is_some(),
+        last_only: steps[0].before.amax() > 0.0,
+    }
+}
+
+/// Returns whether all contact states of a path of so many steps can be tried.
+pub(super) fn are_few(problem: &Problem, place: &Place, steps: usize) -> bool {
+    problem.every(place).is_some_and(|all| all.len() * steps <= most(problem))
+}
+
+fn setting<'a>(problem: &Problem, step: &'a Taken) -> Setting<'a> {
+    let load = problem.load(step.to);
+    Setting { load, before: &step.before, statuses: None, whole: false }
+}
+
+/// Returns the equilibria of a step among some states, each once, other than the one that it led to.
+fn others(problem: &Problem, step: &Taken, states: &[Vec<Status>]) -> Vec<Other> {
+    let setting = setting(problem, step);
+    let scale = step.u.amax();
     let mut others: Vec<(DVector<f64>, Other)> = Vec::new();
-    for statuses in &states {
-        let Some(moved) = problem.try_statuses(place, statuses, &setting) else { continue };
+    for statuses in states {
+        let Some(moved) = problem.try_statuses(&step.place, statuses, &setting) else { continue };
         let apart = |u: &DVector<f64>| (&moved.u - u).amax();
-        let is_new = apart(&found.last.moved.u) > DISTINCT * scale
-            && others.iter().all(|(u, _)| apart(u) > DISTINCT * scale);
-        if is_new {
-            let change = apart(&found.last.moved.u);
-            others.push((moved.u, other(problem, statuses, change)));
+        let change = apart(&step.u);
+        if change > DISTINCT * scale && others.iter().all(|(u, _)| apart(u) > DISTINCT * scale) {
+            others.push((moved.u, other(problem, statuses, step.to, change)));
         }
     }
-    let others = others.into_iter().map(|(_, other)| other).collect();
-    Uniqueness::Tried { states: states.len(), all, others }
+    others.into_iter().map(|(_, other)| other).collect()
 }
 
 /// Returns the number of contact states that are tried at most: fewer of a large model.
@@ -80,39 +121,13 @@ fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Opt
     problem.unrestrained_node(&found.place, &statuses, setting)
 }
 
-/// Returns every combination of choices.
-fn every(choices: &[Vec<Status>]) -> Vec<Vec<Status>> {
-    choices.iter().fold(vec![Vec::new()], |states, choices| {
-        let longer = |state: &Vec<Status>| {
-            choices.iter().map(|c| [&state[..], &[*c]].concat()).collect::<Vec<_>>()
-        };
-        states.iter().flat_map(longer).collect()
-    })
-}
-
-/// Returns the states that differ from `found` in one entry, of those in contact or beside one.
-fn neighbours(found: &[Status], choices: &[Vec<Status>]) -> Vec<Vec<Status>> {
-    let closed = |i: usize| found.get(i).is_some_and(|status| status.is_closed());
-    let near = |i: &usize| closed(*i) || closed(i + 1) || *i > 0 && closed(i - 1);
-    let entries = (0..found.len()).filter(near);
-    entries
-        .flat_map(|i| {
-            let other = choices[i].iter().filter(move |choice| **choice != found[i]);
-            other.map(move |choice| {
-                let mut state = found.to_vec();
-                state[i] = *choice;
-                state
-            })
-        })
-        .collect()
-}
-
-fn other(problem: &Problem, statuses: &[Status], change: f64) -> Other {
+fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> Other {
     let nodes = |wanted: fn(&Status) -> bool| {
         let entries = statuses.iter().zip(problem.surfaces.nodes());
         entries.filter(|(status, _)| wanted(status)).map(|(_, node)| *node).collect()
     };
     Other {
+        load,
         stick: nodes(|status| *status == Status::Stick),
         slip: nodes(|status| matches!(status, Status::Slip(_))),
         change,
@@ -120,6 +135,45 @@ fn other(problem: &Problem, statuses: &[Status], change: f64) -> Other {
 }
 
 impl Problem<'_> {
+    /// Looks for statuses in equilibrium among all that there are; None where there is none, and where
+    /// there are too many to be tried.
+    pub(super) fn enumerated(&self, place: &Place, setting: &Setting) -> Option<Vec<Status>> {
+        let all = self.every(place).filter(|all| all.len() <= most(self))?;
+        all.into_iter().find(|statuses| self.try_statuses(place, statuses, setting).is_some())
+    }
+
+    /// Returns every contact state in a place; None of more than [`ALL`].
+    fn every(&self, place: &Place) -> Option<Vec<Vec<Status>>> {
+        let entries = 0..place.pairings.len();
+        let choices: Vec<Vec<Status>> = entries.map(|i| self.choices(place, i)).collect();
+        let number = choices.iter().try_fold(1_usize, |n, c| n.checked_mul(c.len()));
+        number.filter(|n| *n <= ALL)?;
+        let longer = |states: Vec<Vec<Status>>, choices: &Vec<Status>| {
+            let with = |state: &Vec<Status>| {
+                choices.iter().map(|c| [&state[..], &[*c]].concat()).collect::<Vec<_>>()
+            };
+            states.iter().flat_map(with).collect()
+        };
+        Some(choices.iter().fold(vec![Vec::new()], longer))
+    }
+
+    /// Returns the states that differ from that of a step in one entry, of those in contact or beside one.
+    fn neighbours(&self, step: &Taken) -> Vec<Vec<Status>> {
+        let Taken { place, statuses, .. } = step;
+        let closed = |i: usize| statuses.get(i).is_some_and(|status| status.is_closed());
+        let near = |i: &usize| closed(*i) || closed(i + 1) || *i > 0 && closed(i - 1);
+        let with = |i: usize| {
+            let other =
+                self.choices(place, i).into_iter().filter(move |other| *other != statuses[i]);
+            other.map(move |other| {
+                let mut state = statuses.clone();
+                state[i] = other;
+                state
+            })
+        };
+        (0..statuses.len()).filter(near).flat_map(with).collect()
+    }
+
     /// Returns the statuses that an entry can have.
     fn choices(&self, place: &Place, i: usize) -> Vec<Status> {
         let slips = [Status::Slip(Sense::Forward), Status::Slip(Sense::Backward)];

@@ -8,7 +8,7 @@ use super::problem::{Moved, Place, Problem, Setting, Solved};
 use super::reduced::{Elastic, OnSurface, Reduced, Responds};
 use crate::answer::contact::{Pairing, Status};
 use crate::answer::elimination::{Constraint, Elimination};
-use crate::answer::error::{Error, NoEquilibrium};
+use crate::answer::error::{Cause, Error, NoEquilibrium};
 use crate::answer::factors::LastFactors;
 use crate::numbers::solve::{Singular, SparseCholesky, SparseSymmetric};
 use crate::problem::model::Dof;
@@ -197,11 +197,11 @@ fn acting(force: &DVector<f64>) -> Vec<(Dof, f64)> {
 
 fn jammed() -> NoEquilibrium {
     let what = "the sliding nodes jam: no friction agrees with its own normal forces".into();
-    NoEquilibrium { what }
+    NoEquilibrium { cause: Cause::NotFound, what }
 }
 
 /// Returns the motion that constraints leave free where only soft springs oppose the load.
 fn free_motion(t: &Elimination, k: &SparseSymmetric, load: &DVector<f64>) -> Option<DVector<f64>> {
     let q = SparseCholesky::new(k.with_diagonal(SOFT)).ok()?.solve(&t.load(load));
-    Some(t.expand(&q) - t.shift())
+    Some(t.motion(&q))
 }

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::equilibria::uniqueness;
+use super::equilibria::{Taken, are_few, uniqueness};
 use super::forces::load_of;
-use super::problem::{Equilibrium, Iteration, Place, Problem, Setting};
+use super::problem::{Equilibrium, Iteration, Place, Problem, Setting, Watch};
 use crate::answer::contact::{ContactNode, Status, Traction};
-use crate::answer::error::{Error, NoEquilibrium};
+use crate::answer::error::{Cause, Error, NoEquilibrium};
 use crate::answer::memory::{FEWER_STEPS, HELD, bytes_of_path};
-use crate::answer::solution::{self, Detail, Path, Solution, Step, max_displacement};
+use crate::answer::solution::{self, Detail, Path, Solution, Start, Step, max_displacement};
 use crate::answer::support::{held, passed_on};
 use crate::error::InputError;
 use crate::memory;
@@ -35,16 +35,23 @@ struct Point {
     statuses: Option<Vec<Status>>,
 }
 
+impl Point {
+    fn after(load: f64, Equilibrium { last, .. }: Equilibrium) -> Self {
+        Point { load, u: last.moved.u, statuses: Some(last.statuses) }
+    }
+}
+
 /// The end of a path.
 struct End {
-    /// The displacements before the last step, length.
-    before: DVector<f64>,
     equilibrium: Equilibrium,
+    /// The last step of the load, and of small problems all before it.
+    taken: Vec<Taken>,
     /// The iterations on the path, without those of steps that were divided.
     steps: Vec<Step>,
     /// The number of all contact states that were solved.
     factored: usize,
     halved: usize,
+    start: Start,
 }
 
 /// Follows the path of the load to its end.
@@ -59,20 +66,36 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
         steps: per_stage,
         stages: problem.model.stages.len(),
         halved: end.halved,
+        start: end.start,
+        changes: changes(&end.steps),
     });
-    let uniqueness = uniqueness(problem, &end.equilibrium, &end.before);
+    let uniqueness = uniqueness(problem, &end.equilibrium, &end.taken);
     Ok(solution(problem, end, path, uniqueness))
 }
 
-/// Follows the path in `per_stage` steps a stage.
+/// Follows the path in `per_stage` steps a stage. Under friction nodes that overlap at the start close in a
+/// step of their own, before any load: they would slip with its first part otherwise.
 fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> Result<End, Error> {
     let with_friction = problem.friction > 0.0;
     // Without friction only the whole load counts.
     let stages = if with_friction { problem.model.stages.len() } else { 1 };
     let zero = DVector::zeros(problem.model.dofs());
     let mut point = Point { load: 0.0, u: zero, statuses: None };
-    let mut walk = Walk { problem, watch, steps: Vec::new(), factored: 0, halved: 0, closings: 0 };
     let total = stages * per_stage;
+    let mut walk = Walk::new(problem, watch, total);
+    if with_friction {
+        let place = problem.place(&point.u);
+        let closed = problem.overlaps(&place).then(|| walk.advance(&point, 0.0, 0));
+        (walk.start, point) = match closed {
+            Some(Ok(closed)) => (Start::Closed, Point::after(0.0, closed)),
+            Some(Err(_)) => {
+                walk.steps.clear();
+                (Start::Overlapping, point)
+            }
+            None if problem.is_held(&place) => (Start::Held, point),
+            None => (Start::Loose, point),
+        };
+    }
     for step in 1.. {
         let to = step as f64 / per_stage as f64;
         let placed = |why| placed(why, to, stages, step == total);
@@ -84,25 +107,48 @@ fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> 
             }
             other => placed(other),
         };
-        let (before, equilibrium) = walk.advance(&point, to, HALVINGS).map_err(slides)?;
+        let halvings = if with_friction { HALVINGS } else { 0 };
+        let equilibrium = match walk.advance(&point, to, halvings) {
+            Err(Error::Equilibrium(why)) if why.cause == Cause::NotFound => {
+                let on_springs = walk.step(&point, to, Problem::on_springs);
+                let found = on_springs.map_err(|more| more.told(&format!("{}; ", why.what)));
+                found.inspect(|found| walk.take(&point, to, found))
+            }
+            found => found,
+        };
+        let equilibrium = equilibrium.map_err(slides)?;
+        problem.in_range([&point.u, &equilibrium.last.moved.u], [point.load, to])?;
         walk.check_memory(step, total)?;
         if step == total {
-            let equilibrium = walk.confirmed(&before, to, equilibrium).map_err(placed)?;
-            let Walk { steps, factored, halved, .. } = walk;
-            return Ok(End { before, equilibrium, steps, factored, halved });
+            return walk.confirmed(to, equilibrium).map_err(placed);
         }
-        let Equilibrium { last, .. } = equilibrium;
-        point = Point { load: to, u: last.moved.u, statuses: Some(last.statuses) };
+        point = Point::after(to, equilibrium);
     }
     unreachable!("a path has a last step")
+}
+
+/// Returns the number of steps in which a node that was closed has another status at the end.
+fn changes(steps: &[Step]) -> usize {
+    let own = |step: &Step| match &step.detail {
+        Detail::Unilateral(own) => (own.load, own.statuses.clone()),
+        Detail::Published(_) => unreachable!("the path is one of unilateral"),
+    };
+    let all: Vec<(f64, Vec<Status>)> = steps.iter().map(own).collect();
+    let ends: Vec<&[Status]> =
+        all.chunk_by(|a, b| a.0 == b.0).map(|step| &step[step.len() - 1].1[..]).collect();
+    let changed = |pair: &&[&[Status]]| {
+        let mut statuses = pair[0].iter().zip(pair[1]);
+        statuses.any(|(before, after)| before.is_closed() && before != after)
+    };
+    ends.windows(2).filter(changed).count()
 }
 
 /// Says on the way to which load no equilibrium was found.
 fn placed(why: Error, to: f64, stages: usize, at_the_end: bool) -> Error {
     match why {
-        Error::Equilibrium(NoEquilibrium { what }) if !at_the_end || stages > 1 => {
+        Error::Equilibrium(NoEquilibrium { cause, what }) if !at_the_end || stages > 1 => {
             let what = format!("{what} (on the way to {})", part_of_load(to, stages));
-            NoEquilibrium { what }.into()
+            NoEquilibrium { cause, what }.into()
         }
         other => other,
     }
@@ -119,6 +165,9 @@ pub(super) fn part_of_load(part: f64, stages: usize) -> String {
     }
 }
 
+/// A search for the equilibrium of a setting.
+type Search<'a> = fn(&Problem<'a>, &Setting, &mut Watch) -> Result<Equilibrium, Error>;
+
 /// The way along a path so far.
 struct Walk<'a> {
     problem: &'a Problem<'a>,
@@ -128,20 +177,34 @@ struct Walk<'a> {
     halved: usize,
     /// How often this step of the path may still be divided where nodes close.
     closings: usize,
+    start: Start,
+    /// Whether all steps are kept, or the last one alone.
+    keeps_all: bool,
+    taken: Vec<Taken>,
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
+    /// Begins a path of so many steps.
+    fn new(problem: &'a Problem<'a>, watch: &'a mut dyn FnMut(&Step), steps: usize) -> Self {
+        let place = problem.place(&DVector::zeros(problem.model.dofs()));
+        Walk {
+            problem,
+            watch,
+            steps: Vec::new(),
+            factored: 0,
+            halved: 0,
+            closings: 0,
+            start: Start::Held,
+            keeps_all: are_few(problem, &place, steps),
+            taken: Vec::new(),
+        }
+    }
+
     /// Goes from a point to the load `to`: in two parts where a node closes in between, as friction
-    /// counts its slip from there, and in two halves where one step finds no equilibrium. Returns the
-    /// displacements before the last step too.
-    fn advance(
-        &mut self,
-        from: &Point,
-        to: f64,
-        halvings: usize,
-    ) -> Result<(DVector<f64>, Equilibrium), Error> {
-        let done = self.steps.len();
-        let found = self.step(from, to);
+    /// counts its slip from there, and in two halves where one step finds no equilibrium.
+    fn advance(&mut self, from: &Point, to: f64, halvings: usize) -> Result<Equilibrium, Error> {
+        let (done, taken) = (self.steps.len(), self.taken.len());
+        let found = self.step(from, to, Problem::equilibrium);
         let (middle, halvings) = match &found {
             Ok(Equilibrium { closing: Some(part), .. })
                 if self.closings > 0 && (AT_THE_END..1.0 - AT_THE_END).contains(part) =>
@@ -149,25 +212,37 @@ impl Walk<'_> {
                 self.closings -= 1;
                 (from.load + part * (to - from.load), halvings)
             }
-            Err(Error::Equilibrium(_)) if halvings > 0 => {
+            Err(Error::Equilibrium(why)) if halvings > 0 && why.cause == Cause::NotFound => {
                 self.halved += 1;
                 ((from.load + to) / 2.0, halvings - 1)
             }
-            _ => return found.map(|equilibrium| (from.u.clone(), equilibrium)),
+            _ => return found.inspect(|found| self.take(from, to, found)),
         };
         let whole = self.steps.split_off(done);
         match self.advance(from, middle, halvings) {
-            Ok((_, Equilibrium { last, .. })) => {
-                let statuses = Some(last.statuses);
-                let point = Point { load: middle, u: last.moved.u, statuses };
-                self.advance(&point, to, halvings)
-            }
+            Ok(equilibrium) => self.advance(&Point::after(middle, equilibrium), to, halvings),
             Err(why) => {
                 self.steps.truncate(done);
                 self.steps.extend(whole);
-                found.or(Err(why)).map(|equilibrium| (from.u.clone(), equilibrium))
+                self.taken.truncate(taken);
+                found.or(Err(why)).inspect(|found| self.take(from, to, found))
             }
         }
+    }
+
+    /// Keeps that a step was taken.
+    fn take(&mut self, from: &Point, to: f64, found: &Equilibrium) {
+        if !self.keeps_all {
+            self.taken.clear();
+        }
+        let Equilibrium { place, last, .. } = found;
+        self.taken.push(Taken {
+            to,
+            before: from.u.clone(),
+            place: place.clone(),
+            statuses: last.statuses.clone(),
+            u: last.moved.u.clone(),
+        });
     }
 
     /// Checks now and then that the whole path will fit in memory if it goes on as so far.
@@ -191,39 +266,34 @@ impl Walk<'_> {
         memory::check_bytes(needed, "contact.load_steps", &whose, FEWER_STEPS)
     }
 
-    /// Returns the load at a part of the path, restrained degrees of freedom included, force.
-    fn load(&self, part: f64) -> DVector<f64> {
-        let model = self.problem.model;
-        // Without friction the path is the whole load.
-        if self.problem.friction > 0.0 { model.load_after(part) } else { &model.load * part }
-    }
-
-    /// Goes to the load `to` in one step.
-    fn step(&mut self, from: &Point, to: f64) -> Result<Equilibrium, Error> {
-        let load = self.load(to);
+    /// Goes to the load `to` in one step by a search.
+    fn step(&mut self, from: &Point, to: f64, search: Search<'a>) -> Result<Equilibrium, Error> {
+        let load = self.problem.load(to);
         let statuses = from.statuses.as_deref();
         let setting = Setting { load: load.clone(), before: &from.u, statuses, whole: false };
-        let found = self.problem.equilibrium(&setting, &mut |place, iteration| {
+        let found = search(self.problem, &setting, &mut |place, iteration| {
             self.keep(to, &load, place, iteration);
         })?;
         self.complete(to, &load, &found);
         Ok(found)
     }
 
-    /// Solves the last contact state at the load `to` on the whole bodies.
-    fn confirmed(
-        &mut self,
-        before: &DVector<f64>,
-        to: f64,
-        found: Equilibrium,
-    ) -> Result<Equilibrium, Error> {
-        let load = self.load(to);
-        let setting = Setting { load: load.clone(), before, statuses: None, whole: true };
-        let confirmed = self.problem.confirmed(found, &setting, &mut |place, iteration| {
+    /// Solves the last contact state, at the load `to`, on the whole bodies, and ends the path with it.
+    fn confirmed(mut self, to: f64, found: Equilibrium) -> Result<End, Error> {
+        let load = self.problem.load(to);
+        let mut last = self.taken.pop().expect("a path has a step");
+        let setting =
+            Setting { load: load.clone(), before: &last.before, statuses: None, whole: true };
+        let equilibrium = self.problem.confirmed(found, &setting, &mut |place, iteration| {
             self.keep(to, &load, place, iteration);
         })?;
-        self.complete(to, &load, &confirmed);
-        Ok(confirmed)
+        self.complete(to, &load, &equilibrium);
+        last.place = equilibrium.place.clone();
+        last.statuses = equilibrium.last.statuses.clone();
+        last.u = equilibrium.last.moved.u.clone();
+        self.taken.push(last);
+        let Walk { steps, factored, halved, start, taken, .. } = self;
+        Ok(End { equilibrium, taken, steps, factored, halved, start })
     }
 
     /// Says of the last step what is known of the whole bodies in the equilibrium that it led to.
@@ -278,6 +348,8 @@ fn step(
             margin: problem.margin(iteration),
             undetermined: moved.forces.iter().map(|force| force.undetermined).collect(),
             violation: *violation,
+            springs: iteration.springs,
+            choice: iteration.choice,
         }),
     }
 }
@@ -289,7 +361,7 @@ fn solution(
     path: Option<Path>,
     uniqueness: solution::Uniqueness,
 ) -> Solution {
-    let Equilibrium { place, last, shape_change, .. } = end.equilibrium;
+    let Equilibrium { place, last, shape_change, springs, .. } = end.equilibrium;
     let unseen = problem.unseen(&last);
     let inside = problem.inside(&last);
     Solution {
@@ -303,7 +375,14 @@ fn solution(
         digits: None,
         error_bound: None,
         factors: problem.last_factors().into(),
-        equilibrium: Some(solution::Equilibrium { path, uniqueness, unseen, inside, shape_change }),
+        equilibrium: Some(solution::Equilibrium {
+            path,
+            uniqueness,
+            unseen,
+            inside,
+            shape_change,
+            springs,
+        }),
     }
 }
 

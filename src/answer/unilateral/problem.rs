@@ -7,12 +7,13 @@ use nalgebra::DVector;
 
 use super::forces::{Force, tangent};
 use super::reduced::Last;
+use super::rigid;
 use super::status::Memory;
-use crate::answer::condensation::{Bodies, Inside};
+use crate::answer::condensation::{Bodies, Inside, Shared};
 use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
 use crate::answer::elimination::{Constraint, Motion};
 use crate::answer::request::Request;
-use crate::answer::solution::Cycle;
+use crate::answer::solution::{Choice, Cycle};
 use crate::answer::stiffness::Stiffness;
 use crate::answer::support::supports;
 use crate::error::InputError;
@@ -38,7 +39,7 @@ pub(super) struct Problem<'a> {
     pub(super) request: &'a Request,
     pub(super) model: &'a Arc<Model>,
     pub(super) stiffness: Arc<Stiffness>,
-    pub(super) surfaces: Surfaces,
+    pub(super) surfaces: Arc<Surfaces>,
     /// The gap below which a node is closed, length.
     pub(super) closed: f64,
     /// The triangles at a restraint of the body to which contact passes its force.
@@ -48,6 +49,8 @@ pub(super) struct Problem<'a> {
     pub(super) bodies: Bodies,
     /// The whole matrix that was factored last.
     pub(super) last: Last,
+    /// The stiffness of the springs on which the nodes stand, over that of the bodies ([`Stiffness`]).
+    pub(super) springs: f64,
     /// The target that each contact node faces in the initial shape.
     initial: Arc<Vec<Option<Pairing>>>,
 }
@@ -65,6 +68,7 @@ pub(super) struct Setting<'a> {
 }
 
 /// A shape and the target that each contact node faces in it.
+#[derive(Clone)]
 pub(super) struct Place {
     /// The coordinates of each node, length.
     pub(super) shape: Arc<Vec<[f64; 2]>>,
@@ -89,6 +93,10 @@ pub(super) struct Iteration {
     pub(super) violation: f64,
     /// Whether it was not solved for, as its contact state was solved in the same place before.
     pub(super) returned: bool,
+    /// How its statuses were chosen.
+    pub(super) choice: Choice,
+    /// The stiffness of the springs on which the nodes stood, over that of the bodies.
+    pub(super) springs: f64,
 }
 
 impl Iteration {
@@ -99,7 +107,8 @@ impl Iteration {
 
     /// Returns the next iteration, to which the statuses of this one return.
     pub(super) fn again(&self, memory: &mut Memory) -> Self {
-        Iteration { cycle: memory.keep(&self.statuses), returned: true, ..self.clone() }
+        let cycle = memory.keep(&self.statuses);
+        Iteration { cycle, returned: true, choice: Choice::Asked, ..self.clone() }
     }
 }
 
@@ -143,6 +152,9 @@ pub(super) struct Equilibrium {
     /// What is left of the change of shape: that of the displacements at the last measurement of
     /// contact, length; 0 in the initial geometry.
     pub(super) shape_change: f64,
+    /// The largest force of the springs on which it was found, over the largest of the loads and of those
+    /// of contact; None where it was found without springs.
+    pub(super) springs: Option<f64>,
 }
 
 /// The result of an attempt to solve.
@@ -160,15 +172,9 @@ pub(super) type Watch<'w> = dyn FnMut(&Place, &Iteration) + 'w;
 
 impl<'a> Problem<'a> {
     pub(super) fn new(request: &'a Request, model: &'a Arc<Model>) -> Result<Self, InputError> {
-        let surfaces = Surfaces::new(model)?;
+        let surfaces = Arc::new(Surfaces::new(model)?);
         surfaces.check_initial_penetration(model)?;
-        let initial = surfaces.pairings(request.contact.coupling, &model.nodes);
-        let friction = request.contact.friction.coefficient();
-        let bodies = Bodies::new(model, &request.shared).expecting(&initial);
-        let bodies = match request.contact.geometry {
-            Geometry::Initial => bodies.facing(&initial, friction > 0.0),
-            Geometry::Current => bodies,
-        };
+        let initial = Arc::new(surfaces.pairings(request.contact.coupling, &model.nodes));
         let stiffness = request.stiffness(model);
         Ok(Problem {
             request,
@@ -177,11 +183,33 @@ impl<'a> Problem<'a> {
             closed: CLOSED * size(model),
             supports: stiffness.about(&supports(model, &model.restrained)),
             stiffness,
-            friction,
-            bodies,
+            friction: request.contact.friction.coefficient(),
+            bodies: bodies(request, model, &initial, &request.shared),
             last: Last::default(),
-            initial: Arc::new(initial),
+            initial,
+            springs: 0.0,
         })
+    }
+
+    /// Returns the same problem with every node on springs of a stiffness over that of the bodies.
+    pub(super) fn with_springs(&self, stiffness: f64) -> Problem<'a> {
+        let (initial, shared) = (Arc::clone(&self.initial), Shared::default());
+        Problem {
+            surfaces: Arc::clone(&self.surfaces),
+            supports: self.supports.clone(),
+            stiffness: Arc::new(Stiffness::on_springs(self.model, stiffness)),
+            bodies: bodies(self.request, self.model, &initial, &shared),
+            last: Last::default(),
+            initial,
+            springs: stiffness,
+            ..*self
+        }
+    }
+
+    /// Returns the load at a part of the path, restrained degrees of freedom included, force.
+    pub(super) fn load(&self, part: f64) -> DVector<f64> {
+        // Without friction the path is the whole load.
+        if self.friction > 0.0 { self.model.load_after(part) } else { &self.model.load * part }
     }
 
     /// Returns whether contact is measured in the current shape.
@@ -253,6 +281,28 @@ impl<'a> Problem<'a> {
         forces.iter().map(|force| force.undetermined).collect()
     }
 
+    /// Returns whether a node stands inside the target before any load.
+    pub(super) fn overlaps(&self, place: &Place) -> bool {
+        self.at_the_start(place).iter().flatten().any(|gap| *gap < -self.closed)
+    }
+
+    /// Returns whether restraints, and the nodes that touch the target before any load, hold the bodies.
+    pub(super) fn is_held(&self, place: &Place) -> bool {
+        let gaps = self.at_the_start(place);
+        let touches = |i: usize| gaps[i].is_some_and(|gap| gap <= self.closed);
+        let status = |i: usize| if touches(i) { self.closing(place, i) } else { Status::Open };
+        let statuses: Vec<Status> = (0..gaps.len()).map(status).collect();
+        let before = DVector::zeros(self.model.dofs());
+        let setting =
+            Setting { load: before.clone(), before: &before, statuses: None, whole: false };
+        rigid::holds(self.model, &self.constraints(place, &statuses, &setting))
+    }
+
+    /// Returns the gap of each entry before any load, length.
+    fn at_the_start(&self, place: &Place) -> Vec<Option<f64>> {
+        self.gaps(place, &DVector::zeros(self.model.dofs()))
+    }
+
     /// Returns the target node that lies deepest inside the contact surface under node to segment;
     /// None where none lies deeper than [`UNSEEN`].
     pub(super) fn unseen(&self, last: &Iteration) -> Option<(NodeId, f64)> {
@@ -294,6 +344,20 @@ impl<'a> Problem<'a> {
             Some(Constraint { node: pairing.node, masters: pairing.masters.clone(), motion })
         };
         place.pairings.iter().zip(statuses).filter_map(constraint).collect()
+    }
+}
+
+/// Returns the bodies of a model, of which `shared` may have factors.
+fn bodies(
+    request: &Request,
+    model: &Arc<Model>,
+    initial: &[Option<Pairing>],
+    shared: &Shared,
+) -> Bodies {
+    let bodies = Bodies::new(model, shared).expecting(initial);
+    match request.contact.geometry {
+        Geometry::Initial => bodies.facing(initial, request.contact.friction.coefficient() > 0.0),
+        Geometry::Current => bodies,
     }
 }
 

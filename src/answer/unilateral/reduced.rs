@@ -220,7 +220,7 @@ impl<'a> Reduced<'a> {
     /// Returns the displacements under a load, without the shift of the constraints, length.
     fn unshifted(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
         let (q, _) = self.solve(&self.t.load(&self.elastic.model.free_part(load)))?;
-        Ok(self.t.expand(&q) - self.t.shift())
+        Ok(self.t.motion(&q))
     }
 }
 

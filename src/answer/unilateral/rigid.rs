@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::tangent;
-use super::lemke::lemke;
+use super::nonnegative::least;
 use crate::answer::contact::Pairing;
 use crate::answer::elimination::{Constraint, Motion};
 use crate::problem::model::{Dof, Model, NodeId};
@@ -75,7 +75,7 @@ pub(super) fn escape(
         true => DMatrix::zeros(free.len(), 0),
         false => DMatrix::from_columns(&columns),
     };
-    let sizes = lemke(&forces.tr_mul(&forces), &forces.tr_mul(&f))?;
+    let sizes = least(&forces.tr_mul(&forces), &forces.tr_mul(&f), DVector::zeros(forces.ncols()))?;
     let left = &f + forces * sizes;
     if left.amax() <= OPPOSED * load.amax() {
         return None;

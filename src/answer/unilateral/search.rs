@@ -12,8 +12,8 @@ use super::problem::{
 use super::status::{Memory, first_closed, nearest_open, next_closed};
 use crate::answer::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::answer::elimination::Constraint;
-use crate::answer::error::{Error, NoEquilibrium};
-use crate::answer::solution::Cycle;
+use crate::answer::error::{Cause, Error, NoEquilibrium};
+use crate::answer::solution::{Choice, Cycle};
 use crate::numbers::solve::largest;
 
 /// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
@@ -21,7 +21,7 @@ use crate::numbers::solve::largest;
 pub const FIRST_GROWTH: f64 = 0.9;
 
 /// The number of iterations beyond one for each contact node after which the search ends.
-pub const PATIENCE: usize = 100;
+const PATIENCE: usize = 100;
 
 /// The number of iterations that are kept while one node changes at a time: a search without success
 /// goes round a few contact states.
@@ -29,16 +29,16 @@ const RETURNING: usize = 8;
 
 /// The change of the displacements, over the largest, below which a shape agrees with the one in
 /// which its contact was measured.
-const SETTLED: f64 = 1e-12;
+pub(super) const SETTLED: f64 = 1e-12;
 
 /// The same where rounding lets the change shrink no further.
-const STALLED: f64 = 1e-8;
+pub(super) const STALLED: f64 = 1e-8;
 
 /// The number of shapes in which contact is measured before the search ends.
 const SHAPES: usize = 60;
 
 impl Problem<'_> {
-    /// Finds the equilibrium of a setting.
+    /// Finds the equilibrium of a setting in the shape that it leads to.
     pub(super) fn equilibrium(
         &self,
         setting: &Setting,
@@ -79,7 +79,7 @@ impl Problem<'_> {
                 if is_settled(shape_change, &last) {
                     let closing =
                         first.and_then(|first| self.first_closing(&gaps, first, &place, &last));
-                    return Ok(Equilibrium { place, last, closing, shape_change });
+                    return Ok(Equilibrium { place, last, closing, shape_change, springs: None });
                 }
             }
             start = Some(last.statuses);
@@ -89,7 +89,7 @@ impl Problem<'_> {
         let what = format!(
             "the shape did not settle when contact was measured in it {SHAPES} times{strained}"
         );
-        Err(NoEquilibrium { what }.into())
+        Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
     /// Solves the last contact state of an equilibrium again, on the whole bodies, unless it was
@@ -103,18 +103,30 @@ impl Problem<'_> {
         if found.last.moved.whole {
             return Ok(found);
         }
-        let Equilibrium { place, last, closing, shape_change } = found;
-        let Iteration { statuses, constraints, cycle, .. } = last;
-        if let Solved::Moved(moved) = self.solve(&place, &statuses, &constraints, setting)? {
-            let last = self.reached(&place, (statuses, constraints), cycle, moved);
-            if self.wanted(&place, &last, setting, false) == last.statuses {
-                return Ok(Equilibrium { place, last, closing, shape_change });
+        match self.confirm(&found.place, &found.last, setting)? {
+            Some(last) => Ok(Equilibrium { last, ..found }),
+            None => {
+                let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
+                self.equilibrium(&Setting { load, statuses, ..*setting }, watch)
             }
-            let setting =
-                Setting { load: setting.load.clone(), statuses: Some(&last.statuses), ..*setting };
-            return self.equilibrium(&setting, watch);
         }
-        self.equilibrium(setting, watch)
+    }
+
+    /// Solves a contact state again as `setting` says; None where it asks for other statuses then.
+    pub(super) fn confirm(
+        &self,
+        place: &Place,
+        found: &Iteration,
+        setting: &Setting,
+    ) -> Result<Option<Iteration>, Error> {
+        let Iteration { statuses, constraints, cycle, choice, .. } = found.clone();
+        let Solved::Moved(moved) = self.solve(place, &statuses, &constraints, setting)? else {
+            return Ok(None);
+        };
+        let reached = self.reached(place, (statuses, constraints), cycle, moved);
+        let last = Iteration { choice, ..reached };
+        let wanted = self.wanted(place, &last, setting, false);
+        Ok((wanted == last.statuses).then_some(last))
     }
 
     /// Returns the part of a step after which the first node closes that closed in it, from its gaps
@@ -140,9 +152,12 @@ impl Problem<'_> {
         closing.into_iter().filter_map(part).reduce(f64::min)
     }
 
-    /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active
-    /// set, and where that finds none, by Lemke's method.
-    fn settle(
+    /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active set,
+    /// by a fixed point on the bounds of friction, or among all statuses that there are.
+    ///
+    /// # Errors
+    /// Not even the bodies as rigid ones are in equilibrium, or no statuses were found.
+    pub(super) fn settle(
         &self,
         place: &Place,
         start: Option<Vec<Status>>,
@@ -150,35 +165,32 @@ impl Problem<'_> {
         memory: &mut Memory,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
-        let mut found = self.active_set(place, start.clone(), setting, memory, watch);
-        if matches!(found, Err(Error::Equilibrium(_))) && self.bodies.factor_apart() {
-            // Where all forces are nearly rounding, it matters how little of that there is.
-            memory.move_on();
-            found = self.active_set(place, start, setting, memory, watch);
-        }
-        let Err(Error::Equilibrium(NoEquilibrium { what })) = found else { return found };
-        if self.friction == 0.0
-            && let Some(dof) = self.escape(place, &setting.load, 0.0)
+        let start = (start.unwrap_or_else(|| self.first(place, setting.before)), Choice::Asked);
+        let found = self.active_set(place, start, setting, memory, watch);
+        let Err(Error::Equilibrium(why)) = found else { return found };
+        let escaping = || self.escape(place, &setting.load, self.friction);
+        if !self.is_current()
+            && self.springs == 0.0
+            && let Some(dof) = escaping()
         {
-            return Err(self.escapes(dof).into());
+            return Err(self.escapes(place, dof).into());
         }
-        let Some(statuses) = self.complementary(place, setting) else {
-            return Err(NoEquilibrium { what }.into());
-        };
+        let bounds = self.by_bounds(place, setting).map(|statuses| (statuses, Choice::Bounds));
+        let all = || self.enumerated(place, setting).map(|statuses| (statuses, Choice::Enumerated));
+        let Some(start) = bounds.or_else(all) else { return Err(why.into()) };
         memory.move_on();
-        self.active_set(place, Some(statuses), setting, memory, watch)
+        self.active_set(place, start, setting, memory, watch)
     }
 
     /// Goes from statuses to those that they ask for, until they ask for themselves.
     fn active_set(
         &self,
         place: &Place,
-        start: Option<Vec<Status>>,
+        (mut statuses, choice): (Vec<Status>, Choice),
         setting: &Setting,
         memory: &mut Memory,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
-        let mut statuses = start.unwrap_or_else(|| self.first(place, setting.before));
         let limit = PATIENCE + self.model.contact.nodes.len();
         let mut against = String::new();
         let mut recent: VecDeque<Iteration> = VecDeque::new();
@@ -187,6 +199,9 @@ impl Problem<'_> {
                 Some(known) => known.again(memory),
                 None => self.iteration(place, statuses, setting, memory)?,
             };
+            if k == 1 {
+                iteration.choice = choice;
+            }
             let wanted = self.wanted_of_all(place, &mut iteration, setting, memory.iterations == 1);
             watch(place, &iteration);
             if wanted == iteration.statuses {
@@ -207,10 +222,10 @@ impl Problem<'_> {
             false => "",
         };
         let what = format!(
-            "no contact state in equilibrium was found in {limit} iterations{}{against}{never_slides}",
+            "none of the contact states of {limit} iterations is in equilibrium{}{against}{never_slides}",
             memory.returned()
         );
-        Err(NoEquilibrium { what }.into())
+        Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
     /// Says why an iteration asks for other statuses, of the first node that is to change.
@@ -249,7 +264,7 @@ impl Problem<'_> {
     }
 
     /// Finds the displacements inside the bodies, where they are not known, and the gaps that follow.
-    fn complete(&self, place: &Place, iteration: &mut Iteration) {
+    pub(super) fn complete(&self, place: &Place, iteration: &mut Iteration) {
         if iteration.moved.inside.is_none() {
             return;
         }
@@ -259,7 +274,7 @@ impl Problem<'_> {
     }
 
     /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
-    fn wanted(
+    pub(super) fn wanted(
         &self,
         place: &Place,
         iteration: &Iteration,
@@ -348,7 +363,7 @@ impl Problem<'_> {
     }
 
     /// Returns the iteration that imposed statuses by constraints and led to `moved`.
-    fn reached(
+    pub(super) fn reached(
         &self,
         place: &Place,
         (statuses, constraints): (Vec<Status>, Vec<Constraint>),
@@ -357,7 +372,17 @@ impl Problem<'_> {
     ) -> Iteration {
         let gaps = self.known_gaps(place, &moved);
         let violation = violation(&gaps, &statuses);
-        Iteration { statuses, constraints, cycle, moved, gaps, violation, returned: false }
+        Iteration {
+            statuses,
+            constraints,
+            cycle,
+            moved,
+            gaps,
+            violation,
+            returned: false,
+            choice: Choice::Asked,
+            springs: self.springs,
+        }
     }
 
     /// Closes more nodes, or lets one stick; false where there is none.

@@ -7,23 +7,70 @@ use super::problem::{Place, Problem, Setting};
 use super::rigid;
 use crate::answer::contact::{Pairing, Status};
 use crate::answer::elimination::{Constraint, Elimination};
-use crate::answer::error::NoEquilibrium;
-use crate::answer::summary::large_strain;
+use crate::answer::error::{Cause, NoEquilibrium};
+use crate::answer::range::{beyond_range, inside_out};
 use crate::error::InputError;
 use crate::numbers::solve::SparseCholesky;
+use crate::plain::six_digits;
 use crate::problem::model::{Dof, NodeId};
 
 /// The ratio of moduli beyond which they, and not the units, make a held matrix singular.
 const FAR_APART: f64 = 1e6;
 
 impl Problem<'_> {
-    pub(super) fn escapes(&self, dof: Dof) -> NoEquilibrium {
+    /// Says that nothing opposes a motion of a body as a rigid one.
+    pub(super) fn escapes(&self, place: &Place, dof: Dof) -> NoEquilibrium {
         let (node, direction) = (self.named(dof.node()), dof.axis());
+        let gaps = self.gaps(place, &DVector::zeros(self.model.dofs()));
+        let least = gaps.into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let apart = match least > self.closed {
+            true => {
+                format!(", whose surfaces are at least {} apart,", six_digits(least))
+            }
+            false => String::new(),
+        };
         let what = format!(
-            "there is no equilibrium: the load moves {node} in {direction} with the whole body, \
-             and neither restraints nor contact oppose that motion; restrain it"
+            "the load moves {node} in {direction} with the whole body, and neither restraints nor \
+             contact{apart} oppose that motion; restrain it"
         );
-        NoEquilibrium { what }
+        NoEquilibrium { cause: self.cause(), what }
+    }
+
+    /// Returns what a motion that nothing opposes shows: in the current geometry it may be opposed in
+    /// another shape.
+    fn cause(&self) -> Cause {
+        if self.is_current() { Cause::NotFound } else { Cause::NoneExists }
+    }
+
+    /// Checks a step of the path between two loads: in the current geometry contact has no meaning at a
+    /// triangle that is turned inside out.
+    ///
+    /// # Errors
+    /// Names the triangle that is turned inside out first, and under which load.
+    pub(super) fn in_range(
+        &self,
+        [before, after]: [&DVector<f64>; 2],
+        [from, to]: [f64; 2],
+    ) -> Result<(), NoEquilibrium> {
+        if !self.is_current() {
+            return Ok(());
+        }
+        let moved = after - before;
+        let shape = |part: f64| self.model.shape(&(before + &moved * part));
+        let first = |part: f64| inside_out(self.model, &shape(part)).next();
+        if first(1.0).is_none() {
+            return Ok(());
+        }
+        let [_, part] = bisected([0.0, 1.0], |part| first(part).is_none());
+        let triangle = first(part).expect("it was at the end of the range");
+        let stages = if self.friction > 0.0 { self.model.stages.len() } else { 1 };
+        let what = format!(
+            "triangle {triangle} is turned inside out under about {}, where its displacements between \
+             two steps are taken to grow with the load{}",
+            part_of_load(from + part * (to - from), stages),
+            self.strained(after)
+        );
+        Err(NoEquilibrium { cause: Cause::OutOfRange, what })
     }
 
     /// Returns the degree of freedom that moves most where contact in a place does not oppose a motion of
@@ -51,8 +98,8 @@ impl Problem<'_> {
             false => "under any part of the load".into(),
         };
         if free(to, f64::INFINITY).is_some() {
-            let NoEquilibrium { what } = self.escapes(dof);
-            return Some(NoEquilibrium { what: format!("{what} ({when})") });
+            let NoEquilibrium { cause, what } = self.escapes(&place, dof);
+            return Some(NoEquilibrium { cause, what: format!("{what} ({when})") });
         }
         // What holds the loads at both ends of a stage holds those between them.
         let ends: Vec<f64> = (to.ceil() as usize..=stages).map(|stage| stage as f64).collect();
@@ -65,15 +112,14 @@ impl Problem<'_> {
         });
         let body = self.model.body_of(dof.node());
         let body = body.map_or("a body".into(), |body| format!("body {:?}", body.name));
-        let what = format!(
-            "there is no equilibrium: friction cannot hold the load: {body} slides as a whole {when}{needed}"
-        );
-        Some(NoEquilibrium { what })
+        let what =
+            format!("friction cannot hold the load: {body} slides as a whole {when}{needed}");
+        Some(NoEquilibrium { cause: self.cause(), what })
     }
 
     /// Says that displacements strain the bodies beyond small strains; no text where they do not.
     pub(super) fn strained(&self, u: &DVector<f64>) -> String {
-        let words = large_strain(&self.stiffness.states(u));
+        let words = beyond_range(self.model, &self.stiffness.states(u), u);
         words.map_or(String::new(), |words| format!("; {words}"))
     }
 

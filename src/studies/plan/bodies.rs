@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::answer::locking;
 use crate::choices;
 use crate::problem::model::{Body, Bounds, Dof, Model};
 use crate::problem::modelling::Variant;
@@ -31,6 +32,9 @@ pub struct BodyPlan {
     pub in_contact: bool,
     /// Why it does not move; nothing where it may.
     pub idle: Option<Idle>,
+    /// That its linear triangles lock, and why; nothing where they do not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub locking: Option<String>,
 }
 
 /// The bodies of a model as `variant` runs it.
@@ -58,6 +62,10 @@ fn of_body(model: &Model, variant: Variant, body: &Body, in_contact: bool) -> Bo
         size: size(model, body),
         in_contact,
         idle,
+        locking: body
+            .triangles
+            .iter()
+            .find_map(|id| locking(model.plane, model.triangle(*id).material.nu)),
     }
 }
 

@@ -3,6 +3,7 @@
 //! A row runs in a folder of its own that holds copies of its input files, so that a command may
 //! write there. Input files lie under `tests/program/cases/<area>/<input>/`.
 
+mod contact;
 mod files;
 mod meshes;
 mod sentences;

@@ -1,0 +1,375 @@
+//! Scenes whose equilibrium is hard to find, each held against the conditions of contact by equations of
+//! its own: rough blocks and leaning arms under friction, rings and arcs in the current geometry without.
+//!
+//! ```text
+//!   r = K u − F     p = n·r, q = t·r at a contact node     p ≥ 0, gap ≥ 0, p gap = 0, |q| ≤ μ p
+//!   r = −Σ w (p n + q t) at a target node                  r = 0 at any other that is free
+//! ```
+
+use std::f64::consts::{PI, TAU};
+
+use fastrand::Rng;
+use nalgebra::DVector;
+use plane_contact::answer::contact::{Pairing, Surfaces};
+use plane_contact::answer::error::{Cause, Error};
+use plane_contact::answer::{Request, Solution, solve};
+use plane_contact::problem::element::{B, D, area};
+use plane_contact::problem::model::{Model, NodeId};
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
+use plane_contact::problem::scene::Axis;
+
+use crate::common::draws::one_of;
+use crate::common::tolerances::{HARD, assert_near};
+use crate::corners::{Bodies, Writing};
+
+/// The number of scenes of each kind. `PLANE_CONTACT_HARD` gives another.
+const SCENES: usize = 40;
+
+const BOTH: [Axis; 2] = [Axis::X, Axis::Y];
+
+/// Of each kind: equilibria that are the only ones as far as is known, that have others, proofs that there
+/// is none, and searches that find none.
+const COUNTS: &str = "\
+    rough [40, 0, 0, 0]\n\
+    arc [40, 0, 0, 0]\n\
+    ring [39, 0, 0, 1]\n\
+    arm [38, 2, 0, 0]\n";
+
+fn between(rng: &mut Rng, least: f64, most: f64) -> f64 {
+    least + (most - least) * rng.f64()
+}
+
+fn magnitude(rng: &mut Rng, least: f64, most: f64) -> f64 {
+    10_f64.powf(between(rng, least.log10(), most.log10()))
+}
+
+/// Two bodies of rows of nodes.
+#[derive(Default)]
+struct Rows {
+    nodes: Vec<[f64; 2]>,
+    triangles: Vec<Vec<[usize; 3]>>,
+}
+
+impl Rows {
+    /// Adds a body of rows of as many nodes each, which close to rings or not; returns its rows.
+    fn body(&mut self, rows: &[Vec<[f64; 2]>], closed: bool) -> Vec<Vec<usize>> {
+        let (first, n) = (self.nodes.len(), rows[0].len());
+        self.nodes.extend(rows.iter().flatten());
+        let mut triangles = Vec::new();
+        for row in 0..rows.len() - 1 {
+            for k in 0..if closed { n } else { n - 1 } {
+                let [a, b] = [k, (k + 1) % n].map(|k| first + row * n + k);
+                let halves = match (row + k) % 2 {
+                    0 => [[a, b, a + n], [b, b + n, a + n]],
+                    _ => [[a, b, b + n], [a, b + n, a + n]],
+                };
+                let in_order = |[a, b, c]: [usize; 3]| {
+                    let is_so = area(&[a, b, c].map(|n| self.nodes[n])) > 0.0;
+                    if is_so { [a, b, c] } else { [a, c, b] }
+                };
+                triangles.extend(halves.map(in_order));
+            }
+        }
+        self.triangles.push(triangles);
+        (0..rows.len()).map(|row| (first + row * n..first + (row + 1) * n).collect()).collect()
+    }
+
+    fn finish(self, rng: &mut Rng, contact: &[usize], target: &[usize], closed: bool) -> Bodies {
+        let mut edges: Vec<[usize; 2]> = target.windows(2).map(|w| [w[0], w[1]]).collect();
+        let mut contact = contact.to_vec();
+        if closed {
+            edges.push([target[target.len() - 1], target[0]]);
+            contact.push(contact[0]);
+        }
+        let [lower, upper] = self.triangles.try_into().expect("two bodies");
+        Bodies {
+            nodes: self.nodes,
+            triangles: [lower, upper],
+            moduli: [(); 2].map(|()| (magnitude(rng, 50.0, 2000.0), between(rng, 0.0, 0.45))),
+            contact,
+            target: edges,
+            restrained: Vec::new(),
+            loads: Vec::new(),
+        }
+    }
+}
+
+impl Bodies {
+    fn hold(&mut self, nodes: &[usize], axes: &[Axis]) {
+        self.restrained.extend(nodes.iter().map(|node| (*node, axes.to_vec())));
+    }
+
+    fn load(&mut self, nodes: &[usize], [x, y]: [f64; 2]) {
+        let part = 1.0 / nodes.len() as f64;
+        self.loads.extend(nodes.iter().map(|node| (*node, [x * part, y * part])));
+    }
+
+    fn softest(&self) -> f64 {
+        self.moduli[0].0.min(self.moduli[1].0)
+    }
+}
+
+/// Points along a line from one to another, moved across it by `height`.
+fn line(n: usize, [from, to]: [f64; 2], mut height: impl FnMut(f64) -> f64) -> Vec<[f64; 2]> {
+    let x = |k: usize| from + (to - from) * k as f64 / (n - 1) as f64;
+    (0..n).map(|k| [x(k), height(x(k))]).collect()
+}
+
+/// `n` rows from one row to another.
+fn rows(n: usize, from: &[[f64; 2]], to: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let row = |k: usize| {
+        let part = k as f64 / (n - 1) as f64;
+        let between = |(a, b): (&[f64; 2], &[f64; 2])| [0, 1].map(|d| a[d] + part * (b[d] - a[d]));
+        from.iter().zip(to).map(between).collect()
+    };
+    (0..n).map(row).collect()
+}
+
+fn along_arc(n: usize, half: f64, radius: f64, rise: f64) -> Vec<[f64; 2]> {
+    let at = |a: f64| [radius * a.sin(), rise - radius * a.cos()];
+    (0..n).map(|k| at(half * (2.0 * k as f64 / (n - 1) as f64 - 1.0))).collect()
+}
+
+fn along_ring(n: usize, radius: f64, phase: f64, rise: f64) -> Vec<[f64; 2]> {
+    let at = |a: f64| [radius * a.cos(), rise + radius * a.sin()];
+    (0..n).map(|k| at(phase - TAU * k as f64 / n as f64)).collect()
+}
+
+/// A rough block of 16 to 40 contact nodes on a rough one, some of them inside it at the start, pressed and
+/// sheared; guided, or held at a corner and turned.
+fn rough(rng: &mut Rng, coupling: Coupling) -> Hard {
+    let mut all = Rows::default();
+    let width = between(rng, 3.0, 4.0);
+    let wide = width + between(rng, 0.6, 1.6);
+    let rough = one_of(rng, &[0.0, 0.003, 0.006, 0.01]);
+    let mut heights = rng.fork();
+    let mut random = move |_: f64| between(&mut heights, -rough, rough);
+    let (m, depth) = (rng.usize(14..=32), between(rng, 0.8, 1.6));
+    let top = line(m, [-wide / 2.0, wide / 2.0], &mut random);
+    let ground = line(m, [-wide / 2.0, wide / 2.0], |_| -depth);
+    let lower = all.body(&rows(rng.usize(2..=4), &ground, &top), false);
+    let (n, height) = (rng.usize(16..=40), between(rng, 1.0, 3.0));
+    let gap = one_of(rng, &[0.0, 0.0, -0.002, 0.002, -0.006]);
+    let bottom = line(n, [-width / 2.0, width / 2.0], |x| gap + random(x));
+    let taper = one_of(rng, &[1.0, 1.0, 0.8]) * width / 2.0;
+    let upper =
+        all.body(&rows(rng.usize(3..=5), &bottom, &line(n, [-taper, taper], |_| height)), false);
+    let mut bodies = all.finish(rng, &upper[0], &lower[lower.len() - 1], false);
+    bodies.hold(&lower[0], &BOTH);
+    let over = &upper[upper.len() - 1];
+    let mu = between(rng, 0.05, 0.5);
+    let degrees = match rng.bool() {
+        true => {
+            bodies.hold(&[over[0], over[n - 1]], &[Axis::X]);
+            0.0
+        }
+        false => {
+            bodies.hold(&[one_of(rng, &[over[0], over[n - 1]])], &BOTH);
+            between(rng, -180.0, 180.0)
+        }
+    };
+    let press = bodies.softest() * magnitude(rng, 1e-4, 3e-3) * width;
+    let shear = press * between(rng, -1.2, 1.2) * mu * one_of(rng, &[0.3, 1.0, 2.0]);
+    bodies.load(over, [shear, -press]);
+    Hard { bodies, degrees, mu, steps: 8, geometry: Geometry::Initial, coupling }
+}
+
+/// A block with a round bottom in a round groove, held at one or two nodes of its top along x.
+fn arc(rng: &mut Rng, coupling: Coupling) -> Hard {
+    let mut all = Rows::default();
+    let (radius, wall) = (between(rng, 1.5, 2.6), between(rng, 1.2, 1.8));
+    let (half, m) = (between(rng, 0.8, 1.4), rng.usize(12..=28));
+    let inner = along_arc(m, half, radius, 0.0);
+    let lower =
+        all.body(&rows(rng.usize(3..=4), &along_arc(m, half, radius + wall, 0.0), &inner), false);
+    let (n, own) = (rng.usize(14..=40), radius * between(rng, 0.93, 1.0));
+    let gap = one_of(rng, &[0.0, 0.0, 0.002, -0.002]) * radius;
+    let part = half * between(rng, 0.6, 0.95);
+    let bottom = along_arc(n, part, own, own - radius + gap);
+    let (wide, high) = (own * part.sin() / 2.0, 0.05 * radius * between(rng, -1.0, 1.0));
+    let upper =
+        all.body(&rows(rng.usize(3..=6), &bottom, &line(n, [-wide, wide], |_| high)), false);
+    let mut bodies = all.finish(rng, &upper[0], &lower[lower.len() - 1], false);
+    bodies.hold(&lower[0], &BOTH);
+    let over = &upper[upper.len() - 1];
+    bodies.hold(&[one_of(rng, &[over[0], over[n / 2]])], &[Axis::X]);
+    if rng.f64() < 0.6 {
+        bodies.hold(&[over[n - 1]], &[Axis::X]);
+    }
+    let press = bodies.softest() * magnitude(rng, 1e-4, 3e-3) * 2.0 * wide;
+    bodies.load(over, [0.0, -press]);
+    Hard { bodies, degrees: 0.0, mu: 0.0, steps: 1, geometry: Geometry::Current, coupling }
+}
+
+/// A ring in a ring, held at one or two nodes of its hole along x.
+fn ring(rng: &mut Rng, coupling: Coupling) -> Hard {
+    let mut all = Rows::default();
+    let (radius, wall, m) = (2.0, between(rng, 0.5, 1.2), rng.usize(16..=32));
+    let phase = between(rng, 0.0, TAU);
+    let around = |radius: f64| along_ring(m, radius, phase, 0.0);
+    let lower = all.body(&rows(3, &around(radius), &around(radius + wall)), true);
+    let (n, own) = (rng.usize(14..=30), radius * between(rng, 0.9, 0.99));
+    let (phase, lower_by) =
+        (between(rng, 0.0, TAU), (radius - own) * one_of(rng, &[0.5, 0.9, 0.95]));
+    let around = |radius: f64| along_ring(n, radius, phase, -lower_by);
+    let upper = all.body(&rows(3, &around(own * between(rng, 0.35, 0.5)), &around(own)), true);
+    let mut bodies = all.finish(rng, &upper[2], &lower[0], true);
+    bodies.hold(&lower[2], &BOTH);
+    bodies.hold(&[upper[0][0]], &[Axis::X]);
+    if rng.f64() < 0.4 {
+        bodies.hold(&[upper[0][n / 2]], &[Axis::X]);
+    }
+    let press = bodies.softest() * magnitude(rng, 1e-4, 5e-3);
+    bodies.load(&upper[0], [press * one_of(rng, &[0.0, 0.0, 0.1]), -press]);
+    Hard { bodies, degrees: 0.0, mu: 0.0, steps: 1, geometry: Geometry::Current, coupling }
+}
+
+/// A leaning arm, clamped at its top, whose foot of 2 to 5 nodes rests on a stiff block.
+fn arm(rng: &mut Rng, coupling: Coupling) -> Hard {
+    let mut all = Rows::default();
+    let ground = |y: f64| line(3, [-3.0, 3.0], |_| y);
+    let lower = all.body(&[ground(-1.0), ground(0.0)], false);
+    let (n, half) = (rng.usize(2..=5), between(rng, 0.15, 0.6));
+    let (lean, long) = (between(rng, -1.2, 1.2), between(rng, 1.5, 3.5));
+    let gap = one_of(rng, &[0.0, 0.0, 0.0, -0.002, 0.002]);
+    let foot = line(n, [-half, half], |_| gap);
+    let [right, up] = [long * lean.sin(), long * lean.cos()];
+    let top: Vec<[f64; 2]> = foot.iter().map(|[x, y]| [x + right, y + up]).collect();
+    let upper = all.body(&rows(rng.usize(3..=4), &foot, &top), false);
+    let mut bodies = all.finish(rng, &upper[0], &lower[1], false);
+    bodies.moduli[0].0 = 1e6;
+    bodies.hold(&lower[0], &BOTH);
+    bodies.hold(&upper[upper.len() - 1], &BOTH);
+    let force = magnitude(rng, 5e-5, 2e-3) * bodies.moduli[1].0;
+    let at = one_of(rng, &upper[0]);
+    bodies.load(&[at], [force * between(rng, -1.0, 1.0), force * between(rng, -1.0, 0.3)]);
+    let mu = match rng.bool() {
+        true => between(rng, 0.05, 1.2),
+        false => between(rng, 1.2, 4.0),
+    };
+    let steps = one_of(rng, &[1, 4, 16]);
+    Hard {
+        bodies,
+        degrees: between(rng, -PI, PI),
+        mu,
+        steps,
+        geometry: Geometry::Initial,
+        coupling,
+    }
+}
+
+type Draw = fn(&mut Rng, Coupling) -> Hard;
+
+struct Hard {
+    bodies: Bodies,
+    degrees: f64,
+    mu: f64,
+    steps: usize,
+    geometry: Geometry,
+    coupling: Coupling,
+}
+
+impl Hard {
+    fn solve(&self) -> Result<Solution, Error> {
+        let model = ContactModel {
+            coupling: self.coupling,
+            geometry: self.geometry,
+            friction: Friction::new(self.mu).expect("a coefficient"),
+            load_steps: self.steps,
+            ..Default::default()
+        };
+        let writing = Writing { degrees: self.degrees, ..Default::default() };
+        let scene = self.bodies.modelled(&writing, model).build().expect("a sound scene");
+        solve(&Request::new(&scene), &mut |_| ())
+    }
+
+    /// Holds an equilibrium against the conditions of contact in the shape that it reaches.
+    fn check(&self, solution: &Solution, what: &str) {
+        let (model, u) = (&*solution.model, &solution.u);
+        let surfaces = Surfaces::new(model).expect("surfaces");
+        let shape = model.shape(u);
+        let measured_in = match self.geometry {
+            Geometry::Initial => &model.nodes,
+            Geometry::Current => &shape,
+        };
+        let mut left = stiffness_times(model, u) - &model.load;
+        let most = left.amax();
+        let size = model.bounds().larger_side();
+        for pairing in surfaces.pairings(self.coupling, measured_in).iter().flatten() {
+            let Pairing { node, normal: [nx, ny], masters, .. } = pairing;
+            let [rx, ry] = node.of(&left);
+            let (p, q) = (nx * rx + ny * ry, nx * ry - ny * rx);
+            let gap = pairing.opening(|node| shape[node.index()]);
+            let is_near = |name: &str, x: f64, scale: f64| {
+                assert_near(&format!("{what}: {name} at node {node}"), x, 0.0, scale, &HARD);
+            };
+            is_near("pull", (-p).max(0.0), most);
+            is_near("overlap", (-gap).max(0.0), size);
+            is_near("work of the gap", (p / most) * (gap.max(0.0) / size), 1.0);
+            is_near("friction beyond its bound", (q.abs() - self.mu * p.max(0.0)).max(0.0), most);
+            let weights = std::iter::once((*node, 1.0));
+            for (node, w) in weights.chain(masters.iter().map(|(master, w)| (*master, -w))) {
+                for (dof, r) in node.dofs().into_iter().zip([rx, ry]) {
+                    left[dof.index()] -= w * r;
+                }
+            }
+        }
+        for dof in model.all_dofs().filter(|dof| !model.is_restrained(*dof)) {
+            let what = format!("{what}: balance of node {}", dof.node());
+            assert_near(&what, left[dof.index()], 0.0, most, &HARD);
+        }
+    }
+}
+
+/// Returns K u from the paper's B and D alone, force.
+fn stiffness_times(model: &Model, u: &DVector<f64>) -> DVector<f64> {
+    let mut force = DVector::zeros(u.len());
+    for id in model.triangle_ids() {
+        let (triangle, corners) = (model.triangle(id), model.corners(id));
+        let b = B(&corners);
+        let d = D(model.plane, triangle.material.e, triangle.material.nu);
+        let dofs: Vec<usize> =
+            triangle.nodes.iter().flat_map(|n: &NodeId| n.dofs()).map(|dof| dof.index()).collect();
+        let own = nalgebra::SVector::<f64, 6>::from_fn(|k, _| u[dofs[k]]);
+        let forces = b.transpose() * (d * (b * own)) * (area(&corners) * model.thickness);
+        dofs.iter().zip(forces.iter()).for_each(|(dof, f)| force[*dof] += f);
+    }
+    force
+}
+
+#[test]
+fn equilibria_are_found_where_they_are_hard_to_find() {
+    let kinds: [(&str, Draw); 4] = [("rough", rough), ("arc", arc), ("ring", ring), ("arm", arm)];
+    let count =
+        std::env::var("PLANE_CONTACT_HARD").map_or(SCENES, |n| n.parse().expect("a number"));
+    let mut text = String::new();
+    for (name, draw) in kinds {
+        let mut counts = [0; 4];
+        for seed in 0..count {
+            let coupling = [Coupling::Mortar, Coupling::Nts][seed % 2];
+            let hard = draw(&mut Rng::with_seed(seed as u64), coupling);
+            let what = format!("{name} {seed}");
+            let outcome = match hard.solve() {
+                Ok(solution) => {
+                    hard.check(&solution, &what);
+                    let found = solution.equilibrium.as_ref().expect("unilateral");
+                    usize::from(found.uniqueness.is_refuted())
+                }
+                Err(Error::Equilibrium(why)) => {
+                    println!("{what}: {why}");
+                    match why.cause {
+                        Cause::NoneExists => 2,
+                        Cause::NotFound | Cause::OutOfRange | Cause::Several => 3,
+                    }
+                }
+                Err(why) => panic!("{what}: {why}"),
+            };
+            counts[outcome] += 1;
+        }
+        text += &format!("{name} {counts:?}\n");
+    }
+    if count == SCENES {
+        assert_eq!(text, COUNTS);
+    }
+    println!("{text}");
+}

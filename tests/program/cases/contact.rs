@@ -1,0 +1,100 @@
+//! Equilibria: those that are hard to find, what is said of others, and what the model does not describe.
+
+use super::{Case, check};
+
+#[test]
+fn contact() {
+    check("contact", CASES);
+}
+
+const CASES: &[Case] = &[
+    Case {
+        input: "ring",
+        command: "plane-contact solve scene.json",
+        status: 0,
+        contains: &["Found on springs", "Equilibrium: "],
+        lacks: &["there is no equilibrium"],
+    },
+    Case {
+        input: "rough",
+        command: "plane-contact solve scene.json",
+        status: 0,
+        contains: &[
+            "contact states of the last step that differ at one node; earlier steps were not looked at",
+        ],
+        lacks: &[],
+    },
+    // The load lifts the arm: every node open is the only equilibrium.
+    Case {
+        input: "open",
+        command: "plane-contact solve scene.json --load-steps 1",
+        status: 0,
+        contains: &[
+            "all 4096 contact states of 1 step of the load",
+            "In contact at the end: no node",
+        ],
+        lacks: &[],
+    },
+    // Nodes stand inside at the start, and without load nothing holds the body.
+    Case {
+        input: "overlap",
+        command: "plane-contact solve scene.json",
+        status: 0,
+        contains: &[
+            "what is left of the size of the steps is not known: nodes that overlap the target",
+        ],
+        lacks: &["half as many"],
+    },
+    // The same in units of stress that are 1e10 times smaller.
+    Case {
+        input: "units",
+        command: "plane-contact solve scene.json | grep 'largest |u|:' > one; \
+                  plane-contact solve scene-1e10.json | grep 'largest |u|:' > other; \
+                  cat one; diff one other",
+        status: 0,
+        contains: &["largest |u|: "],
+        lacks: &[">"],
+    },
+    Case {
+        input: "balanced",
+        command: "plane-contact solve scene.json",
+        status: 4,
+        contains: &[
+            "NOT THE ONLY ONE: node",
+            "can move without work",
+            "there are several equilibria",
+        ],
+        lacks: &["no equilibrium"],
+    },
+    Case {
+        input: "locking",
+        command: "plane-contact plan scene.json; plane-contact solve scene.json --probe 2,1",
+        status: 0,
+        contains: &[
+            "NOTE: body 1: Poisson's ratio 0.4999 in plane strain is nearly incompressible: linear triangles lock",
+            "error of the mesh: unknown: Poisson's ratio 0.4999",
+        ],
+        lacks: &["in the energy norm"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact solve two-blocks --variant unilateral --load-factor 20000",
+        status: 4,
+        contains: &["the model leaves its range: triangle", "is turned inside out under about 0."],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: "plane-contact solve two-blocks --variant unilateral --load-factor 20000 --json",
+        status: 4,
+        contains: &["\"kind\":\"equilibrium\",\"cause\":\"out-of-range\",\"what\":\"triangle"],
+        lacks: &[],
+    },
+    Case {
+        input: "",
+        command: "plane-contact solve two-blocks --variant tied --load-factor 20000",
+        status: 0,
+        contains: &["triangles are turned inside out; linear elements are for strains below 0.1"],
+        lacks: &[],
+    },
+];
