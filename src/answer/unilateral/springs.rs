@@ -70,7 +70,8 @@ impl Problem<'_> {
             let whole = self.force_of(&springs, &last.moved.u) / springs.springs;
             let rounding = f64::EPSILON / SETTLED * largest(whole.as_slice());
             most = most.max(last.most(setting)).max(rounding);
-            let carried = largest(self.force_of(&springs, &moved).as_slice()) / most;
+            let pushing = largest(self.force_of(&springs, &moved).as_slice());
+            let carried = if pushing == 0.0 { 0.0 } else { pushing / most };
             least = least.min(carried);
             if carried <= SETTLED && change <= STALLED * largest(last.moved.u.as_slice()) {
                 let setting = Setting { whole: true, ..own };
