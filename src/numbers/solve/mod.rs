@@ -8,7 +8,7 @@
 //! | `error_bound` | how far a solution may be from the true one |
 //! | `symmetric`, `ordering`, `elimination_tree`, `cholesky` | sparse symmetric matrices; orders of
 //!   their equations; where a factor has entries; faer's factor of one |
-//! | [`memory`], [`cost`], `symbolic` | what a solution needs: memory, time, entries of factors |
+//! | [`cost`], `symbolic` | what a solution needs: time, entries of factors |
 //! | `sparse`, `condensed`, `iterative` | factors that tell a singular matrix; those that leave a few
 //!   equations over; solutions to a tolerance |
 //! | `sparse_lu` | factors of a sparse matrix that need not be symmetric |
