@@ -44,7 +44,7 @@ pub use request::Request;
 pub use side_by_side::side_by_side;
 pub use solution::{
     Choice, Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Start, Step, StepBounds,
-    Unilateral, Uniqueness, max_displacement,
+    Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
 pub use solve::{check, check_memory, equilibrium, solve};
 pub use sparse::dense_matrices;

@@ -220,7 +220,22 @@ impl Uniqueness {
     }
 }
 
+/// Returns the places of the last iterations under each load of a path.
+pub fn last_under_each_load(steps: &[Step]) -> Vec<usize> {
+    let load = |step: &Step| step.unilateral().map(|own| own.load);
+    let is_last = |i: &usize| steps.get(i + 1).is_none_or(|next| load(next) != load(&steps[*i]));
+    (0..steps.len()).filter(is_last).collect()
+}
+
 impl Step {
+    /// Returns what `unilateral` knows of the step; None under the other variants.
+    pub fn unilateral(&self) -> Option<&Unilateral> {
+        match &self.detail {
+            Detail::Unilateral(own) => Some(own),
+            Detail::Published(_) => None,
+        }
+    }
+
     /// Returns whether each entry of the contact surface is in contact.
     pub fn statuses(&self) -> Vec<bool> {
         match &self.detail {

@@ -9,8 +9,8 @@ use crate::answer::error::Error;
 use crate::answer::estimates::ErrorEstimates;
 use crate::answer::estimates::{Certainty, NoLimit};
 use crate::answer::{
-    Assessment, BodySummary, Cycle, Detail, Equilibrium, Measured, Path, Probe, Quantity, Solution,
-    Start, Step, Uniqueness, beyond_range, locking, max_displacement,
+    Assessment, BodySummary, Cycle, Equilibrium, Measured, Path, Probe, Quantity, Solution, Start,
+    Step, Unilateral, Uniqueness, beyond_range, last_under_each_load, locking, max_displacement,
 };
 use crate::paper::decisions::Decision;
 use crate::paper::door::Call;
@@ -154,10 +154,7 @@ fn iterations(solution: &Solution) -> String {
     let share = |force: Option<f64>| {
         or_dash(force.filter(|_| load != 0.0), |force| percent(force / load, 1))
     };
-    let springs = |step: &Step| match &step.detail {
-        Detail::Unilateral(own) => own.springs,
-        Detail::Published(_) => 0.0,
-    };
+    let springs = |step: &Step| step.unilateral().map_or(0.0, |own| own.springs);
     // Of a shape that was reached on springs, the last iteration.
     let shown = |i: &usize| {
         let next = solution.steps.get(i + 1);
@@ -190,15 +187,15 @@ fn path(solution: &Solution) -> Option<&Path> {
 fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> String {
     let units = &solution.request.scene.units;
     let length = |name| quantity(name, &units.length);
-    let details: Vec<(f64, &Vec<Status>)> = solution.steps.iter().filter_map(under_load).collect();
-    let ends = |i: &usize| details.get(i + 1).is_none_or(|next| next.0 != details[*i].0);
-    let last: Vec<usize> = (0..details.len()).filter(ends).collect();
+    let last = last_under_each_load(&solution.steps);
+    let own: Vec<&Unilateral> =
+        last.iter().filter_map(|i| solution.steps[*i].unilateral()).collect();
     let before = |row: usize| row.checked_sub(1).map_or(0, |before| last[before] + 1);
     let count = |row: usize, counted: fn(&Status) -> bool| {
-        details[last[row]].1.iter().filter(|status| counted(status)).count()
+        own[row].statuses.iter().filter(|status| counted(status)).count()
     };
     let table = Table::of(0..last.len())
-        .column("load", |row| short(details[last[*row]].0))
+        .column("load", |row| short(own[*row].load))
         .column("iterations", |row| last[*row] + 1 - before(*row))
         .column("stick", |row| count(*row, |status| *status == Status::Stick))
         .column("slip", |row| count(*row, |status| matches!(status, Status::Slip(_))))
@@ -251,14 +248,6 @@ fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> Stri
         n => format!("; {n} halved, as no equilibrium was found"),
     };
     format!("{table}  {} steps a stage{halved}; {change}\n", path.steps)
-}
-
-/// Returns the load of an iteration of `unilateral`, and its statuses.
-fn under_load(step: &Step) -> Option<(f64, &Vec<Status>)> {
-    match &step.detail {
-        Detail::Unilateral(own) => Some((own.load, &own.statuses)),
-        Detail::Published(_) => None,
-    }
 }
 
 /// Says whether the equilibrium is the only one, and what is left of the change of shape.

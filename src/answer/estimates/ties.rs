@@ -164,10 +164,7 @@ impl<'a> Looking<'a> {
         if self.rubs() && path.is_some_and(|path| path.start == Start::Overlapping) {
             self.decide(1, "whether nodes that overlap the target close without load");
         }
-        let own = |step: &'a Step| match &step.detail {
-            Detail::Unilateral(own) => Some((step.k, own)),
-            Detail::Published(_) => None,
-        };
+        let own = |step: &'a Step| Some((step.k, step.unilateral()?));
         let steps = || self.solution.steps.iter().filter_map(own);
         let on_springs = steps().find(|(_, own)| own.springs > 0.0);
         let otherwise = steps().find(|(_, own)| own.choice != Choice::Asked);
@@ -181,8 +178,12 @@ impl<'a> Looking<'a> {
 
     /// Keeps that rounding may decide in an iteration how the search goes on.
     fn decide(&mut self, iteration: usize, condition: &str) {
+        self.decide_at(self.solution.model.contact.nodes[0], iteration, condition);
+    }
+
+    /// Keeps that rounding may decide at a node, by a margin that is not known.
+    fn decide_at(&mut self, node: NodeId, iteration: usize, condition: &str) {
         self.only_ties = false;
-        let node = self.solution.model.contact.nodes[0];
         let condition = condition.into();
         self.decisions.push(Decision { iteration, node, condition, margin: None, bound: None });
     }
@@ -225,14 +226,8 @@ impl<'a> Looking<'a> {
 
     /// Keeps that the friction of a node rests on a force that its restraints share.
     fn shared(&mut self, state: &State, pairing: &Pairing) {
-        self.only_ties = false;
-        self.decisions.push(Decision {
-            iteration: state.step.k,
-            node: pairing.node,
-            condition: "its friction rests on a force that its restraints share".into(),
-            margin: None,
-            bound: None,
-        });
+        let condition = "its friction rests on a force that its restraints share";
+        self.decide_at(pairing.node, state.step.k, condition);
     }
 
     /// Looks at a node in contact.

@@ -52,57 +52,23 @@ pub(super) fn uniqueness(problem: &Problem, found: &Equilibrium, taken: &[Taken]
     if problem.friction == 0.0 {
         return Uniqueness::Unique;
     }
-    let every: Option<Vec<Vec<Vec<Status>>>> =
-        taken.iter().map(|step| problem.every(&step.place)).collect();
-    let number = |every: &Vec<Vec<Vec<Status>>>| every.iter().map(Vec::len).sum::<usize>();
-    let all = every.filter(|every| number(every) <= most(problem));
-    let (steps, states) = match &all {
-        Some(states) => (taken, states.clone()),
-        None => {
-            let mut states = problem.neighbours(last);
-            states.truncate(most(problem));
-            (std::slice::from_ref(last), vec![states])
-        }
-    };
-    let others = steps.iter().zip(&states).flat_map(|(step, states)| others(problem, step, states));
-    Uniqueness::Tried {
-        others: others.collect(),
-        states: number(&states),
-        steps: steps.len(),
-        all: all.is_some(),
-        last_only: steps[0].before.amax() > 0.0,
+    let numbers: Option<Vec<usize>> =
+        taken.iter().map(|step| problem.number_of_states(&step.place)).collect();
+    let all = numbers.is_some_and(|numbers| numbers.iter().sum::<usize>() <= problem.most_states());
+    let steps = if all { taken } else { std::slice::from_ref(last) };
+    let (mut number, mut others) = (0, Vec::new());
+    for step in steps {
+        let states = if all { problem.every(&step.place) } else { problem.neighbours(step) };
+        number += states.len();
+        others.extend(problem.others(step, &states));
     }
-}
-
-/// Returns whether all contact states of a path of so many steps can be tried.
-pub(super) fn are_few(problem: &Problem, place: &Place, steps: usize) -> bool {
-    problem.every(place).is_some_and(|all| all.len() * steps <= most(problem))
+    let last_only = steps[0].before.amax() > 0.0;
+    Uniqueness::Tried { states: number, steps: steps.len(), all, last_only, others }
 }
 
 fn setting<'a>(problem: &Problem, step: &'a Taken) -> Setting<'a> {
     let load = problem.load(step.to);
     Setting { load, before: &step.before, statuses: None, whole: false }
-}
-
-/// Returns the equilibria of a step among some states, each once, other than the one that it led to.
-fn others(problem: &Problem, step: &Taken, states: &[Vec<Status>]) -> Vec<Other> {
-    let setting = setting(problem, step);
-    let scale = step.u.amax();
-    let mut others: Vec<(DVector<f64>, Other)> = Vec::new();
-    for statuses in states {
-        let Some(moved) = problem.try_statuses(&step.place, statuses, &setting) else { continue };
-        let apart = |u: &DVector<f64>| (&moved.u - u).amax();
-        let change = apart(&step.u);
-        if change > DISTINCT * scale && others.iter().all(|(u, _)| apart(u) > DISTINCT * scale) {
-            others.push((moved.u, other(problem, statuses, step.to, change)));
-        }
-    }
-    others.into_iter().map(|(_, other)| other).collect()
-}
-
-/// Returns the number of contact states that are tried at most: fewer of a large model.
-fn most(problem: &Problem) -> usize {
-    1 + WORK / problem.model.dofs()
 }
 
 /// Returns a node that can move without work: with the contacts that carry nothing opened, nothing
@@ -138,26 +104,58 @@ impl Problem<'_> {
     /// Looks for statuses in equilibrium among all that there are; None where there is none, and where
     /// there are too many to be tried.
     pub(super) fn enumerated(&self, place: &Place, setting: &Setting) -> Option<Vec<Status>> {
-        let all = self.every(place).filter(|all| all.len() <= most(self))?;
+        let all = self.can_enumerate(place, 1).then(|| self.every(place))?;
         all.into_iter().find(|statuses| self.try_statuses(place, statuses, setting).is_some())
     }
 
-    /// Returns every contact state in a place; None of more than [`ALL`].
-    fn every(&self, place: &Place) -> Option<Vec<Vec<Status>>> {
-        let entries = 0..place.pairings.len();
-        let choices: Vec<Vec<Status>> = entries.map(|i| self.choices(place, i)).collect();
-        let number = choices.iter().try_fold(1_usize, |n, c| n.checked_mul(c.len()));
-        number.filter(|n| *n <= ALL)?;
-        let longer = |states: Vec<Vec<Status>>, choices: &Vec<Status>| {
+    /// Returns whether all contact states of so many steps, whose nodes face what they do in a place, can be
+    /// tried.
+    pub(super) fn can_enumerate(&self, place: &Place, steps: usize) -> bool {
+        self.number_of_states(place).is_some_and(|number| number * steps <= self.most_states())
+    }
+
+    /// Returns the number of contact states that are tried at most: fewer of a large model.
+    fn most_states(&self) -> usize {
+        1 + WORK / self.model.dofs()
+    }
+
+    /// Returns the number of all contact states in a place; None of more than [`ALL`].
+    fn number_of_states(&self, place: &Place) -> Option<usize> {
+        let mut choices = (0..place.pairings.len()).map(|i| self.choices(place, i).len());
+        let number = choices.try_fold(1_usize, |n, choices| n.checked_mul(choices));
+        number.filter(|n| *n <= ALL)
+    }
+
+    /// Returns every contact state in a place.
+    fn every(&self, place: &Place) -> Vec<Vec<Status>> {
+        (0..place.pairings.len()).fold(vec![Vec::new()], |states, i| {
+            let choices = self.choices(place, i);
             let with = |state: &Vec<Status>| {
                 choices.iter().map(|c| [&state[..], &[*c]].concat()).collect::<Vec<_>>()
             };
             states.iter().flat_map(with).collect()
-        };
-        Some(choices.iter().fold(vec![Vec::new()], longer))
+        })
     }
 
-    /// Returns the states that differ from that of a step in one entry, of those in contact or beside one.
+    /// Returns the equilibria of a step among some states, each once, other than the one that it led to.
+    fn others(&self, step: &Taken, states: &[Vec<Status>]) -> Vec<Other> {
+        let setting = setting(self, step);
+        let scale = step.u.amax();
+        let mut others: Vec<(DVector<f64>, Other)> = Vec::new();
+        for statuses in states {
+            let Some(moved) = self.try_statuses(&step.place, statuses, &setting) else { continue };
+            let apart = |u: &DVector<f64>| (&moved.u - u).amax();
+            let change = apart(&step.u);
+            if change > DISTINCT * scale && others.iter().all(|(u, _)| apart(u) > DISTINCT * scale)
+            {
+                others.push((moved.u, other(self, statuses, step.to, change)));
+            }
+        }
+        others.into_iter().map(|(_, other)| other).collect()
+    }
+
+    /// Returns the states that differ from that of a step in one entry, of those in contact or beside one, as
+    /// many as are tried.
     fn neighbours(&self, step: &Taken) -> Vec<Vec<Status>> {
         let Taken { place, statuses, .. } = step;
         let closed = |i: usize| statuses.get(i).is_some_and(|status| status.is_closed());
@@ -171,7 +169,7 @@ impl Problem<'_> {
                 state
             })
         };
-        (0..statuses.len()).filter(near).flat_map(with).collect()
+        (0..statuses.len()).filter(near).flat_map(with).take(self.most_states()).collect()
     }
 
     /// Returns the statuses that an entry can have.

@@ -4,13 +4,15 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::equilibria::{Taken, are_few, uniqueness};
+use super::equilibria::{Taken, uniqueness};
 use super::forces::load_of;
 use super::problem::{Equilibrium, Iteration, Place, Problem, Setting, Watch};
 use crate::answer::contact::{ContactNode, Status, Traction};
 use crate::answer::error::{Cause, Error, NoEquilibrium};
 use crate::answer::memory::{FEWER_STEPS, HELD, bytes_of_path};
-use crate::answer::solution::{self, Detail, Path, Solution, Start, Step, max_displacement};
+use crate::answer::solution::{
+    self, Detail, Path, Solution, Start, Step, last_under_each_load, max_displacement,
+};
 use crate::answer::support::{held, passed_on};
 use crate::error::InputError;
 use crate::memory;
@@ -82,9 +84,10 @@ fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> 
     let zero = DVector::zeros(problem.model.dofs());
     let mut point = Point { load: 0.0, u: zero, statuses: None };
     let total = stages * per_stage;
-    let mut walk = Walk::new(problem, watch, total);
+    let mut walk = Walk::new(problem, watch);
     if with_friction {
         let place = problem.place(&point.u);
+        walk.keeps_all = problem.can_enumerate(&place, total);
         let closed = problem.overlaps(&place).then(|| walk.advance(&point, 0.0, 0));
         (walk.start, point) = match closed {
             Some(Ok(closed)) => (Start::Closed, Point::after(0.0, closed)),
@@ -129,15 +132,10 @@ fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> 
 
 /// Returns the number of steps in which a node that was closed has another status at the end.
 fn changes(steps: &[Step]) -> usize {
-    let own = |step: &Step| match &step.detail {
-        Detail::Unilateral(own) => (own.load, own.statuses.clone()),
-        Detail::Published(_) => unreachable!("the path is one of unilateral"),
-    };
-    let all: Vec<(f64, Vec<Status>)> = steps.iter().map(own).collect();
-    let ends: Vec<&[Status]> =
-        all.chunk_by(|a, b| a.0 == b.0).map(|step| &step[step.len() - 1].1[..]).collect();
-    let changed = |pair: &&[&[Status]]| {
-        let mut statuses = pair[0].iter().zip(pair[1]);
+    let own = |i: usize| steps[i].unilateral();
+    let ends: Vec<_> = last_under_each_load(steps).into_iter().filter_map(own).collect();
+    let changed = |pair: &&[&solution::Unilateral]| {
+        let mut statuses = pair[0].statuses.iter().zip(&pair[1].statuses);
         statuses.any(|(before, after)| before.is_closed() && before != after)
     };
     ends.windows(2).filter(changed).count()
@@ -184,9 +182,7 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    /// Begins a path of so many steps.
-    fn new(problem: &'a Problem<'a>, watch: &'a mut dyn FnMut(&Step), steps: usize) -> Self {
-        let place = problem.place(&DVector::zeros(problem.model.dofs()));
+    fn new(problem: &'a Problem<'a>, watch: &'a mut dyn FnMut(&Step)) -> Self {
         Walk {
             problem,
             watch,
@@ -195,7 +191,7 @@ impl<'a> Walk<'a> {
             halved: 0,
             closings: 0,
             start: Start::Held,
-            keeps_all: are_few(problem, &place, steps),
+            keeps_all: false,
             taken: Vec::new(),
         }
     }

@@ -299,7 +299,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the gap of each entry before any load, length.
-    fn at_the_start(&self, place: &Place) -> Vec<Option<f64>> {
+    pub(super) fn at_the_start(&self, place: &Place) -> Vec<Option<f64>> {
         self.gaps(place, &DVector::zeros(self.model.dofs()))
     }
 

@@ -21,7 +21,7 @@ impl Problem<'_> {
     /// Says that nothing opposes a motion of a body as a rigid one.
     pub(super) fn escapes(&self, place: &Place, dof: Dof) -> NoEquilibrium {
         let (node, direction) = (self.named(dof.node()), dof.axis());
-        let gaps = self.gaps(place, &DVector::zeros(self.model.dofs()));
+        let gaps = self.at_the_start(place);
         let least = gaps.into_iter().flatten().fold(f64::INFINITY, f64::min);
         let apart = match least > self.closed {
             true => {
