@@ -243,7 +243,13 @@ fn solve(args: &Args, request: &Request, after_step: &dyn Fn()) -> Result<(Solut
         let words = report::trade::reached(&reached, asked);
         return Ok((reached.solution, words));
     }
-    let progress = progress(request.iterations, "iteration {pos} of {len} {wide_bar} {eta}");
+    let progress = match request.variant {
+        // How many there will be is not known.
+        Variant::Unilateral => progress(0, "iteration {pos} {elapsed}"),
+        Variant::Printed | Variant::Tied | Variant::Stepped => {
+            progress(request.iterations, "iteration {pos} of {len} {wide_bar} {eta}")
+        }
+    };
     let solution = answer::solve(request, &mut |_: &Step| {
         progress.inc(1);
         after_step();

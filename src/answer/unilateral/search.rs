@@ -173,7 +173,7 @@ impl Problem<'_> {
             && self.springs == 0.0
             && let Some(dof) = escaping()
         {
-            return Err(self.escapes(place, dof).into());
+            return Err(self.escapes(dof).into());
         }
         let bounds = self.by_bounds(place, setting).map(|statuses| (statuses, Choice::Bounds));
         let all = || self.enumerated(place, setting).map(|statuses| (statuses, Choice::Enumerated));

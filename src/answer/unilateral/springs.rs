@@ -86,8 +86,7 @@ impl Problem<'_> {
             (u, statuses, last_move) = (last.moved.u, Some(last.statuses), moved);
         }
         let escaping = self.escape(&place, &setting.load, self.friction);
-        let escapes =
-            escaping.map(|dof| format!("; in the last {}", self.escapes(&place, dof).what));
+        let escapes = escaping.map(|dof| format!("; in the last {}", self.escapes(dof).what));
         let what = format!(
             "on springs the bodies do not come to rest in {shapes} shapes, {least:.1e} of the largest force is \
              left to the springs at best{}",

@@ -19,15 +19,15 @@ const FAR_APART: f64 = 1e6;
 
 impl Problem<'_> {
     /// Says that nothing opposes a motion of a body as a rigid one.
-    pub(super) fn escapes(&self, place: &Place, dof: Dof) -> NoEquilibrium {
+    pub(super) fn escapes(&self, dof: Dof) -> NoEquilibrium {
         let (node, direction) = (self.named(dof.node()), dof.axis());
-        let gaps = self.at_the_start(place);
-        let least = gaps.into_iter().flatten().fold(f64::INFINITY, f64::min);
-        let apart = match least > self.closed {
-            true => {
+        let start = self.place(&DVector::zeros(self.model.dofs()));
+        let gaps = self.at_the_start(&start).into_iter().flatten();
+        let apart = match gaps.reduce(f64::min).filter(|least| *least > self.closed) {
+            Some(least) => {
                 format!(", whose surfaces are at least {} apart,", six_digits(least))
             }
-            false => String::new(),
+            None => String::new(),
         };
         let what = format!(
             "the load moves {node} in {direction} with the whole body, and neither restraints nor \
@@ -98,7 +98,7 @@ impl Problem<'_> {
             false => "under any part of the load".into(),
         };
         if free(to, f64::INFINITY).is_some() {
-            let NoEquilibrium { cause, what } = self.escapes(&place, dof);
+            let NoEquilibrium { cause, what } = self.escapes(dof);
             return Some(NoEquilibrium { cause, what: format!("{what} ({when})") });
         }
         // What holds the loads at both ends of a stage holds those between them.
