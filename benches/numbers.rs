@@ -13,12 +13,13 @@ use std::time::Instant;
 
 use clap::Parser;
 use nalgebra::DVector;
+use plane_contact::answer::fast::listings as fast;
 use plane_contact::answer::{Elimination, Stiffness};
 use plane_contact::numbers::solve::SparseCholesky;
+use plane_contact::paper::door;
 use plane_contact::paper::exports::{self, Export};
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{Km, Reading, c_cnt};
-use plane_contact::paper::{door, near};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
@@ -444,7 +445,7 @@ fn octave(folder: &Path) -> Table {
     };
     let mirrored = || {
         let pairs = c_cnt(sheet, reading, node_n).expect("it runs");
-        Km(sheet, reading, &pairs.k_cnt).expect("it runs").into_matrix()
+        Km(sheet, reading, &pairs.k_cnt).expect("it runs").to_table().into_matrix()
     };
     let size: f64 = mirrored().iter().map(|x| x.abs()).sum();
     assert!((number("size") - size).abs() <= 1e-12 * size, "the matrices are the same");
@@ -466,7 +467,7 @@ fn search() -> Table {
     for n in [1_000, 10_000] {
         let sheet = door::worksheet(&strips(n).model, |x| x);
         let mirror = || c_cnt(&sheet, &reading, &sheet.node).expect("it runs");
-        let tree = || near::c_cnt(&sheet, &reading, &sheet.node).expect("it runs");
+        let tree = || fast::c_cnt(&sheet, &reading, &sheet.node).expect("it runs");
         assert_eq!(mirror(), tree());
         let mirror = 1e3 * least(2, || drop(black_box(mirror())));
         let tree = 1e3 * least(5, || drop(black_box(tree())));

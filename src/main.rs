@@ -68,7 +68,6 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    commands::huge_pages::set(false);
     #[cfg(unix)]
     heed_signals();
     let done = |()| 0;

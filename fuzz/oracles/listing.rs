@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use arbitrary::{Result, Unstructured};
+use plane_contact::answer::fast::listings as fast;
 use plane_contact::paper::door;
 use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::{self, Which, settings};
@@ -15,7 +16,6 @@ use plane_contact::paper::mathcad::xmcd::document::{self, Content};
 use plane_contact::paper::mathcad::xmcd::page;
 use plane_contact::paper::mathcad::{self, Array, Limits, Listing, Settings, Sheet, Value, file};
 use plane_contact::paper::mirror::{Cause, Failure, Km, Pairs, Reading, Worksheet, c_cnt};
-use plane_contact::paper::near;
 use plane_contact::report::evaluation;
 
 use super::{drawn, sound};
@@ -180,11 +180,11 @@ fn is_mirrored(sheet: &Worksheet<f64>, node_n: &Table<f64>, reading: &Reading) -
     let listing = printed(Which::CCnt, reading);
     let executed = listings::c_cnt(&listing, &settings, sheet, node_n, &mut ());
     let of_mirror = mirror.as_ref().map(pair_bits).map_err(stop);
-    let near = near::c_cnt(sheet, reading, node_n);
-    assert_eq!(of_mirror, near.as_ref().map(pair_bits).map_err(stop));
+    let fast = fast::c_cnt(sheet, reading, node_n);
+    assert_eq!(of_mirror, fast.as_ref().map(pair_bits).map_err(stop));
     assert_eq!(of_mirror, executed.map(|(p, _)| pair_bits(&p)).map_err(|f| printed_stop(&f)));
     let k_cnt = mirror.map_or_else(|_| Table::filled(sheet.R(), 4, 0.0), |pairs| pairs.k_cnt);
-    let mirror = Km(sheet, reading, &k_cnt);
+    let mirror = Km(sheet, reading, &k_cnt).map(|m| m.to_table());
     let executed = listings::km(&printed(Which::Km, reading), &settings, sheet, &k_cnt, &mut ());
     let flat = |table: &Table<f64>| bits(table.as_matrix());
     assert_eq!(

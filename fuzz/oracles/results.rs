@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use plane_contact::answer::Session;
 use plane_contact::answer::estimates::{Certainty, certain};
 use plane_contact::input::{Friction, Variant};
 use plane_contact::report::comparison::{self, Compared};
@@ -13,7 +14,7 @@ use super::sound;
 static OURS: LazyLock<(Solution, Certainty)> = LazyLock::new(|| {
     let scene = Scene::open("two-blocks").expect("an embedded scene");
     let request = Request::new(&scene).variant(Variant::Tied);
-    certain(solve(&request, &mut |_| ()).expect("it runs"))
+    certain(solve(&request, &mut |_| ()).expect("it runs"), &Session::default())
 });
 
 pub fn hold(data: &[u8]) {

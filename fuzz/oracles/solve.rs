@@ -4,6 +4,7 @@
 
 use arbitrary::{Result, Unstructured};
 use plane_contact::answer::Assessment;
+use plane_contact::answer::Session;
 use plane_contact::answer::contact::pulling;
 use plane_contact::input::{Arithmetic, ScalarName, Solver, Variant};
 use plane_contact::numbers::solve::cost;
@@ -51,7 +52,7 @@ fn of_draws(u: &mut Unstructured) -> Result<Option<Request>> {
 
 /// The result and its tables have no number without a value, and the result reads back the same.
 fn is_written(solution: &Solution) {
-    let assessment = Assessment::new(solution);
+    let assessment = Assessment::new(solution, &Session::default());
     let plan = Plan::new(&solution.request).expect("what ran can be planned");
     let text = ResultFile::new(solution, &assessment, Some(&plan)).to_json();
     sound::document(&text);

@@ -7,14 +7,12 @@ use nalgebra::DVector;
 
 use super::distance::{Distance, distance};
 use super::error::Error;
-use super::estimates::ErrorEstimates;
-use super::factors::Kept;
+use super::estimates::Estimates;
 use super::hertz::Hertz;
 use super::probe::{Probe, probes};
 use super::request::Request;
-use super::side_by_side::side_by_side;
+use super::session::Session;
 use super::solution::{Solution, Start};
-use super::solve::solve;
 use super::summary::{BodySummary, summaries};
 use crate::error::InputError;
 use crate::problem::modelling::{ContactModel, Friction, Variant};
@@ -24,7 +22,7 @@ pub struct Assessment<'a> {
     /// The largest values of each body.
     pub bodies: Vec<BodySummary>,
     /// The estimated errors from rounding and from the mesh; None where they are left out.
-    pub estimates: Option<ErrorEstimates>,
+    pub estimates: Option<Estimates>,
     /// What the run says of the points that were asked for: [`Assessment::probe`].
     pub probes: Vec<Probe>,
     /// The largest difference of a displacement component from a path of half as many steps of the
@@ -50,8 +48,8 @@ pub struct Measured<'a> {
     pub hertz: Option<Hertz>,
 }
 
-/// The other solutions beside which a solution is assessed; they can be solved before it is known.
-pub struct Others {
+/// The other solutions beside which a solution is assessed.
+struct Others {
     /// The reference solution; None without contact, and where that is what was asked for.
     reference: Option<Result<Solution, Error>>,
     /// The equilibrium under the scene's own friction and geometry; None too where that is the
@@ -64,50 +62,46 @@ pub struct Others {
 
 impl Others {
     /// Solves for what a solution of `request` is assessed beside, `with_estimates` or without.
-    pub fn new(request: &Request, with_estimates: bool) -> Self {
+    fn new(request: &Request, session: &Session, with_estimates: bool) -> Self {
         let model = &request.scene.model;
         let (reference, equilibrium) = (request.reference(), request.equilibrium());
         let is_wanted =
             |wanted: &Request| model.target().is_some() && !request.is_same_equilibrium(wanted);
         let own = Some(&equilibrium).filter(|own| !own.is_same_equilibrium(&reference));
-        let solved = |wanted: &Request| {
-            is_wanted(wanted).then(|| solve(wanted, &mut |_| ()).map(without_factors))
-        };
-        let half = || with_estimates.then(|| half_as_many_steps(request)).flatten();
-        let (reference, (equilibrium, half)) = side_by_side(
-            model,
-            || solved(&reference),
-            || side_by_side(model, || own.and_then(solved), half),
-        );
+        let solved =
+            |wanted: &Request| is_wanted(wanted).then(|| session.solve(wanted, &mut |_| ()));
+        let half = || with_estimates.then(|| half_as_many_steps(request, session)).flatten();
+        let (reference, (equilibrium, half)) =
+            rayon::join(|| solved(&reference), || rayon::join(|| own.and_then(solved), half));
         Others { reference, equilibrium, half }
     }
 }
 
 impl<'a> Assessment<'a> {
-    /// Assesses a solution, and solves for the reference solution and for the equilibrium under the
-    /// scene's own friction and geometry, unless it is one of them.
-    pub fn new(solution: &'a Solution) -> Self {
-        let (others, estimates) = side_by_side(
-            &solution.model,
-            || Others::new(&solution.request, true),
-            || ErrorEstimates::new(solution),
+    /// Assesses a solution, and solves in `session` for the reference solution and for the equilibrium
+    /// under the scene's own friction and geometry, unless it is one of them.
+    pub fn new(solution: &'a Solution, session: &Session) -> Self {
+        let (others, estimates) = rayon::join(
+            || Others::new(&solution.request, session, true),
+            || Estimates::new(solution, session),
         );
         Self::beside(solution, others, Some(estimates))
     }
 
     /// Does the same without the estimates: neither their fields nor `path_change`, which takes
     /// another run, are computed.
-    pub fn without_estimates(solution: &'a Solution) -> Self {
-        Self::beside(solution, Others::new(&solution.request, false), None)
+    pub fn without_estimates(solution: &'a Solution, session: &Session) -> Self {
+        Self::beside(solution, Others::new(&solution.request, session, false), None)
+    }
+
+    /// Takes a solution as it is: only the largest values of its bodies are computed.
+    pub fn none(solution: &'a Solution) -> Self {
+        Assessment::measured(solution, None, None)
     }
 
     /// Assesses a solution beside others that were solved for its request, and by `estimates` of its
     /// errors.
-    pub fn beside(
-        solution: &'a Solution,
-        others: Others,
-        estimates: Option<ErrorEstimates>,
-    ) -> Self {
+    fn beside(solution: &'a Solution, others: Others, estimates: Option<Estimates>) -> Self {
         let request = &solution.request;
         let Others { reference, equilibrium, half } = others;
         let has_own = !request.equilibrium().is_same_equilibrium(&request.reference());
@@ -127,11 +121,12 @@ impl<'a> Assessment<'a> {
     /// the equilibrium under the scene's own friction and geometry.
     pub fn against(
         solution: &'a Solution,
+        session: &Session,
         [reference, equilibrium]: [Option<&'a Solution>; 2],
     ) -> Self {
         let known = |other: Option<&'a Solution>| other.map(|other| Ok(Cow::Borrowed(other)));
-        let estimates = ErrorEstimates::new(solution);
-        let path_change = change(half_as_many_steps(&solution.request), solution);
+        let estimates = Estimates::new(solution, session);
+        let path_change = change(half_as_many_steps(&solution.request, session), solution);
         let assessment = Assessment::measured(solution, known(reference), known(equilibrium));
         Assessment { estimates: Some(estimates), path_change, ..assessment }
     }
@@ -161,13 +156,18 @@ impl<'a> Assessment<'a> {
     ///
     /// # Errors
     /// A point lies outside every body.
-    pub fn probe(&mut self, solution: &Solution, points: &[[f64; 2]]) -> Result<(), InputError> {
+    pub fn probe(
+        &mut self,
+        solution: &Solution,
+        session: &Session,
+        points: &[[f64; 2]],
+    ) -> Result<(), InputError> {
         if points.is_empty() {
             return Ok(());
         }
-        let own = self.estimates.is_none().then(|| ErrorEstimates::new(solution));
+        let own = self.estimates.is_none().then(|| Estimates::new(solution, session));
         let estimates = self.estimates.as_ref().or(own.as_ref()).expect("one of the two");
-        self.probes = probes(solution, estimates, points)?;
+        self.probes = probes(solution, session, estimates, points)?;
         Ok(())
     }
 
@@ -186,11 +186,6 @@ impl<'a> Assessment<'a> {
     }
 }
 
-/// Returns a solution without what only its own estimates need: large factors.
-fn without_factors(solution: Solution) -> Solution {
-    Solution { factors: Kept::default(), ..solution }
-}
-
 /// Returns the largest difference of displacements at the end of a path of half as many steps from those
 /// of a solution, length; None where it says nothing of the size of the steps, as the first of them brings
 /// the bodies into contact.
@@ -201,12 +196,12 @@ fn change(half: Option<DVector<f64>>, solution: &Solution) -> Option<f64> {
 }
 
 /// Follows the path of a request's load in half as many steps; returns the displacements at its end.
-fn half_as_many_steps(request: &Request) -> Option<DVector<f64>> {
+fn half_as_many_steps(request: &Request, session: &Session) -> Option<DVector<f64>> {
     let ContactModel { friction, load_steps, .. } = request.contact;
     let has_path = request.variant == Variant::Unilateral && friction != Friction::NONE;
     let steps = Some(load_steps / 2).filter(|_| has_path && load_steps % 2 == 0)?;
     let contact = ContactModel { load_steps: steps, ..request.contact };
-    Some(solve(&request.clone().contact(contact), &mut |_| ()).ok()?.u)
+    Some(session.solve(&request.clone().contact(contact), &mut |_| ()).ok()?.u)
 }
 
 impl<'a> Measured<'a> {

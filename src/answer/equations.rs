@@ -1,6 +1,7 @@
 //! The equations A(c)·u = f of an iteration of a published variant, assembled and solved.
 
 use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -8,9 +9,9 @@ use nalgebra::DVector;
 use super::contact::{Surfaces, hidden};
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
-use super::factors::LastFactors;
 use super::printed::{AtSurfaces, condenses_printed};
 use super::request::Request;
+use super::session::Session;
 use super::sparse::{MakeSparse, Sparse, State, takes_sparse};
 use super::stiffness::Stiffness;
 use super::support::{support, supports};
@@ -22,16 +23,15 @@ use crate::paper::edited::Interpreter;
 use crate::paper::listings::Which;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{self, Pairs, RestraintIndex, Schedule, Worksheet};
-use crate::paper::near::Assembler;
 use crate::plain::six_digits;
-use crate::problem::model::{Dof, Model};
+use crate::problem::model::{Dof, Model, NodeId};
 use crate::problem::modelling::{Coupling, Variant};
 
 /// The source of the matrix of an iteration.
-enum Assembly<'a, T> {
+enum Assembly<T> {
     /// `Km` with the contact pairs, as printed; without its zeros where the solver takes it so, and then
     /// what solves it quickly, once that was tried.
-    Printed(Option<(Assembler<'a, T>, OnceCell<Option<AtSurfaces>>)>),
+    Printed(Option<OnceCell<Option<AtSurfaces>>>),
     /// Elimination from the matrix of `Km` without contact and without restraints.
     Dense(Table<T>),
     /// Elimination from the triangles' matrices, solved by the function.
@@ -41,9 +41,10 @@ enum Assembly<'a, T> {
 /// The parts of the equations that every iteration of a run shares.
 pub(super) struct Equations<'a, T> {
     request: &'a Request,
+    session: Session,
     model: &'a Arc<Model>,
     sheet: &'a Worksheet<T>,
-    assembly: Assembly<'a, T>,
+    assembly: Assembly<T>,
     /// What executes an edited `Km`; None where no listing is edited.
     interpreter: Option<&'a Interpreter>,
     /// The stiffness, triangle by triangle.
@@ -78,7 +79,7 @@ impl<'a, T: Precision> Equations<'a, T> {
     /// # Errors
     /// The stiffness overflows.
     pub fn new(
-        request: &'a Request,
+        (request, session): (&'a Request, &Session),
         model: &'a Arc<Model>,
         sheet: &'a Worksheet<T>,
         load: DVector<T>,
@@ -101,10 +102,9 @@ impl<'a, T: Precision> Equations<'a, T> {
             (Variant::Printed, _) => {
                 let is_sparse =
                     request.solver() == Solver::SparseLu && !request.is_edited(Which::Km);
-                let assembler = || Assembler::new(sheet, &request.reading);
-                Assembly::Printed(is_sparse.then(|| (assembler(), OnceCell::new())))
+                Assembly::Printed(is_sparse.then(OnceCell::new))
             }
-            (_, Some(make)) => Assembly::Sparse(make(request, model)),
+            (_, Some(make)) => Assembly::Sparse(make(request, model, session)),
             (_, None) => Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
                 Some(edited) => edited?,
                 None => door::free_stiffness(sheet, &request.reading)?,
@@ -113,6 +113,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         let stiffness = Stiffness::new(model, number);
         let equations = Equations {
             request,
+            session: session.clone(),
             model,
             sheet,
             assembly,
@@ -146,17 +147,19 @@ impl<'a, T: Precision> Equations<'a, T> {
                     let edited = self.interpreter.and_then(|i| i.km(&pairs.k_cnt));
                     let solved = if let Some(edited) = edited {
                         T::solve(held(edited?.into_matrix()), &self.f, solver, tol)
-                    } else if let Some((sparse, at_surfaces)) = sparse {
-                        let matrix = door::holding_dropped(self.model, sparse.Km(&pairs.k_cnt)?);
+                    } else if let Some(at_surfaces) = sparse {
+                        let matrix = mirror::Km(sheet, reading, &pairs.k_cnt)?.into_sparse();
+                        let matrix = door::holding_dropped(self.model, matrix);
                         let f = self.f.map(Scalar::to_f64);
                         let quick = |matrix: &_| {
-                            let made = at_surfaces.get_or_init(|| self.at_surfaces(sparse));
+                            let made = at_surfaces.get_or_init(|| self.at_surfaces());
                             made.as_ref()?.factors(matrix, &f)
                         };
-                        let known = self.request.shared.known_lu();
+                        let known = self.session.known_lu();
                         T::solve_sparse(&matrix, &self.f, known, &quick)
                     } else {
-                        let matrix = mirror::Km(sheet, reading, &pairs.k_cnt)?.into_matrix();
+                        let matrix =
+                            mirror::Km(sheet, reading, &pairs.k_cnt)?.into_sparse().dense();
                         T::solve(held(matrix), &self.f, solver, tol)
                     };
                     solved.map_err(|why| self.unsolved(why, pairs, k, Dof::new))
@@ -178,12 +181,13 @@ impl<'a, T: Precision> Equations<'a, T> {
     }
 
     /// Returns what solves `Km` quickly; None where the bodies are not, or cannot be, condensed.
-    fn at_surfaces(&self, sparse: &Assembler<T>) -> Option<AtSurfaces> {
+    fn at_surfaces(&self) -> Option<AtSurfaces> {
         if !condenses_printed(self.request, self.model) {
             return None;
         }
-        let bodies = self.request.shared.at_surfaces(self.model)?;
-        let free = sparse.Km(&Pairs::none(self.sheet.R()).k_cnt).ok()?;
+        let bodies = self.session.at_surfaces(self.model)?;
+        let none = Pairs::none(self.sheet.R()).k_cnt;
+        let free = mirror::Km(self.sheet, &self.request.reading, &none).ok()?.into_sparse();
         Some(AtSurfaces::new(bodies, &free.map(Scalar::to_f64)))
     }
 
@@ -218,11 +222,11 @@ impl<'a, T: Precision> Equations<'a, T> {
         Ok(())
     }
 
-    /// Returns the factors that were made last.
-    pub fn last_factors(&self) -> LastFactors {
+    /// Returns the nodes to which the bodies were condensed last; None where they were not.
+    pub fn kept(&self) -> Option<BTreeSet<NodeId>> {
         match &self.assembly {
-            Assembly::Sparse(sparse) => sparse.last_factors(),
-            Assembly::Printed(_) | Assembly::Dense(_) => LastFactors::Unknown,
+            Assembly::Sparse(sparse) => sparse.kept(),
+            Assembly::Printed(_) | Assembly::Dense(_) => None,
         }
     }
 

@@ -3,10 +3,11 @@
 use crate::numbers::scalar::Scalar;
 use crate::paper::mathcad::array::{Column, Table, rows};
 use crate::paper::mirror::Pairs;
+use serde::Serialize;
 
 /// The pairs of an iteration in the arrays of `c_cnt`, but of `k_cnt`, which has a row for each node of
 /// the mesh, only the rows in which something is written.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FoundPairs {
     /// The `elem` number of each contact node's target edge; 0 for none.
     pub ct: Column<usize>,

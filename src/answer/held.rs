@@ -1,5 +1,5 @@
-//! The bodies as contact holds them in a step of a run, ready for one more load: with the factors
-//! that the run ended with where they serve, or with new ones.
+//! The bodies as contact holds them in a step of a run, ready for one more load: condensed as the run
+//! condensed them at its end, or whole.
 
 use std::sync::Arc;
 
@@ -7,9 +7,10 @@ use nalgebra::DVector;
 
 use super::condensation::{Bound, refined};
 use super::elimination::Elimination;
-use super::factors::{LastFactors, Whole};
+use super::session::Session;
 use super::solution::{Solution, Step};
 use super::stiffness::Stiffness;
+use super::whole::Whole;
 use crate::numbers::solve::Factors;
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
@@ -22,43 +23,37 @@ pub(super) struct Held {
     factors: Made,
 }
 
-/// The factors of the contact state, or of nearly the same one.
+/// The factors of the contact state.
 enum Made {
-    Condensed(Arc<Bound>),
-    Whole(Arc<Whole>),
+    Condensed(Box<Bound>),
+    Whole(Box<Whole>),
 }
 
 impl Held {
     /// Takes the last contact state of a solution; None where it does not hold the bodies, and of
     /// `Km` as printed, which is the stiffness of no bodies in contact.
-    pub(super) fn new(solution: &Solution) -> Option<Self> {
-        Held::at(solution, solution.last())
+    pub(super) fn new(solution: &Solution, session: &Session) -> Option<Self> {
+        Held::at(solution, solution.last(), session)
     }
 
     /// Takes the contact state of one of the solution's steps.
-    pub(super) fn at(solution: &Solution, step: &Step) -> Option<Self> {
-        let (model, constraints) = (&*solution.model, &step.constraints);
+    pub(super) fn at(solution: &Solution, step: &Step, session: &Session) -> Option<Self> {
+        let (model, constraints) = (&solution.model, &step.constraints);
         let t = match solution.request.variant {
             Variant::Printed if model.has_contact() => return None,
             Variant::Unilateral => Elimination::closing(&model.restrained, constraints),
             _ => Elimination::new(&model.restrained, constraints),
         };
-        let stiffness = solution.stiffness();
-        let known = match &solution.factors.known() {
-            LastFactors::Condensed(_, Some(bound)) if bound.is_of(constraints) => {
-                Some(Made::Condensed(Arc::clone(bound)))
-            }
-            LastFactors::Condensed(bodies, _) if bodies.has(constraints) => {
-                let bound = Bound::new(Arc::clone(bodies), &t, constraints);
-                bound.map(|bound| Made::Condensed(Arc::new(bound)))
-            }
-            LastFactors::Whole(whole) if whole.is_nearly_of(constraints) => {
-                Some(Made::Whole(Arc::clone(whole)))
-            }
-            _ => None,
+        let stiffness = session.stiffness(model);
+        let kept = solution.kept.clone();
+        let bodies = kept.and_then(|nodes| session.condensed(&stiffness, model, nodes));
+        let condensed = bodies
+            .filter(|bodies| bodies.has(constraints))
+            .and_then(|bodies| Bound::new(bodies, &t, constraints));
+        let factors = match condensed {
+            Some(bound) => Made::Condensed(Box::new(bound)),
+            None => Made::Whole(Box::new(Whole::new(&stiffness, &t).ok()?)),
         };
-        let new = || Whole::new(&stiffness, &t, constraints).map(Arc::new).ok();
-        let factors = known.or_else(|| new().map(Made::Whole))?;
         Some(Held { stiffness, t, factors })
     }
 

@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::condensation::surface_nodes;
 use super::published::bytes_of_iterations;
 use super::request::Request;
-use super::side_by_side::are_side_by_side;
 use super::stiffness::kept_matrices;
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Geometry, Variant};
@@ -76,7 +75,7 @@ fn bytes_beside(request: &Request, model: &Model) -> f64 {
     const WHOLE: f64 = 2000.0;
     /// Bytes of a pair of kept nodes: of an equilibrium, and of `tied` and `stepped`.
     const KEPT: [f64; 2] = [100.0, 450.0];
-    if !model.has_contact() || !are_side_by_side(model) {
+    if !model.has_contact() {
         return 0.0;
     }
     let equations = model.free_dofs() as f64;

@@ -3,12 +3,13 @@
 mod assessment;
 pub mod condensation;
 pub mod contact;
+mod decisions;
 mod distance;
 mod elimination;
 mod equations;
 pub mod error;
 pub mod estimates;
-mod factors;
+pub mod fast;
 mod found;
 mod held;
 mod hertz;
@@ -20,7 +21,7 @@ mod published;
 mod range;
 mod request;
 mod residual;
-mod side_by_side;
+mod session;
 mod solution;
 mod solve;
 mod sparse;
@@ -28,12 +29,13 @@ mod stiffness;
 mod summary;
 mod support;
 mod unilateral;
+mod whole;
 
-pub use assessment::{Assessment, Measured, Others};
+pub use assessment::{Assessment, Measured};
 pub use condensation::kept_equations;
+pub use decisions::{Decision, decisions};
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
-pub use factors::Kept;
 pub use found::FoundPairs;
 pub use hertz::Hertz;
 pub use memory::Bytes;
@@ -41,12 +43,12 @@ pub use printed::condenses_printed;
 pub use probe::{Probe, Quantity, check_points};
 pub use range::{beyond_range, locking};
 pub use request::Request;
-pub use side_by_side::side_by_side;
+pub use session::Session;
 pub use solution::{
     Choice, Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Start, Step, StepBounds,
     Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
-pub use solve::{check, check_memory, equilibrium, solve};
+pub use solve::{check, solve};
 pub use sparse::dense_matrices;
 pub use stiffness::Stiffness;
 pub use summary::{BodySummary, summaries};

@@ -6,10 +6,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contact::search::Segment;
-use super::estimates::arithmetic::{bounded, stress_bounds};
+use super::estimates::arithmetic::{bounded, stress_bounds, within};
 use super::estimates::discretisation::{SAFETY, compliance, von_mises};
-use super::estimates::{Cause, Dual, ErrorEstimates, Singular, singular};
+use super::estimates::{Cause, Dual, Estimates, Singular, singular};
 use super::held::Held;
+use super::not_finite::finite;
+use super::session::Session;
 use super::solution::Solution;
 use crate::error::InputError;
 use crate::numbers::scalar::Bounded;
@@ -61,7 +63,8 @@ pub struct Quantity {
 /// A point lies outside every body.
 pub fn probes(
     solution: &Solution,
-    estimates: &ErrorEstimates,
+    session: &Session,
+    estimates: &Estimates,
     points: &[[f64; 2]],
 ) -> Result<Vec<Probe>, InputError> {
     if points.is_empty() {
@@ -73,10 +76,10 @@ pub fn probes(
     let bench = Bench {
         solution,
         estimates,
-        dual: Held::new(solution).map(|held| Dual::new(solution, held, &estimates.mesh)),
+        dual: Held::new(solution, session).map(|held| Dual::new(solution, held, &estimates.mesh)),
         singular: singular(solution),
-        of_stress: stress_bounds(solution, &stiffness, estimates.displacement),
-        bounded: stiffness.stresses(&solution.u.map(|u| Bounded::new(u, estimates.displacement))),
+        of_stress: stress_bounds(solution, &stiffness, estimates.errors.displacement_arithmetic),
+        bounded: stiffness.stresses(&within(solution, estimates.errors.displacement_arithmetic)),
     };
     let bodies = |at| model.bodies.iter().map(move |body| (body, at));
     let places = points.iter().flat_map(|at| bodies(*at));
@@ -99,7 +102,7 @@ fn has(model: &Model, id: TriangleId, at: [f64; 2]) -> bool {
 
 struct Bench<'a> {
     solution: &'a Solution,
-    estimates: &'a ErrorEstimates,
+    estimates: &'a Estimates,
     dual: Option<Dual<'a>>,
     singular: Vec<Singular>,
     /// What rounding may do to the von Mises stress of each triangle, stress.
@@ -145,8 +148,8 @@ impl Bench<'_> {
                 name: name.into(),
                 value,
                 recovered: None,
-                mesh: self.dual.as_ref().and_then(|dual| known(dual.error(&force))),
-                arithmetic: known(self.estimates.displacement),
+                mesh: self.dual.as_ref().and_then(|dual| finite(dual.error(&force))),
+                arithmetic: self.estimates.errors.displacement_arithmetic,
             }
         };
         ["u_x", "u_y"].into_iter().enumerate().map(component).collect()
@@ -210,14 +213,10 @@ impl Bench<'_> {
             value: value[i],
             recovered: is_recovered.then_some(recovered[i]),
             mesh: (is_recovered && !is_singular).then_some(SAFETY * mesh[i]),
-            arithmetic: known(arithmetic[i]),
+            arithmetic: finite(arithmetic[i]),
         };
         names.into_iter().enumerate().map(quantity).collect()
     }
-}
-
-fn known(x: f64) -> Option<f64> {
-    Some(x).filter(|x| x.is_finite())
 }
 
 /// Returns the largest of the three corners' values.

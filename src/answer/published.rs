@@ -11,11 +11,14 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::contact::{ContactNode, Mortar, Surfaces, Traction, reactions, status};
+use super::decisions::{Decision, decisions};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Solved};
 use super::error::Error;
+use super::fast::listings::c_cnt;
 use super::found::FoundPairs;
 use super::request::Request;
+use super::session::Session;
 use super::solution::{Cycle, Detail, Published, Solution, Step, StepBounds, max_displacement};
 use super::sparse::{MakeSparse, dense_matrices};
 use super::support::passed_on;
@@ -23,13 +26,11 @@ use crate::error::InputError;
 use crate::memory;
 use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{Inputs, Precision, ScalarName, cost};
-use crate::paper::decisions::{Decision, decisions};
 use crate::paper::door::{self, NodeToSegment};
 use crate::paper::edited::Interpreter;
 use crate::paper::listings::Which;
 use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::{NodeTable, Pairs, Schedule, Worksheet};
-use crate::paper::near::c_cnt;
+use crate::paper::mirror::{self, NodeTable, Pairs, Schedule, Worksheet};
 use crate::plain::six_digits;
 use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::{Coupling, Variant};
@@ -52,6 +53,7 @@ pub(super) fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
 /// The published algorithm fails as printed, a matrix is singular, or it does not fit in memory.
 pub(super) fn published<T: Precision>(
     request: &Request,
+    session: &Session,
     sparse: Option<MakeSparse<T>>,
     goes_on: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Solution, Error> {
@@ -62,7 +64,7 @@ pub(super) fn published<T: Precision>(
     let interpreter = (!request.edited.is_empty())
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
     let interpreter = interpreter.as_ref();
-    let mut run = Run::new(request, &model, &sheet, load, sparse, interpreter, &number)?;
+    let mut run = Run::new((request, session), &model, &sheet, load, sparse, interpreter, &number)?;
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
     for k in 1..=request.iterations {
         let step = run.iterate(k)?;
@@ -81,7 +83,7 @@ pub(super) fn published<T: Precision>(
         equilibrium: None,
         error_bound: error_bound(&run.u, &steps),
         u: run.u.map(T::to_f64),
-        factors: run.equations.last_factors().into(),
+        kept: run.equations.kept(),
         request: request.clone(),
         model: Arc::clone(&model),
         steps,
@@ -202,7 +204,7 @@ struct Found<T> {
 
 impl<'a, T: Precision> Run<'a, T> {
     fn new(
-        request: &'a Request,
+        (request, session): (&'a Request, &Session),
         model: &'a Arc<Model>,
         sheet: &'a Worksheet<T>,
         load: DVector<T>,
@@ -211,7 +213,8 @@ impl<'a, T: Precision> Run<'a, T> {
         number: &dyn Fn(f64) -> T,
     ) -> Result<Self, Error> {
         let mortar = request.contact.coupling == Coupling::Mortar;
-        let equations = Equations::new(request, model, sheet, load, sparse, interpreter, number)?;
+        let equations =
+            Equations::new((request, session), model, sheet, load, sparse, interpreter, number)?;
         let surfaces = (mortar && request.variant != Variant::Printed)
             .then(|| Surfaces::new(model))
             .transpose()?;
@@ -280,7 +283,7 @@ impl<'a, T: Precision> Run<'a, T> {
         let places = match self.request.is_edited(Which::CCnt) {
             // Its weights are its own, wherever it takes them from.
             true => linked.clone(),
-            false => door::on_edges(self.sheet, &pairs, reading, &node_n),
+            false => door::on_edges(self.sheet, &pairs, reading, &node_n)?,
         };
         let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
         let of_mortar = self.bind_by_mortar(&mut constraints, &node_n, k);
@@ -299,7 +302,7 @@ impl<'a, T: Precision> Run<'a, T> {
         k: usize,
     ) -> Vec<Decision> {
         let Some(surfaces) = &self.surfaces else { return Vec::new() };
-        let shape = door::shape(door::weights_from(self.sheet, &self.request.reading, node_n));
+        let shape = door::shape(mirror::weights_from(self.sheet, &self.request.reading, node_n));
         let Mortar { pairings, mut unsure } = surfaces.mortar(&shape);
         for pairing in pairings.into_iter().flatten() {
             for bound in constraints.iter_mut().filter(|bound| bound.node == pairing.node) {

@@ -1,10 +1,9 @@
 //! A request: the scene, the contact model, the variant, the reading, and the numbers.
 
+use serde::Serialize;
 use std::sync::Arc;
 
-use super::condensation::Shared;
 use super::contact;
-use super::stiffness::Stiffness;
 use crate::error::InputError;
 use crate::numbers::solve::{Arithmetic, Solver};
 use crate::paper::door;
@@ -16,7 +15,7 @@ use crate::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Stat
 use crate::problem::scene::Scene;
 
 /// A request. [`Request::new`] asks for what the scene says; every field may be changed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Request {
     /// The scene to be solved.
     pub scene: Scene,
@@ -34,8 +33,6 @@ pub struct Request {
     pub tolerance: Option<f64>,
     /// The edited listings that are executed in place of the paper's.
     pub edited: Vec<Edited>,
-    /// What was computed and factored so far, shared with the requests that were made from this one.
-    pub(super) shared: Shared,
 }
 
 impl Request {
@@ -49,15 +46,8 @@ impl Request {
             arithmetic: Arithmetic::default(),
             tolerance: None,
             edited: Vec::new(),
-            shared: Shared::default(),
             scene: scene.clone(),
         }
-    }
-
-    /// Returns the same request, for which nothing is computed yet.
-    #[must_use]
-    pub fn afresh(self) -> Self {
-        Request { shared: Shared::default(), ..self }
     }
 
     /// Returns the same request with another variant.
@@ -171,10 +161,5 @@ impl Request {
             }
         }
         door::under(model, &self.reading)
-    }
-
-    /// Returns the stiffness of the bodies of its `model`, which is computed once.
-    pub fn stiffness(&self, model: &Arc<Model>) -> Arc<Stiffness> {
-        self.shared.stiffness(model)
     }
 }

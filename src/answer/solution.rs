@@ -1,5 +1,6 @@
 //! The solution of a request: displacements, stresses, the contact surface, and the steps.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use dashu_ratio::RBig;
@@ -8,18 +9,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contact::{ContactNode, Pairing, Status};
+use super::decisions::Decision;
 use super::elimination::Constraint;
-use super::factors::Kept;
 use super::found::FoundPairs;
 use super::request::Request;
-use super::stiffness::Stiffness;
 use crate::numbers::scalar::Scalar;
-use crate::paper::decisions::Decision;
 use crate::problem::element::State;
 use crate::problem::model::{Dof, Model, NodeId};
 
 /// A step: one iteration of a published variant, or one of the active set.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Step {
     /// The number of the step, from 1.
     pub k: usize,
@@ -46,7 +45,7 @@ pub struct Step {
 }
 
 /// The results of a step that depend on the kind of variant.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Detail {
     /// An iteration of a variant that the paper describes.
     Published(Published),
@@ -55,7 +54,7 @@ pub enum Detail {
 }
 
 /// An iteration of a variant that the paper describes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Published {
     /// The pairs that `c_cnt` found in the shape at the start.
     pub pairs: FoundPairs,
@@ -72,7 +71,7 @@ pub struct Published {
 }
 
 /// Bounds on the rounding errors of an iteration, each of the largest error in an array.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct StepBounds {
     /// The bound on the entries of `yt`, length.
     pub yt: f64,
@@ -83,7 +82,7 @@ pub struct StepBounds {
 }
 
 /// An iteration of the active set.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Unilateral {
     /// The part of the path of the load that was applied: 1 after the first stage, 2 after the
     /// second.
@@ -112,7 +111,7 @@ pub struct Unilateral {
 }
 
 /// How the statuses of an iteration were chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Choice {
     /// The iteration before asked for them, or they are the first ones.
     Asked,
@@ -293,7 +292,7 @@ pub struct Cycle {
 }
 
 /// The solution of a request.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Solution {
     /// The request that was solved.
     pub request: Request,
@@ -317,8 +316,9 @@ pub struct Solution {
     pub error_bound: Option<f64>,
     /// What `unilateral` knows beside its solution; None under the other variants.
     pub equilibrium: Option<Equilibrium>,
-    /// The factors with which the run ended, for the estimates of its errors.
-    pub factors: Kept,
+    /// The nodes to which the bodies were condensed at the end; None where the whole matrix of a contact
+    /// state was factored.
+    pub kept: Option<BTreeSet<NodeId>>,
 }
 
 /// What `unilateral` knows of the equilibrium that it found.
@@ -356,18 +356,6 @@ impl Solution {
     /// Returns the force that contact passes on at the end ([`Step::target_force`]).
     pub fn target_force(&self) -> f64 {
         self.last().target_force.expect("the whole bodies are solved for in the last step")
-    }
-
-    /// Returns the stiffness of the bodies.
-    pub fn stiffness(&self) -> Arc<Stiffness> {
-        self.request.stiffness(&self.model)
-    }
-
-    /// Lets go of the factors that serve further estimates, the largest part of its memory: to write it
-    /// they are not needed. An estimate that is asked for afterwards factors anew.
-    pub fn let_go_of_factors(&self) {
-        self.factors.let_go();
-        self.request.shared.let_go();
     }
 
     /// Returns whether an equilibrium may depend on the way to it: under friction, which keeps the

@@ -6,6 +6,7 @@ use super::error::{Error, SingularMatrix};
 use super::memory::{Bytes, FEWER_STEPS, bytes_of_paths};
 use super::published::{self, published};
 use super::request::Request;
+use super::session::Session;
 use super::solution::{Solution, Step};
 use super::sparse::{Condensing, Iterating, Sparse, Whole, dense_matrices};
 use super::unilateral::unilateral;
@@ -19,31 +20,46 @@ use crate::problem::element::State;
 use crate::problem::model::Model;
 use crate::problem::modelling::{Variant, check_iterations, check_tolerance};
 
-/// Solves `request`; `watch` is called after each step.
+/// Solves `request` in a session of its own ([`Session::solve`]).
 ///
 /// # Errors
-/// A number that is asked for is out of its range; the published algorithm fails as printed; a
-/// matrix cannot be solved; a dense matrix does not fit in memory; the scalar does not have the
-/// solver; the scene is too large for exact numbers; or under `unilateral` contact and restraints do
-/// not restrain the bodies.
+/// The errors of [`Session::solve`].
 pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
-    solve_while(request, &mut |step| {
-        watch(step);
-        true
-    })
+    Session::default().solve(request, watch)
 }
 
-/// Solves `request`; under a variant that the paper describes it ends with the step after which `goes_on`
-/// is false.
-///
-/// # Errors
-/// The errors of [`solve`].
-pub(super) fn solve_while(
-    request: &Request,
-    goes_on: &mut dyn FnMut(&Step) -> bool,
-) -> Result<Solution, Error> {
-    check(request)?;
-    run(request, goes_on).map_err(|why| blamed(request, why))
+impl Session {
+    /// Solves `request`; `watch` is called after each step.
+    ///
+    /// # Errors
+    /// A number that is asked for is out of its range; the published algorithm fails as printed; a
+    /// matrix cannot be solved; a dense matrix does not fit in memory; the scalar does not have the
+    /// solver; the scene is too large for exact numbers; or under `unilateral` contact and restraints
+    /// do not restrain the bodies.
+    pub fn solve(
+        &self,
+        request: &Request,
+        watch: &mut dyn FnMut(&Step),
+    ) -> Result<Solution, Error> {
+        self.solve_while(request, &mut |step| {
+            watch(step);
+            true
+        })
+    }
+
+    /// Solves `request`; under a variant that the paper describes it ends with the step after which
+    /// `goes_on` is false.
+    ///
+    /// # Errors
+    /// The errors of [`Session::solve`].
+    pub(super) fn solve_while(
+        &self,
+        request: &Request,
+        goes_on: &mut dyn FnMut(&Step) -> bool,
+    ) -> Result<Solution, Error> {
+        check_in(request, self)?;
+        run(request, self, goes_on).map_err(|why| blamed(request, why))
+    }
 }
 
 /// Checks what is known of a request before it runs.
@@ -53,6 +69,10 @@ pub(super) fn solve_while(
 /// scalar or by the solver, what is edited is not executed, the load vanishes in the scalar, or the run
 /// does not fit in memory or in a bearable time.
 pub fn check(request: &Request) -> Result<(), InputError> {
+    check_in(request, &Session::default())
+}
+
+fn check_in(request: &Request, session: &Session) -> Result<(), InputError> {
     request.arithmetic.check()?;
     check_iterations(request.iterations)?;
     request.contact.check()?;
@@ -70,7 +90,7 @@ pub fn check(request: &Request) -> Result<(), InputError> {
             scalar::scope(|| published::check::<Exact>(request, &model))?;
         }
     }
-    check_memory(request)
+    check_memory(request, session)
 }
 
 /// Checks that a large run has the memory that it takes, with the runs beside it. Of runs that share
@@ -79,7 +99,7 @@ pub fn check(request: &Request) -> Result<(), InputError> {
 ///
 /// # Errors
 /// Says how much it needs where that is not free.
-pub fn check_memory(request: &Request) -> Result<(), InputError> {
+fn check_memory(request: &Request, session: &Session) -> Result<(), InputError> {
     /// The number of equations of a large one.
     const LARGE: usize = 20_000;
     let model = &request.scene.model;
@@ -93,7 +113,7 @@ pub fn check_memory(request: &Request) -> Result<(), InputError> {
     }
     let needed = Bytes::of(request, model).total();
     let whose = format!("{equations} free equations");
-    request.shared.room(needed, || memory::check_bytes(needed, "the mesh", &whose, memory::FIX))
+    session.room(needed, || memory::check_bytes(needed, "the mesh", &whose, memory::FIX))
 }
 
 /// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is
@@ -115,7 +135,10 @@ fn blamed(request: &Request, why: Error) -> Error {
         return SingularMatrix { untried: Some(bytes), ..singular.clone() }.into();
     }
     let request = request.clone().arithmetic(arithmetic);
-    match check(&request).map_err(Error::from).and_then(|()| run(&request, &mut |_| true)) {
+    match check(&request)
+        .map_err(Error::from)
+        .and_then(|()| run(&request, &Session::default(), &mut |_| true))
+    {
         Ok(_) => {
             let what = format!("in {scalar} {why}; in {more} the run does not fail");
             InputError::new("--scalar", what, format!("use --scalar {more}")).into()
@@ -148,19 +171,30 @@ fn more_precise(request: &Request) -> Option<ScalarName> {
     (request.variant != Variant::Unilateral).then_some(more)
 }
 
-fn run(request: &Request, goes_on: &mut dyn FnMut(&Step) -> bool) -> Result<Solution, Error> {
+fn run(
+    request: &Request,
+    session: &Session,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Solution, Error> {
     let solution = match (request.variant, request.arithmetic.scalar) {
-        (Variant::Unilateral, _) => unilateral(request, &mut |step| _ = goes_on(step))?,
-        (_, ScalarName::F64) => published::<f64>(request, Some(sparse), goes_on)?,
-        (_, ScalarName::F32) => {
-            published::<f32>(request, Some(|request, _| or_iterating(request, || Whole)), goes_on)?
+        (Variant::Unilateral, _) => unilateral(request, session, &mut |step| _ = goes_on(step))?,
+        (_, ScalarName::F64) => published::<f64>(request, session, Some(sparse), goes_on)?,
+        (_, ScalarName::F32) => published::<f32>(
+            request,
+            session,
+            Some(|request, _, _| or_iterating(request, || Whole)),
+            goes_on,
+        )?,
+        (_, ScalarName::F64x2) => published::<F64x2>(request, session, Some(sparse), goes_on)?,
+        (_, ScalarName::Bounded) => {
+            published::<Bounded>(request, session, Some(condensing), goes_on)?
         }
-        (_, ScalarName::F64x2) => published::<F64x2>(request, Some(sparse), goes_on)?,
-        (_, ScalarName::Bounded) => published::<Bounded>(request, Some(condensing), goes_on)?,
         (_, ScalarName::BoundedDouble) => {
-            published::<BoundedDouble>(request, Some(condensing), goes_on)?
+            published::<BoundedDouble>(request, session, Some(condensing), goes_on)?
         }
-        (_, ScalarName::Exact) => scalar::scope(|| published::<Exact>(request, None, goes_on))?,
+        (_, ScalarName::Exact) => {
+            scalar::scope(|| published::<Exact>(request, session, None, goes_on))?
+        }
     };
     check_finite(&solution)?;
     Ok(solution)
@@ -175,26 +209,22 @@ fn or_iterating<T: Iterates, S: Sparse<T> + 'static>(
     if solver.iterates() { Box::new(Iterating { solver, tol }) } else { Box::new(direct()) }
 }
 
-fn sparse<T: Iterates>(request: &Request, model: &Arc<Model>) -> Box<dyn Sparse<T>>
+fn sparse<T: Iterates>(
+    request: &Request,
+    model: &Arc<Model>,
+    session: &Session,
+) -> Box<dyn Sparse<T>>
 where
     Condensing: Sparse<T>,
 {
-    or_iterating(request, || Condensing::new(request, model))
+    or_iterating(request, || Condensing::new(model, session))
 }
 
-fn condensing<T>(request: &Request, model: &Arc<Model>) -> Box<dyn Sparse<T>>
+fn condensing<T>(_: &Request, model: &Arc<Model>, session: &Session) -> Box<dyn Sparse<T>>
 where
     Condensing: Sparse<T>,
 {
-    Box::new(Condensing::new(request, model))
-}
-
-/// Solves for the equilibrium under the scene's own friction: [`Request::equilibrium`].
-///
-/// # Errors
-/// The errors of [`solve`].
-pub fn equilibrium(request: &Request) -> Result<Solution, Error> {
-    solve(&request.equilibrium(), &mut |_| ())
+    Box::new(Condensing::new(model, session))
 }
 
 /// Checks that a run with edited listings executes them: in f64, as the interpreter does, and an

@@ -1,21 +1,22 @@
 //! The sparse solvers of `tied` and `stepped`, which build no dense matrix of all equations.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::condensation::{Bodies, Bound, Shared, refined};
+use super::condensation::{Bodies, Bound, refined};
 use super::elimination::{Constraint, Elimination};
-use super::factors::LastFactors;
 use super::request::Request;
 use super::residual::error_of_solution;
+use super::session::Session;
 use super::stiffness::Stiffness;
 use crate::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar, WithBound};
 use crate::numbers::solve::{
     Arithmetic, Factors, Field, Iterates, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky,
     SparseSymmetric, Unsolved, refine,
 };
-use crate::problem::model::Model;
+use crate::problem::model::{Model, NodeId};
 use crate::problem::modelling::Variant;
 
 /// Tᵀ K T q = f under one contact state.
@@ -35,14 +36,14 @@ pub(super) trait Sparse<T> {
     /// The matrix is singular.
     fn solve(&self, state: &State<T>) -> Result<Solved<T>, Unsolved>;
 
-    /// Returns the factors that were made last.
-    fn last_factors(&self) -> LastFactors {
-        LastFactors::Unknown
+    /// Returns the nodes to which the bodies were condensed last; None where they were not.
+    fn kept(&self) -> Option<BTreeSet<NodeId>> {
+        None
     }
 }
 
 /// Makes the solver of a run on a model.
-pub(super) type MakeSparse<T> = fn(&Request, &Arc<Model>) -> Box<dyn Sparse<T>>;
+pub(super) type MakeSparse<T> = fn(&Request, &Arc<Model>, &Session) -> Box<dyn Sparse<T>>;
 
 /// Cholesky factors of the whole matrix of each state.
 pub(super) struct Whole;
@@ -70,13 +71,12 @@ impl<T: Iterates> Sparse<T> for Iterating {
 /// The factors of the condensed bodies, in `f64`; where they do not serve, those of the whole matrix.
 pub(super) struct Condensing {
     bodies: Bodies,
-    shared: Shared,
+    session: Session,
 }
 
 impl Condensing {
-    pub(super) fn new(request: &Request, model: &Arc<Model>) -> Self {
-        let shared = request.shared.clone();
-        Condensing { bodies: Bodies::new(model, &shared), shared }
+    pub(super) fn new(model: &Arc<Model>, session: &Session) -> Self {
+        Condensing { bodies: Bodies::new(model, session), session: session.clone() }
     }
 
     /// Returns T of a state in `f64`, and its factors.
@@ -104,15 +104,15 @@ impl Sparse<f64> for Condensing {
         bound.and_then(refined).map_or_else(|| Whole.solve(state), Ok)
     }
 
-    fn last_factors(&self) -> LastFactors {
-        self.bodies.last_factors()
+    fn kept(&self) -> Option<BTreeSet<NodeId>> {
+        self.bodies.kept()
     }
 }
 
 impl Sparse<Bounded> for Condensing {
     /// Solves as in `f64`, with a bound on the error of the solution.
     fn solve(&self, state: &State<Bounded>) -> Result<Solved<Bounded>, Unsolved> {
-        let (f, stiffness) = (state.f.map(Scalar::to_f64), self.shared.stiffness(state.model));
+        let (f, stiffness) = (state.f.map(Scalar::to_f64), self.session.stiffness(state.model));
         let (t, bound) = self.factors(state, &stiffness);
         let refined = |bound: Arc<Bound>| {
             let (x, residual) = refined(&stiffness, &t, (&bound, bound.norm()), &f).ok()?;
@@ -135,7 +135,7 @@ impl Sparse<Bounded> for Condensing {
 impl Sparse<F64x2> for Condensing {
     fn solve(&self, state: &State<F64x2>) -> Result<Solved<F64x2>, Unsolved> {
         let matrix = state.stiffness.reduced(state.t);
-        let factors = self.factors(state, &self.shared.stiffness(state.model)).1;
+        let factors = self.factors(state, &self.session.stiffness(state.model)).1;
         let (x, _) = in_double(&matrix, state.f, factors)?;
         Ok(Solved { residual: matrix.residual(&x, state.f), x })
     }
@@ -146,7 +146,7 @@ impl Sparse<BoundedDouble> for Condensing {
     fn solve(&self, state: &State<BoundedDouble>) -> Result<Solved<BoundedDouble>, Unsolved> {
         let matrix = state.stiffness.reduced(state.t).map(|x| x.value());
         let f = state.f.map(WithBound::value);
-        let factors = self.factors(state, &self.shared.stiffness(state.model)).1;
+        let factors = self.factors(state, &self.session.stiffness(state.model)).1;
         let (x, bound) = in_double(&matrix, &f, factors)?;
         let factors: Box<dyn Factors<f64>> = match bound {
             Some(bound) => Box::new(bound),

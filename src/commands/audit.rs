@@ -17,7 +17,7 @@ use plane_contact::studies::audit::range::range;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
 use plane_contact::suggestion::did_you_mean;
 
-use super::{TablesArgs, huge_pages, print, print_either, progress, tell};
+use super::{TablesArgs, print, print_either, progress, tell};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -96,8 +96,6 @@ fn whole(args: &Args) -> Result<()> {
     if let Some(out) = &args.out {
         files::check_folder(out, "audit", &["audit.txt", "audit.json"])?;
     }
-    // Many runs are held at once.
-    huge_pages::set(true);
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     let case = Case::within_memory(scene)?;
     let places = if args.range { range(Reading::default())? } else { Vec::new() };
@@ -125,7 +123,7 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     let others = [case.reference(), case.equilibrium()];
     for variant in Variant::ALL {
         if let Ok(solution) = case.run(*variant) {
-            let assessment = Assessment::against(solution, others);
+            let assessment = Assessment::against(solution, case.session(), others);
             let of_run = folder::contents(solution, &assessment, None, Wanted::default());
             let named =
                 of_run.into_iter().map(|(name, bytes)| (format!("{variant}/{name}"), bytes));

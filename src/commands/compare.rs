@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use plane_contact::answer::Session;
 use plane_contact::answer::error::Result;
 use plane_contact::answer::estimates::certain;
 use plane_contact::files;
@@ -70,7 +71,7 @@ pub fn run(args: &Args) -> Result<()> {
     calculix::check(&args.ccx)?;
     let solution = args.deck.solve(&args.scene)?;
     let request = solution.request.clone();
-    let (solution, certainty) = certain(solution);
+    let (solution, certainty) = certain(solution, &Session::default());
     let parts = args.deck.parts(&solution)?;
     let (scene, model) = (&solution.request.scene, &solution.model);
     let ran = waiting("running ccx", || calculix::run(&args.ccx, scene, model, &parts))?;

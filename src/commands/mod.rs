@@ -9,7 +9,6 @@ pub mod diff;
 pub mod evaluate;
 pub mod export;
 pub mod extremes;
-pub mod huge_pages;
 pub mod km;
 pub mod lesson;
 pub mod listing;

@@ -74,8 +74,10 @@ fn page_of(args: &Args, case: &Case, charts: Vec<(String, String)>) -> Result<St
         false => [case.reference(), case.equilibrium()],
     };
     let runs = ran.map(|(solution, _)| solution).chain(others.into_iter().flatten());
-    let assessed =
-        |solution| page::Run { solution, assessment: Assessment::against(solution, others) };
+    let assessed = |solution| page::Run {
+        solution,
+        assessment: Assessment::against(solution, case.session(), others),
+    };
     let beside = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
     Ok(page::html(&Report {
         scene: &case.scene,

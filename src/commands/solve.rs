@@ -1,11 +1,9 @@
 //! `plane-contact solve`.
 
 use std::path::PathBuf;
-use std::sync::{Once, OnceLock};
 
-use plane_contact::answer::error::{Cause, Error, NoEquilibrium, Result};
-use plane_contact::answer::estimates::ErrorEstimates;
-use plane_contact::answer::{self, Assessment, Others, Request, Solution, Step, side_by_side};
+use plane_contact::answer::error::{Cause, NoEquilibrium, Result};
+use plane_contact::answer::{self, Assessment, Request, Session, Solution, Step};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::numbers::solve::{Arithmetic, Solver};
@@ -19,13 +17,9 @@ use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::{check_accuracy, solve_to};
 
 use super::{
-    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, huge_pages, print, progress,
-    tell, told,
+    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, progress, tell, told,
+    waiting,
 };
-
-/// The number of equations of bodies that are factored on both cores for so long that the plan waits for
-/// that, and that fill large pages.
-const LARGE: usize = 20_000;
 
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
@@ -93,6 +87,10 @@ pub struct Args {
     /// load's steps does.
     #[arg(long)]
     no_error_estimate: bool,
+    /// Leave out what is computed beside the run: the error estimates, the reference solution, and
+    /// the equilibrium.
+    #[arg(long)]
+    no_assessment: bool,
     /// Have the displacements of all nodes and the stresses of all triangles in result.json,
     /// however many there are.
     #[arg(long)]
@@ -108,58 +106,18 @@ pub struct Args {
 /// Solves a scene and writes its files; returns the exit status.
 pub fn run(args: &Args) -> Result<u8> {
     args.tables.check("solve")?;
-    let scene = args.changes.change(Scene::open(&args.scene)?)?;
-    let request = args.model.request(&scene, args.variant, &args.reading);
-    let request = edited(args, request.arithmetic(args.arithmetic))?;
-    let mut asked = args.changes.names();
-    asked.extend(args.accuracy.iter().map(|a| format!("accuracy-{a:e}")));
-    asked.extend(request.edited.iter().map(|edited| format!("edited-{}", edited.which)));
-    let start = format!("{}-{}", scene.name, request.variant);
-    let out = folder(&args.out, folder_name(start, &request, &asked));
+    let request = request(args)?;
+    let out = folder(&args.out, own_folder(args, &request));
     let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
     let is_written = !args.json || args.out.is_some();
     if is_written {
         files::check_folder(&out, "solve", report::folder::names(wanted))?;
     }
-    let is_large = scene.model.free_dofs() >= LARGE;
-    huge_pages::set(is_large);
-    let with_estimates = !args.no_error_estimate;
-    let own = |after_step: &dyn Fn()| {
-        let (solution, accuracy) = solve(args, &request, after_step)?;
-        let estimates = with_estimates.then(|| ErrorEstimates::new(&solution));
-        if args.probe.is_empty() {
-            solution.let_go_of_factors();
-        }
-        Ok::<_, Error>((solution, accuracy, estimates))
-    };
-    // Before anything takes of the memory.
-    answer::check(&request)?;
-    answer::check_points(&scene.model, &args.probe)?;
-    args.accuracy.map_or(Ok(()), check_accuracy)?;
-    let (plan, model) = (OnceLock::new(), &request.scene.model);
-    let planned = || plan.get_or_init(|| Plan::new(&request));
-    let first_step = Once::new();
-    let (own, others) = rayon::scope(|scope| {
-        let after_step = || {
-            if is_large {
-                first_step.call_once(|| scope.spawn(|_| _ = planned()));
-            }
-        };
-        let others = || {
-            // Whoever waits until the other has factored the bodies has planned meanwhile.
-            if !is_large {
-                planned();
-            }
-            Others::new(&request, with_estimates)
-        };
-        side_by_side(model, || own(&after_step), others)
-    });
-    planned();
-    let plan = plan.into_inner().expect("it is made");
-    let ((solution, accuracy, estimates), plan) = (own?, plan?);
-    let mut assessment = Assessment::beside(&solution, others, estimates);
-    assessment.probe(&solution, &args.probe)?;
-    solution.let_go_of_factors();
+    let plan = Plan::new(&request)?;
+    let session = Session::default();
+    let (solution, accuracy) = solve(args, &request, &session)?;
+    let assessment = waiting("assessing", || assess(args, &solution, &session))?;
+    session.release();
     if args.json {
         let result = if is_written {
             report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?
@@ -181,6 +139,44 @@ pub fn run(args: &Args) -> Result<u8> {
     let text = format!("{tables}{changes}\n{plan}\nWritten to {}\n", out.display());
     args.tables.print("solve", &text)?;
     Ok(status(&solution))
+}
+
+/// Returns what is asked for.
+///
+/// # Errors
+/// The scene or an option is at fault, or the run does not fit in memory.
+fn request(args: &Args) -> Result<Request> {
+    let scene = args.changes.change(Scene::open(&args.scene)?)?;
+    let request = args.model.request(&scene, args.variant, &args.reading);
+    let request = edited(args, request.arithmetic(args.arithmetic))?;
+    answer::check(&request)?;
+    answer::check_points(&scene.model, &args.probe)?;
+    args.accuracy.map_or(Ok(()), check_accuracy)?;
+    Ok(request)
+}
+
+/// Returns the folder where no other is asked for.
+fn own_folder(args: &Args, request: &Request) -> String {
+    let mut asked = args.changes.names();
+    asked.extend(args.accuracy.iter().map(|a| format!("accuracy-{a:e}")));
+    asked.extend(request.edited.iter().map(|edited| format!("edited-{}", edited.which)));
+    folder_name(format!("{}-{}", request.scene.name, request.variant), request, &asked)
+}
+
+/// Assesses a solution as far as that is asked for.
+///
+/// # Errors
+/// A point of `--probe` lies outside every body.
+fn assess<'a>(args: &Args, solution: &'a Solution, session: &Session) -> Result<Assessment<'a>> {
+    let mut assessment = if args.no_assessment {
+        Assessment::none(solution)
+    } else if args.no_error_estimate {
+        Assessment::without_estimates(solution, session)
+    } else {
+        Assessment::new(solution, session)
+    };
+    assessment.probe(solution, session, &args.probe)?;
+    Ok(assessment)
 }
 
 /// Asks for the edited listings of `--c-cnt` and `--km`.
@@ -235,11 +231,10 @@ fn status(solution: &Solution) -> u8 {
     told(&NoEquilibrium { cause: Cause::Several, what }.into())
 }
 
-/// The solution, and under `--accuracy` how its precision was found; `after_step` is called after each
-/// step.
-fn solve(args: &Args, request: &Request, after_step: &dyn Fn()) -> Result<(Solution, String)> {
+/// Returns the solution, and under `--accuracy` how its precision was found.
+fn solve(args: &Args, request: &Request, session: &Session) -> Result<(Solution, String)> {
     if let Some(asked) = args.accuracy {
-        let reached = solve_to(request, asked)?;
+        let reached = solve_to(request, session, asked)?;
         let words = report::trade::reached(&reached, asked);
         return Ok((reached.solution, words));
     }
@@ -250,10 +245,7 @@ fn solve(args: &Args, request: &Request, after_step: &dyn Fn()) -> Result<(Solut
             progress(request.iterations, "iteration {pos} of {len} {wide_bar} {eta}")
         }
     };
-    let solution = answer::solve(request, &mut |_: &Step| {
-        progress.inc(1);
-        after_step();
-    })?;
+    let solution = session.solve(request, &mut |_: &Step| progress.inc(1))?;
     progress.finish_and_clear();
     Ok((solution, String::new()))
 }

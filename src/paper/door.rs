@@ -14,9 +14,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::mathcad::array::{Column, Table};
-use super::mirror::{
-    Failure, Km, NodeTable, Pairs, Reading, ToleranceUnit, Worksheet, c_cnt, weights,
-};
+use super::mirror::{self, Failure, Km, Pairs, Reading, ToleranceUnit, Worksheet, c_cnt};
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
 use crate::problem::element;
@@ -132,7 +130,7 @@ pub fn free_stiffness<T: Scalar>(
     reading: &Reading,
 ) -> Result<Table<T>, Failure> {
     let free = Worksheet { S: Column::filled(2 * sheet.R(), 0), ..sheet.clone() };
-    Km(&free, reading, &Table::filled(sheet.R(), 4, T::zero()))
+    Ok(Km(&free, reading, &Table::filled(sheet.R(), 4, T::zero()))?.to_table())
 }
 
 /// Returns the matrix of `Km` with 1 on the diagonal of the equations of dropped nodes, which have no
@@ -185,13 +183,11 @@ pub fn pairs<T: Scalar>(
     statuses: &[ContactStatus<T>],
 ) -> Result<Pairs<T>, Failure> {
     let number = |status: &ContactStatus<T>| status.edge.map_or(0, |edge| model.edge(edge).number);
-    let decided = Pairs {
-        ct: Column::from_vec(statuses.iter().map(number).collect()),
-        yt: Column::from_vec(statuses.iter().map(|status| status.distance).collect()),
-        dy: Column::from_vec(statuses.iter().map(|s| usize::from(s.in_contact)).collect()),
-        ..Pairs::none(model.nodes.len())
-    };
-    weights(sheet, reading, node_n, decided)
+    let ct = Column::from_vec(statuses.iter().map(number).collect());
+    let yt = Column::from_vec(statuses.iter().map(|status| status.distance).collect());
+    let decided = |i1: usize| Ok(usize::from(statuses[i1 - 1].in_contact));
+    let (dy, k_cnt) = mirror::weights(sheet, reading, node_n, &ct, &decided)?;
+    Ok(Pairs { ct, yt, dy, k_cnt })
 }
 
 /// A contact node and the point of the target to which it is bound, on an edge.
@@ -222,34 +218,22 @@ pub fn linked<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>) -> Vec<NodeToSe
 /// Returns the contact nodes with dy = 1 on their target edges, with the weights that lines 22 and
 /// 23 of `c_cnt` compute. These are not yet added up in k_cnt, so that they sum to 1 under any
 /// reading.
+///
+/// # Errors
+/// Those of lines 22 and 23.
 pub fn on_edges<T: Scalar>(
     sheet: &Worksheet<T>,
     pairs: &Pairs<T>,
     reading: &Reading,
     node_n: &Table<T>,
-) -> Vec<NodeToSegment<T>> {
-    let node_n = weights_from(sheet, reading, node_n);
+) -> Result<Vec<NodeToSegment<T>>, Failure> {
     let on_edge = |i1: usize| {
         let node = NodeId::from_number(sheet.cnt[i1]);
         let [a, b] = [6, 7].map(|j| NodeId::from_number(sheet.elem[(pairs.ct[i1], j)]));
-        let [x, xa, xb] = [node, a, b].map(|n| place(node_n, n)[0]);
-        let k1 = T::one() - (x - xa) / (xb - xa);
-        let k2 = T::one() - (xb - x) / (xb - xa);
-        NodeToSegment { node, masters: [(a, k1), (b, k2)] }
+        let [k1, k2] = mirror::own_weights(sheet, reading, node_n, &pairs.ct, i1)?;
+        Ok(NodeToSegment { node, masters: [(a, k1), (b, k2)] })
     };
     (1..=sheet.cnt.rows()).filter(|&i1| pairs.dy[i1] == 1).map(on_edge).collect()
-}
-
-/// Returns the shape from which weights are computed: R5.
-pub fn weights_from<'a, T: Scalar>(
-    sheet: &'a Worksheet<T>,
-    reading: &Reading,
-    node_n: &'a Table<T>,
-) -> &'a Table<T> {
-    match reading.r5 {
-        NodeTable::Node => &sheet.node,
-        NodeTable::NodeN => node_n,
-    }
 }
 
 /// A call of `c_cnt` on a model in a shape: its arguments and its results.
@@ -278,7 +262,7 @@ impl Call {
     /// of freedom, force/length.
     /// Errors: an entry of the matrix overflows.
     pub fn km(&self, reading: &Reading) -> Result<DMatrix<f64>, Failure> {
-        Ok(Km(&self.sheet, reading, &self.pairs.k_cnt)?.into_matrix())
+        Ok(Km(&self.sheet, reading, &self.pairs.k_cnt)?.into_sparse().dense())
     }
 
     /// Returns the row of `k_cnt` of a node: mate, weight, mate, weight.

@@ -8,11 +8,12 @@ use super::mirror::{Pairs, Reading, Worksheet};
 use crate::error::{InputError, Result};
 use crate::numbers::scalar::Scalar;
 use crate::problem::model::Model;
+use serde::Serialize;
 
 const NOTATION: &str = "see the notation in listings/README.md";
 
 /// The text of a listing that stands in place of one of the paper's; it can be read.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Edited {
     pub which: Which,
     /// The file, for messages.

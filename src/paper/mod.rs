@@ -1,10 +1,8 @@
 //! The paper: its listings as text and in Rust, Mathcad's semantics, its readings and its arrays.
 
-pub mod decisions;
 pub mod door;
 pub mod edited;
 pub mod exports;
 pub mod listings;
 pub mod mathcad;
 pub mod mirror;
-pub mod near;

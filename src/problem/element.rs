@@ -11,6 +11,7 @@
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 use nalgebra::{SMatrix, SVector};
+use serde::Serialize;
 
 use crate::choices;
 use crate::error::{InputError, Result};
@@ -107,7 +108,7 @@ pub fn stiffness<T: Scalar>(B: &SMatrix<T, 3, 6>, D: &SMatrix<T, 3, 3>) -> SMatr
 }
 
 /// The strains and stresses of an element, each constant over the element.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct State {
     /// The stresses sigma_x, sigma_y, tau_xy, stress.
     pub sigma: SVector<f64, 3>,

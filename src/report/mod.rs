@@ -52,6 +52,4 @@ pub mod trade;
 pub mod vtu;
 pub mod worksheet;
 
-pub use result_file::{
-    BodyEstimates, ElementRow, IterationRow, KnownEstimates, MOST_TRIANGLES, ResultFile, known,
-};
+pub use result_file::{ElementRow, IterationRow, MOST_TRIANGLES, ResultFile};

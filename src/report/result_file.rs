@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{json, plan};
 use crate::answer::contact::{ContactNode, Status};
-use crate::answer::estimates::{Cause, ErrorEstimates, NoLimit};
+use crate::answer::estimates::ErrorEstimates;
 use crate::answer::{
     Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Probe, Solution, Step,
 };
@@ -13,7 +13,6 @@ use crate::error::{InputError, Result};
 use crate::files;
 use crate::numbers::scalar::rational;
 use crate::numbers::solve::{Arithmetic, ScalarName};
-use crate::paper::decisions::Decision;
 use crate::paper::edited::Edited;
 use crate::paper::listings::Which;
 use crate::paper::mirror::Reading;
@@ -86,7 +85,7 @@ pub struct ResultFile {
     pub hertz: Option<Hertz>,
     /// How far the numbers may be from the truth; absent where that was left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub error_estimates: Option<KnownEstimates>,
+    pub error_estimates: Option<ErrorEstimates>,
     /// What the run says of the points that `--probe` asks for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<Probe>,
@@ -162,44 +161,6 @@ pub struct IterationRow {
     pub solve_residual: f64,
 }
 
-/// How far the numbers of a run may be from the truth; nothing where that is not known.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct KnownEstimates {
-    /// What rounding may do to a displacement, length.
-    pub displacement_arithmetic: Option<f64>,
-    /// The decisions on who is in contact that rounding may have taken.
-    pub decided_by_rounding: Option<Vec<Decision>>,
-    /// What the mesh may do to the largest displacement of a node, length.
-    pub displacement_mesh: Option<f64>,
-    /// The node at which the largest displacement has no limit as the mesh is refined, and why.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub displacement_no_limit: Option<(NodeId, Cause)>,
-    /// The error of the mesh in the energy norm, relative to the norm of the solution.
-    pub mesh_energy_relative: Option<f64>,
-    /// The estimates for each body.
-    pub bodies: Vec<BodyEstimates>,
-}
-
-/// How far a body's largest von Mises stress may be from the truth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct BodyEstimates {
-    /// The name of the body.
-    pub name: String,
-    /// Its largest von Mises stress.
-    pub von_mises_stress: f64,
-    /// The largest von Mises value of the recovered stresses, as a rule nearer to the truth.
-    pub recovered: f64,
-    /// What the mesh may do to it, stress; nothing where that is not known, and where it was found
-    /// at a point where the stress has no limit.
-    pub mesh: Option<f64>,
-    /// A point of the body where the stress has no limit as the mesh is refined; what the mesh may
-    /// do is said of the other ones.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub no_limit: Option<NoLimit>,
-    /// What rounding may do to it, stress; nothing where that is not known.
-    pub arithmetic: Option<f64>,
-}
-
 /// The stresses and strains of a triangle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ElementRow {
@@ -247,7 +208,7 @@ impl ResultFile {
             thickness: solution.model.thickness,
             c_tll: solution.model.has_contact().then_some(solution.model.contact.tolerance),
             materials: materials(solution),
-            error_bound: solution.error_bound.and_then(known),
+            error_bound: solution.error_bound.filter(|bound| bound.is_finite()),
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
             dropped: solution.model.dropped.clone(),
@@ -255,7 +216,10 @@ impl ResultFile {
             bodies: assessment.bodies.clone(),
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
-            error_estimates: assessment.estimates.as_ref().map(KnownEstimates::new),
+            error_estimates: assessment
+                .estimates
+                .as_ref()
+                .map(|estimates| estimates.errors.clone()),
             probes: assessment.probes.clone(),
             equilibrium: solution.equilibrium.clone(),
             path_change: assessment.path_change,
@@ -342,31 +306,6 @@ impl IterationRow {
             solve_residual: step.solve_residual,
         }
     }
-}
-
-impl KnownEstimates {
-    fn new(estimates: &ErrorEstimates) -> Self {
-        let bodies = estimates.bodies.iter().map(|body| BodyEstimates {
-            name: body.name.clone(),
-            von_mises_stress: body.value,
-            recovered: body.recovered,
-            mesh: known(body.mesh),
-            no_limit: body.no_limit.clone(),
-            arithmetic: known(body.arithmetic),
-        });
-        KnownEstimates {
-            displacement_arithmetic: known(estimates.displacement),
-            decided_by_rounding: estimates.decisions.clone(),
-            displacement_mesh: known(estimates.displacement_mesh),
-            displacement_no_limit: estimates.unlimited,
-            mesh_energy_relative: known(estimates.mesh.relative()),
-            bodies: bodies.collect(),
-        }
-    }
-}
-
-pub fn known(estimate: f64) -> Option<f64> {
-    Some(estimate).filter(|estimate| estimate.is_finite())
 }
 
 fn digits(solution: &Solution) -> Option<Vec<[String; 2]>> {

@@ -4,6 +4,7 @@ use super::layout::{Table, aligned, counted, listed};
 use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, with_unit};
 use super::pressure;
 use super::trace::in_figure;
+use crate::answer::Decision;
 use crate::answer::contact::{ContactNode, Status, hidden, oddity};
 use crate::answer::error::Error;
 use crate::answer::estimates::ErrorEstimates;
@@ -12,7 +13,6 @@ use crate::answer::{
     Assessment, BodySummary, Cycle, Equilibrium, Measured, Path, Probe, Quantity, Solution, Start,
     Step, Unilateral, Uniqueness, beyond_range, last_under_each_load, locking, max_displacement,
 };
-use crate::paper::decisions::Decision;
 use crate::paper::door::Call;
 use crate::paper::mirror::Reading;
 use crate::problem::model::{EdgeId, Model, NodeId};
@@ -412,13 +412,14 @@ fn contact_surface(solution: &Solution) -> String {
 /// Lays out how far the numbers of a run may be from the truth; nothing where that was left out.
 pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
     let Some(estimates) = &assessment.estimates else { return String::new() };
+    let errors = &estimates.errors;
     let units = &solution.request.scene.units;
     let moved = assessment.bodies.iter().map(|body| body.max_displacement).fold(0.0, f64::max);
     let of_displacement =
-        [(estimates.displacement_mesh, "mesh"), (estimates.displacement, "arithmetic")];
+        [(errors.displacement_mesh, "mesh"), (errors.displacement_arithmetic, "arithmetic")];
     let mut text = format!(
         "\nError estimates\n  largest |u|: {}\n",
-        match estimates.unlimited {
+        match errors.displacement_no_limit {
             Some((node, cause)) => format!(
                 "{} on this mesh; in the plane it diverges under refinement: at node {node}, {cause}",
                 with_unit(&short(moved), &units.length)
@@ -426,28 +427,28 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
             None => uncertain(moved, &units.length, &of_displacement),
         }
     );
-    if solution.model.has_contact() && estimates.displacement_mesh.is_finite() {
+    if solution.model.has_contact() && errors.displacement_mesh.is_some() {
         text += "    with contact an estimate and no bound: contact changes with the mesh\n";
     }
-    for body in &estimates.bodies {
+    for body in &errors.bodies {
         let of_stress = [(body.mesh, "mesh"), (body.arithmetic, "arithmetic")];
         let stress = match &body.no_limit {
             Some(NoLimit { node, cause, is_largest: true }) => format!(
                 "{} on this mesh; it {} no limit on finer ones: at node {node}, {cause}",
-                with_unit(&short(body.value), &units.stress),
+                with_unit(&short(body.von_mises_stress), &units.stress),
                 cause.has()
             ),
             Some(NoLimit { node, cause, .. }) => format!(
                 "{}, away from node {node}, {cause}, where it {} no limit",
-                uncertain(body.value, &units.stress, &of_stress),
+                uncertain(body.von_mises_stress, &units.stress, &of_stress),
                 cause.has()
             ),
-            None => uncertain(body.value, &units.stress, &of_stress),
+            None => uncertain(body.von_mises_stress, &units.stress, &of_stress),
         };
         text += &format!("  largest von Mises stress, {}: {stress}\n", body.name);
     }
-    text += &error_of_mesh(solution, estimates);
-    text += &by_rounding(solution, estimates.decisions.as_deref());
+    text += &error_of_mesh(solution, errors);
+    text += &by_rounding(solution, errors.decided_by_rounding.as_deref());
     if solution.request.variant == Variant::Unilateral && solution.model.has_contact() {
         text += match solution.way_counts() {
             true => {
@@ -463,17 +464,16 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> String {
 }
 
 /// Tells the error of the mesh in the energy norm, and how far it is to be relied on.
-fn error_of_mesh(solution: &Solution, estimates: &ErrorEstimates) -> String {
-    let relative = estimates.mesh.relative();
-    if relative.is_infinite() {
+fn error_of_mesh(solution: &Solution, errors: &ErrorEstimates) -> String {
+    let Some(relative) = errors.mesh_energy_relative else {
         let model = &solution.model;
         let why = model.triangles.iter().find_map(|t| locking(model.plane, t.material.nu));
         let why = why.unwrap_or("a body is too small for an estimate".into());
         return format!("  error of the mesh: unknown: {why}\n");
-    }
+    };
     let how_far = match () {
         () if relative > FAIR => ": too coarse for its estimates to be relied on",
-        () if estimates.bodies.iter().any(|body| body.no_limit.is_some()) => {
+        () if errors.bodies.iter().any(|body| body.no_limit.is_some()) => {
             ": too low where the stress has no limit; trade --only mesh measures it"
         }
         () => "",

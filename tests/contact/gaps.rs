@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use nalgebra::DVector;
-use plane_contact::answer::condensation::{Bodies as Condensing, Gaps, Shared};
+use plane_contact::answer::condensation::{Bodies as Condensing, Gaps};
 use plane_contact::answer::contact::{Pairing, Surfaces};
-use plane_contact::answer::{Constraint, Motion, Stiffness};
+use plane_contact::answer::{Constraint, Motion, Session, Stiffness};
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{ContactModel, Coupling};
 use plane_contact::problem::scene::Axis;
@@ -72,7 +72,7 @@ fn in_gaps(
     constraints: &[Constraint],
 ) -> Option<bool> {
     let stiffness = Stiffness::new(model, |x| x);
-    let new = || Condensing::new(model, &Shared::default());
+    let new = || Condensing::new(model, &Session::default());
     let (plain, facing) = (new(), new().facing(pairings, sticks));
     let condensed = facing.condensed(&stiffness, constraints).expect("its target is held");
     let gaps = Gaps::new(&condensed, pairings, sticks).map(Arc::new);

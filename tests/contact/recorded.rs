@@ -10,7 +10,7 @@ use plane_contact::Error;
 use plane_contact::answer::contact::Pairing;
 use plane_contact::answer::estimates::arithmetic::rounding;
 use plane_contact::answer::estimates::singular;
-use plane_contact::answer::{Assessment, Detail, Published, Request, Solution, solve};
+use plane_contact::answer::{Assessment, Detail, Published, Request, Session, Solution, solve};
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
 use plane_contact::paper::mirror::{NodeTable, Reading, Schedule};
 use plane_contact::problem::modelling::{
@@ -174,9 +174,9 @@ fn run(rng: &mut Rng, bodies: &Bodies) -> String {
 /// fields of.
 fn fields(request: &Request) -> Result<BTreeMap<String, String>, Error> {
     let solution = solve(request, &mut |_| ())?;
-    let mut assessment = Assessment::new(&solution);
+    let mut assessment = Assessment::new(&solution, &Session::default());
     let nodes = &solution.model.nodes;
-    assessment.probe(&solution, &[nodes[0], nodes[nodes.len() - 1]])?;
+    assessment.probe(&solution, &Session::default(), &[nodes[0], nodes[nodes.len() - 1]])?;
     let result = ResultFile::new(&solution, &assessment, None);
     let document = serde_json::to_value(&result).expect("a result is JSON");
     let mut folded = BTreeMap::new();
@@ -218,7 +218,7 @@ fn beside(solution: &Solution, assessment: &Assessment) -> Value {
             "undetermined": own.undetermined,
         }),
     });
-    let rounding = rounding(solution);
+    let rounding = rounding(solution, &Session::default());
     let steps_bounds = rounding.steps.iter().flatten();
     let bounds =
         steps_bounds.map(|b| json!({ "yt_bound": b.yt, "u_bound": b.u, "w_bound": b.weights }));

@@ -86,7 +86,7 @@ fn of(solution: &Solution, watched: usize) -> String {
     let fields = json!({
         "all": all,
         "cycles": cycles,
-        "factors": format!("{:?}", solution.factors),
+        "factors": if solution.kept.is_some() { "condensed" } else { "whole" },
         "feedback": own.iter().map(|own| own.feedback).collect::<Vec<_>>(),
         "forces": forces,
         "rubs": own[own.len() - 1].friction(solution.u.len()).as_slice(),

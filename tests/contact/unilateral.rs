@@ -7,7 +7,7 @@ use crate::common::tolerances::{
 };
 use plane_contact::answer::contact::{ContactNode, Status};
 use plane_contact::answer::error::Error;
-use plane_contact::answer::{self, Detail, Request, Solution, Step, distance, equilibrium};
+use plane_contact::answer::{self, Detail, Request, Solution, Step, distance};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
@@ -177,7 +177,7 @@ fn current_and_initial_shape_agree_as_displacements_vanish() {
 fn the_reference_is_at_no_distance_from_itself() {
     for embedded in SCENES {
         let scene = Scene::open(embedded.name).unwrap();
-        let reached = equilibrium(&Request::new(&scene)).unwrap();
+        let reached = answer::solve(&Request::new(&scene).equilibrium(), &mut |_| ()).unwrap();
         let same = distance(&reached, &reached);
         assert_eq!((same.displacement, same.energy_relative), (0.0, 0.0));
     }

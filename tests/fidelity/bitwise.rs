@@ -8,8 +8,8 @@
 use crate::common::random::fixed;
 use nalgebra::SMatrix;
 use plane_contact::answer::Request;
+use plane_contact::answer::fast::listings as fast;
 use plane_contact::numbers::scalar::{Bounded, Scalar, compared};
-use plane_contact::numbers::solve::SparseSquare;
 use plane_contact::paper::door;
 use plane_contact::paper::exports::{self, Export};
 use plane_contact::paper::listings::{self, Which, settings};
@@ -23,7 +23,6 @@ use plane_contact::paper::mirror::{
     Cause, Failure, Km, LoopPlace, NodeTable, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
     c_cnt,
 };
-use plane_contact::paper::near;
 use plane_contact::problem::element;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{SCENES, Scene};
@@ -316,8 +315,8 @@ fn agree(
     let mirror = c_cnt(sheet, reading, node_n);
     let listing = listings::c_cnt(&Which::CCnt.under(reading), &settings, sheet, node_n, &mut ());
     let of_mirror = mirror.as_ref().map(pair_bits).map_err(|f| mirror_stop(f.clone()));
-    let near = near::c_cnt(sheet, reading, node_n);
-    prop_assert_eq!(&of_mirror, &near.as_ref().map(pair_bits).map_err(|f| mirror_stop(f.clone())));
+    let fast = fast::c_cnt(sheet, reading, node_n);
+    prop_assert_eq!(&of_mirror, &fast.as_ref().map(pair_bits).map_err(|f| mirror_stop(f.clone())));
     prop_assert_eq!(
         &of_mirror,
         &listing.map(|(pairs, _)| pair_bits(&pairs)).map_err(|f| listing_stop(&f))
@@ -326,19 +325,13 @@ fn agree(
         Ok(pairs) => pairs.k_cnt.clone(),
         Err(_) => Table::filled(sheet.R(), 4, 0.0),
     };
-    let mirror_km = Km(sheet, reading, &k_cnt);
+    let mirror_km = Km(sheet, reading, &k_cnt).map(|m| m.to_table());
     let listing_km = listings::km(&Which::Km.under(reading), &settings, sheet, &k_cnt, &mut ());
     let flat = |m: &Table<f64>| bits(m.as_matrix().iter().copied());
     let of_mirror_km = mirror_km.as_ref().map(flat).map_err(|f| mirror_stop(f.clone()));
     prop_assert_eq!(
         &of_mirror_km,
         &listing_km.map(|(m, _)| flat(&m)).map_err(|f| listing_stop(&f))
-    );
-    let near_km = near::Assembler::new(sheet, reading).Km(&k_cnt);
-    let sparse = |m: &SparseSquare| bits(m.dense().iter().copied());
-    prop_assert_eq!(
-        &of_mirror_km,
-        &near_km.as_ref().map(sparse).map_err(|f| mirror_stop(f.clone()))
     );
     Ok(Seen { c_cnt: of_mirror.map(|(_, _, dy, _)| dy.iter().sum()), km: of_mirror_km.map(|_| ()) })
 }
@@ -404,14 +397,12 @@ fn listing_and_mirror_agree_on_any_mates() {
         for r3 in Wedge::ALL {
             let reading = Reading { r3: *r3, ..reading };
             let flat = |m: Table<f64>| bits(m.as_matrix().iter().copied());
-            let mirror = Km(&sheet, &reading, &k_cnt).map(flat).map_err(mirror_stop);
+            let mirror =
+                Km(&sheet, &reading, &k_cnt).map(|m| flat(m.to_table())).map_err(mirror_stop);
             let (which, settings) = (Which::Km.under(&reading), settings(&reading));
             let listing = listings::km(&which, &settings, &sheet, &k_cnt, &mut ());
             let listing = listing.map(|(m, _)| flat(m)).map_err(|f| listing_stop(&f));
             prop_assert_eq!(&mirror, &listing);
-            let near = near::Assembler::new(&sheet, &reading).Km(&k_cnt).map_err(mirror_stop);
-            let near = near.map(|m: SparseSquare| bits(m.dense().iter().copied()));
-            prop_assert_eq!(&mirror, &near);
         }
         Ok(())
     });
@@ -466,7 +457,7 @@ fn over_an_edge(at: [f64; 2], c_tll: f64) -> Worksheet<f64> {
 #[test]
 fn c_cnt_of_one_node_over_one_edge() {
     let reading = Reading { r4: Conjunction::Guarded, ..Reading::default() };
-    for find in [c_cnt, near::c_cnt] {
+    for find in [c_cnt, fast::c_cnt] {
         let pairs = |at| {
             let sheet = over_an_edge(at, 0.25);
             find(&sheet, &reading, &sheet.node).expect("it runs")
@@ -561,7 +552,7 @@ fn edges_within_the_bounds_of_a_node_are_looked_at() {
                 plane: sheet.plane,
             };
             let all = compared(|| c_cnt(&sheet, &reading, &node));
-            let near = compared(|| near::c_cnt(&sheet, &reading, &node));
+            let near = compared(|| fast::c_cnt(&sheet, &reading, &node));
             assert_eq!(near.1, all.1, "{at:?} {size} {error:?}");
             assert_eq!(near.0.is_ok(), all.0.is_ok(), "{at:?} {size} {error:?}");
             if let (Ok(near), Ok(all)) = (near.0, all.0) {
@@ -641,7 +632,8 @@ fn an_exported_worksheet_has_the_mirror_s_bits() {
         let pairs = c_cnt(&sheet, &reading, &node_n).ok();
         let flat = |table: &Table<f64>| bits(table.as_matrix().iter().copied());
         prop_assert_eq!(value("k_cnt"), pairs.as_ref().map(|pairs| flat(&pairs.k_cnt)));
-        let mjs = pairs.and_then(|pairs| Km(&sheet, &reading, &pairs.k_cnt).ok());
+        let mjs =
+            pairs.and_then(|pairs| Km(&sheet, &reading, &pairs.k_cnt).ok()).map(|m| m.to_table());
         let [scenes, matrices] = seen.get();
         seen.set([scenes + 1, matrices + usize::from(mjs.is_some())]);
         prop_assert_eq!(value("MJS"), mjs.as_ref().map(flat));

@@ -53,8 +53,8 @@ fn mjs_of_fig1() {
     let request = Request::new(&Scene::open("fig1").unwrap());
     let sheet = door::worksheet(&request.model().unwrap(), |x| x);
     let pairs = c_cnt(&sheet, &Reading::default(), &sheet.node).unwrap();
-    let coupled = Km(&sheet, &Reading::default(), &pairs.k_cnt).unwrap();
-    let free = Km(&sheet, &Reading::default(), &Table::filled(13, 4, 0.0)).unwrap();
+    let coupled = Km(&sheet, &Reading::default(), &pairs.k_cnt).unwrap().to_table();
+    let free = Km(&sheet, &Reading::default(), &Table::filled(13, 4, 0.0)).unwrap().to_table();
     assert_golden("fig1", "MJS", &rows(&coupled));
     assert_golden("fig1", "MJS-coupled-by-none", &rows(&free));
 }

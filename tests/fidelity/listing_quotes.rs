@@ -1,4 +1,5 @@
-//! The mirror quotes the listings: byte for byte, every line once, in the listing's order.
+//! The mirror quotes the listings: byte for byte, every line once, in the listing's order within a
+//! function.
 
 use std::collections::BTreeMap;
 
@@ -27,8 +28,12 @@ fn check(listing: &str, source: &str, lines: usize) {
     for (number, text) in &quotes {
         assert_eq!(Some(text), printed.get(number), "the quote of line {number}");
     }
-    let order: Vec<usize> = quotes.iter().map(|(number, _)| *number).collect();
-    assert_eq!(order, (1..=lines).collect::<Vec<_>>(), "each line once, in order");
+    let mut once: Vec<usize> = quotes.iter().map(|(number, _)| *number).collect();
+    once.sort_unstable();
+    assert_eq!(once, (1..=lines).collect::<Vec<_>>(), "each line once");
+    for function in source.split("\npub fn ") {
+        assert!(self::quotes(function).is_sorted(), "in order: {function}");
+    }
 }
 
 #[test]

@@ -83,7 +83,7 @@ fn octave_has_the_mirror_s_bits_on_random_scenes() {
         let (sheet, node_n): (Worksheet<f64>, _) = worksheet(&draw);
         // Octave knows no overflow: scenes on which the listings run.
         let Ok(pairs) = c_cnt(&sheet, &reading, &node_n) else { continue };
-        let Ok(mjs) = Km(&sheet, &reading, &pairs.k_cnt) else { continue };
+        let Ok(mjs) = Km(&sheet, &reading, &pairs.k_cnt).map(|m| m.to_table()) else { continue };
         if sheet.B.iter().any(|b| b.iter().any(|x| !x.is_finite())) {
             continue;
         }
@@ -122,7 +122,12 @@ fn octave_has_our_displacements_on_shipped_scenes() {
         let sheet = initial(scene);
         let reading = Reading::default();
         let pairs = c_cnt(&sheet, &reading, &sheet.node).unwrap();
-        assert_same(&printed, &pairs, &Km(&sheet, &reading, &pairs.k_cnt).unwrap(), scene);
+        assert_same(
+            &printed,
+            &pairs,
+            &Km(&sheet, &reading, &pairs.k_cnt).unwrap().to_table(),
+            scene,
+        );
         let request = Request::new(&Scene::open(scene).unwrap()).variant(Variant::Printed);
         let u = answer::solve(&request, &mut |_| ()).unwrap().u;
         let largest = u.amax();

@@ -27,8 +27,8 @@ fn f32_follows_f64() {
             .as_matrix()
             .zip_fold(s.k_cnt.as_matrix(), 0.0_f64, |m, d, s| m.max((d - f64::from(s)).abs()));
         assert_near("k_cnt", weights, 0.0, size, &SINGLE_GAP);
-        let (d, s) =
-            (Km(&double, &reading, &d.k_cnt).unwrap(), Km(&single, &reading, &s.k_cnt).unwrap());
+        let d = Km(&double, &reading, &d.k_cnt).unwrap().to_table();
+        let s = Km(&single, &reading, &s.k_cnt).unwrap().to_table();
         let error = d
             .as_matrix()
             .zip_fold(s.as_matrix(), 0.0_f64, |m, d, s| m.max((d - f64::from(s)).abs()));

@@ -380,7 +380,7 @@ fn factors_are_made_once_for_each_of_the_last_four_matrices() {
     factors(2, 5.0);
     assert!(!Arc::ptr_eq(&first, &factors(2, 1.0)), "four are kept");
     assert!(Arc::ptr_eq(&three[2], &factors(2, 4.0)));
-    known.let_go();
+    known.release();
     assert!(!Arc::ptr_eq(&three[2], &factors(2, 4.0)), "none are kept");
     let is_kept = |n| Arc::ptr_eq(&factors(n, 1.0), &factors(n, 1.0));
     assert_eq!([10_000, 10_001].map(is_kept), [true, false]);

@@ -1,17 +1,17 @@
 //! Result files read back as they were written.
 
-use plane_contact::answer::{Assessment, Request, solve};
+use plane_contact::answer::{Assessment, Request, Session, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::{MOST_TRIANGLES, ResultFile, known};
+use plane_contact::report::{MOST_TRIANGLES, ResultFile};
 use plane_contact::studies::plan::Plan;
 
 fn result(scene: &str, changed: impl Fn(Request) -> Request) -> ResultFile {
     let scene = Scene::open(scene).expect("an embedded scene");
     let solution = solve(&changed(Request::new(&scene)), &mut |_| ()).expect("it is solved");
     let plan = Plan::new(&solution.request).expect("it was solved");
-    ResultFile::new(&solution, &Assessment::new(&solution), Some(&plan))
+    ResultFile::new(&solution, &Assessment::new(&solution, &Session::default()), Some(&plan))
 }
 
 #[test]
@@ -34,7 +34,7 @@ fn results_read_back() {
 fn what_is_not_finite_is_null() {
     let mut result = result("fig1", |request| request);
     let estimates = result.error_estimates.as_mut().expect("they were asked for");
-    estimates.mesh_energy_relative = known(f64::INFINITY);
+    estimates.mesh_energy_relative = None;
     let distance = result.distance.as_mut().expect("fig1 has a reference solution");
     distance.displacement_relative = f64::INFINITY;
     result.contact[0].force = None;
@@ -81,7 +81,7 @@ fn fields_of_a_large_mesh_are_elsewhere_unless_asked_for() {
     }
     let solution = solve(&Request::new(&scene), &mut |_| ()).expect("it is solved");
     assert!(solution.elements.len() > MOST_TRIANGLES);
-    let assessment = Assessment::without_estimates(&solution);
+    let assessment = Assessment::without_estimates(&solution, &Session::default());
     assert!(assessment.estimates.is_none());
     let written = ResultFile::new(&solution, &assessment, None);
     let text = written.to_json();

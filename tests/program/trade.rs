@@ -7,7 +7,7 @@ use crate::common::tolerances::{
 };
 use plane_contact::answer::error::Error;
 use plane_contact::answer::estimates::Certainty;
-use plane_contact::answer::{Request, Solution, distance, equilibrium, max_displacement, solve};
+use plane_contact::answer::{Request, Session, Solution, distance, max_displacement, solve};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::element::{self, Plane};
@@ -179,7 +179,7 @@ fn a_place_of_the_range_is_a_run_of_its_scene() {
     let [own, least] = [1e-3, 1e-6].map(run);
     let change = max_displacement(&(&least.u - &own.u)) / max_displacement(&own.u);
     assert_near("P10", number("P10"), change, change, &CLAIM);
-    let truth = equilibrium(&request).expect("there is one");
+    let truth = solve(&request.equilibrium(), &mut |_| ()).expect("there is one");
     let error = distance(&own, &truth).energy_relative;
     assert_near("P12", number("P12"), error, error, &CLAIM);
 }
@@ -414,7 +414,7 @@ fn everything_but_times_is_reproducible() {
 #[test]
 fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
     let request = Request::new(&open("fig1")).variant(Variant::Tied);
-    let reach = |accuracy| solve_to(&request, accuracy);
+    let reach = |accuracy| solve_to(&request, &Session::default(), accuracy);
     for (accuracy, scalar) in [
         (1e-2, ScalarName::F32),
         (1e-10, ScalarName::Bounded),
@@ -439,7 +439,9 @@ fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
 fn the_bar_of_an_accuracy_holds() {
     for name in ["fig1", "two-blocks", "strand"] {
         let request = Request::new(&open(name)).variant(Variant::Tied);
-        let reach = |accuracy| solve_to(&request, accuracy).expect("a precision meets it");
+        let reach = |accuracy| {
+            solve_to(&request, &Session::default(), accuracy).expect("a precision meets it")
+        };
         let best = reach(1e-18).solution.u;
         for accuracy in [0.5, 1e-6, 1e-8] {
             let reached = reach(accuracy);

@@ -2,22 +2,19 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
-use std::fmt;
 use std::rc::Rc;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::factored::{Factored, are_same_bodies, surfaces};
+use super::factored::surfaces;
 use super::gaps::Gaps;
 use super::schur::{Condensation, Eliminated};
 use super::state::{Bound, Imposed, OnKept};
 use crate::answer::contact::Pairing;
 use crate::answer::elimination::{Constraint, Elimination};
-use crate::answer::factors::LastFactors;
+use crate::answer::session::Session;
 use crate::answer::stiffness::Stiffness;
-use crate::error::InputError;
-use crate::numbers::solve::{DenseCondensed, KnownLu};
 use crate::problem::model::{Model, NodeId};
 
 /// The number of nodes of both surfaces up to which all are kept.
@@ -37,160 +34,12 @@ const EXPECTED: (f64, usize) = (0.85, 10_000);
 /// the part of the number of bound nodes that comes on top.
 const MARGIN: (usize, f64) = (8, 0.1);
 
-/// The number of equations, and that of nodes of both surfaces, up to which bodies are factored for all of
-/// these, whatever is kept of them: beyond that the factor would grow by more than factoring anew takes.
-/// What is made while others wait for it must not wait for other threads.
-const FOR_ALL: (usize, usize) = (20_000, DenseCondensed::ON_ONE_THREAD / 2);
-
-/// What was computed and factored of a scene, shared by all that is asked of it: each is made once.
-#[derive(Clone, Default)]
-pub struct Shared {
-    stiffness: Arc<Known<(), Stiffness>>,
-    /// By the nodes for which they are factored.
-    factored: Arc<Known<Nodes, Factored>>,
-    /// By the same, and the kept nodes.
-    condensed: Arc<Known<[Nodes; 2], Condensation>>,
-    /// The factors of `Km`.
-    known: Arc<KnownLu>,
-    /// The most bytes that were asked for and free.
-    room: Arc<Mutex<f64>>,
-}
-
 type Nodes = BTreeSet<NodeId>;
-
-/// What was made of the bodies of some models.
-struct Known<N, T>(Mutex<Vec<Arc<Made<N, T>>>>);
-
-/// What was made of the bodies of a model for some nodes.
-struct Made<N, T> {
-    model: Arc<Model>,
-    nodes: N,
-    /// Made by the run that first asks, while others that ask wait: two at once would be twice the
-    /// memory. None where it cannot be.
-    made: OnceLock<Option<Arc<T>>>,
-}
-
-impl<N, T> Default for Known<N, T> {
-    fn default() -> Self {
-        Known(Mutex::default())
-    }
-}
-
-impl<N: PartialEq, T> Known<N, T> {
-    /// Returns what `make` makes of the bodies of `model` for `nodes`, or made before; None where it cannot
-    /// be. Of each model the last is kept, as those of large bodies take much memory.
-    fn of(&self, model: &Arc<Model>, nodes: N, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
-        self.place(model, nodes).made.get_or_init(|| make().map(Arc::new)).clone()
-    }
-
-    /// Returns the place of that, made or not.
-    fn place(&self, model: &Arc<Model>, nodes: N) -> Arc<Made<N, T>> {
-        let mut all = self.all();
-        let is_of = |known: &Arc<Made<N, T>>| {
-            Arc::ptr_eq(&known.model, model) || are_same_bodies(&known.model, model)
-        };
-        if let Some(known) = all.iter().find(|known| known.nodes == nodes && is_of(known)) {
-            return Arc::clone(known);
-        }
-        all.retain(|known| !is_of(known));
-        all.push(Arc::new(Made { model: Arc::clone(model), nodes, made: OnceLock::new() }));
-        Arc::clone(&all[all.len() - 1])
-    }
-
-    fn all(&self) -> MutexGuard<'_, Vec<Arc<Made<N, T>>>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl fmt::Debug for Shared {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("what was factored")
-    }
-}
-
-impl Shared {
-    /// Lets go of all that was made so far.
-    pub(in crate::answer) fn let_go(&self) {
-        self.stiffness.all().clear();
-        self.factored.all().clear();
-        self.condensed.all().clear();
-        self.known.let_go();
-    }
-
-    /// Checks that `needed` bytes are free by `check`, unless as many were before.
-    ///
-    /// # Errors
-    /// The error of `check`.
-    pub(in crate::answer) fn room(
-        &self,
-        needed: f64,
-        check: impl FnOnce() -> Result<(), InputError>,
-    ) -> Result<(), InputError> {
-        let mut room = self.room.lock().unwrap_or_else(PoisonError::into_inner);
-        if needed > *room {
-            check()?;
-            *room = needed;
-        }
-        Ok(())
-    }
-
-    /// Returns the stiffness of the bodies of `model`.
-    pub(in crate::answer) fn stiffness(&self, model: &Arc<Model>) -> Arc<Stiffness> {
-        let made = self.stiffness.of(model, (), || Some(Stiffness::new(model, |x| x)));
-        made.expect("it can be made of all")
-    }
-
-    /// Returns the factors of `Km` so far.
-    pub(in crate::answer) fn known_lu(&self) -> &KnownLu {
-        &self.known
-    }
-
-    /// Returns the bodies of `model` condensed to both surfaces; None where they cannot be, or are large.
-    pub(in crate::answer) fn at_surfaces(&self, model: &Arc<Model>) -> Option<Arc<Factored>> {
-        self.factored(model, few_surfaces(model)?, |nodes| {
-            Factored::new(&self.stiffness(model), model, nodes)
-        })
-    }
-
-    /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.
-    fn condensed(
-        &self,
-        stiffness: &Stiffness,
-        model: &Arc<Model>,
-        nodes: Nodes,
-    ) -> Option<Arc<Condensation>> {
-        // An edited listing may bind others.
-        let for_all = few_surfaces(model).filter(|surfaces| surfaces.is_superset(&nodes));
-        let wide = for_all.unwrap_or_else(|| nodes.clone());
-        self.condensed.of(model, [wide.clone(), nodes.clone()], || {
-            let factor = |nodes: &Nodes| Factored::new(stiffness, model, nodes);
-            Condensation::new(&self.factored(model, wide, factor)?, &nodes)
-        })
-    }
-
-    /// Returns the bodies of `model` that `factor` factors for `nodes`, or that were before; None where they
-    /// cannot be.
-    fn factored(
-        &self,
-        model: &Arc<Model>,
-        nodes: Nodes,
-        factor: impl FnOnce(&Nodes) -> Option<Factored>,
-    ) -> Option<Arc<Factored>> {
-        self.factored.of(model, nodes.clone(), || factor(&nodes))
-    }
-}
-
-/// Returns the nodes of both surfaces of a model whose bodies are factored for all of them; None of others.
-pub fn few_surfaces(model: &Model) -> Option<Nodes> {
-    let (equations, most) = FOR_ALL;
-    let surfaces: Nodes = surfaces(model).into_iter().flatten().collect();
-    (model.free_dofs() <= equations && surfaces.len() <= most).then_some(surfaces)
-}
 
 /// The bodies of a run, condensed when a contact state first needs it.
 pub struct Bodies {
     model: Arc<Model>,
-    shared: Shared,
+    session: Session,
     /// The contact surface and the nodes of the target surface, each in its order.
     surfaces: [Vec<NodeId>; 2],
     current: RefCell<Option<Arc<Condensation>>>,
@@ -242,11 +91,11 @@ pub fn kept_equations(model: &Model, near: usize) -> usize {
 }
 
 impl Bodies {
-    /// Takes the bodies of `model`, of which `shared` may have factors.
-    pub fn new(model: &Arc<Model>, shared: &Shared) -> Self {
+    /// Takes the bodies of `model`, of which `session` may have factors.
+    pub fn new(model: &Arc<Model>, session: &Session) -> Self {
         Bodies {
             model: Arc::clone(model),
-            shared: shared.clone(),
+            session: session.clone(),
             surfaces: surfaces(model),
             current: RefCell::default(),
             facing: None,
@@ -368,7 +217,7 @@ impl Bodies {
             nodes = self.nodes(constraints, &expected);
         }
         self.forget();
-        let made = self.shared.condensed(stiffness, &self.model, nodes);
+        let made = self.session.condensed(stiffness, &self.model, nodes);
         self.impossible.set(made.is_none());
         self.current.replace(made.clone());
         made
@@ -389,16 +238,14 @@ impl Bodies {
         Rc::clone(&last.insert(loaded).eliminated)
     }
 
+    /// Returns the nodes to which the bodies were condensed last; None where they were not.
+    pub(in crate::answer) fn kept(&self) -> Option<Nodes> {
+        Some(self.last()?.nodes().iter().copied().collect())
+    }
+
     /// Returns the condensed bodies that served last; None where there are none.
     pub fn last(&self) -> Option<Arc<Condensation>> {
         self.current.borrow().clone()
-    }
-
-    /// Returns the factors that served last.
-    pub(in crate::answer) fn last_factors(&self) -> LastFactors {
-        self.last().map_or(LastFactors::Unknown, |condensed| {
-            LastFactors::Condensed(condensed, self.bound.borrow().clone())
-        })
     }
 
     fn is_small(&self) -> bool {

@@ -7,17 +7,13 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::answer::elimination::Elimination;
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::{Condensed, Eliminated};
+use crate::numbers::solve::{Condensed, DenseCondensed, Eliminated};
 use crate::problem::model::{Body, Dof, Model, NodeId};
 
-/// Returns whether the bodies of two models have the same stiffness and restraints.
-pub(super) fn are_same_bodies(one: &Model, other: &Model) -> bool {
-    one.plane == other.plane
-        && one.thickness == other.thickness
-        && one.restrained == other.restrained
-        && one.nodes == other.nodes
-        && one.triangles == other.triangles
-}
+/// The number of equations, and that of nodes of both surfaces, up to which bodies are factored for all of
+/// these, whatever is kept of them: beyond that the factor would grow by more than factoring anew takes.
+/// What is made while others wait for it must not wait for other threads.
+const FOR_ALL: (usize, usize) = (20_000, DenseCondensed::ON_ONE_THREAD / 2);
 
 /// The bodies of a model factored, and their stiffness condensed to some nodes.
 pub struct Factored {
@@ -38,6 +34,13 @@ pub(super) fn surfaces(model: &Model) -> [Vec<NodeId>; 2] {
     let mut target: Vec<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
     target.dedup();
     [model.contact.nodes.clone(), target]
+}
+
+/// Returns the nodes of both surfaces of a model whose bodies are factored for all of them; None of others.
+pub fn few_surfaces(model: &Model) -> Option<BTreeSet<NodeId>> {
+    let (equations, most) = FOR_ALL;
+    let surfaces: BTreeSet<NodeId> = surfaces(model).into_iter().flatten().collect();
+    (model.free_dofs() <= equations && surfaces.len() <= most).then_some(surfaces)
 }
 
 impl Factored {

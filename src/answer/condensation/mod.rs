@@ -23,8 +23,8 @@ mod rows;
 mod schur;
 mod state;
 
-pub use bodies::{Bodies, Shared, few_surfaces, kept_equations, surface_nodes};
-pub use factored::Factored;
+pub use bodies::{Bodies, kept_equations, surface_nodes};
+pub use factored::{Factored, few_surfaces};
 pub use gaps::Gaps;
 pub use refinement::refine;
 pub(super) use refinement::refined;

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::factored::{Factored, are_of, are_same_bodies};
+use super::factored::{Factored, are_of};
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::numbers::solve::{self, DenseCondensed, Factors, is_large, largest_motion};
 use crate::problem::model::{Dof, Model, NodeId};
@@ -172,7 +172,7 @@ impl Condensation {
 
     /// Returns whether it is that of the bodies of `model`.
     pub fn is_of(&self, model: &Model) -> bool {
-        are_same_bodies(&self.bodies.model, model)
+        self.bodies.model.has_bodies_of(model)
     }
 
     /// Returns whether it keeps every node that `constraints` name.

@@ -13,13 +13,14 @@
 use super::search::{dot, minus};
 use crate::numbers::scalar::Scalar;
 use crate::problem::model::{EdgeId, NodeId};
+use serde::Serialize;
 
 /// The component of a normal beyond which the one free motion of a node makes its gap, and the
 /// equation of that motion determines its force.
 pub const STEEP: f64 = 0.5;
 
 /// The part of the target that a contact node faces.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pairing<T = f64> {
     /// The contact node that faces it.
     pub node: NodeId,

@@ -28,15 +28,15 @@
 
 use std::collections::BTreeSet;
 
+use super::super::decisions::{self, Decision};
 use super::search::{Closest, Segment, closest};
 use std::collections::HashMap;
 
 use crate::numbers::scalar::{Scalar, Unsure, compared};
-use crate::paper::decisions::{self, Decision};
 use crate::paper::door::{self, ContactStatus};
 use crate::paper::mathcad::Conjunction;
 use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::{Failure, Reading, Worksheet, c_cnt};
+use crate::paper::mirror::{self, Failure, Pairs, Reading, Worksheet, c_cnt};
 use crate::problem::model::{EdgeId, Model, NodeId};
 use crate::problem::modelling::StatusRule;
 
@@ -56,22 +56,29 @@ pub fn statuses<T: Scalar>(
     reading: &Reading,
     node_n: &Table<T>,
 ) -> Result<Vec<ContactStatus<T>>, Failure> {
-    let printed = |reading: &Reading| Ok(door::statuses(model, &c_cnt(sheet, reading, node_n)?));
-    let target = || Target::new(model, node_n);
     match rule {
-        StatusRule::Signs => printed(reading),
+        StatusRule::Signs => Ok(door::statuses(model, &c_cnt(sheet, reading, node_n)?)),
         StatusRule::Intersection => {
-            let printed = printed(&guarded(reading))?;
-            let target = target();
-            let by_rule = |status| by_intersection(model, &target, sheet.c_tll, node_n, status);
-            Ok(printed.into_iter().map(by_rule).collect())
+            let pairs = c_cnt(sheet, &guarded(reading), node_n)?;
+            let target = Target::new(model, node_n);
+            let by_rule = |(k, status)| {
+                by_intersection(model, &target, node_n, is_near(sheet, &pairs, k + 1), status)
+            };
+            Ok(door::statuses(model, &pairs).into_iter().enumerate().map(by_rule).collect())
         }
         StatusRule::Projection => {
-            let target = target();
+            let target = Target::new(model, node_n);
             let by_rule = |node: &NodeId| by_projection(&target, sheet.c_tll, node_n, *node);
             Ok(model.contact.nodes.iter().map(by_rule).collect())
         }
     }
+}
+
+/// Returns whether line 16 of `c_cnt` takes row `i1` of `cnt` for a node in contact.
+fn is_near<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>, i1: usize) -> bool {
+    let condition = mirror::is_near(&pairs.ct, &pairs.yt, sheet.c_tll, i1);
+    pairs.ct[i1] > 0
+        && mirror::and(Conjunction::LeftToRight, &condition).expect("line 16 names no other row")
 }
 
 /// The reading under which *intersection* calls `c_cnt`: it does not use the sign rule, and a false
@@ -102,8 +109,9 @@ pub fn decisions<T: Scalar>(
     if rule == StatusRule::Intersection {
         let reading = guarded(reading);
         let pairs = c_cnt(sheet, &reading, node_n)?;
-        for status in door::statuses(model, &pairs) {
-            let work = || by_intersection(model, &target, sheet.c_tll, node_n, status);
+        for (k, status) in door::statuses(model, &pairs).into_iter().enumerate() {
+            let work =
+                || by_intersection(model, &target, node_n, is_near(sheet, &pairs, k + 1), status);
             leave(status.node, compared(work).1);
         }
         left.extend(decisions::decisions(sheet, &reading, node_n, &pairs, k));
@@ -172,12 +180,11 @@ impl<T: Scalar> Target<T> {
 fn by_intersection<T: Scalar>(
     model: &Model,
     target: &Target<T>,
-    c_tll: T,
     node_n: &Table<T>,
+    is_near: bool,
     mut status: ContactStatus<T>,
 ) -> ContactStatus<T> {
-    let near = status.edge.is_some() && Scalar::abs(status.distance) < c_tll;
-    status.in_contact = near || intersects(model, target, node_n, status.node);
+    status.in_contact = is_near || intersects(model, target, node_n, status.node);
     if status.in_contact && status.edge.is_none() {
         let nearest = target.nearest(door::place(node_n, status.node));
         status.edge = Some(nearest.expect("a surface that is crossed has an edge").0.id);

@@ -12,12 +12,13 @@ use rayon::prelude::*;
 
 use super::ties::{Looking, State};
 use crate::answer::held::Held;
+use crate::answer::not_finite::finite;
 use crate::answer::residual::error_of_solution;
-use crate::answer::solve::solve_while;
-use crate::answer::{Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness};
+use crate::answer::{
+    Decision, Detail, Elimination, Request, Session, Solution, Step, StepBounds, Stiffness,
+};
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::numbers::solve::{Arithmetic, ScalarName};
-use crate::paper::decisions::Decision;
 use crate::problem::element::Plane;
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
@@ -28,9 +29,9 @@ const ROUNDINGS: f64 = 32.0;
 /// What rounding may do to a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounding {
-    /// A bound on the error of any displacement, length; infinite where nothing is known, as where
+    /// A bound on the error of any displacement, length; None where nothing is known, as where
     /// rounding may have decided who is in contact.
-    pub displacement: f64,
+    pub displacement: Option<f64>,
     /// The decisions on who is in contact that rounding may have taken; None where that is not known.
     pub decisions: Option<Vec<Decision>>,
     /// The bounds of each step; None where there is none, as under `unilateral`, and from the first
@@ -39,22 +40,26 @@ pub struct Rounding {
 }
 
 /// Returns what rounding may do to a solution.
-pub fn rounding(solution: &Solution) -> Rounding {
-    rounding_while(solution, &mut |_| true)
+pub fn rounding(solution: &Solution, session: &Session) -> Rounding {
+    rounding_while(solution, session, &mut |_| true)
 }
 
 /// Returns whether rounding decides nothing in a solution. Of a variant that the paper describes the run
 /// is repeated up to its first doubt only.
-pub(super) fn decides_nothing(solution: &Solution) -> bool {
+pub(super) fn decides_nothing(solution: &Solution, session: &Session) -> bool {
     // There is no bound where rounding may have decided.
-    rounding_while(solution, &mut Step::is_certain).displacement.is_finite()
+    rounding_while(solution, session, &mut Step::is_certain).displacement.is_some()
 }
 
 /// Returns what rounding may do, by the run repeated for as long as it `goes_on` where it is repeated.
-fn rounding_while(solution: &Solution, goes_on: &mut dyn FnMut(&Step) -> bool) -> Rounding {
-    of_published(solution, goes_on).unwrap_or_else(|| {
-        let held = Held::new(solution);
-        of_equilibrium(solution, held.as_ref(), &bounded(&solution.model))
+fn rounding_while(
+    solution: &Solution,
+    session: &Session,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Rounding {
+    of_published(solution, session, goes_on).unwrap_or_else(|| {
+        let held = Held::new(solution, session);
+        of_equilibrium(solution, held.as_ref(), session, &bounded(&solution.model))
     })
 }
 
@@ -67,17 +72,18 @@ pub fn bounded(model: &Model) -> Stiffness<Bounded> {
 /// it `goes_on`; None of another.
 pub(super) fn of_published(
     solution: &Solution,
+    session: &Session,
     goes_on: &mut dyn FnMut(&Step) -> bool,
 ) -> Option<Rounding> {
     let request = &solution.request;
     (request.variant != Variant::Unilateral).then(|| match request.arithmetic.scalar {
         // What is rounded is the displacements themselves, to be written as f64.
         ScalarName::Exact => Rounding {
-            displacement: solution.u.amax() * f64::EPSILON / 2.0,
+            displacement: Some(solution.u.amax() * f64::EPSILON / 2.0),
             decisions: Some(Vec::new()),
             steps: solution.steps.iter().map(written).collect(),
         },
-        _ => of_run(solution, goes_on),
+        _ => of_run(solution, session, goes_on),
     })
 }
 
@@ -86,16 +92,16 @@ pub(super) fn of_published(
 pub(super) fn of_equilibrium(
     solution: &Solution,
     held: Option<&Held>,
+    session: &Session,
     stiffness: &Stiffness<Bounded>,
 ) -> Rounding {
-    let looked = held.and_then(|held| looked_at(solution, held, stiffness));
+    let looked = held.and_then(|held| looked_at(solution, held, session, stiffness));
     let Some((u, Looking { decisions, only_ties, .. })) = looked else {
         return Rounding::unknown(solution);
     };
     // What is left of the change of shape is no rounding, but no less an error of the displacements.
     let shape_change = solution.equilibrium.as_ref().map_or(0.0, |found| found.shape_change);
-    let displacement =
-        if only_ties { error(solution, &u).max(shape_change) } else { f64::INFINITY };
+    let displacement = only_ties.then(|| error(solution, &u).max(shape_change)).and_then(finite);
     Rounding { displacement, decisions: Some(decisions), steps: vec![None; solution.steps.len()] }
 }
 
@@ -105,6 +111,7 @@ pub(super) fn of_equilibrium(
 fn looked_at<'a>(
     solution: &'a Solution,
     held: &Held,
+    session: &Session,
     stiffness: &'a Stiffness<Bounded>,
 ) -> Option<(DVector<Bounded>, Looking<'a>)> {
     let model = &*solution.model;
@@ -140,14 +147,18 @@ fn looked_at<'a>(
     for step in near.map(|i| &way[i]) {
         let Detail::Unilateral(detail) = &step.detail else { return None };
         let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
-        look(step, &Held::at(solution, step)?, load)?;
+        look(step, &Held::at(solution, step, session)?, load)?;
     }
     look(last, held, model.load_in(Bounded::from_f64))?;
     Some((reached?.1, looking))
 }
 
-fn of_run(solution: &Solution, goes_on: &mut dyn FnMut(&Step) -> bool) -> Rounding {
-    let Some(again) = bounded_run(solution, goes_on) else {
+fn of_run(
+    solution: &Solution,
+    session: &Session,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Rounding {
+    let Some(again) = bounded_run(solution, session, goes_on) else {
         return Rounding::unknown(solution);
     };
     let undecided = again.steps.iter().map(|step| step.undecided().map(<[Decision]>::to_vec));
@@ -165,7 +176,7 @@ fn of_run(solution: &Solution, goes_on: &mut dyn FnMut(&Step) -> bool) -> Roundi
     let pairs = solution.steps.iter().zip(&again.steps);
     let steps = pairs.map(|(own, other)| step_bounds(own, other).filter(|_| is_before(own.k)));
     let steps = steps.collect();
-    Rounding { displacement: error(solution, &u), decisions, steps }
+    Rounding { displacement: finite(error(solution, &u)), decisions, steps }
 }
 
 /// Returns the bounds of a step whose numbers only their writing as `f64` rounds.
@@ -203,7 +214,7 @@ fn step_bounds(own: &Step, other: &Step) -> Option<StepBounds> {
 impl Rounding {
     fn unknown(solution: &Solution) -> Self {
         let steps = vec![None; solution.steps.len()];
-        Rounding { displacement: f64::INFINITY, decisions: None, steps }
+        Rounding { displacement: None, decisions: None, steps }
     }
 }
 
@@ -229,7 +240,11 @@ fn error(solution: &Solution, u: &DVector<Bounded>) -> f64 {
 }
 
 /// Repeats the run with a bound on each displacement, for as long as it `goes_on`.
-fn bounded_run(solution: &Solution, goes_on: &mut dyn FnMut(&Step) -> bool) -> Option<Solution> {
+fn bounded_run(
+    solution: &Solution,
+    session: &Session,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Option<Solution> {
     let own = solution.request.arithmetic;
     let arithmetic = Arithmetic {
         scalar: match own.scalar {
@@ -240,7 +255,7 @@ fn bounded_run(solution: &Solution, goes_on: &mut dyn FnMut(&Step) -> bool) -> O
         ..Arithmetic::default()
     };
     let request = Request { arithmetic, ..solution.request.clone() };
-    solve_while(&request, goes_on).ok()
+    session.solve_while(&request, goes_on).ok()
 }
 
 /// Solves a contact state of `unilateral` again, under its friction, with a bound on each
@@ -266,15 +281,20 @@ fn state(
     Some(t.expand(&x.map(|x| Bounded::new(x, bound))))
 }
 
+/// Returns the displacements of a solution within a bound on their error, if one is known.
+pub fn within(solution: &Solution, displacement: Option<f64>) -> DVector<Bounded> {
+    solution.u.map(|u| Bounded::new(u, displacement.unwrap_or(f64::INFINITY)))
+}
+
 /// Returns, for each triangle, a bound on the error of its von Mises stress where displacements are
 /// known to `displacement`, stress.
 pub fn stress_bounds(
     solution: &Solution,
     stiffness: &Stiffness<Bounded>,
-    displacement: f64,
+    displacement: Option<f64>,
 ) -> Vec<f64> {
     let model = &*solution.model;
-    let u = solution.u.map(|u| Bounded::new(u, displacement));
+    let u = within(solution, displacement);
     let stresses = stiffness.stresses(&u);
     let triangles = model.triangles.iter().zip(&stresses).zip(&solution.elements);
     triangles

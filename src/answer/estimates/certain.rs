@@ -4,8 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::arithmetic::decides_nothing;
-use crate::answer::solve::solve_while;
-use crate::answer::{Request, Solution, Step};
+use crate::answer::{Request, Session, Solution, Step};
 use crate::numbers::solve::{Arithmetic, ScalarName};
 use crate::problem::modelling::Variant;
 
@@ -25,8 +24,8 @@ pub enum Certainty {
 /// Returns the solution itself where rounding decides nothing in it, else that of the same request in
 /// double-doubles where it decides nothing there, and which of the two it is. Under `unilateral`,
 /// which has no other numbers, the solution stays as it is.
-pub fn certain(solution: Solution) -> (Solution, Certainty) {
-    if decides_nothing(&solution) {
+pub fn certain(solution: Solution, session: &Session) -> (Solution, Certainty) {
+    if decides_nothing(&solution, session) {
         return (solution, Certainty::Certain);
     }
     if solution.request.variant == Variant::Unilateral {
@@ -39,7 +38,7 @@ pub fn certain(solution: Solution) -> (Solution, Certainty) {
         ..solution.request.arithmetic
     };
     let request = Request { arithmetic, ..solution.request.clone() };
-    match solve_while(&request, &mut Step::is_certain) {
+    match session.solve_while(&request, &mut Step::is_certain) {
         Ok(again) if again.error_bound.is_some_and(f64::is_finite) => {
             (again, Certainty::InDoubleDouble)
         }

@@ -22,53 +22,60 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::held::Held;
-use super::side_by_side::side_by_side;
+use super::not_finite::finite;
 use super::solution::{Solution, max_displacement};
+use crate::answer::{Decision, Session};
 use crate::numbers::largest::is_as_large;
-use crate::paper::decisions::Decision;
 use crate::problem::model::{Body, NodeId, TriangleId};
 pub use certain::{Certainty, certain};
 use discretisation::Discretisation;
 pub(super) use dual::Dual;
 pub use singular::{Cause, Singular, singular};
 
-/// The error estimates of a run.
+/// The estimates of a run: its errors, and the field of the mesh's error.
 #[derive(Clone, Debug)]
-pub struct ErrorEstimates {
-    /// A bound on the rounding error of any displacement, length; infinite where unknown, as where
-    /// rounding may have decided who is in contact.
-    pub displacement: f64,
-    /// The decisions on who is in contact that rounding may have taken; None where that is not known.
-    pub decisions: Option<Vec<Decision>>,
-    /// The estimated error of the largest displacement |u| of a node that the mesh causes, length;
-    /// infinite where unknown.
-    pub displacement_mesh: f64,
-    /// The node at which the largest displacement has no limit as the mesh is refined, and why; None
-    /// where it has one.
-    pub unlimited: Option<(NodeId, Cause)>,
+pub struct Estimates {
+    pub errors: ErrorEstimates,
     /// The error that the mesh causes in the stresses.
     pub mesh: Discretisation,
-    /// The error estimates of each body's largest stress, in the model's order.
+}
+
+/// How far the numbers of a run may be from the truth; nothing where that is not known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ErrorEstimates {
+    /// What rounding may do to a displacement, length.
+    pub displacement_arithmetic: Option<f64>,
+    /// The decisions on who is in contact that rounding may have taken.
+    pub decided_by_rounding: Option<Vec<Decision>>,
+    /// What the mesh may do to the largest displacement of a node, length.
+    pub displacement_mesh: Option<f64>,
+    /// The node at which the largest displacement has no limit as the mesh is refined, and why.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub displacement_no_limit: Option<(NodeId, Cause)>,
+    /// The error of the mesh in the energy norm, relative to the norm of the solution.
+    pub mesh_energy_relative: Option<f64>,
+    /// The estimates for each body.
     pub bodies: Vec<BodyEstimates>,
 }
 
-/// A body's largest von Mises stress and its error estimates, stress; infinite where unknown.
-#[derive(Clone, Debug, PartialEq)]
+/// How far a body's largest von Mises stress may be from the truth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BodyEstimates {
     /// The name of the body.
     pub name: String,
-    /// The largest von Mises stress of its triangles, stress.
-    pub value: f64,
-    /// The largest of the recovered stresses, typically nearer to the truth, stress.
+    /// Its largest von Mises stress.
+    pub von_mises_stress: f64,
+    /// The largest von Mises value of the recovered stresses, as a rule nearer to the truth.
     pub recovered: f64,
-    /// The estimated error of `value` that the mesh causes, stress; infinite too where `no_limit`
-    /// is where `value` was found.
-    pub mesh: f64,
-    /// A point of the body where the stress has no limit as the mesh is refined; None where there
-    /// is none.
+    /// What the mesh may do to it, stress; nothing where that is not known, and where it was found
+    /// at a point where the stress has no limit.
+    pub mesh: Option<f64>,
+    /// A point of the body where the stress has no limit as the mesh is refined; what the mesh may
+    /// do is said of the other ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_limit: Option<NoLimit>,
-    /// A bound on the error of `value` that rounding causes, stress.
-    pub arithmetic: f64,
+    /// What rounding may do to it, stress; nothing where that is not known.
+    pub arithmetic: Option<f64>,
 }
 
 /// A point of a body where the stress grows without limit as the mesh is refined.
@@ -82,22 +89,21 @@ pub struct NoLimit {
     pub is_largest: bool,
 }
 
-impl ErrorEstimates {
-    /// Estimates the errors of a run.
-    pub fn new(solution: &Solution) -> Self {
+impl Estimates {
+    /// Estimates the errors of a run in a session, which may have its factors.
+    pub fn new(solution: &Solution, session: &Session) -> Self {
         let model = &*solution.model;
         let of_rounding = || {
             // Another run takes much memory: nothing is held yet that it does not need.
-            let of_run = arithmetic::of_published(solution, &mut |_| true);
-            let (held, bounded) = (Held::new(solution), arithmetic::bounded(model));
-            let of_last = || arithmetic::of_equilibrium(solution, held.as_ref(), &bounded);
+            let of_run = arithmetic::of_published(solution, session, &mut |_| true);
+            let (held, bounded) = (Held::new(solution, session), arithmetic::bounded(model));
+            let of_last = || arithmetic::of_equilibrium(solution, held.as_ref(), session, &bounded);
             let rounding = of_run.unwrap_or_else(of_last);
             let stress = arithmetic::stress_bounds(solution, &bounded, rounding.displacement);
             (held, rounding, stress)
         };
         let of_mesh = || (Discretisation::new(model, &solution.elements), singular(solution));
-        let ((held, rounding, stress), (mesh, points)) = side_by_side(model, of_rounding, of_mesh);
-        let arithmetic::Rounding { displacement, decisions, .. } = rounding;
+        let ((held, rounding, stress), (mesh, points)) = rayon::join(of_rounding, of_mesh);
         let bodies = model.bodies.iter().map(|body| {
             let states = &solution.elements;
             let largest = mesh.largest_von_mises(model, states, &body.triangles);
@@ -109,25 +115,31 @@ impl ErrorEstimates {
             let rounding = body.triangles.iter().map(|id| stress[id.index()]);
             BodyEstimates {
                 name: body.name.clone(),
-                value: largest.value,
+                von_mises_stress: largest.value,
                 recovered: largest.recovered,
                 mesh: match no_limit {
-                    Some(NoLimit { is_largest: true, .. }) => f64::INFINITY,
-                    Some(_) => mesh.largest_von_mises(model, states, &smooth).error,
-                    None => largest.error,
+                    Some(NoLimit { is_largest: true, .. }) => None,
+                    Some(_) => finite(mesh.largest_von_mises(model, states, &smooth).error),
+                    None => finite(largest.error),
                 },
                 no_limit,
-                arithmetic: rounding.fold(0.0, f64::max),
+                arithmetic: finite(rounding.fold(0.0, f64::max)),
             }
         });
         let bodies = bodies.collect();
-        let of_largest = |dual: Dual| dual.error_of_largest(&solution.u);
-        let unlimited = unlimited(solution, &points);
-        let displacement_mesh = match held {
-            Some(held) if unlimited.is_none() => of_largest(Dual::new(solution, held, &mesh)),
-            _ => f64::INFINITY,
+        let displacement_no_limit = unlimited(solution, &points);
+        let displacement_mesh = held.filter(|_| displacement_no_limit.is_none()).and_then(|held| {
+            finite(Dual::new(solution, held, &mesh).error_of_largest(&solution.u))
+        });
+        let errors = ErrorEstimates {
+            displacement_arithmetic: rounding.displacement,
+            decided_by_rounding: rounding.decisions,
+            displacement_mesh,
+            displacement_no_limit,
+            mesh_energy_relative: finite(mesh.relative()),
+            bodies,
         };
-        ErrorEstimates { displacement, decisions, displacement_mesh, unlimited, bodies, mesh }
+        Estimates { errors, mesh }
     }
 }
 

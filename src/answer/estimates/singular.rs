@@ -34,7 +34,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::answer::contact::Status;
-use crate::answer::{Detail, Solution};
+use crate::answer::{Detail, Solution, Stiffness};
 use crate::choices;
 use crate::problem::element::Plane;
 use crate::problem::model::{Beside, Force, Model, NodeId, TriangleId};
@@ -157,7 +157,7 @@ impl Around {
     /// Returns the nodes that are held by a force where no node beside them is.
     fn supports(&self, solution: &Solution) -> Vec<NodeId> {
         let model = &*solution.model;
-        let reaction = solution.stiffness().times(&solution.u) - &model.load;
+        let reaction = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
         let idle = IDLE * reaction.amax().max(model.load.amax());
         let alone = |node: &NodeId| {
             node.dofs().into_iter().enumerate().any(|(d, dof)| {

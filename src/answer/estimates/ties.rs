@@ -24,9 +24,8 @@ use nalgebra::DVector;
 use crate::answer::contact::{Pairing, Status, Surfaces};
 use crate::answer::solution::{Choice, Start, Unilateral};
 use crate::answer::unilateral::FIRST_GROWTH;
-use crate::answer::{Detail, Solution, Step, Stiffness};
+use crate::answer::{Decision, Detail, Solution, Step, Stiffness};
 use crate::numbers::scalar::{Bounded, Scalar, Unsure};
-use crate::paper::decisions::Decision;
 use crate::problem::model::NodeId;
 use crate::problem::modelling::{Coupling, Geometry};
 

@@ -1,6 +1,8 @@
 //! What imposed statuses lead to: displacements, the forces of contact, and the friction of nodes that
 //! slide.
 
+use std::collections::BTreeSet;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, Force, forces};
@@ -9,9 +11,8 @@ use super::reduced::{Elastic, OnSurface, Reduced, Responds};
 use crate::answer::contact::{Pairing, Status};
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::error::{Cause, Error, NoEquilibrium};
-use crate::answer::factors::LastFactors;
 use crate::numbers::solve::{Singular, SparseCholesky, SparseSymmetric};
-use crate::problem::model::Dof;
+use crate::problem::model::{Dof, NodeId};
 
 /// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
 const SOFT: f64 = 1e-8;
@@ -83,9 +84,9 @@ impl Problem<'_> {
         }))
     }
 
-    /// Returns the factors that were made last.
-    pub(super) fn last_factors(&self) -> LastFactors {
-        self.last.made().map_or_else(|| self.bodies.last_factors(), LastFactors::Whole)
+    /// Returns the nodes to which the bodies were condensed last; None where they were not.
+    pub(super) fn kept(&self) -> Option<BTreeSet<NodeId>> {
+        if self.last.is_condensed() { self.bodies.kept() } else { None }
     }
 
     fn elastic(&self) -> Elastic<'_> {

@@ -54,6 +54,7 @@ pub(super) use search::FIRST_GROWTH;
 
 use super::error::Error;
 use super::request::Request;
+use super::session::Session;
 use super::solution::{Solution, Step};
 
 /// Finds the equilibrium at the end of the load's path, which is the last step; `watch` is called
@@ -63,9 +64,10 @@ use super::solution::{Solution, Step};
 /// Contact and restraints do not restrain the bodies, or no equilibrium was found.
 pub(super) fn unilateral(
     request: &Request,
+    session: &Session,
     watch: &mut dyn FnMut(&Step),
 ) -> Result<Solution, Error> {
     let model = request.model()?;
-    let problem = problem::Problem::new(request, &model)?;
+    let problem = problem::Problem::new(request, &model, session)?;
     path::solve(&problem, watch)
 }

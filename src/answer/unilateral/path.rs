@@ -370,7 +370,7 @@ fn solution(
         u: last.moved.u,
         digits: None,
         error_bound: None,
-        factors: problem.last_factors().into(),
+        kept: problem.kept(),
         equilibrium: Some(solution::Equilibrium {
             path,
             uniqueness,

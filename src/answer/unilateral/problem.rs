@@ -9,10 +9,11 @@ use super::forces::{Force, tangent};
 use super::reduced::Last;
 use super::rigid;
 use super::status::Memory;
-use crate::answer::condensation::{Bodies, Inside, Shared};
+use crate::answer::condensation::{Bodies, Inside};
 use crate::answer::contact::{Pairing, Sense, Status, Surfaces};
 use crate::answer::elimination::{Constraint, Motion};
 use crate::answer::request::Request;
+use crate::answer::session::Session;
 use crate::answer::solution::{Choice, Cycle};
 use crate::answer::stiffness::Stiffness;
 use crate::answer::support::supports;
@@ -171,11 +172,15 @@ pub(super) enum Solved {
 pub(super) type Watch<'w> = dyn FnMut(&Place, &Iteration) + 'w;
 
 impl<'a> Problem<'a> {
-    pub(super) fn new(request: &'a Request, model: &'a Arc<Model>) -> Result<Self, InputError> {
+    pub(super) fn new(
+        request: &'a Request,
+        model: &'a Arc<Model>,
+        session: &Session,
+    ) -> Result<Self, InputError> {
         let surfaces = Arc::new(Surfaces::new(model)?);
         surfaces.check_initial_penetration(model)?;
         let initial = Arc::new(surfaces.pairings(request.contact.coupling, &model.nodes));
-        let stiffness = request.stiffness(model);
+        let stiffness = session.stiffness(model);
         Ok(Problem {
             request,
             model,
@@ -184,7 +189,7 @@ impl<'a> Problem<'a> {
             supports: stiffness.about(&supports(model, &model.restrained)),
             stiffness,
             friction: request.contact.friction.coefficient(),
-            bodies: bodies(request, model, &initial, &request.shared),
+            bodies: bodies(request, model, &initial, session),
             last: Last::default(),
             initial,
             springs: 0.0,
@@ -193,12 +198,12 @@ impl<'a> Problem<'a> {
 
     /// Returns the same problem with every node on springs of a stiffness over that of the bodies.
     pub(super) fn with_springs(&self, stiffness: f64) -> Problem<'a> {
-        let (initial, shared) = (Arc::clone(&self.initial), Shared::default());
+        let initial = Arc::clone(&self.initial);
         Problem {
             surfaces: Arc::clone(&self.surfaces),
             supports: self.supports.clone(),
             stiffness: Arc::new(Stiffness::on_springs(self.model, stiffness)),
-            bodies: bodies(self.request, self.model, &initial, &shared),
+            bodies: bodies(self.request, self.model, &initial, &Session::default()),
             last: Last::default(),
             initial,
             springs: stiffness,
@@ -347,14 +352,14 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Returns the bodies of a model, of which `shared` may have factors.
+/// Returns the bodies of a model, of which `session` may have factors.
 fn bodies(
     request: &Request,
     model: &Arc<Model>,
     initial: &[Option<Pairing>],
-    shared: &Shared,
+    session: &Session,
 ) -> Bodies {
-    let bodies = Bodies::new(model, shared).expecting(initial);
+    let bodies = Bodies::new(model, session).expecting(initial);
     match request.contact.geometry {
         Geometry::Initial => bodies.facing(initial, request.contact.friction.coefficient() > 0.0),
         Geometry::Current => bodies,

@@ -11,8 +11,8 @@ use nalgebra::DVector;
 use crate::answer::condensation::{Bodies, Bound, Eliminated, Inside, OnKept, refined};
 use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
-use crate::answer::factors::Whole;
 use crate::answer::stiffness::Stiffness;
+use crate::answer::whole::Whole;
 use crate::numbers::solve::{Factors, Singular};
 use crate::problem::model::Model;
 
@@ -30,9 +30,9 @@ enum Held {
 pub(super) struct Last(RefCell<Option<(Vec<Held>, Arc<Whole>)>>);
 
 impl Last {
-    /// Returns the factors that were made last; None where they were of the condensed bodies.
-    pub(super) fn made(&self) -> Option<Arc<Whole>> {
-        self.0.borrow().as_ref().map(|(_, made)| Arc::clone(made))
+    /// Returns whether they were of the condensed bodies.
+    pub(super) fn is_condensed(&self) -> bool {
+        self.0.borrow().is_none()
     }
 }
 
@@ -132,7 +132,6 @@ impl Responds for OnSurface {
 pub(super) struct Reduced<'a> {
     elastic: Elastic<'a>,
     t: &'a Elimination,
-    constraints: &'a [Constraint],
     /// By degree of freedom, force.
     load: &'a DVector<f64>,
     made: Made,
@@ -157,13 +156,13 @@ impl<'a> Reduced<'a> {
     pub(super) fn new(
         elastic: Elastic<'a>,
         t: &'a Elimination,
-        (constraints, statuses): (&'a [Constraint], &[Status]),
+        (constraints, statuses): (&[Constraint], &[Status]),
         load: &'a DVector<f64>,
     ) -> Result<Self, Singular> {
         if let Some(bound) = elastic.bodies.bound(elastic.stiffness, t, constraints) {
             // Those of a whole matrix are large, and not needed any more.
             elastic.last.0.take();
-            return Ok(Reduced { elastic, t, constraints, load, made: Made::Condensed(bound) });
+            return Ok(Reduced { elastic, t, load, made: Made::Condensed(bound) });
         }
         let held = |status: &Status| match status {
             Status::Open => Held::Nothing,
@@ -176,16 +175,10 @@ impl<'a> Reduced<'a> {
         drop(last);
         let factors = match same {
             Some(factors) => factors,
-            None => Arc::new(Whole::new(elastic.stiffness, t, constraints)?),
+            None => Arc::new(Whole::new(elastic.stiffness, t)?),
         };
         elastic.last.0.replace(Some((held.clone(), Arc::clone(&factors))));
-        Ok(Reduced {
-            elastic,
-            t,
-            constraints,
-            load,
-            made: Made::Whole { held, factors: RefCell::new(factors) },
-        })
+        Ok(Reduced { elastic, t, load, made: Made::Whole { held, factors: RefCell::new(factors) } })
     }
 
     /// Returns q, and its relative residual.
@@ -193,7 +186,7 @@ impl<'a> Reduced<'a> {
         let stiffness = self.elastic.stiffness;
         let by = |factors: &dyn Factors<f64>, norm| refined(stiffness, self.t, (factors, norm), f);
         let by_whole = |made: &Whole| by(made, made.norm());
-        let whole = || Whole::new(stiffness, self.t, self.constraints);
+        let whole = || Whole::new(stiffness, self.t);
         match &self.made {
             Made::Condensed(bound) => match by(&**bound, bound.norm()) {
                 Ok(solved) => Ok(solved),

@@ -33,6 +33,16 @@ pub struct Unsure {
     pub bound: f64,
 }
 
+impl Unsure {
+    /// Returns what leaves the comparison of two numbers with bounds to rounding; None where it is sure.
+    pub fn of<T: Scalar>(x: T, y: T) -> Option<Self> {
+        let difference = x + -y;
+        let (margin, bound) = (difference.to_f64().abs(), difference.error_bound().unwrap_or(0.0));
+        // Where both are exact, so is the comparison, also of equal ones.
+        (bound > 0.0 && margin <= bound).then_some(Unsure { margin, bound })
+    }
+}
+
 thread_local! {
     static UNSURE: RefCell<Option<Vec<Unsure>>> = const { RefCell::new(None) };
 }
@@ -187,12 +197,8 @@ impl<V: Rounded> WithBound<V> {
     /// Notes the comparison with `y` where it is watched ([`compared`]) and not sure.
     fn note(self, y: Self) {
         UNSURE.with_borrow_mut(|unsure| {
-            let Some(unsure) = unsure else { return };
-            let difference = Self::difference(self, y);
-            let (margin, bound) = (difference.size(), difference.error);
-            // Where both are exact, so is the comparison, also of equal ones.
-            if bound > 0.0 && margin <= bound {
-                unsure.push(Unsure { margin, bound });
+            if let Some(unsure) = unsure {
+                unsure.extend(Unsure::of(self, y));
             }
         });
     }

@@ -122,8 +122,8 @@ impl KnownLu {
         Ok(factors)
     }
 
-    /// Lets go of all of them.
-    pub fn let_go(&self) {
+    /// Releases all of them.
+    pub fn release(&self) {
         self.made().clear();
     }
 

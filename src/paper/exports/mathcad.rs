@@ -192,6 +192,7 @@ fn iterations(page: &mut Page, export: &Export, run: &Run) {
     if export.sheet.R() * 2 <= SHOWN_EQUATIONS
         && let Ok(mjs) = crate::paper::mirror::Km(export.sheet, export.reading, &run.pairs.k_cnt)
     {
+        let mjs = mjs.to_table();
         let n = mjs.rows();
         let mjs = Array::from_fn(n, n, |i, j| mjs[(i + 1, j + 1)]);
         beside(page, "M_ours", &mjs, "MJS");

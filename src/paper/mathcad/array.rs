@@ -1,18 +1,27 @@
 //! Mathcad's arrays with `ORIGIN = 1`: a thin type over nalgebra.
 
+use serde::Serialize;
 use std::ops::{Index, IndexMut};
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::numbers::scalar::{Scalar, Subscript};
+use crate::numbers::solve::SparseSquare;
 
 /// A matrix whose rows and columns count from 1.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "T: nalgebra::Scalar + Serialize")]
 pub struct Table<T>(DMatrix<T>);
 
 /// A column vector whose entries count from 1.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(bound = "T: nalgebra::Scalar + Serialize")]
 pub struct Column<T>(DVector<T>);
+
+/// A square matrix of zeros whose rows and columns count from 1, into which a few entries are written:
+/// only those are kept.
+#[derive(Clone, Debug)]
+pub struct Square<T>(SparseSquare<T>);
 
 impl<T: nalgebra::Scalar> Table<T> {
     /// Makes a `rows` x `cols` table filled with `value`.
@@ -94,6 +103,36 @@ impl<T: nalgebra::Scalar> Column<T> {
     /// invalid for this array."
     pub fn get(&self, i: usize) -> Option<&T> {
         self.0.get(i.checked_sub(1)?)
+    }
+}
+
+impl<T: Scalar> Square<T> {
+    /// Makes `rows` rows and as many columns of zeros.
+    pub fn zeros(rows: usize) -> Self {
+        Square(SparseSquare::zeros(rows))
+    }
+
+    /// Returns the matrix with all its zeros.
+    pub fn to_table(&self) -> Table<T> {
+        Table(self.0.dense())
+    }
+
+    /// Takes out the matrix underneath, counted from 0.
+    pub fn into_sparse(self) -> SparseSquare<T> {
+        self.0
+    }
+}
+
+impl<T: Scalar> Index<(usize, usize)> for Square<T> {
+    type Output = T;
+    fn index(&self, (i, j): (usize, usize)) -> &T {
+        &self.0[(i - 1, j - 1)]
+    }
+}
+
+impl<T: Scalar> IndexMut<(usize, usize)> for Square<T> {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut T {
+        &mut self.0[(i - 1, j - 1)]
     }
 }
 

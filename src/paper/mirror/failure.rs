@@ -1,6 +1,9 @@
 //! The failures of the published algorithm as printed, which are audit results.
 
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
+
+use crate::numbers::scalar::Scalar;
+use crate::paper::mathcad::array::Column;
 
 /// The cause of a failure on a line of a listing, as Mathcad would report it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +47,7 @@ impl Failure {
         listing: &'static str,
         line: usize,
         cause: Cause,
-        values: &[(&str, &dyn std::fmt::Display)],
+        values: &[(&str, &dyn Display)],
     ) -> Self {
         let mut text = String::new();
         for (name, value) in values {
@@ -52,5 +55,52 @@ impl Failure {
             write!(text, "{separator}{name} = {value}").expect("a String takes any text");
         }
         Failure { listing, line, cause, values: text }
+    }
+}
+
+/// The place in `c_cnt` that a failure reports.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Line {
+    pub line: usize,
+    /// The row of `cnt`.
+    pub i1: usize,
+    /// The `elem` number of the target edge.
+    pub ct: usize,
+}
+
+impl Line {
+    pub fn at(self, line: usize) -> Self {
+        Line { line, ..self }
+    }
+
+    fn failure(self, cause: Cause, values: &[(&str, &dyn Display)]) -> Failure {
+        let edge = if self.line < 8 { "trg[i2]" } else { "ct[i1]" };
+        let place: [(&str, &dyn Display); 2] = [("i1", &self.i1), (edge, &self.ct)];
+        Failure::new("c_cnt", self.line, cause, &[&place, values].concat())
+    }
+
+    /// Returns `numerator / denominator`; x/0 and 0/0 are errors.
+    pub fn quotient<T: Scalar>(self, numerator: T, denominator: T) -> Result<T, Failure> {
+        let (numerator, denominator) = (self.finite(numerator)?, self.finite(denominator)?);
+        if denominator == T::zero() {
+            let values: [(&str, &dyn Display); 2] =
+                [("numerator", &numerator), ("denominator", &denominator)];
+            return Err(self.failure(Cause::Singularity, &values));
+        }
+        self.finite(numerator / denominator)
+    }
+
+    /// Returns `value`, unless it overflowed.
+    pub fn finite<T: Scalar>(self, value: T) -> Result<T, Failure> {
+        if value.is_finite() {
+            return Ok(value);
+        }
+        Err(self.failure(Cause::Overflow, &[("value", &value)]))
+    }
+
+    /// Returns `yt[index]`, or an error outside 1 .. rows(yt).
+    pub fn entry<T: Scalar>(self, yt: &Column<T>, index: usize) -> Result<T, Failure> {
+        let values: [(&str, &dyn Display); 2] = [("index of yt", &index), ("rows(yt)", &yt.rows())];
+        yt.get(index).copied().ok_or_else(|| self.failure(Cause::InvalidIndex, &values))
     }
 }

@@ -8,37 +8,22 @@
 //!     V[6] [  x     x            x   ]   (V, W) (finding K1).
 //! ```
 
-use std::ops::IndexMut;
-
 use super::failure::{Cause, Failure};
 use super::reading::{Reading, RestraintIndex, Wedge};
 use super::worksheet::Worksheet;
 use crate::numbers::scalar::Scalar;
-use crate::paper::mathcad::array::{Column, Table};
+use crate::paper::mathcad::array::{Column, Square, Table};
 use crate::problem::element;
 
 /// Assembles `MJS` (2R x 2R, force/length) from the contact pairs `c_cnt` (R x 4, as `k_cnt`).
-/// Errors: an entry overflows; the error names element and line.
+///
+/// # Errors
+/// An entry overflows; the error names element and line.
 pub fn Km<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
     c_cnt: &Table<T>,
-) -> Result<Table<T>, Failure> {
-    //#  1 Km(c_cnt) :=
-    //#  2 MJS ← identity(2·R)·0
-    let MJS = Table::filled(2 * sheet.R(), 2 * sheet.R(), T::zero());
-    Km_of(1..=sheet.M(), sheet, reading, c_cnt, MJS)
-}
-
-/// Assembles `elements`, ascending, in `MJS`, which is all zeros, however it keeps its entries.
-/// Errors: those of [`Km`].
-pub fn Km_of<T: Scalar, Matrix: IndexMut<(usize, usize), Output = T>>(
-    elements: impl IntoIterator<Item = usize>,
-    sheet: &Worksheet<T>,
-    reading: &Reading,
-    c_cnt: &Table<T>,
-    mut MJS: Matrix,
-) -> Result<Matrix, Failure> {
+) -> Result<Square<T>, Failure> {
     let Worksheet { EL, ind_1, S, Ae, B, E, nu, .. } = sheet;
     let (ind_1, zero, one) = (*ind_1, T::zero(), T::one());
     let D = |E: T, nu: T| element::D(sheet.plane, E, nu);
@@ -47,8 +32,11 @@ pub fn Km_of<T: Scalar, Matrix: IndexMut<(usize, usize), Output = T>>(
     let mut fl;
     let mut W;
 
+    //#  1 Km(c_cnt) :=
+    //#  2 MJS ← identity(2·R)·0
+    let mut MJS = Square::zeros(2 * sheet.R());
     //#  3 for n ∈ 1 .. M
-    for n in elements {
+    for n in 1..=sheet.M() {
         //#  4 for i1 ∈ 1 .. 3
         for i1 in 1..=3 {
             //#  5 V[2·i1−1] ← 2·EL[n,i1+ind_1−1] − 1

@@ -15,13 +15,19 @@
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 mod c_cnt;
+mod conditions;
 mod failure;
 mod km;
 mod reading;
 mod worksheet;
 
-pub use c_cnt::{Pairs, c_cnt, c_cnt_near, weights};
+pub use c_cnt::{
+    Pairs, c_cnt, distances, edge, edge_box, own_weights, status, weights, weights_from,
+};
+pub use conditions::{
+    Comparison, Operand, and, is_in_box, is_jumped_after, is_jumped_before, is_near,
+};
 pub use failure::{Cause, Failure};
-pub use km::{Km, Km_of};
+pub use km::Km;
 pub use reading::{LoopPlace, NodeTable, Reading, RestraintIndex, Schedule, ToleranceUnit, Wedge};
 pub use worksheet::Worksheet;

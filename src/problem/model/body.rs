@@ -1,5 +1,6 @@
 //! Bodies, which are the parts of a mesh that share no node, and whether each is restrained.
 
+use serde::Serialize;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use nalgebra::{Matrix3, Vector3};
@@ -12,7 +13,7 @@ use crate::numbers::joined::joined;
 const MOST_NAMES: usize = 10;
 
 /// A part of the mesh that shares no node with another part.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Body {
     /// The names of its materials, at most ten, joined by `+`; numbered where two bodies would share the name.
     pub name: String,

@@ -1,6 +1,7 @@
 //! The load as the scene states it, and the forces on nodes that it comes to in any scalar.
 
 use nalgebra::DVector;
+use serde::Serialize;
 
 use super::Model;
 use super::ids::NodeId;
@@ -8,7 +9,7 @@ use crate::numbers::scalar::Scalar;
 
 /// A part of the load. On an edge it is uniform, per area of edge length times thickness; the body
 /// lies on the left of the way from the edge's first node to its second.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Force {
     /// A force on a node along x and y, force.
     Node(NodeId, [f64; 2]),

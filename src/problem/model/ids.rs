@@ -100,10 +100,12 @@ id! {
 id! {
     /// An edge that the mesh names: a place in [`Model::edges`](super::Model::edges). Its number in
     /// the mesh file is different.
+    #[derive(serde::Serialize)]
     EdgeId
 }
 id! {
     /// A degree of freedom: a displacement of a node n, 2n along x and 2n + 1 along y.
+    #[derive(serde::Serialize)]
     Dof
 }
 numbered!(NodeId);

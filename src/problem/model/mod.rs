@@ -9,6 +9,7 @@ mod force;
 mod ids;
 mod sides;
 
+use serde::Serialize;
 use std::collections::HashSet;
 
 use nalgebra::DVector;
@@ -23,7 +24,7 @@ use super::element::{Corners, Plane};
 use crate::numbers::scalar::Scalar;
 
 /// An isotropic elastic material.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Material {
     /// The elastic modulus, stress.
     pub e: f64,
@@ -31,7 +32,7 @@ pub struct Material {
     pub nu: f64,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Triangle {
     /// The nodes of the corners, counter-clockwise.
     pub nodes: [NodeId; 3],
@@ -39,7 +40,7 @@ pub struct Triangle {
 }
 
 /// An edge that the mesh names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Edge {
     /// The number of the edge in the mesh file.
     pub number: usize,
@@ -48,7 +49,7 @@ pub struct Edge {
 }
 
 /// The two contact surfaces, both empty without contact.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ContactSurfaces {
     /// The nodes of the contact (stamp) surface, in order along it.
     pub nodes: Vec<NodeId>,
@@ -59,7 +60,7 @@ pub struct ContactSurfaces {
 }
 
 /// An element of the mesh file: a row of a table that only the paper's computations need.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Row {
     /// The number of the element in the mesh file.
     pub number: usize,
@@ -71,7 +72,7 @@ pub struct Row {
 }
 
 /// The kind of an element of the mesh file, and its place in the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Element {
     Point(NodeId),
     Edge(EdgeId),
@@ -79,7 +80,7 @@ pub enum Element {
 }
 
 /// The finite element model. Lengths, forces and stresses are in any consistent unit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Model {
     /// The plane problem: plane strain or plane stress.
     pub plane: Plane,
@@ -114,6 +115,15 @@ pub struct Model {
 }
 
 impl Model {
+    /// Returns whether the bodies have the stiffness and the restraints of those of another model.
+    pub fn has_bodies_of(&self, other: &Model) -> bool {
+        self.plane == other.plane
+            && self.thickness == other.thickness
+            && self.restrained == other.restrained
+            && self.nodes == other.nodes
+            && self.triangles == other.triangles
+    }
+
     /// Returns the number of degrees of freedom, restrained ones included.
     pub fn dofs(&self) -> usize {
         2 * self.nodes.len()

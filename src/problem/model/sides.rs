@@ -1,16 +1,17 @@
 //! The triangles beside each side, computed once per model.
 
 use super::ids::{NodeId, TriangleId};
+use serde::Serialize;
 
 /// What lies beside each side, by the lower of its two nodes, then by the higher one.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Sides {
     /// Where the sides of each lower node start, and where the last ones end.
     starts: Vec<u32>,
     beside: Vec<Beside>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Beside {
     pub triangle: TriangleId,
     /// The side's two nodes, in the order that leaves the triangle on their left.

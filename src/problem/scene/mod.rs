@@ -23,7 +23,8 @@ mod source;
 pub mod surface;
 pub mod symmetry;
 
-use std::sync::{Arc, OnceLock};
+use serde::Serialize;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
@@ -44,7 +45,7 @@ use super::modelling::{ContactModel, Variant};
 use crate::error::Result;
 
 /// A scene that passed all checks.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
     /// The name for folders and reports.
     pub name: String,
@@ -65,12 +66,12 @@ pub struct Scene {
 }
 
 /// What a scene was built from.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Serialize)]
 struct Source {
     description: Description,
     mesh: Mesh,
-    /// The SHA-256 of both, computed when it is first asked for.
-    hashes: OnceLock<[String; 2]>,
+    /// The SHA-256 of both.
+    hashes: [String; 2],
 }
 
 impl Scene {
@@ -115,8 +116,7 @@ impl Scene {
     /// Returns the SHA-256 of the description and that of the mesh, each as a snapshot has it, as JSON
     /// without blanks; None for half a scene.
     pub fn hashes(&self) -> Option<&[String; 2]> {
-        let Source { description, mesh, hashes } = self.source.as_deref()?;
-        Some(hashes.get_or_init(|| source_hashes(description, mesh)))
+        self.source.as_deref().map(|source| &source.hashes)
     }
 
     fn assemble(
@@ -169,7 +169,11 @@ impl Scene {
             iterations: description.iterations,
             variant: description.variant,
             contact: description.contact.as_ref().map_or(ContactModel::default(), Contact::model),
-            source: Some(Arc::new(Source { description, mesh, hashes: OnceLock::new() })),
+            source: Some(Arc::new(Source {
+                hashes: source_hashes(&description, &mesh),
+                description,
+                mesh,
+            })),
         })
     }
 }

@@ -21,15 +21,14 @@ const HANDY_VALUES: Range<i32> = -4..7;
 /// Writes `value` with its errors: `42 +- 3 MPa (mesh), +- 2e-12 (arithmetic)`.
 ///
 /// Given are the value; its unit, which may be empty; and each error, in that unit, with its
-/// source, at least one. An error that is infinite or no number is told in words, and leaves the
-/// value two digits: `about 42 MPa, error unknown (mesh)`.
-pub fn uncertain(value: f64, unit: &str, errors: &[(f64, &str)]) -> String {
-    let known = value.is_finite() && errors.iter().all(|(error, _)| error.is_finite());
-    let largest = errors.iter().map(|(error, _)| error.abs()).fold(0.0, f64::max);
-    let told = |(k, (error, source)): (usize, &(f64, &str))| {
-        if !error.is_finite() {
-            return format!("error unknown ({source})");
-        }
+/// source, at least one. An error of None is unknown, which is told in words and leaves the value two
+/// digits: `about 42 MPa, error unknown (mesh)`.
+pub fn uncertain(value: f64, unit: &str, errors: &[(Option<f64>, &str)]) -> String {
+    let known = value.is_finite() && errors.iter().all(|(error, _)| error.is_some());
+    let largest =
+        errors.iter().filter_map(|(error, _)| *error).fold(0.0, |m: f64, e| m.max(e.abs()));
+    let told = |(k, (error, source)): (usize, &(Option<f64>, &str))| {
+        let Some(error) = error else { return format!("error unknown ({source})") };
         let rounded = Decimal::at_least(error.abs(), known && error.abs() == largest);
         let rounded = rounded.map_or("0".into(), |r| to_place(r.value(), r.place(), HANDY_ERRORS));
         let unit = if known && k == 0 { unit } else { "" };

@@ -114,7 +114,7 @@ fn mesh(model: &Model) -> Value {
 
 fn run(run: &Run) -> Value {
     let solution = run.solution;
-    let stiffness = solution.stiffness();
+    let stiffness = Stiffness::new(&solution.model, |x| x);
     let before = solution.steps.windows(2).filter(|steps| is_shown(&steps[0], &steps[1]));
     let before = before.map(|steps| iteration(&solution.model, &stiffness, [&steps[0], &steps[1]]));
     let result = ResultFile::new(solution, &run.assessment, None);

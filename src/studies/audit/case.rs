@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::answer::error::Error;
 use crate::answer::estimates::{Certainty, certain};
-use crate::answer::{Request, Solution, equilibrium, solve};
+use crate::answer::{Request, Session, Solution};
 use crate::error::InputError;
 use crate::memory;
 use crate::paper::door::Call;
@@ -19,6 +19,8 @@ use crate::problem::scene::Scene;
 pub struct Case {
     pub scene: Scene,
     base: Request,
+    /// In which all runs are made.
+    session: Session,
     runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
     certain: [OnceLock<(Solution, Certainty)>; Variant::ALL.len()],
     finer: OnceLock<Result<(Solution, Certainty), Error>>,
@@ -46,6 +48,7 @@ impl Case {
         Case {
             scene: base.scene.clone(),
             base,
+            session: Session::default(),
             runs: Default::default(),
             certain: Default::default(),
             finer: OnceLock::new(),
@@ -66,7 +69,7 @@ impl Case {
 
     /// The run of a variant, or why there is none.
     pub fn run(&self, variant: Variant) -> Result<&Solution, &Error> {
-        let run = || solve(&self.request(variant), &mut |_| ());
+        let run = || self.session.solve(&self.request(variant), &mut |_| ());
         self.runs[place(variant)].get_or_init(run).as_ref()
     }
 
@@ -74,7 +77,7 @@ impl Case {
     /// ([`certain`]); or why there is none.
     pub fn certain(&self, variant: Variant) -> Result<&(Solution, Certainty), &Error> {
         let run = self.run(variant)?;
-        Ok(self.certain[place(variant)].get_or_init(|| certain(run.clone())))
+        Ok(self.certain[place(variant)].get_or_init(|| certain(run.clone(), &self.session)))
     }
 
     /// The run of the scene's variant of the paper with a thousandth of its c_tll, as
@@ -83,7 +86,7 @@ impl Case {
         let run = || {
             let mut request = self.request(self.published_variant());
             request.tolerance = Some(self.model().contact.tolerance / 1000.0);
-            solve(&request, &mut |_| ()).map(certain)
+            self.session.solve(&request, &mut |_| ()).map(|run| certain(run, &self.session))
         };
         self.finer.get_or_init(run).as_ref()
     }
@@ -108,20 +111,21 @@ impl Case {
         rayon::join(|| rayon::join(unilateral, finer), published);
     }
 
-    /// Lets go of the factors of all runs so far, the largest part of their memory.
-    pub fn let_go_of_factors(&self) {
-        let certain = self.certain.iter().filter_map(OnceLock::get).map(|(solution, _)| solution);
-        let finer = self.finer.get().and_then(|run| run.as_ref().ok()).map(|(run, _)| run);
-        let own = self.runs.iter().filter_map(|run| run.get()?.as_ref().ok());
-        let beside =
-            [&self.reference, &self.equilibrium].into_iter().filter_map(|run| run.get()?.as_ref());
-        own.chain(certain).chain(finer).chain(beside).for_each(Solution::let_go_of_factors);
+    /// Releases the factors of all runs so far, the largest part of their memory.
+    pub fn release_factors(&self) {
+        self.session.release();
+    }
+
+    /// The session in which all runs are made.
+    pub fn session(&self) -> &Session {
+        &self.session
     }
 
     /// The reference solution; nothing without contact, and where it does not run.
     pub fn reference(&self) -> Option<&Solution> {
         self.model().target()?;
-        self.reference.get_or_init(|| solve(&self.base.reference(), &mut |_| ()).ok()).as_ref()
+        let run = || self.session.solve(&self.base.reference(), &mut |_| ()).ok();
+        self.reference.get_or_init(run).as_ref()
     }
 
     /// The equilibrium under the scene's own friction, which variants are measured against; nothing
@@ -131,7 +135,8 @@ impl Case {
         if self.request(Variant::Unilateral).is_same_equilibrium(&self.base.equilibrium()) {
             return self.run(Variant::Unilateral).ok();
         }
-        self.equilibrium.get_or_init(|| equilibrium(&self.base).ok()).as_ref()
+        let run = || self.session.solve(&self.base.equilibrium(), &mut |_| ()).ok();
+        self.equilibrium.get_or_init(run).as_ref()
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.

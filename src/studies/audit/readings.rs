@@ -132,7 +132,7 @@ struct Initial {
 fn initial(case: &Case, reading: &Reading) -> Result<Initial, Error> {
     let model = case.request(case.scene.variant).reading(*reading).model()?;
     let call = Call::c_cnt(&model, reading, &model.nodes)?;
-    let matrix = Km(&call.sheet, reading, &call.pairs.k_cnt)?;
+    let matrix = Km(&call.sheet, reading, &call.pairs.k_cnt)?.to_table();
     Ok(Initial { pairs: call.pairs, matrix })
 }
 

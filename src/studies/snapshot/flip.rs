@@ -6,6 +6,9 @@ use super::Run;
 use super::compare::{Difference, Kind};
 use super::place::{iteration, of_iteration};
 use crate::paper::listings::Which;
+use crate::paper::mathcad::Conjunction;
+use crate::paper::mathcad::array::Column;
+use crate::paper::mirror::{and, is_jumped_after, is_jumped_before, is_near};
 use crate::problem::modelling::StatusRule;
 
 /// The place in a run where two runs go different ways.
@@ -140,15 +143,18 @@ fn words(was: &Found, is: &Found, by_listing: bool) -> (String, Option<usize>) {
 }
 
 impl Found {
-    /// Returns whether a line of `c_cnt` takes the node for one in contact.
+    /// Returns whether a line of `c_cnt`, from 16 to 18, takes the node for one in contact.
     fn holds(&self, line: usize) -> bool {
-        let beside = |yt: Option<f64>| self.yt < 0.0 && yt.is_some_and(|yt| yt > 0.0);
-        let holds = match line {
-            16 => self.yt.abs() < self.c_tll,
-            17 => beside(self.after),
-            _ => beside(self.before),
+        // The node and those beside it, as rows of `cnt`.
+        let yt: Vec<f64> = self.before.into_iter().chain([self.yt]).chain(self.after).collect();
+        let i1 = 1 + usize::from(self.before.is_some());
+        let (ct, yt) = (Column::filled(yt.len(), self.ct as usize), Column::from_vec(yt));
+        let condition = match line {
+            16 => is_near(&ct, &yt, self.c_tll, i1).to_vec(),
+            17 => is_jumped_after(&ct, &yt, i1).to_vec(),
+            _ => is_jumped_before(&ct, &yt, i1).to_vec(),
         };
-        holds && self.ct > 0
+        and(Conjunction::Guarded, &condition) == Ok(true)
     }
 }
 

@@ -33,10 +33,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::answer::Decision;
 use crate::answer::{Request, check, error as answer};
 use crate::error::{InputError, Result};
 use crate::files::json;
-use crate::paper::decisions::Decision;
 use crate::problem::scene::{Scene, Units};
 use crate::suggestion::did_you_mean;
 

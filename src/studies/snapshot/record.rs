@@ -11,7 +11,7 @@ use crate::answer::contact::{ContactNode, Pairing};
 use crate::answer::error::{Error, Result};
 use crate::answer::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
 use crate::answer::{
-    Detail, Elimination, FoundPairs, Request, Solution, Step, StepBounds, Stiffness, solve,
+    Detail, Elimination, FoundPairs, Request, Session, Solution, Step, StepBounds, Stiffness,
 };
 use crate::numbers::scalar::{Bounded, Scalar};
 use crate::paper::door;
@@ -38,12 +38,13 @@ pub enum Bounds {
 pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     let model = request.model()?;
     let mut steps: Vec<Step> = Vec::new();
-    let solved = solve(request, &mut |step| steps.push(step.clone()));
+    let session = Session::default();
+    let solved = session.solve(request, &mut |step| steps.push(step.clone()));
     let mut run = Run::new(Options::of(request));
-    let stiffness = request.stiffness(&model);
+    let stiffness = Stiffness::new(&model, |x| x);
     worksheet(&mut run, request, &model);
     let rounding = match (&solved, bounds) {
-        (Ok(solution), Bounds::Computed) => Some(rounding(solution)),
+        (Ok(solution), Bounds::Computed) => Some(rounding(solution, &session)),
         _ => None,
     };
     // A solution may leave out steps that were taken back.
@@ -292,14 +293,14 @@ fn printed(request: &Request, model: &Model, pairs: &FoundPairs) -> Option<DMatr
     const NODES: usize = 400;
     (model.nodes.len() <= NODES).then_some(())?;
     let sheet = door::worksheet(model, |x| x);
-    let table = Km(&sheet, &request.reading, &pairs.k_cnt()).ok()?;
-    Some(table.into_matrix())
+    let matrix = Km(&sheet, &request.reading, &pairs.k_cnt()).ok()?;
+    Some(matrix.into_sparse().dense())
 }
 
 /// Records the end of a run: displacements, stresses, reactions and the contact surface.
 fn end(run: &mut Run, solution: &Solution, rounding: Option<&Rounding>, bounds: Bounds) {
     let (model, units) = (&*solution.model, &solution.request.scene.units);
-    let bound = rounding.map(|rounding| rounding.displacement).filter(|bound| bound.is_finite());
+    let bound = rounding.and_then(|rounding| rounding.displacement);
     let scale = Scale::new(model, solution.u.amax());
     let moved = scale.moved(bound.is_some());
     let errors = match bounds {
@@ -325,7 +326,7 @@ fn end(run: &mut Run, solution: &Solution, rounding: Option<&Rounding>, bounds: 
     let strains = largest(solution, |state| state.von_mises_strain);
     let strains = Numbers::list("", strains, error(|errors| errors.strain));
     set("largest von Mises strain", strains);
-    let force = solution.stiffness().times(&solution.u) - &model.load;
+    let force = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
     let restrained = model.node_ids().filter(|node| model.restraints_of(*node) != [false; 2]);
     let reactions = restrained.map(|node| {
         let (of_node, restrained) = (node.of(&force), model.restraints_of(node));
@@ -373,7 +374,7 @@ impl Propagated<'_> {
         let stresses = stiffness.stresses(&u);
         let force = stiffness.times(&u) - model.load_in(Bounded::from_f64);
         let force = force.iter().map(|f| f.error()).fold(0.0, f64::max);
-        let von_mises = stress_bounds(solution, stiffness, displacement);
+        let von_mises = stress_bounds(solution, stiffness, Some(displacement));
         Errors {
             displacement,
             stress: stresses.iter().flat_map(|s| s.iter().map(|s| s.error())).fold(0.0, f64::max),

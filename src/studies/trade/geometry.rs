@@ -31,7 +31,7 @@ pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync
     let of_place = |(place, case): &(Place, Arc<Case>)| {
         case.prepare();
         let rows: Vec<Row> = CARRYING.iter().map(|variant| row(*place, case, *variant)).collect();
-        case.let_go_of_factors();
+        case.release_factors();
         watch(&label(*place));
         rows
     };

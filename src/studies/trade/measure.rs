@@ -15,7 +15,9 @@ use super::{Knob, words};
 use crate::answer::error::Error;
 use crate::answer::estimates::discretisation::Discretisation;
 use crate::answer::estimates::{Certainty, certain};
-use crate::answer::{Request, Solution, equilibrium, max_displacement, over, solve, summaries};
+use crate::answer::{
+    Request, Session, Solution, Stiffness, max_displacement, over, solve, summaries,
+};
 use crate::problem::scene::{Refined, Scene, symmetry};
 
 /// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
@@ -38,7 +40,7 @@ pub fn measure(
     watch: impl Fn(&str) + Sync,
 ) -> Result<Trade, Error> {
     let model = &request.scene.model;
-    let reference = model.target().and_then(|_| equilibrium(request).ok());
+    let reference = model.target().and_then(|_| solve(&request.equilibrium(), &mut |_| ()).ok());
     let is_asked = |knob: &Knob| options.only.contains(knob);
     let places = is_asked(&Knob::Geometry).then(|| places(request)).transpose()?;
     let (mut sections, mut all, mut measured) = (Vec::new(), Vec::new(), Vec::<Measured>::new());
@@ -163,9 +165,8 @@ fn timed_anew(
                 run.solution.is_ok() && run.seconds.iter().sum::<f64>() < PATIENCE
             });
             if again {
-                let request = request.clone().afresh();
                 let start = Instant::now();
-                let solution = solve(&request, &mut |_| ());
+                let solution = solve(request, &mut |_| ());
                 let seconds = start.elapsed().as_secs_f64();
                 if round == 0 {
                     let solution = match solution {
@@ -187,7 +188,7 @@ fn timed_anew(
 fn judged(knob: Knob, run: Run) -> Run {
     match run.solution {
         Ok(solution) if judges(knob) => {
-            let (solution, certainty) = certain(solution);
+            let (solution, certainty) = certain(solution, &Session::default());
             Run { solution: Ok(light(solution)), certainty: Some(certainty), ..run }
         }
         solution => Run { solution, ..run },
@@ -199,9 +200,8 @@ fn judges(knob: Knob) -> bool {
     matches!(knob, Knob::Tolerance | Knob::Iterations | Knob::Status | Knob::Coupling)
 }
 
-/// A solution without its factors, and without all steps but the last.
+/// A solution without all steps but the last.
 fn light(mut solution: Solution) -> Solution {
-    solution.let_go_of_factors();
     let before = solution.steps.len().saturating_sub(1);
     solution.steps.drain(..before);
     solution
@@ -303,7 +303,7 @@ impl Bench<'_> {
         let Some(&finest) = solutions.last().filter(|_| solutions.len() == self.runs.len()) else {
             return (Vec::new(), None);
         };
-        let stiffness = finest.stiffness();
+        let stiffness = Stiffness::new(&finest.model, |x| x);
         let levels = solutions.par_iter().enumerate();
         let on_finest: Vec<Solution> = levels
             .map(|(level, solution)| prolonged((*solution).clone(), &self.meshes[level..], finest))

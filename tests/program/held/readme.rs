@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use plane_contact::Request;
-use plane_contact::answer::{Assessment, Measured, Solution};
+use plane_contact::answer::{Assessment, Measured, Session, Solution};
 use plane_contact::numbers::solve::{ScalarName, Solver};
 use plane_contact::problem::modelling::{Coupling, Friction, LOAD_STEPS, Variant};
 use plane_contact::problem::scene::symmetry;
@@ -135,7 +135,7 @@ fn variants() -> Vec<String> {
 
 fn cells(solution: &Solution) -> String {
     let others = [Some(&VARIANTS[5]), Some(own_equilibrium())];
-    let assessment = Assessment::against(solution, others);
+    let assessment = Assessment::against(solution, &Session::default(), others);
     let [fx, fy] = solution.model.total_load();
     let share = 100.0 * solution.target_force() / fx.hypot(fy);
     let stresses: Vec<String> = assessment

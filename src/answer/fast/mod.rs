@@ -1,0 +1,3 @@
+//! All that exists only for speed, each part tested against the slow way.
+
+pub mod listings;
