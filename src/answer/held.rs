@@ -10,8 +10,7 @@ use super::elimination::Elimination;
 use super::session::Session;
 use super::solution::{Solution, Step};
 use super::stiffness::Stiffness;
-use super::whole::Whole;
-use crate::numbers::solve::Factors;
+use crate::numbers::solve::{Normed, SparseCholesky};
 use crate::problem::model::Model;
 use crate::problem::modelling::Variant;
 
@@ -20,13 +19,8 @@ pub(super) struct Held {
     pub(super) stiffness: Arc<Stiffness>,
     /// T of the contact state.
     pub(super) t: Elimination,
-    factors: Made,
-}
-
-/// The factors of the contact state.
-enum Made {
-    Condensed(Box<Bound>),
-    Whole(Box<Whole>),
+    /// The factors of Tᵀ K T.
+    pub(super) factors: Box<dyn Normed + Send>,
 }
 
 impl Held {
@@ -50,35 +44,22 @@ impl Held {
         let condensed = bodies
             .filter(|bodies| bodies.has(constraints))
             .and_then(|bodies| Bound::new(bodies, &t, constraints));
-        let factors = match condensed {
-            Some(bound) => Made::Condensed(Box::new(bound)),
-            None => Made::Whole(Box::new(Whole::new(&stiffness, &t).ok()?)),
+        let factors: Box<dyn Normed + Send> = match condensed {
+            Some(bound) => Box::new(bound),
+            None => Box::new(SparseCholesky::new(stiffness.reduced(&t)).ok()?),
         };
         Some(Held { stiffness, t, factors })
     }
 
-    /// Returns the factors of Tᵀ K T, or of nearly that matrix.
-    pub(super) fn factors(&self) -> &dyn Factors<f64> {
-        match &self.factors {
-            Made::Condensed(bound) => &**bound,
-            Made::Whole(whole) => &**whole,
-        }
-    }
-
     /// Returns q of Tᵀ K T q = `f`, refined as far as its factors allow.
     pub(super) fn refined(&self, f: &DVector<f64>) -> DVector<f64> {
-        let norm = match &self.factors {
-            Made::Condensed(bound) => bound.norm(),
-            Made::Whole(whole) => whole.norm(),
-        };
-        let factors = (self.factors(), norm);
-        let (Ok((q, _)) | Err((q, _))) = refined(&self.stiffness, &self.t, factors, f);
+        let (Ok((q, _)) | Err((q, _))) = refined(&self.stiffness, &self.t, &*self.factors, f);
         q
     }
 
     /// Returns the displacements under one more load by degree of freedom, length.
     pub(super) fn under(&self, model: &Model, load: &DVector<f64>) -> DVector<f64> {
-        let q = self.factors().solve(&self.t.load(&model.free_part(load)));
+        let q = self.factors.solve(&self.t.load(&model.free_part(load)));
         self.t.motion(&q)
     }
 }

@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::condensation::surface_nodes;
 use super::published::bytes_of_iterations;
 use super::request::Request;
-use super::stiffness::kept_matrices;
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Geometry, Variant};
 
@@ -125,9 +124,7 @@ impl Bytes {
         let [each, most] = FREED[usize::from(model.has_contact())];
         Bytes {
             program: PROGRAM,
-            mesh: (each * m).min(most)
-                + CONTACT_NODE * contact
-                + kept * kept_matrices(model) as f64,
+            mesh: (each * m).min(most) + CONTACT_NODE * contact + kept * m,
             matrices: equations * (each_equation + doubled * doublings)
                 + bytes_beside(request, model),
             iterations: match request.variant {

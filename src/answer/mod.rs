@@ -29,7 +29,6 @@ mod stiffness;
 mod summary;
 mod support;
 mod unilateral;
-mod whole;
 
 pub use assessment::{Assessment, Measured};
 pub use condensation::kept_equations;

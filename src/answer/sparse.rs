@@ -97,8 +97,7 @@ impl Sparse<f64> for Condensing {
     fn solve(&self, state: &State<f64>) -> Result<Solved<f64>, Unsolved> {
         let (t, bound) = self.factors(state, state.stiffness);
         let refined = |bound: Arc<Bound>| {
-            let norm = bound.norm();
-            let (x, residual) = refined(state.stiffness, &t, (&bound, norm), state.f).ok()?;
+            let (x, residual) = refined(state.stiffness, &t, &*bound, state.f).ok()?;
             Some(Solved { x, residual })
         };
         bound.and_then(refined).map_or_else(|| Whole.solve(state), Ok)
@@ -115,7 +114,7 @@ impl Sparse<Bounded> for Condensing {
         let (f, stiffness) = (state.f.map(Scalar::to_f64), self.session.stiffness(state.model));
         let (t, bound) = self.factors(state, &stiffness);
         let refined = |bound: Arc<Bound>| {
-            let (x, residual) = refined(&stiffness, &t, (&bound, bound.norm()), &f).ok()?;
+            let (x, residual) = refined(&stiffness, &t, &*bound, &f).ok()?;
             Some((bound, x, residual))
         };
         let with_error = |factors: &dyn Factors<f64>, x: DVector<f64>, residual: f64| {

@@ -1,28 +1,14 @@
 //! The stiffness without contact and restraints, by triangle, which `Km` adds up in a matrix.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 use nalgebra::{DVector, SMatrix, SVector};
-use rayon::prelude::*;
 
 use super::elimination::Elimination;
 use crate::numbers::scalar::Scalar;
 use crate::numbers::solve::{Pattern, SparseSymmetric};
 use crate::problem::element::{self, D, Plane, State};
 use crate::problem::model::{Dof, Model, NodeId, TriangleId};
-
-/// The number of triangles up to which their matrices are kept. Those of more would be a quarter of the
-/// memory of a run, and are computed each time they are needed.
-const KEPT: usize = 100_000;
-
-/// The number of triangles of which a thread does no fewer.
-const AT_ONCE: usize = 5_000;
-
-/// Returns the number of triangles of `model` whose matrices are kept: all, or none.
-pub(super) fn kept_matrices(model: &Model) -> usize {
-    Some(model.triangles.len()).filter(|triangles| *triangles <= KEPT).unwrap_or(0)
-}
 
 /// The stiffness matrix K, 2R x 2R, force/length, as what its triangles' matrices, and their stresses,
 /// are computed from.
@@ -31,11 +17,8 @@ pub struct Stiffness<T = f64> {
     dofs: usize,
     materials: Vec<Elastic<T>>,
     triangles: Vec<Element<T>>,
-    /// The matrix of each triangle, where they are few; else empty.
+    /// The matrix of each triangle, Ae·Bᵀ·D·B, force/length.
     matrices: Vec<SMatrix<T, 6, 6>>,
-    /// The stiffness of the springs on which each node of a triangle stands, over the mean diagonal entry
-    /// of its matrix.
-    springs: T,
 }
 
 /// A material in the numbers of a run.
@@ -80,22 +63,9 @@ impl<T: Scalar> Stiffness<T> {
             }
         };
         let triangles: Vec<Element<T>> = model.triangle_ids().map(triangle).collect();
-        let matrices =
-            triangles[..kept_matrices(model)].iter().map(|triangle| triangle.matrix(&materials));
-        let matrices = matrices.collect();
+        let matrices = triangles.iter().map(|triangle| triangle.matrix(&materials)).collect();
         let (plane, dofs) = (model.plane, model.dofs());
-        Stiffness { plane, dofs, materials, triangles, matrices, springs: T::zero() }
-    }
-
-    /// Returns the matrix Ae·Bᵀ·D·B of a triangle, force/length.
-    fn matrix(&self, i: usize) -> Cow<'_, SMatrix<T, 6, 6>> {
-        let kept = self.matrices.get(i).map(Cow::Borrowed);
-        let own = kept.unwrap_or_else(|| Cow::Owned(self.triangles[i].matrix(&self.materials)));
-        if self.springs.is_zero() {
-            return own;
-        }
-        let spring = self.springs * own.trace() / T::from_f64(6.0);
-        Cow::Owned(*own + SMatrix::identity() * spring)
+        Stiffness { plane, dofs, materials, triangles, matrices }
     }
 
     /// Returns K u, the forces that keep the shape `u`, force.
@@ -123,7 +93,7 @@ impl<T: Scalar> Stiffness<T> {
             let triangle = &self.triangles[i];
             // A shift moves a few nodes alone.
             if triangle.dofs().iter().any(|dof| !u[dof.index()].is_zero()) {
-                triangle.add_times(&self.matrix(i), &u, &mut force);
+                triangle.add_times(&self.matrices[i], &u, &mut force);
             }
         }
         force.map(|f| f / common)
@@ -139,7 +109,7 @@ impl<T: Scalar> Stiffness<T> {
         };
         let pattern = Pattern::of_triangles(t.size(), self.dofs / 2, corners, equations);
         SparseSymmetric::summed(pattern, |visit| {
-            about.for_each(|(i, triangle)| triangle.reduced(&self.matrix(i), t, visit));
+            about.for_each(|(i, triangle)| triangle.reduced(&self.matrices[i], t, visit));
         })
     }
 
@@ -155,7 +125,7 @@ impl<T: Scalar> Stiffness<T> {
         triangles: Range<usize>,
         mut visit: impl FnMut([Dof; 6], &SMatrix<T, 6, 6>),
     ) {
-        triangles.for_each(|i| visit(self.triangles[i].dofs(), &self.matrix(i)));
+        triangles.for_each(|i| visit(self.triangles[i].dofs(), &self.matrices[i]));
     }
 
     /// Returns the stresses and strains of every triangle under displacements `u`.
@@ -179,19 +149,21 @@ impl Stiffness {
     /// Computes the same with every node of a triangle on springs of `part` times the mean diagonal entry
     /// of the triangle's matrix.
     pub fn on_springs(model: &Model, part: f64) -> Self {
-        Stiffness { springs: part, ..Stiffness::new(model, |x| x) }
+        let mut stiffness = Stiffness::new(model, |x| x);
+        for matrix in &mut stiffness.matrices {
+            *matrix += SMatrix::identity() * (part * matrix.trace() / 6.0);
+        }
+        stiffness
     }
 
     /// Returns the energy norm sqrt(uᵀ K u), sqrt(force·length). It is summed by triangle, so that
     /// no cancellation leaves a negative number.
     pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
-        let of_triangle = |(i, triangle): (usize, &Element<f64>)| {
+        let of_triangle = |(triangle, matrix): (&Element<f64>, &SMatrix<f64, 6, 6>)| {
             let u = triangle.displacements(u);
-            u.dot(&(*self.matrix(i) * u)).max(0.0)
+            u.dot(&(matrix * u)).max(0.0)
         };
-        let triangles = self.triangles.par_iter().enumerate().with_min_len(AT_ONCE);
-        let squares: Vec<f64> = triangles.map(of_triangle).collect();
-        squares.iter().sum::<f64>().sqrt()
+        self.triangles.iter().zip(&self.matrices).map(of_triangle).sum::<f64>().sqrt()
     }
 }
 

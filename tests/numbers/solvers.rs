@@ -79,7 +79,7 @@ fn dense_lu_exchanges_rows() {
 fn a_chain_fills_nothing_in() {
     let chain = (0..5).map(|i| (i, i)).chain((1..5).map(|i| (i, i - 1)));
     let chain = Pattern::new(5, |visit| chain.clone().for_each(|(i, j)| visit(i, j)));
-    let size = FactorSize::sparse_cholesky(&chain, &[1; 5]);
+    let size = FactorSize::sparse_cholesky(&chain);
     assert_eq!((size.entries, size.nonzeros), (9, 9));
     assert_eq!(size.operations, 4.0 * 4.0 + 1.0);
 }
@@ -88,27 +88,9 @@ fn a_chain_fills_nothing_in() {
 fn a_full_matrix_has_full_factors() {
     let full = (0..6).flat_map(|i| (0..=i).map(move |j| (i, j)));
     let full = Pattern::new(6, |visit| full.clone().for_each(|(i, j)| visit(i, j)));
-    let size = FactorSize::sparse_cholesky(&full, &[1; 6]);
+    let size = FactorSize::sparse_cholesky(&full);
     assert_eq!((size.entries, size.nonzeros), (21, 21));
     assert_eq!(size.operations, (1..=6).map(|k| f64::from(k * k)).sum::<f64>());
-}
-
-/// Groups of 2, 1 and 3 equations, the second joined to both others: the first and the last fill nothing in.
-#[test]
-fn groups_of_equations_count_as_their_equations_do() {
-    let groups = Pattern::new(3, |visit| {
-        (0..3).for_each(|i| visit(i, i));
-        [(1, 0), (2, 1)].iter().for_each(|(i, j)| visit(*i, *j));
-    });
-    let starts = [0, 2, 3, 6];
-    let group = |e: usize| starts.partition_point(|start| *start <= e) - 1;
-    let joined = |i: &usize, j: &usize| group(*i).abs_diff(group(*j)) < 2;
-    let lower = (0..6).flat_map(|i| (0..=i).filter(move |j| joined(&i, j)).map(move |j| (i, j)));
-    let equations = Pattern::new(6, |visit| lower.clone().for_each(|(i, j)| visit(i, j)));
-    let size = FactorSize::sparse_cholesky(&groups, &[2, 1, 3]);
-    assert_eq!(size, FactorSize::sparse_cholesky(&equations, &[1; 6]));
-    assert_eq!((size.equations, size.entries, size.nonzeros), (6, 15, 15));
-    assert_eq!(size.operations, 3.0 * 3.0 + 2.0 * 2.0 + 4.0 * 4.0 + 3.0 * 3.0 + 2.0 * 2.0 + 1.0);
 }
 
 /// Two blocks of 100 equations and the 50 that both of them reach, each block full with those 50.
@@ -124,7 +106,7 @@ fn blocks_fill_in_nothing_but_themselves() {
     let lower = (0..250).flat_map(|row| (0..=row).map(move |column| (row, column)));
     let places = lower.filter(together);
     let pattern = Pattern::new(250, |visit| places.clone().for_each(|(i, j)| visit(i, j)));
-    let size = FactorSize::sparse_cholesky(&pattern, &[1; 250]);
+    let size = FactorSize::sparse_cholesky(&pattern);
     let squares = |columns: RangeInclusive<u32>| columns.map(|k| f64::from(k * k));
     let operations: f64 = squares(51..=150).chain(squares(1..=150)).sum();
     assert_eq!(size.operations, operations);

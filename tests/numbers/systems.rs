@@ -190,7 +190,7 @@ fn part(matrix: &SparseSymmetric, equations: &[usize]) -> SparseSymmetric {
 /// Condenses a matrix as one part.
 pub fn condensed_to(matrix: &SparseSymmetric, kept: &[usize]) -> Option<Condensed> {
     let all = (0..matrix.size()).collect();
-    Condensed::new(vec![all], |equations| part(matrix, equations), kept)
+    Condensed::new(&[all], |equations| part(matrix, equations), kept)
 }
 
 /// The pivot of the second equation is `part` of its entry, that of the third all of it.
@@ -289,8 +289,8 @@ fn large_chains_are_condensed_to_their_ends() {
         });
         let kept: Vec<usize> = (0..chains).map(|c| (c + 1) * n - 1).collect();
         let matrix = SparseSymmetric::new(chains * n, springs);
-        let parts = (0..chains).map(|c| (c * n..(c + 1) * n).collect()).collect();
-        let condensed = Condensed::new(parts, |equations| part(&matrix, equations), &kept);
+        let parts: Vec<Vec<usize>> = (0..chains).map(|c| (c * n..(c + 1) * n).collect()).collect();
+        let condensed = Condensed::new(&parts, |equations| part(&matrix, equations), &kept);
         let condensed = condensed.expect("the chains are held");
         let of_all = n as f64;
         assert!((condensed.schur()[(0, 0)] * of_all - 1.0).abs() < 1e-6);

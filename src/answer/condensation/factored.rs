@@ -7,13 +7,12 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::answer::elimination::Elimination;
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::{Condensed, DenseCondensed, Eliminated};
+use crate::numbers::solve::{Condensed, Eliminated};
 use crate::problem::model::{Body, Dof, Model, NodeId};
 
 /// The number of equations, and that of nodes of both surfaces, up to which bodies are factored for all of
 /// these, whatever is kept of them: beyond that the factor would grow by more than factoring anew takes.
-/// What is made while others wait for it must not wait for other threads.
-const FOR_ALL: (usize, usize) = (20_000, DenseCondensed::ON_ONE_THREAD / 2);
+const FOR_ALL: (usize, usize) = (20_000, 224);
 
 /// The bodies of a model factored, and their stiffness condensed to some nodes.
 pub struct Factored {
@@ -65,8 +64,8 @@ impl Factored {
             equations.iter().for_each(|e| restrained[dofs[*e].index()] = false);
             stiffness.reduced(&Elimination::new(&restrained, &[]))
         };
-        let parts = model.bodies.iter().map(of_body).collect();
-        let condensed = Condensed::new(parts, matrix, &kept)?;
+        let parts: Vec<Vec<usize>> = model.bodies.iter().map(of_body).collect();
+        let condensed = Condensed::new(&parts, matrix, &kept)?;
         let kept = kept.iter().map(|e| dofs[*e]).collect();
         let has_surfaces = surfaces(model).concat().iter().all(|node| nodes.contains(node));
         let model = Arc::clone(model);

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use crate::answer::elimination::Elimination;
 use crate::answer::stiffness::Stiffness;
-use crate::numbers::solve::{Factors, backward_error};
+use crate::numbers::solve::{Factors, Normed, backward_error};
 
 /// The relative residual at which refinement ends.
 const REFINED: f64 = 4.0 * f64::EPSILON;
@@ -15,19 +15,19 @@ const ENOUGH: f64 = 32.0 * f64::EPSILON;
 /// The part of its residual to which a step of refinement must bring the next one.
 const CONTRACTION: f64 = 0.2;
 
-/// Solves Tᵀ K T q = `f` by `factors` of nearly that matrix, whose norm is `norm`, and refines;
-/// returns q and its relative residual.
+/// Solves Tᵀ K T q = `f` by `factors` of nearly that matrix, and refines; returns q and its relative
+/// residual.
 ///
 /// # Errors
 /// The factors are too far from the matrix; returns q so far.
 pub(in crate::answer) fn refined(
     stiffness: &Stiffness,
     t: &Elimination,
-    (factors, norm): (&dyn Factors<f64>, f64),
+    factors: &dyn Normed,
     f: &DVector<f64>,
 ) -> Result<(DVector<f64>, f64), (DVector<f64>, f64)> {
     let times = |q: &DVector<f64>| t.load(&stiffness.times(&(t.expand(q) - t.shift())));
-    refine(factors, times, norm, f)
+    refine(factors, times, factors.norm(), f)
 }
 
 /// Solves A q = `f`, where `times` multiplies by A, whose norm is `norm`.

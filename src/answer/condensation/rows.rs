@@ -1,11 +1,7 @@
 //! A matrix T of few entries a row, and the products with it.
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 use smallvec::SmallVec;
-
-/// The columns of Tᵀ S T that are worth a thread.
-const AT_ONCE: usize = 256;
 
 /// Entries of a row: column and weight, of most rows one.
 pub(super) type Row = SmallVec<[(usize, f64); 1]>;
@@ -24,22 +20,18 @@ impl Rows {
             row.iter().for_each(|(column, weight)| of_column[*column].push((l, *weight)));
         }
         let mut reduced = DMatrix::zeros(self.columns, self.columns);
-        let columns = reduced.as_mut_slice().par_chunks_mut(self.columns.max(1)).enumerate();
-        let columns = columns.with_min_len(AT_ONCE);
-        columns.for_each_init(
-            || DVector::zeros(s.nrows()),
-            |product, (c, column)| {
-                product.fill(0.0);
-                for (l, weight) in &of_column[c] {
-                    product.axpy(*weight, &s.column(*l), 1.0);
+        let mut product = DVector::zeros(s.nrows());
+        for (c, entries) in of_column.iter().enumerate() {
+            product.fill(0.0);
+            for (l, weight) in entries {
+                product.axpy(*weight, &s.column(*l), 1.0);
+            }
+            for (row, value) in self.rows.iter().zip(product.iter()) {
+                for (r, weight) in row.iter().filter(|(r, _)| *r >= c) {
+                    reduced[(*r, c)] += weight * value;
                 }
-                for (row, value) in self.rows.iter().zip(product.iter()) {
-                    for (r, weight) in row.iter().filter(|(r, _)| *r >= c) {
-                        column[*r] += weight * value;
-                    }
-                }
-            },
-        );
+            }
+        }
         reduced
     }
 

@@ -10,7 +10,7 @@ use super::refinement::refine;
 use super::rows::Rows;
 use super::schur::{Condensation, Eliminated, holds};
 use crate::answer::elimination::{Constraint, Elimination, are_alike};
-use crate::numbers::solve::{DenseCholesky, Factors};
+use crate::numbers::solve::{DenseCholesky, Factors, Normed};
 use crate::problem::model::{Dof, NodeId};
 
 /// Tᵀ S T under one contact state, factored.
@@ -224,9 +224,11 @@ impl Bound {
     pub(in crate::answer) fn is_of(&self, constraints: &[Constraint]) -> bool {
         self.constraints == constraints
     }
+}
 
-    /// Returns the largest row sum of |K| without constraints, force/length.
-    pub(in crate::answer) fn norm(&self) -> f64 {
+impl Normed for Bound {
+    /// Returns that of K without constraints, force/length.
+    fn norm(&self) -> f64 {
         self.small.condensation.norm()
     }
 }

@@ -275,7 +275,7 @@ fn state(
     let load = model.free_part(&(load + friction));
     let b = t.load(&(load - stiffness.times(t.shift())));
     let x = held.refined(&b.map(Scalar::to_f64));
-    let bound = error_of_solution((stiffness, &t), held.factors(), &b, &x);
+    let bound = error_of_solution((stiffness, &t), &*held.factors, &b, &x);
     // Friction follows the normal forces, whose errors are taken to be those of the displacements.
     let bound = (1.0 + detail.feedback) * bound;
     Some(t.expand(&x.map(|x| Bounded::new(x, bound))))

@@ -12,8 +12,7 @@ use crate::answer::condensation::{Bodies, Bound, Eliminated, Inside, OnKept, ref
 use crate::answer::contact::Status;
 use crate::answer::elimination::{Constraint, Elimination};
 use crate::answer::stiffness::Stiffness;
-use crate::answer::whole::Whole;
-use crate::numbers::solve::{Factors, Singular};
+use crate::numbers::solve::{Normed, Singular, SparseCholesky};
 use crate::problem::model::Model;
 
 /// What a status holds of a node's motion: nothing, the one along the normal, or both.
@@ -27,7 +26,7 @@ enum Held {
 /// The factors that were made last, and the statuses under which they were made. Other shapes and
 /// loads under statuses that hold the same motions have equations that are the same or nearly so.
 #[derive(Default)]
-pub(super) struct Last(RefCell<Option<(Vec<Held>, Arc<Whole>)>>);
+pub(super) struct Last(RefCell<Option<(Vec<Held>, Arc<SparseCholesky>)>>);
 
 impl Last {
     /// Returns whether they were of the condensed bodies.
@@ -143,7 +142,7 @@ enum Made {
     /// Those of the whole matrix, or of nearly the same one.
     Whole {
         held: Vec<Held>,
-        factors: RefCell<Arc<Whole>>,
+        factors: RefCell<Arc<SparseCholesky>>,
     },
 }
 
@@ -175,7 +174,7 @@ impl<'a> Reduced<'a> {
         drop(last);
         let factors = match same {
             Some(factors) => factors,
-            None => Arc::new(Whole::new(elastic.stiffness, t)?),
+            None => Arc::new(SparseCholesky::new(elastic.stiffness.reduced(t))?),
         };
         elastic.last.0.replace(Some((held.clone(), Arc::clone(&factors))));
         Ok(Reduced { elastic, t, load, made: Made::Whole { held, factors: RefCell::new(factors) } })
@@ -184,23 +183,22 @@ impl<'a> Reduced<'a> {
     /// Returns q, and its relative residual.
     fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
         let stiffness = self.elastic.stiffness;
-        let by = |factors: &dyn Factors<f64>, norm| refined(stiffness, self.t, (factors, norm), f);
-        let by_whole = |made: &Whole| by(made, made.norm());
-        let whole = || Whole::new(stiffness, self.t);
+        let by = |factors: &dyn Normed| refined(stiffness, self.t, factors, f);
+        let whole = || SparseCholesky::new(stiffness.reduced(self.t));
         match &self.made {
-            Made::Condensed(bound) => match by(&**bound, bound.norm()) {
+            Made::Condensed(bound) => match by(&**bound) {
                 Ok(solved) => Ok(solved),
-                Err(_) => by_whole(&whole()?).or_else(Ok),
+                Err(_) => by(&whole()?).or_else(Ok),
             },
             Made::Whole { held, factors } => {
                 let first = Arc::clone(&factors.borrow());
-                if let Ok(solved) = by_whole(&first) {
+                if let Ok(solved) = by(&*first) {
                     return Ok(solved);
                 }
                 let made = Arc::new(whole()?);
                 factors.replace(Arc::clone(&made));
                 self.elastic.last.0.replace(Some((held.clone(), Arc::clone(&made))));
-                by_whole(&made).or_else(Ok)
+                by(&*made).or_else(Ok)
             }
         }
     }

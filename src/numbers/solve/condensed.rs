@@ -14,9 +14,6 @@
 //! 3(5), 1965 (condensation); T. A. Davis, *Direct Methods for Sparse Linear Systems*, 2006, section
 //! 4 (a partial factor holds the Schur complement).
 
-use std::panic::resume_unwind;
-use std::sync::Mutex;
-
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::{Accum, Par};
@@ -29,7 +26,7 @@ use super::symmetric::SparseSymmetric;
 
 /// A symmetric matrix condensed to the equations that are kept.
 pub struct Condensed {
-    /// What no entry joins is factored apart.
+    /// What no entry joins to the rest is factored apart.
     parts: Vec<Part>,
     schur: DMatrix<f64>,
     /// The number of all equations.
@@ -55,41 +52,26 @@ pub struct Eliminated {
     pub kept: DVector<f64>,
 }
 
-/// The number of equations from which on both parts are solved at once.
-const AT_ONCE: usize = 20_000;
-
-/// That from which on both are factored at once: more than it takes to start a thread.
-const FACTORED_AT_ONCE: usize = 1_000;
-
 impl Condensed {
     /// Condenses a matrix to the equations `kept`. No entry joins its `parts`, the equations of each
     /// ascending; of some of them `matrix` makes the rows and columns. None where A_ii is not far from a
     /// singular matrix, or S has lost its digits against A_kk, and without equations.
     pub fn new(
-        parts: Vec<Vec<usize>>,
-        matrix: impl Fn(&[usize]) -> SparseSymmetric + Sync,
+        parts: &[Vec<usize>],
+        matrix: impl Fn(&[usize]) -> SparseSymmetric,
         kept: &[usize],
     ) -> Option<Self> {
-        let halves = halves(parts);
-        let size = halves.iter().map(Vec::len).sum();
-        let part = |equations: &[usize]| Part::new(matrix(equations), equations, kept);
-        let parts = match halves.as_slice() {
-            [] => return None,
-            [one] => vec![part(one)?],
-            [one, other, ..] => {
-                let apart = size >= FACTORED_AT_ONCE && rayon::current_num_threads() > 1;
-                let (one, other) = both(apart, || part(one), || part(other));
-                vec![one?, other?]
-            }
-        };
-        let mut schur = DMatrix::zeros(kept.len(), kept.len());
-        for (part, own) in &parts {
+        let size = parts.iter().map(Vec::len).sum();
+        let mut condensed =
+            Condensed { parts: Vec::new(), schur: DMatrix::zeros(kept.len(), kept.len()), size };
+        for equations in parts.iter().filter(|equations| !equations.is_empty()) {
+            let (part, own) = Part::new(matrix(equations), equations, kept)?;
             for (j, column) in part.kept.iter().zip(own.column_iter()) {
-                part.kept.iter().zip(&column).for_each(|(i, s)| schur[(*i, *j)] = *s);
+                part.kept.iter().zip(&column).for_each(|(i, s)| condensed.schur[(*i, *j)] = *s);
             }
+            condensed.parts.push(part);
         }
-        let parts = parts.into_iter().map(|(part, _)| part).collect();
-        Some(Condensed { parts, schur, size })
+        (!condensed.parts.is_empty()).then_some(condensed)
     }
 
     /// Returns the largest row sum of |A|.
@@ -105,8 +87,8 @@ impl Condensed {
     /// Eliminates the equations inside from a right-hand side.
     pub fn eliminate(&self, b: &DVector<f64>) -> Eliminated {
         let (mut z, mut kept) = (Vec::new(), DVector::zeros(self.schur.nrows()));
-        for (part, (own, left)) in self.parts.iter().zip(self.each(|k| self.parts[k].eliminate(b)))
-        {
+        for part in &self.parts {
+            let (own, left) = part.eliminate(b);
             part.kept.iter().zip(&left).for_each(|(k, x)| kept[*k] = *x);
             z.push(own);
         }
@@ -116,20 +98,11 @@ impl Condensed {
     /// Returns the solution on all equations from that on the kept ones.
     pub fn expand(&self, eliminated: &Eliminated, kept: &DVector<f64>) -> DVector<f64> {
         let mut solution = DVector::zeros(self.size);
-        let expanded = self.each(|k| self.parts[k].expand(&eliminated.z[k], kept));
-        for (part, x) in self.parts.iter().zip(expanded) {
+        for (part, z) in self.parts.iter().zip(&eliminated.z) {
+            let x = part.expand(z, kept);
             part.order.iter().zip(&x).for_each(|(e, x)| solution[*e] = *x);
         }
         solution
-    }
-
-    /// Returns what `of` gives of the part at each place, of large ones at once.
-    fn each<R: Send>(&self, of: impl Fn(usize) -> R + Sync) -> Vec<R> {
-        if self.parts.len() == 2 && self.size >= AT_ONCE {
-            let (one, other) = rayon::join(|| of(0), || of(1));
-            return vec![one, other];
-        }
-        (0..self.parts.len()).map(of).collect()
     }
 }
 
@@ -187,40 +160,6 @@ impl Part {
         self.factor.substitute(self.inside(), &mut x);
         x
     }
-}
-
-/// Does one on a thread of its own where they are to be done `apart` and one can start. It is none of
-/// rayon's: what waits for it would begin other work there, which may in turn wait for what is made here.
-fn both<A: Send, B>(
-    apart: bool,
-    one: impl FnOnce() -> A + Send,
-    other: impl FnOnce() -> B,
-) -> (A, B) {
-    let one = Mutex::new(Some(one));
-    let begin = || one.lock().expect("it begins once").take().map(|one| one());
-    std::thread::scope(|scope| {
-        let spawn = || std::thread::Builder::new().spawn_scoped(scope, begin).ok();
-        let thread = apart.then(spawn).flatten();
-        let other = other();
-        let one = match thread {
-            Some(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
-            None => begin(),
-        };
-        (one.expect("it begins once"), other)
-    })
-}
-
-/// Returns parts put together to two about as large as each other, the equations of each ascending; one
-/// where there is but one, and none of none.
-fn halves(mut parts: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
-    parts.sort_by_key(|part| std::cmp::Reverse(part.len()));
-    let mut halves = [Vec::new(), Vec::new()];
-    for mut part in parts {
-        let smaller = usize::from(halves[1].len() < halves[0].len());
-        halves[smaller].append(&mut part);
-    }
-    halves.iter_mut().for_each(|half| half.sort_unstable());
-    halves.into_iter().filter(|half| !half.is_empty()).collect()
 }
 
 /// Returns the equations inside in an order of small fill, then those that are kept.

@@ -6,22 +6,15 @@
 //!       | A_lf A_ll |  last
 //! ```
 
-use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
-use faer::{Accum, MatMut, Par};
+use faer::{Accum, Par};
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::dense::DenseCholesky;
-use super::factors::{column, of_columns};
-
-/// The columns that are computed together, whatever the number of threads.
-const STRIP: usize = 64;
-
-/// The strips that are worth a thread.
-const AT_ONCE: usize = 4;
+use super::factors::{column, of_columns, of_columns_mut};
 
 /// A symmetric matrix condensed to its last equations.
 pub struct DenseCondensed {
@@ -33,10 +26,6 @@ pub struct DenseCondensed {
 }
 
 impl DenseCondensed {
-    /// The number of last equations up to which no other thread is asked, and so nothing else begun on
-    /// this one meanwhile.
-    pub const ON_ONE_THREAD: usize = (2 * AT_ONCE - 1) * STRIP;
-
     /// Eliminates the first equations of a `matrix`, of which the lower triangle is read; None where
     /// theirs is not positive definite.
     pub fn new(matrix: &DMatrix<f64>, first: usize) -> Option<Self> {
@@ -44,22 +33,20 @@ impl DenseCondensed {
         let factors = DenseCholesky::new(&matrix.view((0, 0), (first, first)).into_owned()).ok()?;
         let lower = factors.lower();
         let mut across = matrix.view((first, 0), (last, first)).transpose();
-        let strips = across.as_mut_slice().par_chunks_mut((first * STRIP).max(1));
-        strips.with_min_len(AT_ONCE).for_each(|strip| {
-            let strip = MatMut::from_column_major_slice_mut(strip, first, strip.len() / first);
-            solve_lower_triangular_in_place(lower, strip, Par::Seq);
-        });
+        solve_lower_triangular_in_place(lower, of_columns_mut(&mut across), Par::Seq);
         let mut schur = matrix.view((first, first), (last, last)).into_owned();
         let x = of_columns(&across);
-        let strips = schur.as_mut_slice().par_chunks_mut((last * STRIP).max(1)).enumerate();
-        strips.with_min_len(AT_ONCE).for_each(|(k, strip)| {
-            // Above its own columns nothing is read.
-            let (start, width) = (k * STRIP, strip.len() / last);
-            let strip = MatMut::from_column_major_slice_mut(strip, last, width);
-            let rows = x.subcols(start, last - start).transpose();
-            let strip = strip.subrows_mut(start, last - start);
-            matmul(strip, Accum::Add, rows, x.subcols(start, width), -1.0, Par::Seq);
-        });
+        matmul(
+            of_columns_mut(&mut schur),
+            BlockStructure::TriangularLower,
+            Accum::Add,
+            x.transpose(),
+            BlockStructure::Rectangular,
+            x,
+            BlockStructure::Rectangular,
+            -1.0,
+            Par::Seq,
+        );
         Some(DenseCondensed { first: factors, across, schur })
     }
 

@@ -29,6 +29,12 @@ pub trait Factors<T>: Sync {
     fn solve(&self, b: &DVector<T>) -> DVector<T>;
 }
 
+/// Factors of a matrix whose norm is known, by which solutions are refined.
+pub trait Normed: Factors<f64> {
+    /// Returns the largest row sum of |A|.
+    fn norm(&self) -> f64;
+}
+
 impl<T, F: Factors<T> + Send + ?Sized> Factors<T> for Arc<F> {
     fn solve(&self, b: &DVector<T>) -> DVector<T> {
         (**self).solve(b)
@@ -82,17 +88,7 @@ pub fn of_columns_mut<T>(matrix: &mut DMatrix<T>) -> MatMut<'_, T> {
 
 /// Returns the largest |x|, NaN left out.
 pub fn largest<T: Scalar>(numbers: &[T]) -> f64 {
-    // Of eight at a time, none of which waits for the one before it.
-    let (eights, rest) = numbers.as_chunks::<8>();
-    let mut most = [0.0_f64; 8];
-    let larger = |most: &mut f64, x: &T| {
-        let size = Scalar::abs(*x).to_f64();
-        *most = if size > *most { size } else { *most };
-    };
-    for eight in eights.iter().map(<[T; 8]>::as_slice).chain([rest]) {
-        most.iter_mut().zip(eight).for_each(|(most, x)| larger(most, x));
-    }
-    most.into_iter().fold(0.0, f64::max)
+    numbers.iter().map(|x| Scalar::abs(*x).to_f64()).fold(0.0, f64::max)
 }
 
 /// Returns |r| / (`norm` |x| + |b|) in the largest-entry norm, 0 where r is 0: Rigal and Gaches'

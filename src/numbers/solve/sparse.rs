@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::cholesky::Cholesky;
 use super::error_bound::inverse_norm;
-use super::factors::{Factors, Native, Singular};
+use super::factors::{Factors, Native, Normed, Singular};
 use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::Scalar;
 
@@ -25,6 +25,8 @@ const SHIFT: f64 = 1e-10 / f64::EPSILON;
 /// A symmetric positive definite matrix and its Cholesky factors.
 pub struct SparseCholesky<T: Native = f64> {
     matrix: SparseSymmetric<T>,
+    /// The largest row sum of its sizes.
+    norm: f64,
     factors: Cholesky<T>,
 }
 
@@ -37,7 +39,7 @@ impl<T: Native> SparseCholesky<T> {
             return Err(mechanism(&matrix));
         };
         let diagonal = matrix.diagonal();
-        let cholesky = SparseCholesky { matrix, factors };
+        let cholesky = SparseCholesky { norm: matrix.norm(), matrix, factors };
         let Some((column, size)) = probe(&cholesky.factors, &diagonal) else {
             return Ok(cholesky);
         };
@@ -60,6 +62,12 @@ impl<T: Native> SparseCholesky<T> {
     /// vectors, 0 when x and b are 0.
     pub fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
         self.matrix.residual(x, b)
+    }
+}
+
+impl Normed for SparseCholesky {
+    fn norm(&self) -> f64 {
+        self.norm
     }
 }
 

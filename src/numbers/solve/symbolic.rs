@@ -26,27 +26,17 @@ impl FactorSize {
         FactorSize { operations: cube(n) / 3.0, ..FactorSize::full(n, n * n) }
     }
 
-    /// Returns the size of sparse Cholesky of a matrix whose equations stand in groups, in the order of
-    /// `ordering`: `pattern` has the groups whose equations are joined, `sizes` the number of equations of
-    /// each.
-    pub fn sparse_cholesky(pattern: &Pattern, sizes: &[usize]) -> Self {
-        let of_pair = |(i, j): (usize, usize)| match i == j {
-            true => sizes[i] * (sizes[i] + 1) / 2,
-            false => sizes[i] * sizes[j],
-        };
-        let mut size = FactorSize {
-            equations: sizes.iter().sum(),
-            entries: pattern.places().map(of_pair).sum(),
-            ..FactorSize::default()
-        };
+    /// Returns the size of sparse Cholesky of a matrix of `pattern`, in the order of `ordering`.
+    pub fn sparse_cholesky(pattern: &Pattern) -> Self {
+        let equations = pattern.size();
+        let mut size =
+            FactorSize { equations, entries: pattern.places().count(), ..FactorSize::default() };
         let mut last_first = order(pattern.view());
         last_first.reverse();
-        for (group, below) in last_first.iter().zip(below(pattern, sizes, &last_first)) {
-            for own in 1..=sizes[*group] {
-                size.nonzeros += below + own;
-                // A square root, divisions, and the update of what lies to its right.
-                size.operations += ((below + own) as f64).powi(2);
-            }
+        for below in below(pattern, &last_first) {
+            size.nonzeros += below + 1;
+            // A square root, divisions, and the update of what lies to its right.
+            size.operations += ((below + 1) as f64).powi(2);
         }
         size
     }
@@ -66,9 +56,9 @@ fn cube(n: usize) -> f64 {
     (n as f64).powi(3)
 }
 
-/// Returns the number of equations of the other groups in which a column of L has entries, for each group of
-/// an order from the last to the first.
-fn below(pattern: &Pattern, sizes: &[usize], last_first: &[usize]) -> Vec<usize> {
+/// Returns the number of entries below the diagonal in each column of L, for an order from the last
+/// equation to the first.
+fn below(pattern: &Pattern, last_first: &[usize]) -> Vec<usize> {
     let (n, places) = (last_first.len(), places(last_first));
     // Those that come before each, and to which it is joined.
     let before = Pattern::new(n, |visit| {
@@ -78,8 +68,7 @@ fn below(pattern: &Pattern, sizes: &[usize], last_first: &[usize]) -> Vec<usize>
     });
     let (mut tree, mut below) = (Tree::new(n), vec![0; n]);
     for k in (0..n).rev() {
-        let size = sizes[last_first[k]];
-        tree.row(k, before.column(k), |i| below[i] += size);
+        tree.row(k, before.column(k), |i| below[i] += 1);
     }
     below
 }

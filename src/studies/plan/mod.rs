@@ -24,8 +24,8 @@ use crate::answer::{Request, dense_matrices, kept_equations};
 use crate::choices;
 use crate::error::Result;
 use crate::memory;
-use crate::numbers::solve::{FactorSize, ORDERED_IN_GROUPS, Pattern, ScalarName, Solver};
-use crate::problem::model::Model;
+use crate::numbers::solve::{FactorSize, Pattern, ScalarName, Solver};
+use crate::problem::model::{Dof, Model};
 use crate::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use crate::problem::scene::symmetry::half;
 
@@ -123,9 +123,7 @@ impl Plan {
         let plan = |candidates| ContactPlan { coupling, friction, status, candidates };
         let contact = Candidates::find(model).map(plan);
         let dense = dense_matrices(variant, arithmetic);
-        let (pattern, sizes) = pattern(model);
-        let sparse = FactorSize::sparse_cholesky(&pattern, &sizes);
-        drop(pattern);
+        let sparse = FactorSize::sparse_cholesky(&pattern(model));
         let factors = match solver {
             Solver::DenseLu => FactorSize::dense_lu(equations.solved),
             Solver::DenseCholesky => FactorSize::dense_cholesky(equations.solved),
@@ -181,20 +179,16 @@ fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations 
 /// The groups of free equations that triangles join, and the number of equations of each: single equations,
 /// of many those of a node together, which are ordered in a third of the time and fill about as little.
 /// Contact is left out: it changes a few entries.
-fn pattern(model: &Model) -> (Pattern, Vec<usize>) {
-    let together = model.free_dofs() >= ORDERED_IN_GROUPS;
-    let (mut sizes, mut groups) = (Vec::new(), Vec::with_capacity(model.nodes.len()));
-    for node in model.node_ids() {
-        let free = model.restraints_of(node).iter().filter(|held| !**held).count();
-        let (count, size) = if together { (free.min(1), free) } else { (free, 1) };
-        groups.push(sizes.len()..sizes.len() + count);
-        sizes.resize(sizes.len() + count, size);
-    }
-    let pattern = Pattern::new(sizes.len(), |visit| {
+fn pattern(model: &Model) -> Pattern {
+    let free: Vec<usize> =
+        model.all_dofs().filter(|dof| !model.is_restrained(*dof)).map(Dof::index).collect();
+    let mut equation = vec![None; model.dofs()];
+    free.iter().enumerate().for_each(|(e, dof)| equation[*dof] = Some(e));
+    Pattern::new(free.len(), |visit| {
         for triangle in &model.triangles {
-            let all = triangle.nodes.into_iter().flat_map(|node| groups[node.index()].clone());
+            let dofs = triangle.nodes.into_iter().flat_map(|node| node.dofs());
+            let all = dofs.filter_map(|dof| equation[dof.index()]);
             all.clone().for_each(|i| all.clone().for_each(|j| visit(i, j)));
         }
-    });
-    (pattern, sizes)
+    })
 }
