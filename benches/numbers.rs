@@ -26,10 +26,6 @@ use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuil
 use plane_contact::{Request, solve};
 use serde_json::{Value, json};
 
-/// The program's own allocator: a library's parts take what they take there.
-#[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
-
 #[derive(Parser)]
 struct Args {
     /// The largest Hertz mesh, in elements on the contact half width: 59, 116, 340.

@@ -1,10 +1,6 @@
 //! The command line.
 #![forbid(unsafe_code)]
 
-/// Keeps the pages of one dense matrix for the next.
-#[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
-
 mod commands;
 
 use std::process::ExitCode;

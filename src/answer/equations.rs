@@ -1,6 +1,5 @@
 //! The equations A(c)·u = f of an iteration of a published variant, assembled and solved.
 
-use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -9,7 +8,6 @@ use nalgebra::DVector;
 use super::contact::{Surfaces, hidden};
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
-use super::printed::{AtSurfaces, condenses_printed};
 use super::request::Request;
 use super::session::Session;
 use super::sparse::{MakeSparse, Sparse, State, takes_sparse};
@@ -17,10 +15,9 @@ use super::stiffness::Stiffness;
 use super::support::{support, supports};
 use crate::error::InputError;
 use crate::numbers::scalar::Scalar;
-use crate::numbers::solve::{self, Precision, Solver, Unsolved};
+use crate::numbers::solve::{self, Precision, Solver, SparseSquare, Unsolved};
 use crate::paper::door;
 use crate::paper::edited::Interpreter;
-use crate::paper::listings::Which;
 use crate::paper::mathcad::array::Table;
 use crate::paper::mirror::{self, Pairs, RestraintIndex, Schedule, Worksheet};
 use crate::plain::six_digits;
@@ -29,9 +26,8 @@ use crate::problem::modelling::{Coupling, Variant};
 
 /// The source of the matrix of an iteration.
 enum Assembly<T> {
-    /// `Km` with the contact pairs, as printed; without its zeros where the solver takes it so, and then
-    /// what solves it quickly, once that was tried.
-    Printed(Option<OnceCell<Option<AtSurfaces>>>),
+    /// `Km` with the contact pairs, as printed.
+    Printed,
     /// Elimination from the matrix of `Km` without contact and without restraints.
     Dense(Table<T>),
     /// Elimination from the triangles' matrices, solved by the function.
@@ -41,7 +37,6 @@ enum Assembly<T> {
 /// The parts of the equations that every iteration of a run shares.
 pub(super) struct Equations<'a, T> {
     request: &'a Request,
-    session: Session,
     model: &'a Arc<Model>,
     sheet: &'a Worksheet<T>,
     assembly: Assembly<T>,
@@ -99,11 +94,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         let is_sparse = takes_sparse(request.solver(), request.arithmetic.scalar);
         let sparse = sparse.filter(|_| is_sparse);
         let assembly = match (request.variant, sparse) {
-            (Variant::Printed, _) => {
-                let is_sparse =
-                    request.solver() == Solver::SparseLu && !request.is_edited(Which::Km);
-                Assembly::Printed(is_sparse.then(OnceCell::new))
-            }
+            (Variant::Printed, _) => Assembly::Printed,
             (_, Some(make)) => Assembly::Sparse(make(request, model, session)),
             (_, None) => Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
                 Some(edited) => edited?,
@@ -113,7 +104,6 @@ impl<'a, T: Precision> Equations<'a, T> {
         let stiffness = Stiffness::new(model, number);
         let equations = Equations {
             request,
-            session: session.clone(),
             model,
             sheet,
             assembly,
@@ -140,27 +130,18 @@ impl<'a, T: Precision> Equations<'a, T> {
     ) -> Result<Solved<T>, Error> {
         let (solver, tol) = (self.request.solver(), self.request.arithmetic.tol);
         match &self.assembly {
-            Assembly::Printed(sparse) => {
+            Assembly::Printed => {
                 let solved = T::sweep(|| {
-                    let (sheet, reading) = (self.sheet, &self.request.reading);
-                    let held = |matrix| door::holding_dropped(self.model, matrix);
                     let edited = self.interpreter.and_then(|i| i.km(&pairs.k_cnt));
-                    let solved = if let Some(edited) = edited {
-                        T::solve(held(edited?.into_matrix()), &self.f, solver, tol)
-                    } else if let Some(at_surfaces) = sparse {
-                        let matrix = mirror::Km(sheet, reading, &pairs.k_cnt)?.into_sparse();
-                        let matrix = door::holding_dropped(self.model, matrix);
-                        let f = self.f.map(Scalar::to_f64);
-                        let quick = |matrix: &_| {
-                            let made = at_surfaces.get_or_init(|| self.at_surfaces());
-                            made.as_ref()?.factors(matrix, &f)
-                        };
-                        let known = self.session.known_lu();
-                        T::solve_sparse(&matrix, &self.f, known, &quick)
-                    } else {
-                        let matrix =
-                            mirror::Km(sheet, reading, &pairs.k_cnt)?.into_sparse().dense();
-                        T::solve(held(matrix), &self.f, solver, tol)
+                    let matrix = match edited {
+                        Some(edited) => SparseSquare::of(edited?.as_matrix()),
+                        None => mirror::Km(self.sheet, &self.request.reading, &pairs.k_cnt)?
+                            .into_sparse(),
+                    };
+                    let matrix = door::holding_dropped(self.model, matrix);
+                    let solved = match solver {
+                        Solver::SparseLu => T::solve_sparse(&matrix, &self.f),
+                        _ => T::solve(matrix.dense(), &self.f, solver, tol),
                     };
                     solved.map_err(|why| self.unsolved(why, pairs, k, Dof::new))
                 })?;
@@ -178,17 +159,6 @@ impl<'a, T: Precision> Equations<'a, T> {
                 Ok(solved)
             }),
         }
-    }
-
-    /// Returns what solves `Km` quickly; None where the bodies are not, or cannot be, condensed.
-    fn at_surfaces(&self) -> Option<AtSurfaces> {
-        if !condenses_printed(self.request, self.model) {
-            return None;
-        }
-        let bodies = self.session.at_surfaces(self.model)?;
-        let none = Pairs::none(self.sheet.R()).k_cnt;
-        let free = mirror::Km(self.sheet, &self.request.reading, &none).ok()?.into_sparse();
-        Some(AtSurfaces::new(bodies, &free.map(Scalar::to_f64)))
     }
 
     /// Solves Tᵀ K T q = Tᵀ f by `solve`.
@@ -226,7 +196,7 @@ impl<'a, T: Precision> Equations<'a, T> {
     pub fn kept(&self) -> Option<BTreeSet<NodeId>> {
         match &self.assembly {
             Assembly::Sparse(sparse) => sparse.kept(),
-            Assembly::Printed(_) | Assembly::Dense(_) => None,
+            Assembly::Printed | Assembly::Dense(_) => None,
         }
     }
 

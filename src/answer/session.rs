@@ -4,7 +4,6 @@
 //! - the stiffness of the bodies;
 //! - the bodies factored for some nodes ([`Factored`]), and condensed to some of those
 //!   ([`Condensation`]);
-//! - the last LU factors of `Km` as printed;
 //! - how much memory was found free.
 //!
 //! Each is looked up by everything on which it depends, so that no result depends on what else ran in
@@ -25,7 +24,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::condensation::{Condensation, Factored, few_surfaces};
 use super::stiffness::Stiffness;
 use crate::error::InputError;
-use crate::numbers::solve::KnownLu;
 use crate::problem::model::{Model, NodeId};
 
 type Nodes = BTreeSet<NodeId>;
@@ -41,7 +39,6 @@ struct Shared {
     factored: Kept<Nodes, Factored>,
     /// By the same, and the kept nodes.
     condensed: Kept<[Nodes; 2], Condensation>,
-    known_lu: KnownLu,
     /// The most bytes that were asked for and free.
     room: Mutex<f64>,
 }
@@ -84,7 +81,6 @@ impl Session {
         lock(&self.0.stiffness.0).clear();
         lock(&self.0.factored.0).clear();
         lock(&self.0.condensed.0).clear();
-        self.0.known_lu.release();
     }
 
     /// Checks that `needed` bytes are free by `check`, unless as many were before: what is no longer
@@ -109,16 +105,6 @@ impl Session {
     pub(super) fn stiffness(&self, model: &Arc<Model>) -> Arc<Stiffness> {
         let make = || Some(Stiffness::new(model, |x| x));
         self.0.stiffness.of(model, (), make).expect("it can be made of all")
-    }
-
-    /// Returns the last LU factors of `Km`.
-    pub(super) fn known_lu(&self) -> &KnownLu {
-        &self.0.known_lu
-    }
-
-    /// Returns the bodies of `model` condensed to both surfaces; None where they cannot be, or are large.
-    pub(super) fn at_surfaces(&self, model: &Arc<Model>) -> Option<Arc<Factored>> {
-        self.factored(&self.stiffness(model), model, few_surfaces(model)?)
     }
 
     /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.

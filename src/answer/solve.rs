@@ -93,24 +93,19 @@ fn check_in(request: &Request, session: &Session) -> Result<(), InputError> {
     check_memory(request, session)
 }
 
-/// Checks that a large run has the memory that it takes, with the runs beside it. Of runs that share
+/// Checks that a run has the memory that it takes, with the runs beside it. Of runs that share
 /// what was factored, one that takes no more than another is not checked again: what is no longer free
 /// may be that one's.
 ///
 /// # Errors
 /// Says how much it needs where that is not free.
 fn check_memory(request: &Request, session: &Session) -> Result<(), InputError> {
-    /// The number of equations of a large one.
-    const LARGE: usize = 20_000;
     let model = &request.scene.model;
     let path = bytes_of_paths(request, model);
     let whose =
         format!("{} steps of the load on {} nodes", request.contact.load_steps, model.nodes.len());
     memory::check_bytes(path, "contact.load_steps", &whose, FEWER_STEPS)?;
     let equations = model.free_dofs();
-    if equations < LARGE {
-        return Ok(());
-    }
     let needed = Bytes::of(request, model).total();
     let whose = format!("{equations} free equations");
     session.room(needed, || memory::check_bytes(needed, "the mesh", &whose, memory::FIX))

@@ -17,8 +17,9 @@ pub struct Stiffness<T = f64> {
     dofs: usize,
     materials: Vec<Elastic<T>>,
     triangles: Vec<Element<T>>,
-    /// The matrix of each triangle, Ae·Bᵀ·D·B, force/length.
-    matrices: Vec<SMatrix<T, 6, 6>>,
+    /// The stiffness of the springs on which each node of a triangle stands, over the mean diagonal entry
+    /// of its matrix.
+    springs: T,
 }
 
 /// A material in the numbers of a run.
@@ -63,9 +64,18 @@ impl<T: Scalar> Stiffness<T> {
             }
         };
         let triangles: Vec<Element<T>> = model.triangle_ids().map(triangle).collect();
-        let matrices = triangles.iter().map(|triangle| triangle.matrix(&materials)).collect();
         let (plane, dofs) = (model.plane, model.dofs());
-        Stiffness { plane, dofs, materials, triangles, matrices }
+        Stiffness { plane, dofs, materials, triangles, springs: T::zero() }
+    }
+
+    /// Returns the matrix Ae·Bᵀ·D·B of a triangle, force/length, with its springs.
+    fn matrix(&self, triangle: &Element<T>) -> SMatrix<T, 6, 6> {
+        let own = triangle.matrix(&self.materials);
+        if self.springs.is_zero() {
+            return own;
+        }
+        let spring = self.springs * own.trace() / T::from_f64(6.0);
+        own + SMatrix::identity() * spring
     }
 
     /// Returns K u, the forces that keep the shape `u`, force.
@@ -93,7 +103,7 @@ impl<T: Scalar> Stiffness<T> {
             let triangle = &self.triangles[i];
             // A shift moves a few nodes alone.
             if triangle.dofs().iter().any(|dof| !u[dof.index()].is_zero()) {
-                triangle.add_times(&self.matrices[i], &u, &mut force);
+                triangle.add_times(&self.matrix(triangle), &u, &mut force);
             }
         }
         force.map(|f| f / common)
@@ -101,15 +111,15 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Returns Tᵀ K T, force/length.
     pub fn reduced(&self, t: &Elimination<T>) -> SparseSymmetric<T> {
-        let about = self.triangles.iter().enumerate().filter(|(_, triangle)| triangle.is_about(t));
-        let corners = about.clone().map(|(_, triangle)| triangle.nodes.map(NodeId::index));
+        let about = self.triangles.iter().filter(|triangle| triangle.is_about(t));
+        let corners = about.clone().map(|triangle| triangle.nodes.map(NodeId::index));
         let equations = |node: usize| {
             let rows = NodeId::new(node).dofs().map(|dof| t.row(dof));
             rows.into_iter().flatten().map(|(equation, _)| *equation)
         };
         let pattern = Pattern::of_triangles(t.size(), self.dofs / 2, corners, equations);
         SparseSymmetric::summed(pattern, |visit| {
-            about.for_each(|(i, triangle)| triangle.reduced(&self.matrices[i], t, visit));
+            about.for_each(|triangle| triangle.reduced(&self.matrix(triangle), t, visit));
         })
     }
 
@@ -125,7 +135,7 @@ impl<T: Scalar> Stiffness<T> {
         triangles: Range<usize>,
         mut visit: impl FnMut([Dof; 6], &SMatrix<T, 6, 6>),
     ) {
-        triangles.for_each(|i| visit(self.triangles[i].dofs(), &self.matrices[i]));
+        triangles.for_each(|i| visit(self.triangles[i].dofs(), &self.matrix(&self.triangles[i])));
     }
 
     /// Returns the stresses and strains of every triangle under displacements `u`.
@@ -149,21 +159,17 @@ impl Stiffness {
     /// Computes the same with every node of a triangle on springs of `part` times the mean diagonal entry
     /// of the triangle's matrix.
     pub fn on_springs(model: &Model, part: f64) -> Self {
-        let mut stiffness = Stiffness::new(model, |x| x);
-        for matrix in &mut stiffness.matrices {
-            *matrix += SMatrix::identity() * (part * matrix.trace() / 6.0);
-        }
-        stiffness
+        Stiffness { springs: part, ..Stiffness::new(model, |x| x) }
     }
 
     /// Returns the energy norm sqrt(uᵀ K u), sqrt(force·length). It is summed by triangle, so that
     /// no cancellation leaves a negative number.
     pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
-        let of_triangle = |(triangle, matrix): (&Element<f64>, &SMatrix<f64, 6, 6>)| {
+        let of_triangle = |triangle: &Element<f64>| {
             let u = triangle.displacements(u);
-            u.dot(&(matrix * u)).max(0.0)
+            u.dot(&(self.matrix(triangle) * u)).max(0.0)
         };
-        self.triangles.iter().zip(&self.matrices).map(of_triangle).sum::<f64>().sqrt()
+        self.triangles.iter().map(of_triangle).sum::<f64>().sqrt()
     }
 }
 

@@ -1,7 +1,6 @@
 //! Linear systems at the edges: residuals, bounds on errors, iterations that stop, digits modulo a
 //! prime, and matrices that are nearly singular.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashu_int::IBig;
@@ -9,10 +8,10 @@ use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 use plane_contact::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar};
 use plane_contact::numbers::solve::{
-    AnyLu, Arithmetic, Condensed, DenseCholesky, DenseCondensed, Factors, KnownLu, Lu,
-    NotConverged, Precision, ScalarName, Singular, Solver, SparseCholesky, SparseLu, SparseSquare,
-    SparseSymmetric, Unsolved, conjugate_gradients, error_bound, error_of_rest, inverse_norm, lift,
-    refine, solve_dense,
+    Arithmetic, Condensed, DenseCholesky, DenseCondensed, Factors, NotConverged, Precision,
+    ScalarName, Singular, Solver, SparseCholesky, SparseLu, SparseSquare, SparseSymmetric,
+    Unsolved, conjugate_gradients, error_bound, error_of_rest, inverse_norm, lift, refine,
+    solve_dense,
 };
 
 use crate::common::tolerances::{TWO_PARTS, assert_near};
@@ -366,115 +365,29 @@ fn a_large_matrix_is_singular_where_loads_move_it_too_far() {
     }
 }
 
-#[test]
-fn factors_are_made_once_for_each_of_the_last_four_matrices() {
-    let known = KnownLu::default();
-    let factors = |n: usize, value: f64| {
-        let mut matrix = SparseSquare::zeros(n);
-        (0..n).for_each(|k| matrix[(k, k)] = value);
-        known.factors(&matrix, &|_| None).expect("it is not singular")
-    };
-    let first = factors(2, 1.0);
-    let three = [2.0, 3.0, 4.0].map(|value| factors(2, value));
-    assert!(Arc::ptr_eq(&first, &factors(2, 1.0)));
-    factors(2, 5.0);
-    assert!(!Arc::ptr_eq(&first, &factors(2, 1.0)), "four are kept");
-    assert!(Arc::ptr_eq(&three[2], &factors(2, 4.0)));
-    known.release();
-    assert!(!Arc::ptr_eq(&three[2], &factors(2, 4.0)), "none are kept");
-    let is_kept = |n| Arc::ptr_eq(&factors(n, 1.0), &factors(n, 1.0));
-    assert_eq!([10_000, 10_001].map(is_kept), [true, false]);
-}
-
 /// The same rows and values in the same order, but other numbers of them in each column.
 #[test]
-fn factors_are_known_by_every_column() {
-    let known = KnownLu::default();
+fn sparse_lu_reads_every_column() {
     let solved = |places: [(usize, usize); 4]| {
         let mut matrix = SparseSquare::zeros(3);
         places.iter().for_each(|at| matrix[*at] = 1.0);
-        f64::solve_sparse(&matrix, &dvector![1.0, 2.0, 4.0], &known, &|_| None).unwrap().x
+        f64::solve_sparse(&matrix, &dvector![1.0, 2.0, 4.0]).unwrap().x
     };
-    for _ in 0..2 {
-        assert_eq!(solved([(0, 0), (1, 1), (2, 1), (1, 2)]), dvector![1.0, 4.0, -2.0]);
-        assert_eq!(solved([(0, 0), (1, 0), (2, 1), (1, 2)]), dvector![1.0, 4.0, 1.0]);
-    }
+    assert_eq!(solved([(0, 0), (1, 1), (2, 1), (1, 2)]), dvector![1.0, 4.0, -2.0]);
+    assert_eq!(solved([(0, 0), (1, 0), (2, 1), (1, 2)]), dvector![1.0, 4.0, 1.0]);
 }
 
 #[test]
-fn factors_are_known_by_every_place_and_value() {
-    let known = KnownLu::default();
+fn sparse_lu_reads_every_place_and_value() {
     let solved = |entries: [(usize, usize, f64); 2]| {
         let mut matrix = SparseSquare::zeros(2);
         entries.iter().for_each(|(i, j, a)| matrix[(*i, *j)] = *a);
-        let solution = f64::solve_sparse(&matrix, &dvector![2.0, 8.0], &known, &|_| None).unwrap();
+        let solution = f64::solve_sparse(&matrix, &dvector![2.0, 8.0]).unwrap();
         [solution.x[0], solution.x[1]]
     };
-    for _ in 0..2 {
-        assert_eq!(solved([(0, 0, 2.0), (1, 1, 4.0)]), [1.0, 2.0]);
-        assert_eq!(solved([(0, 0, 4.0), (1, 1, 2.0)]), [0.5, 4.0]);
-        assert_eq!(solved([(1, 0, 2.0), (0, 1, 4.0)]), [4.0, 0.5]);
-    }
-}
-
-/// What multiplies by `part` in place of solving, and refines to `solution`.
-struct Guess {
-    part: f64,
-    solution: Option<f64>,
-}
-
-impl Factors<f64> for Guess {
-    fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        self.part * b
-    }
-}
-
-impl Lu<f64> for Guess {
-    fn residual(&self, _: &DVector<f64>, _: &DVector<f64>) -> f64 {
-        0.0
-    }
-
-    fn solution(&self, b: &DVector<f64>) -> Option<DVector<f64>> {
-        self.solution.map(|part| part * b)
-    }
-}
-
-/// Of x = b / 2: factors made quickly are kept and refined as they do it, unless they move the matrix
-/// without bound; where they cannot be refined, LU solves.
-#[test]
-fn factors_made_quickly_serve_where_they_can() {
-    let mut matrix = SparseSquare::zeros(2);
-    (0..2).for_each(|k| matrix[(k, k)] = 2.0);
-    let solved = |part: f64, solution: Option<f64>| {
-        let known = KnownLu::default();
-        let guess =
-            |_: &SparseSquare| -> Option<AnyLu> { Some(Arc::new(Guess { part, solution })) };
-        let b = dvector![1.0, 4.0];
-        let solved = f64::solve_sparse(&matrix, &b, &known, &guess).expect("it is not singular");
-        let again = known.factors(&matrix, &|_| None).expect("they are known");
-        (solved.x, again.solve(&b)[0])
-    };
-    assert_eq!(solved(0.5, Some(0.25)), (dvector![0.25, 1.0], 0.5));
-    assert_eq!(solved(0.25, None), (dvector![0.5, 2.0], 0.25));
-    for far in [1e30, f64::NAN] {
-        assert_eq!(solved(far, Some(0.25)), (dvector![0.5, 2.0], 0.5));
-    }
-}
-
-/// Factors of a pattern that is known are those of the matrix alone.
-#[test]
-fn factors_of_a_known_pattern_have_the_same_bits() {
-    let known = KnownLu::default();
-    let b = DVector::from_fn(12, |i, _| 1.0 / (i + 1) as f64);
-    for k in 1..6 {
-        let mut matrix = SparseSquare::zeros(12);
-        for i in 0..12 {
-            matrix[(i, i)] = 4.0 + (i * k) as f64 / 7.0;
-            matrix[(i, (5 * i + 3) % 12)] += 1.0 / (k + i) as f64;
-        }
-        let alone = SparseLu::new(&matrix).unwrap().solve(&b);
-        assert_eq!(known.factors(&matrix, &|_| None).unwrap().solve(&b), alone);
-    }
+    assert_eq!(solved([(0, 0, 2.0), (1, 1, 4.0)]), [1.0, 2.0]);
+    assert_eq!(solved([(0, 0, 4.0), (1, 1, 2.0)]), [0.5, 4.0]);
+    assert_eq!(solved([(1, 0, 2.0), (0, 1, 4.0)]), [4.0, 0.5]);
 }
 
 /// A pivot of 1e-40 beside a 1 would be taken for one of rounding.

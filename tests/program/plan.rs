@@ -83,35 +83,42 @@ fn estimates_grow_with_what_is_asked() {
     }
 }
 
-/// Megabytes of whole processes, files included, on 2 cores.
+/// Megabytes of whole processes, files included, on 2 cores: the estimate is no less, and at most twice as
+/// much.
 #[test]
 fn the_memory_that_was_measured_is_planned() {
     let folder = tempfile::tempdir().unwrap();
     let plan = |mesh: &str, variant: Variant, friction: Friction| {
-        let words = format!("mesh {mesh} --out mesh");
-        assert!(
-            program::run(folder.path(), &words.split(' ').collect::<Vec<_>>()).status.success()
-        );
-        let scene = folder.path().join("mesh/scene.json");
-        let request = Request::new(&Scene::open(scene.to_str().unwrap()).unwrap()).variant(variant);
+        let scene = if mesh == "strand" {
+            Scene::open(mesh).unwrap()
+        } else {
+            let words = format!("mesh {mesh} --out mesh");
+            let words: Vec<&str> = words.split(' ').collect();
+            assert!(program::run(folder.path(), &words).status.success());
+            Scene::open(folder.path().join("mesh/scene.json").to_str().unwrap()).unwrap()
+        };
+        let request = Request::new(&scene).variant(variant);
         let contact = ContactModel { friction, ..request.contact };
         Plan::new(&request.contact(contact)).unwrap().cost.bytes.total() / 1e6
     };
     for (mesh, variant, friction, measured) in [
-        ("hertz --size 59", Variant::Unilateral, Friction::NONE, 175.0),
-        ("hertz --size 59", Variant::Unilateral, Friction::new(0.2).unwrap(), 305.0),
-        ("hertz --size 59", Variant::Tied, Friction::NONE, 260.0),
-        ("hertz --size 59", Variant::Stepped, Friction::NONE, 273.0),
-        ("hertz --size 116", Variant::Unilateral, Friction::NONE, 338.0),
-        ("hertz --size 116", Variant::Tied, Friction::NONE, 555.0),
-        ("hertz --size 116", Variant::Stepped, Friction::NONE, 625.0),
-        ("blocks --upper 240 --lower 246", Variant::Unilateral, Friction::NONE, 349.0),
-        ("blocks --upper 240 --lower 246", Variant::Tied, Friction::NONE, 454.0),
-        ("cook --n 120", Variant::Printed, Friction::NONE, 387.0),
-        ("cook --n 230", Variant::Tied, Friction::NONE, 388.0),
+        ("strand", Variant::Unilateral, Friction::STICK, 98.0),
+        ("strand", Variant::Tied, Friction::STICK, 100.0),
+        ("hertz --size 59", Variant::Unilateral, Friction::NONE, 143.0),
+        ("hertz --size 59", Variant::Unilateral, Friction::new(0.2).unwrap(), 230.0),
+        ("hertz --size 59", Variant::Tied, Friction::NONE, 206.0),
+        ("hertz --size 59", Variant::Stepped, Friction::NONE, 253.0),
+        ("hertz --size 59", Variant::Printed, Friction::NONE, 240.0),
+        ("hertz --size 116", Variant::Unilateral, Friction::NONE, 367.0),
+        ("hertz --size 116", Variant::Tied, Friction::NONE, 566.0),
+        ("hertz --size 116", Variant::Stepped, Friction::NONE, 689.0),
+        ("blocks --upper 240 --lower 246", Variant::Unilateral, Friction::NONE, 372.0),
+        ("blocks --upper 240 --lower 246", Variant::Tied, Friction::NONE, 456.0),
+        ("cook --n 120", Variant::Printed, Friction::NONE, 368.0),
+        ("cook --n 230", Variant::Tied, Friction::NONE, 398.0),
     ] {
         let over = plan(mesh, variant, friction) / measured;
-        assert!((0.95..1.45).contains(&over), "{mesh} {variant} {friction}: {over}");
+        assert!((1.0..2.0).contains(&over), "{mesh} {variant} {friction}: {over}");
     }
 }
 

@@ -68,11 +68,6 @@ struct Loaded {
     eliminated: Rc<Eliminated>,
 }
 
-/// Returns the number of nodes of both surfaces, and the most nodes that are kept of large ones.
-pub fn surface_nodes(model: &Model) -> (usize, usize) {
-    (surfaces(model).iter().map(Vec::len).sum(), most(model))
-}
-
 /// Returns the most nodes that are kept.
 fn most(model: &Model) -> usize {
     MOST.0.max(MOST.1 * (model.free_dofs() as f64).sqrt()) as usize

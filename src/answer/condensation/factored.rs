@@ -82,19 +82,9 @@ impl Factored {
         self.condensed.norm()
     }
 
-    /// Returns the degrees of freedom to which they are condensed.
-    pub(in crate::answer) fn kept(&self) -> &[Dof] {
-        &self.kept
-    }
-
     /// Returns S on these, force/length.
     pub(in crate::answer) fn schur(&self) -> &DMatrix<f64> {
         self.condensed.schur()
-    }
-
-    /// Returns the degrees of freedom that are restrained.
-    pub(in crate::answer) fn restrained(&self) -> impl Iterator<Item = Dof> {
-        self.model.all_dofs().filter(|dof| self.model.is_restrained(*dof))
     }
 
     /// Eliminates the equations inside from a load by degree of freedom.

@@ -23,7 +23,7 @@ mod rows;
 mod schur;
 mod state;
 
-pub use bodies::{Bodies, kept_equations, surface_nodes};
+pub use bodies::{Bodies, kept_equations};
 pub use factored::{Factored, few_surfaces};
 pub use gaps::Gaps;
 pub use refinement::refine;

@@ -26,8 +26,7 @@ choices! {
     Solver {
         /// LU of the full matrix, with row exchanges.
         DenseLu = "dense-lu",
-        /// LU of the entries that are not 0, with row exchanges; of a small scene under `printed` that names no
-        /// solver, of what is left on the surfaces' equations, refined.
+        /// LU of the entries that are not 0, with row exchanges.
         SparseLu = "sparse-lu",
         /// Cholesky of the full matrix.
         DenseCholesky = "dense-cholesky",

@@ -46,15 +46,7 @@ pub trait Lu<T>: Factors<T> {
     /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
     /// vectors, 0 when x and b are 0.
     fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64;
-
-    /// Returns the solution x of A x = `b` to all digits; None where the factors are too far from A.
-    fn solution(&self, b: &DVector<T>) -> Option<DVector<T>> {
-        Some(self.solve(b))
-    }
 }
-
-/// Factors of a matrix, whatever they are.
-pub type AnyLu = Arc<dyn Lu<f64> + Send>;
 
 /// A column whose pivot vanished: the matrix has no unique solution.
 #[derive(Clone, Copy, Debug, PartialEq)]

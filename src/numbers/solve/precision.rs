@@ -9,22 +9,20 @@
 //! | `cg` | to `tol` | to `tol` | to `tol`; - with a bound | - |
 //! | `refined` | - | factors in f32 | factors in f64; - with a bound | - |
 
-use std::sync::Arc;
-
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 
 use super::arithmetic::Solver;
 use super::dense::{DenseCholesky, DenseLu};
 use super::error_bound::error_bound;
-use super::factors::{AnyLu, Factors, Lu, Native};
+use super::factors::{Factors, Lu, Native};
 use super::field::Field;
 use super::iterative::{Unsolved, conjugate_gradients, refine};
 use super::ldlt::Ldlt;
 use super::lifting::lift;
 use super::lu::solve_dense;
 use super::sparse::SparseCholesky;
-use super::sparse_lu::{KnownLu, Quick, SparseLu};
+use super::sparse_lu::SparseLu;
 use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
 use crate::numbers::scalar::{
@@ -47,14 +45,8 @@ pub trait Precision: Scalar {
     /// Errors: tells that A is singular, or that an iteration did not converge.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self>;
 
-    /// Solves by `sparse-lu` from a matrix that is sparse already. `known` has factors that were made
-    /// before; where `quick` makes others, the solution is refined.
-    fn solve_sparse(
-        a: &SparseSquare<Self>,
-        b: &DVector<Self>,
-        _known: &KnownLu,
-        _quick: &Quick,
-    ) -> Outcome<Self> {
+    /// Solves by `sparse-lu` from a matrix that is sparse already.
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
         Self::solve(a.dense(), b, Solver::SparseLu, None)
     }
 
@@ -121,13 +113,8 @@ impl Precision for f64 {
         native(a, b, by, tol)
     }
 
-    fn solve_sparse(
-        a: &SparseSquare<Self>,
-        b: &DVector<Self>,
-        known: &KnownLu,
-        quick: &Quick,
-    ) -> Outcome<Self> {
-        Ok(known_solution(a, b, known, quick)?.1)
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
+        Ok(solved(&SparseLu::new(a)?, b))
     }
 }
 
@@ -136,12 +123,7 @@ impl Precision for f32 {
         native(a, b, by, tol)
     }
 
-    fn solve_sparse(
-        a: &SparseSquare<Self>,
-        b: &DVector<Self>,
-        _: &KnownLu,
-        _: &Quick,
-    ) -> Outcome<Self> {
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
         Ok(solved(&SparseLu::new(a)?, b))
     }
 }
@@ -152,7 +134,7 @@ impl Precision for Bounded {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         let a = SparseSquare::of(&a);
         if by == Solver::SparseLu {
-            return Self::solve_sparse(&a, b, &KnownLu::default(), &|_| None);
+            return Self::solve_sparse(&a, b);
         }
         let (values, f) = (a.map(Scalar::to_f64).dense(), b.map(Scalar::to_f64));
         let (factors, solved): (Box<dyn Factors<f64>>, _) = match by {
@@ -169,14 +151,9 @@ impl Precision for Bounded {
         Ok(with_bound(&*factors, &a, b, solved))
     }
 
-    fn solve_sparse(
-        a: &SparseSquare<Self>,
-        b: &DVector<Self>,
-        known: &KnownLu,
-        quick: &Quick,
-    ) -> Outcome<Self> {
-        let (values, f) = (a.map(Scalar::to_f64), b.map(Scalar::to_f64));
-        let (factors, solved) = known_solution(&values, &f, known, quick)?;
+    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
+        let (factors, f) = (SparseLu::new(&a.map(Scalar::to_f64))?, b.map(Scalar::to_f64));
+        let solved = solved(&factors, &f);
         Ok(with_bound(&factors, a, b, solved))
     }
 }
@@ -258,7 +235,7 @@ fn native<T: Native + Iterates>(
     match by {
         Solver::DenseLu => return Ok(solved(&DenseLu::new(a)?, b)),
         Solver::SparseLu => {
-            return T::solve_sparse(&SparseSquare::of(&a), b, &KnownLu::default(), &|_| None);
+            return T::solve_sparse(&SparseSquare::of(&a), b);
         }
         _ => (),
     }
@@ -269,27 +246,6 @@ fn native<T: Native + Iterates>(
         _ => SparseCholesky::new(sparse.clone())?.solve(b),
     };
     Ok(Solved { residual: sparse.residual(&x, b), x })
-}
-
-/// Solves by factors that are known, or made.
-fn known_solution(
-    a: &SparseSquare,
-    b: &DVector<f64>,
-    known: &KnownLu,
-    quick: &Quick,
-) -> Result<(AnyLu, Solved<f64>), Unsolved> {
-    let factors = known.factors(a, quick)?;
-    match factors.solution(b) {
-        Some(x) => {
-            let residual = factors.residual(&x, b);
-            Ok((factors, Solved { x, residual }))
-        }
-        None => {
-            let lu = SparseLu::new(a)?;
-            let solved = solved(&lu, b);
-            Ok((Arc::new(lu), solved))
-        }
-    }
 }
 
 fn solved<T: Native>(lu: &impl Lu<T>, b: &DVector<T>) -> Solved<T> {

@@ -1,14 +1,12 @@
 //! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-
 use faer::Par;
 use faer::sparse::linalg::solvers::{self, SymbolicLu};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use nalgebra::DVector;
 
 use super::dense::DenseLu;
-use super::factors::{AnyLu, Factors, Lu, Native, Singular, backward_error, largest, solve};
+use super::factors::{Factors, Lu, Native, Singular, backward_error, largest, solve};
 use super::sparse::{largest_motion, mechanism};
 use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
@@ -23,8 +21,7 @@ const LARGEST_DENSE: usize = 3000;
 
 /// A matrix and its sparse LU factors.
 pub struct SparseLu<T: Native = f64> {
-    matrix: Arc<SparseColMat<usize, T>>,
-    symbolic: SymbolicLu<usize>,
+    matrix: SparseColMat<usize, T>,
     factors: solvers::Lu<usize, T>,
 }
 
@@ -34,21 +31,12 @@ impl<T: Native> SparseLu<T> {
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare<T>) -> Result<Self, Singular> {
         let columns = columns(matrix);
-        SparseLu::ordered(symbolic(&columns), Arc::new(columns), matrix)
-    }
-
-    /// Factors a matrix whose `columns`, and what their pattern alone says, are known.
-    fn ordered(
-        symbolic: SymbolicLu<usize>,
-        columns: Arc<SparseColMat<usize, T>>,
-        matrix: &SparseSquare<T>,
-    ) -> Result<Self, Singular> {
         faer::set_global_parallelism(Par::Seq);
-        let factors = solvers::Lu::try_new_with_symbolic(symbolic.clone(), (*columns).as_ref());
-        let Ok(factors) = factors else {
+        let symbolic = SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory");
+        let Ok(factors) = solvers::Lu::try_new_with_symbolic(symbolic, columns.as_ref()) else {
             return Err(judged(matrix, f64::INFINITY).expect("a pivot is 0"));
         };
-        let lu = SparseLu { matrix: columns, symbolic, factors };
+        let lu = SparseLu { matrix: columns, factors };
         let motion = motion(&lu, &lu.matrix);
         if motion < DOUBTFUL * farthest::<T>(matrix.size()) {
             return Ok(lu);
@@ -63,73 +51,6 @@ fn motion<T: Native>(factors: &impl Factors<T>, matrix: &SparseColMat<usize, T>)
     let scale = |j| T::from_f64(largest(matrix.val_of_col(j)));
     let scale = DVector::from_fn(matrix.ncols(), |j, _| scale(j));
     largest_motion(factors, &scale)
-}
-
-/// Makes factors of a matrix more quickly than its LU; None where it cannot.
-pub type Quick<'q> = dyn Fn(&SparseSquare) -> Option<AnyLu> + 'q;
-
-/// The factors in `f64` that were made last: a run with bounds on its rounding factors the matrices of
-/// the run that it bounds.
-#[derive(Default)]
-pub struct KnownLu(Mutex<Vec<Known>>);
-
-/// A matrix whose factors are known.
-#[derive(Clone)]
-struct Known {
-    matrix: Arc<SparseColMat<usize, f64>>,
-    /// What its pattern says of its LU; None where that was not made.
-    symbolic: Option<SymbolicLu<usize>>,
-    factors: AnyLu,
-}
-
-impl KnownLu {
-    /// How many are kept.
-    const MOST: usize = 4;
-    /// The number of equations of the largest that are kept.
-    const LARGEST: usize = 10_000;
-
-    /// Returns the factors of `matrix`, which are made where they are not known, by `quick` where that does.
-    /// Errors: those of [`SparseLu::new`].
-    pub fn factors(&self, matrix: &SparseSquare, quick: &Quick) -> Result<AnyLu, Singular> {
-        let columns = Arc::new(columns(matrix));
-        let is_alike = |known: &&Known| {
-            let (a, b) = (known.matrix.symbolic(), columns.symbolic());
-            a.col_ptr() == b.col_ptr() && a.row_idx() == b.row_idx()
-        };
-        let alike: Vec<Known> = self.made().iter().filter(is_alike).cloned().collect();
-        if let Some(known) = alike.iter().find(|known| known.matrix.val() == columns.val()) {
-            return Ok(Arc::clone(&known.factors));
-        }
-        let is_clear =
-            |made: &AnyLu| motion(made, &columns) < DOUBTFUL * farthest::<f64>(matrix.size());
-        let known = match quick(matrix).filter(is_clear) {
-            Some(factors) => Known { matrix: columns, symbolic: None, factors },
-            None => {
-                let order = alike.into_iter().find_map(|known| known.symbolic);
-                let order = order.unwrap_or_else(|| symbolic(&columns));
-                let lu = SparseLu::ordered(order, columns, matrix)?;
-                let (matrix, symbolic) = (Arc::clone(&lu.matrix), Some(lu.symbolic.clone()));
-                Known { matrix, symbolic, factors: Arc::new(lu) }
-            }
-        };
-        let factors = Arc::clone(&known.factors);
-        if matrix.size() <= Self::LARGEST {
-            let mut made = self.made();
-            made.push(known);
-            let beyond = made.len().saturating_sub(Self::MOST);
-            made.drain(..beyond);
-        }
-        Ok(factors)
-    }
-
-    /// Releases all of them.
-    pub fn release(&self) {
-        self.made().clear();
-    }
-
-    fn made(&self) -> MutexGuard<'_, Vec<Known>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
 }
 
 impl<T: Native> Factors<T> for SparseLu<T> {
@@ -148,11 +69,6 @@ impl<T: Native> Lu<T> for SparseLu<T> {
         }
         backward_error(&rest, largest(row_sums.as_slice()), x, b)
     }
-}
-
-/// Returns what the pattern of a matrix says of its factors.
-fn symbolic<T>(columns: &SparseColMat<usize, T>) -> SymbolicLu<usize> {
-    SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory")
 }
 
 /// Returns the motion under loads of 1 that a pivot of dense LU that counts as 0 would bring.

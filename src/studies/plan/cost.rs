@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::candidates::Candidates;
-use crate::answer::{Bytes, Request, condenses_printed};
+use crate::answer::{Bytes, Request};
 use crate::numbers::solve::{FactorSize, ScalarName};
 use crate::problem::model::Model;
 use crate::problem::modelling::{Coupling, Friction, Variant};
@@ -78,7 +78,6 @@ impl Work<'_> {
     pub fn factors_whole(&self) -> bool {
         self.dense > 0
             || self.request.variant == Variant::Printed
-                && !condenses_printed(self.request, self.model)
             || self.request.arithmetic.scalar == ScalarName::F32
     }
 
