@@ -18,14 +18,14 @@ pub struct Bytes {
     pub iterations: f64,
 }
 
-/// Bytes of the program, the allocator's first pages, and what is freed and not given back at once.
-const PROGRAM: f64 = 100e6;
-/// Bytes of an equation: mesh, worksheet, results and files; the factors; what runs on other contact
-/// states beside it have of their own; and LU factors in place of Cholesky's.
+/// Bytes of the program and of what small scenes take.
+const PROGRAM: f64 = 30e6;
+/// Bytes of an equation: mesh, worksheet, results and files; the factors of the bodies, which the runs
+/// beside share; what those have of their own; and LU factors of `Km`.
 const MESH: f64 = 1000.0;
-const FACTORS: f64 = 2000.0;
-const BESIDE: f64 = 3000.0;
-const LU: f64 = 7000.0;
+const FACTORS: f64 = 2100.0;
+const BESIDE: f64 = 1800.0;
+const LU: f64 = 6500.0;
 /// What to do about a path of the load that does not fit.
 pub(super) const FEWER_STEPS: &str = "ask for fewer load steps";
 
@@ -71,14 +71,17 @@ impl Bytes {
     /// example, of 2,153 to 961,810 equations.
     pub fn of(request: &Request, model: &Model) -> Self {
         let equations = model.free_dofs() as f64;
-        let is_reference =
-            request.variant == Variant::Unilateral && request.contact.friction == Friction::NONE;
-        let beside = if model.has_contact() && !is_reference { BESIDE } else { 0.0 };
-        let lu = if request.variant == Variant::Printed { LU } else { 0.0 };
+        let is_frictionless = request.contact.friction == Friction::NONE;
+        let own = match request.variant {
+            Variant::Printed => LU,
+            Variant::Unilateral if is_frictionless => 0.0,
+            Variant::Tied | Variant::Stepped | Variant::Unilateral if model.has_contact() => BESIDE,
+            Variant::Tied | Variant::Stepped | Variant::Unilateral => 0.0,
+        };
         Bytes {
             program: PROGRAM,
             mesh: MESH * equations,
-            matrices: (FACTORS + beside + lu) * equations,
+            matrices: (FACTORS + own) * equations,
             iterations: match request.variant {
                 Variant::Unilateral => bytes_of_paths(request, model),
                 Variant::Printed | Variant::Tied | Variant::Stepped => {
