@@ -13,16 +13,16 @@ use std::time::Instant;
 
 use clap::Parser;
 use nalgebra::DVector;
-use plane_contact::answer::fast::listings as fast;
-use plane_contact::answer::{Elimination, Stiffness};
+use plane_contact::engine::fast::listings as fast;
+use plane_contact::engine::{Elimination, Stiffness};
 use plane_contact::numbers::solve::SparseCholesky;
 use plane_contact::paper::door;
-use plane_contact::paper::exports::{self, Export};
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{Km, Reading, c_cnt};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use plane_contact::report::exports::{self, Export};
 use plane_contact::{Request, solve};
 use serde_json::{Value, json};
 

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use clap::Parser;
-use plane_contact::answer::{Request, max_displacement, solve};
+use plane_contact::engine::{Request, max_displacement, solve};
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;

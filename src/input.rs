@@ -1,9 +1,7 @@
 //! The parts of a scene and a request: meshes, contact surfaces, and the closed sets of choices.
 
-pub use crate::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
-pub use crate::paper::mirror::Reading;
-pub use crate::problem::element::Plane;
-pub use crate::problem::modelling::{
-    ContactModel, Coupling, Friction, Geometry, StatusRule, Variant,
-};
-pub use crate::problem::scene::{Axis, Contact, Mesh, MeshBuilder};
+pub use numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
+pub use paper::mirror::Reading;
+pub use problem::element::Plane;
+pub use problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};
+pub use problem::scene::{Axis, Contact, Mesh, MeshBuilder};

@@ -23,52 +23,33 @@
 //! # Ok::<(), plane_contact::Error>(())
 //! ```
 //!
-//! The rest of the library is what the program is made of; it is open to tests and to the curious,
-//! and promises nothing from version to version. Its folders, each importing those above it only:
+//! The rest of the library is what the program is made of: a workspace of parts, each of which uses those
+//! above it only. They are open to tests and to the curious, and promise nothing from version to version.
 //!
-//! | folder | what stands there |
+//! | part | what stands there |
 //! |---|---|
-//! | `numbers` | scalars and solvers |
-//! | `problem` | the finite element model, the element, scenes and their files |
-//! | `paper` | Mathcad's semantics, the listings and their mirror in Rust, the door to the model |
-//! | `answer` | request, solution, contact, error estimates |
-//! | `studies` | audit, trade, extremes, plan, benchmarks, CalculiX |
-//! | `report` | tables, pictures, files |
+//! | [`base`](error) | errors of the input, files, closed sets |
+//! | [`numbers`] | scalars and solvers |
+//! | [`mathcad`] | Mathcad's notation, its interpreter and its worksheets |
+//! | [`problem`] | the finite element model, the element, scenes and their files |
+//! | [`paper`] | **the reference**: the listings, their mirror in Rust, readings, printed conditions, the door to the model |
+//! | [`engine`] | request, solution, the published iterations, unilateral contact, error estimates |
+//! | [`studies`] | audit, snapshots, trade, extremes, lesson, plan, benchmarks, CalculiX |
+//! | [`report`] | tables, pictures, pages, documents |
 //!
-//! The table of symbols, with shapes and units, is in `README.md`.
+//! To read what the paper computes, begin with [`paper::mirror`]: each line of the listings stands quoted
+//! above the line of Rust that computes it. The table of symbols, with shapes and units, is in `README.md`.
 #![forbid(unsafe_code)]
 
-#[doc(hidden)]
-pub mod answer;
-mod choices;
-#[doc(hidden)]
-pub mod error;
-#[doc(hidden)]
-pub mod files;
 pub mod input;
-#[doc(hidden)]
-pub mod memory;
-#[doc(hidden)]
-pub mod numbers;
-#[doc(hidden)]
-pub mod paper;
-#[doc(hidden)]
-pub mod plain;
-#[doc(hidden)]
-pub mod problem;
-#[doc(hidden)]
-pub mod report;
-#[doc(hidden)]
-pub mod studies;
-#[doc(hidden)]
-pub mod suggestion;
-#[doc(hidden)]
-pub mod xml;
+
+pub use base::{choices, error, files, memory, plain, suggestion, xml};
+pub use {engine, mathcad, numbers, paper, problem, report, studies};
 
 #[doc(inline)]
-pub use answer::error::Error;
+pub use engine::error::Error;
 #[doc(inline)]
-pub use answer::{Request, Solution, distance as compare, solve};
+pub use engine::{Request, Solution, distance as compare, solve};
 #[doc(inline)]
 pub use problem::scene::{Scene, SceneBuilder};
 #[doc(inline)]

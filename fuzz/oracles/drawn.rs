@@ -7,7 +7,7 @@ use plane_contact::input::{
     Arithmetic, Axis, Contact, Coupling, Friction, Geometry, Inputs, Mesh, MeshBuilder, Plane,
     Reading, ScalarName, Solver, StatusRule, Variant,
 };
-use plane_contact::paper::mathcad::Conjunction;
+use plane_contact::mathcad::Conjunction;
 use plane_contact::paper::mirror::{
     LoopPlace, NodeTable, RestraintIndex, Schedule, ToleranceUnit, Wedge,
 };

@@ -7,14 +7,14 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use arbitrary::{Result, Unstructured};
-use plane_contact::answer::fast::listings as fast;
+use plane_contact::engine::fast::listings as fast;
+use plane_contact::mathcad::array::Table;
+use plane_contact::mathcad::xmcd::document::{self, Content};
+use plane_contact::mathcad::xmcd::page;
+use plane_contact::mathcad::{self, Array, Limits, Listing, Settings, Sheet, Value, file};
 use plane_contact::paper::door;
 use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::{self, Which, settings};
-use plane_contact::paper::mathcad::array::Table;
-use plane_contact::paper::mathcad::xmcd::document::{self, Content};
-use plane_contact::paper::mathcad::xmcd::page;
-use plane_contact::paper::mathcad::{self, Array, Limits, Listing, Settings, Sheet, Value, file};
 use plane_contact::paper::mirror::{Cause, Failure, Km, Pairs, Reading, Worksheet, c_cnt};
 use plane_contact::report::evaluation;
 

@@ -5,12 +5,12 @@
 use std::fmt::{Debug, Display};
 use std::str::FromStr;
 
-use clap::{Args, Command, FromArgMatches, Subcommand};
+use clap::{Command, FromArgMatches, Subcommand};
 use plane_contact::input::{
     Arithmetic, Coupling, Friction, Geometry, Inputs, Plane, Reading, ScalarName, Solver,
     StatusRule, Variant,
 };
-use plane_contact::paper::mathcad::Settings;
+use plane_contact::mathcad::Settings;
 use plane_contact::studies::benchmark::Kind;
 
 use super::sound;
@@ -45,11 +45,15 @@ fn reads_back<T: FromStr<Err = String> + Display + Debug + PartialEq>(line: &str
     }
 }
 
+/// The scalar, the solver, the tolerance and the inputs that a line names are refused, or sound.
 fn arithmetic(line: &str) {
-    let command = Arithmetic::augment_args(Command::new("solve"));
-    let words = ["solve"].into_iter().chain(line.split_whitespace());
-    let Ok(matches) = command.try_get_matches_from(words) else { return };
-    let read = Arithmetic::from_arg_matches(&matches).expect("what clap accepts");
+    let mut read = Arithmetic::default();
+    for word in line.split([' ', '=']) {
+        word.parse().into_iter().for_each(|scalar| read.scalar = scalar);
+        word.parse().into_iter().for_each(|solver| read.solver = Some(solver));
+        word.parse().into_iter().for_each(|tol| read.tol = Some(tol));
+        word.parse().into_iter().for_each(|inputs| read.inputs = inputs);
+    }
     if let Err(error) = read.check() {
         sound::input_error(&error);
     }

@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-use plane_contact::answer::Session;
-use plane_contact::answer::estimates::{Certainty, certain};
+use plane_contact::engine::Session;
+use plane_contact::engine::estimates::{Certainty, certain};
 use plane_contact::input::{Friction, Variant};
 use plane_contact::report::comparison::{self, Compared};
 use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, parse};

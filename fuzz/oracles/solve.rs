@@ -3,9 +3,9 @@
 //! to compute them confirms.
 
 use arbitrary::{Result, Unstructured};
-use plane_contact::answer::Assessment;
-use plane_contact::answer::Session;
-use plane_contact::answer::contact::pulling;
+use plane_contact::engine::Assessment;
+use plane_contact::engine::Session;
+use plane_contact::engine::contact::pulling;
 use plane_contact::input::{Arithmetic, ScalarName, Solver, Variant};
 use plane_contact::numbers::solve::cost;
 use plane_contact::paper::mirror::NodeTable;

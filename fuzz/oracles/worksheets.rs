@@ -1,10 +1,10 @@
 //! A worksheet of Mathcad: it is refused, or executed within its limits to values that are all
 //! numbers; and its programs become text and a worksheet again.
 
-use plane_contact::paper::exports::probe;
-use plane_contact::paper::mathcad::Listing;
-use plane_contact::paper::mathcad::worksheet::execute;
-use plane_contact::paper::mathcad::xmcd::document::{Region, read};
+use plane_contact::mathcad::Listing;
+use plane_contact::mathcad::worksheet::execute;
+use plane_contact::mathcad::xmcd::document::{Region, read};
+use plane_contact::report::exports::probe;
 use plane_contact::report::worksheet;
 
 use super::{listing, sound};

@@ -3,8 +3,8 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::error::Result;
-use plane_contact::answer::{Assessment, Hertz, Solution};
+use plane_contact::engine::error::Result;
+use plane_contact::engine::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::paper::mirror::Reading;

@@ -1,7 +1,7 @@
 //! `plane-contact c-cnt`.
 
-use plane_contact::answer::Request;
-use plane_contact::answer::error::Result;
+use plane_contact::engine::Request;
+use plane_contact::engine::error::Result;
 use plane_contact::paper::door::Call;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{json, tables};

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::Session;
-use plane_contact::answer::error::Result;
-use plane_contact::answer::estimates::certain;
+use plane_contact::engine::Session;
+use plane_contact::engine::error::Result;
+use plane_contact::engine::estimates::certain;
 use plane_contact::files;
 use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files::{self, json};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
@@ -97,7 +97,7 @@ fn side(args: &Args, side: usize, name: &str) -> Result<Snapshot> {
         return Ok(Snapshot::read(&text).map_err(|error| error.within(name))?);
     }
     let scene = Scene::open(name)?;
-    let mut request = plane_contact::answer::Request::new(&scene);
+    let mut request = plane_contact::engine::Request::new(&scene);
     request.variant = of(&args.variant, side, "--variant")?.unwrap_or(scene.variant);
     request.reading = of(&args.reading, side, "--reading")?.unwrap_or_default();
     let scalar = of(&args.scalar, side, "--scalar")?.unwrap_or_default();

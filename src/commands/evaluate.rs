@@ -3,12 +3,10 @@
 use std::path::PathBuf;
 use std::rc::Rc;
 
-use plane_contact::answer::error::{Error, Result};
+use plane_contact::engine::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::paper::mathcad::{
-    Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json,
-};
+use plane_contact::mathcad::{Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
 use plane_contact::report::evaluation as report;
 
 use super::{print, print_either, read_listing, told, waiting};

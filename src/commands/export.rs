@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::error::Result;
-use plane_contact::answer::{self, Solution};
+use plane_contact::engine::error::Result;
+use plane_contact::engine::{self, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::paper::door;
-use plane_contact::paper::exports::{Export, Run, mathcad, octave, probe};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
+use plane_contact::report::exports::{Export, Run, mathcad, octave, probe};
 use plane_contact::studies::calculix::{Contact, ContactKind, Pair, Part, Problem, deck};
 
 use super::{ModelArgs, ReadingArg, waiting, write_or_print};
@@ -98,7 +98,7 @@ impl DeckArgs {
         if self.contact == ContactKind::Equation {
             Contact::check_equations(request.variant)?;
         }
-        waiting("solving", || answer::solve(&request, &mut |_| ()))
+        waiting("solving", || engine::solve(&request, &mut |_| ()))
     }
 
     /// The problems whose sum is the run; the last iteration's comes last.
@@ -169,7 +169,7 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
     let sheet = door::worksheet(&model, |x| x);
     // Where the run stops, the worksheet has the listings alone.
     let run =
-        waiting("solving", || answer::solve(&request, &mut |_| ())).ok().map(|solution| Run {
+        waiting("solving", || engine::solve(&request, &mut |_| ())).ok().map(|solution| Run {
             force: solution
                 .model
                 .load_in(|x| x)

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::report::extremes as report;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::Request;
-use plane_contact::answer::error::Result;
+use plane_contact::engine::Request;
+use plane_contact::engine::error::Result;
 use plane_contact::memory;
 use plane_contact::paper::door::Call;
 use plane_contact::problem::scene::Scene;

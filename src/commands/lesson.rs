@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::files;
 use plane_contact::paper::edited::Edited;
 use plane_contact::problem::scene::Scene;

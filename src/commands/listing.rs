@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
+use plane_contact::mathcad::xmcd::document::{self, Content};
+use plane_contact::mathcad::xmcd::page;
+use plane_contact::mathcad::{Limits, Listing, file};
 use plane_contact::paper::listings::Which;
-use plane_contact::paper::mathcad::xmcd::document::{self, Content};
-use plane_contact::paper::mathcad::xmcd::page;
-use plane_contact::paper::mathcad::{Limits, Listing, file};
 
 use super::{LARGEST_LISTING, mathcad, write_or_print};
 

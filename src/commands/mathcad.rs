@@ -5,12 +5,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use flate2::read::GzDecoder;
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::paper::exports::probe;
-use plane_contact::paper::mathcad::worksheet::{self, Verdict};
-use plane_contact::paper::mathcad::{Limits, xmcd::document};
+use plane_contact::mathcad::worksheet::{self, Verdict};
+use plane_contact::mathcad::{Limits, xmcd::document};
+use plane_contact::report::exports::probe;
 use plane_contact::report::worksheet as report;
 
 use super::{print_either, progress};

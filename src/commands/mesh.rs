@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::studies::benchmark::Kind;
 
 use super::{folder, print_fitted};

@@ -2,6 +2,7 @@
 
 pub mod accept;
 mod answers;
+mod arithmetic;
 pub mod audit;
 pub mod c_cnt;
 pub mod compare;
@@ -31,9 +32,10 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use arithmetic::ArithmeticArgs;
 use indicatif::{ProgressBar, ProgressStyle};
-use plane_contact::answer::Request;
-use plane_contact::answer::error::{Error, Result};
+use plane_contact::engine::Request;
+use plane_contact::engine::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::numbers::solve::Arithmetic;
@@ -67,7 +69,7 @@ pub struct RunArgs {
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
-    arithmetic: Arithmetic,
+    arithmetic: ArithmeticArgs,
     #[command(flatten)]
     reading: ReadingArg,
 }
@@ -76,7 +78,7 @@ impl RunArgs {
     /// Returns what is asked of a scene.
     pub fn request(&self, scene: &Scene) -> Request {
         let request = self.model.request(scene, self.variant, &self.reading);
-        request.arithmetic(self.arithmetic)
+        request.arithmetic(self.arithmetic.into())
     }
 }
 

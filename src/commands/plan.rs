@@ -1,6 +1,6 @@
 //! `plane-contact plan`.
 
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::memory;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;

@@ -4,15 +4,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot as report;
 use plane_contact::studies::snapshot::{Bounds, FIELDS, Snapshot};
 
+use super::arithmetic::ArithmeticArgs;
 use super::{ModelArgs, ReadingArg, print_fitted, waiting};
 
 /// Record what a scene gives, to be verified later: a regression snapshot.
@@ -38,7 +38,7 @@ pub struct Args {
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
-    arithmetic: Arithmetic,
+    arithmetic: ArithmeticArgs,
     #[command(flatten)]
     reading: ReadingArg,
     /// Record these numbers of the end alone, and no iterations: u, stress, reactions, gap, pressure,
@@ -64,7 +64,7 @@ pub fn run(args: &Args) -> Result<()> {
             false => args.variant.iter().copied().map(Some).collect(),
         };
         let requests = variants.into_iter().map(|variant| {
-            args.model.request(&scene, variant, &args.reading).arithmetic(args.arithmetic)
+            args.model.request(&scene, variant, &args.reading).arithmetic(args.arithmetic.into())
         });
         let requests: Vec<_> = requests.collect();
         let mut snapshot =

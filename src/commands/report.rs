@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use plane_contact::answer::error::Result;
-use plane_contact::answer::{Assessment, Solution};
+use plane_contact::engine::error::Result;
+use plane_contact::engine::{Assessment, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files::{self, Folder};
 use plane_contact::problem::modelling::Variant;

@@ -1,6 +1,6 @@
 //! `plane-contact schema`.
 
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::report::schema::SCHEMAS;
 

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use plane_contact::answer::error::{Cause, NoEquilibrium, Result};
-use plane_contact::answer::{self, Assessment, Request, Session, Solution, Step};
+use plane_contact::engine::error::{Cause, NoEquilibrium, Result};
+use plane_contact::engine::{self, Assessment, Request, Session, Solution, Step};
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::numbers::solve::{Arithmetic, Solver};
+use plane_contact::numbers::solve::Solver;
 use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::Which;
 use plane_contact::problem::modelling::Variant;
@@ -16,6 +16,7 @@ use plane_contact::report::{self, tables};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::{check_accuracy, solve_to};
 
+use super::arithmetic::ArithmeticArgs;
 use super::{
     ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, progress, tell, told,
     waiting,
@@ -63,7 +64,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     km: Option<PathBuf>,
     #[command(flatten)]
-    arithmetic: Arithmetic,
+    arithmetic: ArithmeticArgs,
     /// Take the cheapest precision whose rounding changes displacements by at most this part of the
     /// largest, and say what was done; the mesh's own error is reported beside it.
     #[arg(long, value_name = "A",
@@ -149,9 +150,9 @@ pub fn run(args: &Args) -> Result<u8> {
 fn request(args: &Args) -> Result<Request> {
     let scene = args.changes.change(Scene::open(&args.scene)?)?;
     let request = args.model.request(&scene, args.variant, &args.reading);
-    let request = edited(args, request.arithmetic(args.arithmetic))?;
-    answer::check(&request)?;
-    answer::check_points(&scene.model, &args.probe)?;
+    let request = edited(args, request.arithmetic(args.arithmetic.into()))?;
+    engine::check(&request)?;
+    engine::check_points(&scene.model, &args.probe)?;
     args.accuracy.map_or(Ok(()), check_accuracy)?;
     Ok(request)
 }
@@ -206,7 +207,7 @@ fn beside_the_print(solution: &Solution) -> String {
     }
     let mut request = solution.request.clone();
     request.edited.clear();
-    match answer::solve(&request, &mut |_| ()) {
+    match engine::solve(&request, &mut |_| ()) {
         Ok(printed) => report::edited::beside(&printed, solution),
         Err(why) => format!("\nThe edited listings run; as printed: {why}\n"),
     }

@@ -2,13 +2,13 @@
 
 use std::cell::OnceCell;
 
-use plane_contact::answer::Request;
-use plane_contact::answer::error::{Error, Result};
+use plane_contact::engine::Request;
+use plane_contact::engine::error::{Error, Result};
 use plane_contact::error::InputError;
+use plane_contact::mathcad::{Failure, Listing};
 use plane_contact::paper::door::Call;
 use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::{Which, settings};
-use plane_contact::paper::mathcad::{Failure, Listing};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::scene::Scene;

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use plane_contact::answer::error::Result;
-use plane_contact::answer::{Request, solve};
+use plane_contact::engine::error::Result;
+use plane_contact::engine::{Request, solve};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::scene::Scene;

@@ -13,12 +13,12 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::mathcad::array::{Column, Table};
 use super::mirror::{self, Failure, Km, Pairs, Reading, ToleranceUnit, Worksheet, c_cnt};
-use crate::error::InputError;
-use crate::numbers::scalar::Scalar;
-use crate::problem::element;
-use crate::problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
+use base::error::InputError;
+use mathcad::array::{Column, Table};
+use numbers::scalar::Scalar;
+use problem::element;
+use problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
 
 /// The column of `EL` and `elem` where the nodes start.
 const IND_1: usize = 6;

@@ -2,12 +2,12 @@
 
 use super::door;
 use super::listings::{self, Which, settings};
-use super::mathcad::array::{Column, Table};
-use super::mathcad::{Listing, Settings};
 use super::mirror::{Pairs, Reading, Worksheet};
-use crate::error::{InputError, Result};
-use crate::numbers::scalar::Scalar;
-use crate::problem::model::Model;
+use base::error::{InputError, Result};
+use mathcad::array::{Column, Table};
+use mathcad::{Listing, Settings};
+use numbers::scalar::Scalar;
+use problem::model::Model;
 use serde::Serialize;
 
 const NOTATION: &str = "see the notation in listings/README.md";

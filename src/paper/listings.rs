@@ -1,15 +1,13 @@
 //! The paper's listings, executed as printed on the arrays of a scene.
 
-use crate::choices;
-use crate::paper::mathcad::array::{Column, Table};
-use crate::paper::mathcad::value::Array;
-use crate::paper::mathcad::{
+use crate::mirror::{LoopPlace, NodeTable, Pairs, Reading, RestraintIndex, Wedge, Worksheet};
+use base::choices;
+use mathcad::array::{Column, Table};
+use mathcad::value::Array;
+use mathcad::{
     Cause, Edit, Failure, Limits, Listing, Observer, ParseError, Runner, Settings, Value,
 };
-use crate::paper::mirror::{
-    LoopPlace, NodeTable, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
-};
-use crate::problem::element;
+use problem::element;
 
 choices! {
     /// One of the paper's two listings.

@@ -13,10 +13,10 @@
 use nalgebra::{SMatrix, SVector};
 use serde::Serialize;
 
-use crate::choices;
-use crate::error::{InputError, Result};
-use crate::numbers::scalar::Scalar;
-use crate::plain::six_digits;
+use base::choices;
+use base::error::{InputError, Result};
+use base::plain::six_digits;
+use numbers::scalar::Scalar;
 
 choices! {
     /// The plane problem behind `D` (reading R6: the paper does not print which).

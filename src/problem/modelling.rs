@@ -9,9 +9,9 @@ use serde::de::{self, Deserializer};
 use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
 
-use crate::choices;
-use crate::error::{InputError, Result};
-use crate::plain::six_digits;
+use base::choices;
+use base::error::{InputError, Result};
+use base::plain::six_digits;
 
 choices! {
     /// A variant: how the contact pairs enter the equations, and what load an iteration carries.

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::json::headed;
 use super::layout::{Table, listed};
 use super::numbers::{or_dash, short};
-use crate::studies::lesson::exercise::{Answers, Mark};
+use studies::lesson::exercise::{Answers, Mark};
 
 /// A file of answers and its marks.
 pub struct Marked {

@@ -11,16 +11,16 @@ use super::json::of_scene;
 use super::layout::{Table, aligned, listed};
 use super::numbers::{or_dash, percent, short};
 use super::tables::certainty;
-use crate::answer::{BodySummary, Cycle, Distance};
-use crate::paper::listings::Which;
-use crate::problem::model::NodeId;
-use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
-use crate::studies::audit::claims::Judged;
-use crate::studies::audit::findings::{Finding, Measured, Verdict};
-use crate::studies::audit::readings::Effect;
-use crate::studies::audit::variants::{End, VariantRow};
-use crate::studies::audit::{Assumption, Audit, Compared, Rubbing};
+use engine::{BodySummary, Cycle, Distance};
+use paper::listings::Which;
+use problem::model::NodeId;
+use problem::modelling::Variant;
+use problem::scene::Scene;
+use studies::audit::claims::Judged;
+use studies::audit::findings::{Finding, Measured, Verdict};
+use studies::audit::readings::Effect;
+use studies::audit::variants::{End, VariantRow};
+use studies::audit::{Assumption, Audit, Compared, Rubbing};
 
 pub fn text(audit: &Audit, scene: &Scene) -> String {
     format!(

@@ -2,10 +2,10 @@
 
 use super::layout::counted;
 use super::numbers::six_digits;
-use crate::paper::mathcad::array::Table;
-use crate::paper::mirror::Pairs;
-use crate::problem::model::Model;
-use crate::studies::audit::trace::Product;
+use mathcad::array::Table;
+use paper::mirror::Pairs;
+use problem::model::Model;
+use studies::audit::trace::Product;
 
 /// The most changed entries of a matrix that are listed.
 const MOST_LISTED: usize = 20;

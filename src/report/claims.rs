@@ -2,9 +2,9 @@
 
 use super::layout::{Table, listed};
 use super::numbers::{or_dash, short};
-use crate::studies::audit::Assumption;
-use crate::studies::audit::claims::{Elsewhere, Judged};
-use crate::studies::audit::range::Parameter;
+use studies::audit::Assumption;
+use studies::audit::claims::{Elsewhere, Judged};
+use studies::audit::range::Parameter;
 
 /// Lays out the verdicts, what each number is and how to reproduce it, and the assumptions that they
 /// rest on.

@@ -2,7 +2,7 @@
 
 use super::layout::{Table, listed};
 use super::numbers::{percent, quantity, short, with_unit};
-use crate::answer::{Solution, max_displacement, summaries};
+use engine::{Solution, max_displacement, summaries};
 
 /// Lays out what two runs of one scene came to, and the largest change of a displacement.
 pub fn beside(printed: &Solution, edited: &Solution) -> String {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::json::headed;
-use crate::paper::mathcad::{self, Failure, Outcome};
+use mathcad::{self, Failure, Outcome};
 
 /// What came of a program.
 #[derive(Serialize, JsonSchema)]

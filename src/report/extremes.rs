@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::json::headed;
 use super::layout::{Table, aligned};
 use super::picture::{Axis, SERIES, Series, Style, chart};
-use crate::studies::extremes::{Break, Column, Generator, Measured, Verdict};
+use studies::extremes::{Break, Column, Generator, Measured, Verdict};
 
 /// The content of `extremes.json`: a row for each generator.
 #[derive(Serialize, JsonSchema)]

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json::headed;
-use crate::answer::error::{self, Error};
+use engine::error::{self, Error};
 
 /// Why a command ended without a result.
 #[derive(Serialize, JsonSchema)]

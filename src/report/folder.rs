@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use super::picture::{self, Drawing, Field};
 use super::result_file::ResultFile;
 use super::{pressure, vtu};
-use crate::answer::{Assessment, Solution};
-use crate::error::Result;
-use crate::files;
-use crate::problem::element::State;
-use crate::problem::scene::Scene;
-use crate::studies::plan::Plan;
+use base::error::Result;
+use base::files;
+use engine::{Assessment, Solution};
+use problem::element::State;
+use problem::scene::Scene;
+use studies::plan::Plan;
 
 /// What a folder holds beside `fields.vtu` and `result.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

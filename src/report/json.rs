@@ -8,9 +8,9 @@ use serde_json::ser::{CompactFormatter, Formatter};
 use serde_json::{Map, Value};
 
 use super::numbers::{NO_LIMIT, reason};
-use crate::paper::mirror::Pairs;
-use crate::problem::scene::{Scene, Units};
-use crate::studies::snapshot::{FORMAT, VERSION};
+use paper::mirror::Pairs;
+use problem::scene::{Scene, Units};
+use studies::snapshot::{FORMAT, VERSION};
 
 /// Writes a document on one line. Floats read back to the same bits; what is not finite is null. The
 /// field `nulls`, which an object with nulls has at its end, says of each field that is null

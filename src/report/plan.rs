@@ -6,8 +6,8 @@ use serde::Serialize;
 use super::json;
 use super::layout::{Table, aligned};
 use super::numbers::{quantity, short, six_digits};
-use crate::problem::scene::{Scene, Units};
-use crate::studies::plan::{BodyPlan, ContactPlan, MARGIN, Plan, Storage};
+use problem::scene::{Scene, Units};
+use studies::plan::{BodyPlan, ContactPlan, MARGIN, Plan, Storage};
 
 /// Writes the plan on one line, which is the same on every machine.
 pub fn line(plan: &Plan) -> String {

@@ -2,10 +2,10 @@
 
 use super::numbers::quantity;
 use super::picture::{Axis, Series, Style, chart};
-use crate::answer::contact::ContactNode;
-use crate::answer::{Hertz, Solution};
-use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
+use engine::contact::ContactNode;
+use engine::{Hertz, Solution};
+use problem::modelling::Variant;
+use problem::scene::Scene;
 
 /// How far the picture reaches beyond the outermost node in contact, over the contact's width.
 const MARGIN: f64 = 0.25;

@@ -4,24 +4,24 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{json, plan};
-use crate::answer::contact::{ContactNode, Status};
-use crate::answer::estimates::ErrorEstimates;
-use crate::answer::{
+use base::error::{InputError, Result};
+use base::files;
+use engine::contact::{ContactNode, Status};
+use engine::estimates::ErrorEstimates;
+use engine::{
     Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Probe, Solution, Step,
 };
-use crate::error::{InputError, Result};
-use crate::files;
-use crate::numbers::scalar::rational;
-use crate::numbers::solve::{Arithmetic, ScalarName};
-use crate::paper::edited::Edited;
-use crate::paper::listings::Which;
-use crate::paper::mirror::Reading;
-use crate::problem::model::{NodeId, Triangle};
-use crate::problem::modelling::{ContactModel, Variant};
-use crate::problem::scene::sha256;
-use crate::problem::scene::{Material, Units};
-use crate::studies::plan::Plan;
-use crate::studies::snapshot::{FORMAT, VERSION};
+use numbers::scalar::rational;
+use numbers::solve::{Arithmetic, ScalarName};
+use paper::edited::Edited;
+use paper::listings::Which;
+use paper::mirror::Reading;
+use problem::model::{NodeId, Triangle};
+use problem::modelling::{ContactModel, Variant};
+use problem::scene::sha256;
+use problem::scene::{Material, Units};
+use studies::plan::Plan;
+use studies::snapshot::{FORMAT, VERSION};
 
 /// The most triangles whose mesh has its `u` and `elements` in `result.json` without being asked.
 pub const MOST_TRIANGLES: usize = 20_000;

@@ -1,7 +1,7 @@
 //! The scenes that are part of the program, the findings' own, and the generators.
 
 use super::layout::Table;
-use crate::problem::scene::Scene;
+use problem::scene::Scene;
 
 /// Lays out the scenes by name; then findings by name and title, and generators by name and what
 /// each makes.

@@ -10,12 +10,12 @@ use super::json::{Found, Head, Headed, SceneHead};
 use super::{
     ResultFile, answers, audit, comparison, evaluation, extremes, plan, snapshot, trace, worksheet,
 };
-use crate::problem::scene::Description;
-use crate::studies::audit::statuses::Measurement;
-use crate::studies::lesson::exercise::Answers;
-use crate::studies::snapshot::Snapshot;
-use crate::studies::sweep::{self, Sweep};
-use crate::studies::trade::Trade;
+use problem::scene::Description;
+use studies::audit::statuses::Measurement;
+use studies::lesson::exercise::Answers;
+use studies::snapshot::Snapshot;
+use studies::sweep::{self, Sweep};
+use studies::trade::Trade;
 
 /// The schema of a kind of document.
 pub struct Named {

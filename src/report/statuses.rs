@@ -3,8 +3,8 @@
 use super::json::headed;
 use super::layout::aligned;
 use super::picture::{Axis, Series, Style, chart};
-use crate::problem::modelling::StatusRule;
-use crate::studies::audit::statuses::{Measurement, Row};
+use problem::modelling::StatusRule;
+use studies::audit::statuses::{Measurement, Row};
 
 /// Lays out two tables: the wrong statuses by depth, and the operations by size.
 pub fn json(measured: &Measurement) -> String {

@@ -5,8 +5,8 @@
 
 use serde_json::Value;
 
-use crate::choices;
-use crate::problem::scene::sha256;
+use base::choices;
+use problem::scene::sha256;
 
 choices! {
     /// An engine that runs jobs.

@@ -4,23 +4,23 @@ use super::layout::{Table, aligned, counted, listed};
 use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, with_unit};
 use super::pressure;
 use super::trace::in_figure;
-use crate::answer::Decision;
-use crate::answer::contact::{ContactNode, Status, hidden, oddity};
-use crate::answer::error::Error;
-use crate::answer::estimates::ErrorEstimates;
-use crate::answer::estimates::{Certainty, NoLimit};
-use crate::answer::{
+use engine::Decision;
+use engine::contact::{ContactNode, Status, hidden, oddity};
+use engine::error::Error;
+use engine::estimates::ErrorEstimates;
+use engine::estimates::{Certainty, NoLimit};
+use engine::{
     Assessment, BodySummary, Cycle, Equilibrium, Measured, Path, Probe, Quantity, Solution, Start,
     Step, Unilateral, Uniqueness, beyond_range, last_under_each_load, locking, max_displacement,
 };
-use crate::paper::door::Call;
-use crate::paper::mirror::Reading;
-use crate::problem::model::{EdgeId, Model, NodeId};
-use crate::problem::modelling::{Coupling, Geometry, Variant};
-use crate::problem::scene::{Scene, Units};
+use paper::door::Call;
+use paper::mirror::Reading;
+use problem::model::{EdgeId, Model, NodeId};
+use problem::modelling::{Coupling, Geometry, Variant};
+use problem::scene::{Scene, Units};
 
 /// The relative error of the mesh in the energy norm beyond which the estimates that rest on it
-/// missed the truth now and then (`answer::estimates::discretisation`).
+/// missed the truth now and then (`engine::estimates::discretisation`).
 const FAIR: f64 = 0.2;
 
 /// The change of displacements, over the largest, below which a path of half as many steps comes to the

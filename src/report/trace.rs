@@ -14,13 +14,13 @@ use super::json::{Found, write_of_scene};
 use super::layout::{counted, filled, listed};
 use super::numbers::six_digits;
 use super::printed::fitted;
-use crate::paper::listings::{self, Which};
-use crate::paper::mathcad::array::Table;
-use crate::paper::mathcad::{self, Listing};
-use crate::problem::model::{Model, NodeId, TriangleId};
-use crate::problem::scene::Scene;
-use crate::studies::audit::trace::{Access, Kept, Product, Step, text_of};
-use crate::studies::lesson::figure_numbers;
+use mathcad::array::Table;
+use mathcad::{self, Listing};
+use paper::listings::{self, Which};
+use problem::model::{Model, NodeId, TriangleId};
+use problem::scene::Scene;
+use studies::audit::trace::{Access, Kept, Product, Step, text_of};
+use studies::lesson::figure_numbers;
 
 /// How much of a trace is shown, and how.
 pub struct Shown {

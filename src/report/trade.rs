@@ -8,14 +8,14 @@ use super::layout::{Table, listed};
 use super::numbers::{note, or_dash};
 use super::output::csv as csv_of;
 use super::picture::{Axis, Series, Style, chart};
-use crate::answer::estimates::Certainty;
-use crate::error::Result;
-use crate::files::write_all;
-use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
-use crate::studies::audit::claims::{Claim, Elsewhere};
-use crate::studies::audit::range::{Parameter, Place};
-use crate::studies::trade::{Came, Errors, Knob, Order, Reached, Row, Section, Trade};
+use base::error::Result;
+use base::files::write_all;
+use engine::estimates::Certainty;
+use problem::modelling::Variant;
+use problem::scene::Scene;
+use studies::audit::claims::{Claim, Elsewhere};
+use studies::audit::range::{Parameter, Place};
+use studies::trade::{Came, Errors, Knob, Order, Reached, Row, Section, Trade};
 
 /// The heading of `trade.csv`.
 pub const COLUMNS: &str = "knob,variant,setting,own,equations,in_contact,cycle,seconds,runs,\

@@ -15,12 +15,12 @@ use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
 
 use super::picture::Drawing;
-use crate::answer::contact::Status;
-use crate::answer::{Assessment, Solution};
-use crate::problem::element::{self, State};
-use crate::problem::model::Triangle;
-use crate::studies::snapshot::{Options, VERSION};
-use crate::xml::Element;
+use base::xml::Element;
+use engine::contact::Status;
+use engine::{Assessment, Solution};
+use problem::element::{self, State};
+use problem::model::Triangle;
+use studies::snapshot::{Options, VERSION};
 
 /// VTK's number for a triangle of three nodes.
 const TRIANGLE: u8 = 5;

@@ -7,8 +7,8 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::json::headed;
-use crate::paper::mathcad::json as values;
-use crate::paper::mathcad::worksheet::{Checked, Verdict};
+use mathcad::json as values;
+use mathcad::worksheet::{Checked, Verdict};
 
 /// Lays out each region with what came of it, what a worksheet of questions decides, and how many
 /// regions came out how.

@@ -13,7 +13,7 @@
 
 use crate::common::recovery::{extrapolated, node_at, order, solved};
 use crate::common::tolerances::{LAME_DISPLACEMENT, LAME_ORDER, LAME_STRESS, assert_near};
-use plane_contact::answer::Solution;
+use plane_contact::engine::Solution;
 use plane_contact::studies::benchmark::Annulus;
 
 fn annulus(n: usize) -> Solution {

@@ -15,7 +15,7 @@
 
 use crate::common::recovery::solved_by;
 use crate::common::tolerances::{KNOWN_NTS, PATCH_TEST, assert_near};
-use plane_contact::answer::Solution;
+use plane_contact::engine::Solution;
 use plane_contact::problem::modelling::Coupling;
 use plane_contact::studies::benchmark::Blocks;
 

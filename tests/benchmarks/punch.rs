@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 use crate::common::recovery::solved;
 use crate::common::tolerances::{PUNCH, assert_near};
-use plane_contact::answer::Solution;
+use plane_contact::engine::Solution;
 use plane_contact::studies::benchmark::Punch;
 
 /// As far as this the corner's last nodes do not show.

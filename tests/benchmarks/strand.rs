@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 
 use crate::common::tolerances::{STRAIGHT, assert_near};
 use crate::meshes::least_angle;
-use plane_contact::answer::{Request, solve};
+use plane_contact::engine::{Request, solve};
 use plane_contact::problem::element;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{FileBeside, Mesh, SceneBuilder};

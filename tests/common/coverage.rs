@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use plane_contact::paper::mathcad::observe::{Operand, Place};
-use plane_contact::paper::mathcad::{Line, Observer};
+use plane_contact::mathcad::observe::{Operand, Place};
+use plane_contact::mathcad::{Line, Observer};
 
 /// Counts what a run, or several, went through.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -6,7 +6,7 @@
 //! and the last one or two share what lies between.
 
 use super::recovery::solved_by;
-use plane_contact::answer::Solution;
+use plane_contact::engine::Solution;
 use plane_contact::problem::modelling::ContactModel;
 use plane_contact::studies::benchmark::Hertz;
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
-use plane_contact::answer::{Request, Solution, solve};
+use plane_contact::engine::{Request, Solution, solve};
 use plane_contact::error::InputError;
 use plane_contact::problem::element;
 use plane_contact::problem::model::{Model, NodeId, TriangleId};

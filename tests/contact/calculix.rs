@@ -10,7 +10,7 @@ use crate::common::outcome::solve;
 use crate::common::program;
 use crate::common::tolerances::{CCX_FRICTION, CCX_PRINTS, PENALTY, PENALTY_STRESS, assert_near};
 use crate::unilateral::models;
-use plane_contact::answer::{self, Request, Solution};
+use plane_contact::engine::{self, Request, Solution};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::{
@@ -199,7 +199,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
 }
 
 fn solution(scene: &Scene, variant: Variant) -> Solution {
-    answer::solve(&Request::new(scene).variant(variant), &mut |_| ()).unwrap()
+    engine::solve(&Request::new(scene).variant(variant), &mut |_| ()).unwrap()
 }
 
 #[test]

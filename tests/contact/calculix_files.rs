@@ -1,6 +1,6 @@
 //! The equations of a CalculiX deck, and the numbers of its files.
 
-use plane_contact::answer::{Constraint, Motion};
+use plane_contact::engine::{Constraint, Motion};
 use plane_contact::problem::model::{Dof, NodeId};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::Equation;

@@ -2,9 +2,9 @@
 //! scene is written, and no apex passes through the other body.
 
 use crate::common::tolerances::{APEX, INVARIANCE, assert_near};
-use plane_contact::answer::contact::Surfaces;
-use plane_contact::answer::error::Error;
-use plane_contact::answer::{Request, Solution, solve};
+use plane_contact::engine::contact::Surfaces;
+use plane_contact::engine::error::Error;
+use plane_contact::engine::{Request, Solution, solve};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};

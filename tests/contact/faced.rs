@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_8;
 
-use plane_contact::answer::contact::{Pairing, Surfaces};
+use plane_contact::engine::contact::{Pairing, Surfaces};
 use plane_contact::numbers::scalar::{Bounded, F64x2, Scalar};
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{ContactModel, Coupling};

@@ -4,8 +4,8 @@
 use std::fmt::Write;
 
 use fastrand::Rng;
-use plane_contact::answer::contact::search::{Closest, Segment, closest};
-use plane_contact::answer::contact::{ContactNode, Pairing, Surfaces, pulling};
+use plane_contact::engine::contact::search::{Closest, Segment, closest};
+use plane_contact::engine::contact::{ContactNode, Pairing, Surfaces, pulling};
 use plane_contact::numbers::scalar::{Bounded, Scalar};
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{ContactModel, Coupling};

@@ -3,9 +3,9 @@
 use crate::common::tolerances::{
     BALANCE, CATTANEO, DISSIPATION, LARGE_FRICTION, LOAD_STEP, SHEAR_LAG, assert_near,
 };
-use plane_contact::answer::contact::Status;
-use plane_contact::answer::error::Error;
-use plane_contact::answer::{self, Assessment, Request, Session, Solution};
+use plane_contact::engine::contact::Status;
+use plane_contact::engine::error::Error;
+use plane_contact::engine::{self, Assessment, Request, Session, Solution};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::{ContactModel, Friction, Geometry, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
@@ -19,7 +19,7 @@ fn rubbing(mu: f64) -> Contact {
 }
 
 fn solve(scene: &Scene) -> Result<Solution, Error> {
-    answer::solve(&Request::new(scene).variant(Variant::Unilateral), &mut |_| ())
+    engine::solve(&Request::new(scene).variant(Variant::Unilateral), &mut |_| ())
 }
 
 /// A strip of length 10 and height `h` in `n` parts, pressed with 1 on a rigid foundation, then
@@ -217,7 +217,7 @@ fn friction_reaches_from_none_to_stick() {
         let friction = Friction::new(mu).unwrap();
         let contact = ContactModel { friction, load_steps, ..scene.contact };
         let request = Request::new(&scene).variant(Variant::Unilateral).contact(contact);
-        answer::solve(&request, &mut |_| ()).unwrap()
+        engine::solve(&request, &mut |_| ()).unwrap()
     };
     let near = |what: &str, a: &Solution, b: &Solution, limit| {
         assert_near(what, (&a.u - &b.u).amax(), 0.0, b.u.amax(), limit);
@@ -244,7 +244,7 @@ fn stages_sum_to_the_load() {
     let [a, b] = [&staged, &at_once].map(|scene| {
         let contact = ContactModel { friction: Friction::STICK, ..scene.contact };
         let request = Request::new(scene).variant(Variant::Unilateral).contact(contact);
-        answer::solve(&request, &mut |_| ()).unwrap().u
+        engine::solve(&request, &mut |_| ()).unwrap().u
     });
     assert_near("stuck from the start", (&a - &b).amax(), 0.0, a.amax(), &BALANCE);
 }

@@ -10,9 +10,9 @@ use std::f64::consts::{PI, TAU};
 
 use fastrand::Rng;
 use nalgebra::DVector;
-use plane_contact::answer::contact::{Pairing, Surfaces};
-use plane_contact::answer::error::{Cause, Error};
-use plane_contact::answer::{Request, Solution, solve};
+use plane_contact::engine::contact::{Pairing, Surfaces};
+use plane_contact::engine::error::{Cause, Error};
+use plane_contact::engine::{Request, Solution, solve};
 use plane_contact::problem::element::{B, D, area};
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use crate::common::tolerances::{INVARIANCE, OTHER_PATH};
 use crate::corners::{Bodies, Writing};
 use crate::drawn::{KINDS, scenes};
-use plane_contact::answer::error::Error;
-use plane_contact::answer::estimates::arithmetic::{Rounding, rounding};
-use plane_contact::answer::{Request, Session, Solution, solve};
+use plane_contact::engine::error::Error;
+use plane_contact::engine::estimates::arithmetic::{Rounding, rounding};
+use plane_contact::engine::{Request, Session, Solution, solve};
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use plane_contact::answer::contact::{Sense, Status};
-use plane_contact::answer::{self, Detail, Request, Solution, Step, Unilateral, Uniqueness};
+use plane_contact::engine::contact::{Sense, Status};
+use plane_contact::engine::{self, Detail, Request, Solution, Step, Unilateral, Uniqueness};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use plane_contact::problem::scene::{Axis, SceneBuilder};
 
@@ -151,7 +151,7 @@ fn without_a_load_the_nearest_node_closes() {
     let scene = bodies.modelled(&Writing::default(), in_one_step(0.0)).build();
     let request = Request::new(&scene.expect("a sound scene"));
     let mut first = None;
-    let _ = answer::solve(&request, &mut |step| {
+    let _ = engine::solve(&request, &mut |step| {
         first.get_or_insert_with(|| own(step).statuses.clone());
     });
     let first = first.expect("there is an iteration");

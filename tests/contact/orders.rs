@@ -3,8 +3,8 @@
 
 use crate::common::tolerances::{INVARIANCE, assert_near};
 use crate::corners::{Bodies, Writing, blocks, roof};
-use plane_contact::answer::contact::ContactNode;
-use plane_contact::answer::{Request, solve};
+use plane_contact::engine::contact::ContactNode;
+use plane_contact::engine::{Request, solve};
 use plane_contact::problem::modelling::{Coupling, Geometry, Variant};
 
 fn contact(bodies: &Bodies) -> Result<Vec<ContactNode>, String> {

@@ -7,10 +7,10 @@ use std::fmt::Write;
 
 use fastrand::Rng;
 use plane_contact::Error;
-use plane_contact::answer::contact::Pairing;
-use plane_contact::answer::estimates::arithmetic::rounding;
-use plane_contact::answer::estimates::singular;
-use plane_contact::answer::{Assessment, Detail, Published, Request, Session, Solution, solve};
+use plane_contact::engine::contact::Pairing;
+use plane_contact::engine::estimates::arithmetic::rounding;
+use plane_contact::engine::estimates::singular;
+use plane_contact::engine::{Assessment, Detail, Published, Request, Session, Solution, solve};
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
 use plane_contact::paper::mirror::{NodeTable, Reading, Schedule};
 use plane_contact::problem::modelling::{

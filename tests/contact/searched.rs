@@ -5,8 +5,8 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use fastrand::Rng;
-use plane_contact::answer::contact::{Sense, Status};
-use plane_contact::answer::{
+use plane_contact::engine::contact::{Sense, Status};
+use plane_contact::engine::{
     Detail, Request, Solution, Unilateral, Uniqueness, kept_equations, solve,
 };
 use plane_contact::problem::element::Plane;

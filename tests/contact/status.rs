@@ -6,10 +6,10 @@ use crate::common::program;
 use crate::common::tolerances::{CLOSEST_POINT, assert_near};
 use crate::faced;
 use nalgebra::DVector;
-use plane_contact::answer::contact::search::Closest;
-use plane_contact::answer::contact::status::{Target, TargetEdge, statuses};
-use plane_contact::answer::contact::{Pairing, Surfaces, Traction, reactions};
-use plane_contact::answer::{self, Constraint, Detail, Request, Solution, summaries};
+use plane_contact::engine::contact::search::Closest;
+use plane_contact::engine::contact::status::{Target, TargetEdge, statuses};
+use plane_contact::engine::contact::{Pairing, Surfaces, Traction, reactions};
+use plane_contact::engine::{self, Constraint, Detail, Request, Solution, summaries};
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::door::{self, Call};
 use plane_contact::paper::mirror::{Cause, Failure, Pairs, Reading};
@@ -393,7 +393,7 @@ fn a_run_binds_by_the_weights_of_its_shapes() {
         for reading in OF_WEIGHTS {
             let reading: Reading = reading.parse().unwrap();
             let request = by_rule(rule, &scene).reading(reading);
-            let solution = answer::solve(&request, &mut |_| ()).expect("the variant runs");
+            let solution = engine::solve(&request, &mut |_| ()).expect("the variant runs");
             let sheet = door::worksheet(&solution.model, |x| x);
             for step in &solution.steps {
                 let pairs = pairs(rule, &solution.model, &reading, &step.shape).unwrap();
@@ -445,7 +445,7 @@ fn stepped(rule: StatusRule, scene: &Scene) -> Solution {
     // Where the scene is symmetric, rounding decides who is in contact: dense LU is what Mathcad has.
     let arithmetic = Arithmetic { solver: Some(Solver::DenseLu), ..Arithmetic::default() };
     let request = by_rule(rule, scene).arithmetic(arithmetic);
-    answer::solve(&request, &mut |_| ()).expect("the variant runs")
+    engine::solve(&request, &mut |_| ()).expect("the variant runs")
 }
 
 /// Where a node passes c_tll between two steps the sign rule loses it for a while, its contact set
@@ -487,7 +487,7 @@ fn deepest(solution: &Solution) -> f64 {
 fn signs_are_the_default() {
     let scene = Scene::open("fig1").unwrap();
     let request = Request::new(&scene).variant(Variant::Stepped);
-    let solved = |request: &Request| answer::solve(request, &mut |_| ()).unwrap().u;
+    let solved = |request: &Request| engine::solve(request, &mut |_| ()).unwrap().u;
     assert_eq!(solved(&request), solved(&by_rule(StatusRule::Signs, &scene)));
     assert_eq!(StatusRule::default(), StatusRule::Signs);
 }

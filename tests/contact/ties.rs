@@ -3,11 +3,11 @@
 
 use fastrand::Rng;
 use nalgebra::DVector;
-use plane_contact::answer::Decision;
-use plane_contact::answer::contact::Status;
-use plane_contact::answer::estimates::arithmetic::bounded;
-use plane_contact::answer::estimates::ties::{Looking, State};
-use plane_contact::answer::{Choice, Detail, Solution, Step, Unilateral};
+use plane_contact::engine::Decision;
+use plane_contact::engine::contact::Status;
+use plane_contact::engine::estimates::arithmetic::bounded;
+use plane_contact::engine::estimates::ties::{Looking, State};
+use plane_contact::engine::{Choice, Detail, Solution, Step, Unilateral};
 use plane_contact::numbers::scalar::{Bounded, Scalar};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use plane_contact::problem::scene::Axis;

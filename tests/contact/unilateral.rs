@@ -5,9 +5,9 @@ use std::sync::Arc;
 use crate::common::tolerances::{
     BALANCE, COMPLEMENTARITY, CURRENT_LENGTHS, FAR_FROM_THE_ORIGIN, FORCE_OF_A_SLOPE, assert_near,
 };
-use plane_contact::answer::contact::{ContactNode, Status};
-use plane_contact::answer::error::Error;
-use plane_contact::answer::{self, Detail, Request, Solution, Step, distance};
+use plane_contact::engine::contact::{ContactNode, Status};
+use plane_contact::engine::error::Error;
+use plane_contact::engine::{self, Detail, Request, Solution, Step, distance};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
@@ -43,7 +43,7 @@ pub fn models() -> Vec<ContactModel> {
 
 fn solve(scene: &Scene, model: ContactModel) -> Solution {
     let request = Request::new(scene).variant(Variant::Unilateral).contact(model);
-    answer::solve(&request, &mut |_| ()).expect("there is an equilibrium")
+    engine::solve(&request, &mut |_| ()).expect("there is an equilibrium")
 }
 
 fn force(node: &ContactNode) -> f64 {
@@ -177,7 +177,7 @@ fn current_and_initial_shape_agree_as_displacements_vanish() {
 fn the_reference_is_at_no_distance_from_itself() {
     for embedded in SCENES {
         let scene = Scene::open(embedded.name).unwrap();
-        let reached = answer::solve(&Request::new(&scene).equilibrium(), &mut |_| ()).unwrap();
+        let reached = engine::solve(&Request::new(&scene).equilibrium(), &mut |_| ()).unwrap();
         let same = distance(&reached, &reached);
         assert_eq!((same.displacement, same.energy_relative), (0.0, 0.0));
     }
@@ -215,7 +215,7 @@ pub fn stacked(load: [f64; 2], held: &[Axis], friction: Friction) -> SceneBuilde
 
 pub fn solved(scene: &SceneBuilder) -> Result<Solution, Error> {
     let scene = scene.build().expect("the scene is sound");
-    answer::solve(&Request::new(&scene).variant(Variant::Unilateral), &mut |_| ())
+    engine::solve(&Request::new(&scene).variant(Variant::Unilateral), &mut |_| ())
 }
 
 /// Displacement along y of node 8, a corner of the stack's top edge.
@@ -536,7 +536,7 @@ fn a_body_that_is_not_held_closes_the_node_that_it_tips_to() {
         let scene = modelled(tipping(load), (Coupling::Nts, Geometry::Initial)).build().unwrap();
         let mut first = None;
         let found =
-            answer::solve(&Request::new(&scene).variant(Variant::Unilateral), &mut |step| {
+            engine::solve(&Request::new(&scene).variant(Variant::Unilateral), &mut |step| {
                 let Detail::Unilateral(own) = &step.detail else {
                     unreachable!("it was asked for")
                 };

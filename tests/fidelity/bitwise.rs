@@ -7,18 +7,17 @@
 
 use crate::common::random::fixed;
 use nalgebra::SMatrix;
-use plane_contact::answer::Request;
-use plane_contact::answer::fast::listings as fast;
-use plane_contact::numbers::scalar::{Bounded, Scalar, compared};
-use plane_contact::paper::door;
-use plane_contact::paper::exports::{self, Export};
-use plane_contact::paper::listings::{self, Which, settings};
-use plane_contact::paper::mathcad::array::{Column, Table};
-use plane_contact::paper::mathcad::worksheet::execute;
-use plane_contact::paper::mathcad::xmcd::document;
-use plane_contact::paper::mathcad::{
+use plane_contact::engine::Request;
+use plane_contact::engine::fast::listings as fast;
+use plane_contact::mathcad::array::{Column, Table};
+use plane_contact::mathcad::worksheet::execute;
+use plane_contact::mathcad::xmcd::document;
+use plane_contact::mathcad::{
     Cause as MathcadCause, Conjunction, Failure as MathcadFailure, Limits,
 };
+use plane_contact::numbers::scalar::{Bounded, Scalar, compared};
+use plane_contact::paper::door;
+use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{
     Cause, Failure, Km, LoopPlace, NodeTable, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
     c_cnt,
@@ -26,6 +25,7 @@ use plane_contact::paper::mirror::{
 use plane_contact::problem::element;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{SCENES, Scene};
+use plane_contact::report::exports::{self, Export};
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 

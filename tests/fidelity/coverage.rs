@@ -6,10 +6,10 @@ use std::fmt::Write as _;
 use crate::common::coverage::Coverage;
 use crate::common::golden_floats::assert_golden;
 use crate::common::shipped::shipped_scenes;
-use plane_contact::answer::Request;
+use plane_contact::engine::Request;
+use plane_contact::mathcad::Listing;
 use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
-use plane_contact::paper::mathcad::Listing;
 use plane_contact::paper::mirror::{Reading, c_cnt};
 
 /// Operands that can never be the only false one, on any scene:

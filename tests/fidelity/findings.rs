@@ -9,7 +9,7 @@ use crate::common::json::build;
 use crate::common::tolerances::{FINDING, assert_near};
 use crate::golden::number;
 use nalgebra::{DMatrix, DVector};
-use plane_contact::answer::{self, Detail, Request};
+use plane_contact::engine::{self, Detail, Request};
 use plane_contact::paper::door::{Call, free_stiffness, linked, worksheet};
 use plane_contact::paper::mirror::{Km, Reading};
 use plane_contact::problem::model::{Model, NodeId};
@@ -50,7 +50,7 @@ fn initial_dy(json: &Value) -> Vec<usize> {
 /// The displacements under a variant, by degree of freedom.
 fn displacements(json: &Value, variant: Variant) -> DVector<f64> {
     let request = Request::new(&build(json).unwrap()).variant(variant);
-    answer::solve(&request, &mut |_| ()).unwrap().u
+    engine::solve(&request, &mut |_| ()).unwrap().u
 }
 
 /// Moves node `n`.
@@ -490,7 +490,7 @@ fn each_finding_without_a_repair_has_a_reason_that_holds() {
     assert_eq!(ids, ["C6", "K5", "K6", "K9"]);
     let solved = |id: &str, change: &dyn Fn(Request) -> Request| {
         let request = change(Request::new(&finding(id).scene()));
-        answer::solve(&request, &mut |_| ()).expect("it runs")
+        engine::solve(&request, &mut |_| ()).expect("it runs")
     };
     let current = solved("C6", &|request| request.reading("R5=node_n".parse().unwrap()));
     let found = current.steps.iter().filter_map(|step| match &step.detail {

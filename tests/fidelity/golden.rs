@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::common::golden_floats::{assert_golden, same_text};
-use plane_contact::answer::Request;
+use plane_contact::engine::Request;
+use plane_contact::mathcad::array::Table;
 use plane_contact::paper::door;
-use plane_contact::paper::mathcad::array::Table;
 use plane_contact::paper::mirror::{Km, Reading, c_cnt};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{SCENES, Scene};

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-use plane_contact::answer::{self, Request};
-use plane_contact::paper::exports::{Export, octave};
-use plane_contact::paper::mathcad::array::Table;
+use plane_contact::engine::{self, Request};
+use plane_contact::mathcad::array::Table;
 use plane_contact::paper::mirror::{Km, Pairs, Reading, Worksheet, c_cnt};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
+use plane_contact::report::exports::{Export, octave};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use tempfile::TempDir;
@@ -129,7 +129,7 @@ fn octave_has_our_displacements_on_shipped_scenes() {
             scene,
         );
         let request = Request::new(&Scene::open(scene).unwrap()).variant(Variant::Printed);
-        let u = answer::solve(&request, &mut |_| ()).unwrap().u;
+        let u = engine::solve(&request, &mut |_| ()).unwrap().u;
         let largest = u.amax();
         for (ours, theirs) in u.iter().zip(&printed["U"]) {
             assert_near(scene, *theirs, *ours, largest, &OCTAVE);

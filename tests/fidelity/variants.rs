@@ -4,8 +4,8 @@ use crate::common::embedded::scene_json;
 use crate::common::json::build;
 use crate::common::outcome::solve;
 use crate::common::tolerances::{BALANCE, CLOSED_FORM, MIRRORED, RESIDUAL, assert_near};
-use plane_contact::answer::error::Error;
-use plane_contact::answer::{self, Detail, Published, Request, Solution, Step};
+use plane_contact::engine::error::Error;
+use plane_contact::engine::{self, Detail, Published, Request, Solution, Step};
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::paper::door::Call;
 use plane_contact::paper::mirror::Reading;
@@ -15,7 +15,7 @@ use plane_contact::problem::scene::Scene;
 use serde_json::{Value, json};
 
 fn run(request: &Request) -> Result<Solution, Error> {
-    answer::solve(request, &mut |_| ())
+    engine::solve(request, &mut |_| ())
 }
 
 fn solved(scene: &Scene, variant: Variant) -> Solution {

@@ -6,12 +6,12 @@ use crate::common::tolerances::{DOUBLE_DOUBLE, Tolerance};
 use dashu_base::Abs;
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
-use plane_contact::answer::Request;
+use plane_contact::engine::Request;
+use plane_contact::mathcad::array::Column;
 use plane_contact::numbers::scalar::{
     Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, SumOfProducts, rational, scope,
 };
 use plane_contact::paper::door;
-use plane_contact::paper::mathcad::array::Column;
 use plane_contact::paper::mirror::{Cause, Failure, Reading, c_cnt};
 use plane_contact::problem::model::Model;
 use plane_contact::problem::scene::Scene;

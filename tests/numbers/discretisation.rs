@@ -16,10 +16,10 @@ use crate::common::tolerances::{
 use fields::{CANTILEVER, CONSTANT, Field, KIRSCH, LAME, LINEAR, polynomial};
 use meshes::{BODY, Cut, Grid, annulus, beam, holed_plate, mesh, rectangle};
 use nalgebra::{Matrix3, Vector2, Vector3};
-use plane_contact::answer::estimates::discretisation::{
+use plane_contact::engine::estimates::discretisation::{
     Discretisation, LargestVonMises, SAFETY, compliance, root_of_squares, von_mises,
 };
-use plane_contact::answer::{self, Request, Solution};
+use plane_contact::engine::{self, Request, Solution};
 use plane_contact::problem::element::{D, Plane, State};
 use plane_contact::problem::model::{Body, TriangleId};
 use plane_contact::problem::modelling::Variant;
@@ -92,7 +92,7 @@ fn all_measured(b: &Benchmark) -> Vec<Measured> {
 }
 
 fn solve(scene: &Scene) -> Solution {
-    answer::solve(&Request::new(scene).variant(Variant::Tied), &mut |_| ()).expect("it solves")
+    engine::solve(&Request::new(scene).variant(Variant::Tied), &mut |_| ()).expect("it solves")
 }
 
 fn estimate(solution: &Solution) -> Discretisation {

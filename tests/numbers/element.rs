@@ -4,7 +4,7 @@
 use crate::common::random::fixed;
 use crate::common::tolerances::{ELEMENT, PATCH, RIGID, assert_near};
 use nalgebra::{DVector, Matrix3, SVector, Vector3};
-use plane_contact::answer::Stiffness;
+use plane_contact::engine::Stiffness;
 use plane_contact::numbers::scalar::{Bounded, Scalar};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::element::{

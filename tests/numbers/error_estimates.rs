@@ -7,9 +7,9 @@ use crate::common::shipped::shipped_scenes;
 use crate::common::tolerances::{ROUNDING_BOUND_WIDTH, Tolerance};
 use dashu_ratio::RBig;
 use nalgebra::DVector;
-use plane_contact::answer::estimates::Estimates;
-use plane_contact::answer::estimates::arithmetic::{self, bounded, stress_bounds};
-use plane_contact::answer::{
+use plane_contact::engine::estimates::Estimates;
+use plane_contact::engine::estimates::arithmetic::{self, bounded, stress_bounds};
+use plane_contact::engine::{
     Constraint, Detail, Elimination, Request, Session, Solution, Step, Stiffness, solve,
 };
 use plane_contact::numbers::scalar::{Exact, Scalar, scope};

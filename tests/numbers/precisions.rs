@@ -10,8 +10,8 @@ use crate::common::tolerances::{
 };
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
-use plane_contact::answer::error::Error;
-use plane_contact::answer::{self, Request, Solution, Step};
+use plane_contact::engine::error::Error;
+use plane_contact::engine::{self, Request, Solution, Step};
 use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
 use plane_contact::numbers::solve::{
     Arithmetic, DenseLu, Inputs, Ldlt, NotConverged, Precision, ScalarName, Solver,
@@ -30,7 +30,7 @@ fn arithmetic(scalar: ScalarName, solver: Option<Solver>) -> Arithmetic {
 }
 
 fn solve(scene: &Scene, variant: Variant, arithmetic: Arithmetic) -> Result<Solution, Error> {
-    answer::solve(&Request::new(scene).variant(variant).arithmetic(arithmetic), &mut |_| ())
+    engine::solve(&Request::new(scene).variant(variant).arithmetic(arithmetic), &mut |_| ())
 }
 
 /// The displacements with all their digits.

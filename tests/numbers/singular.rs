@@ -1,7 +1,7 @@
 //! Points where the stress has no limit, on 4 x 4 cells, most often on a fixed edge, and on two
 //! blocks that touch.
 
-use plane_contact::answer::estimates::{Cause, singular};
+use plane_contact::engine::estimates::{Cause, singular};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::{Friction, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};

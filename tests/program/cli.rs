@@ -216,8 +216,8 @@ fn floats_read_back_to_the_same_bits() {
     let printed = succeeds(folder.path(), &["solve", "fig1", "--json"]);
     let result: Value = serde_json::from_str(&printed).unwrap();
     let scene = plane_contact::problem::scene::Scene::open("fig1").unwrap();
-    let request = plane_contact::answer::Request::new(&scene);
-    let solution = plane_contact::answer::solve(&request, &mut |_| ()).unwrap();
+    let request = plane_contact::engine::Request::new(&scene);
+    let solution = plane_contact::engine::solve(&request, &mut |_| ()).unwrap();
     for (n, u) in result["u"].as_array().unwrap().iter().enumerate() {
         assert_eq!(u[0].as_f64().unwrap().to_bits(), solution.u[2 * n].to_bits());
         assert_eq!(u[1].as_f64().unwrap().to_bits(), solution.u[2 * n + 1].to_bits());

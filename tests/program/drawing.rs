@@ -6,7 +6,7 @@ use plane_contact::report::picture::colour::ColourScale;
 use plane_contact::report::picture::deformation::{boundary_edges, magnification};
 use plane_contact::report::picture::page::{Page, text_width, wrap};
 use plane_contact::report::picture::svg::path;
-use plane_contact::report::picture::view::{Bounds, Frame, View};
+use plane_contact::report::picture::view::{Bounds, Frame, View, with_ratio};
 use plane_contact::report::picture::{
     Axis, Contact, Drawing, Field, MOST_SHAPES, Series, Style, chart, field, mesh,
 };
@@ -153,7 +153,7 @@ fn view_keeps_the_shape_and_turns_y() {
 
 #[test]
 fn flat_box_grows_to_the_ratio() {
-    let grown = Bounds::of(&[[0.0, 3.0], [4.0, 3.0]]).with_ratio(2.0);
+    let grown = with_ratio(&Bounds::of(&[[0.0, 3.0], [4.0, 3.0]]), 2.0);
     assert_eq!([grown.low, grown.high], [[0.0, 2.0], [4.0, 4.0]]);
 }
 

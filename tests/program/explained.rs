@@ -2,7 +2,7 @@
 //! version, of a defect.
 
 use fastrand::Rng;
-use plane_contact::answer::{Detail, Request, Step, solve};
+use plane_contact::engine::{Detail, Request, Step, solve};
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{GroupRef, Scene, SceneBuilder, Surface};

@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use plane_contact::answer::{Constraint, Elimination, Request, Stiffness, solve};
+use plane_contact::engine::{Constraint, Elimination, Request, Stiffness, solve};
 use plane_contact::numbers::solve::{Arithmetic, FactorSize, Field, Ldlt, Solver};
 use plane_contact::problem::model::Model;
 use plane_contact::problem::modelling::Variant;

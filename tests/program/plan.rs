@@ -4,7 +4,7 @@
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
 use crate::common::program;
-use plane_contact::answer::{Request, solve};
+use plane_contact::engine::{Request, solve};
 use plane_contact::memory;
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
@@ -199,6 +199,6 @@ fn as_printed_no_load_reaches_the_block() {
 fn the_line_says_what_is_planned() {
     let text = line(&plan("fig1", Variant::Stepped));
     let expected = "plan: 20 free equations of 26, 8 contact candidates of 15, \
-                    sparse-cholesky in f64; about 15 MB, 1.6e4 operations";
+                    sparse-cholesky in f64; about 31 MB, 1.6e4 operations";
     assert_eq!(text, expected);
 }

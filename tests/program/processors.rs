@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use fastrand::Rng;
-use plane_contact::answer::Request;
+use plane_contact::engine::Request;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};

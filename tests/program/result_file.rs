@@ -1,6 +1,6 @@
 //! Result files read back as they were written.
 
-use plane_contact::answer::{Assessment, Request, Session, solve};
+use plane_contact::engine::{Assessment, Request, Session, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
-use plane_contact::answer::{Request, solve};
+use plane_contact::engine::{Request, solve};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::paper::door;

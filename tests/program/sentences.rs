@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use plane_contact::answer::estimates::Certainty;
-use plane_contact::answer::{Request, solve};
+use plane_contact::engine::estimates::Certainty;
+use plane_contact::engine::{Request, solve};
 use plane_contact::problem::modelling::{Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::printed::tables;

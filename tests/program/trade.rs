@@ -5,9 +5,9 @@ use crate::common::json::build;
 use crate::common::tolerances::{
     CLAIM, CONSTANT_FIELD, EFFECTIVITY_HIGH, EFFECTIVITY_LOW, HALF, LAME_ENERGY_ORDER, assert_near,
 };
-use plane_contact::answer::error::Error;
-use plane_contact::answer::estimates::Certainty;
-use plane_contact::answer::{Request, Session, Solution, distance, max_displacement, solve};
+use plane_contact::engine::error::Error;
+use plane_contact::engine::estimates::Certainty;
+use plane_contact::engine::{Request, Session, Solution, distance, max_displacement, solve};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::element::{self, Plane};

@@ -9,7 +9,7 @@ use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 
 use plane_contact::Scene;
-use plane_contact::answer::error::Result;
+use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::memory;

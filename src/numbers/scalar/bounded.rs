@@ -15,7 +15,7 @@ use num_traits::Zero;
 
 use super::f64x2::F64x2;
 use super::number::{Scalar, Subscript};
-use super::operators::operators;
+use crate::operators;
 
 /// A number within `error` of `value`. It compares as its value, so that what runs in it takes the
 /// same turns as in V.

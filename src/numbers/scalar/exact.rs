@@ -10,8 +10,8 @@ use dashu_int::UBig;
 use dashu_ratio::RBig;
 
 use super::number::{Scalar, Subscript};
-use super::operators::operators;
 use super::rational;
+use crate::operators;
 
 /// A rational number, or *undefined*: x/0, and what comes of it. Undefined equals nothing, as NaN
 /// does.

@@ -12,8 +12,8 @@ use std::fmt;
 use dashu_ratio::RBig;
 
 use super::number::{Scalar, Subscript};
-use super::operators::operators;
 use super::rational;
+use crate::operators;
 
 /// hi + lo, hi being the `f64` nearest to the sum. An overflow or NaN stands in hi; lo is then 0.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]

@@ -24,4 +24,3 @@ pub use bounded::{Bounded, BoundedDouble, Rounded, SumOfProducts, Unsure, WithBo
 pub use exact::{Exact, scope};
 pub use f64x2::F64x2;
 pub use number::{Scalar, Subscript};
-pub(crate) use operators::operators;

@@ -3,17 +3,18 @@
 /// Implements `+ − · /`, the sign, `+= −= ·=`, 0 and 1 for a type by its own functions `sum`,
 /// `difference`, `product`, `quotient`, `negative` and `vanishes`, and its constants `ZERO` and
 /// `ONE`.
+#[macro_export]
 macro_rules! operators {
     ($scalar:ident) => {
-        operators!(@all [] $scalar);
+        $crate::operators!(@all [] $scalar);
     };
     (<$v:ident: $bound:ident> $scalar:ty) => {
-        operators!(@all [<$v: $bound>] $scalar);
+        $crate::operators!(@all [<$v: $bound>] $scalar);
     };
     (@all [$($generics:tt)*] $scalar:ty) => {
-        operators!(@plain [$($generics)*] $scalar: Add add sum, Sub sub difference,
+        $crate::operators!(@plain [$($generics)*] $scalar: Add add sum, Sub sub difference,
             Mul mul product, Div div quotient);
-        operators!(@assigning [$($generics)*] $scalar: AddAssign add_assign sum,
+        $crate::operators!(@assigning [$($generics)*] $scalar: AddAssign add_assign sum,
             SubAssign sub_assign difference, MulAssign mul_assign product);
         impl $($generics)* std::ops::Neg for $scalar {
             type Output = Self;
@@ -36,7 +37,7 @@ macro_rules! operators {
         }
     };
     (@plain $generics:tt $scalar:ty: $($operator:ident $method:ident $function:ident),+) => {
-        $(operators!(@one $generics $scalar: $operator $method $function);)+
+        $($crate::operators!(@one $generics $scalar: $operator $method $function);)+
     };
     (@one [$($generics:tt)*] $scalar:ty: $operator:ident $method:ident $function:ident) => {
         impl $($generics)* std::ops::$operator for $scalar {
@@ -47,7 +48,7 @@ macro_rules! operators {
         }
     };
     (@assigning $generics:tt $scalar:ty: $($operator:ident $method:ident $function:ident),+) => {
-        $(operators!(@one_assigning $generics $scalar: $operator $method $function);)+
+        $($crate::operators!(@one_assigning $generics $scalar: $operator $method $function);)+
     };
     (@one_assigning [$($generics:tt)*] $scalar:ty:
         $operator:ident $method:ident $function:ident) => {
@@ -58,4 +59,3 @@ macro_rules! operators {
         }
     };
 }
-pub(crate) use operators;

@@ -1,7 +1,7 @@
 //! The scalar and the solver that are asked for.
 
-use crate::choices;
-use crate::error::{InputError, Result};
+use base::choices;
+use base::error::{InputError, Result};
 
 choices! {
     /// The number type that a run computes in.
@@ -56,15 +56,13 @@ impl Solver {
     }
 }
 
-/// In which numbers, by which solver, and to which tolerance a run computes; its docs are the
-/// command line's help.
+/// In which numbers, by which solver, and to which tolerance a run computes.
 #[derive(
     Clone,
     Copy,
     Debug,
     Default,
     PartialEq,
-    clap::Args,
     serde::Serialize,
     serde::Deserialize,
     schemars::JsonSchema,
@@ -72,21 +70,17 @@ impl Solver {
 pub struct Arithmetic {
     /// f64, f32, f64x2 (31 digits), f64-bounded and f64x2-bounded (the same with a bound on the error
     /// of the displacements), exact (rational numbers, for some hundred equations).
-    #[arg(long, value_name = "NAME", default_value = "f64")]
     pub scalar: ScalarName,
     /// dense-lu (Mathcad's own), sparse-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients
     /// to --tol), refined (factors in the scalar below, refined to --tol) [default: sparse-cholesky;
     /// sparse-lu under printed in f64, f32 and f64-bounded].
-    #[arg(long, value_name = "NAME")]
     pub solver: Option<Solver>,
     /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop; cg also
     /// takes that of A scaled to a unit diagonal, refined the next change of x over x [default: 16 eps
     /// of the scalar].
-    #[arg(long, value_name = "T")]
     pub tol: Option<f64>,
     /// What the numbers of the scene stand for: binary, the exact value of their f64; decimal, the
     /// shortest decimal that reads back to it.
-    #[arg(long, value_name = "NAME", default_value = "binary")]
     pub inputs: Inputs,
 }
 

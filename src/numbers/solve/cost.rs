@@ -1,6 +1,6 @@
 //! Whether exact numbers on a scene end in a bearable time.
 
-use crate::error::{InputError, Result};
+use base::error::{InputError, Result};
 
 /// Seconds of an exact iteration of `EQUATIONS` equations of a plane mesh whose coordinates use all
 /// digits of an f64; most of them go into forces and stresses, whose fractions are as long as the

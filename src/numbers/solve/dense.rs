@@ -14,7 +14,7 @@ use super::factors::{
     solve,
 };
 use super::square::SparseSquare;
-use crate::numbers::scalar::Scalar;
+use crate::scalar::Scalar;
 
 /// LU factors of a matrix, of which the entries that are not 0 are kept beside them.
 pub struct DenseLu<T: Native = f64> {

@@ -7,7 +7,7 @@ use faer::traits::RealField;
 use faer::{MatMut, MatRef};
 use nalgebra::{DMatrix, DVector};
 
-use crate::numbers::scalar::Scalar;
+use crate::scalar::Scalar;
 
 /// A scalar of the machine, which faer computes with.
 pub trait Native: Scalar + RealField {

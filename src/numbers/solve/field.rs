@@ -3,7 +3,7 @@
 
 use dashu_ratio::RBig;
 
-use crate::numbers::scalar::{F64x2, Scalar};
+use crate::scalar::{F64x2, Scalar};
 
 /// A number that matrices are eliminated in.
 pub trait Field: Clone {

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 use super::factors::{Factors, Singular, backward_error, largest};
 use super::sparse::{UNBOUNDED, trial_load};
 use super::symmetric::SparseSymmetric;
-use crate::numbers::scalar::Scalar;
+use crate::scalar::Scalar;
 
 /// An iteration that stopped short of its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,7 +13,7 @@ use dashu_ratio::RBig;
 use super::field::Field;
 use super::ldlt::Ldlt;
 use super::symmetric::SparseSymmetric;
-use crate::numbers::scalar::rational::lcm;
+use crate::scalar::rational::lcm;
 
 /// The prime p, 2^61 − 1.
 const P: u64 = (1 << 61) - 1;

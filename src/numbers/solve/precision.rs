@@ -25,9 +25,7 @@ use super::sparse::SparseCholesky;
 use super::sparse_lu::SparseLu;
 use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
-use crate::numbers::scalar::{
-    Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope,
-};
+use crate::scalar::{Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope};
 
 #[derive(Clone, Debug)]
 pub struct Solved<T> {

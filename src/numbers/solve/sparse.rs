@@ -8,7 +8,7 @@ use super::cholesky::Cholesky;
 use super::error_bound::inverse_norm;
 use super::factors::{Factors, Native, Normed, Singular};
 use super::symmetric::SparseSymmetric;
-use crate::numbers::scalar::Scalar;
+use crate::scalar::Scalar;
 
 /// Beyond this over the scalar's epsilon (5e14 in f64), the displacements under a load of the size
 /// of the stiffness mean a singular matrix; both are scaled to a unit diagonal.

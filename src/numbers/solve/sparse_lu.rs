@@ -10,7 +10,7 @@ use super::factors::{Factors, Lu, Native, Singular, backward_error, largest, sol
 use super::sparse::{largest_motion, mechanism};
 use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
-use crate::numbers::scalar::Scalar;
+use crate::scalar::Scalar;
 
 /// The motion under loads of 1, over that which a pivot of dense LU that counts as 0 would bring,
 /// beyond which dense LU says whether a matrix is singular.

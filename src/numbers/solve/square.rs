@@ -4,7 +4,7 @@ use std::ops::{Index, IndexMut};
 
 use nalgebra::DMatrix;
 
-use crate::numbers::scalar::Scalar;
+use crate::scalar::Scalar;
 
 /// A square matrix, counted from 0: of each column the entries that were written, rows ascending.
 #[derive(Clone, Debug)]

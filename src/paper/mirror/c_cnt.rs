@@ -7,9 +7,9 @@ use super::conditions::{and, is_in_box, is_jumped_after, is_jumped_before, is_ne
 use super::failure::{Failure, Line};
 use super::reading::{LoopPlace, NodeTable, Reading};
 use super::worksheet::Worksheet;
-use crate::numbers::scalar::Scalar;
-use crate::paper::mathcad::Conjunction;
-use crate::paper::mathcad::array::{Column, Table, rows};
+use mathcad::Conjunction;
+use mathcad::array::{Column, Table, rows};
+use numbers::scalar::Scalar;
 
 /// The arrays that `c_cnt` computes; the listing returns `k_cnt`.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! The printed conditions of `c_cnt`, each once: the operands of its `∧`, in printed order.
 
 use super::failure::{Failure, Line};
-use crate::numbers::scalar::Scalar;
-use crate::paper::mathcad::Conjunction;
-use crate::paper::mathcad::array::{Column, Table, max, min, rows};
+use mathcad::Conjunction;
+use mathcad::array::{Column, Table, max, min, rows};
+use numbers::scalar::Scalar;
 
 /// An operand of a printed condition.
 #[derive(Clone, Debug)]

@@ -2,8 +2,8 @@
 
 use std::fmt::{Display, Write as _};
 
-use crate::numbers::scalar::Scalar;
-use crate::paper::mathcad::array::Column;
+use mathcad::array::Column;
+use numbers::scalar::Scalar;
 
 /// The cause of a failure on a line of a listing, as Mathcad would report it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,9 +11,9 @@
 use super::failure::{Cause, Failure};
 use super::reading::{Reading, RestraintIndex, Wedge};
 use super::worksheet::Worksheet;
-use crate::numbers::scalar::Scalar;
-use crate::paper::mathcad::array::{Column, Square, Table};
-use crate::problem::element;
+use mathcad::array::{Column, Square, Table};
+use numbers::scalar::Scalar;
+use problem::element;
 
 /// Assembles `MJS` (2R x 2R, force/length) from the contact pairs `c_cnt` (R x 4, as `k_cnt`).
 ///

@@ -6,9 +6,9 @@ use std::str::FromStr;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::choices;
-use crate::paper::mathcad::Conjunction;
-use crate::problem::element::Plane;
+use base::choices;
+use mathcad::Conjunction;
+use problem::element::Plane;
 
 choices! {
     /// R1, c_cnt 14: the place of the weights loop.

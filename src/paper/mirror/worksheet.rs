@@ -2,9 +2,9 @@
 
 use nalgebra::SMatrix;
 
-use crate::numbers::scalar::Scalar;
-use crate::paper::mathcad::array::{Column, Table};
-use crate::problem::element::Plane;
+use mathcad::array::{Column, Table};
+use numbers::scalar::Scalar;
+use problem::element::Plane;
 
 /// The arrays and variables that the listings use without receiving them as arguments
 /// (`listings/READING.md`, section 1).

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::ids::{NodeId, TriangleId};
 use super::{Model, Triangle};
-use crate::numbers::joined::joined;
+use numbers::joined::joined;
 
 /// The most materials that the name of a body lists.
 const MOST_NAMES: usize = 10;

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::Model;
 use super::ids::NodeId;
-use crate::numbers::scalar::Scalar;
+use numbers::scalar::Scalar;
 
 /// A part of the load. On an edge it is uniform, per area of edge length times thickness; the body
 /// lies on the left of the way from the edge's first node to its second.

@@ -21,7 +21,7 @@ pub use ids::{Dof, EdgeId, NodeId, TriangleId};
 pub use sides::{Beside, Sides, unordered};
 
 use super::element::{Corners, Plane};
-use crate::numbers::scalar::Scalar;
+use numbers::scalar::Scalar;
 
 /// An isotropic elastic material.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -7,11 +7,11 @@ use super::groups::GroupRef;
 use super::mesh::Mesh;
 use super::source::FileBeside;
 use super::{Scene, file, gmsh, orphans, source};
-use crate::error::Result;
-use crate::files;
-use crate::problem::element::Plane;
-use crate::problem::model::NodeId;
-use crate::problem::modelling::Variant;
+use crate::element::Plane;
+use crate::model::NodeId;
+use crate::modelling::Variant;
+use base::error::Result;
+use base::files;
 
 /// A scene before it is checked, from code or from a scene file.
 ///

@@ -6,10 +6,10 @@ use super::description::{Axis, Description};
 use super::groups::Groups;
 use super::mesh::Mesh;
 use super::surface;
-use crate::error::{InputError, Result};
-use crate::plain::six_digits;
-use crate::problem::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
-use crate::problem::modelling::{check_iterations, check_tolerance};
+use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
+use crate::modelling::{check_iterations, check_tolerance};
+use base::error::{InputError, Result};
+use base::plain::six_digits;
 
 /// Checks the thickness and the number of iterations.
 /// Errors: the thickness is not positive, or the number of iterations is 0 or too large.

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use super::groups::GroupRef;
 use super::surface::Surface;
-use crate::problem::element::Plane;
-use crate::problem::modelling::{
+use crate::element::Plane;
+use crate::modelling::{
     ContactModel, Coupling, Friction, Geometry, LOAD_STEPS, StatusRule, Variant, load_steps,
 };
 

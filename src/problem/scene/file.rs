@@ -9,8 +9,8 @@ use serde_json::Value;
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
-use crate::error::Result;
-use crate::files::json;
+use base::error::Result;
+use base::files::json;
 
 /// Scene files.
 const SCENE: json::Kind =

@@ -7,8 +7,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::mesh::{Element, Mesh};
-use crate::error::{InputError, Result};
-use crate::suggestion::did_you_mean;
+use base::error::{InputError, Result};
+use base::suggestion::did_you_mean;
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(untagged)]

@@ -7,10 +7,10 @@ use nalgebra::DVector;
 use super::description::Load;
 use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
-use crate::error::{InputError, Result};
-use crate::memory;
-use crate::numbers::scalar::Scalar;
-use crate::problem::model::{Force, Model, NodeId, Sides};
+use crate::model::{Force, Model, NodeId, Sides};
+use base::error::{InputError, Result};
+use base::memory;
+use numbers::scalar::Scalar;
 
 /// Returns the forces that each stage adds on all 2R degrees of freedom, restrained ones included,
 /// force. There is at least one stage.

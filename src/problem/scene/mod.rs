@@ -42,7 +42,7 @@ pub use surface::Surface;
 
 use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Variant};
-use crate::error::Result;
+use base::error::Result;
 
 /// A scene that passed all checks.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -3,7 +3,7 @@
 use super::description::Description;
 use super::mesh::Mesh;
 use super::surface::Surface;
-use crate::error::{InputError, Result};
+use base::error::{InputError, Result};
 
 /// Drops the nodes `dropped`, which belong to no triangle, with the points and edges on them. Every node
 /// keeps its number.

@@ -14,8 +14,8 @@ use super::Scene;
 use super::description::Description;
 use super::mesh::{Element, Mesh, Node, NodeNumbers};
 use super::surface::Surface;
-use crate::error::Result;
-use crate::problem::model::NodeId;
+use crate::model::NodeId;
+use base::error::Result;
 
 /// A finer scene. Nodes keep their numbers; triangle n (row of `EL`) becomes 4n − 3 .. 4n.
 #[derive(Clone, Debug)]

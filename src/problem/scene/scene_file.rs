@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use super::source::FileBeside;
-use crate::error::{InputError, Result};
-use crate::files::{self, Folder};
-use crate::suggestion::did_you_mean;
+use base::error::{InputError, Result};
+use base::files::{self, Folder};
+use base::suggestion::did_you_mean;
 
 /// The text of a scene file, and the place where its mesh file is.
 #[derive(Clone)]

@@ -5,8 +5,8 @@ use std::io::{self, Cursor, Read};
 use super::description::Description;
 use super::gmsh::{self, Fault};
 use super::mesh::Mesh;
-use crate::error::{InputError, Result};
-use crate::memory;
+use base::error::{InputError, Result};
+use base::memory;
 
 /// A file beside a scene file, which is read once, as it comes.
 pub struct FileBeside {

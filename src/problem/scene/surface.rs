@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
-use crate::error::{InputError, Result};
+use base::error::{InputError, Result};
 
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::Scene;
-use crate::problem::model::{
+use crate::model::{
     Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Row, Sides, Triangle,
     TriangleId, unordered,
 };

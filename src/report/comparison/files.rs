@@ -7,16 +7,16 @@ use serde::Serialize;
 use serde_json::{Value, to_value};
 
 use super::{Compared, WORST};
-use crate::answer::estimates::Certainty;
-use crate::error::Result;
-use crate::files::write_all;
-use crate::problem::element::Plane;
-use crate::problem::model::{NodeId, Triangle, TriangleId};
-use crate::problem::modelling::{Friction, Variant};
-use crate::report::json::of_scene;
-use crate::report::output::csv;
-use crate::report::picture::{self, Drawing, Field};
-use crate::studies::calculix::{BodyStress, Comparison, Contact, Difference, Largest, Pair};
+use crate::json::of_scene;
+use crate::output::csv;
+use crate::picture::{self, Drawing, Field};
+use base::error::Result;
+use base::files::write_all;
+use engine::estimates::Certainty;
+use problem::element::Plane;
+use problem::model::{NodeId, Triangle, TriangleId};
+use problem::modelling::{Friction, Variant};
+use studies::calculix::{BodyStress, Comparison, Contact, Difference, Largest, Pair};
 
 /// The heading of `nodes.csv`, and the fields of a node that stand under it.
 const NODES: [&str; 2] =

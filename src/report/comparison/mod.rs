@@ -7,12 +7,12 @@ use std::fmt::Display;
 use super::layout::{Table, aligned};
 use super::numbers::{or_dash, percent, place, quantity, short, with_unit};
 use super::tables::certainty;
-use crate::answer::estimates::Certainty;
-use crate::problem::element::Plane;
-use crate::problem::model::{Model, NodeId};
-use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
-use crate::studies::calculix::{Comparison, Contact, Difference, Pair};
+use engine::estimates::Certainty;
+use problem::element::Plane;
+use problem::model::{Model, NodeId};
+use problem::modelling::Variant;
+use problem::scene::Scene;
+use studies::calculix::{Comparison, Contact, Difference, Pair};
 
 pub use files::{Document, json, write};
 

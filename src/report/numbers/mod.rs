@@ -11,7 +11,7 @@ pub use typeset::{common_exponent, power_of_ten, shifted, significant, ticks};
 pub use uncertain::uncertain;
 pub use undefined::{NO_LIMIT, note, reason};
 
-pub use crate::plain::six_digits;
+pub use base::plain::six_digits;
 
 /// Writes a whole number as it is, another one with five decimals, and one that is very large or
 /// very small in scientific notation; `-` stands for what is no number.

@@ -6,10 +6,10 @@ use base64::prelude::BASE64_STANDARD;
 use serde_json::json;
 
 use super::Page;
-use crate::paper::door;
-use crate::paper::listings::Which;
-use crate::report::picture::{self, Drawing};
-use crate::studies::lesson::exercise::{ANSWERS, Exercise};
+use crate::picture::{self, Drawing};
+use paper::door;
+use paper::listings::Which;
+use studies::lesson::exercise::{ANSWERS, Exercise};
 
 pub fn html(exercise: Exercise) -> String {
     let scene = exercise.scene();
@@ -18,7 +18,7 @@ pub fn html(exercise: Exercise) -> String {
     let mut nodes: Vec<_> = surface.chain(scene.model.contact.nodes.iter().copied()).collect();
     nodes.sort_unstable();
     nodes.dedup();
-    let node = |n: &crate::problem::model::NodeId| (n.number(), scene.model.at(*n));
+    let node = |n: &problem::model::NodeId| (n.number(), scene.model.at(*n));
     let edges = scene.model.target_edges().map(|edge| (edge.number, edge.nodes));
     let picture = BASE64_STANDARD.encode(picture::mesh(&Drawing::new(&scene, "")));
     let data = json!({

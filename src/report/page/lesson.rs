@@ -9,15 +9,15 @@ use std::collections::HashMap;
 use serde_json::{Value, json};
 
 use super::Page;
-use crate::paper::mathcad::Listing;
-use crate::problem::model::Model;
-use crate::problem::scene::Scene;
-use crate::report::audit::FindingRow;
-use crate::report::json;
-use crate::report::picture::points;
-use crate::studies::audit::findings::{Finding, Measured};
-use crate::studies::audit::trace::{Access, Step};
-use crate::studies::lesson::{Program, Run, figure_numbers};
+use crate::audit::FindingRow;
+use crate::json;
+use crate::picture::points;
+use mathcad::Listing;
+use problem::model::Model;
+use problem::scene::Scene;
+use studies::audit::findings::{Finding, Measured};
+use studies::audit::trace::{Access, Step};
+use studies::lesson::{Program, Run, figure_numbers};
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
 pub struct Chapter {
@@ -143,9 +143,7 @@ impl Shared {
     }
 
     fn step(&mut self, listing: &Listing, step: &Step) -> usize {
-        let own = |line: &crate::paper::mathcad::Line| {
-            (line.printed, line.in_file) == (step.line, step.in_file)
-        };
+        let own = |line: &mathcad::Line| (line.printed, line.in_file) == (step.line, step.in_file);
         let line = listing.lines().iter().position(own).expect("a step is of a line");
         let mut all = |accesses: &[Access]| -> Vec<usize> {
             accesses.iter().map(|access| self.access(access)).collect()

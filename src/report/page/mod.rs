@@ -10,7 +10,7 @@ pub mod report;
 
 use serde_json::Value;
 
-use crate::xml::escape;
+use base::xml::escape;
 
 /// The style and the script that all pages share.
 const STYLE: &str = include_str!("page.css");

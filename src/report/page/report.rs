@@ -11,14 +11,14 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::Page;
-use crate::answer::{Assessment, Detail, Solution, Step, Stiffness};
-use crate::problem::element::State;
-use crate::problem::model::{Model, NodeId};
-use crate::problem::scene::Scene;
-use crate::report::picture::{colour, points};
-use crate::report::{ResultFile, audit as audit_report, json, pressure};
-use crate::studies::audit::Audit;
-use crate::studies::calculix::{Comparison, Fields};
+use crate::picture::{colour, points};
+use crate::{ResultFile, audit as audit_report, json, pressure};
+use engine::{Assessment, Detail, Solution, Step, Stiffness};
+use problem::element::State;
+use problem::model::{Model, NodeId};
+use problem::scene::Scene;
+use studies::audit::Audit;
+use studies::calculix::{Comparison, Fields};
 
 /// The shades of a field.
 const SHADES: u8 = 64;

@@ -3,9 +3,9 @@
 use super::drawing::{Contact, Drawing};
 use super::page::Sign;
 use super::raster::{Raster, rgb};
-use super::svg::{Pixel, circle, group, polygon, segments};
+use super::svg::{Coloured, Pixel, circle, group, polygon, segments};
 use super::view::View;
-use crate::xml::Element;
+use base::xml::Element;
 
 /// The colours of the block, green, and of the stamp, yellow, as in fig. 4; then muted ones of
 /// further bodies, in turn.

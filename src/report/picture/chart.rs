@@ -1,9 +1,9 @@
 //! A chart: curves over one axis, each axis linear or logarithmic. A curve has its name at its end.
 
 use super::page::{INNER, MARGIN, Page, Sign, text_width};
-use super::svg::{Anchor, DARK, Pixel, TEXT_SIZE, circle, group, line, path, text};
-use crate::report::numbers::{power_of_ten, ticks};
-use crate::xml::Element;
+use super::svg::{Anchor, Coloured, DARK, Pixel, TEXT_SIZE, circle, group, line, path, text};
+use crate::numbers::{power_of_ten, ticks};
+use base::xml::Element;
 
 /// The height of the area inside the axes, pixels.
 const HEIGHT: f64 = 440.0;

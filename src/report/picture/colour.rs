@@ -5,9 +5,9 @@
 //! numbers. Rainbow maps (Turbo, and those of the commercial codes) are dark at both ends: in grey
 //! the largest and the smallest value look the same.
 
-use super::svg::{Anchor, DARK, Pixel, group, line, rect, text};
-use crate::report::numbers::{self, common_exponent, power_of_ten, shifted, significant, ticks};
-use crate::xml::Element;
+use super::svg::{Anchor, Coloured, DARK, Pixel, group, line, rect, text};
+use crate::numbers::{self, common_exponent, power_of_ten, shifted, significant, ticks};
+use base::xml::Element;
 
 /// A range below this part of the largest magnitude is round-off, not a difference.
 const UNIFORM: f64 = 1e-9;

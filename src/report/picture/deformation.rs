@@ -1,7 +1,7 @@
 //! The deformed mesh: how much its deformation is enlarged, and which edges bound it.
 
 use super::view::Bounds;
-use crate::report::numbers::Decimal;
+use crate::numbers::Decimal;
 
 /// The largest displacement as it is drawn, about, as a part of the picture's size.
 const DRAWN_DISPLACEMENT: f64 = 0.035;

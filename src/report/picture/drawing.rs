@@ -1,8 +1,8 @@
 //! What the pictures of a mesh draw on.
 
 use super::search::Search;
-use crate::problem::model::{Model, NodeId};
-use crate::problem::scene::Scene;
+use problem::model::{Model, NodeId};
+use problem::scene::Scene;
 
 /// A mesh of more triangles is drawn as pixels, not as a shape per triangle.
 pub const MOST_SHAPES: usize = 20_000;

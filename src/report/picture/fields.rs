@@ -4,11 +4,11 @@ use super::colour::{ColourScale, parts, with_unit};
 use super::deformation::{boundary_edges, deformed, largest_displacement, magnification};
 use super::drawing::{Drawing, Field};
 use super::raster::{CAPTION, Raster};
-use super::svg::{Pixel, circle, group, path, polygon, segments};
+use super::svg::{Coloured, Pixel, circle, group, path, polygon, segments};
 use super::view::{Bounds, View};
-use crate::numbers::largest::{Largest, largest};
-use crate::report::numbers::{Decimal, significant};
-use crate::xml::Element;
+use crate::numbers::{Decimal, significant};
+use base::xml::Element;
+use numbers::largest::{Largest, largest};
 
 const OUTLINE: &str = "#111111";
 

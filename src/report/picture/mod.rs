@@ -35,7 +35,7 @@ use self::fields::FieldPicture;
 use self::page::Page;
 use self::svg::group;
 use self::view::{Bounds, View};
-use crate::xml::Element;
+use base::xml::Element;
 
 /// A contact zone that fills this part of the picture is not enlarged beside it.
 const ENLARGED_UP_TO: f64 = 0.8;

@@ -2,12 +2,12 @@
 
 use super::colour::{ColourScale, with_unit};
 use super::svg::{
-    Anchor, DARK, Pixel, TEXT_SIZE, TITLE_SIZE, circle, clip, document, group, line, rect, text,
-    title,
+    Anchor, Coloured, DARK, Pixel, TEXT_SIZE, TITLE_SIZE, circle, clip, document, group, line,
+    rect, text, title,
 };
-use super::view::{Bounds, Frame, View};
-use crate::report::numbers::{Decimal, significant};
-use crate::xml::Element;
+use super::view::{Bounds, Frame, View, with_ratio};
+use crate::numbers::{Decimal, significant};
+use base::xml::Element;
 
 /// The width of every picture, pixels.
 const WIDTH: f64 = 1100.0;
@@ -137,7 +137,7 @@ impl Page {
         let right = frame(panel + GAP, 30.0, size);
         vec![
             View::whole(whole, frame(0.0, 30.0, size)),
-            View::enlarged(&zone.with_ratio(size[0] / size[1]), right),
+            View::enlarged(&with_ratio(zone, size[0] / size[1]), right),
         ]
     }
 

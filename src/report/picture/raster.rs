@@ -9,7 +9,7 @@ use png::{BitDepth, ColorType, DeflateCompression, Encoder, Filter};
 
 use super::svg::{Pixel, image};
 use super::view::Frame;
-use crate::xml::Element;
+use base::xml::Element;
 
 /// Pixels of the image for each of the page, along either axis.
 const FINENESS: f64 = 1.5;

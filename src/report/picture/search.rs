@@ -4,13 +4,13 @@
 use std::collections::BTreeSet;
 
 use super::page::{INNER, MARGIN, Page};
-use super::svg::{Anchor, DARK, Pixel, circle, group, line, path, rect, segments, text};
+use super::svg::{Anchor, Coloured, DARK, Pixel, circle, group, line, path, rect, segments, text};
 use super::view::Bounds;
-use crate::paper::door::Call;
-use crate::paper::mirror::Reading;
-use crate::problem::model::Model;
-use crate::report::numbers::Decimal;
-use crate::xml::Element;
+use crate::numbers::Decimal;
+use base::xml::Element;
+use paper::door::Call;
+use paper::mirror::Reading;
+use problem::model::Model;
 
 /// A scene of more nodes has neither numbers nor boxes in its pictures.
 pub const MOST_NODES: usize = 40;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::xml::Element;
+use base::xml::Element;
 
 /// The fonts to look for, in this order.
 const FONTS: &str = "Arial, Helvetica, Liberation Sans, DejaVu Sans, sans-serif";
@@ -111,16 +111,22 @@ pub fn clip(id: &str, corner: Pixel, size: [f64; 2]) -> Element {
     Element::new("clipPath").set("id", id).with(rect(corner, size))
 }
 
-impl Element {
+/// The colours of a shape.
+pub trait Coloured {
     /// Fills the shape with `colour`.
     #[must_use]
-    pub fn fill(self, colour: &str) -> Self {
-        self.set("fill", colour)
-    }
+    fn fill(self, colour: &str) -> Self;
 
     /// Draws the outline of the shape in `colour`, `width` pixels wide.
     #[must_use]
-    pub fn stroke(self, colour: &str, width: f64) -> Self {
+    fn stroke(self, colour: &str, width: f64) -> Self;
+}
+
+impl Coloured for Element {
+    fn fill(self, colour: &str) -> Self {
+        self.set("fill", colour)
+    }
+    fn stroke(self, colour: &str, width: f64) -> Self {
         self.set("stroke", colour).set("stroke-width", number(width))
     }
 }

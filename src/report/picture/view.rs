@@ -1,18 +1,16 @@
 //! From the mesh's coordinates (y upwards, any unit) to pixels (y downwards).
 
 use super::svg::Pixel;
-pub use crate::problem::model::Bounds;
+pub use problem::model::Bounds;
 
-impl Bounds {
-    /// Returns the box grown about its centre until width : height is `ratio`.
-    pub fn with_ratio(&self, ratio: f64) -> Self {
-        let [width, height] = self.size();
-        let size = [width.max(height * ratio), height.max(width / ratio)];
-        let centre = self.centre();
-        Self {
-            low: [0, 1].map(|axis| centre[axis] - size[axis] / 2.0),
-            high: [0, 1].map(|axis| centre[axis] + size[axis] / 2.0),
-        }
+/// Returns a box grown about its centre until width : height is `ratio`.
+pub fn with_ratio(bounds: &Bounds, ratio: f64) -> Bounds {
+    let [width, height] = bounds.size();
+    let size = [width.max(height * ratio), height.max(width / ratio)];
+    let centre = bounds.centre();
+    Bounds {
+        low: [0, 1].map(|axis| centre[axis] - size[axis] / 2.0),
+        high: [0, 1].map(|axis| centre[axis] + size[axis] / 2.0),
     }
 }
 

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::error::Result;
-use crate::files;
-use crate::problem::scene::Scene;
-use crate::report::picture::{self, Drawing, Field};
-use crate::report::vtu;
-use crate::studies::snapshot::Run;
+use crate::picture::{self, Drawing, Field};
+use crate::vtu;
+use base::error::Result;
+use base::files;
+use problem::scene::Scene;
+use studies::snapshot::Run;
 
 /// Writes `difference.vtu` and `difference.svg` to `folder`: the displacements of `new` less those of
 /// `old`, by node. Returns false, and writes nothing, where the two have other nodes or none.

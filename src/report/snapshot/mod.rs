@@ -11,12 +11,12 @@ pub use words::{difference, explanation};
 
 use super::failure::Failure;
 use super::json::{headed, pretty};
-use crate::answer::error::Error;
-use crate::problem::scene::Units;
-use crate::studies::snapshot::{
+use base::xml::Element;
+use engine::error::Error;
+use problem::scene::Units;
+use studies::snapshot::{
     Acceptance, Difference, Explanation, Presence, Run, Snapshot, Verified, VerifiedRun,
 };
-use crate::xml::Element;
 
 /// A snapshot's file and what verifying it found, or why it could not be verified.
 pub struct Checked {

@@ -3,7 +3,7 @@
 use indexmap::IndexMap;
 use serde_json::Value;
 
-use crate::studies::snapshot::{Difference, Explanation, Kind, Number, Presence, VerifiedRun};
+use studies::snapshot::{Difference, Explanation, Kind, Number, Presence, VerifiedRun};
 
 /// The most characters of a fact that is printed whole.
 const WIDTH: usize = 70;
@@ -37,7 +37,7 @@ pub fn explanation(explanation: &Explanation) -> String {
     text
 }
 
-fn turn(flip: &crate::studies::snapshot::Flip) -> String {
+fn turn(flip: &studies::snapshot::Flip) -> String {
     let node = flip.node.map_or(String::new(), |node| format!(", node {node}"));
     let line = flip.line.as_deref().and_then(|line| line.split_once(':'));
     let line = line.map_or(String::new(), |(place, _)| format!(", {place}"));

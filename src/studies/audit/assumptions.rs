@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::problem::model::{Model, NodeId};
-use crate::problem::scene::Scene;
+use problem::model::{Model, NodeId};
+use problem::scene::Scene;
 
 /// A thing that the paper leaves open.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]

@@ -4,16 +4,16 @@ use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
-use crate::answer::error::Error;
-use crate::answer::estimates::{Certainty, certain};
-use crate::answer::{Request, Session, Solution};
-use crate::error::InputError;
-use crate::memory;
-use crate::paper::door::Call;
-use crate::paper::mirror::{Failure, Reading};
-use crate::problem::model::Model;
-use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
+use base::error::InputError;
+use base::memory;
+use engine::error::Error;
+use engine::estimates::{Certainty, certain};
+use engine::{Request, Session, Solution};
+use paper::door::Call;
+use paper::mirror::{Failure, Reading};
+use problem::model::Model;
+use problem::modelling::Variant;
+use problem::scene::Scene;
 
 /// A scene under audit. Runs are made when they are first asked for, once.
 pub struct Case {

@@ -17,11 +17,11 @@ use serde::Serialize;
 pub use assumptions::{Assumption, assumptions};
 pub use case::Case;
 
-use crate::answer::contact::ContactNode;
-use crate::answer::{BodySummary, Request, Solution, solve, summaries};
-use crate::problem::modelling::{ContactModel, Friction};
 use claims::{CLAIMS, Judged};
+use engine::contact::ContactNode;
+use engine::{BodySummary, Request, Solution, solve, summaries};
 use findings::{FINDINGS, Finding, Measured};
+use problem::modelling::{ContactModel, Friction};
 use range::Range;
 use readings::Effect;
 use variants::VariantRow;

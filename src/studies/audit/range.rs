@@ -6,12 +6,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Case;
-use crate::answer::Request;
-use crate::choices;
-use crate::error::Result;
-use crate::paper::mirror::{Reading, ToleranceUnit};
-use crate::problem::scene::Scene;
-use crate::studies::benchmark::Strand;
+use crate::benchmark::Strand;
+use base::choices;
+use base::error::Result;
+use engine::Request;
+use paper::mirror::{Reading, ToleranceUnit};
+use problem::scene::Scene;
 
 choices! {
     /// What the paper leaves open of its example.

@@ -5,15 +5,15 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::case::Case;
-use crate::answer::error::Error;
-use crate::answer::{Detail, Solution, max_displacement, solve};
-use crate::paper::door::{self, Call};
-use crate::paper::listings::{self, Which};
-use crate::paper::mathcad::array::Table;
-use crate::paper::mathcad::{Failure, Settings};
-use crate::paper::mirror::{Km, Pairs, Reading};
-use crate::problem::element::{self, Plane};
-use crate::problem::modelling::{StatusRule, Variant};
+use engine::error::Error;
+use engine::{Detail, Solution, max_displacement, solve};
+use mathcad::array::Table;
+use mathcad::{Failure, Settings};
+use paper::door::{self, Call};
+use paper::listings::{self, Which};
+use paper::mirror::{Km, Pairs, Reading};
+use problem::element::{self, Plane};
+use problem::modelling::{StatusRule, Variant};
 
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Effect {

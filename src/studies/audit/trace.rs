@@ -5,12 +5,12 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value as Json;
 
-use crate::paper::door::Call;
-use crate::paper::listings::{self, Which};
-use crate::paper::mathcad::array::Table;
-use crate::paper::mathcad::observe::{Executed, Named};
-use crate::paper::mathcad::{Failure, Line, Listing, Observer, Recorder, Settings, Value};
-use crate::paper::mirror::Pairs;
+use mathcad::array::Table;
+use mathcad::observe::{Executed, Named};
+use mathcad::{Failure, Line, Listing, Observer, Recorder, Settings, Value};
+use paper::door::Call;
+use paper::listings::{self, Which};
+use paper::mirror::Pairs;
 
 /// A listing executed, and what is kept of that.
 pub struct Trace {

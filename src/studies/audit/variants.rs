@@ -5,11 +5,11 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::case::Case;
-use crate::answer::contact::pulling;
-use crate::answer::estimates::Certainty;
-use crate::answer::{BodySummary, Cycle, Distance, Solution, distance, summaries};
-use crate::problem::model::NodeId;
-use crate::problem::modelling::Variant;
+use engine::contact::pulling;
+use engine::estimates::Certainty;
+use engine::{BodySummary, Cycle, Distance, Solution, distance, summaries};
+use problem::model::NodeId;
+use problem::modelling::Variant;
 
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct VariantRow {

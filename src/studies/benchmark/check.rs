@@ -1,8 +1,8 @@
 //! Checks of the parameters of benchmarks.
 
-use crate::error::{InputError, Result};
-use crate::memory;
-use crate::plain::six_digits;
+use base::error::{InputError, Result};
+use base::memory;
+use base::plain::six_digits;
 
 /// More divisions of a side than anybody has memory for.
 const MOST: usize = 2000;

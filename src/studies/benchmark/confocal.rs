@@ -14,7 +14,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::line::quarter;
 use super::rows::Rows;
-use crate::problem::scene::MeshBuilder;
+use problem::scene::MeshBuilder;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {

@@ -7,11 +7,11 @@ use super::line::{between, part};
 use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, frictionless, scene};
-use crate::error::{InputError, Result};
-use crate::plain::six_digits;
-use crate::problem::element::Plane;
-use crate::problem::modelling::Geometry;
-use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
+use base::error::{InputError, Result};
+use base::plain::six_digits;
+use problem::element::Plane;
+use problem::modelling::Geometry;
+use problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 parameters! {
     /// Hertz, NAFEMS CGS-1: a cylinder pressed on a block, frictionless.

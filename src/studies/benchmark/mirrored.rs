@@ -2,7 +2,7 @@
 //! is its copy.
 
 use super::delaunay::triangulate;
-use crate::problem::scene::MeshBuilder;
+use problem::scene::MeshBuilder;
 
 /// Nodes along the curves that bound the right half of a body, and their mirror images. Every curve
 /// runs with the body on its left; the next begins where it ends, the first where the last ends.

@@ -32,10 +32,10 @@ pub use plates::{Annulus, Cook, Ellipse, Hole};
 pub use punch::Punch;
 pub use strand::Strand;
 
-use crate::error::Result;
-use crate::problem::element::Plane;
-use crate::problem::modelling::{Coupling, Friction, Variant};
-use crate::problem::scene::{Contact, MeshBuilder, SceneBuilder};
+use base::error::Result;
+use problem::element::Plane;
+use problem::modelling::{Coupling, Friction, Variant};
+use problem::scene::{Contact, MeshBuilder, SceneBuilder};
 
 /// A benchmark with its parameters.
 #[derive(Clone, Debug, clap::Subcommand)]

@@ -5,9 +5,9 @@ use super::line::part;
 use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, frictionless, scene};
-use crate::error::Result;
-use crate::problem::element::Plane;
-use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
+use base::error::Result;
+use problem::element::Plane;
+use problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
 parameters! {
     /// Contact patch test: two stacked blocks, sigma_y = -6.3 MPa everywhere.

@@ -7,9 +7,9 @@ use super::line::{between, geometric, part, quarter};
 use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, scene};
-use crate::error::Result;
-use crate::problem::element::Plane;
-use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
+use base::error::Result;
+use problem::element::Plane;
+use problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
 parameters! {
     /// Lame: a quarter of a thick-walled cylinder under internal pressure.

@@ -4,9 +4,9 @@ use super::line::{part, quarter};
 use super::parameters::parameters;
 use super::rows::Rows;
 use super::{check, confocal, frictionless, scene};
-use crate::error::Result;
-use crate::problem::element::Plane;
-use crate::problem::scene::{Axis, MeshBuilder, SceneBuilder};
+use base::error::Result;
+use problem::element::Plane;
+use problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
 parameters! {
     /// A flat stiff punch, frictionless, on a half plane: p(x) = P / (pi sqrt(a^2 - x^2)).

@@ -1,6 +1,6 @@
 //! Structured meshes: rows of nodes, joined two by two by triangles.
 
-use crate::problem::scene::MeshBuilder;
+use problem::scene::MeshBuilder;
 
 pub struct Rows(pub Vec<Vec<usize>>);
 

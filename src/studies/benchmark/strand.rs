@@ -18,10 +18,10 @@ use super::line::{cos_sin, graded, quarter};
 use super::mirrored::Mirrored;
 use super::parameters::parameters;
 use super::{check, scene};
-use crate::error::{InputError, Result};
-use crate::problem::element::Plane;
-use crate::problem::modelling::Variant;
-use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
+use base::error::{InputError, Result};
+use problem::element::Plane;
+use problem::modelling::Variant;
+use problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 parameters! {
     /// The paper's example, remeshed: a strand pressed on the wall of its duct in a concrete block.

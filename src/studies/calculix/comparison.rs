@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fields::Fields;
-use crate::problem::model::{Body, Model, NodeId, TriangleId};
+use problem::model::{Body, Model, NodeId, TriangleId};
 
 /// Two results of one model, node by node and triangle by triangle.
 pub struct Comparison {

@@ -1,10 +1,10 @@
 //! The input deck of `ccx`.
 
 use super::problem::{Contact, Equation, Pair, Problem};
-use crate::error::{InputError, Result};
-use crate::problem::element::Plane;
-use crate::problem::model::{Dof, Material, Model, NodeId, unordered};
-use crate::problem::modelling::Friction;
+use base::error::{InputError, Result};
+use problem::element::Plane;
+use problem::model::{Dof, Material, Model, NodeId, unordered};
+use problem::modelling::Friction;
 
 /// ccx reads no more characters of a field.
 const WIDTH: usize = 20;

@@ -1,8 +1,8 @@
 //! Displacements and stresses, by either program.
 
-use crate::answer::Solution;
-use crate::problem::element::{Plane, State};
-use crate::problem::model::Triangle;
+use engine::Solution;
+use problem::element::{Plane, State};
+use problem::model::Triangle;
 
 /// Displacements by node and stresses by triangle.
 #[derive(Clone, Debug, PartialEq)]

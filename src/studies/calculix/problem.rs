@@ -2,14 +2,14 @@
 
 use nalgebra::DVector;
 
-use crate::answer::Detail;
-use crate::answer::{Constraint, Motion, Solution, Step};
-use crate::choices;
-use crate::error::{InputError, Result};
-use crate::paper::mirror::Schedule;
-use crate::problem::model::{Dof, Edge, Model, NodeId};
-use crate::problem::modelling::{Friction, Variant};
-use crate::problem::scene::Scene;
+use base::choices;
+use base::error::{InputError, Result};
+use engine::Detail;
+use engine::{Constraint, Motion, Solution, Step};
+use paper::mirror::Schedule;
+use problem::model::{Dof, Edge, Model, NodeId};
+use problem::modelling::{Friction, Variant};
+use problem::scene::Scene;
 
 choices! {
     /// How the deck has the bodies touch.

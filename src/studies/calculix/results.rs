@@ -1,7 +1,7 @@
 //! What `ccx` printed to its `.dat` file.
 
 use super::fields::Fields;
-use crate::error::{InputError, Result};
+use base::error::{InputError, Result};
 
 #[derive(Clone, Copy)]
 enum Block {

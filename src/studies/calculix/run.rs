@@ -8,10 +8,10 @@ use super::deck::deck;
 use super::fields::Fields;
 use super::problem::{Part, Problem};
 use super::results::parse;
-use crate::error::{InputError, Result};
-use crate::files::{self, Staged};
-use crate::problem::model::Model;
-use crate::problem::scene::Scene;
+use base::error::{InputError, Result};
+use base::files::{self, Staged};
+use problem::model::Model;
+use problem::scene::Scene;
 
 /// How many of the last lines of a failed run are shown.
 const TAIL: usize = 12;

@@ -5,12 +5,12 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use dashu_ratio::RBig;
 
 use super::verdict::Verdict;
-use crate::answer::error::Error;
-use crate::answer::{self, Request};
-use crate::numbers::solve::{Arithmetic, ScalarName, Solver};
-use crate::problem::model::NodeId;
-use crate::problem::modelling::Variant;
-use crate::problem::scene::SceneBuilder;
+use engine::error::Error;
+use engine::{self, Request};
+use numbers::solve::{Arithmetic, ScalarName, Solver};
+use problem::model::NodeId;
+use problem::modelling::Variant;
+use problem::scene::SceneBuilder;
 
 /// What is compared of an answer and the exact one, whoever is in contact.
 pub type Quantity = fn(&Answer, &Answer) -> Verdict;
@@ -36,7 +36,7 @@ pub fn solve(
     let scene = scene.build()?;
     let arithmetic = Arithmetic { scalar, solver, ..Arithmetic::default() };
     let request = Request::new(&scene).variant(variant).arithmetic(arithmetic);
-    let solution = answer::solve(&request, &mut |_| ())?;
+    let solution = engine::solve(&request, &mut |_| ())?;
     let value = |x: &f64| RBig::try_from(*x).expect("a run's displacements are finite");
     let dofs = |node: &NodeId| node.dofs().map(|dof| dof.index());
     let bodies = solution.model.bodies.iter();

@@ -10,9 +10,9 @@
 //!      1-----------2  y = 0       restrained
 //! ```
 
-use crate::problem::element::Plane;
-use crate::problem::modelling::{Geometry, Variant};
-use crate::problem::scene::{Axis, Contact, Mesh, MeshBuilder, SceneBuilder};
+use problem::element::Plane;
+use problem::modelling::{Geometry, Variant};
+use problem::scene::{Axis, Contact, Mesh, MeshBuilder, SceneBuilder};
 
 /// What a generator may change of the scene.
 #[derive(Clone, Debug)]

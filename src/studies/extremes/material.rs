@@ -7,12 +7,12 @@ use super::blocks::{Blocks, BlocksOf};
 use super::methods::{DOUBLE, SINGLE, in_each_scalar, joined, power_of_two, run};
 use super::sweep::{Generator, Method, Sweep};
 use super::verdict::Verdict;
-use crate::answer::error::Error;
-use crate::answer::{self, Request};
-use crate::numbers::solve::{ScalarName, Solver};
-use crate::problem::model::NodeId;
-use crate::problem::modelling::Variant;
-use crate::studies::benchmark::Annulus;
+use crate::benchmark::Annulus;
+use engine::error::Error;
+use engine::{self, Request};
+use numbers::solve::{ScalarName, Solver};
+use problem::model::NodeId;
+use problem::modelling::Variant;
 
 /// E of the stamp over E of the block.
 pub fn moduli() -> Generator {
@@ -62,7 +62,7 @@ fn lame(nu: f64, radial: usize) -> Result<Verdict, Error> {
     let mut annulus = Annulus { radial, around: 2 * radial }.generate()?;
     annulus.description.materials.0[0].1.nu = nu;
     let request = Request::new(&annulus.build()?).variant(Variant::Unilateral);
-    let solution = answer::solve(&request, &mut |_| ())?;
+    let solution = engine::solve(&request, &mut |_| ())?;
     let model = &solution.model;
     let far = |node: &NodeId| {
         let at = model.at(*node);

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use super::answer::{Answer, Quantity, solve};
 use super::blocks::BlocksOf;
 use super::sweep::Method;
-use crate::numbers::solve::{ScalarName, Solver};
-use crate::problem::modelling::Variant;
-use crate::problem::scene::SceneBuilder;
+use numbers::solve::{ScalarName, Solver};
+use problem::modelling::Variant;
+use problem::scene::SceneBuilder;
 
 /// Single precision, 7 digits.
 pub const SINGLE: ScalarName = ScalarName::F32;

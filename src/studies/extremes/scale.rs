@@ -10,8 +10,8 @@ use super::methods::{
     shifted,
 };
 use super::sweep::{Generator, Method, Sweep};
-use crate::numbers::solve::ScalarName;
-use crate::problem::modelling::Variant;
+use numbers::solve::ScalarName;
+use problem::modelling::Variant;
 
 pub fn offset() -> Generator {
     fn twice(origin: f64) -> Blocks {

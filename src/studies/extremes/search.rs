@@ -5,14 +5,14 @@ use nalgebra::DVector;
 
 use super::sweep::Method;
 use super::verdict::Verdict;
-use crate::answer::error::Error;
-use crate::numbers::scalar::{Exact, F64x2, Scalar, scope};
-use crate::numbers::solve::ScalarName;
-use crate::paper::door;
-use crate::paper::mirror::{Reading, c_cnt};
-use crate::problem::element::Plane;
-use crate::problem::model::NodeId;
-use crate::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
+use engine::error::Error;
+use numbers::scalar::{Exact, F64x2, Scalar, scope};
+use numbers::solve::ScalarName;
+use paper::door;
+use paper::mirror::{Reading, c_cnt};
+use problem::element::Plane;
+use problem::model::NodeId;
+use problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 /// A target edge, a contact node, and how far each has moved.
 #[derive(Clone, Copy, Debug)]

@@ -6,8 +6,8 @@ use super::blocks::{Blocks, BlocksOf};
 use super::methods::{DOUBLE, in_each_scalar, in_scalar};
 use super::search::{Of, Search, SearchOf, printed, projected};
 use super::sweep::{Generator, Method, Sweep};
-use crate::numbers::solve::ScalarName;
-use crate::problem::modelling::Variant;
+use numbers::solve::ScalarName;
+use problem::modelling::Variant;
 
 /// A node beside an edge of height 1 at `angle` (its tangent) from the vertical, `gap` away along
 /// the normal. All move by a thousandth, and the edge widens by another: it keeps its angle, but

@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::answer::Exacts;
 use super::verdict::Verdict;
-use crate::answer::error::Error;
-use crate::numbers::solve::ScalarName;
+use engine::error::Error;
+use numbers::solve::ScalarName;
 
 /// Fewer right digits than these, and an engineer is misled.
 pub const LEAST: f64 = 3.0;

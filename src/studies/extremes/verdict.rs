@@ -5,7 +5,7 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::answer::error::Error;
+use engine::error::Error;
 
 /// What a run was worth against the exact answer.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]

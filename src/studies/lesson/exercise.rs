@@ -5,11 +5,11 @@ use fastrand::Rng;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::paper::door::Call;
-use crate::paper::mirror::Reading;
-use crate::problem::model::NodeId;
-use crate::problem::scene::Scene;
-use crate::studies::audit::statuses::{Kind, draw};
+use crate::audit::statuses::{Kind, draw};
+use paper::door::Call;
+use paper::mirror::Reading;
+use problem::model::NodeId;
+use problem::scene::Scene;
 
 /// The kind of file that the page of an exercise exports.
 pub const ANSWERS: &str = "plane-contact answers";

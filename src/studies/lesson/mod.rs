@@ -8,16 +8,16 @@ mod switches;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::answer::Request;
-use crate::answer::error::Result;
-use crate::error::InputError;
-use crate::paper::door::Call;
-use crate::paper::listings::{Which, settings};
-use crate::paper::mathcad::{Listing, Settings};
-use crate::paper::mirror::Reading;
-use crate::problem::model::{Model, NodeId};
-use crate::problem::scene::Scene;
-use crate::studies::audit::trace::{Product, Trace, trace};
+use crate::audit::trace::{Product, Trace, trace};
+use base::error::InputError;
+use engine::Request;
+use engine::error::Result;
+use mathcad::{Listing, Settings};
+use paper::door::Call;
+use paper::listings::{Which, settings};
+use paper::mirror::Reading;
+use problem::model::{Model, NodeId};
+use problem::scene::Scene;
 
 pub use repairs::repair;
 pub use switches::{Switch, switches};

@@ -2,8 +2,8 @@
 //! (`listings/repairs/`); or why no edit of a listing repairs it.
 
 use super::{Model, Switch, Which};
-use crate::paper::mathcad::Edit;
-use crate::studies::audit::findings::Finding;
+use crate::audit::findings::Finding;
+use mathcad::Edit;
 
 const PER_NODE: &str = include_str!("../../../listings/readings/R3-per-node.edit");
 const C14: &str = include_str!("../../../listings/repairs/C14.edit");

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::{Listing, Model, Reading, Request, Scene, Settings, Which, settings};
-use crate::answer::error::Result;
-use crate::problem::element::Plane;
-use crate::problem::modelling::Variant;
-use crate::studies::audit::readings::WORKSHEETS;
+use crate::audit::readings::WORKSHEETS;
+use engine::error::Result;
+use problem::element::Plane;
+use problem::modelling::Variant;
 
 /// A change of one thing against the listings as printed under the default reading.
 #[derive(Clone)]

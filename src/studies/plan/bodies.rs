@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::answer::locking;
-use crate::choices;
-use crate::problem::model::{Body, Bounds, Dof, Model};
-use crate::problem::modelling::Variant;
+use base::choices;
+use engine::locking;
+use problem::model::{Body, Bounds, Dof, Model};
+use problem::modelling::Variant;
 
 choices! {
     /// Why nothing moves a body: its displacements are exactly 0.

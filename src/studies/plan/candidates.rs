@@ -12,8 +12,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::answer::contact::search::Segment;
-use crate::problem::model::{Bounds, Model};
+use engine::contact::search::Segment;
+use problem::model::{Bounds, Model};
 
 /// How far a node may move, in lengths of the edge: one that moves further passes over half of it
 /// in one step, which the contact search is not made for either.

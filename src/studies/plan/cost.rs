@@ -7,10 +7,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::candidates::Candidates;
-use crate::answer::{Bytes, Request};
-use crate::numbers::solve::{FactorSize, ScalarName};
-use crate::problem::model::Model;
-use crate::problem::modelling::{Coupling, Friction, Variant};
+use engine::{Bytes, Request};
+use numbers::solve::{FactorSize, ScalarName};
+use problem::model::Model;
+use problem::modelling::{Coupling, Friction, Variant};
 
 pub(super) struct Work<'a> {
     pub request: &'a Request,

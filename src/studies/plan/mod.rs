@@ -20,14 +20,14 @@ pub use candidates::MARGIN;
 use candidates::Candidates;
 use cost::{Cost, Work};
 
-use crate::answer::{Request, dense_matrices, kept_equations};
-use crate::choices;
-use crate::error::Result;
-use crate::memory;
-use crate::numbers::solve::{FactorSize, Pattern, ScalarName, Solver};
-use crate::problem::model::{Dof, Model};
-use crate::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
-use crate::problem::scene::symmetry::half;
+use base::choices;
+use base::error::Result;
+use base::memory;
+use engine::{Request, dense_matrices, kept_equations};
+use numbers::solve::{FactorSize, Pattern, ScalarName, Solver};
+use problem::model::{Dof, Model};
+use problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
+use problem::scene::symmetry::half;
 
 /// The bytes that a free equation takes while a plan is made: the pattern of the matrix and of its
 /// factors; measured on grids of 0.4 and 1.6 million equations.

@@ -10,8 +10,8 @@ use super::compare::{Difference, Kind};
 use super::place::place;
 use super::verify::{Verified, VerifiedRun};
 use super::{Numbers, Run, Snapshot, VERSION};
-use crate::error::{InputError, Result};
-use crate::suggestion::did_you_mean;
+use base::error::{InputError, Result};
+use base::suggestion::did_you_mean;
 
 /// A value that was accepted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

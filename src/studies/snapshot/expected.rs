@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Run;
 use super::numbers::Tolerance;
-use crate::error::{InputError, Result};
-use crate::suggestion::did_you_mean;
+use base::error::{InputError, Result};
+use base::suggestion::did_you_mean;
 
 /// A number that a user expects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -11,12 +11,12 @@ use super::options::Options;
 use super::place::{iteration, place};
 use super::record::{Bounds, record};
 use super::{Run, VERSION};
-use crate::answer::Decision;
-use crate::choices;
-use crate::numbers::solve::{ScalarName, cost};
-use crate::paper::mirror::NodeTable;
-use crate::problem::modelling::Variant;
-use crate::problem::scene::{Element, Mesh, PhysicalName};
+use base::choices;
+use engine::Decision;
+use numbers::solve::{ScalarName, cost};
+use paper::mirror::NodeTable;
+use problem::modelling::Variant;
+use problem::scene::{Element, Mesh, PhysicalName};
 
 choices! {
     /// A kind of cause.

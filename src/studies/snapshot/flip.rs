@@ -5,11 +5,11 @@ use serde_json::Value;
 use super::Run;
 use super::compare::{Difference, Kind};
 use super::place::{iteration, of_iteration};
-use crate::paper::listings::Which;
-use crate::paper::mathcad::Conjunction;
-use crate::paper::mathcad::array::Column;
-use crate::paper::mirror::{and, is_jumped_after, is_jumped_before, is_near};
-use crate::problem::modelling::StatusRule;
+use mathcad::Conjunction;
+use mathcad::array::Column;
+use paper::listings::Which;
+use paper::mirror::{and, is_jumped_after, is_jumped_before, is_near};
+use problem::modelling::StatusRule;
 
 /// The place in a run where two runs go different ways.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{InputError, Result};
-use crate::problem::scene::{Description, Mesh, Scene, SceneBuilder, Units, source_hashes};
+use base::error::{InputError, Result};
+use problem::scene::{Description, Mesh, Scene, SceneBuilder, Units, source_hashes};
 
 /// A scene as a snapshot has it: from it alone the scene is built again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

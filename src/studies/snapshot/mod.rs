@@ -33,12 +33,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::answer::Decision;
-use crate::answer::{Request, check, error as answer};
-use crate::error::{InputError, Result};
-use crate::files::json;
-use crate::problem::scene::{Scene, Units};
-use crate::suggestion::did_you_mean;
+use base::error::{InputError, Result};
+use base::files::json;
+use base::suggestion::did_you_mean;
+use engine::Decision;
+use engine::{Request, check};
+use problem::scene::{Scene, Units};
 
 pub use accept::{Acceptance, Chosen, accept};
 pub use compare::{Difference, Kind, compare};
@@ -170,7 +170,11 @@ impl Snapshot {
     ///
     /// # Errors
     /// The input is at fault, or two of the requests are the same.
-    pub fn record(scene: &Scene, requests: &[Request], bounds: Bounds) -> answer::Result<Self> {
+    pub fn record(
+        scene: &Scene,
+        requests: &[Request],
+        bounds: Bounds,
+    ) -> engine::error::Result<Self> {
         let mut names = HashSet::new();
         for request in requests {
             check(request)?;
@@ -180,7 +184,7 @@ impl Snapshot {
                 return Err(InputError::new("--variant", what, "name it once").into());
             }
         }
-        let recorded: answer::Result<Vec<Run>> =
+        let recorded: engine::error::Result<Vec<Run>> =
             requests.par_iter().map(|request| record(request, bounds)).collect();
         let mut runs = Entries::default();
         recorded?.into_iter().for_each(|run| runs.set(run.options.name(), run));

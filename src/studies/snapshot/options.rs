@@ -3,11 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::answer::Request;
-use crate::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
-use crate::paper::mirror::Reading;
-use crate::problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};
-use crate::problem::scene::Scene;
+use engine::Request;
+use numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
+use paper::mirror::Reading;
+use problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};
+use problem::scene::Scene;
 
 /// The options of a run, each absent where the scene or the program decides.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,7 +56,7 @@ mod as_text {
     use serde::de::{Deserialize, Deserializer, Error};
     use serde::ser::Serializer;
 
-    use crate::paper::mirror::Reading;
+    use paper::mirror::Reading;
 
     pub fn serialize<S: Serializer>(reading: &Reading, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(reading)

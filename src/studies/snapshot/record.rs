@@ -7,18 +7,18 @@ use super::Run;
 use super::numbers::{Error as Rounded, Numbers, WITHOUT_BOUND};
 use super::options::Options;
 use super::place::{of_iteration, place};
-use crate::answer::contact::{ContactNode, Pairing};
-use crate::answer::error::{Error, Result};
-use crate::answer::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
-use crate::answer::{
+use engine::contact::{ContactNode, Pairing};
+use engine::error::{Error, Result};
+use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
+use engine::{
     Detail, Elimination, FoundPairs, Request, Session, Solution, Step, StepBounds, Stiffness,
 };
-use crate::numbers::scalar::{Bounded, Scalar};
-use crate::paper::door;
-use crate::paper::mirror::Km;
-use crate::problem::element::{self, State};
-use crate::problem::model::{Body, Model, TriangleId};
-use crate::problem::modelling::Variant;
+use numbers::scalar::{Bounded, Scalar};
+use paper::door;
+use paper::mirror::Km;
+use problem::element::{self, State};
+use problem::model::{Body, Model, TriangleId};
+use problem::modelling::Variant;
 
 /// The relative effect of the roundings in a position, a pressure or an entry of a triangle's matrix.
 const ROUNDED: f64 = 64.0 * f64::EPSILON;

@@ -7,9 +7,9 @@ use super::explain::{Explanation, Side, explain};
 use super::record::{Bounds, record};
 use super::way::{decided_by_rounding, without_way};
 use super::{Input, Numbers, Run, Snapshot, VERSION};
-use crate::answer::error::Result;
-use crate::choices;
-use crate::problem::scene::Scene;
+use base::choices;
+use engine::error::Result;
+use problem::scene::Scene;
 
 /// What came of verifying a snapshot.
 #[derive(Clone, Debug)]

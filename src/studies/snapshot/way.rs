@@ -6,9 +6,9 @@ use super::compare::{Difference, compare};
 use super::input::Input;
 use super::place::iteration;
 use super::record::{Bounds, record};
-use crate::answer::error::Result;
-use crate::problem::modelling::Variant;
-use crate::problem::scene::SceneBuilder;
+use engine::error::Result;
+use problem::modelling::Variant;
+use problem::scene::SceneBuilder;
 
 /// The changes of the moduli by which rounding is tried, in units of 2^-52: as small as rounding itself.
 const TRIALS: [f64; 6] = [-1.0, 1.0, -2.0, 2.0, -3.0, 3.0];

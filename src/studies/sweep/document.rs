@@ -8,12 +8,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use clap::{Command, FromArgMatches, Subcommand};
 use serde_json::{Map, Value, json};
 
-use crate::answer::Request;
-use crate::error::{InputError, Result};
-use crate::files;
-use crate::problem::scene::{SceneBuilder, SceneFile, file, sha256};
-use crate::studies::benchmark::Kind;
-use crate::studies::snapshot::{Options, VERSION};
+use crate::benchmark::Kind;
+use crate::snapshot::{Options, VERSION};
+use base::error::{InputError, Result};
+use base::files;
+use engine::Request;
+use problem::scene::{SceneBuilder, SceneFile, file, sha256};
 
 /// Files of sweeps.
 pub(super) const SWEEP: files::json::Kind =

@@ -4,9 +4,9 @@ use schemars::{Schema, json_schema};
 use serde_json::{Map, Value, json};
 
 use super::document::Document;
-use crate::answer::error::Error;
-use crate::answer::{Request, Solution, max_displacement, solve, summaries};
-use crate::error::Result;
+use base::error::Result;
+use engine::error::Error;
+use engine::{Request, Solution, max_displacement, solve, summaries};
 
 /// What came of a case, by column.
 pub type Row = Map<String, Value>;

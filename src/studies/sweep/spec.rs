@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Number, Value};
 
 use super::document::{Document, SWEEP};
-use crate::error::{InputError, Result};
-use crate::files::json;
-use crate::problem::scene::SceneFile;
-use crate::studies::benchmark::Kind;
-use crate::studies::snapshot::Options;
+use crate::benchmark::Kind;
+use crate::snapshot::Options;
+use base::error::{InputError, Result};
+use base::files::json;
+use problem::scene::SceneFile;
 
 /// The version of the format.
 const FORMAT: u32 = 1;

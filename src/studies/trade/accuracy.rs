@@ -5,13 +5,13 @@
 //! The bound of `f32` and of `unilateral` is that of `estimates::arithmetic`, against the scene's own
 //! numbers; the others keep their own, and exact numbers have none.
 
-use crate::answer::error::Error;
-use crate::answer::estimates::arithmetic::rounding;
-use crate::answer::estimates::discretisation::Discretisation;
-use crate::answer::{Request, Session, Solution, max_displacement};
-use crate::error::InputError;
-use crate::numbers::solve::{Arithmetic, ScalarName, Solver};
-use crate::problem::modelling::{Coupling, Variant};
+use base::error::InputError;
+use engine::error::Error;
+use engine::estimates::arithmetic::rounding;
+use engine::estimates::discretisation::Discretisation;
+use engine::{Request, Session, Solution, max_displacement};
+use numbers::solve::{Arithmetic, ScalarName, Solver};
+use problem::modelling::{Coupling, Variant};
 
 use super::trials::{EXACT, by, exact_seconds, sparse};
 
@@ -53,7 +53,7 @@ pub fn check_accuracy(accuracy: f64) -> Result<(), InputError> {
 
 /// Solves `request` in a session in the cheapest precision in which the relative error of the displacements, by
 /// rounding alone, is at most `accuracy`; the request's own arithmetic does not count.
-/// Errors: an accuracy that is not between 0 and 1, or that no precision meets; those of [`solve`]
+/// Errors: an accuracy that is not between 0 and 1, or that no precision meets; those of [`Session::solve`]
 /// in the last precision where none has a result.
 pub fn solve_to(request: &Request, session: &Session, accuracy: f64) -> Result<Reached, Error> {
     check_accuracy(accuracy)?;

@@ -5,9 +5,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::trials::Setting;
-use crate::answer::{Solution, distance};
-use crate::error::InputError;
-use crate::problem::scene::{Refined, Scene, symmetry};
+use base::error::InputError;
+use engine::{Solution, distance};
+use problem::scene::{Refined, Scene, symmetry};
 
 /// Differences relative to the solution that is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]

@@ -9,12 +9,12 @@ use super::errors::Errors;
 use super::rows::{Row, Section};
 use super::trials::CARRYING;
 use super::words::{against, by_rounding};
-use crate::answer::Request;
-use crate::error::Result;
-use crate::problem::modelling::Variant;
-use crate::studies::audit::Case;
-use crate::studies::audit::claims::{Basis, CLAIMS, Claim, judge};
-use crate::studies::audit::range::{Place, Range, is_example, range};
+use crate::audit::Case;
+use crate::audit::claims::{Basis, CLAIMS, Claim, judge};
+use crate::audit::range::{Place, Range, is_example, range};
+use base::error::Result;
+use engine::Request;
+use problem::modelling::Variant;
 
 /// Returns the places that are measured on the scene of `request`: none where it is not the paper's
 /// example.

@@ -12,13 +12,11 @@ use super::order::{Order, departure};
 use super::rows::{Ladder, Row, Section, Trade};
 use super::trials::{Against, EXACT, Trial, exact_seconds, trials};
 use super::{Knob, words};
-use crate::answer::error::Error;
-use crate::answer::estimates::discretisation::Discretisation;
-use crate::answer::estimates::{Certainty, certain};
-use crate::answer::{
-    Request, Session, Solution, Stiffness, max_displacement, over, solve, summaries,
-};
-use crate::problem::scene::{Refined, Scene, symmetry};
+use engine::error::Error;
+use engine::estimates::discretisation::Discretisation;
+use engine::estimates::{Certainty, certain};
+use engine::{Request, Session, Solution, Stiffness, max_displacement, over, solve, summaries};
+use problem::scene::{Refined, Scene, symmetry};
 
 /// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
 pub const PATIENCE: f64 = 0.05;

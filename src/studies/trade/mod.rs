@@ -28,7 +28,7 @@ pub use order::Order;
 pub use rows::{Ladder, Row, Section, Trade};
 pub use trials::{Trial, find, trials};
 
-use crate::choices;
+use base::choices;
 
 choices! {
     /// What is varied: number type, solver, mesh, a parameter of contact, half of a scene, or what the

@@ -6,11 +6,11 @@ use serde::Serialize;
 use super::Knob;
 use super::errors::Errors;
 use super::order::Order;
-use crate::answer::estimates::Certainty;
-use crate::numbers::solve::Arithmetic;
-use crate::problem::modelling::Variant;
-use crate::studies::audit::claims::Judged;
-use crate::studies::audit::range::Place;
+use crate::audit::claims::Judged;
+use crate::audit::range::Place;
+use engine::estimates::Certainty;
+use numbers::solve::Arithmetic;
+use problem::modelling::Variant;
 
 /// Speed against accuracy on a scene.
 #[derive(Clone, Debug, Serialize, JsonSchema)]

@@ -1,12 +1,12 @@
 //! What is tried of each knob.
 
 use super::Knob;
-use crate::answer::Request;
-use crate::error::InputError;
-use crate::numbers::solve::{Arithmetic, ScalarName, Solver, cost};
-use crate::paper::mirror::NodeTable;
-use crate::problem::modelling::{Coupling, StatusRule, Variant};
-use crate::problem::scene::{Scene, symmetry};
+use base::error::InputError;
+use engine::Request;
+use numbers::solve::{Arithmetic, ScalarName, Solver, cost};
+use paper::mirror::NodeTable;
+use problem::modelling::{Coupling, StatusRule, Variant};
+use problem::scene::{Scene, symmetry};
 
 /// Seconds beyond which exact numbers are left out.
 pub(super) const EXACT: f64 = 10.0;

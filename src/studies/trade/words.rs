@@ -5,10 +5,10 @@ use super::errors::Errors;
 use super::order::Order;
 use super::rows::{Ladder, Row, Section};
 use super::trials::{cg, sparse};
-use crate::answer::estimates::Certainty;
-use crate::numbers::solve::{ScalarName, Solver};
-use crate::problem::modelling::Variant;
-use crate::problem::scene::Scene;
+use engine::estimates::Certainty;
+use numbers::solve::{ScalarName, Solver};
+use problem::modelling::Variant;
+use problem::scene::Scene;
 
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;

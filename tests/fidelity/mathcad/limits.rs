@@ -3,7 +3,7 @@
 use super::spelled::spelled;
 use super::{failure, program};
 use crate::common::random::fixed;
-use plane_contact::paper::mathcad::{Array, Cause, Limits, Listing, Settings, Sheet, Value};
+use plane_contact::mathcad::{Array, Cause, Limits, Listing, Settings, Sheet, Value};
 use proptest::prelude::*;
 
 fn refusal(body: &str) -> String {

@@ -13,8 +13,8 @@ mod spelled;
 mod values;
 mod xmcd;
 
-use plane_contact::paper::mathcad::failure::Fallible;
-use plane_contact::paper::mathcad::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
+use plane_contact::mathcad::failure::Fallible;
+use plane_contact::mathcad::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
 
 /// An embedded scene as a worksheet, as `export --to mathcad` writes it.
 pub fn exported(scene: &str) -> String {

@@ -2,8 +2,8 @@
 
 use super::spelled::spelled;
 use super::value;
-use plane_contact::paper::mathcad::edit::EditError;
-use plane_contact::paper::mathcad::{Edit, Listing, ParseError};
+use plane_contact::mathcad::edit::EditError;
+use plane_contact::mathcad::{Edit, Listing, ParseError};
 
 const LISTINGS: [(&str, &str); 2] = [
     ("c_cnt", include_str!("../../../listings/c_cnt.txt")),

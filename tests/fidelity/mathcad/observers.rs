@@ -2,8 +2,8 @@
 
 use super::program;
 use crate::common::coverage::{Coverage, OperandCoverage};
-use plane_contact::paper::mathcad::observe::Executed;
-use plane_contact::paper::mathcad::{Array, Limits, Observer, Recorder, Settings, Value};
+use plane_contact::mathcad::observe::Executed;
+use plane_contact::mathcad::{Array, Limits, Observer, Recorder, Settings, Value};
 
 /// Runs the program with v = (1 2 3)ᵀ and x = 5.
 fn observe(lines: &str, observer: &mut impl Observer) {

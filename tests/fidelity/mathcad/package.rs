@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use plane_contact::paper::exports::probe;
-use plane_contact::paper::mathcad::Limits;
-use plane_contact::paper::mathcad::worksheet::{Verdict, execute};
-use plane_contact::paper::mathcad::xmcd::document;
+use plane_contact::mathcad::Limits;
+use plane_contact::mathcad::worksheet::{Verdict, execute};
+use plane_contact::mathcad::xmcd::document;
+use plane_contact::report::exports::probe;
 
 fn source() -> Option<PathBuf> {
     let source = std::env::var_os("XMCD_SOURCE").map(PathBuf::from);

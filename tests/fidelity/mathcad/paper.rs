@@ -1,8 +1,8 @@
 //! The paper's two listings on scenes small enough to be worked out by hand.
 
-use plane_contact::paper::mathcad::array::{Column, Table};
-use plane_contact::paper::mathcad::failure::Fallible;
-use plane_contact::paper::mathcad::{
+use plane_contact::mathcad::array::{Column, Table};
+use plane_contact::mathcad::failure::Fallible;
+use plane_contact::mathcad::{
     Array, Cause, Conjunction, Edit, Limits, Listing, Outcome, Settings, Value,
 };
 

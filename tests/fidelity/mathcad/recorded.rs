@@ -6,14 +6,12 @@ use std::fmt::Write;
 use std::path::Path;
 
 use fastrand::Rng;
-use plane_contact::paper::mathcad::failure::Fallible;
-use plane_contact::paper::mathcad::worksheet::execute;
-use plane_contact::paper::mathcad::xmcd::document::Region;
-use plane_contact::paper::mathcad::xmcd::page::{self, Page};
-use plane_contact::paper::mathcad::xmcd::{document, write};
-use plane_contact::paper::mathcad::{
-    Array, Limits, Listing, Outcome, Settings, Sheet, Value, json,
-};
+use plane_contact::mathcad::failure::Fallible;
+use plane_contact::mathcad::worksheet::execute;
+use plane_contact::mathcad::xmcd::document::Region;
+use plane_contact::mathcad::xmcd::page::{self, Page};
+use plane_contact::mathcad::xmcd::{document, write};
+use plane_contact::mathcad::{Array, Limits, Listing, Outcome, Settings, Sheet, Value, json};
 
 use crate::common::draws::one_of;
 use crate::common::recorded::{assert_recorded, assert_recorded_exactly};

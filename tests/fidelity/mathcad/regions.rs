@@ -2,10 +2,10 @@
 //! that change what they stand for, operators within operators.
 
 use fastrand::Rng;
-use plane_contact::paper::mathcad::worksheet::{Checked, Verdict, execute};
-use plane_contact::paper::mathcad::xmcd::document::{self, Content};
-use plane_contact::paper::mathcad::xmcd::write;
-use plane_contact::paper::mathcad::{Limits, Listing, Value};
+use plane_contact::mathcad::worksheet::{Checked, Verdict, execute};
+use plane_contact::mathcad::xmcd::document::{self, Content};
+use plane_contact::mathcad::xmcd::write;
+use plane_contact::mathcad::{Limits, Listing, Value};
 
 fn worksheet(regions: &str) -> document::Worksheet {
     let text = format!("<worksheet><regions>{regions}</regions></worksheet>");

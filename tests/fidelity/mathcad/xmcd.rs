@@ -2,14 +2,14 @@
 
 use super::spelled::spelled;
 use crate::common::random::fixed;
-use plane_contact::paper::exports::probe;
+use plane_contact::mathcad::worksheet::{Checked, Verdict, execute};
+use plane_contact::mathcad::xmcd::document::{self, Content, Saved};
+use plane_contact::mathcad::xmcd::page::{self, Page};
+use plane_contact::mathcad::xmcd::write;
+use plane_contact::mathcad::{Array, Cause, Limits, Listing, Settings, Value};
 use plane_contact::paper::listings::Which;
-use plane_contact::paper::mathcad::worksheet::{Checked, Verdict, execute};
-use plane_contact::paper::mathcad::xmcd::document::{self, Content, Saved};
-use plane_contact::paper::mathcad::xmcd::page::{self, Page};
-use plane_contact::paper::mathcad::xmcd::write;
-use plane_contact::paper::mathcad::{Array, Cause, Limits, Listing, Settings, Value};
 use plane_contact::paper::mirror::Reading;
+use plane_contact::report::exports::probe;
 use proptest::prelude::*;
 
 /// Writes a listing as a worksheet, and reads it back as text.

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use plane_contact::answer::{Solution, distance, solve};
+use plane_contact::engine::{Solution, distance, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
 use plane_contact::studies::audit::statuses::{self, Measurement, Row};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use plane_contact::Request;
-use plane_contact::answer::{Assessment, Measured, Session, Solution};
+use plane_contact::engine::{Assessment, Measured, Session, Solution};
 use plane_contact::numbers::solve::{ScalarName, Solver};
 use plane_contact::problem::modelling::{Coupling, Friction, LOAD_STEPS, Variant};
 use plane_contact::problem::scene::symmetry;
@@ -456,7 +456,7 @@ fn halves() -> Vec<String> {
                 (node.of(&whole.u), [of_half.u[2 * k], of_half.u[2 * k + 1]]);
             (x - own_x).hypot(y - own_y)
         });
-        differences.fold(0.0, f64::max) / plane_contact::answer::max_displacement(&whole.u)
+        differences.fold(0.0, f64::max) / plane_contact::engine::max_displacement(&whole.u)
     };
     let [_, tied, stepped, unilateral, ..] = &*VARIANTS;
     vec![format!(

@@ -2,7 +2,7 @@
 
 use super::error::{Fault, Result};
 use super::tokens::Tokens;
-use crate::problem::scene::mesh::{KINDS, Kind};
+use crate::scene::mesh::{KINDS, Kind};
 
 pub const ENTITIES: [&str; 4] = ["point", "curve", "surface", "volume"];
 

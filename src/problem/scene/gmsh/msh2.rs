@@ -4,7 +4,7 @@ use super::error::Result;
 use super::kinds::{kind, magnitude};
 use super::reader::Reader;
 use super::tokens::Encoding;
-use crate::problem::scene::mesh::{Element, NodeNumbers};
+use crate::scene::mesh::{Element, NodeNumbers};
 
 impl Reader<'_> {
     /// Reads `$Nodes`: a count, then `number x y z`.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use super::error::{Fault, Result};
 use super::kinds::{ENTITIES, kind, magnitude};
 use super::reader::Reader;
-use crate::problem::scene::mesh::{Element, NodeNumbers};
+use crate::scene::mesh::{Element, NodeNumbers};
 
 impl Reader<'_> {
     /// Reads `$Entities`: counts of points, curves, surfaces and volumes, then each of them.

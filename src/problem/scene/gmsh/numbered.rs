@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::problem::scene::mesh::{Element, Node};
+use crate::scene::mesh::{Element, Node};
 
 /// What has a number of its own.
 pub trait HasNumber {

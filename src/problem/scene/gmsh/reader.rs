@@ -7,8 +7,8 @@ use super::error::{Fault, GmshError, Result};
 use super::kinds::{ENTITIES, magnitude};
 use super::numbered::Numbered;
 use super::tokens::Tokens;
-use crate::memory;
-use crate::problem::scene::mesh::{ELEMENT, Element, Mesh, NODE, Node, PhysicalName};
+use crate::scene::mesh::{ELEMENT, Element, Mesh, NODE, Node, PhysicalName};
+use base::memory;
 
 /// The bytes of the shortest node or element: `1 0 0 0` or `1 15 0 1`, and what parts it from the next.
 const SHORTEST: usize = 8;

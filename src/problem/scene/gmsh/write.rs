@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::problem::scene::mesh::{Element, Mesh};
+use crate::scene::mesh::{Element, Mesh};
 
 /// Returns the mesh as a Gmsh file: MSH 2.2, text. Each coordinate is written as the shortest
 /// number that reads back to the same bits. A row has one physical group, or 0: an element of several

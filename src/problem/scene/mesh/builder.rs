@@ -8,8 +8,8 @@
 //! ```
 
 use super::{Element, KINDS, Mesh, Node, PhysicalName};
-use crate::problem::element;
-use crate::problem::scene::groups::GroupRef;
+use crate::element;
+use crate::scene::groups::GroupRef;
 
 /// A mesh under construction. Nodes are numbered from 1 in the order in which they are added.
 /// Physical groups are sorted by their first mention, edges before triangles, and their elements

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use super::{Element, Mesh, Node, PhysicalName};
-use crate::error::{InputError, Result};
-use crate::plain::six_digits;
-use crate::problem::element::{self, Corners};
+use crate::element::{self, Corners};
+use base::error::{InputError, Result};
+use base::plain::six_digits;
 
 /// The largest difference of z that is rounding, over the size of the mesh: a drawing that was rotated
 /// to the plane has some.

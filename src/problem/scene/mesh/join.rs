@@ -6,7 +6,7 @@ impl Mesh {
     /// Joins the rows of a triangle that differ in number and physical group alone: MSH 2.2 and the
     /// paper's tables have one for each group of a triangle. The first keeps all its groups, as the one
     /// row of MSH 4.1 has them.
-    pub(in crate::problem::scene) fn join_groups(&mut self) {
+    pub(in crate::scene) fn join_groups(&mut self) {
         let mut rows: Vec<([usize; 3], usize, usize)> = Vec::new();
         rows.extend(self.elements.iter().enumerate().filter_map(|(place, element)| {
             let &[a, b, c] = &element.nodes[..] else { return None };

@@ -17,7 +17,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use crate::problem::element::Corners;
+use crate::element::Corners;
 
 /// The bytes that a node takes while a scene is read and built, and an element with what its share of
 /// the nodes takes once they are read; measured on grids of 0.4 and 1.6 million elements, with what

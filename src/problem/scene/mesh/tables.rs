@@ -1,8 +1,8 @@
 //! Meshes from the paper's own tables.
 
 use super::{ELEMENT, Element, KINDS, Mesh, NODE, Node};
-use crate::error::{InputError, Result};
-use crate::memory;
+use base::error::{InputError, Result};
+use base::memory;
 
 impl Mesh {
     /// Reads the paper's own tables: rows of `node` are number, x, y, z; rows of `elem` are number,

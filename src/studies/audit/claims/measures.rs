@@ -1,12 +1,12 @@
 //! How claims are measured.
 
 use super::{Measured, Outcome, Verdict};
-use crate::answer::distance;
-use crate::answer::estimates::Certainty;
-use crate::problem::modelling::Variant;
-use crate::studies::audit::Case;
-use crate::studies::audit::findings::{self, FINDINGS};
-use crate::studies::audit::statuses::{self, Score};
+use crate::audit::Case;
+use crate::audit::findings::{self, FINDINGS};
+use crate::audit::statuses::{self, Score};
+use engine::distance;
+use engine::estimates::Certainty;
+use problem::modelling::Variant;
 
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;

@@ -18,7 +18,7 @@ pub use register::CLAIMS;
 
 use super::Case;
 use super::range::{Place, Range};
-use crate::choices;
+use base::choices;
 
 /// Something that the paper says.
 #[derive(Clone, Debug, Serialize, JsonSchema)]

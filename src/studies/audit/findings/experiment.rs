@@ -4,12 +4,12 @@
 use nalgebra::DMatrix;
 
 use super::{Measured, Outcome};
-use crate::paper::door::{self, Call};
-use crate::paper::mirror::{Failure, Reading};
-use crate::problem::element::area;
-use crate::problem::model::{EdgeId, Model, NodeId, TriangleId};
-use crate::problem::modelling::Variant;
-use crate::studies::audit::Case;
+use crate::audit::Case;
+use paper::door::{self, Call};
+use paper::mirror::{Failure, Reading};
+use problem::element::area;
+use problem::model::{EdgeId, Model, NodeId, TriangleId};
+use problem::modelling::Variant;
 
 /// A shape: coordinates of each node, length.
 pub(super) type Shape = [[f64; 2]];

@@ -15,8 +15,8 @@ mod weights;
 pub use register::FINDINGS;
 
 use super::Case;
-use crate::choices;
-use crate::problem::scene::Scene;
+use base::choices;
+use problem::scene::Scene;
 
 /// Something that a listing does and the text does not say.
 pub struct Finding {

@@ -4,10 +4,10 @@ use super::experiment::{
     Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, ends, inside_target, place, rise,
 };
 use super::{Measured, Outcome};
-use crate::answer::contact::turned;
-use crate::paper::door::{Call, ContactStatus};
-use crate::problem::model::{EdgeId, Model};
-use crate::studies::audit::Case;
+use crate::audit::Case;
+use engine::contact::turned;
+use paper::door::{Call, ContactStatus};
+use problem::model::{EdgeId, Model};
 
 /// C1: the target edges turned round.
 pub(super) fn turned_edges(case: &Case) -> Outcome<'_> {

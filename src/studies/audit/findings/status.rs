@@ -2,11 +2,11 @@
 
 use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, inner_sign};
 use super::{Measured, Outcome};
-use crate::paper::door::Call;
-use crate::paper::mathcad::Conjunction;
-use crate::paper::mirror::{Cause, Reading};
-use crate::problem::model::NodeId;
-use crate::studies::audit::Case;
+use crate::audit::Case;
+use mathcad::Conjunction;
+use paper::door::Call;
+use paper::mirror::{Cause, Reading};
+use problem::model::NodeId;
 
 /// A shape with every y changed by `f(node, y)`.
 fn with_y(shape: &Shape, f: impl Fn(NodeId, f64) -> f64) -> Vec<[f64; 2]> {

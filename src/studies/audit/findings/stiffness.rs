@@ -6,13 +6,13 @@ use super::experiment::{
     ROUNDING, at_calls, at_shapes, away, count, count_nodes, first_in_contact, mjs,
 };
 use super::{Measured, Outcome, Verdict};
-use crate::answer::{Constraint, Detail, Elimination, Solution, max_displacement};
-use crate::numbers::solve::DenseLu;
-use crate::paper::door::{self, Call};
-use crate::paper::mirror::{Failure, Reading};
-use crate::problem::model::{Body, Model, NodeId, TriangleId};
-use crate::problem::modelling::Variant;
-use crate::studies::audit::Case;
+use crate::audit::Case;
+use engine::{Constraint, Detail, Elimination, Solution, max_displacement};
+use numbers::solve::DenseLu;
+use paper::door::{self, Call};
+use paper::mirror::{Failure, Reading};
+use problem::model::{Body, Model, NodeId, TriangleId};
+use problem::modelling::Variant;
 
 /// K1: entries of MJS that join two bodies, at the first shape with contact.
 pub(super) fn nothing_joins(case: &Case) -> Outcome<'_> {

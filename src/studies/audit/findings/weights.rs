@@ -2,11 +2,11 @@
 
 use super::experiment::{ROUNDING, at_calls, at_shapes, count, count_nodes, mjs};
 use super::{Measured, Outcome};
-use crate::answer::{Detail, Step};
-use crate::paper::door::{Call, NodeToSegment, linked, worksheet};
-use crate::problem::model::{Model, NodeId};
-use crate::problem::modelling::Variant;
-use crate::studies::audit::Case;
+use crate::audit::Case;
+use engine::{Detail, Step};
+use paper::door::{Call, NodeToSegment, linked, worksheet};
+use problem::model::{Model, NodeId};
+use problem::modelling::Variant;
 
 /// C6: how far the weights of nodes in contact leave [0, 1], over all iterations of all variants.
 pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {

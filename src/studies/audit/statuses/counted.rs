@@ -5,7 +5,8 @@ use std::cell::Cell;
 use std::cmp::Ordering;
 use std::fmt;
 
-use crate::numbers::scalar::{Scalar, Subscript, operators};
+use numbers::operators;
+use numbers::scalar::{Scalar, Subscript};
 
 thread_local! {
     static OPERATIONS: Cell<u64> = const { Cell::new(0) };

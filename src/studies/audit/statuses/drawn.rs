@@ -11,8 +11,8 @@
 
 use fastrand::Rng;
 
-use crate::problem::element::Plane;
-use crate::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use problem::element::Plane;
+use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 
 /// The tolerance of the contact search, length: the text's c_tol.
 const C_TLL: f64 = 0.001;

@@ -17,15 +17,15 @@ use fastrand::Rng;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::answer::contact::status::statuses;
-use crate::numbers::scalar::Scalar;
-use crate::paper::door;
-use crate::paper::mirror::{Reading, c_cnt};
-use crate::problem::modelling::StatusRule;
-use crate::problem::scene::sha256;
 use counted::{Counted, counting};
 use drawn::Drawn;
 pub use drawn::{Kind, draw};
+use engine::contact::status::statuses;
+use numbers::scalar::Scalar;
+use paper::door;
+use paper::mirror::{Reading, c_cnt};
+use problem::modelling::StatusRule;
+use problem::scene::sha256;
 
 /// Depths of the jump, in c_tll. Target edges are some 250 c_tll long: the last sinks whole cells.
 const DEPTHS: [f64; 6] = [0.5, 2.0, 8.0, 32.0, 128.0, 512.0];

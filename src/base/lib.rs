@@ -1,0 +1,10 @@
+//! What every part of plane-contact uses: errors of the input, files, closed sets of choices, and words.
+#![forbid(unsafe_code)]
+
+mod choices;
+pub mod error;
+pub mod files;
+pub mod memory;
+pub mod plain;
+pub mod suggestion;
+pub mod xml;

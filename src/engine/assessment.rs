@@ -1,0 +1,212 @@
+//! The assessment of a solution: the largest values of its bodies, estimates of its errors, and its
+//! distance from the reference solution. It is computed once; reports only print it.
+
+use std::borrow::Cow;
+
+use nalgebra::DVector;
+
+use super::distance::{Distance, distance};
+use super::error::Error;
+use super::estimates::Estimates;
+use super::hertz::Hertz;
+use super::probe::{Probe, probes};
+use super::request::Request;
+use super::session::Session;
+use super::solution::{Solution, Start};
+use super::summary::{BodySummary, summaries};
+use base::error::InputError;
+use problem::modelling::{ContactModel, Friction, Variant};
+
+/// The values and estimates that reports print beside a solution.
+pub struct Assessment<'a> {
+    /// The largest values of each body.
+    pub bodies: Vec<BodySummary>,
+    /// The estimated errors from rounding and from the mesh; None where they are left out.
+    pub estimates: Option<Estimates>,
+    /// What the run says of the points that were asked for: [`Assessment::probe`].
+    pub probes: Vec<Probe>,
+    /// The largest difference of a displacement component from a path of half as many steps of the
+    /// load, length: what is left of the size of the steps. None without a path, where there is none
+    /// such to compare with, and where estimates are left out.
+    pub path_change: Option<f64>,
+    /// Hertz's contact for the load of the solution; None where his theory does not apply.
+    pub hertz: Option<Hertz>,
+    /// The comparison with the reference solution, or why there is none; None without contact.
+    pub reference: Option<Result<Measured<'a>, Error>>,
+    /// The comparison with the equilibrium under the scene's own friction and geometry, or why
+    /// there is none; None without contact, and where that is the reference solution.
+    pub equilibrium: Option<Result<Measured<'a>, Error>>,
+}
+
+/// Another solution and the distance of a solution from it.
+pub struct Measured<'a> {
+    /// The other solution: borrowed where the assessed solution is that one itself.
+    pub reference: Cow<'a, Solution>,
+    /// The distance of the assessed solution from the other one.
+    pub distance: Distance,
+    /// Hertz's contact for the other solution; None where his theory does not apply.
+    pub hertz: Option<Hertz>,
+}
+
+/// The other solutions beside which a solution is assessed.
+struct Others {
+    /// The reference solution; None without contact, and where that is what was asked for.
+    reference: Option<Result<Solution, Error>>,
+    /// The equilibrium under the scene's own friction and geometry; None too where that is the
+    /// reference solution.
+    equilibrium: Option<Result<Solution, Error>>,
+    /// The displacements at the end of a path of half as many steps of the load, length; None without
+    /// a path, where there is none such, and without estimates.
+    half: Option<DVector<f64>>,
+}
+
+impl Others {
+    /// Solves for what a solution of `request` is assessed beside, `with_estimates` or without.
+    fn new(request: &Request, session: &Session, with_estimates: bool) -> Self {
+        let model = &request.scene.model;
+        let (reference, equilibrium) = (request.reference(), request.equilibrium());
+        let is_wanted =
+            |wanted: &Request| model.target().is_some() && !request.is_same_equilibrium(wanted);
+        let own = Some(&equilibrium).filter(|own| !own.is_same_equilibrium(&reference));
+        let solved =
+            |wanted: &Request| is_wanted(wanted).then(|| session.solve(wanted, &mut |_| ()));
+        let half = || with_estimates.then(|| half_as_many_steps(request, session)).flatten();
+        let (reference, (equilibrium, half)) =
+            rayon::join(|| solved(&reference), || rayon::join(|| own.and_then(solved), half));
+        Others { reference, equilibrium, half }
+    }
+}
+
+impl<'a> Assessment<'a> {
+    /// Assesses a solution, and solves in `session` for the reference solution and for the equilibrium
+    /// under the scene's own friction and geometry, unless it is one of them.
+    pub fn new(solution: &'a Solution, session: &Session) -> Self {
+        let (others, estimates) = rayon::join(
+            || Others::new(&solution.request, session, true),
+            || Estimates::new(solution, session),
+        );
+        Self::beside(solution, others, Some(estimates))
+    }
+
+    /// Does the same without the estimates: neither their fields nor `path_change`, which takes
+    /// another run, are computed.
+    pub fn without_estimates(solution: &'a Solution, session: &Session) -> Self {
+        Self::beside(solution, Others::new(&solution.request, session, false), None)
+    }
+
+    /// Takes a solution as it is: only the largest values of its bodies are computed.
+    pub fn none(solution: &'a Solution) -> Self {
+        Assessment::measured(solution, None, None)
+    }
+
+    /// Assesses a solution beside others that were solved for its request, and by `estimates` of its
+    /// errors.
+    fn beside(solution: &'a Solution, others: Others, estimates: Option<Estimates>) -> Self {
+        let request = &solution.request;
+        let Others { reference, equilibrium, half } = others;
+        let has_own = !request.equilibrium().is_same_equilibrium(&request.reference());
+        let known = |other: Option<Result<Solution, Error>>| match other {
+            Some(other) => other.map(Cow::Owned),
+            None => Ok(Cow::Borrowed(solution)),
+        };
+        let target = solution.model.target();
+        let reference = target.map(|_| known(reference));
+        let equilibrium = target.filter(|_| has_own).map(|_| known(equilibrium));
+        let path_change = change(half, solution);
+        let assessment = Assessment::measured(solution, reference, equilibrium);
+        Assessment { estimates, path_change, ..assessment }
+    }
+
+    /// Assesses a solution against solutions that are already known: the reference solution, and
+    /// the equilibrium under the scene's own friction and geometry.
+    pub fn against(
+        solution: &'a Solution,
+        session: &Session,
+        [reference, equilibrium]: [Option<&'a Solution>; 2],
+    ) -> Self {
+        let known = |other: Option<&'a Solution>| other.map(|other| Ok(Cow::Borrowed(other)));
+        let estimates = Estimates::new(solution, session);
+        let path_change = change(half_as_many_steps(&solution.request, session), solution);
+        let assessment = Assessment::measured(solution, known(reference), known(equilibrium));
+        Assessment { estimates: Some(estimates), path_change, ..assessment }
+    }
+
+    fn measured(
+        solution: &'a Solution,
+        reference: Option<Result<Cow<'a, Solution>, Error>>,
+        equilibrium: Option<Result<Cow<'a, Solution>, Error>>,
+    ) -> Self {
+        let measured = |other: Option<Result<Cow<'a, Solution>, Error>>| {
+            other.map(|other| other.map(|other| Measured::new(solution, other)))
+        };
+        let (reference, equilibrium) =
+            rayon::join(|| measured(reference), || measured(equilibrium));
+        Assessment {
+            bodies: summaries(solution),
+            estimates: None,
+            probes: Vec::new(),
+            path_change: None,
+            hertz: Hertz::of(solution),
+            reference,
+            equilibrium,
+        }
+    }
+
+    /// Adds what `solution`, which is assessed, says of `points` of the undeformed shape.
+    ///
+    /// # Errors
+    /// A point lies outside every body.
+    pub fn probe(
+        &mut self,
+        solution: &Solution,
+        session: &Session,
+        points: &[[f64; 2]],
+    ) -> Result<(), InputError> {
+        if points.is_empty() {
+            return Ok(());
+        }
+        let own = self.estimates.is_none().then(|| Estimates::new(solution, session));
+        let estimates = self.estimates.as_ref().or(own.as_ref()).expect("one of the two");
+        self.probes = probes(solution, session, estimates, points)?;
+        Ok(())
+    }
+
+    /// Returns the comparison with the equilibrium under the scene's own friction and geometry,
+    /// where that one was solved.
+    pub fn own(&self) -> Option<&Measured<'a>> {
+        match &self.equilibrium {
+            Some(measured) => measured.as_ref().ok(),
+            None => self.measure(),
+        }
+    }
+
+    /// Returns the comparison with the reference solution, where that one was solved.
+    pub fn measure(&self) -> Option<&Measured<'a>> {
+        self.reference.as_ref()?.as_ref().ok()
+    }
+}
+
+/// Returns the largest difference of displacements at the end of a path of half as many steps from those
+/// of a solution, length; None where it says nothing of the size of the steps, as the first of them brings
+/// the bodies into contact.
+fn change(half: Option<DVector<f64>>, solution: &Solution) -> Option<f64> {
+    let path = solution.equilibrium.as_ref()?.path.as_ref()?;
+    let counts = matches!(path.start, Start::Held | Start::Closed);
+    half.filter(|_| counts).map(|u| (u - &solution.u).amax())
+}
+
+/// Follows the path of a request's load in half as many steps; returns the displacements at its end.
+fn half_as_many_steps(request: &Request, session: &Session) -> Option<DVector<f64>> {
+    let ContactModel { friction, load_steps, .. } = request.contact;
+    let has_path = request.variant == Variant::Unilateral && friction != Friction::NONE;
+    let steps = Some(load_steps / 2).filter(|_| has_path && load_steps % 2 == 0)?;
+    let contact = ContactModel { load_steps: steps, ..request.contact };
+    Some(session.solve(&request.clone().contact(contact), &mut |_| ()).ok()?.u)
+}
+
+impl<'a> Measured<'a> {
+    fn new(solution: &Solution, reference: Cow<'a, Solution>) -> Self {
+        let (distance, hertz) = (distance(solution, &reference), Hertz::of(&reference));
+        Measured { reference, distance, hertz }
+    }
+}

@@ -1,0 +1,275 @@
+//! Which nodes are kept, and the bodies condensed to them when a contact state first needs it.
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use super::factored::surfaces;
+use super::gaps::Gaps;
+use super::schur::{Condensation, Eliminated};
+use super::state::{Bound, Imposed, OnKept};
+use crate::contact::Pairing;
+use crate::elimination::{Constraint, Elimination};
+use crate::session::Session;
+use crate::stiffness::Stiffness;
+use problem::model::{Model, NodeId};
+
+/// The number of nodes of both surfaces up to which all are kept.
+const SMALL: usize = 64;
+
+/// The number of kept nodes beyond which a dense matrix of them takes longer, and more memory, than
+/// the whole sparse matrix of a state: this many, or on fine meshes so much of the square root of the
+/// number of equations, which is what a line across the mesh has.
+const MOST: (f64, f64) = (600.0, 2.0);
+
+/// The number of contact nodes of larger surfaces that are expected to come into contact, over the
+/// square root of the number of equations; of fewer equations than these, those that the first contact
+/// state binds.
+const EXPECTED: (f64, usize) = (0.85, 10_000);
+
+/// The number of neighbours that are kept on either side of a bound node of a larger surface, and
+/// the part of the number of bound nodes that comes on top.
+const MARGIN: (usize, f64) = (8, 0.1);
+
+type Nodes = BTreeSet<NodeId>;
+
+/// The bodies of a run, condensed when a contact state first needs it.
+pub struct Bodies {
+    model: Arc<Model>,
+    session: Session,
+    /// The contact surface and the nodes of the target surface, each in its order.
+    surfaces: [Vec<NodeId>; 2],
+    current: RefCell<Option<Arc<Condensation>>>,
+    /// What each contact node faces in every state, and whether states hold slips too; None where that
+    /// is not known.
+    facing: Option<(Vec<Option<Pairing>>, bool)>,
+    /// The condensed bodies in terms of gaps and slips, once that was tried; None where they cannot be.
+    gaps: RefCell<Option<Option<Arc<Gaps>>>>,
+    /// The state of the whole bodies that was factored last.
+    bound: RefCell<Option<Arc<Bound>>>,
+    /// The state of the condensed ones that was factored last.
+    imposed: RefCell<Option<Imposed>>,
+    /// The load that was eliminated last.
+    loaded: RefCell<Option<Loaded>>,
+    /// The nodes to keep for the first contact state of large surfaces, beside those that it binds, the
+    /// nearest first; none afterwards.
+    expected: RefCell<Vec<NodeId>>,
+    /// Whether they cannot be, or need not, as there is no contact.
+    impossible: Cell<bool>,
+}
+
+/// A load by degree of freedom, force, and what is left of it on the kept equations.
+struct Loaded {
+    condensation: Arc<Condensation>,
+    load: DVector<f64>,
+    eliminated: Rc<Eliminated>,
+}
+
+/// Returns the most nodes that are kept.
+fn most(model: &Model) -> usize {
+    MOST.0.max(MOST.1 * (model.free_dofs() as f64).sqrt()) as usize
+}
+
+/// Returns the number of equations to which the bodies are condensed where `near` contact nodes come
+/// to the target: an estimate where the surfaces are large.
+pub fn kept_equations(model: &Model, near: usize) -> usize {
+    let surfaces = surfaces(model).concat();
+    let nodes: BTreeSet<NodeId> = surfaces.iter().copied().collect();
+    let free = |node: &NodeId| model.restraints_of(*node).iter().filter(|held| !**held).count();
+    let all = nodes.iter().map(free).sum();
+    let (neighbours, part) = MARGIN;
+    let bound = (near as f64 * (1.0 + part)) as usize + 2 * neighbours;
+    if surfaces.len() <= SMALL { all } else { all.min(4 * bound) }
+}
+
+impl Bodies {
+    /// Takes the bodies of `model`, of which `session` may have factors.
+    pub fn new(model: &Arc<Model>, session: &Session) -> Self {
+        Bodies {
+            model: Arc::clone(model),
+            session: session.clone(),
+            surfaces: surfaces(model),
+            current: RefCell::default(),
+            facing: None,
+            gaps: RefCell::default(),
+            bound: RefCell::default(),
+            imposed: RefCell::default(),
+            loaded: RefCell::default(),
+            expected: RefCell::default(),
+            impossible: Cell::new(!model.has_contact()),
+        }
+    }
+
+    /// Expects that the entries of the contact surface with the least gaps come into contact; of few
+    /// equations, those that the first state binds.
+    pub fn expecting(self, pairings: &[Option<Pairing>]) -> Self {
+        let (part, least) = EXPECTED;
+        let equations = self.model.free_dofs();
+        if equations < least {
+            return self;
+        }
+        let mut nearest: Vec<&Pairing> = pairings.iter().flatten().collect();
+        nearest.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+        let most = part * (equations as f64).sqrt();
+        let nodes = |p: &&Pairing| {
+            let masters = p.masters.iter().map(|(master, _)| *master);
+            std::iter::once(p.node).chain(masters).collect::<Vec<_>>()
+        };
+        self.expected.replace(nearest.iter().take(most as usize).flat_map(nodes).collect());
+        self
+    }
+
+    /// Takes it that in every state the contact nodes face what they do in `pairings`; whether states
+    /// hold slips too.
+    pub fn facing(self, pairings: &[Option<Pairing>], stick: bool) -> Self {
+        Bodies { facing: Some((pairings.to_vec(), stick)), ..self }
+    }
+
+    /// Factors the contact state that `constraints` impose on the condensed bodies; None where the
+    /// whole matrix is to be factored. Where they are alike, `again` has factors of the last state serve,
+    /// from which its displacements are refined, if they can be.
+    pub fn state(
+        &self,
+        stiffness: &Stiffness,
+        constraints: &[Constraint],
+        again: bool,
+    ) -> Option<OnKept> {
+        let condensation = self.condensed(stiffness, constraints)?;
+        let gaps = self.gaps(&condensation);
+        if let Some(held) = gaps.and_then(|gaps| gaps.held(constraints)) {
+            return Some(OnKept::holding(condensation, held));
+        }
+        let serves = |last: &&Imposed| again && last.serves(&condensation, constraints);
+        let mut last = self.imposed.borrow_mut();
+        if let Some(alike) = last.as_ref().filter(serves) {
+            return OnKept::new(condensation, constraints, Some(alike));
+        }
+        let state = OnKept::new(condensation, constraints, None)?;
+        *last = Some(state.imposed(constraints));
+        Some(state)
+    }
+
+    /// Factors the contact state T of the whole bodies that `constraints` impose; None where the whole
+    /// matrix is to be factored.
+    pub(crate) fn bound(
+        &self,
+        stiffness: &Stiffness,
+        t: &Elimination,
+        constraints: &[Constraint],
+    ) -> Option<Arc<Bound>> {
+        let last = self.bound.borrow().clone().filter(|bound| bound.is_of(constraints));
+        if last.is_some() {
+            return last;
+        }
+        let condensation = self.condensed(stiffness, constraints)?;
+        let bound = Arc::new(Bound::new(condensation, t, constraints)?);
+        // They are large, and the search for the state is over.
+        self.gaps.take();
+        self.bound.replace(Some(Arc::clone(&bound)));
+        Some(bound)
+    }
+
+    fn forget(&self) {
+        self.loaded.take();
+        self.gaps.take();
+        self.bound.take();
+        self.imposed.take();
+        self.current.take();
+    }
+
+    /// Returns the condensed bodies in terms of gaps and slips; None where they cannot be.
+    fn gaps(&self, condensation: &Condensation) -> Option<Arc<Gaps>> {
+        let (pairings, stick) = self.facing.as_ref()?;
+        let make = || Gaps::new(condensation, pairings, *stick).map(Arc::new);
+        self.gaps.borrow_mut().get_or_insert_with(make).clone()
+    }
+
+    /// Returns the bodies condensed to the nodes of `constraints` and others; None where the whole
+    /// matrix is to be factored.
+    pub fn condensed(
+        &self,
+        stiffness: &Stiffness,
+        constraints: &[Constraint],
+    ) -> Option<Arc<Condensation>> {
+        if self.impossible.get() {
+            return None;
+        }
+        let current = self.current.borrow().clone().filter(|c| c.has(constraints));
+        if current.is_some() {
+            return current;
+        }
+        let mut expected = self.expected.take();
+        let mut nodes = self.nodes(constraints, &expected);
+        while nodes.len() > most(&self.model) {
+            if expected.is_empty() {
+                return None;
+            }
+            // The nearer half.
+            expected.truncate(expected.len() / 2);
+            nodes = self.nodes(constraints, &expected);
+        }
+        self.forget();
+        let made = self.session.condensed(stiffness, &self.model, nodes);
+        self.impossible.set(made.is_none());
+        self.current.replace(made.clone());
+        made
+    }
+
+    /// Returns what is left of a load by degree of freedom on the kept equations of a state.
+    pub fn eliminated(&self, state: &OnKept, load: &DVector<f64>) -> Rc<Eliminated> {
+        let condensation = state.condensation();
+        let mut last = self.loaded.borrow_mut();
+        let known = last
+            .take()
+            .filter(|last| Arc::ptr_eq(&last.condensation, condensation) && last.load == *load);
+        let loaded = known.unwrap_or_else(|| Loaded {
+            condensation: Arc::clone(condensation),
+            load: load.clone(),
+            eliminated: Rc::new(condensation.eliminated(load)),
+        });
+        Rc::clone(&last.insert(loaded).eliminated)
+    }
+
+    /// Returns the nodes to which the bodies were condensed last; None where they were not.
+    pub(crate) fn kept(&self) -> Option<Nodes> {
+        Some(self.last()?.nodes().iter().copied().collect())
+    }
+
+    /// Returns the condensed bodies that served last; None where there are none.
+    pub fn last(&self) -> Option<Arc<Condensation>> {
+        self.current.borrow().clone()
+    }
+
+    fn is_small(&self) -> bool {
+        self.surfaces.iter().map(Vec::len).sum::<usize>() <= SMALL
+    }
+
+    /// Returns the nodes to be kept for `constraints` and for what is expected.
+    fn nodes(&self, constraints: &[Constraint], expected: &[NodeId]) -> BTreeSet<NodeId> {
+        let all = self.surfaces.iter().flatten().copied();
+        if self.is_small() {
+            return all.collect();
+        }
+        let bound: BTreeSet<NodeId> = constraints
+            .iter()
+            .flat_map(Constraint::nodes)
+            .chain(expected.iter().copied())
+            .collect();
+        let mut nodes = bound.clone();
+        for surface in &self.surfaces {
+            let at: Vec<usize> =
+                (0..surface.len()).filter(|i| bound.contains(&surface[*i])).collect();
+            let margin = MARGIN.0 + (MARGIN.1 * at.len() as f64) as usize;
+            let mut done = 0;
+            for i in at {
+                let end = (i + margin + 1).min(surface.len());
+                nodes.extend(&surface[i.saturating_sub(margin).max(done)..end]);
+                done = end;
+            }
+        }
+        nodes
+    }
+}

@@ -1,0 +1,40 @@
+//! Contact: the target that each contact node faces, the nodes in contact, and their traction.
+
+mod direction;
+mod mortar;
+mod nts;
+mod order;
+mod outline;
+mod pairing;
+mod pressure;
+pub mod search;
+mod sliding;
+pub mod status;
+mod surface;
+pub use direction::{hidden, turned};
+pub use mortar::Mortar;
+pub use order::{along, oddity};
+pub use pairing::{Pairing, STEEP};
+pub(super) use pressure::arcs;
+pub use pressure::{ContactNode, ROUNDING_OF_A_FORCE, Traction, pulling, reactions};
+pub use sliding::{Sense, Status};
+pub use surface::Surfaces;
+
+use numbers::scalar::Scalar;
+use problem::modelling::Coupling;
+
+impl Surfaces {
+    /// Returns what each entry of the contact surface faces in a shape, given as the coordinates of
+    /// each node, length. None for a node that faces no edge, and for a node's second entry.
+    pub fn pairings(&self, coupling: Coupling, shape: &[[f64; 2]]) -> Vec<Option<Pairing>> {
+        match coupling {
+            Coupling::Nts => nts::pairings(self, shape),
+            Coupling::Mortar => self.mortar(shape).pairings,
+        }
+    }
+
+    /// Returns what mortar finds in a shape, in its numbers.
+    pub fn mortar<T: Scalar>(&self, shape: &[[T; 2]]) -> Mortar<T> {
+        mortar::mortar(self, shape)
+    }
+}

@@ -1,0 +1,298 @@
+//! Mortar with dual multipliers: each contact node is bound to the average of the target over the
+//! stretch that its edges cover.
+//!
+//! ```text
+//!  contact edge  s1 o-----------o s2   φ, N: linear shape functions of contact and target edges
+//!                    | | | | | |       ψ: dual functions, ∫ ψ_i φ_k = δ_ik ∫ φ_k where covered
+//!  target edges  *------*----------*   D_i = ∫ φ_i,  M_ij = ∫ ψ_i N_j,  weights w_ij = M_ij / D_i
+//! ```
+//!
+//! A target edge is projected on a contact edge along the contact edge's normal, so that every
+//! integrand is a polynomial of degree two. The dual functions are built on the stretch that is
+//! covered, so that an edge that reaches past the target's end still transfers constant pressure.
+//!
+//! Source: B. Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989-1012 (dual multipliers); A. Popp, A.
+//! Seitz, M. W. Gee, W. A. Wall, Comput. Methods Appl. Mech. Engrg. 264 (2013) 67-80 (edges covered
+//! in part).
+//!
+//! The integrals are computed in any scalar. A target edge that covers less than [`ROUNDING`] of a
+//! contact edge does not count, so that no sliver hangs on rounding; what may hang on it is whether two
+//! edges face each other, which of two overlapping target edges is nearer, and whether a node is covered
+//! at all. In numbers with a bound each such comparison is told with the nodes whose weights it counts
+//! for.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap;
+
+use super::pairing::{Pairing, unit};
+use super::search::dot;
+use super::surface::{Edge, FACING, Placed, Surfaces};
+use numbers::scalar::{Scalar, Unsure, compared};
+use problem::model::{EdgeId, NodeId};
+use problem::tree::{Bounds, Tree};
+
+/// The overlap below which two edges do not overlap, over the contact edge's length: rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The share of what its edges could cover below which a contact node does not face the target.
+const COVERED: f64 = 0.05;
+
+/// What mortar finds in a shape.
+pub struct Mortar<T> {
+    /// For each contact surface entry, the average of the target that its edges cover.
+    pub pairings: Vec<Option<Pairing<T>>>,
+    /// The comparisons that rounding may have decided, each with a node for whose weights it counts;
+    /// none in numbers without a bound.
+    pub unsure: Vec<(NodeId, Unsure)>,
+}
+
+/// Averages the target over what the edges of each contact node cover in a shape, given as the
+/// coordinates of each node, length.
+pub(super) fn mortar<T: Scalar>(surfaces: &Surfaces, shape: &[[T; 2]]) -> Mortar<T> {
+    let target: Vec<Placed<T>> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
+    let mut gathered: FxHashMap<NodeId, Gathered<T>> = FxHashMap::default();
+    let at = |n: NodeId| shape[n.index()].map(T::to_f64);
+    let tree = Tree::new(surfaces.target.iter().map(|edge| edge.nodes.map(at)).enumerate());
+    let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
+    let search = Search { surfaces, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
+    let mut unsure = Vec::new();
+    for edge in &surfaces.contact {
+        let (covered, left) = compared(|| search.cover(&edge.place(shape)));
+        unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
+        let Some(integrals) = Integrals::over(&covered) else { continue };
+        for (k, node) in edge.nodes.into_iter().enumerate() {
+            let gathered = gathered.entry(node).or_insert_with(Gathered::new);
+            gathered.add(k, &integrals, &covered, &search);
+        }
+    }
+    let pairing = |(node, tributary): (&NodeId, T)| {
+        let least = T::from_f64(COVERED) * tributary;
+        let gathered = gathered.remove(node)?;
+        let (is_covered, left) = compared(|| gathered.length >= least);
+        unsure.extend(left.into_iter().map(|one| (*node, one)));
+        is_covered.then(|| gathered.pairing(*node, shape))
+    };
+    let tributary = surfaces.tributary(shape);
+    let pairings = surfaces.nodes.iter().zip(tributary).map(pairing).collect();
+    Mortar { pairings, unsure }
+}
+
+/// A stretch of a contact edge and the target edge that it covers.
+#[derive(Clone, Copy)]
+struct Stretch<T> {
+    /// The index of the target edge in the list of target edges.
+    edge: usize,
+    /// Where the stretch begins and ends on the contact edge, over the edge's length.
+    from: T,
+    to: T,
+    /// The projections of the target edge's two nodes, over the contact edge's length.
+    ends: [T; 2],
+    /// The length of the contact edge, length.
+    length: T,
+}
+
+/// The target in a shape, for the search of what contact edges cover.
+struct Search<'a, T> {
+    surfaces: &'a Surfaces,
+    target: &'a [Placed<T>],
+    tree: Tree,
+    /// A bound on the error of a coordinate of the shape, length; 0 in numbers without one.
+    margin: f64,
+}
+
+impl<T: Scalar> Search<'_, T> {
+    /// Returns the stretches of a contact edge that face a target edge. Where several target edges
+    /// face the same stretch, the nearest one counts.
+    ///
+    /// Which edges face each other is decided in the shape itself, other than under node to segment:
+    /// by the normals of the undeformed shape, a contact edge that an iteration has turned over would
+    /// still cover the target, and a folded shape would pass for an equilibrium.
+    fn cover(&self, contact: &Placed<T>) -> Vec<Stretch<T>> {
+        let mut facing: Vec<(T, Stretch<T>)> = Vec::new();
+        let (start, tangent) = (contact.start.map(T::to_f64), contact.tangent.map(T::to_f64));
+        let across = |b: Bounds| {
+            let [least, most] = b.along(start, tangent);
+            let length = contact.length.to_f64() + self.margin;
+            (most >= -self.margin && least <= length).then_some(0.0)
+        };
+        let mut beside = Vec::new();
+        self.tree.visit(&across, &mut |edge| beside.push(edge));
+        let (one, two) = (T::one(), T::from_f64(2.0));
+        for edge in beside {
+            let placed = &self.target[edge];
+            if dot(placed.normal, contact.normal) > T::from_f64(-FACING) {
+                continue;
+            }
+            let end = [0, 1].map(|d| placed.start[d] + placed.length * placed.tangent[d]);
+            let ends = [contact.along(placed.start), contact.along(end)];
+            let from = Scalar::max(Scalar::min(ends[0], ends[1]), T::zero());
+            let to = Scalar::min(Scalar::max(ends[0], ends[1]), one);
+            if to - from > T::from_f64(ROUNDING) {
+                let distance = distance(contact, placed, (from + to) / two);
+                facing.push((distance, Stretch { edge, from, to, ends, length: contact.length }));
+            }
+        }
+        facing.sort_by(|a, b| in_order(a.0, b.0).then(a.1.edge.cmp(&b.1.edge)));
+        self.look_at_order(&facing);
+        let mut covered: Vec<Stretch<T>> = Vec::new();
+        for (_, stretch) in facing {
+            for (from, to) in uncovered(&covered, stretch.from, stretch.to) {
+                covered.push(Stretch { from, to, ..stretch });
+            }
+        }
+        covered
+    }
+
+    /// Compares the distances of target edges that may face the same stretch, for `compared` to see;
+    /// two that share a node lie on either side of it.
+    fn look_at_order(&self, facing: &[(T, Stretch<T>)]) {
+        for (k, (distance, stretch)) in facing.iter().enumerate() {
+            let nodes = self.surfaces.target[stretch.edge].nodes;
+            for (other_distance, other) in &facing[k + 1..] {
+                let (from, to) =
+                    (Scalar::max(stretch.from, other.from), Scalar::min(stretch.to, other.to));
+                let shared =
+                    self.surfaces.target[other.edge].nodes.iter().any(|n| nodes.contains(n));
+                if !shared && to - from > T::from_f64(ROUNDING) {
+                    let _ = distance < other_distance;
+                }
+            }
+        }
+    }
+}
+
+/// Returns the order of two distances, which no comparison of the scalar's own tells of.
+fn in_order<T: Scalar>(a: T, b: T) -> Ordering {
+    let beyond = || (a - b).to_f64().partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+    a.to_f64().total_cmp(&b.to_f64()).then_with(beyond)
+}
+
+/// Returns the distance from the contact edge's point `xi` to the target edge's line along the
+/// contact edge's normal, length.
+fn distance<T: Scalar>(contact: &Placed<T>, target: &Placed<T>, xi: T) -> T {
+    let p = [0, 1].map(|d| contact.start[d] + xi * contact.length * contact.tangent[d]);
+    Scalar::abs(target.outside(p) / dot(target.normal, contact.normal))
+}
+
+/// Returns the parts of `from` .. `to` outside the stretches that are already covered.
+fn uncovered<T: Scalar>(covered: &[Stretch<T>], from: T, to: T) -> Vec<(T, T)> {
+    let mut left = vec![(from, to)];
+    for stretch in covered {
+        left = left
+            .into_iter()
+            .flat_map(|(a, b)| [(a, Scalar::min(b, stretch.from)), (Scalar::max(a, stretch.to), b)])
+            .filter(|(a, b)| *b - *a > T::from_f64(ROUNDING))
+            .collect();
+    }
+    left
+}
+
+/// Returns the linear shape functions of the contact edge's two nodes at `xi`.
+fn phi<T: Scalar>(xi: T) -> [T; 2] {
+    [T::one() - xi, xi]
+}
+
+/// Returns the two Gauss points of a stretch and their weight, length: exact up to degree three.
+fn gauss<T: Scalar>(stretch: &Stretch<T>) -> [(T, T); 2] {
+    let two = T::from_f64(2.0);
+    let (middle, half) = ((stretch.from + stretch.to) / two, (stretch.to - stretch.from) / two);
+    let offset = half / T::from_f64(3.0).root();
+    [middle - offset, middle + offset].map(|xi| (xi, half * stretch.length))
+}
+
+/// The integrals over the covered part of a contact edge.
+struct Integrals<T> {
+    /// The integral ∫ φ_k of each shape function, length.
+    phi: [T; 2],
+    /// The matrix of the dual shape functions: ψ = dual · φ.
+    dual: [[T; 2]; 2],
+}
+
+impl<T: Scalar> Integrals<T> {
+    /// Integrates over `covered`. Returns None where nothing is covered.
+    fn over(covered: &[Stretch<T>]) -> Option<Self> {
+        let (mut mass, mut sum) = ([[T::zero(); 2]; 2], [T::zero(); 2]);
+        for (xi, weight) in covered.iter().flat_map(gauss) {
+            let phi = phi(xi);
+            for i in 0..2 {
+                let weighted = weight * phi[i];
+                (0..2).for_each(|j| mass[i][j] += weighted * phi[j]);
+                sum[i] += weighted;
+            }
+        }
+        let [[a, b], [c, d]] = mass;
+        let determinant = a * d - c * b;
+        // A matrix that is 0 within its bound has a quotient without one.
+        if determinant.to_f64() == 0.0 {
+            return None;
+        }
+        let inverse = [[d, T::zero() - b], [T::zero() - c, a]];
+        let dual = [0, 1].map(|i: usize| inverse[i].map(|x| sum[i] * (x / determinant)));
+        Some(Integrals { phi: sum, dual })
+    }
+}
+
+/// The sums of a contact node over its edges.
+struct Gathered<T> {
+    /// The integral M_ij by target node, length.
+    masters: BTreeMap<NodeId, T>,
+    /// The integral D_i, length.
+    length: T,
+    /// The integral ∫ φ_i n, length.
+    normal: [T; 2],
+    /// The share of the node's contact edges that each target edge covers.
+    edges: BTreeMap<EdgeId, f64>,
+}
+
+impl<T: Scalar> Gathered<T> {
+    fn new() -> Self {
+        let zero = T::zero();
+        Gathered {
+            masters: BTreeMap::new(),
+            length: zero,
+            normal: [zero; 2],
+            edges: BTreeMap::new(),
+        }
+    }
+
+    /// Adds the integrals of node `k` (0 or 1) of a contact edge over `covered`.
+    fn add(
+        &mut self,
+        k: usize,
+        integrals: &Integrals<T>,
+        covered: &[Stretch<T>],
+        search: &Search<T>,
+    ) {
+        self.length += integrals.phi[k];
+        for stretch in covered {
+            let edge: &Edge = &search.surfaces.target[stretch.edge];
+            let normal = search.target[stretch.edge].normal;
+            let id = edge.id.expect("a target edge is one of the model's");
+            *self.edges.entry(id).or_insert(0.0) += (stretch.to - stretch.from).to_f64();
+            for (xi, weight) in gauss(stretch) {
+                let psi = weight * dot(integrals.dual[k], phi(xi));
+                let eta = (xi - stretch.ends[0]) / (stretch.ends[1] - stretch.ends[0]);
+                for (master, n) in edge.nodes.into_iter().zip(phi(eta)) {
+                    *self.masters.entry(master).or_insert(T::zero()) += psi * n;
+                }
+                for d in [0, 1] {
+                    self.normal[d] += weight * phi(xi)[k] * normal[d];
+                }
+            }
+        }
+    }
+
+    fn pairing(self, node: NodeId, shape: &[[T; 2]]) -> Pairing<T> {
+        let normal = unit(self.normal);
+        let masters: Vec<(NodeId, T)> =
+            self.masters.into_iter().map(|(master, m)| (master, m / self.length)).collect();
+        let most = self.edges.iter().reduce(|a, b| if b.1 > a.1 { b } else { a });
+        let edge = *most.expect("a node that covers something covers an edge").0;
+        let mut pairing =
+            Pairing { node, edge, masters, normal, gap: T::zero(), length: self.length };
+        pairing.gap = pairing.opening(|n| shape[n.index()]);
+        pairing
+    }
+}

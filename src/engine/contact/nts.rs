@@ -1,0 +1,186 @@
+//! Node to segment: the point of the target closest to each contact node, by the rules of
+//! `outline.rs`; and how deep nodes of either surface lie in the other body.
+
+use std::collections::{BTreeSet, HashSet};
+use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
+
+use super::outline::{Faced, Outline};
+use super::pairing::{Pairing, Vector, unit};
+use super::search::Segment;
+use super::surface::{Edge, Surfaces};
+use base::error::InputError;
+use numbers::scalar::Scalar;
+use problem::model::{Bounds, Model, NodeId, TriangleId};
+
+/// The initial penetration, over the longest contact edge beside the node, beyond which a scene is
+/// refused. An interference that is modelled, as of a press fit, is a small part of an edge; a node
+/// deeper than half an edge may well be nearer to another side of the target.
+const DEEP_EDGE: f64 = 0.5;
+
+/// The initial penetration over the size of the scene up to which a scene is never refused: ten
+/// times the interference of a press fit of 0.1 %.
+const DEEP_SCENE: f64 = 0.01;
+
+/// A change of a normal or of weights that no move of a node brings about which is small beside the
+/// neighbourhood of a vertex.
+const JUMP: f64 = 0.01;
+
+/// Returns, for each entry of the contact surface, its closest point on the target.
+pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
+    let outline = target(surfaces, shape);
+    let mut listed = HashSet::new();
+    let pairing = |(&node, length): (&NodeId, f64)| {
+        let faced = contact_node(surfaces, &outline, shape, node)?;
+        let faced = Some(faced).filter(|_| listed.insert(node))?;
+        Some(faced.by(surfaces, node, length))
+    };
+    surfaces.nodes.iter().zip(surfaces.tributary(shape)).map(pairing).collect()
+}
+
+impl Faced {
+    /// Returns what contact node `node` faces, which stands for `length` of the contact surface.
+    fn by(self, surfaces: &Surfaces, node: NodeId, length: f64) -> Pairing {
+        let Faced { edge, masters, normal, gap, .. } = self;
+        let edge = surfaces.target[edge].id.expect("a target edge is one of the model's");
+        Pairing { node, edge, masters, normal, gap, length }
+    }
+}
+
+/// Returns whether two pairings of a node are of different parts of the target.
+fn jumps(one: Option<&Pairing>, other: Option<&Pairing>) -> bool {
+    let (Some(one), Some(other)) = (one, other) else { return one.is_some() != other.is_some() };
+    let weight = |of: &Pairing, node: NodeId| {
+        of.masters.iter().filter(|master| master.0 == node).map(|master| master.1).sum::<f64>()
+    };
+    let mut masters = one.masters.iter().chain(&other.masters);
+    masters.any(|(node, _)| (weight(one, *node) - weight(other, *node)).abs() > JUMP)
+        || (0..2).any(|d| (one.normal[d] - other.normal[d]).abs() > JUMP)
+}
+
+fn target<'a>(surfaces: &'a Surfaces, shape: &[Vector]) -> Outline<'a> {
+    let [_, meet] = &surfaces.meet;
+    Outline::new(&surfaces.target, meet, &surfaces.undeformed.target, shape)
+}
+
+/// Returns what a contact node faces.
+fn contact_node(
+    surfaces: &Surfaces,
+    outline: &Outline,
+    shape: &[Vector],
+    node: NodeId,
+) -> Option<Faced> {
+    outline.faced(shape[node.index()], surfaces.undeformed.contact_nodes.get(&node).copied())
+}
+
+impl Surfaces {
+    /// Returns the contact nodes that would face another part of the target, along another normal or
+    /// with other weights, if they stood up to `radius` away, each with what it would face there. Two
+    /// edges that lead to the same vertex are the same part.
+    ///
+    /// Tried are the corners of an octagon about the circle of that radius. A limit between two parts
+    /// is a straight line on this scale: one that crosses the circle cuts off a corner.
+    pub fn facing_otherwise(
+        &self,
+        shape: &[Vector],
+        radius: f64,
+    ) -> Vec<(NodeId, Option<Pairing>)> {
+        let outline = target(self, shape);
+        let nodes: BTreeSet<NodeId> = self.nodes.iter().copied().collect();
+        let faced = |node: NodeId, at: Vector| {
+            let own = self.undeformed.contact_nodes.get(&node).copied();
+            Some(outline.faced(at, own)?.by(self, node, 0.0))
+        };
+        let outside = radius / FRAC_PI_8.cos();
+        let otherwise = |node: NodeId| {
+            let [x, y] = shape[node.index()];
+            let own = faced(node, [x, y]);
+            let around = (0..8).map(|k| {
+                let (sin, cos) = (FRAC_PI_4 * f64::from(k)).sin_cos();
+                faced(node, [x + outside * cos, y + outside * sin])
+            });
+            let other = around.filter(|other| jumps(own.as_ref(), other.as_ref()));
+            other.map(|other| (node, other)).collect::<Vec<_>>()
+        };
+        nodes.into_iter().flat_map(otherwise).collect()
+    }
+
+    /// Returns the target node that lies deepest in the contact body, and its depth, length, in a
+    /// shape given as the coordinates of each node; None where none lies in it.
+    ///
+    /// The depth is measured from the contact edges that face the target. Node to segment does not
+    /// see it: a vertex of the target between two contact nodes may enter the contact body. On
+    /// curved surfaces that lie flush it is of the size of the sagitta of an edge.
+    pub fn deepest_target_node(&self, shape: &[Vector]) -> Option<(NodeId, f64)> {
+        let [meet, _] = &self.meet;
+        let outline = Outline::new(&self.contact, meet, &self.undeformed.contact, shape);
+        let nodes: BTreeSet<NodeId> = self.target.iter().flat_map(|edge| edge.nodes).collect();
+        let depth = |node: NodeId| {
+            let own = self.undeformed.target_nodes.get(&node).map(|normal| unit(*normal));
+            let faced = outline.faced(shape[node.index()], own)?;
+            (faced.over && faced.gap < 0.0).then_some((node, -faced.gap))
+        };
+        nodes.into_iter().filter_map(depth).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Returns the contact node that lies deepest inside a triangle of the target's body, and its distance
+    /// from the nearest target edge, length, in a shape given as the coordinates of each node; None where
+    /// none lies in it. No normal has a say in it.
+    pub fn deepest_contact_node(&self, model: &Model, shape: &[Vector]) -> Option<(NodeId, f64)> {
+        let at = |node: &NodeId| shape[node.index()];
+        let near = Bounds::of(&self.nodes.iter().map(at).collect::<Vec<_>>());
+        let corners = |id: &TriangleId| model.triangle(*id).nodes.map(|node| at(&node));
+        let target = model.target()?.triangles.iter().map(corners);
+        let close: Vec<[Vector; 3]> =
+            target.filter(|corners| Bounds::of(corners).meets(near)).collect();
+        let is_inside = |p: Vector| {
+            close.iter().any(|[a, b, c]| {
+                let sides = [[a, b], [b, c], [c, a]];
+                let side = |[from, to]: [&Vector; 2]| f64::orientation(*from, *to, p);
+                sides.into_iter().all(|ends| side(ends) > 0.0)
+            })
+        };
+        let edges: Vec<Segment<f64>> =
+            self.target.iter().map(|edge| Segment::new(edge.nodes.map(|node| at(&node)))).collect();
+        let depth = |p: Vector| {
+            let squares = edges.iter().map(|edge| edge.closest(p).distance_square);
+            squares.fold(f64::INFINITY, f64::min).sqrt()
+        };
+        let inside = self.nodes.iter().filter(|node| is_inside(at(node)));
+        let depths = inside.map(|node| (*node, depth(at(node))));
+        depths.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
+    }
+
+    /// Checks that no contact node lies deep in the target before the loads act. What counts as
+    /// deep is more than half the longest contact edge beside the node and more than 1 % of the
+    /// scene's larger extent.
+    /// Errors: a contact node lies deep in the target; the error names the deepest.
+    pub fn check_initial_penetration(&self, model: &Model) -> Result<(), InputError> {
+        let outline = target(self, &model.nodes);
+        let size = model.bounds().larger_side();
+        let longest = |node: NodeId| {
+            let beside = self.contact.iter().filter(|edge: &&Edge| edge.nodes.contains(&node));
+            beside.map(|edge| edge.place(&model.nodes).length).fold(0.0, f64::max)
+        };
+        let depth = |&node: &NodeId| {
+            let faced = contact_node(self, &outline, &model.nodes, node)?;
+            let depth = -faced.gap;
+            let deep = faced.over && depth > DEEP_SCENE * size;
+            (deep && depth > DEEP_EDGE * longest(node)).then_some((node, depth))
+        };
+        let deep = self.nodes.iter().filter_map(depth);
+        let deepest = deep.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        match deepest {
+            Some((node, depth)) => {
+                let (edge, part) = (longest(node), 100.0 * depth / size);
+                let what = format!(
+                    "contact node {node} lies {depth:.4} inside the target before the loads act: \
+                     {part:.1} % of the scene's size, beside a contact edge of length {edge:.4}"
+                );
+                let fix = "move the bodies apart, or name the target's side that faces the \
+                           contact surface; an interference may be half a contact edge deep";
+                Err(InputError::new("contact", what, fix))
+            }
+            None => Ok(()),
+        }
+    }
+}

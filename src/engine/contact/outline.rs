@@ -1,0 +1,342 @@
+//! The point of a surface that a node faces, and the normal there, also at the surface's corners.
+//!
+//! ```text
+//!     edge          o p         corner          o p        corner, p inside
+//!                   :                          / n = (p − v)/|p − v|
+//!      *------------+---*          *----------v                 *-----------v
+//!        . . body . . .              . body . |                   . . . o   | both equally near:
+//!                                    . . . .  |                   . . . . . | n = bisector at v
+//! ```
+//!
+//! 1. A node that projects on an edge is paired with that point of the edge.
+//! 2. A node in the cone of a corner, where it projects past the ends of both edges, is paired with
+//!    the corner's vertex alone. The normal is the direction between vertex and node. It is the
+//!    edge's normal on the cone's two sides, so that nothing jumps where a node passes round.
+//! 3. Where the node lies within [`TIE`] of the vertex, or two edges that meet there are equally
+//!    near within [`TIE`], it is paired with the vertex, and the normal is the bisector of the
+//!    edges' normals. So a node inside a convex corner or over a concave one, on the bisector.
+//! 4. Where edges meet in a bend of a smooth surface, within [`BEND`], the normal turns along each
+//!    edge from the mean normal at its first node to that at its second. Otherwise a node that comes
+//!    to rest at a bend of a curved target would alternate between the two edges without end.
+//! 5. Past the end of the edges that face it, a node rests on the last edge's line as far as
+//!    [`HANGING`], even with a closed gap. Otherwise a node there would be released because it is
+//!    closed, and closed again because it then penetrates, without end.
+//!
+//! No rule depends on the order or direction of the edges or on the axes; a choice jumps only where
+//! a node leaves the neighbourhood [`TIE`] of rule 3, and at the limits of rules 4 and 5.
+//!
+//! Source: G. Zavarise, L. De Lorenzis, Comput. Methods Appl. Mech. Engrg. 198 (2009) 3428-3451 (a
+//! node in the cone between two segments is paired with the vertex); J. A. Bærentzen, H. Aanæs, IEEE
+//! TVCG 11 (2005) 243-253 (the sum of the edges' normals has the right sign at a vertex).
+
+use std::cell::{Cell, RefCell};
+
+use rustc_hash::FxHashMap;
+
+use super::pairing::{Vector, unit};
+use super::search::{dot, minus};
+use super::surface::{Edge, FACING, Meeting, Placed};
+use problem::model::NodeId;
+use problem::tree::{Bounds, Tree};
+
+/// The difference of two distances, over the size of the surface, below which they are equal: far
+/// above rounding, also at a thousand sizes from the origin, and far below any gap that matters.
+const TIE: f64 = 1e-9;
+
+/// How far past an edge's end a closest point still counts as on it, over its length, and by how
+/// much a cosine may miss its limit: rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
+/// smooth surface: 30 degrees.
+const BEND: f64 = 0.866;
+
+/// How far past the end of the surface a node still rests on it, over the last edge's length: the
+/// same tolerance as mortar's. Edges that lie flush slide by their strain.
+const HANGING: f64 = 0.05;
+
+/// The edges of a body's surface in a shape, for the search of what a node faces.
+pub(super) struct Outline<'a> {
+    edges: &'a [Edge],
+    placed: Vec<Placed>,
+    /// The normal of each edge in the undeformed shape.
+    undeformed: &'a [Vector],
+    /// The edges at each node, an edge that is listed twice once.
+    at: &'a FxHashMap<NodeId, Vec<usize>>,
+    /// The mean normal at each edge's two nodes, over the edges that meet there in a bend.
+    normals: Vec<[Vector; 2]>,
+    tree: Tree,
+    /// The distance below which two are equal, length.
+    tie: f64,
+}
+
+/// What a node faces.
+pub(super) struct Faced {
+    /// The index of the edge.
+    pub(super) edge: usize,
+    /// The nodes of the surface and their weights, which sum to 1.
+    pub(super) masters: Vec<(NodeId, f64)>,
+    /// The unit normal out of the body.
+    pub(super) normal: Vector,
+    /// The distance along the normal, length; < 0 inside the body.
+    pub(super) gap: f64,
+    /// Whether the node lies over the surface, not past its end.
+    pub(super) over: bool,
+}
+
+/// The part of a surface that is nearest to a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    Edge(usize),
+    Vertex(NodeId),
+    /// A vertex, from a node inside a tip of which no edge faces the node.
+    Tip(NodeId),
+}
+
+impl<'a> Outline<'a> {
+    /// Places edges in `shape`; `undeformed` contains the normal of each in the undeformed shape.
+    pub(super) fn new(
+        edges: &'a [Edge],
+        Meeting { once, at }: &'a Meeting,
+        undeformed: &'a [Vector],
+        shape: &[Vector],
+    ) -> Self {
+        let placed: Vec<Placed> = edges.iter().map(|edge| edge.place(shape)).collect();
+        let ends = |k: &usize| (*k, edges[*k].nodes.map(|n| shape[n.index()]));
+        let tree = Tree::new(once.iter().map(ends));
+        let tie = TIE * tree.bounds().map_or(0.0, |all| all.larger_side());
+        let normals = normals(edges, &placed, at);
+        Outline { edges, placed, undeformed, at, normals, tree, tie }
+    }
+
+    /// Returns what a node at `p` faces; `own` is the normal out of the node's own body in the
+    /// undeformed shape, None where it bounds no edge and so faces every edge.
+    pub(super) fn faced(&self, p: Vector, own: Option<Vector>) -> Option<Faced> {
+        let node = Facing { outline: self, p, own };
+        let best = Cell::new(f64::INFINITY);
+        let near: RefCell<Vec<(f64, Part)>> = RefCell::default();
+        let key = |b: Bounds| Some(b.distance(p)).filter(|d| *d <= best.get() + self.tie);
+        self.tree.visit(&key, &mut |k| {
+            if let Some((distance, part)) = node.part(k)
+                && distance <= best.get() + self.tie
+            {
+                best.set(best.get().min(distance));
+                near.borrow_mut().push((distance, part));
+            }
+        });
+        let mut near = near.into_inner();
+        near.retain(|(distance, _)| *distance <= best.get() + self.tie);
+        let parts: Vec<Part> = near.into_iter().map(|(_, part)| part).collect();
+        (!parts.is_empty()).then(|| node.choose(&parts))
+    }
+
+    /// Returns the place of a vertex in the shape, length.
+    fn vertex(&self, v: NodeId) -> Vector {
+        let k = self.at[&v][0];
+        let Placed { start, tangent, length, .. } = &self.placed[k];
+        let end = self.edges[k].nodes[1] == v;
+        let far = if end { *length } else { 0.0 };
+        [0, 1].map(|d| start[d] + far * tangent[d])
+    }
+
+    /// Returns how far `p` projects past end `v` of edge `k`, over its length; < 0 on its side.
+    fn past(&self, k: usize, v: NodeId, p: Vector) -> f64 {
+        let xi = self.placed[k].along(p);
+        if self.edges[k].nodes[1] == v { xi - 1.0 } else { -xi }
+    }
+
+    /// Returns the sum of the normals of the edges at a vertex, which points out of the body.
+    fn pseudo_normal(&self, v: NodeId) -> Vector {
+        let normals = self.at[&v].iter().map(|&k| self.placed[k].normal);
+        normals.fold([0.0; 2], |sum, n| [sum[0] + n[0], sum[1] + n[1]])
+    }
+
+    /// Returns whether the edges at a vertex meet in a bend of a smooth surface.
+    fn bends(&self, v: NodeId) -> bool {
+        let at = &self.at[&v];
+        let normal = |k: usize| self.placed[k].normal;
+        at.iter().all(|&k| at.iter().all(|&l| dot(normal(k), normal(l)) > BEND))
+    }
+}
+
+/// A node in search of what it faces.
+struct Facing<'a> {
+    outline: &'a Outline<'a>,
+    p: Vector,
+    own: Option<Vector>,
+}
+
+impl Facing<'_> {
+    /// Returns whether the node faces a normal of the surface.
+    fn faces(&self, normal: Vector) -> bool {
+        self.own.is_none_or(|own| dot(own, normal) <= ROUNDING - FACING)
+    }
+
+    fn faces_edge(&self, k: usize) -> bool {
+        self.faces(self.outline.undeformed[k])
+    }
+
+    /// Returns the part of edge `k` or of its ends that is nearest to the node, and its distance.
+    fn part(&self, k: usize) -> Option<(f64, Part)> {
+        let (outline, p) = (self.outline, self.p);
+        let edge = &outline.edges[k];
+        let xi = outline.placed[k].along(p);
+        let v = edge.nodes[usize::from(xi > 0.5)];
+        if outline.past(k, v, p) > 0.0 {
+            return self.at_vertex(v).map(|part| (self.distance(v), part));
+        }
+        if self.faces_edge(k) {
+            return Some((outline.placed[k].outside(p).abs(), Part::Edge(k)));
+        }
+        // From the middle of an edge both of its ends are as near.
+        let ends = edge.nodes.into_iter().filter(|end| *end == v || xi == 0.5);
+        let tip = ends.filter(|end| self.in_tip(*end)).min()?;
+        Some((self.distance(tip), Part::Tip(tip)))
+    }
+
+    fn distance(&self, v: NodeId) -> f64 {
+        let [x, y] = minus(self.p, self.outline.vertex(v));
+        x.hypot(y)
+    }
+
+    /// Returns the part of the surface at vertex `v` that the node rests on, past an edge's end.
+    fn at_vertex(&self, v: NodeId) -> Option<Part> {
+        let outline = self.outline;
+        let at = &outline.at[&v];
+        let facing: Vec<usize> = at.iter().copied().filter(|k| self.faces_edge(*k)).collect();
+        let past = |k: usize| outline.past(k, v, self.p);
+        let last = if let [k] = facing[..] { Some(k) } else { None };
+        let last = last.filter(|k| past(*k) > 0.0);
+        if let Some(k) = last
+            && past(k) <= HANGING + ROUNDING
+        {
+            return Some(Part::Edge(k));
+        }
+        let in_cone = at.len() > 1 && at.iter().all(|&k| past(k) > 0.0);
+        if in_cone && (facing.len() == at.len() || self.faces(self.out_of(v))) {
+            return Some(Part::Vertex(v));
+        }
+        let steep = |k: &usize| {
+            let edge = &outline.placed[*k];
+            past(*k) <= edge.outside(self.p).abs() / edge.length + ROUNDING
+        };
+        last.filter(steep).map(Part::Edge)
+    }
+
+    /// Returns whether the node lies inside a tip at `v` of which no edge faces the node, but a
+    /// direction between their normals does.
+    fn in_tip(&self, v: NodeId) -> bool {
+        let outline = self.outline;
+        let at = &outline.at[&v];
+        let inside = |k: &usize| outline.placed[*k].outside(self.p) <= outline.tie;
+        at.len() > 1
+            && at.iter().all(|k| !self.faces_edge(*k) && inside(k))
+            && self.faces(unit(outline.pseudo_normal(v)))
+    }
+
+    /// Returns the normal at a vertex by rules 2 and 3.
+    fn out_of(&self, v: NodeId) -> Vector {
+        if self.distance(v) <= self.outline.tie {
+            return unit(self.outline.pseudo_normal(v));
+        }
+        self.direction(v)
+    }
+
+    /// Returns the unit vector between vertex and node, out of the body.
+    fn direction(&self, v: NodeId) -> Vector {
+        let away = minus(self.p, self.outline.vertex(v));
+        let out = dot(away, self.outline.pseudo_normal(v)) >= 0.0;
+        unit(if out { away } else { away.map(|x| -x) })
+    }
+
+    /// Chooses among the nearest parts, which are equally near.
+    fn choose(&self, parts: &[Part]) -> Faced {
+        if let Some(v) = self.corner(parts) {
+            return self.on_vertex(v, unit(self.outline.pseudo_normal(v)));
+        }
+        let vertices = parts.iter().filter_map(|part| match part {
+            Part::Vertex(v) | Part::Tip(v) => Some((*v, *part)),
+            Part::Edge(_) => None,
+        });
+        match vertices.min_by_key(|(v, _)| *v) {
+            Some((v, Part::Tip(_))) => self.on_vertex(v, unit(self.outline.pseudo_normal(v))),
+            Some((v, _)) if self.outline.bends(v) => self.on_edge(self.farther(v)),
+            Some((v, _)) => self.on_vertex(v, self.direction(v)),
+            None => {
+                let edges = parts.iter().filter_map(|part| match part {
+                    Part::Edge(k) => Some(*k),
+                    Part::Vertex(_) | Part::Tip(_) => None,
+                });
+                let first = edges.min_by_key(|k| self.outline.edges[*k].nodes);
+                self.on_edge(first.expect("a part is an edge or a vertex"))
+            }
+        }
+    }
+
+    /// Returns the vertex of rule 3: of two edges among `parts`, or a vertex so near that the
+    /// direction from it is rounding.
+    fn corner(&self, parts: &[Part]) -> Option<NodeId> {
+        let outline = self.outline;
+        let mut vertices: Vec<NodeId> = Vec::new();
+        for part in parts {
+            match part {
+                Part::Edge(k) => vertices.extend(outline.edges[*k].nodes),
+                Part::Vertex(v) | Part::Tip(v) => vertices.push(*v),
+            }
+        }
+        let met = |v: &NodeId| {
+            let at = &outline.at[v];
+            let near = |k: &&usize| parts.contains(&Part::Edge(**k));
+            let facing = || at.iter().filter(|k| self.faces_edge(**k)).count();
+            at.iter().filter(near).count() > 1
+                || self.distance(*v) <= outline.tie
+                    && (facing() > 1 || parts.contains(&Part::Vertex(*v)))
+        };
+        vertices.into_iter().filter(met).min()
+    }
+
+    /// Returns the edge at a vertex whose line is the farther from the node.
+    fn farther(&self, v: NodeId) -> usize {
+        let outline = self.outline;
+        let away = |k: usize| outline.placed[k].outside(self.p).abs();
+        let edges = outline.at[&v].iter().copied();
+        let best = edges.reduce(|a, b| {
+            let further = away(b) - away(a);
+            let first = outline.edges[b].nodes < outline.edges[a].nodes;
+            if further > outline.tie || further >= -outline.tie && first { b } else { a }
+        });
+        best.expect("a vertex has an edge")
+    }
+
+    fn on_vertex(&self, v: NodeId, normal: Vector) -> Faced {
+        let gap = dot(normal, minus(self.p, self.outline.vertex(v)));
+        Faced { edge: self.farther(v), masters: vec![(v, 1.0)], normal, gap, over: true }
+    }
+
+    fn on_edge(&self, k: usize) -> Faced {
+        let (edge, placed) = (&self.outline.edges[k], &self.outline.placed[k]);
+        let along = placed.along(self.p);
+        let xi = along.clamp(0.0, 1.0);
+        let over = (along - xi).abs() <= ROUNDING;
+        let [a, b] = self.outline.normals[k];
+        let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
+        let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
+        let gap = placed.outside(self.p) * dot(normal, placed.normal);
+        Faced { edge: k, masters, normal, gap, over }
+    }
+}
+
+/// Returns the normals at the nodes of each edge: the mean over edges that meet in a bend.
+fn normals(
+    edges: &[Edge],
+    placed: &[Placed],
+    at: &FxHashMap<NodeId, Vec<usize>>,
+) -> Vec<[Vector; 2]> {
+    let mean = |k: usize, node: NodeId| {
+        let own = placed[k].normal;
+        let normals = at[&node].iter().map(|&other| placed[other].normal);
+        let bend = normals.filter(|normal| dot(*normal, own) > BEND);
+        unit(bend.fold([0.0; 2], |sum, normal| [sum[0] + normal[0], sum[1] + normal[1]]))
+    };
+    edges.iter().enumerate().map(|(k, edge)| edge.nodes.map(|node| mean(k, node))).collect()
+}

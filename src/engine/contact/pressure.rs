@@ -1,0 +1,170 @@
+//! The traction on the contact surface at the end of a run of any variant: the reaction K u − F of
+//! the contact body's equations.
+
+use nalgebra::DVector;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::pairing::Pairing;
+use super::sliding::Status;
+use super::surface::Surfaces;
+use problem::model::{Model, NodeId};
+
+/// How far the size of a normal's component may be from 1 where a restraint is across the normal.
+const ACROSS: f64 = 1e-9;
+
+/// A contact node at the end of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ContactNode {
+    /// The node of the contact surface.
+    pub node: NodeId,
+    /// The distance from the first contact node along the undeformed contact surface, length.
+    pub arc: f64,
+    /// Whether it is in contact by the variant's own rule.
+    #[serde(rename = "dy", with = "as_number")]
+    #[schemars(with = "u8", range(max = 1))]
+    pub in_contact: bool,
+    /// The distance from the target along its normal, length; < 0 where the node penetrates. Under
+    /// mortar its weighted mean over the surface around the node.
+    pub gap: f64,
+    /// The status under `unilateral`; None under the other variants.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub status: Option<Status>,
+    /// The force on the node along the normal, force; < 0 where it pulls. None where restraints of
+    /// the node leave it undetermined.
+    pub force: Option<f64>,
+    /// The contact pressure: the force over the undeformed surface of the node, stress. None
+    /// for a node that bounds no contact edge.
+    pub pressure: Option<f64>,
+    /// The traction along the tangent, which is the normal turned left, stress.
+    pub shear: Option<f64>,
+    /// |shear| / pressure, the friction that keeps the node from sliding; None where the force
+    /// does not press by more than rounding.
+    pub friction_needed: Option<f64>,
+}
+
+/// The force over the largest of a surface, or of the load, below which it is rounding.
+pub const ROUNDING_OF_A_FORCE: f64 = 1e-11;
+
+/// Returns the nodes in contact that pull by more than rounding; the largest force of the load is `load`.
+pub fn pulling(surface: &[ContactNode], load: f64) -> Vec<NodeId> {
+    let least = ROUNDING_OF_A_FORCE * largest(surface.iter().map(|node| node.force)).max(load);
+    let pulls = |node: &&ContactNode| node.force.is_some_and(|force| force < -least);
+    surface.iter().filter(|node| node.in_contact).filter(pulls).map(|node| node.node).collect()
+}
+
+/// Returns the largest |force| of those that are determined.
+fn largest(forces: impl Iterator<Item = Option<f64>>) -> f64 {
+    forces.flatten().fold(0.0, |largest, force| largest.max(force.abs()))
+}
+
+/// Writes and reads `dy` in files as 1 or 0.
+mod as_number {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(value: &bool, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_u8(u8::from(*value))
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<bool, D::Error> {
+        Ok(u8::deserialize(deserializer)? == 1)
+    }
+}
+
+/// The contact surface at the end of a run, from which the tractions are computed.
+pub struct Traction<'a> {
+    /// The finite element model of the run.
+    pub model: &'a Model,
+    /// The contact and target surfaces of the model.
+    pub surfaces: &'a Surfaces,
+    /// The shape in which contact is measured: the coordinates of each node, length.
+    pub measured_in: &'a [[f64; 2]],
+    /// The pairing of each entry of the contact surface in that shape.
+    pub pairings: &'a [Option<Pairing>],
+    /// The gap of each entry, length; None where it faces nothing.
+    pub gaps: &'a [Option<f64>],
+    /// Whether each entry of the contact surface is in contact.
+    pub in_contact: &'a [bool],
+    /// The status of each entry; None where the variant has no such statuses.
+    pub statuses: Option<&'a [Status]>,
+    /// The force of each entry along normal and tangent, force; None where it is not determined.
+    pub forces: &'a [[Option<f64>; 2]],
+}
+
+impl Traction<'_> {
+    /// Returns the contact nodes that face the target, in order along the surface.
+    pub fn nodes(&self) -> Vec<ContactNode> {
+        let lengths =
+            [&self.model.nodes[..], self.measured_in].map(|shape| self.surfaces.tributary(shape));
+        let arcs = arcs(self.model);
+        let least = ROUNDING_OF_A_FORCE * largest(self.forces.iter().map(|force| force[0]));
+        let node = |i: usize| {
+            let pairing = self.pairings[i].as_ref()?;
+            let stretch = lengths[1][i] / lengths[0][i];
+            let length = over(pairing.length, stretch).unwrap_or(0.0);
+            Some(self.node(i, pairing, arcs[i], length, least))
+        };
+        (0..self.pairings.len()).filter_map(node).collect()
+    }
+
+    /// Returns the tractions on an entry that represents `length` of the undeformed surface; a force of
+    /// up to `least` presses no node.
+    fn node(&self, i: usize, pairing: &Pairing, arc: f64, length: f64, least: f64) -> ContactNode {
+        let [normal, tangent] = self.forces[i];
+        let area = length * self.model.thickness;
+        let pressing = normal.filter(|normal| self.in_contact[i] && *normal > least);
+        ContactNode {
+            node: pairing.node,
+            arc,
+            in_contact: self.in_contact[i],
+            gap: self.gaps[i].unwrap_or(pairing.gap),
+            status: self.statuses.map(|statuses| statuses[i]),
+            force: normal,
+            pressure: normal.and_then(|normal| over(normal, area)),
+            shear: tangent.and_then(|tangent| over(tangent, area)),
+            friction_needed: pressing.zip(tangent).map(|(normal, tangent)| tangent.abs() / normal),
+        }
+    }
+}
+
+/// Returns the forces along normal and tangent of every entry from the reaction K u − F of its node,
+/// force. Contact does not bind a component in which a node is restrained where `eliminated`, so
+/// that its reaction is the restraint's alone; otherwise it may be contact's too, and what depends
+/// on it is None.
+pub fn reactions(
+    model: &Model,
+    pairings: &[Option<Pairing>],
+    reaction: &DVector<f64>,
+    eliminated: bool,
+) -> Vec<[Option<f64>; 2]> {
+    let of_pairing = |pairing: &Pairing| {
+        let ([nx, ny], restrained) = (pairing.normal, model.restraints_of(pairing.node));
+        let force = pairing.node.of(reaction);
+        let [rx, ry] = [0, 1].map(|d| if restrained[d] { 0.0 } else { force[d] });
+        let is_determined = match restrained {
+            [false, false] => true,
+            [true, true] => false,
+            [true, false] => eliminated || ny.abs() > 1.0 - ACROSS,
+            [false, true] => eliminated || nx.abs() > 1.0 - ACROSS,
+        };
+        let force = [nx * rx + ny * ry, nx * ry - ny * rx];
+        force.map(|component| is_determined.then_some(component))
+    };
+    pairings.iter().map(|p| p.as_ref().map_or([None, None], of_pairing)).collect()
+}
+
+/// Returns a / b; None for a node that represents no length, which has no pressure.
+fn over(a: f64, b: f64) -> Option<f64> {
+    (b > 0.0).then_some(a / b)
+}
+
+/// Returns the distance of each entry from the first along the undeformed contact surface, length.
+pub(crate) fn arcs(model: &Model) -> Vec<f64> {
+    let at = |i: usize| model.at(model.contact.nodes[i]);
+    let mut arcs = vec![0.0; model.contact.nodes.len()];
+    for i in 1..arcs.len() {
+        let ([ax, ay], [bx, by]) = (at(i - 1), at(i));
+        arcs[i] = arcs[i - 1] + (bx - ax).hypot(by - ay);
+    }
+    arcs
+}

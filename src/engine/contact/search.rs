@@ -1,0 +1,125 @@
+//! The search for the point of a surface that is closest to a given point, in any scalar.
+//!
+//! ```text
+//!        normal ^         o p            side < 0: p is outside the body, which lies on the left
+//!               |         :              from a to b
+//!     b *-------+---------x------* a     x: the point closest to p; xi counts from a to b
+//!        . . . . body . . . .
+//!
+//!     convex corner   o p          concave corner      \ o p /
+//!                    :                                  \ : /
+//!               ----*               it is on             \:/
+//!             . . . .\              either edge           *
+//!             . body .\                                  body
+//! ```
+//!
+//! At a corner both edges are equally near. The edge whose line is farther from p is taken: its
+//! side has the right sign, because the sum of the two normals has it (Bærentzen and Aanæs, IEEE
+//! TVCG 11:243, 2005). The rule past the end of a surface belongs to the caller: `admits`.
+//!
+//! No square root is taken: distances are compared as squares, so that exact numbers can be used.
+
+use numbers::scalar::Scalar;
+
+/// An edge in a shape, with its body on the left.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<T> {
+    /// The coordinates of its two ends, length.
+    pub ends: [[T; 2]; 2],
+    /// The vector from its first end to its second, length.
+    along: [T; 2],
+    /// The square of its length, length².
+    square: T,
+}
+
+/// The point of a segment that is closest to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest<T> {
+    /// Its position on the segment's line: 0 at the first end, 1 at the second.
+    pub xi: T,
+    /// Twice the area of the two ends and the point, length²: > 0 on the body's side of the line.
+    pub side: T,
+    /// The square of the segment's length, length².
+    pub square: T,
+    /// The square of the distance to the segment, length².
+    pub distance_square: T,
+}
+
+impl<T: Scalar> Segment<T> {
+    /// Returns the segment between two ends.
+    pub fn new(ends: [[T; 2]; 2]) -> Self {
+        let along = minus(ends[1], ends[0]);
+        Segment { ends, along, square: dot(along, along) }
+    }
+
+    /// Returns its point that is closest to `p`.
+    pub fn closest(&self, p: [T; 2]) -> Closest<T> {
+        let xi = dot(self.along, minus(p, self.ends[0])) / self.square;
+        let side = self.side(p);
+        let distance_square = match () {
+            _ if xi < T::zero() => square(minus(p, self.ends[0])),
+            _ if xi > T::one() => square(minus(p, self.ends[1])),
+            _ => side * side / self.square,
+        };
+        Closest { xi, side, square: self.square, distance_square }
+    }
+
+    /// Returns a number > 0 where `p` lies on the body's side of its line, 0 on the line, else < 0;
+    /// of `f64` the sign is exact.
+    pub fn side(&self, p: [T; 2]) -> T {
+        T::orientation(self.ends[0], self.ends[1], p)
+    }
+}
+
+impl<T: Scalar> Closest<T> {
+    /// Returns how far the point lies past the nearer end, over the segment's length, or 0.
+    pub fn past(&self) -> T {
+        let before = T::zero() - self.xi;
+        Scalar::max(Scalar::max(before, self.xi - T::one()), T::zero())
+    }
+
+    /// Returns the index of the nearer end, 0 or 1.
+    pub fn end(&self) -> usize {
+        usize::from(self.xi + self.xi > T::one())
+    }
+
+    /// Returns the distance, rounded, length; < 0 inside the body.
+    pub fn distance(&self) -> f64 {
+        let distance = T::scaled_root(T::one(), T::one(), self.distance_square);
+        if self.side.to_f64() > 0.0 { -distance } else { distance }
+    }
+
+    /// Returns the square of the distance to the segment's line, length².
+    fn line_square(&self) -> T {
+        self.side * self.side / self.square
+    }
+
+    fn is_nearer_than(&self, other: &Self) -> bool {
+        self.distance_square < other.distance_square
+            || self.distance_square == other.distance_square
+                && self.line_square() > other.line_square()
+    }
+}
+
+/// Returns the closest point to `p` on the segments that `admits` accepts, and its segment.
+pub fn closest<'a, T: Scalar>(
+    segments: impl IntoIterator<Item = (usize, &'a Segment<T>)>,
+    p: [T; 2],
+    admits: impl Fn(usize, &Closest<T>) -> bool,
+) -> Option<(usize, Closest<T>)> {
+    let points = segments.into_iter().map(|(k, segment)| (k, segment.closest(p)));
+    let admitted = points.filter(|(k, closest)| admits(*k, closest));
+    admitted.reduce(|best, next| if next.1.is_nearer_than(&best.1) { next } else { best })
+}
+
+pub(super) fn minus<T: Scalar>(a: [T; 2], b: [T; 2]) -> [T; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+pub(super) fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn square<T: Scalar>(a: [T; 2]) -> T {
+    dot(a, a)
+}

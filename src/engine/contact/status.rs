@@ -1,0 +1,256 @@
+//! The rules that decide which nodes are in contact: the sign rule that the listing prints, the
+//! text's other remedy, and the exact projection.
+//!
+//! For a node that jumped deeper into the target than c_tol the text names two remedies: "the
+//! search for the point of intersection of the elements that hold this node with the neighbouring
+//! elements of the target surface", and "the comparison of the signs of Yi of neighbouring nodes".
+//! The listing has only the second. The first is built here, word by word:
+//!
+//! - *the elements that hold this node*: the triangles of which the contact node is a corner. Only
+//!   their sides that end at the node count: where the opposite side is cut, the node may be on
+//!   either side of the cut;
+//! - *the neighbouring elements of the target surface*: the target edges (the text calls an edge
+//!   with nodes 1.1 and 1.2 an element). A side meets its neighbours only: an edge is skipped if
+//!   its box does not overlap the side's;
+//! - *the point of intersection*: a side that leaves the target crosses it once more outwards.
+//!
+//! ```text
+//!       q1 *-------* q2       c      the contact node, jumped deeper than c_tol
+//!           \     /           q1, q2 the other corners of a triangle at c
+//!            \   /            x      where c - q1 and c - q2 lead out of the target
+//!     *-------x-x-------*     target edges; the target lies below them
+//!              c
+//! ```
+//!
+//! The remedy does not find a node whose elements have sunk in completely (no side of theirs is
+//! cut), nor a node beside the target whose side enters through the target's flank, which is no
+//! target edge, and leaves through the surface.
+
+use std::collections::BTreeSet;
+
+use super::super::decisions::{self, Decision};
+use super::search::{Closest, Segment, closest};
+use std::collections::HashMap;
+
+use mathcad::Conjunction;
+use mathcad::array::Table;
+use numbers::scalar::{Scalar, Unsure, compared};
+use paper::door::{self, ContactStatus};
+use paper::mirror::{self, Failure, Pairs, Reading, Worksheet, c_cnt};
+use problem::model::{EdgeId, Model, NodeId};
+use problem::modelling::StatusRule;
+
+/// Returns the status of each contact node in the shape `node_n` (R x 4) by `rule`. `sheet`
+/// contains the tables of `model` in T.
+///
+/// Under *signs* the edges and distances are those of `c_cnt`. Under *intersection* they are too,
+/// but where `c_cnt` found no edge for a node in contact, the edge is the nearest one. Under
+/// *projection* the edge is the nearest one, None past the surface's end, and the distance is minus
+/// the signed distance to it: > 0 inside the target.
+/// Errors: the lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 and the weights of 22
+/// under *intersection*.
+pub fn statuses<T: Scalar>(
+    rule: StatusRule,
+    model: &Model,
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    node_n: &Table<T>,
+) -> Result<Vec<ContactStatus<T>>, Failure> {
+    match rule {
+        StatusRule::Signs => Ok(door::statuses(model, &c_cnt(sheet, reading, node_n)?)),
+        StatusRule::Intersection => {
+            let pairs = c_cnt(sheet, &guarded(reading), node_n)?;
+            let target = Target::new(model, node_n);
+            let by_rule = |(k, status)| {
+                by_intersection(model, &target, node_n, is_near(sheet, &pairs, k + 1), status)
+            };
+            Ok(door::statuses(model, &pairs).into_iter().enumerate().map(by_rule).collect())
+        }
+        StatusRule::Projection => {
+            let target = Target::new(model, node_n);
+            let by_rule = |node: &NodeId| by_projection(&target, sheet.c_tll, node_n, *node);
+            Ok(model.contact.nodes.iter().map(by_rule).collect())
+        }
+    }
+}
+
+/// Returns whether line 16 of `c_cnt` takes row `i1` of `cnt` for a node in contact.
+fn is_near<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>, i1: usize) -> bool {
+    let condition = mirror::is_near(&pairs.ct, &pairs.yt, sheet.c_tll, i1);
+    pairs.ct[i1] > 0
+        && mirror::and(Conjunction::LeftToRight, &condition).expect("line 16 names no other row")
+}
+
+/// The reading under which *intersection* calls `c_cnt`: it does not use the sign rule, and a false
+/// operand keeps its lines from failing.
+fn guarded(reading: &Reading) -> Reading {
+    Reading { r4: Conjunction::Guarded, ..*reading }
+}
+
+/// Returns the decisions of a rule other than *signs* in iteration `k` that rounding may have taken,
+/// in numbers that carry a bound.
+/// Errors: those of [`statuses`].
+pub fn decisions<T: Scalar>(
+    rule: StatusRule,
+    model: &Model,
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    node_n: &Table<T>,
+    k: usize,
+) -> Result<Vec<Decision>, Failure> {
+    let (target, of_target) = compared(|| Target::new(model, node_n));
+    let nodes = &model.contact.nodes;
+    let mut left = Vec::new();
+    let mut leave = |node: NodeId, unsure: Vec<Unsure>| {
+        let condition = || format!("a comparison of the rule {rule}");
+        left.extend(unsure.into_iter().map(|by| Decision::unsure(k, node, condition(), by)));
+    };
+    leave(nodes[0], of_target);
+    if rule == StatusRule::Intersection {
+        let reading = guarded(reading);
+        let pairs = c_cnt(sheet, &reading, node_n)?;
+        for (k, status) in door::statuses(model, &pairs).into_iter().enumerate() {
+            let work =
+                || by_intersection(model, &target, node_n, is_near(sheet, &pairs, k + 1), status);
+            leave(status.node, compared(work).1);
+        }
+        left.extend(decisions::decisions(sheet, &reading, node_n, &pairs, k));
+    } else {
+        for node in nodes {
+            leave(*node, compared(|| by_projection(&target, sheet.c_tll, node_n, *node)).1);
+        }
+    }
+    Ok(left)
+}
+
+/// The target edges in a shape.
+pub struct Target<T> {
+    /// The edges that bound a triangle with an area, whose inner side is therefore known.
+    edges: Vec<TargetEdge>,
+    segments: Vec<Segment<T>>,
+}
+
+/// An edge of the target surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TargetEdge {
+    /// Its place among the model's edges.
+    pub id: EdgeId,
+    /// Whether each end is shared with no other target edge. The body lies on the left.
+    pub free: [bool; 2],
+}
+
+impl TargetEdge {
+    /// Returns the square of the distance of a point past the end of the surface, along this edge,
+    /// length²; 0 over the surface.
+    pub fn past_square<T: Scalar>(&self, closest: &Closest<T>) -> T {
+        let past = if self.free[closest.end()] { closest.past() } else { T::zero() };
+        past * past * closest.square
+    }
+}
+
+impl<T: Scalar> Target<T> {
+    /// Finds the target edges of `model` in the shape `node_n` (R x 4).
+    pub fn new(model: &Model, node_n: &Table<T>) -> Self {
+        let mut shared: HashMap<NodeId, usize> = HashMap::new();
+        for node in model.target_edges().flat_map(|edge| edge.nodes) {
+            *shared.entry(node).or_default() += 1;
+        }
+        let edge = |id: &EdgeId| {
+            let beside = model.sides.beside(model.edge(*id).nodes).first()?;
+            let place = |node: NodeId| door::place(node_n, node);
+            let [a, b] = beside.nodes;
+            let inner = T::orientation(place(a), place(b), place(beside.third));
+            // A shape may be folded: the triangle's side is taken from the shape.
+            let nodes = if inner > T::zero() { [a, b] } else { [b, a] };
+            let ends = nodes.map(place);
+            let free = nodes.map(|node| shared[&node] == 1);
+            (!inner.is_zero()).then(|| (TargetEdge { id: *id, free }, Segment::new(ends)))
+        };
+        let (edges, segments) = model.contact.target.iter().filter_map(edge).unzip();
+        Target { edges, segments }
+    }
+
+    /// Returns the edge nearest to `p` and its closest point; None where the surface has no edge.
+    pub fn nearest(&self, p: [T; 2]) -> Option<(&TargetEdge, Closest<T>)> {
+        let (k, closest) = closest(self.segments.iter().enumerate(), p, |_, _| true)?;
+        Some((&self.edges[k], closest))
+    }
+}
+
+fn by_intersection<T: Scalar>(
+    model: &Model,
+    target: &Target<T>,
+    node_n: &Table<T>,
+    is_near: bool,
+    mut status: ContactStatus<T>,
+) -> ContactStatus<T> {
+    status.in_contact = is_near || intersects(model, target, node_n, status.node);
+    if status.in_contact && status.edge.is_none() {
+        let nearest = target.nearest(door::place(node_n, status.node));
+        status.edge = Some(nearest.expect("a surface that is crossed has an edge").0.id);
+    }
+    status
+}
+
+/// Returns whether a side at contact node `n` leads out of the target.
+fn intersects<T: Scalar>(model: &Model, target: &Target<T>, node_n: &Table<T>, n: NodeId) -> bool {
+    let c = door::place(node_n, n);
+    sides(model, n).into_iter().any(|q| {
+        let q = door::place(node_n, q);
+        target.segments.iter().map(|edge| crossing(edge, c, q)).sum::<i32>() > 0
+    })
+}
+
+/// Returns the nodes that share a triangle with node `n`, ascending.
+fn sides(model: &Model, n: NodeId) -> BTreeSet<NodeId> {
+    let triangles = model.triangles.iter().map(|t| t.nodes).filter(|t| t.contains(&n));
+    triangles.flatten().filter(|other| *other != n).collect()
+}
+
+/// Returns +1 where the segment from `c` to `q` crosses `edge` outwards, −1 inwards, and 0 where it
+/// does not cross. A corner of two edges is crossed once. A segment that starts on the edge starts
+/// inside; one that ends on it ends outside.
+fn crossing<T: Scalar>(edge: &Segment<T>, c: [T; 2], q: [T; 2]) -> i32 {
+    let [a, b] = edge.ends;
+    if apart([a, b], [c, q]) {
+        return 0;
+    }
+    let zero = T::zero();
+    if (T::orientation(c, q, a) >= zero) == (T::orientation(c, q, b) >= zero) {
+        return 0;
+    }
+    match (edge.side(c) >= zero, edge.side(q) > zero) {
+        (true, false) => 1,
+        (false, true) => -1,
+        _ => 0,
+    }
+}
+
+/// Returns whether the boxes around two segments have no point in common.
+fn apart<T: Scalar>(one: [[T; 2]; 2], other: [[T; 2]; 2]) -> bool {
+    (0..2).any(|axis| {
+        let span =
+            |[p, q]: [[T; 2]; 2]| (Scalar::min(p[axis], q[axis]), Scalar::max(p[axis], q[axis]));
+        let ((low, high), (other_low, other_high)) = (span(one), span(other));
+        high < other_low || other_high < low
+    })
+}
+
+fn by_projection<T: Scalar>(
+    target: &Target<T>,
+    c_tll: T,
+    node_n: &Table<T>,
+    node: NodeId,
+) -> ContactStatus<T> {
+    let apart = ContactStatus { node, edge: None, distance: T::zero(), in_contact: false };
+    let Some((edge, closest)) = target.nearest(door::place(node_n, node)) else {
+        return apart;
+    };
+    let distance = T::from_f64(0.0 - closest.distance());
+    if edge.past_square(&closest) > c_tll * c_tll {
+        return ContactStatus { distance, ..apart };
+    }
+    // Where a node is near, it does not count on which side it is.
+    let in_contact = closest.distance_square <= c_tll * c_tll || closest.side > T::zero();
+    ContactStatus { node, edge: Some(edge.id), distance, in_contact }
+}

@@ -1,0 +1,204 @@
+//! The contact surface and the target surface as edges with an inner and an outer side.
+
+use std::collections::HashSet;
+
+use rustc_hash::FxHashMap;
+
+use super::pairing::Vector;
+use super::search::{dot, minus};
+use base::error::InputError;
+use numbers::scalar::Scalar;
+use problem::model::{EdgeId, Model, NodeId, unordered};
+
+/// The cosine between a contact surface's normal and the reverse of a target edge's, below which
+/// the two do not face each other.
+pub(super) const FACING: f64 = 0.1;
+
+/// The nodes and edges that may touch, and the side of each edge on which its body lies.
+pub struct Surfaces {
+    /// The entries of the contact surface.
+    pub(super) nodes: Vec<NodeId>,
+    /// The edges of the contact surface, each once.
+    pub(super) contact: Vec<Edge>,
+    /// The edges of the target surface, in the order of the model.
+    pub(super) target: Vec<Edge>,
+    /// Which edges of the contact surface meet, and which of the target surface.
+    pub(super) meet: [Meeting; 2],
+    /// The normals of the undeformed shape. An intermediate shape of the iterations may be folded,
+    /// so that its normals do not decide which surfaces face each other.
+    pub(super) undeformed: Normals,
+}
+
+/// The unit normals of edges, and the mean normals of their nodes, out of the body.
+pub(super) struct Normals {
+    /// By contact edge.
+    pub(super) contact: Vec<Vector>,
+    /// By target edge.
+    pub(super) target: Vec<Vector>,
+    /// By contact node that bounds an edge.
+    pub(super) contact_nodes: FxHashMap<NodeId, Vector>,
+    /// By target node.
+    pub(super) target_nodes: FxHashMap<NodeId, Vector>,
+}
+
+/// An edge of a body's surface.
+#[derive(Clone, Debug)]
+pub(super) struct Edge {
+    /// The target edge of the model; None for an edge of the contact surface.
+    pub(super) id: Option<EdgeId>,
+    /// Its two nodes, with the body on the left from the first to the second.
+    pub(super) nodes: [NodeId; 2],
+}
+
+/// Which edges of a surface meet at its nodes.
+pub(super) struct Meeting {
+    /// The edges, one that is listed twice once.
+    pub(super) once: Vec<usize>,
+    /// Those at each node.
+    pub(super) at: FxHashMap<NodeId, Vec<usize>>,
+}
+
+impl Meeting {
+    fn of(edges: &[Edge]) -> Self {
+        let mut listed = HashSet::new();
+        let once: Vec<usize> =
+            (0..edges.len()).filter(|k| listed.insert(unordered(edges[*k].nodes))).collect();
+        let mut at: FxHashMap<NodeId, Vec<usize>> = FxHashMap::default();
+        for &k in &once {
+            edges[k].nodes.iter().for_each(|n| at.entry(*n).or_default().push(k));
+        }
+        Meeting { once, at }
+    }
+}
+
+/// An edge in a given shape.
+pub(super) struct Placed<T = f64> {
+    /// The coordinates of its first node, length.
+    pub(super) start: [T; 2],
+    /// The unit vector from its first node to its second.
+    pub(super) tangent: [T; 2],
+    /// The unit normal that points out of the body.
+    pub(super) normal: [T; 2],
+    /// The length of the edge, length.
+    pub(super) length: T,
+}
+
+impl Edge {
+    /// Places the edge in a shape, given as the coordinates of each node, length.
+    pub(super) fn place<T: Scalar>(&self, shape: &[[T; 2]]) -> Placed<T> {
+        let [start, end] = self.nodes.map(|n| shape[n.index()]);
+        let along = minus(end, start);
+        let length = T::length(along[0], along[1]);
+        let tangent = [along[0] / length, along[1] / length];
+        Placed { start, tangent, normal: [tangent[1], -tangent[0]], length }
+    }
+}
+
+impl<T: Scalar> Placed<T> {
+    /// Returns where `p` projects on the edge's line: 0 at its first node, 1 at its second.
+    pub(super) fn along(&self, p: [T; 2]) -> T {
+        dot(minus(p, self.start), self.tangent) / self.length
+    }
+
+    /// Returns the distance of `p` from the edge's line, length; > 0 outside the body.
+    pub(super) fn outside(&self, p: [T; 2]) -> T {
+        dot(minus(p, self.start), self.normal)
+    }
+}
+
+impl Surfaces {
+    /// Finds the surfaces of a model.
+    /// Errors: a target edge bounds no triangle, so that its outer side is unknown.
+    pub fn new(model: &Model) -> Result<Self, InputError> {
+        let nodes = model.contact.nodes.clone();
+        let boundary = |pair: [NodeId; 2]| model.sides.boundary(pair).map(|one| one.nodes);
+        let contact: Vec<Edge> = chain(&nodes, |pair| boundary(pair).is_some())
+            .into_iter()
+            .filter_map(boundary)
+            .map(|nodes| Edge { id: None, nodes })
+            .collect();
+        let target = |&id: &EdgeId| {
+            let edge = model.edge(id);
+            let [a, b] = edge.nodes;
+            let nodes = boundary(edge.nodes).ok_or_else(|| {
+                let what = format!("edge {} (nodes {a} and {b}) bounds no triangle", edge.number);
+                InputError::new("contact.trg", what, "name edges of the target body's outline")
+            })?;
+            Ok(Edge { id: Some(id), nodes })
+        };
+        let target: Vec<Edge> =
+            model.contact.target.iter().map(target).collect::<Result<_, InputError>>()?;
+        let normals =
+            |edges: &[Edge]| edges.iter().map(|edge| edge.place(&model.nodes).normal).collect();
+        let undeformed = Normals {
+            contact: normals(&contact),
+            target: normals(&target),
+            contact_nodes: normals_at_nodes(&contact, &model.nodes),
+            target_nodes: normals_at_nodes(&target, &model.nodes),
+        };
+        let meet = [&contact, &target].map(|edges| Meeting::of(edges));
+        Ok(Surfaces { nodes, contact, target, meet, undeformed })
+    }
+
+    /// Returns the entries of the contact surface, in order.
+    pub fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    /// Returns the largest change of a coordinate of a node of either surface from one shape to another,
+    /// length.
+    pub fn farthest(&self, [one, other]: [&[Vector]; 2]) -> f64 {
+        let nodes = self.contact.iter().chain(&self.target).flat_map(|edge| edge.nodes);
+        let change = |node: NodeId| {
+            let [a, b] = [one, other].map(|shape| shape[node.index()]);
+            (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
+        };
+        nodes.chain(self.nodes.iter().copied()).map(change).fold(0.0, f64::max)
+    }
+
+    /// Returns, for each entry of the contact surface, half the length of the contact edges that it
+    /// bounds in a shape, length; 0 for a node's second entry.
+    pub fn tributary<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<T> {
+        let mut of_node: FxHashMap<NodeId, T> = FxHashMap::default();
+        for edge in &self.contact {
+            let half = edge.place(shape).length / T::from_f64(2.0);
+            edge.nodes.iter().for_each(|n| *of_node.entry(*n).or_insert(T::zero()) += half);
+        }
+        self.nodes.iter().map(|n| of_node.remove(n).unwrap_or(T::zero())).collect()
+    }
+}
+
+/// Returns the normal of each node of `edges`, out of its body: the mean over its edges, weighted
+/// by length. It is no unit vector where the edges meet in a corner.
+fn normals_at_nodes(edges: &[Edge], shape: &[Vector]) -> FxHashMap<NodeId, Vector> {
+    let mut of_node: FxHashMap<NodeId, (Vector, f64)> = FxHashMap::default();
+    for edge in edges {
+        let Placed { normal, length, .. } = edge.place(shape);
+        for n in edge.nodes {
+            let (sum, total) = of_node.entry(n).or_default();
+            *total += length;
+            (0..2).for_each(|d| sum[d] += length * normal[d]);
+        }
+    }
+    let mean = |(n, (sum, total)): (NodeId, (Vector, f64))| (n, sum.map(|x| x / total));
+    of_node.into_iter().map(mean).collect()
+}
+
+/// Returns each pair of successive `nodes` once, the lower node first, and the pair that closes a
+/// loop where all pairs are boundary edges.
+fn chain(nodes: &[NodeId], is_boundary: impl Fn([NodeId; 2]) -> bool) -> Vec<[NodeId; 2]> {
+    let (mut pairs, mut listed) = (Vec::new(), HashSet::new());
+    let mut add = |pair| {
+        if listed.insert(pair) {
+            pairs.push(pair);
+        }
+    };
+    let following: Vec<_> = nodes.windows(2).map(|p| unordered([p[0], p[1]])).collect();
+    following.iter().for_each(|pair| add(*pair));
+    if let [first, .., last] = nodes
+        && following.iter().all(|pair| is_boundary(*pair))
+    {
+        add(unordered([*first, *last]));
+    }
+    pairs
+}

@@ -1,0 +1,335 @@
+//! Contact by elimination: u = T q + s, and Tᵀ K T on the free equations q.
+//!
+//! ```text
+//!   eq. (1): u_c = k1·u_a + k2·u_b         a row of T has
+//!                                            one 1        a free equation
+//!     a *-----o-----* b                      weights      an equation of a contact node in contact
+//!             c                              no entry     a restrained equation
+//! ```
+//!
+//! A constraint that closes a gap g along a normal n, n·(u_c − Σ w u_t) = −g, leaves the contact
+//! node one free motion along the tangent, and displaces it by s = −g·n. Where restraints do not let
+//! the contact node follow, the equation of a target node is eliminated in its place.
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DVector};
+use smallvec::{SmallVec, smallvec};
+
+use numbers::scalar::Scalar;
+use paper::door::NodeToSegment;
+use problem::model::{Dof, NodeId};
+
+/// The constraint that binds the displacements of a contact node to the target.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Constraint<T = f64> {
+    /// The contact node of the constraint.
+    pub node: NodeId,
+    /// The master nodes, which are nodes of the target, and their weights.
+    pub masters: Vec<(NodeId, T)>,
+    /// The motions of the node that are bound, and the place to which they are bound.
+    pub motion: Motion<T>,
+}
+
+/// The motions of a contact node that a constraint binds, in lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum Motion<T = f64> {
+    /// Both components are bound: u_c = Σ w u_t + shift, which is eq. (1) where the shift is 0.
+    Both([T; 2]),
+    /// The motion along a unit normal is bound: n·u_c = Σ w n·u_t + shift.
+    Along([T; 2], T),
+}
+
+impl<T: Scalar> Constraint<T> {
+    /// Returns the contact node and its master nodes.
+    pub fn nodes(&self) -> impl Iterator<Item = NodeId> {
+        std::iter::once(self.node).chain(self.masters.iter().map(|(master, _)| *master))
+    }
+
+    /// Returns the same constraint in other numbers.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Constraint<U> {
+        Constraint {
+            node: self.node,
+            masters: self.masters.iter().map(|&(master, w)| (master, to(w))).collect(),
+            motion: match self.motion {
+                Motion::Both(shift) => Motion::Both(shift.map(&to)),
+                Motion::Along(normal, shift) => Motion::Along(normal.map(&to), to(shift)),
+            },
+        }
+    }
+
+    /// Returns the constraint's equations: a direction d, the shift along it, and the constraint,
+    /// for d·u_c − Σ w d·u_t = shift.
+    fn equations(&self) -> Vec<([T; 2], T, &Self)> {
+        let (one, zero) = (T::one(), T::zero());
+        match self.motion {
+            Motion::Along(normal, shift) => vec![(normal, shift, self)],
+            Motion::Both([x, y]) => vec![([one, zero], x, self), ([zero, one], y, self)],
+        }
+    }
+}
+
+/// Returns whether two states bind the same motions by weights and in directions that differ by at most
+/// `most`.
+pub(super) fn are_alike(one: &[Constraint], other: &[Constraint], most: f64) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() <= most;
+    let same_motion = |a: &Motion, b: &Motion| match (a, b) {
+        (Motion::Both(_), Motion::Both(_)) => true,
+        (Motion::Along(n, _), Motion::Along(m, _)) => near(n[0], m[0]) && near(n[1], m[1]),
+        _ => false,
+    };
+    let alike = |(a, b): (&Constraint, &Constraint)| {
+        let mut masters = a.masters.iter().zip(&b.masters);
+        a.node == b.node
+            && a.masters.len() == b.masters.len()
+            && masters.all(|(a, b)| a.0 == b.0 && near(a.1, b.1))
+            && same_motion(&a.motion, &b.motion)
+    };
+    one.len() == other.len() && one.iter().zip(other).all(alike)
+}
+
+impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {
+    /// Binds the node by eq. (1): u_c = Σ w u_t.
+    fn from(bound: NodeToSegment<T>) -> Self {
+        let motion = Motion::Both([T::zero(), T::zero()]);
+        Constraint { node: bound.node, masters: bound.masters.to_vec(), motion }
+    }
+}
+
+/// Weights on the remaining equations: one of 1 in most rows.
+type Row<T> = SmallVec<[(usize, T); 1]>;
+
+/// The matrix T, as rows of weights on the remaining equations, and the shift s, length.
+pub struct Elimination<T = f64> {
+    rows: Vec<Row<T>>,
+    shift: DVector<T>,
+    /// The degree of freedom of each equation that remains.
+    free: Vec<Dof>,
+}
+
+/// The factor of an equation, over 1 of the contact node's own, below which a constraint does not
+/// depend on it: rounding.
+const NEGLIGIBLE: f64 = 1e-10;
+
+impl<T: Scalar> Elimination<T> {
+    /// Builds T and s under `constraints`, among them eq. (1). A component of a contact node that is
+    /// `restrained`, by degree of freedom, stays so and is not constrained.
+    pub fn new(restrained: &[bool], constraints: &[Constraint<T>]) -> Self {
+        let mut t = Elimination::unbound(restrained, constraints.iter());
+        constraints.iter().for_each(|constraint| t.bind(constraint, restrained));
+        t
+    }
+
+    /// Builds T and s such that every constraint holds, also on restrained contact nodes, if need be
+    /// by the motion of target nodes. Where nothing can move, the constraint is left out.
+    pub fn closing(restrained: &[bool], constraints: &[Constraint<T>]) -> Self {
+        let is_restrained =
+            |c: &&Constraint<T>| c.node.dofs().iter().any(|d| restrained[d.index()]);
+        let (fixed, free): (Vec<_>, Vec<_>) = constraints.iter().partition(is_restrained);
+        let mut t = Elimination::unbound(restrained, free.iter().copied());
+        let mut eliminated = Vec::new();
+        for (direction, shift, constraint) in fixed.iter().flat_map(|c| c.equations()) {
+            eliminated.extend(t.eliminate(constraint, direction, shift));
+        }
+        t.remove(&eliminated);
+        free.iter().for_each(|constraint| t.bind(constraint, restrained));
+        t
+    }
+
+    /// Builds T without constraints; the equations of the nodes of `bound` are left out.
+    fn unbound<'a>(restrained: &[bool], bound: impl Iterator<Item = &'a Constraint<T>>) -> Self {
+        let size = restrained.len();
+        let mut constrained = vec![false; size / 2];
+        bound.for_each(|constraint| constrained[constraint.node.index()] = true);
+        let mut t = Elimination {
+            rows: std::iter::repeat_with(Row::new).take(size).collect(),
+            shift: DVector::from_element(size, T::zero()),
+            free: Vec::new(),
+        };
+        let free = |dof: &Dof| !restrained[dof.index()] && !constrained[dof.node().index()];
+        for dof in Dof::all(size).filter(free) {
+            t.rows[dof.index()] = smallvec![(t.add(dof), T::one())];
+        }
+        t
+    }
+
+    /// Eliminates the equation that moves most under direction·u_c − Σ w direction·u_t = shift, and
+    /// returns its column; None where nothing can move.
+    fn eliminate(&mut self, c: &Constraint<T>, direction: [T; 2], shift: T) -> Option<usize> {
+        let (mut row, mut rest) = (BTreeMap::new(), shift);
+        let own = std::iter::once((c.node, T::one()));
+        for (node, weight) in own.chain(c.masters.iter().map(|&(master, w)| (master, -w))) {
+            for dof in node.dofs() {
+                let factor = weight * direction[dof.direction()];
+                rest -= factor * self.shift[dof.index()];
+                for &(p, w) in &self.rows[dof.index()] {
+                    *row.entry(p).or_insert(T::zero()) += factor * w;
+                }
+            }
+        }
+        let size = |factor: &T| Scalar::abs(*factor).to_f64();
+        let (&pivot, &factor) = row.iter().max_by(|a, b| size(a.1).total_cmp(&size(b.1)))?;
+        if size(&factor) <= NEGLIGIBLE {
+            return None;
+        }
+        row.remove(&pivot);
+        for (dof, terms) in self.rows.iter_mut().enumerate() {
+            let Some(at) = terms.iter().position(|(p, _)| *p == pivot) else { continue };
+            let share = terms.swap_remove(at).1 / factor;
+            self.shift[dof] += share * rest;
+            for (&p, &w) in &row {
+                match terms.iter_mut().find(|(q, _)| *q == p) {
+                    Some(term) => term.1 -= share * w,
+                    None => terms.push((p, -(share * w))),
+                }
+            }
+        }
+        Some(pivot)
+    }
+
+    /// Removes eliminated columns.
+    fn remove(&mut self, eliminated: &[usize]) {
+        if eliminated.is_empty() {
+            return;
+        }
+        let kept: Vec<usize> =
+            (0..self.free.len()).filter(|column| !eliminated.contains(column)).collect();
+        let mut number = vec![0; self.free.len()];
+        kept.iter().enumerate().for_each(|(new, old)| number[*old] = new);
+        self.free = kept.iter().map(|old| self.free[*old]).collect();
+        self.rows.iter_mut().flatten().for_each(|(column, _)| *column = number[*column]);
+    }
+
+    /// Binds a node whose own equations are left out.
+    fn bind(&mut self, constraint: &Constraint<T>, restrained: &[bool]) {
+        let restrained = constraint.node.dofs().map(|dof| restrained[dof.index()]);
+        match constraint.motion {
+            Motion::Both(shift) => self.bind_both(constraint, restrained, shift),
+            Motion::Along(normal, shift) => self.bind_along(constraint, normal, shift),
+        }
+    }
+
+    /// Adds an equation that remains, and returns its index.
+    fn add(&mut self, dof: Dof) -> usize {
+        self.free.push(dof);
+        self.free.len() - 1
+    }
+
+    fn bind_both(&mut self, constraint: &Constraint<T>, restrained: [bool; 2], shift: [T; 2]) {
+        for dof in constraint.node.dofs() {
+            let direction = dof.direction();
+            if restrained[direction] {
+                continue;
+            }
+            let mut normal = [T::zero(), T::zero()];
+            normal[direction] = T::one();
+            self.rows[dof.index()] = self.target_motion(constraint, normal, T::one());
+            self.shift[dof.index()] = shift[direction] + self.target_shift(constraint, normal);
+        }
+    }
+
+    fn bind_along(&mut self, constraint: &Constraint<T>, [nx, ny]: [T; 2], shift: T) {
+        let [x, y] = constraint.node.dofs();
+        let target = self.target_shift(constraint, [nx, ny]);
+        for (dof, factor) in [(x, nx), (y, ny)] {
+            self.rows[dof.index()] = self.target_motion(constraint, [nx, ny], factor);
+            self.shift[dof.index()] = (shift + target) * factor;
+        }
+        let slide = self.add(if Scalar::abs(nx) > Scalar::abs(ny) { y } else { x });
+        self.rows[x.index()].push((slide, -ny));
+        self.rows[y.index()].push((slide, nx));
+    }
+
+    /// Returns `factor` · Σ w n·u_t as weights on the equations that remain.
+    fn target_motion(&self, constraint: &Constraint<T>, normal: [T; 2], factor: T) -> Row<T> {
+        let mut row = Row::new();
+        for &(master, weight) in &constraint.masters {
+            for dof in master.dofs() {
+                let along = normal[dof.direction()];
+                if !along.is_zero() {
+                    let motion = &self.rows[dof.index()];
+                    row.extend(motion.iter().map(|&(p, w)| (p, factor * along * weight * w)));
+                }
+            }
+        }
+        row
+    }
+
+    /// Returns Σ w n·s_t, the target's part of the shift, length.
+    fn target_shift(&self, constraint: &Constraint<T>, normal: [T; 2]) -> T {
+        let part = |&(master, weight): &(NodeId, T)| {
+            let along = master.dofs().map(|dof| normal[dof.direction()] * self.shift[dof.index()]);
+            weight * (along[0] + along[1])
+        };
+        constraint.masters.iter().fold(T::zero(), |total, term| total + part(term))
+    }
+
+    /// Returns the number of equations that remain.
+    pub fn size(&self) -> usize {
+        self.free.len()
+    }
+
+    /// Returns a row of T: the equations that remain, from 0, and their weights.
+    pub fn row(&self, dof: Dof) -> &[(usize, T)] {
+        &self.rows[dof.index()]
+    }
+
+    /// Returns Tᵀ K T of a dense K, in the unit of K.
+    pub fn matrix(&self, k: &DMatrix<T>) -> DMatrix<T> {
+        let n = self.size();
+        // Zeros that the system has are not written.
+        let mut reduced = DMatrix::from_vec(n, n, vec![T::zero(); n * n]);
+        for (j, column) in self.rows.iter().enumerate().filter(|(_, row)| !row.is_empty()) {
+            for (i, row) in self.rows.iter().enumerate() {
+                let value = k[(i, j)];
+                if value.is_zero() {
+                    continue;
+                }
+                for &(p, wp) in row {
+                    for &(q, wq) in column {
+                        reduced[(p, q)] += wp * value * wq;
+                    }
+                }
+            }
+        }
+        reduced
+    }
+
+    /// Returns Tᵀ f on the equations that remain, in the unit of f.
+    pub fn load(&self, f: &DVector<T>) -> DVector<T> {
+        let mut reduced = DVector::from_element(self.size(), T::zero());
+        for (row, value) in self.rows.iter().zip(f.iter()) {
+            for &(p, w) in row {
+                reduced[p] += w * *value;
+            }
+        }
+        reduced
+    }
+
+    /// Returns T q + s, the displacements of all degrees of freedom, length.
+    pub fn expand(&self, q: &DVector<T>) -> DVector<T> {
+        self.motion(q) + &self.shift
+    }
+
+    /// Returns T q, the motion of all degrees of freedom that one of the equations that remain is, length.
+    pub fn motion(&self, q: &DVector<T>) -> DVector<T> {
+        let of_row = |row: &Row<T>| sum(row.iter().map(|&(p, w)| w * q[p]));
+        DVector::from_iterator(self.rows.len(), self.rows.iter().map(of_row))
+    }
+
+    /// Returns s, the displacements where all equations that remain are 0, length.
+    pub fn shift(&self) -> &DVector<T> {
+        &self.shift
+    }
+
+    /// Returns the degree of freedom that became column `column` of the reduced matrix.
+    pub fn dof(&self, column: usize) -> Dof {
+        self.free[column]
+    }
+}
+
+/// Returns the sum of `terms`, begun with the first as a sum of floats is; 0 for none.
+pub(super) fn sum<T: Scalar>(terms: impl Iterator<Item = T>) -> T {
+    terms.reduce(|sum, term| sum + term).unwrap_or(T::zero())
+}

@@ -1,0 +1,292 @@
+//! The equations A(c)·u = f of an iteration of a published variant, assembled and solved.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use super::contact::{Surfaces, hidden};
+use super::elimination::{Constraint, Elimination};
+use super::error::{Error, SingularMatrix};
+use super::request::Request;
+use super::session::Session;
+use super::sparse::{MakeSparse, Sparse, State, takes_sparse};
+use super::stiffness::Stiffness;
+use super::support::{support, supports};
+use base::error::InputError;
+use base::plain::six_digits;
+use mathcad::array::Table;
+use numbers::scalar::Scalar;
+use numbers::solve::{self, Precision, Solver, SparseSquare, Unsolved};
+use paper::door;
+use paper::edited::Interpreter;
+use paper::mirror::{self, Pairs, RestraintIndex, Schedule, Worksheet};
+use problem::model::{Dof, Model, NodeId};
+use problem::modelling::{Coupling, Variant};
+
+/// The source of the matrix of an iteration.
+enum Assembly<T> {
+    /// `Km` with the contact pairs, as printed.
+    Printed,
+    /// Elimination from the matrix of `Km` without contact and without restraints.
+    Dense(Table<T>),
+    /// Elimination from the triangles' matrices, solved by the function.
+    Sparse(Box<dyn Sparse<T>>),
+}
+
+/// The parts of the equations that every iteration of a run shares.
+pub(super) struct Equations<'a, T> {
+    request: &'a Request,
+    model: &'a Arc<Model>,
+    sheet: &'a Worksheet<T>,
+    assembly: Assembly<T>,
+    /// What executes an edited `Km`; None where no listing is edited.
+    interpreter: Option<&'a Interpreter>,
+    /// The stiffness, triangle by triangle.
+    pub stiffness: Stiffness<T>,
+    /// Whether the run takes each degree of freedom as restrained.
+    restrained: Vec<bool>,
+    /// Whether each of them is one of the body to which contact passes its force.
+    supports: Vec<bool>,
+    /// The whole load by degree of freedom, force.
+    load: DVector<T>,
+    /// The load of one iteration by degree of freedom, 0 at restrained ones, force.
+    f: DVector<T>,
+    /// The whole load over the load of one iteration.
+    share: T,
+}
+
+/// The result of an iteration's own load.
+#[derive(Clone)]
+pub(super) struct Solved<T> {
+    /// The displacements by degree of freedom, length.
+    pub u: DVector<T>,
+    /// The relative residual of the solution.
+    pub residual: f64,
+    /// The sum of what holds the body to which contact passes its force, force.
+    pub support: [T; 2],
+}
+
+impl<'a, T: Precision> Equations<'a, T> {
+    /// Prepares the equations of `request`. `load` is the whole load by degree of freedom, force;
+    /// `sparse` solves where the solver takes a sparse matrix.
+    ///
+    /// # Errors
+    /// The stiffness overflows.
+    pub fn new(
+        (request, session): (&'a Request, &Session),
+        model: &'a Arc<Model>,
+        sheet: &'a Worksheet<T>,
+        load: DVector<T>,
+        sparse: Option<MakeSparse<T>>,
+        interpreter: Option<&'a Interpreter>,
+        number: &dyn Fn(f64) -> T,
+    ) -> Result<Self, Error> {
+        let share = match request.schedule() {
+            Schedule::Total => T::one(),
+            Schedule::Stepped => T::from_number(request.iterations),
+        };
+        let restrained = restrained(model, request);
+        let f = DVector::from_fn(load.len(), |e, _| match restrained[e] {
+            true => T::zero(),
+            false => load[e] / share,
+        });
+        let is_sparse = takes_sparse(request.solver(), request.arithmetic.scalar);
+        let sparse = sparse.filter(|_| is_sparse);
+        let assembly = match (request.variant, sparse) {
+            (Variant::Printed, _) => Assembly::Printed,
+            (_, Some(make)) => Assembly::Sparse(make(request, model, session)),
+            (_, None) => Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
+                Some(edited) => edited?,
+                None => door::free_stiffness(sheet, &request.reading)?,
+            }),
+        };
+        let stiffness = Stiffness::new(model, number);
+        let equations = Equations {
+            request,
+            model,
+            sheet,
+            assembly,
+            interpreter,
+            stiffness,
+            supports: supports(model, &restrained),
+            restrained,
+            load,
+            f,
+            share,
+        };
+        Ok(equations)
+    }
+
+    /// Solves A(c)·u = f in iteration `k`.
+    ///
+    /// # Errors
+    /// A singular matrix, a solver that does not converge, an overflow of `Km`.
+    pub fn solve(
+        &self,
+        pairs: &Pairs<T>,
+        constraints: &[Constraint<T>],
+        k: usize,
+    ) -> Result<Solved<T>, Error> {
+        let (solver, tol) = (self.request.solver(), self.request.arithmetic.tol);
+        match &self.assembly {
+            Assembly::Printed => {
+                let solved = T::sweep(|| {
+                    let edited = self.interpreter.and_then(|i| i.km(&pairs.k_cnt));
+                    let matrix = match edited {
+                        Some(edited) => SparseSquare::of(edited?.as_matrix()),
+                        None => mirror::Km(self.sheet, &self.request.reading, &pairs.k_cnt)?
+                            .into_sparse(),
+                    };
+                    let matrix = door::holding_dropped(self.model, matrix);
+                    let solved = match solver {
+                        Solver::SparseLu => T::solve_sparse(&matrix, &self.f),
+                        _ => T::solve(matrix.dense(), &self.f, solver, tol),
+                    };
+                    solved.map_err(|why| self.unsolved(why, pairs, k, Dof::new))
+                })?;
+                Ok(self.solved(solved.residual, solved.x, &[]))
+            }
+            Assembly::Dense(matrix) => self.eliminate(pairs, constraints, k, |t, f| {
+                Ok(T::solve(t.matrix(matrix.as_matrix()), f, solver, tol))
+            }),
+            Assembly::Sparse(sparse) => self.eliminate(pairs, constraints, k, |t, f| {
+                let Equations { model, stiffness, .. } = self;
+                let solved = sparse.solve(&State { model, stiffness, constraints, t, f });
+                if !solved.as_ref().is_ok_and(|solved| solved.residual.is_finite()) {
+                    self.check_overflow(t)?;
+                }
+                Ok(solved)
+            }),
+        }
+    }
+
+    /// Solves Tᵀ K T q = Tᵀ f by `solve`.
+    fn eliminate(
+        &self,
+        pairs: &Pairs<T>,
+        constraints: &[Constraint<T>],
+        k: usize,
+        solve: impl Fn(
+            &Elimination<T>,
+            &DVector<T>,
+        ) -> Result<Result<solve::Solved<T>, Unsolved>, Error>,
+    ) -> Result<Solved<T>, Error> {
+        let t = Elimination::new(&self.model.restrained, constraints);
+        let solved = T::sweep(|| {
+            let solved = solve(&t, &t.load(&self.f))?;
+            solved.map_err(|why| self.unsolved(why, pairs, k, |column| t.dof(column)))
+        })?;
+        Ok(self.solved(solved.residual, t.expand(&solved.x), constraints))
+    }
+
+    /// Checks Tᵀ K T without a dense K.
+    ///
+    /// # Errors
+    /// An entry overflows, reported in the words of `Km`.
+    fn check_overflow(&self, t: &Elimination<T>) -> Result<(), Error> {
+        let matrix = self.stiffness.reduced(t);
+        if matrix.entries().any(|(_, _, value)| !Scalar::is_finite(value)) {
+            door::free_stiffness(self.sheet, &self.request.reading)?;
+        }
+        Ok(())
+    }
+
+    /// Returns the nodes to which the bodies were condensed last; None where they were not.
+    pub fn kept(&self) -> Option<BTreeSet<NodeId>> {
+        match &self.assembly {
+            Assembly::Sparse(sparse) => sparse.kept(),
+            Assembly::Printed | Assembly::Dense(_) => None,
+        }
+    }
+
+    /// Returns K u − F of the whole load: the forces of contact and restraints, force.
+    pub fn reaction(&self, u: &DVector<T>) -> DVector<T> {
+        self.stiffness.times(u) - &self.load
+    }
+
+    fn solved(&self, residual: f64, u: DVector<T>, constraints: &[Constraint<T>]) -> Solved<T> {
+        let mut wanted = self.supports.clone();
+        let bound = constraints.iter().flat_map(|constraint| constraint.node.dofs());
+        bound.for_each(|dof| wanted[dof.index()] = true);
+        let load = self.load.map(|f| f / self.share);
+        let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &load;
+        let support = support(self.model, &self.restrained, constraints, &force, &load);
+        Solved { residual, support, u }
+    }
+
+    /// Returns the error of a system without solution; `dof` maps a column to a degree of freedom.
+    fn unsolved(
+        &self,
+        why: Unsolved,
+        pairs: &Pairs<T>,
+        iteration: usize,
+        dof: impl Fn(usize) -> Dof,
+    ) -> Error {
+        let stopped = match why {
+            Unsolved::Singular(s) => {
+                return self.singular_matrix(pairs, iteration, dof(s.column), s.pivot).into();
+            }
+            Unsolved::NotConverged(stopped) => stopped,
+        };
+        let what = format!(
+            "{} in {} stopped after {} iterations at a relative residual of {}",
+            self.request.solver(),
+            self.request.arithmetic.scalar,
+            stopped.iterations,
+            six_digits(stopped.residual)
+        );
+        InputError::new("--solver, --tol", what, "give a larger --tol or another solver").into()
+    }
+
+    /// Returns why the first contact has no node, in words: the direction of the target's edges, or the
+    /// smallest gap of the initial shape. None where no contact node faces the target.
+    fn no_contact(&self) -> Option<String> {
+        let hidden = || hidden(self.model, &self.request.reading, &self.model.nodes);
+        self.request.is_as_printed().then(hidden).flatten().or_else(|| self.too_far())
+    }
+
+    fn too_far(&self) -> Option<String> {
+        let surfaces = Surfaces::new(self.model).ok()?;
+        let pairings = surfaces.pairings(Coupling::Nts, &self.model.nodes);
+        let gaps = pairings.iter().flatten().map(|pairing| pairing.gap);
+        let gap = gaps.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        let c_tll = self.model.contact.tolerance;
+        Some(format!(
+            "the smallest gap is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
+             larger c_tll"
+        ))
+    }
+
+    fn singular_matrix(
+        &self,
+        pairs: &Pairs<T>,
+        iteration: usize,
+        dof: Dof,
+        pivot: f64,
+    ) -> SingularMatrix {
+        let body = self.model.body_of(dof.node());
+        let in_contact = pairs.dy.iter().sum();
+        let first = iteration == 1 && in_contact == 0 && self.model.has_contact();
+        SingularMatrix {
+            variant: self.request.variant.name(),
+            iteration,
+            node: dof.node().number(),
+            direction: dof.axis(),
+            pivot,
+            in_contact,
+            no_contact: first.then(|| self.no_contact()).flatten(),
+            untried: None,
+            body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
+        }
+    }
+}
+
+/// Returns whether each degree of freedom is restrained: the model's restraints, or under reading
+/// R2 = printed, where `Km` reads the restraint of y in place of that of x, those of `Km`.
+fn restrained(model: &Model, request: &Request) -> Vec<bool> {
+    let by_km =
+        request.variant == Variant::Printed && request.reading.r2 == RestraintIndex::Printed;
+    let read = |dof: Dof| if by_km { dof.node().y() } else { dof };
+    model.all_dofs().map(|dof| model.is_restrained(read(dof))).collect()
+}

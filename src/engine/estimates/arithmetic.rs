@@ -1,0 +1,318 @@
+//! The arithmetic error: the effect of rounding on displacements and stresses.
+//!
+//! A run is repeated in numbers with a running bound on the error, `f64` ([`Bounded`]) or where the
+//! run has more digits double-double, by the solver that is the scalar's own. The bound of that run and
+//! its distance from the assessed run bound the error of the latter, whatever its numbers and its
+//! solver, where no decision on who is in contact is left to rounding and both runs decided alike.
+//! Under `unilateral` the equilibrium of the last contact state is solved again, with its normals and
+//! weights unchanged; where the way to it counts, so is that of each iteration.
+
+use nalgebra::{DVector, SVector};
+use rayon::prelude::*;
+
+use super::ties::{Looking, State};
+use crate::held::Held;
+use crate::not_finite::finite;
+use crate::residual::error_of_solution;
+use crate::{
+    Decision, Detail, Elimination, Request, Session, Solution, Step, StepBounds, Stiffness,
+};
+use numbers::scalar::{Bounded, Scalar};
+use numbers::solve::{Arithmetic, ScalarName};
+use problem::element::Plane;
+use problem::model::Model;
+use problem::modelling::Variant;
+
+/// The number of roundings in a von Mises value from its stresses, in units of 2^-53.
+const ROUNDINGS: f64 = 32.0;
+
+/// What rounding may do to a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rounding {
+    /// A bound on the error of any displacement, length; None where nothing is known, as where
+    /// rounding may have decided who is in contact.
+    pub displacement: Option<f64>,
+    /// The decisions on who is in contact that rounding may have taken; None where that is not known.
+    pub decisions: Option<Vec<Decision>>,
+    /// The bounds of each step; None where there is none, as under `unilateral`, and from the first
+    /// decision on that rounding may have taken.
+    pub steps: Vec<Option<StepBounds>>,
+}
+
+/// Returns what rounding may do to a solution.
+pub fn rounding(solution: &Solution, session: &Session) -> Rounding {
+    rounding_while(solution, session, &mut |_| true)
+}
+
+/// Returns whether rounding decides nothing in a solution. Of a variant that the paper describes the run
+/// is repeated up to its first doubt only.
+pub(super) fn decides_nothing(solution: &Solution, session: &Session) -> bool {
+    // There is no bound where rounding may have decided.
+    rounding_while(solution, session, &mut Step::is_certain).displacement.is_some()
+}
+
+/// Returns what rounding may do, by the run repeated for as long as it `goes_on` where it is repeated.
+fn rounding_while(
+    solution: &Solution,
+    session: &Session,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Rounding {
+    of_published(solution, session, goes_on).unwrap_or_else(|| {
+        let held = Held::new(solution, session);
+        of_equilibrium(solution, held.as_ref(), session, &bounded(&solution.model))
+    })
+}
+
+/// Returns the stiffness of each triangle with a bound on its rounding.
+pub fn bounded(model: &Model) -> Stiffness<Bounded> {
+    Stiffness::new(model, Bounded::from_f64)
+}
+
+/// Returns what rounding may do to a run of a variant that the paper describes, repeated for as long as
+/// it `goes_on`; None of another.
+pub(super) fn of_published(
+    solution: &Solution,
+    session: &Session,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Option<Rounding> {
+    let request = &solution.request;
+    (request.variant != Variant::Unilateral).then(|| match request.arithmetic.scalar {
+        // What is rounded is the displacements themselves, to be written as f64.
+        ScalarName::Exact => Rounding {
+            displacement: Some(solution.u.amax() * f64::EPSILON / 2.0),
+            decisions: Some(Vec::new()),
+            steps: solution.steps.iter().map(written).collect(),
+        },
+        _ => of_run(solution, session, goes_on),
+    })
+}
+
+/// Returns the same of an equilibrium, with the bodies as they are held at the end; None where they
+/// are not.
+pub(super) fn of_equilibrium(
+    solution: &Solution,
+    held: Option<&Held>,
+    session: &Session,
+    stiffness: &Stiffness<Bounded>,
+) -> Rounding {
+    let looked = held.and_then(|held| looked_at(solution, held, session, stiffness));
+    let Some((u, Looking { decisions, only_ties, .. })) = looked else {
+        return Rounding::unknown(solution);
+    };
+    // What is left of the change of shape is no rounding, but no less an error of the displacements.
+    let shape_change = solution.equilibrium.as_ref().map_or(0.0, |found| found.shape_change);
+    let displacement = only_ties.then(|| error(solution, &u).max(shape_change)).and_then(finite);
+    Rounding { displacement, decisions: Some(decisions), steps: vec![None; solution.steps.len()] }
+}
+
+/// Looks at the decisions of the last contact state, and where the way to it counts at those of each
+/// iteration; returns the last displacements within their bounds too. None where a state does not
+/// hold the bodies.
+fn looked_at<'a>(
+    solution: &'a Solution,
+    held: &Held,
+    session: &Session,
+    stiffness: &'a Stiffness<Bounded>,
+) -> Option<(DVector<Bounded>, Looking<'a>)> {
+    let model = &*solution.model;
+    let mut looking = Looking::new(solution, stiffness);
+    looking.searches();
+    let (last, way) = solution.steps.split_last()?;
+    let part = |step: &Step| match &step.detail {
+        Detail::Unilateral(detail) => detail.load,
+        Detail::Published(_) => 0.0,
+    };
+    // From its displacements count the slips of the last step of the load.
+    let from = way.iter().rposition(|step| part(step) < part(last));
+    let counts = if solution.way_counts() { way.len() } else { 0 };
+    let groups = looking.groups(&way[..counts]);
+    let far: Vec<bool> =
+        groups.into_par_iter().flat_map_iter(|steps| looking.are_far(steps)).collect();
+    let near = (0..counts).filter(|i| Some(*i) == from || !far[*i]);
+    // The displacements before the step of the load, and after the last iteration.
+    let mut before = DVector::zeros(model.dofs());
+    let mut reached: Option<(f64, DVector<Bounded>)> = None;
+    let mut look = |step: &Step, held: &Held, load: DVector<Bounded>| {
+        let Detail::Unilateral(detail) = &step.detail else { return None };
+        if let Some((at, u)) = reached.take()
+            && at < detail.load
+        {
+            before = u;
+        }
+        let u = state(model, step, held, &load, stiffness)?;
+        looking.at(&State { step, load, before: &before, u: &u });
+        reached = Some((detail.load, u));
+        Some(())
+    };
+    for step in near.map(|i| &way[i]) {
+        let Detail::Unilateral(detail) = &step.detail else { return None };
+        let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
+        look(step, &Held::at(solution, step, session)?, load)?;
+    }
+    look(last, held, model.load_in(Bounded::from_f64))?;
+    Some((reached?.1, looking))
+}
+
+fn of_run(
+    solution: &Solution,
+    session: &Session,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Rounding {
+    let Some(again) = bounded_run(solution, session, goes_on) else {
+        return Rounding::unknown(solution);
+    };
+    let undecided = again.steps.iter().map(|step| step.undecided().map(<[Decision]>::to_vec));
+    let undecided: Option<Vec<Vec<Decision>>> = undecided.collect();
+    let decisions = undecided.map(|undecided| {
+        undecided.into_iter().flatten().chain(other_turn(solution, &again)).collect::<Vec<_>>()
+    });
+    let is_certain = decisions.as_ref().is_some_and(Vec::is_empty);
+    let bound = again.error_bound.filter(|_| is_certain).unwrap_or(f64::INFINITY);
+    // Digits beyond those of an f64 are rounded away in `u`.
+    let written = if again.digits.is_some() { f64::EPSILON / 2.0 } else { 0.0 };
+    let u = again.u.map(|u| Bounded::new(u, bound + written * u.abs()));
+    let first = decisions.iter().flatten().map(|decision| decision.iteration).min();
+    let is_before = |k: usize| decisions.is_some() && first.is_none_or(|first| k < first);
+    let pairs = solution.steps.iter().zip(&again.steps);
+    let steps = pairs.map(|(own, other)| step_bounds(own, other).filter(|_| is_before(own.k)));
+    let steps = steps.collect();
+    Rounding { displacement: finite(error(solution, &u)), decisions, steps }
+}
+
+/// Returns the bounds of a step whose numbers only their writing as `f64` rounds.
+fn written(step: &Step) -> Option<StepBounds> {
+    let Detail::Published(own) = &step.detail else { return None };
+    let half = |largest: f64| largest * f64::EPSILON / 2.0;
+    let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    Some(StepBounds {
+        yt: half(largest(own.pairs.yt.as_slice())),
+        weights: half(own.pairs.k_cnt().as_matrix().amax()),
+        u: half(step.max_displacement?),
+    })
+}
+
+/// Returns the bounds of a step from the same step in numbers that keep them: theirs, and how far
+/// those numbers are from its own.
+fn step_bounds(own: &Step, other: &Step) -> Option<StepBounds> {
+    let (Detail::Published(a), Detail::Published(b)) = (&own.detail, &other.detail) else {
+        return None;
+    };
+    let far = |a: &[f64], b: &[f64]| {
+        a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs() + f64::EPSILON * b.abs()))
+    };
+    let bounds = b.bounds?;
+    let steps = [own.max_displacement?, other.max_displacement?];
+    Some(StepBounds {
+        yt: bounds.yt + far(a.pairs.yt.as_slice(), b.pairs.yt.as_slice()),
+        weights: bounds.weights
+            + far(a.pairs.k_cnt().as_matrix().as_slice(), b.pairs.k_cnt().as_matrix().as_slice()),
+        // |u| of a node moves by at most sqrt(2) of a component.
+        u: 1.5 * bounds.u + far(&steps[..1], &steps[1..]),
+    })
+}
+
+impl Rounding {
+    fn unknown(solution: &Solution) -> Self {
+        let steps = vec![None; solution.steps.len()];
+        Rounding { displacement: None, decisions: None, steps }
+    }
+}
+
+/// Returns the first iteration and node whose edge or status differs from that of the same run in
+/// numbers with a bound.
+fn other_turn(solution: &Solution, again: &Solution) -> Option<Decision> {
+    solution.steps.iter().zip(&again.steps).find_map(|(own, other)| {
+        let (Detail::Published(a), Detail::Published(b)) = (&own.detail, &other.detail) else {
+            return None;
+        };
+        let at = a.pairs.first_difference(&b.pairs)?;
+        let node = solution.model.contact.nodes[at];
+        let scalar = again.request.arithmetic.scalar;
+        let condition = format!("the edge or status is another one in {scalar}");
+        Some(Decision { iteration: own.k, node, condition, margin: None, bound: None })
+    })
+}
+
+/// Returns the largest distance of a displacement from one that is known within a bound, length.
+fn error(solution: &Solution, u: &DVector<Bounded>) -> f64 {
+    let error = |e: usize| (u[e].to_f64() - solution.u[e]).abs() + u[e].error();
+    (0..u.len()).map(error).fold(0.0, f64::max)
+}
+
+/// Repeats the run with a bound on each displacement, for as long as it `goes_on`.
+fn bounded_run(
+    solution: &Solution,
+    session: &Session,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Option<Solution> {
+    let own = solution.request.arithmetic;
+    let arithmetic = Arithmetic {
+        scalar: match own.scalar {
+            ScalarName::F64x2 | ScalarName::BoundedDouble => ScalarName::BoundedDouble,
+            _ => ScalarName::Bounded,
+        },
+        inputs: own.inputs,
+        ..Arithmetic::default()
+    };
+    let request = Request { arithmetic, ..solution.request.clone() };
+    session.solve_while(&request, goes_on).ok()
+}
+
+/// Solves a contact state of `unilateral` again, under its friction, with a bound on each
+/// displacement; where nodes slide, the bound rests on an estimate of how friction feeds back.
+fn state(
+    model: &Model,
+    step: &Step,
+    held: &Held,
+    load: &DVector<Bounded>,
+    stiffness: &Stiffness<Bounded>,
+) -> Option<DVector<Bounded>> {
+    let constraints = step.constraints.iter().map(|c| c.map(Bounded::from_f64));
+    let constraints: Vec<_> = constraints.collect();
+    let t = Elimination::closing(&model.restrained, &constraints);
+    let Detail::Unilateral(detail) = &step.detail else { return None };
+    let friction = detail.friction(load.len()).map(Bounded::from_f64);
+    let load = model.free_part(&(load + friction));
+    let b = t.load(&(load - stiffness.times(t.shift())));
+    let x = held.refined(&b.map(Scalar::to_f64));
+    let bound = error_of_solution((stiffness, &t), &*held.factors, &b, &x);
+    // Friction follows the normal forces, whose errors are taken to be those of the displacements.
+    let bound = (1.0 + detail.feedback) * bound;
+    Some(t.expand(&x.map(|x| Bounded::new(x, bound))))
+}
+
+/// Returns the displacements of a solution within a bound on their error, if one is known.
+pub fn within(solution: &Solution, displacement: Option<f64>) -> DVector<Bounded> {
+    solution.u.map(|u| Bounded::new(u, displacement.unwrap_or(f64::INFINITY)))
+}
+
+/// Returns, for each triangle, a bound on the error of its von Mises stress where displacements are
+/// known to `displacement`, stress.
+pub fn stress_bounds(
+    solution: &Solution,
+    stiffness: &Stiffness<Bounded>,
+    displacement: Option<f64>,
+) -> Vec<f64> {
+    let model = &*solution.model;
+    let u = within(solution, displacement);
+    let stresses = stiffness.stresses(&u);
+    let triangles = model.triangles.iter().zip(&stresses).zip(&solution.elements);
+    triangles
+        .map(|((triangle, stress), state)| {
+            let rounding = ROUNDINGS * f64::EPSILON / 2.0 * state.von_mises_stress;
+            von_mises_bound(model, triangle.material.nu, stress) + rounding
+        })
+        .collect()
+}
+
+/// Returns the von Mises value of a stress's error bounds. The von Mises values of two stresses
+/// differ by at most that of their difference, because it is a seminorm.
+fn von_mises_bound(model: &Model, nu: f64, stress: &SVector<Bounded, 3>) -> f64 {
+    let [x, y, xy] = [0, 1, 2].map(|k| stress[k].error());
+    let z = match model.plane {
+        Plane::Strain => nu.abs() * (x + y),
+        Plane::Stress => 0.0,
+    };
+    let squares = (x + y).powi(2) + (y + z).powi(2) + (z + x).powi(2);
+    (squares / 2.0 + 3.0 * xy * xy).sqrt()
+}

@@ -1,0 +1,133 @@
+//! Hertz's pressure for a scene whose surfaces meet the assumptions of Hertz's theory.
+//!
+//! ```text
+//!   p(s) = p0 sqrt(1 − (s/a)²)    a² = 4 P R / (π E*)    p0 = 2 P / (π a)    1/E* = Σ (1 − ν²)/E
+//! ```
+//!
+//! The gaps of the initial shape near the first point of contact yield R: g(s) = g0 + s²/(2R).
+//!
+//! Source: K. L. Johnson, *Contact Mechanics*, sections 4.2(c), eq. (4.43) to (4.45).
+
+use std::f64::consts::PI;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::contact::{Pairing, Surfaces, arcs};
+use super::solution::Solution;
+use problem::element::Plane;
+use problem::model::{Model, NodeId};
+use problem::modelling::Coupling;
+
+/// The allowed departure of gaps from the parabola, over its height at the edge of contact.
+const PARABOLA: f64 = 0.05;
+
+/// The half width over the relative radius beyond which the theory does not apply.
+const SHALLOW: f64 = 0.3;
+
+/// The least number of nodes in the half width that show its curve.
+const FEWEST: usize = 3;
+
+/// Hertz's contact of two cylinders along a line.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Hertz {
+    /// The relative radius of the two surfaces, length.
+    pub radius: f64,
+    /// The half width of the contact, length.
+    pub half_width: f64,
+    /// The largest pressure, stress.
+    pub peak: f64,
+    /// The distance of that pressure along the contact surface, length.
+    pub centre: f64,
+}
+
+impl Hertz {
+    /// Returns Hertz's contact for the load that the contact surface of `solution` carries. None
+    /// where the surfaces form no parabola there, the contact is too wide for the theory, or too
+    /// few nodes lie in it.
+    pub fn of(solution: &Solution) -> Option<Self> {
+        let model = &*solution.model;
+        let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
+        let gaps = gaps(model, &pairings);
+        let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
+        let at_an_end = first.entry == gaps[0].entry || first.entry == gaps[gaps.len() - 1].entry;
+        // Half of a scene that is symmetric about the first point of contact carries half the load.
+        let sides = if at_an_end { 2.0 } else { 1.0 };
+        let load = sides * normal_load(solution)? / model.thickness;
+        let modulus = modulus(model, pairings[first.entry].as_ref()?)?;
+        let centre = first.arc;
+        // The half width decides which gaps count for the radius, which decides the half width.
+        let mut half_width = 0.25 * (gaps[gaps.len() - 1].arc - gaps[0].arc);
+        let mut radius = 0.0;
+        for _ in 0..20 {
+            radius = fit(&gaps, centre, first.gap, half_width)?;
+            half_width = (4.0 * load * radius / (PI * modulus)).sqrt();
+        }
+        let contact = Hertz { radius, half_width, peak: 2.0 * load / (PI * half_width), centre };
+        (half_width < SHALLOW * radius && contact.fits(&gaps, first.gap)).then_some(contact)
+    }
+
+    /// Returns the pressure at distance `arc` along the contact surface, stress.
+    pub fn pressure(&self, arc: f64) -> f64 {
+        let s = (arc - self.centre) / self.half_width;
+        self.peak * (1.0 - s * s).max(0.0).sqrt()
+    }
+
+    fn fits(&self, gaps: &[Gap], least: f64) -> bool {
+        let height = self.half_width * self.half_width / (2.0 * self.radius);
+        let within = gaps.iter().filter(|g| (g.arc - self.centre).abs() <= self.half_width);
+        let departure = |g: &Gap| {
+            let s = g.arc - self.centre;
+            (g.gap - least - s * s / (2.0 * self.radius)).abs()
+        };
+        within.clone().count() >= FEWEST
+            && within.map(departure).fold(0.0, f64::max) <= PARABOLA * height
+    }
+}
+
+/// The position and gap of a contact node in the initial shape.
+struct Gap {
+    /// Its index in the contact surface.
+    entry: usize,
+    arc: f64,
+    gap: f64,
+}
+
+fn gaps(model: &Model, pairings: &[Option<Pairing>]) -> Vec<Gap> {
+    let faced = pairings.iter().zip(arcs(model)).enumerate();
+    let gap = |(entry, (p, arc)): (usize, (&Option<Pairing>, f64))| {
+        p.as_ref().map(|p| Gap { entry, arc, gap: p.gap })
+    };
+    faced.filter_map(gap).collect()
+}
+
+/// Returns the relative radius from the gaps within `reach` of `centre` by least squares, length;
+/// None where the gaps do not open.
+fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
+    let within = gaps.iter().filter(|g| (g.arc - centre).abs() <= reach);
+    let (mut above, mut below) = (0.0, 0.0);
+    for g in within {
+        let square = (g.arc - centre).powi(2);
+        above += square * square;
+        below += square * (g.gap - least);
+    }
+    (below > 0.0 && above > 0.0).then(|| above / (2.0 * below))
+}
+
+/// Returns the sum of the normal forces of the contact nodes, force; None where they do not press.
+fn normal_load(solution: &Solution) -> Option<f64> {
+    Some(solution.in_contact().filter_map(|c| c.force).sum::<f64>()).filter(|load| *load > 0.0)
+}
+
+/// Returns E* of the two materials at a contact node, stress.
+fn modulus(model: &Model, pairing: &Pairing) -> Option<f64> {
+    let compliance = |node: NodeId| {
+        let triangle = model.triangles.iter().find(|triangle| triangle.nodes.contains(&node))?;
+        let nu = match model.plane {
+            Plane::Strain => triangle.material.nu,
+            Plane::Stress => 0.0,
+        };
+        Some((1.0 - nu * nu) / triangle.material.e)
+    };
+    Some(1.0 / (compliance(pairing.node)? + compliance(pairing.masters[0].0)?))
+}

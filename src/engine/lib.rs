@@ -1,0 +1,52 @@
+//! The answer: a request, its solution, and the estimated errors of its numbers.
+#![forbid(unsafe_code)]
+
+mod assessment;
+pub mod condensation;
+pub mod contact;
+mod decisions;
+mod distance;
+mod elimination;
+mod equations;
+pub mod error;
+pub mod estimates;
+pub mod fast;
+mod found;
+mod held;
+mod hertz;
+mod memory;
+mod not_finite;
+mod probe;
+mod published;
+mod range;
+mod request;
+mod residual;
+mod session;
+mod solution;
+mod solve;
+mod sparse;
+mod stiffness;
+mod summary;
+mod support;
+mod unilateral;
+
+pub use assessment::{Assessment, Measured};
+pub use condensation::kept_equations;
+pub use decisions::{Decision, decisions};
+pub use distance::{BodyDistance, Distance, distance, over};
+pub use elimination::{Constraint, Elimination, Motion};
+pub use found::FoundPairs;
+pub use hertz::Hertz;
+pub use memory::Bytes;
+pub use probe::{Probe, Quantity, check_points};
+pub use range::{beyond_range, locking};
+pub use request::Request;
+pub use session::Session;
+pub use solution::{
+    Choice, Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Start, Step, StepBounds,
+    Unilateral, Uniqueness, last_under_each_load, max_displacement,
+};
+pub use solve::{check, solve};
+pub use sparse::dense_matrices;
+pub use stiffness::Stiffness;
+pub use summary::{BodySummary, summaries};

@@ -1,0 +1,261 @@
+//! The displacement, stress and strain at a point, each with what rounding and the mesh may do to
+//! it.
+
+use nalgebra::{DVector, SVector, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::contact::search::Segment;
+use super::estimates::arithmetic::{bounded, stress_bounds, within};
+use super::estimates::discretisation::{SAFETY, compliance, von_mises};
+use super::estimates::{Cause, Dual, Estimates, Singular, singular};
+use super::held::Held;
+use super::not_finite::finite;
+use super::session::Session;
+use super::solution::Solution;
+use base::error::InputError;
+use base::plain::six_digits;
+use numbers::scalar::Bounded;
+use problem::element::{self, Corners, Plane};
+use problem::model::{Body, Model, TriangleId};
+
+/// How far outside a triangle, over its size, a point is still of it: typed with eight digits.
+const NEAR: f64 = 1e-8;
+
+/// What a run says of a point of a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Probe {
+    /// The point in the undeformed shape, length.
+    pub at: [f64; 2],
+    /// The body that has it.
+    pub body: String,
+    /// The number of the triangle whose values these are, from 1: its row of `EL`.
+    pub triangle: usize,
+    /// The triangles of the body that have the point too, where it is on an edge or a node.
+    pub shared: Vec<usize>,
+    /// Why no mesh bounds the stress here, within two rings of triangles about a point where it has
+    /// no limit; nothing elsewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_limit: Option<Cause>,
+    /// The displacement, then the stresses, then the strains.
+    pub quantities: Vec<Quantity>,
+}
+
+/// A number at a point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Quantity {
+    /// What it is: `u_x`, `sigma_x`, `epsilon_x`, ...
+    pub name: String,
+    /// The triangle's value: of a displacement linear, of a stress or strain the same everywhere.
+    pub value: f64,
+    /// The recovered value, which is continuous within a material and typically nearer to the
+    /// truth; nothing of a displacement, and where nothing is recovered.
+    pub recovered: Option<f64>,
+    /// What the mesh may do to the value; nothing where that is not known.
+    pub mesh: Option<f64>,
+    /// What rounding may do to it; nothing where that is not known.
+    pub arithmetic: Option<f64>,
+}
+
+/// Returns what there is to say of each of `points`: a probe of each body that has it.
+///
+/// # Errors
+/// A point lies outside every body.
+pub fn probes(
+    solution: &Solution,
+    session: &Session,
+    estimates: &Estimates,
+    points: &[[f64; 2]],
+) -> Result<Vec<Probe>, InputError> {
+    if points.is_empty() {
+        return Ok(Vec::new());
+    }
+    let model = &*solution.model;
+    check_points(model, points)?;
+    let stiffness = bounded(model);
+    let bench = Bench {
+        solution,
+        estimates,
+        dual: Held::new(solution, session).map(|held| Dual::new(solution, held, &estimates.mesh)),
+        singular: singular(solution),
+        of_stress: stress_bounds(solution, &stiffness, estimates.errors.displacement_arithmetic),
+        bounded: stiffness.stresses(&within(solution, estimates.errors.displacement_arithmetic)),
+    };
+    let bodies = |at| model.bodies.iter().map(move |body| (body, at));
+    let places = points.iter().flat_map(|at| bodies(*at));
+    Ok(places.filter_map(|(body, at)| bench.probe(body, at)).collect())
+}
+
+/// Checks that each of `points` lies in a body of the undeformed shape.
+///
+/// # Errors
+/// Names a point that lies outside every body.
+pub fn check_points(model: &Model, points: &[[f64; 2]]) -> Result<(), InputError> {
+    let is_inside = |at: &[f64; 2]| model.triangle_ids().any(|id| has(model, id, *at));
+    points.iter().find(|at| !is_inside(at)).map_or(Ok(()), |at| Err(outside(model, *at)))
+}
+
+/// Returns whether a triangle has a point.
+fn has(model: &Model, id: TriangleId, at: [f64; 2]) -> bool {
+    weights(&model.corners(id), at).iter().all(|weight| *weight >= -NEAR)
+}
+
+struct Bench<'a> {
+    solution: &'a Solution,
+    estimates: &'a Estimates,
+    dual: Option<Dual<'a>>,
+    singular: Vec<Singular>,
+    /// What rounding may do to the von Mises stress of each triangle, stress.
+    of_stress: Vec<f64>,
+    /// The stresses of each triangle with what rounding may do to them, stress.
+    bounded: Vec<SVector<Bounded, 3>>,
+}
+
+impl Bench<'_> {
+    fn probe(&self, body: &Body, at: [f64; 2]) -> Option<Probe> {
+        let model = &*self.solution.model;
+        let mut triangles = body.triangles.iter().filter(|id| has(model, **id, at));
+        let id = *triangles.next()?;
+        let weights = weights(&model.corners(id), at);
+        let [displacement, stress, strain] =
+            [self.displacement(id, weights), self.stress(id, weights), self.strain(id, weights)];
+        Some(Probe {
+            at,
+            body: body.name.clone(),
+            triangle: id.number(),
+            shared: triangles.map(|id| id.number()).collect(),
+            no_limit: self.no_limit(id),
+            quantities: [displacement, stress, strain].concat(),
+        })
+    }
+
+    fn no_limit(&self, id: TriangleId) -> Option<Cause> {
+        let near = self.singular.iter().find(|point| point.triangles.contains(&id));
+        near.map(|point| point.cause)
+    }
+
+    fn displacement(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Quantity> {
+        let (model, u) = (&*self.solution.model, &self.solution.u);
+        let nodes = model.triangle(id).nodes;
+        let component = |(d, name): (usize, &str)| {
+            let (mut force, mut value) = (DVector::zeros(u.len()), 0.0);
+            for (node, weight) in nodes.into_iter().zip(weights) {
+                let dof = node.dofs()[d].index();
+                force[dof] = weight;
+                value += weight * u[dof];
+            }
+            Quantity {
+                name: name.into(),
+                value,
+                recovered: None,
+                mesh: self.dual.as_ref().and_then(|dual| finite(dual.error(&force))),
+                arithmetic: self.estimates.errors.displacement_arithmetic,
+            }
+        };
+        ["u_x", "u_y"].into_iter().enumerate().map(component).collect()
+    }
+
+    fn stress(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Quantity> {
+        let (model, k) = (&*self.solution.model, id.index());
+        let (plane, nu) = (model.plane, model.triangle(id).material.nu);
+        let (state, corners) = (&self.solution.elements[k], &self.estimates.mesh.recovered[k]);
+        let sigma_z = |s: &Vector3<f64>| match plane {
+            Plane::Strain => nu * (s[0] + s[1]),
+            Plane::Stress => 0.0,
+        };
+        let of = |s: &Vector3<f64>| [s[0], s[1], s[2], sigma_z(s), von_mises(plane, nu, s)];
+        let between = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+        let (mut value, recovered) = (of(&state.sigma), of(&between));
+        value[4] = state.von_mises_stress;
+        let [x, y, xy] = [0, 1, 2].map(|c| self.bounded[k][c].error());
+        let rounding = [x, y, xy, sigma_z(&Vector3::new(x, y, xy)), self.of_stress[k]];
+        let differences = corners.map(|corner| of(&(corner - state.sigma)).map(f64::abs));
+        self.quantities(
+            id,
+            ["sigma_x", "sigma_y", "tau_xy", "sigma_z", "von Mises stress"],
+            [value, recovered, largest(differences), rounding],
+        )
+    }
+
+    fn strain(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Quantity> {
+        let (model, k) = (&*self.solution.model, id.index());
+        let material = model.triangle(id).material;
+        let c = compliance(model.plane, material.nu) / material.e;
+        let corners = &self.estimates.mesh.recovered[k];
+        let between = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
+        let sigma = self.solution.elements[k].sigma;
+        let rounding = c.abs() * Vector3::from_fn(|i, _| self.bounded[k][i].error());
+        let differences = corners.map(|corner| (c * (corner - sigma)).abs().into());
+        self.quantities(
+            id,
+            ["epsilon_x", "epsilon_y", "gamma_xy"],
+            [
+                self.solution.elements[k].epsilon.into(),
+                (c * between).into(),
+                largest(differences),
+                rounding.into(),
+            ],
+        )
+    }
+
+    /// Puts together values, recovered values, differences between the two, and what rounding may
+    /// do.
+    fn quantities<const N: usize>(
+        &self,
+        id: TriangleId,
+        names: [&str; N],
+        [value, recovered, mesh, arithmetic]: [[f64; N]; 4],
+    ) -> Vec<Quantity> {
+        let is_singular = self.no_limit(id).is_some();
+        let is_recovered = self.estimates.mesh.stress_errors[id.index()].is_finite();
+        let quantity = |(i, name): (usize, &str)| Quantity {
+            name: name.into(),
+            value: value[i],
+            recovered: is_recovered.then_some(recovered[i]),
+            mesh: (is_recovered && !is_singular).then_some(SAFETY * mesh[i]),
+            arithmetic: finite(arithmetic[i]),
+        };
+        names.into_iter().enumerate().map(quantity).collect()
+    }
+}
+
+/// Returns the largest of the three corners' values.
+fn largest<const N: usize>(corners: [[f64; N]; 3]) -> [f64; N] {
+    std::array::from_fn(|i| corners.iter().map(|corner| corner[i]).fold(0.0, f64::max))
+}
+
+/// Returns the parts of a triangle's area on the other side of `p` from each corner: all ≥ 0
+/// inside.
+fn weights(corners: &Corners<f64>, p: [f64; 2]) -> [f64; 3] {
+    let whole = element::area(corners);
+    std::array::from_fn(|k| {
+        let mut part = *corners;
+        part[k] = p;
+        element::area(&part) / whole
+    })
+}
+
+/// Says that a point lies outside every body, and which point of a body is nearest.
+fn outside(model: &Model, p: [f64; 2]) -> InputError {
+    let sides = model.triangle_ids().flat_map(|id| {
+        let nodes = model.triangle(id).nodes;
+        [0, 1, 2].map(|k| [nodes[k], nodes[(k + 1) % 3]])
+    });
+    let nearest = |side: [_; 2]| {
+        let (body, [a, b]) = (model.body_of(side[0]), side.map(|node| model.at(node)));
+        let closest = Segment::new([a, b]).closest(p);
+        let xi = closest.xi.clamp(0.0, 1.0);
+        (closest.distance_square, [0, 1].map(|d| a[d] + xi * (b[d] - a[d])), body)
+    };
+    let outline = sides.filter(|side| model.sides.boundary(*side).is_some()).map(nearest);
+    let (square, nearest, body) =
+        outline.min_by(|a, b| a.0.total_cmp(&b.0)).expect("a body has an outline");
+    let what = format!("the point {} lies outside every body", p.map(six_digits).join(","));
+    let name = body.map_or("", |body| &body.name);
+    let nearest = nearest.map(six_digits).join(",");
+    let fix = format!(
+        "give a point of the undeformed mesh; the nearest is {nearest} of body {name}, {:.3e} away",
+        square.sqrt()
+    );
+    InputError::new("--probe", what, fix)
+}

@@ -1,0 +1,447 @@
+//! The iterations that the paper describes: `printed`, `tied`, `stepped`.
+//!
+//! - total load, for k = 1 .. n: c = c_cnt(node_n); solve A(c)·U = F; node_n = node + U.
+//! - stepped load: c = c_cnt(node_n); solve A(c)·dU = F/n; U = U + dU; node_n = node + U.
+//!
+//! A(c) is Km(c) under `printed`, else Tᵀ·K·T on the free equations, where K is Km without contact
+//! and without restraints.
+
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use super::contact::{ContactNode, Mortar, Surfaces, Traction, reactions, status};
+use super::decisions::{Decision, decisions};
+use super::elimination::{Constraint, sum};
+use super::equations::{Equations, Solved};
+use super::error::Error;
+use super::fast::listings::c_cnt;
+use super::found::FoundPairs;
+use super::request::Request;
+use super::session::Session;
+use super::solution::{Cycle, Detail, Published, Solution, Step, StepBounds, max_displacement};
+use super::sparse::{MakeSparse, dense_matrices};
+use super::support::passed_on;
+use base::error::InputError;
+use base::memory;
+use base::plain::six_digits;
+use mathcad::array::Table;
+use numbers::scalar::Scalar;
+use numbers::solve::{Inputs, Precision, ScalarName, cost};
+use paper::door::{self, NodeToSegment};
+use paper::edited::Interpreter;
+use paper::listings::Which;
+use paper::mirror::{self, NodeTable, Pairs, Schedule, Worksheet};
+use problem::model::{Model, NodeId};
+use problem::modelling::{Coupling, Variant};
+
+/// Returns the bytes that `iterations` of a model take until the result is written: the steps, those of
+/// the run that bounds their rounding, and the tree of which `result.json` is written; measured on
+/// meshes of 13 to 3,875 nodes, with a third more for addresses that the allocator keeps.
+pub(super) fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
+    const EACH: f64 = 4500.0;
+    const NODE: f64 = 120.0;
+    const CONTACT_NODE: f64 = 250.0;
+    let [nodes, contact] = [model.nodes.len(), model.contact.nodes.len()].map(|n| n as f64);
+    iterations as f64 * (EACH + NODE * nodes + CONTACT_NODE * contact)
+}
+
+/// Solves a request for one of the variants that the paper describes. `sparse` solves where the solver
+/// takes a sparse matrix; without it that solver gets a dense one.
+///
+/// # Errors
+/// The published algorithm fails as printed, a matrix is singular, or it does not fit in memory.
+pub(super) fn published<T: Precision>(
+    request: &Request,
+    session: &Session,
+    sparse: Option<MakeSparse<T>>,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Solution, Error> {
+    let model = request.model()?;
+    let number = |x: f64| number_of(request, x);
+    let sheet = door::worksheet(&model, number);
+    let load = model.load_in(number);
+    let interpreter = (!request.edited.is_empty())
+        .then(|| Interpreter::new(&model, &request.reading, &request.edited));
+    let interpreter = interpreter.as_ref();
+    let mut run = Run::new((request, session), &model, &sheet, load, sparse, interpreter, &number)?;
+    let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
+    for k in 1..=request.iterations {
+        let step = run.iterate(k)?;
+        let ends = !goes_on(&step);
+        steps.push(step);
+        if ends {
+            break;
+        }
+    }
+    let in_contact = steps.last().expect("a request has an iteration").statuses();
+    Ok(Solution {
+        contact: run.contact(&in_contact)?,
+        elements: run.equations.stiffness.states(&run.u),
+        factored: run.visited.len(),
+        digits: T::zero().digits().and_then(|_| run.u.iter().map(|u| u.to_rational()).collect()),
+        equilibrium: None,
+        error_bound: error_bound(&run.u, &steps),
+        u: run.u.map(T::to_f64),
+        kept: run.equations.kept(),
+        request: request.clone(),
+        model: Arc::clone(&model),
+        steps,
+    })
+}
+
+/// Checks what is known of a request in a scalar before it runs.
+///
+/// # Errors
+/// The matrices do not fit in memory, exact numbers do not end within a bearable time, the load vanishes
+/// in T, or mortar does not run in it.
+pub(super) fn check<T: Precision>(request: &Request, model: &Model) -> Result<(), InputError> {
+    check_size::<T>(request, model)?;
+    if request.contact.coupling == Coupling::Mortar && request.variant != Variant::Printed {
+        check_mortar(request.arithmetic.scalar)?;
+    }
+    check_load(request, model, &model.load_in(|x| number_of::<T>(request, x)))
+}
+
+/// Returns what a number of the scene stands for.
+fn number_of<T: Scalar>(request: &Request, x: f64) -> T {
+    match request.arithmetic.inputs {
+        Inputs::Binary => T::from_f64(x),
+        Inputs::Decimal => T::from_decimal(x),
+    }
+}
+
+/// Returns the bound on the error of an entry of `u`, where T keeps one; infinite where a decision of
+/// a step is left to rounding, or that is not known.
+fn error_bound<T: Scalar>(u: &DVector<T>, steps: &[Step]) -> Option<f64> {
+    let bound = u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e)))?;
+    Some(if steps.iter().all(Step::is_certain) { bound } else { f64::INFINITY })
+}
+
+/// Checks that no load vanished or is too small for all digits of the scalar: zero displacements
+/// would look like a result.
+fn check_load<T: Scalar>(
+    request: &Request,
+    model: &Model,
+    load: &DVector<T>,
+) -> Result<(), InputError> {
+    /// The largest relative error of a load in range; it is 6e-8 in the coarsest scalar, f32.
+    const ROUNDED: f64 = 1e-6;
+    let lost = |(x, y): &(&f64, &T)| {
+        let near = T::from_f64(**x).to_f64();
+        let rounded = near.is_finite() && (near - **x).abs() > ROUNDED * x.abs();
+        rounded || **x != 0.0 && y.to_f64() == 0.0
+    };
+    match model.load.iter().zip(load.iter()).find(lost) {
+        None => Ok(()),
+        Some((x, _)) => {
+            let scalar = request.arithmetic.scalar;
+            let what =
+                format!("the force {} is too small to represent in {scalar}", six_digits(*x));
+            Err(InputError::new("loads", what, "choose other units, or use --scalar f64"))
+        }
+    }
+}
+
+/// Checks that the matrices fit in memory and that exact numbers end within a bearable time.
+fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), InputError> {
+    // The count is in units of an f64, whatever the size of the scalar.
+    // An edited `Km` is interpreted into a dense matrix, of which a sparse one is made.
+    let of_listing = if request.is_edited(Which::Km) { 2 } else { 0 };
+    let matrices = dense_matrices(request.variant, request.arithmetic).max(of_listing)
+        * size_of::<T>().div_ceil(size_of::<f64>());
+    memory::check(model.nodes.len(), matrices, memory::free())?;
+    let kept = bytes_of_iterations(model, request.iterations);
+    let whose = format!("{} iterations of {} nodes", request.iterations, model.nodes.len());
+    memory::check_bytes(kept, "iterations", &whose, "ask for fewer iterations")?;
+    if request.arithmetic.scalar != ScalarName::Exact {
+        return Ok(());
+    }
+    cost::check(model.free_dofs(), request.reading.r5 == NodeTable::NodeN, request.iterations)
+}
+
+/// The state of a run that an iteration needs of those before it.
+struct Run<'a, T> {
+    request: &'a Request,
+    model: &'a Arc<Model>,
+    sheet: &'a Worksheet<T>,
+    /// What executes the edited listings; None where there is none.
+    interpreter: Option<&'a Interpreter>,
+    /// The equations of every iteration.
+    equations: Equations<'a, T>,
+    /// The surfaces that mortar needs; None under `nts`.
+    surfaces: Option<Surfaces>,
+    /// The total displacements by degree of freedom, length.
+    u: DVector<T>,
+    /// The sum of what holds the body to which contact passes its force so far, force.
+    support: [T; 2],
+    /// The contact states visited, each with its solution and the last iteration that visited it.
+    /// The load of an iteration is always the same, so a state that returns has the same matrix and
+    /// the same solution, and its matrix is not factored again.
+    visited: Vec<Visited<T>>,
+}
+
+/// A contact state, which is all of k_cnt and the weights of the constraints, and its solution.
+struct Visited<T> {
+    /// The entries of k_cnt that are not 0, each with its place.
+    k_cnt: Vec<(usize, T)>,
+    constraints: Vec<Constraint<T>>,
+    /// The last iteration that visited it.
+    k: usize,
+    solved: Solved<T>,
+}
+
+/// The contact state that an iteration found before it solved any equation.
+struct Found<T> {
+    node_n: Table<T>,
+    pairs: Pairs<T>,
+    constraints: Vec<Constraint<T>>,
+    /// The position of each node in contact on its target edge, to measure eq. (1).
+    places: Vec<NodeToSegment<T>>,
+    /// The decisions that rounding may have taken; None where T keeps no bound.
+    undecided: Option<Vec<Decision>>,
+}
+
+impl<'a, T: Precision> Run<'a, T> {
+    fn new(
+        (request, session): (&'a Request, &Session),
+        model: &'a Arc<Model>,
+        sheet: &'a Worksheet<T>,
+        load: DVector<T>,
+        sparse: Option<MakeSparse<T>>,
+        interpreter: Option<&'a Interpreter>,
+        number: &dyn Fn(f64) -> T,
+    ) -> Result<Self, Error> {
+        let mortar = request.contact.coupling == Coupling::Mortar;
+        let equations =
+            Equations::new((request, session), model, sheet, load, sparse, interpreter, number)?;
+        let surfaces = (mortar && request.variant != Variant::Printed)
+            .then(|| Surfaces::new(model))
+            .transpose()?;
+        Ok(Run {
+            request,
+            model,
+            sheet,
+            interpreter,
+            equations,
+            surfaces,
+            u: DVector::from_element(model.dofs(), T::zero()),
+            support: [T::zero(), T::zero()],
+            visited: Vec::new(),
+        })
+    }
+
+    fn iterate(&mut self, k: usize) -> Result<Step, Error> {
+        let found = self.search(k)?;
+        let k_cnt = not_zero(&found.pairs.k_cnt);
+        let is_found = |visited: &Visited<T>| visited.is(&k_cnt, &found.constraints);
+        let before = self.visited.iter().position(is_found);
+        let (cycle, solved) = match before.map(|at| self.visited.swap_remove(at)) {
+            Some(visited) => {
+                let cycle = Cycle { length: k - visited.k, members: (visited.k..k).collect() };
+                (Some(cycle), visited.solved)
+            }
+            None => (None, self.equations.solve(&found.pairs, &found.constraints, k)?),
+        };
+        self.advance(&solved);
+        let step = self.step(k, &found, cycle, &solved);
+        self.visited.push(Visited { k_cnt, constraints: found.constraints, k, solved });
+        Ok(step)
+    }
+
+    /// Finds the contact state in the current shape in iteration `k`.
+    fn search(&self, k: usize) -> Result<Found<T>, Error> {
+        let node_n = door::moved(self.sheet, &self.u);
+        let reading = &self.request.reading;
+        let keeps_bound = T::zero().error_bound().is_some();
+        if !self.model.has_contact() {
+            // Without contact `c_cnt` is not called.
+            let pairs = Pairs::none(self.sheet.R());
+            let undecided = keeps_bound.then(Vec::new);
+            return Ok(Found { node_n, pairs, constraints: vec![], places: vec![], undecided });
+        }
+        let rule = self.request.contact.status;
+        let by_listing = self.request.decides_by_listing();
+        let edited = self.interpreter.and_then(|interpreter| interpreter.c_cnt(&node_n));
+        let pairs = if let Some(pairs) = edited {
+            pairs?
+        } else if by_listing {
+            c_cnt(self.sheet, reading, &node_n)?
+        } else {
+            let found = status::statuses(rule, self.model, self.sheet, reading, &node_n)?;
+            door::pairs(self.model, self.sheet, reading, &node_n, &found)?
+        };
+        let undecided = match (keeps_bound, by_listing) {
+            (false, _) => None,
+            (true, true) => Some(decisions(self.sheet, reading, &node_n, &pairs, k)),
+            (true, false) => {
+                let (model, sheet) = (self.model, self.sheet);
+                Some(status::decisions(rule, model, sheet, reading, &node_n, k)?)
+            }
+        };
+        let linked = door::linked(self.sheet, &pairs);
+        let places = match self.request.is_edited(Which::CCnt) {
+            // Its weights are its own, wherever it takes them from.
+            true => linked.clone(),
+            false => door::on_edges(self.sheet, &pairs, reading, &node_n)?,
+        };
+        let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
+        let of_mortar = self.bind_by_mortar(&mut constraints, &node_n, k);
+        let undecided =
+            undecided.map(|own: Vec<Decision>| own.into_iter().chain(of_mortar).collect());
+        Ok(Found { node_n, pairs, constraints, places, undecided })
+    }
+
+    /// Gives eq. (1) the weights of mortar, where that is the coupling, for the nodes in contact whose
+    /// edges cover the target in iteration `k`. Returns the decisions on them that rounding may have
+    /// taken.
+    fn bind_by_mortar(
+        &self,
+        constraints: &mut [Constraint<T>],
+        node_n: &Table<T>,
+        k: usize,
+    ) -> Vec<Decision> {
+        let Some(surfaces) = &self.surfaces else { return Vec::new() };
+        let shape = door::shape(mirror::weights_from(self.sheet, &self.request.reading, node_n));
+        let Mortar { pairings, mut unsure } = surfaces.mortar(&shape);
+        for pairing in pairings.into_iter().flatten() {
+            for bound in constraints.iter_mut().filter(|bound| bound.node == pairing.node) {
+                bound.masters.clone_from(&pairing.masters);
+            }
+        }
+        unsure.retain(|(node, _)| constraints.iter().any(|bound| bound.node == *node));
+        let condition = || "a comparison of mortar's integrals".into();
+        unsure.into_iter().map(|(node, by)| Decision::unsure(k, node, condition(), by)).collect()
+    }
+
+    /// Advances from one shape to the next.
+    fn advance(&mut self, solved: &Solved<T>) {
+        match self.request.schedule() {
+            Schedule::Total => (self.u, self.support) = (solved.u.clone(), solved.support),
+            Schedule::Stepped => {
+                self.u += &solved.u;
+                self.support = [0, 1].map(|d| self.support[d] + solved.support[d]);
+            }
+        }
+    }
+
+    fn step(&self, k: usize, found: &Found<T>, cycle: Option<Cycle>, solved: &Solved<T>) -> Step {
+        let Found { node_n, pairs, constraints, places, undecided } = found;
+        let bound: &[Constraint<T>] = match self.request.variant {
+            Variant::Printed => &[],
+            _ => constraints,
+        };
+        let residual = |u: &DVector<T>| match &self.surfaces {
+            Some(_) => eq1_residual(constraints.iter().map(|c| (c.node, &c.masters[..])), u),
+            None => eq1_residual(places.iter().map(|p| (p.node, &p.masters[..])), u),
+        };
+        Step {
+            k,
+            shape: Arc::new(numbers(&door::shape(node_n))),
+            constraints: bound.iter().map(|bound| bound.map(T::to_f64)).collect(),
+            in_contact: pairs.dy.iter().sum(),
+            max_displacement: Some(max_displacement(&self.u)),
+            cycle,
+            target_force: Some(passed_on(self.model, self.support.map(T::to_f64))),
+            solve_residual: solved.residual,
+            detail: Detail::Published(Published {
+                pairs: FoundPairs::new(pairs),
+                undecided: undecided.clone(),
+                bounds: self.bounds(pairs),
+                eq1_residual: residual(&self.u),
+                eq1_residual_step: residual(&solved.u),
+            }),
+        }
+    }
+
+    /// Returns the bounds on the errors of `pairs` and of the displacements; None where T keeps none.
+    fn bounds(&self, pairs: &Pairs<T>) -> Option<StepBounds> {
+        T::zero().error_bound()?;
+        let largest =
+            |numbers: &[T]| numbers.iter().filter_map(|x| x.error_bound()).fold(0.0, f64::max);
+        Some(StepBounds {
+            yt: largest(pairs.yt.as_slice()),
+            weights: largest(pairs.k_cnt.as_matrix().as_slice()),
+            u: largest(self.u.as_slice()),
+        })
+    }
+
+    /// Returns the contact surface at the end.
+    fn contact(&self, in_contact: &[bool]) -> Result<Vec<ContactNode>, InputError> {
+        if !self.model.has_contact() {
+            return Ok(Vec::new());
+        }
+        let surfaces = Surfaces::new(self.model)?;
+        let shape = numbers(&door::shape(&door::moved(self.sheet, &self.u)));
+        let pairings = surfaces.pairings(Coupling::Nts, &shape);
+        let reaction = self.equations.reaction(&self.u).map(T::to_f64);
+        let eliminated = self.request.variant != Variant::Printed;
+        let traction = Traction {
+            model: self.model,
+            surfaces: &surfaces,
+            pairings: &pairings,
+            gaps: &pairings.iter().map(|p| p.as_ref().map(|p| p.gap)).collect::<Vec<_>>(),
+            measured_in: &shape,
+            in_contact,
+            statuses: None,
+            forces: &reactions(self.model, &pairings, &reaction, eliminated),
+        };
+        Ok(traction.nodes())
+    }
+}
+
+impl<T: Scalar> Visited<T> {
+    /// Returns whether this is the state of `k_cnt`, where that is not 0, and `constraints`.
+    fn is(&self, k_cnt: &[(usize, T)], constraints: &[Constraint<T>]) -> bool {
+        let same_weights = |a: &Constraint<T>, b: &Constraint<T>| {
+            let mut masters = a.masters.iter().zip(&b.masters);
+            a.node == b.node
+                && a.masters.len() == b.masters.len()
+                && masters.all(|(a, b)| a.0 == b.0 && a.1.same(b.1))
+        };
+        let mut entries = self.k_cnt.iter().zip(k_cnt);
+        self.k_cnt.len() == k_cnt.len()
+            && entries.all(|(a, b)| a.0 == b.0 && a.1.same(b.1))
+            && self.constraints.len() == constraints.len()
+            && self.constraints.iter().zip(constraints).all(|(a, b)| same_weights(a, b))
+    }
+}
+
+/// Returns the entries of a table that are not 0, each with its place.
+fn not_zero<T: Scalar>(table: &Table<T>) -> Vec<(usize, T)> {
+    let entries = table.as_matrix().iter().copied().enumerate();
+    entries.filter(|(_, entry)| !entry.same(T::zero())).collect()
+}
+
+/// Returns the coordinates of each node as `f64`, length.
+fn numbers<T: Scalar>(shape: &[[T; 2]]) -> Vec<[f64; 2]> {
+    shape.iter().map(|place| place.map(T::to_f64)).collect()
+}
+
+/// Checks that a scalar has the square roots and the digits that the integrals of mortar need.
+fn check_mortar(scalar: ScalarName) -> Result<(), InputError> {
+    let why = match scalar {
+        ScalarName::Exact => "its integrals take square roots",
+        ScalarName::F32 => "its integrals lose too many digits",
+        _ => return Ok(()),
+    };
+    let what = format!("mortar coupling does not run in {scalar}: {why}");
+    Err(InputError::new("--scalar", what, "use f64 or f64x2, or --coupling nts"))
+}
+
+/// Returns the largest component of u_cont − u_targ over contact nodes, length; u_targ is
+/// interpolated between their master nodes.
+fn eq1_residual<'a, T: Scalar>(
+    bound: impl Iterator<Item = (NodeId, &'a [(NodeId, T)])>,
+    u: &DVector<T>,
+) -> f64 {
+    let mut largest = T::zero();
+    for (node, masters) in bound {
+        for direction in [0, 1] {
+            let component = |node: NodeId| node.of(u)[direction];
+            let target = sum(masters.iter().map(|&(master, k)| k * component(master)));
+            largest = largest.max((component(node) - target).abs());
+        }
+    }
+    largest.to_f64()
+}

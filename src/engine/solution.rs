@@ -1,0 +1,387 @@
+//! The solution of a request: displacements, stresses, the contact surface, and the steps.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use dashu_ratio::RBig;
+use nalgebra::DVector;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::contact::{ContactNode, Pairing, Status};
+use super::decisions::Decision;
+use super::elimination::Constraint;
+use super::found::FoundPairs;
+use super::request::Request;
+use numbers::scalar::Scalar;
+use problem::element::State;
+use problem::model::{Dof, Model, NodeId};
+
+/// A step: one iteration of a published variant, or one of the active set.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Step {
+    /// The number of the step, from 1.
+    pub k: usize,
+    /// The shape from which the step started: the coordinates of each node, length.
+    pub shape: Arc<Vec<[f64; 2]>>,
+    /// The constraints on contact nodes, by elimination; empty under `printed`.
+    pub constraints: Vec<Constraint>,
+    /// The number of entries of the contact surface in contact.
+    pub in_contact: usize,
+    /// The largest total displacement |u| of a node, length; None of an iteration of `unilateral` with which
+    /// no step of the load ends: the search goes on with the contact surfaces alone.
+    pub max_displacement: Option<f64>,
+    /// The earlier steps with this contact state; None where it is new.
+    pub cycle: Option<Cycle>,
+    /// The force that contact passes from one body to the other, force: along the load where that acts
+    /// on one of the two bodies alone, else its size. 0 without contact; None where `max_displacement`
+    /// is.
+    pub target_force: Option<f64>,
+    /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations: under `unilateral`, but for
+    /// the last step, mostly those of the condensed bodies.
+    pub solve_residual: f64,
+    /// The results that only this kind of variant has.
+    pub detail: Detail,
+}
+
+/// The results of a step that depend on the kind of variant.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum Detail {
+    /// An iteration of a variant that the paper describes.
+    Published(Published),
+    /// An iteration of the active set under `unilateral`.
+    Unilateral(Unilateral),
+}
+
+/// An iteration of a variant that the paper describes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Published {
+    /// The pairs that `c_cnt` found in the shape at the start.
+    pub pairs: FoundPairs,
+    /// The decisions on who is in contact that rounding may have taken; None where the numbers keep
+    /// no bound on their error, or under a status rule whose decisions are not looked at.
+    pub undecided: Option<Vec<Decision>>,
+    /// Bounds on the rounding errors of the iteration; None where the numbers keep none.
+    pub bounds: Option<StepBounds>,
+    /// The residual of eq. (1): the largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in
+    /// contact, in total displacements, length.
+    pub eq1_residual: f64,
+    /// The same in the displacements solved for: the increment where the load is stepped.
+    pub eq1_residual_step: f64,
+}
+
+/// Bounds on the rounding errors of an iteration, each of the largest error in an array.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct StepBounds {
+    /// The bound on the entries of `yt`, length.
+    pub yt: f64,
+    /// The bound on the entries of `k_cnt`.
+    pub weights: f64,
+    /// The bound on the total displacements after the iteration, length.
+    pub u: f64,
+}
+
+/// An iteration of the active set.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unilateral {
+    /// The part of the path of the load that was applied: 1 after the first stage, 2 after the
+    /// second.
+    pub load: f64,
+    /// The status that was imposed on each entry of the contact surface.
+    pub statuses: Vec<Status>,
+    /// The pairing of each entry in the shape in which contact was measured.
+    pub pairings: Arc<Vec<Option<Pairing>>>,
+    /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
+    pub friction: Vec<(Dof, f64)>,
+    /// The largest change of a sliding node's friction over that of μ times the normal forces which
+    /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
+    pub feedback: f64,
+    /// The least force of a node in contact, and the least part of its friction that one that sticks
+    /// has left, over the largest force of a node: how near its decisions are to others.
+    pub margin: f64,
+    /// Whether restraints leave the force on each entry of the contact surface undetermined.
+    pub undetermined: Vec<bool>,
+    /// The largest gap of a closed node or penetration of another one afterwards, length.
+    pub violation: f64,
+    /// The stiffness of the springs that held the nodes to their places in the shape before, over that of
+    /// the bodies; 0 where there were none.
+    pub springs: f64,
+    /// How its statuses were chosen.
+    pub choice: Choice,
+}
+
+/// How the statuses of an iteration were chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Choice {
+    /// The iteration before asked for them, or they are the first ones.
+    Asked,
+    /// A fixed point on the bounds of friction led to them.
+    Bounds,
+    /// They are in equilibrium, and were found among all that there are.
+    Enumerated,
+}
+
+impl Unilateral {
+    /// Returns the friction of sliding nodes by all `dofs` degrees of freedom, force.
+    pub fn friction(&self, dofs: usize) -> DVector<f64> {
+        let mut friction = DVector::zeros(dofs);
+        self.friction.iter().for_each(|(dof, force)| friction[dof.index()] = *force);
+        friction
+    }
+}
+
+/// The path of the load at the end of which a solution under friction stands.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Path {
+    /// The number of equal steps of a stage's load.
+    pub steps: usize,
+    /// The number of stages.
+    pub stages: usize,
+    /// The number of steps that were halved because no equilibrium was found.
+    pub halved: usize,
+    /// How it starts.
+    pub start: Start,
+    /// The number of steps in which a node came to stick, to slide or to open: when it did is known to the
+    /// length of the step only.
+    pub changes: usize,
+}
+
+/// How a path starts, before any load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// Restraints, and the contact nodes that touch the target, hold the bodies.
+    Held,
+    /// They do, once nodes that overlapped the target closed in a step of their own.
+    Closed,
+    /// Nothing holds the bodies: the first step moves them to where contact does, and how long that step is
+    /// changes the result.
+    Loose,
+    /// Nodes overlap the target, and no equilibrium was found without load in which they do not: they close
+    /// with the first step, and how long that is changes the result.
+    Overlapping,
+}
+
+/// An equilibrium beside the one that was found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Other {
+    /// The part of the path at the end of the step that could end in it; whole numbers end stages.
+    pub load: f64,
+    /// The nodes that stick in it.
+    pub stick: Vec<NodeId>,
+    /// The nodes that slide in it.
+    pub slip: Vec<NodeId>,
+    /// Its largest displacement component that differs, length.
+    pub change: f64,
+}
+
+/// What is known of other equilibria under the same load.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Uniqueness {
+    /// There is no other one: the problem is convex and contact holds the bodies.
+    Unique,
+    /// The bodies can move without work: a rigid motion leaves forces and load in balance.
+    Indifferent {
+        /// A node that can move.
+        node: NodeId,
+    },
+    /// Whether there is another one is not known: it was found on springs in the current geometry, where
+    /// the problem is not convex.
+    Unknown {
+        /// A node that can move without work as long as the normals of contact stay as they are.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        node: Option<NodeId>,
+    },
+    /// Other contact states were tried, each in the shape to which its step led.
+    Tried {
+        /// The number of contact states that were tried, in all steps.
+        states: usize,
+        /// The number of steps of the load that were looked at: the last one, or all.
+        steps: usize,
+        /// Whether these are all contact states of the steps that were looked at.
+        all: bool,
+        /// Whether there were earlier steps, which were not looked at.
+        last_only: bool,
+        /// Those among them that are in equilibrium too.
+        others: Vec<Other>,
+    },
+}
+
+impl Uniqueness {
+    /// Returns whether another equilibrium is known.
+    pub fn is_refuted(&self) -> bool {
+        match self {
+            Uniqueness::Unique | Uniqueness::Unknown { .. } => false,
+            Uniqueness::Indifferent { .. } => true,
+            Uniqueness::Tried { others, .. } => !others.is_empty(),
+        }
+    }
+}
+
+/// Returns the places of the last iterations under each load of a path.
+pub fn last_under_each_load(steps: &[Step]) -> Vec<usize> {
+    let load = |step: &Step| step.unilateral().map(|own| own.load);
+    let is_last = |i: &usize| steps.get(i + 1).is_none_or(|next| load(next) != load(&steps[*i]));
+    (0..steps.len()).filter(is_last).collect()
+}
+
+impl Step {
+    /// Returns what `unilateral` knows of the step; None under the other variants.
+    pub fn unilateral(&self) -> Option<&Unilateral> {
+        match &self.detail {
+            Detail::Unilateral(own) => Some(own),
+            Detail::Published(_) => None,
+        }
+    }
+
+    /// Returns whether each entry of the contact surface is in contact.
+    pub fn statuses(&self) -> Vec<bool> {
+        match &self.detail {
+            Detail::Published(step) => step.pairs.dy.iter().map(|dy| *dy == 1).collect(),
+            Detail::Unilateral(step) => {
+                step.statuses.iter().map(|status| status.is_closed()).collect()
+            }
+        }
+    }
+
+    /// Returns the decisions on who is in contact that rounding may have taken; None where that is
+    /// not known of the step alone.
+    pub fn undecided(&self) -> Option<&[Decision]> {
+        match &self.detail {
+            Detail::Published(step) => step.undecided.as_deref(),
+            Detail::Unilateral(_) => None,
+        }
+    }
+
+    /// Returns whether it is known that rounding took no decision in the step.
+    pub fn is_certain(&self) -> bool {
+        self.undecided().is_some_and(<[Decision]>::is_empty)
+    }
+
+    /// Returns the residual of the contact condition, length: of eq. (1), or of the gaps.
+    pub fn contact_residual(&self) -> f64 {
+        match &self.detail {
+            Detail::Published(step) => step.eq1_residual,
+            Detail::Unilateral(step) => step.violation,
+        }
+    }
+
+    /// Returns the same residual in the displacements that this step solved for.
+    pub fn contact_residual_step(&self) -> f64 {
+        match &self.detail {
+            Detail::Published(step) => step.eq1_residual_step,
+            Detail::Unilateral(step) => step.violation,
+        }
+    }
+
+    /// Returns the nodes of `model`'s contact surface in contact.
+    pub fn contact_set(&self, model: &Model) -> Vec<NodeId> {
+        let nodes = model.contact.nodes.iter().zip(self.statuses());
+        nodes.filter(|(_, in_contact)| *in_contact).map(|(node, _)| *node).collect()
+    }
+}
+
+/// The return of an earlier contact state.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Cycle {
+    /// The number of steps since the state last occurred; 1 means that it did not change.
+    pub length: usize,
+    /// Those steps: the last that had this state, and those between.
+    pub members: Vec<usize>,
+}
+
+/// The solution of a request.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Solution {
+    /// The request that was solved.
+    pub request: Request,
+    /// The model under the requested reading.
+    pub model: Arc<Model>,
+    /// The steps of the run, at least one.
+    pub steps: Vec<Step>,
+    /// The displacements by degree of freedom, length.
+    pub u: DVector<f64>,
+    /// The stresses and strains of each triangle.
+    pub elements: Vec<State>,
+    /// The contact surface at the end: the nodes that face the target, in order.
+    pub contact: Vec<ContactNode>,
+    /// The number of matrices that were factored, one for each contact state.
+    pub factored: usize,
+    /// All significant digits of `u`, where the scalar has more than an `f64`.
+    pub digits: Option<Vec<RBig>>,
+    /// A bound on the largest error of an entry of `u` against the same run without rounding,
+    /// length, where the scalar computes one; infinite where rounding may have changed who is in
+    /// contact.
+    pub error_bound: Option<f64>,
+    /// What `unilateral` knows beside its solution; None under the other variants.
+    pub equilibrium: Option<Equilibrium>,
+    /// The nodes to which the bodies were condensed at the end; None where the whole matrix of a contact
+    /// state was factored.
+    pub kept: Option<BTreeSet<NodeId>>,
+}
+
+/// What `unilateral` knows of the equilibrium that it found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Equilibrium {
+    /// The path of the load; None without friction, where it has no effect.
+    pub path: Option<Path>,
+    /// What is known of other equilibria.
+    pub uniqueness: Uniqueness,
+    /// Under node to segment, which watches contact nodes alone, the target node that lies deepest
+    /// inside the contact surface, and its depth, length; None where none lies deeper than a
+    /// thousandth of the model's size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unseen: Option<(NodeId, f64)>,
+    /// The contact node that lies deepest inside the target's body in the shape reached, and its
+    /// distance from the target's edges, length; None where none lies deeper than a thousandth of the
+    /// model's size.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inside: Option<(NodeId, f64)>,
+    /// The largest change of a displacement component when contact was last measured in the shape
+    /// reached, length; 0 in the initial geometry.
+    pub shape_change: f64,
+    /// The largest force of the springs on which it was found, over the largest of the loads and of those
+    /// of contact; None where it was found without springs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springs: Option<f64>,
+}
+
+impl Solution {
+    /// Returns the last step.
+    pub fn last(&self) -> &Step {
+        self.steps.last().expect("a run has a step")
+    }
+
+    /// Returns the force that contact passes on at the end ([`Step::target_force`]).
+    pub fn target_force(&self) -> f64 {
+        self.last().target_force.expect("the whole bodies are solved for in the last step")
+    }
+
+    /// Returns whether an equilibrium may depend on the way to it: under friction, which keeps the
+    /// path of the load, and where it is not known to be the only one.
+    pub fn way_counts(&self) -> bool {
+        let uniqueness = self.equilibrium.as_ref().map(|found| &found.uniqueness);
+        self.request.contact.friction.coefficient() > 0.0 || uniqueness != Some(&Uniqueness::Unique)
+    }
+
+    /// Returns the contact nodes in contact at the end.
+    pub fn in_contact(&self) -> impl Iterator<Item = &ContactNode> {
+        self.contact.iter().filter(|node| node.in_contact)
+    }
+
+    /// Returns the displacement of each node, length.
+    pub fn displacements(&self) -> Vec<[f64; 2]> {
+        self.model.node_ids().map(|node| node.of(&self.u)).collect()
+    }
+}
+
+/// Returns the largest |u| of a node, length.
+pub fn max_displacement<T: Scalar>(u: &DVector<T>) -> f64 {
+    /// More than |u| over the larger of |u_x| and |u_y|.
+    const ROOM: f64 = 1.5;
+    u.as_slice().chunks(2).fold(0.0, |largest: f64, u| {
+        let longer = Scalar::abs(u[0]).to_f64().max(Scalar::abs(u[1]).to_f64());
+        if ROOM * longer < largest { largest } else { largest.max(Scalar::hypot(u[0], u[1])) }
+    })
+}

@@ -1,0 +1,287 @@
+//! The solution of a request by the requested variant in the requested numbers.
+
+use std::sync::Arc;
+
+use super::error::{Error, SingularMatrix};
+use super::memory::{Bytes, FEWER_STEPS, bytes_of_paths};
+use super::published::{self, published};
+use super::request::Request;
+use super::session::Session;
+use super::solution::{Solution, Step};
+use super::sparse::{Condensing, Iterating, Sparse, Whole, dense_matrices};
+use super::unilateral::unilateral;
+use base::error::InputError;
+use base::memory;
+use numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
+use numbers::solve::{Arithmetic, Iterates, ScalarName, Solver, cost};
+use paper::listings::Which;
+use paper::mirror::NodeTable;
+use problem::element::State;
+use problem::model::Model;
+use problem::modelling::{Variant, check_iterations, check_tolerance};
+
+/// Solves `request` in a session of its own ([`Session::solve`]).
+///
+/// # Errors
+/// The errors of [`Session::solve`].
+pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
+    Session::default().solve(request, watch)
+}
+
+impl Session {
+    /// Solves `request`; `watch` is called after each step.
+    ///
+    /// # Errors
+    /// A number that is asked for is out of its range; the published algorithm fails as printed; a
+    /// matrix cannot be solved; a dense matrix does not fit in memory; the scalar does not have the
+    /// solver; the scene is too large for exact numbers; or under `unilateral` contact and restraints
+    /// do not restrain the bodies.
+    pub fn solve(
+        &self,
+        request: &Request,
+        watch: &mut dyn FnMut(&Step),
+    ) -> Result<Solution, Error> {
+        self.solve_while(request, &mut |step| {
+            watch(step);
+            true
+        })
+    }
+
+    /// Solves `request`; under a variant that the paper describes it ends with the step after which
+    /// `goes_on` is false.
+    ///
+    /// # Errors
+    /// The errors of [`Session::solve`].
+    pub(super) fn solve_while(
+        &self,
+        request: &Request,
+        goes_on: &mut dyn FnMut(&Step) -> bool,
+    ) -> Result<Solution, Error> {
+        check_in(request, self)?;
+        run(request, self, goes_on).map_err(|why| blamed(request, why))
+    }
+}
+
+/// Checks what is known of a request before it runs.
+///
+/// # Errors
+/// A number that is asked for is out of its range, the variant or the coupling does not run in the
+/// scalar or by the solver, what is edited is not executed, the load vanishes in the scalar, or the run
+/// does not fit in memory or in a bearable time.
+pub fn check(request: &Request) -> Result<(), InputError> {
+    check_in(request, &Session::default())
+}
+
+fn check_in(request: &Request, session: &Session) -> Result<(), InputError> {
+    request.arithmetic.check()?;
+    check_iterations(request.iterations)?;
+    request.contact.check()?;
+    request.tolerance.map_or(Ok(()), check_tolerance)?;
+    check_edited(request)?;
+    let model = request.model()?;
+    match (request.variant, request.arithmetic.scalar) {
+        (Variant::Unilateral, _) => check_unilateral(request)?,
+        (_, ScalarName::F64) => published::check::<f64>(request, &model)?,
+        (_, ScalarName::F32) => published::check::<f32>(request, &model)?,
+        (_, ScalarName::F64x2) => published::check::<F64x2>(request, &model)?,
+        (_, ScalarName::Bounded) => published::check::<Bounded>(request, &model)?,
+        (_, ScalarName::BoundedDouble) => published::check::<BoundedDouble>(request, &model)?,
+        (_, ScalarName::Exact) => {
+            scalar::scope(|| published::check::<Exact>(request, &model))?;
+        }
+    }
+    check_memory(request, session)
+}
+
+/// Checks that a run has the memory that it takes, with the runs beside it. Of runs that share
+/// what was factored, one that takes no more than another is not checked again: what is no longer free
+/// may be that one's.
+///
+/// # Errors
+/// Says how much it needs where that is not free.
+fn check_memory(request: &Request, session: &Session) -> Result<(), InputError> {
+    let model = &request.scene.model;
+    let path = bytes_of_paths(request, model);
+    let whose =
+        format!("{} steps of the load on {} nodes", request.contact.load_steps, model.nodes.len());
+    memory::check_bytes(path, "contact.load_steps", &whose, FEWER_STEPS)?;
+    let equations = model.free_dofs();
+    let needed = Bytes::of(request, model).total();
+    let whose = format!("{equations} free equations");
+    session.room(needed, || memory::check_bytes(needed, "the mesh", &whose, memory::FIX))
+}
+
+/// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is
+/// singular to the digits of a scalar only is no fault of the print, nor is what `f32` cannot
+/// represent, as the paper's worksheet computes in `f64`.
+fn blamed(request: &Request, why: Error) -> Error {
+    let Arithmetic { scalar, inputs, .. } = request.arithmetic;
+    let rounded = match why {
+        Error::Singular(_) => scalar != ScalarName::Exact,
+        Error::Listing(_) => scalar == ScalarName::F32,
+        _ => false,
+    };
+    let more = more_precise(request).filter(|more| rounded && *more != scalar);
+    let Some(more) = more else { return why };
+    let arithmetic = Arithmetic { scalar: more, inputs, ..Arithmetic::default() };
+    if let Error::Singular(singular) = &why
+        && let Some(bytes) = dense_bytes(request, arithmetic)
+    {
+        return SingularMatrix { untried: Some(bytes), ..singular.clone() }.into();
+    }
+    let request = request.clone().arithmetic(arithmetic);
+    match check(&request)
+        .map_err(Error::from)
+        .and_then(|()| run(&request, &Session::default(), &mut |_| true))
+    {
+        Ok(_) => {
+            let what = format!("in {scalar} {why}; in {more} the run does not fail");
+            InputError::new("--scalar", what, format!("use --scalar {more}")).into()
+        }
+        Err(_) => why,
+    }
+}
+
+/// Returns the bytes of the dense matrices in which a large run would be repeated: that takes too long.
+/// None where it is repeated.
+fn dense_bytes(request: &Request, arithmetic: Arithmetic) -> Option<f64> {
+    /// The number of equations of a large one.
+    const LARGE: usize = 3000;
+    let model = &request.scene.model;
+    // Each double-double is two numbers.
+    let matrices = 2 * dense_matrices(request.variant, arithmetic);
+    let is_repeated = model.free_dofs() <= LARGE || matrices == 0;
+    (!is_repeated).then(|| memory::needed(model.nodes.len(), matrices) as f64)
+}
+
+/// Returns the scalar that tells whether rounding is at fault: exact numbers where they end in a
+/// moment.
+fn more_precise(request: &Request) -> Option<ScalarName> {
+    /// The seconds of a moment.
+    const MOMENT: f64 = 2.0;
+    let growing = request.reading.r5 == NodeTable::NodeN;
+    let equations = request.scene.model.free_dofs();
+    let exact = cost::seconds(equations, growing, request.iterations) <= MOMENT;
+    let more = if exact { ScalarName::Exact } else { ScalarName::F64x2 };
+    (request.variant != Variant::Unilateral).then_some(more)
+}
+
+fn run(
+    request: &Request,
+    session: &Session,
+    goes_on: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Solution, Error> {
+    let solution = match (request.variant, request.arithmetic.scalar) {
+        (Variant::Unilateral, _) => unilateral(request, session, &mut |step| _ = goes_on(step))?,
+        (_, ScalarName::F64) => published::<f64>(request, session, Some(sparse), goes_on)?,
+        (_, ScalarName::F32) => published::<f32>(
+            request,
+            session,
+            Some(|request, _, _| or_iterating(request, || Whole)),
+            goes_on,
+        )?,
+        (_, ScalarName::F64x2) => published::<F64x2>(request, session, Some(sparse), goes_on)?,
+        (_, ScalarName::Bounded) => {
+            published::<Bounded>(request, session, Some(condensing), goes_on)?
+        }
+        (_, ScalarName::BoundedDouble) => {
+            published::<BoundedDouble>(request, session, Some(condensing), goes_on)?
+        }
+        (_, ScalarName::Exact) => {
+            scalar::scope(|| published::<Exact>(request, session, None, goes_on))?
+        }
+    };
+    check_finite(&solution)?;
+    Ok(solution)
+}
+
+/// Returns the solver that a request asks for: what iterates, or else what `direct` makes.
+fn or_iterating<T: Iterates, S: Sparse<T> + 'static>(
+    request: &Request,
+    direct: impl FnOnce() -> S,
+) -> Box<dyn Sparse<T>> {
+    let (solver, tol) = (request.solver(), request.arithmetic.tol);
+    if solver.iterates() { Box::new(Iterating { solver, tol }) } else { Box::new(direct()) }
+}
+
+fn sparse<T: Iterates>(
+    request: &Request,
+    model: &Arc<Model>,
+    session: &Session,
+) -> Box<dyn Sparse<T>>
+where
+    Condensing: Sparse<T>,
+{
+    or_iterating(request, || Condensing::new(model, session))
+}
+
+fn condensing<T>(_: &Request, model: &Arc<Model>, session: &Session) -> Box<dyn Sparse<T>>
+where
+    Condensing: Sparse<T>,
+{
+    Box::new(Condensing::new(model, session))
+}
+
+/// Checks that a run with edited listings executes them: in f64, as the interpreter does, and an
+/// edited `Km`, whose matrix need not be symmetric, by LU.
+fn check_edited(request: &Request) -> Result<(), InputError> {
+    let Request { variant, contact, arithmetic, .. } = request;
+    let c_cnt = request.is_edited(Which::CCnt);
+    let km = request.is_edited(Which::Km);
+    let by_listing = request.decides_by_listing();
+    let refuse = |place: &str, what: String, fix: &str| Err(InputError::new(place, what, fix));
+    match () {
+        () if !c_cnt && !km => Ok(()),
+        () if *variant == Variant::Unilateral => {
+            let what = "unilateral executes no listing".into();
+            refuse("--c-cnt, --km", what, "ask for --variant printed, tied or stepped")
+        }
+        () if arithmetic.scalar != ScalarName::F64 => {
+            let what = format!("an edited listing is not executed in {}", arithmetic.scalar);
+            refuse("--scalar", what, "leave it out")
+        }
+        () if c_cnt && !by_listing => {
+            let what = format!("under the rule {} c_cnt is not called", contact.status);
+            refuse("--status", what, "leave it out")
+        }
+        () if km && !matches!(request.solver(), Solver::DenseLu | Solver::SparseLu) => {
+            let what = format!("{} does not solve what an edited Km builds", request.solver());
+            refuse("--solver", what, "use sparse-lu or dense-lu")
+        }
+        () => Ok(()),
+    }
+}
+
+/// Checks that `unilateral` is requested in f64 by sparse Cholesky.
+fn check_unilateral(request: &Request) -> Result<(), InputError> {
+    let arithmetic = request.arithmetic;
+    if arithmetic.scalar != ScalarName::F64 {
+        let what =
+            format!("unilateral does not run in {}: normals take square roots", arithmetic.scalar);
+        return Err(InputError::new("--scalar", what, "use f64, or another variant"));
+    }
+    match arithmetic.solver {
+        None | Some(Solver::SparseCholesky) => Ok(()),
+        Some(other) => {
+            let what = format!("unilateral does not solve by {other}");
+            Err(InputError::new("--solver", what, "use sparse-cholesky, or another variant"))
+        }
+    }
+}
+
+/// Checks that every displacement, stress and strain can be represented.
+fn check_finite(solution: &Solution) -> Result<(), InputError> {
+    let of_element = |s: &State| (s.von_mises_stress + s.von_mises_strain).is_finite();
+    let of_step = |step: &Step| {
+        let known = step.max_displacement.into_iter().chain(step.target_force);
+        (known.sum::<f64>() + step.contact_residual() + step.solve_residual).is_finite()
+    };
+    if solution.u.iter().all(|x| x.is_finite())
+        && solution.elements.iter().all(of_element)
+        && solution.steps.iter().all(of_step)
+    {
+        return Ok(());
+    }
+    let what = "the displacements or stresses are too large to represent";
+    Err(InputError::new("loads, materials, mesh", what, "choose other units"))
+}

@@ -1,0 +1,107 @@
+//! The force that contact passes from one body to the other, from what holds the body that receives
+//! it: the forces on its restraints, some of them through constraints, and its own load.
+
+use nalgebra::DVector;
+
+use super::elimination::{Constraint, Motion, sum};
+use numbers::scalar::Scalar;
+use problem::model::{Body, Dof, Model};
+
+/// Returns the body to which contact passes its force: the target, or the contact body where the
+/// load acts on the target alone; None without contact.
+fn receiver(model: &Model) -> Option<&Body> {
+    let target = model.target()?;
+    let contact = model.body_of(*model.contact.nodes.first()?)?;
+    let swapped = is_loaded(model, target) && !is_loaded(model, contact);
+    Some(if swapped { contact } else { target })
+}
+
+/// Returns whether a load acts on the body.
+fn is_loaded(model: &Model, body: &Body) -> bool {
+    dofs(body).any(|dof| model.load[dof.index()] != 0.0)
+}
+
+/// Returns the sum of the receiver's reactions and of its own load, force: what contact passes to it,
+/// with the opposite sign. `force` is K·u − F and `load` is F, by degree of freedom; `restrained` marks
+/// the degrees of freedom that the run restrains.
+pub fn support<T: Scalar>(
+    model: &Model,
+    restrained: &[bool],
+    constraints: &[Constraint<T>],
+    force: &DVector<T>,
+    load: &DVector<T>,
+) -> [T; 2] {
+    let mut total = held(model, restrained, force, load);
+    let Some(receiver) = receiver(model) else { return total };
+    for constraint in constraints {
+        let passed = passed(constraint, restrained, force);
+        for direction in [0, 1] {
+            let to_restrained = constraint.masters.iter().filter(|(master, _)| {
+                receiver.has(*master) && restrained[master.dofs()[direction].index()]
+            });
+            total[direction] += sum(to_restrained.map(|(_, w)| *w)) * passed[direction];
+        }
+    }
+    total
+}
+
+/// Returns the contact force on a constrained node, force.
+fn passed<T: Scalar>(
+    constraint: &Constraint<T>,
+    restrained: &[bool],
+    force: &DVector<T>,
+) -> [T; 2] {
+    let free = constraint.node.dofs().map(|dof| !restrained[dof.index()]);
+    let force = constraint.node.of(force);
+    match constraint.motion {
+        Motion::Both(_) => [0, 1].map(|d| if free[d] { force[d] } else { T::zero() }),
+        Motion::Along(normal, _) => {
+            let along = normal[0] * force[0] + normal[1] * force[1];
+            normal.map(|n| n * along)
+        }
+    }
+}
+
+/// Returns the sum of `force` over the restraints of the receiver, and of `load` over all of it, force.
+pub(super) fn held<T: Scalar>(
+    model: &Model,
+    restrained: &[bool],
+    force: &DVector<T>,
+    load: &DVector<T>,
+) -> [T; 2] {
+    let mut total = [T::zero(), T::zero()];
+    for dof in receiver(model).into_iter().flat_map(dofs) {
+        if restrained[dof.index()] {
+            total[dof.direction()] += force[dof.index()];
+        }
+        if !load[dof.index()].is_zero() {
+            total[dof.direction()] += load[dof.index()];
+        }
+    }
+    total
+}
+
+/// Returns whether each degree of freedom is one of the receiver that the run restrains.
+pub(super) fn supports(model: &Model, restrained: &[bool]) -> Vec<bool> {
+    let mut supports = vec![false; model.dofs()];
+    let of_receiver = receiver(model).into_iter().flat_map(dofs);
+    of_receiver.for_each(|dof| supports[dof.index()] = restrained[dof.index()]);
+    supports
+}
+
+fn dofs(body: &Body) -> impl Iterator<Item = Dof> {
+    body.nodes.iter().flat_map(|node| node.dofs())
+}
+
+/// Returns the force that contact passes on, force, where `held` holds the receiver: along the load
+/// where the load acts on one of the two bodies alone, else its size.
+pub fn passed_on(model: &Model, held: [f64; 2]) -> f64 {
+    let [rx, ry] = held;
+    let [fx, fy] = model.total_load();
+    let size = fx.hypot(fy);
+    if size == 0.0 || receiver(model).is_some_and(|body| is_loaded(model, body)) {
+        return rx.hypot(ry);
+    }
+    // 0 − x rather than −x: without any reaction the result is 0, not −0.
+    0.0 - (rx * (fx / size) + ry * (fy / size))
+}

@@ -1,0 +1,219 @@
+//! The fixed point on the bounds of friction. Where the tangential forces have given bounds s, a step of
+//! the load is a convex problem on the contact surface:
+//!
+//! ```text
+//!   least ½ xᵀ S x + p0·g + q0·(a − b) + s·(a + b)     x = (g, a − b),  g ≥ 0,  a ≥ 0,  b ≥ 0
+//!   p = p0 + Snn g + Snt (a − b)                       s = μ p  of the solution before
+//! ```
+//!
+//! g are the gaps, a − b the slips of the step, p and q the forces along normal and tangent, p0 and q0
+//! those with every node held to its place on the target, and S the stiffness of the bodies at the contact
+//! surface. The first bounds are those of the normal forces with which nothing slides.
+//!
+//! Source: J. Nečas, J. Jarušek, J. Haslinger, Boll. Un. Mat. Ital. B 17 (1980) 796-811; J. Haslinger,
+//! Math. Methods Appl. Sci. 5 (1983) 422-437.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::forces::tangent;
+use super::nonnegative::least;
+use super::problem::{Place, Problem, Setting, Solved};
+use crate::contact::{Pairing, Sense, Status};
+use crate::elimination::{Constraint, Motion};
+
+/// The number of contact nodes up to which the problem is set up.
+const MOST: usize = 150;
+
+/// The number of bounds that are tried. Where the last half goes back and forth, each is the mean of two.
+const BOUNDS: usize = 100;
+
+/// A gap, slip or force in the units of [`Problem::scaled`] up to which it is 0: rounding.
+const STILL: f64 = 1e-10;
+
+/// The convex problem of one step on the contact surface.
+struct Convex {
+    /// S, without slips where there is no friction.
+    stiffness: DMatrix<f64>,
+    /// p0, then q0.
+    at_rest: DVector<f64>,
+    /// The matrix of the gaps, the slips forward and the slips backward.
+    matrix: DMatrix<f64>,
+    /// The number of contact nodes, and that of those that slide.
+    nodes: usize,
+    slips: usize,
+}
+
+/// Its solution under some bounds.
+struct Slid {
+    /// The gaps, the slips forward and the slips backward.
+    x: DVector<f64>,
+    /// The gaps, then the slips.
+    apart: DVector<f64>,
+    /// The normal forces.
+    normal: DVector<f64>,
+}
+
+impl Convex {
+    fn new(stiffness: DMatrix<f64>, at_rest: DVector<f64>, nodes: usize) -> Self {
+        let slips = stiffness.nrows() - nodes;
+        let of = |k: usize| if k < nodes + slips { (k, 1.0) } else { (k - slips, -1.0) };
+        let size = nodes + 2 * slips;
+        let matrix = DMatrix::from_fn(size, size, |row, column| {
+            let ((row, a), (column, b)) = (of(row), of(column));
+            a * b * stiffness[(row, column)]
+        });
+        Convex { stiffness, at_rest, matrix, nodes, slips }
+    }
+
+    /// Returns the solution under bounds, from `start`; None where nothing holds the bodies under them.
+    fn under(&self, bounds: &DVector<f64>, start: DVector<f64>) -> Option<Slid> {
+        let Convex { nodes, slips, at_rest, .. } = self;
+        let right = DVector::from_fn(nodes + 2 * slips, |row, _| match row {
+            _ if row < *nodes => at_rest[row],
+            _ if row < nodes + slips => bounds[row - nodes] + at_rest[row],
+            _ => bounds[row - nodes - slips] - at_rest[row - slips],
+        });
+        Some(self.slid(least(&self.matrix, &right, start)?))
+    }
+
+    /// Returns the solution in which nothing slides; None where nothing holds the bodies.
+    fn stuck(&self) -> Option<Slid> {
+        let (n, size) = (self.nodes, self.matrix.nrows());
+        let (normal, at_rest) = (self.stiffness.view((0, 0), (n, n)), self.at_rest.rows(0, n));
+        let gaps = least(&normal.into(), &at_rest.into(), DVector::zeros(n))?;
+        Some(self.slid(gaps.resize_vertically(size, 0.0)))
+    }
+
+    fn slid(&self, x: DVector<f64>) -> Slid {
+        let Convex { nodes, slips, .. } = self;
+        let apart = DVector::from_fn(nodes + slips, |row, _| match row {
+            _ if row < *nodes => x[row],
+            _ => x[row] - x[row + slips],
+        });
+        let forces = &self.stiffness * &apart + &self.at_rest;
+        Slid { x, apart, normal: forces.rows(0, *nodes).map(|p| p.max(0.0)) }
+    }
+}
+
+impl Problem<'_> {
+    /// Looks for statuses in equilibrium by a fixed point on the bounds of friction. None where it finds
+    /// none, and where the problem is not of its kind: with nodes that never slide, of more than 150
+    /// nodes, or with a contact node that is restrained.
+    pub(super) fn by_bounds(&self, place: &Place, setting: &Setting) -> Option<Vec<Status>> {
+        let entries: Vec<usize> =
+            (0..place.pairings.len()).filter(|i| place.pairings[*i].is_some()).collect();
+        let pairing =
+            |i: usize| place.pairings[i].as_ref().expect("only entries that face a target");
+        let restrained = |i: &usize| self.model.restraints_of(pairing(*i).node).contains(&true);
+        let mu = self.friction;
+        if mu.is_infinite() || entries.len() > MOST || entries.iter().any(restrained) {
+            return None;
+        }
+        let n = entries.len();
+        let (stiffness, at_rest) =
+            self.scaled(place, &entries, setting, if mu == 0.0 { n } else { 2 * n })?;
+        let convex = Convex::new(stiffness, at_rest, n);
+        let mut slid = convex.stuck()?;
+        let mut bounds = mu * &slid.normal;
+        let mut statuses = Vec::new();
+        for k in 0..BOUNDS {
+            slid = convex.under(&bounds, slid.x)?;
+            let last = std::mem::replace(&mut statuses, self.statuses(place, &entries, &slid));
+            if statuses == last && self.try_statuses(place, &statuses, setting).is_some() {
+                return Some(statuses);
+            }
+            let next = mu * &slid.normal;
+            if (&next - &bounds).amax() <= STILL {
+                return Some(statuses);
+            }
+            bounds = if k < BOUNDS / 2 { next } else { (next + bounds) / 2.0 };
+        }
+        None
+    }
+
+    /// Returns the statuses of a solution.
+    fn statuses(&self, place: &Place, entries: &[usize], slid: &Slid) -> Vec<Status> {
+        let n = entries.len();
+        let mut statuses = vec![Status::Open; place.pairings.len()];
+        for (k, i) in entries.iter().enumerate() {
+            let slip = slid.apart.get(n + k).copied().unwrap_or(0.0);
+            statuses[*i] = match () {
+                () if slid.apart[k] > STILL || slid.normal[k] == 0.0 => Status::Open,
+                () if slip > STILL => Status::Slip(Sense::Forward),
+                () if slip < -STILL => Status::Slip(Sense::Backward),
+                () => self.closing(place, *i),
+            };
+        }
+        statuses
+    }
+
+    /// Returns the stiffness of the first `size` gaps and slips, and the forces with every node held to
+    /// the target: gaps and slips in the unit in which stiffness is 1, forces in that of the largest.
+    /// None where there are no forces.
+    fn scaled(
+        &self,
+        place: &Place,
+        entries: &[usize],
+        setting: &Setting,
+        size: usize,
+    ) -> Option<(DMatrix<f64>, DVector<f64>)> {
+        let forces = |apart: &DVector<f64>, loaded: bool| {
+            let all = self.held(place, entries, setting, apart, loaded)?;
+            Some(all.rows(0, size).into_owned())
+        };
+        let at_rest = forces(&DVector::zeros(2 * entries.len()), true)?;
+        let mut stiffness = DMatrix::zeros(size, size);
+        for column in 0..size {
+            let mut apart = DVector::zeros(2 * entries.len());
+            apart[column] = 1.0;
+            stiffness.set_column(column, &forces(&apart, false)?);
+        }
+        let (scale, unit) = (stiffness.diagonal().amax(), at_rest.amax());
+        (unit > 0.0).then(|| (stiffness / scale, at_rest / unit))
+    }
+
+    /// Returns the forces along all normals, then along all tangents, with every node held `apart`
+    /// from its place on the target: gaps, then slips; `loaded` or by that alone.
+    fn held(
+        &self,
+        place: &Place,
+        entries: &[usize],
+        setting: &Setting,
+        apart: &DVector<f64>,
+        loaded: bool,
+    ) -> Option<DVector<f64>> {
+        let n = entries.len();
+        let mut statuses = vec![Status::Open; place.pairings.len()];
+        let held = if self.friction == 0.0 { Status::Slip(Sense::Free) } else { Status::Stick };
+        entries.iter().for_each(|i| statuses[*i] = held);
+        let mut constraints = self.constraints(place, &statuses, setting);
+        let mut own = Setting { load: setting.load.clone(), ..*setting };
+        if !loaded {
+            own.load.fill(0.0);
+        }
+        for (k, (constraint, i)) in constraints.iter_mut().zip(entries).enumerate() {
+            let pairing = place.pairings[*i].as_ref()?;
+            shift(constraint, pairing, [apart[k], apart[n + k]], loaded);
+        }
+        let Ok(Solved::Moved(moved)) = self.solve(place, &statuses, &constraints, &own) else {
+            return None;
+        };
+        let force = |row: usize| {
+            let force = moved.forces[entries[row % n]];
+            if row < n { force.normal } else { force.tangent }
+        };
+        Some(DVector::from_fn(2 * n, |row, _| force(row)))
+    }
+}
+
+/// Moves the place to which a constraint binds by a gap and a slip; or binds to that alone.
+fn shift(constraint: &mut Constraint, pairing: &Pairing, [gap, slip]: [f64; 2], added: bool) {
+    let (n, t) = (pairing.normal, tangent(pairing));
+    let apart = [0, 1].map(|d| gap * n[d] + slip * t[d]);
+    match &mut constraint.motion {
+        Motion::Both(shift) => {
+            *shift = [0, 1].map(|d| apart[d] + if added { shift[d] } else { 0.0 });
+        }
+        Motion::Along(_, shift) => *shift = gap + if added { *shift } else { 0.0 },
+    }
+}

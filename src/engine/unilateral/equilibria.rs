@@ -1,0 +1,186 @@
+//! Other equilibria under the same load.
+
+use nalgebra::DVector;
+
+use super::problem::{Equilibrium, Moved, Place, Problem, Setting};
+use crate::contact::{Sense, Status};
+use crate::solution::{Other, Uniqueness};
+use problem::model::NodeId;
+
+/// The force of a node in contact, over the largest of the loads and of those of contact, below which
+/// it may as well be open.
+const WEAK: f64 = 1e-9;
+
+/// The difference of displacements, over the largest, beyond which two equilibria differ.
+const DISTINCT: f64 = 1e-6;
+
+/// The number of equations that may be factored in all to try contact states.
+const WORK: usize = 500_000;
+
+/// The number of contact states of a step up to which all of them are tried: those of six nodes under
+/// friction, or of twelve without.
+const ALL: usize = 4096;
+
+/// A step of the load that was taken.
+pub(super) struct Taken {
+    /// The part of the path at its end.
+    pub(super) to: f64,
+    /// The displacements before it, length.
+    pub(super) before: DVector<f64>,
+    pub(super) place: Place,
+    pub(super) statuses: Vec<Status>,
+    /// The displacements at its end, length.
+    pub(super) u: DVector<f64>,
+}
+
+/// Returns what is known of equilibria beside those of the steps that were `taken`, of which the last led to
+/// `found`: of small problems in every step, else in the last one alone.
+pub(super) fn uniqueness(problem: &Problem, found: &Equilibrium, taken: &[Taken]) -> Uniqueness {
+    let last = taken.last().expect("a path has a step");
+    if let Some(node) = indifferent(problem, found, &setting(problem, last)) {
+        return Uniqueness::Indifferent { node };
+    }
+    if found.springs.is_some() {
+        let setting = setting(problem, last);
+        let free = problem.unrestrained_node(&found.place, &found.last.statuses, &setting);
+        match (problem.is_current(), free) {
+            (true, node) => return Uniqueness::Unknown { node },
+            (false, Some(node)) => return Uniqueness::Indifferent { node },
+            (false, None) => (),
+        }
+    }
+    if problem.friction == 0.0 {
+        return Uniqueness::Unique;
+    }
+    let numbers: Option<Vec<usize>> =
+        taken.iter().map(|step| problem.number_of_states(&step.place)).collect();
+    let all = numbers.is_some_and(|numbers| numbers.iter().sum::<usize>() <= problem.most_states());
+    let steps = if all { taken } else { std::slice::from_ref(last) };
+    let (mut number, mut others) = (0, Vec::new());
+    for step in steps {
+        let states = if all { problem.every(&step.place) } else { problem.neighbours(step) };
+        number += states.len();
+        others.extend(problem.others(step, &states));
+    }
+    let last_only = steps[0].before.amax() > 0.0;
+    Uniqueness::Tried { states: number, steps: steps.len(), all, last_only, others }
+}
+
+fn setting<'a>(problem: &Problem, step: &'a Taken) -> Setting<'a> {
+    let load = problem.load(step.to);
+    Setting { load, before: &step.before, statuses: None, whole: false }
+}
+
+/// Returns a node that can move without work: with the contacts that carry nothing opened, nothing
+/// restrains it.
+fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Option<NodeId> {
+    let Moved { forces, .. } = &found.last.moved;
+    let largest = forces.iter().map(|f| f.normal).fold(setting.load.amax(), f64::max);
+    let mut statuses = found.last.statuses.clone();
+    let carries_nothing = |i: usize| forces[i].normal <= WEAK * largest;
+    let weak: Vec<usize> =
+        (0..statuses.len()).filter(|&i| statuses[i].is_closed() && carries_nothing(i)).collect();
+    if weak.is_empty() {
+        return None;
+    }
+    weak.into_iter().for_each(|i| statuses[i] = Status::Open);
+    problem.unrestrained_node(&found.place, &statuses, setting)
+}
+
+fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> Other {
+    let nodes = |wanted: fn(&Status) -> bool| {
+        let entries = statuses.iter().zip(problem.surfaces.nodes());
+        entries.filter(|(status, _)| wanted(status)).map(|(_, node)| *node).collect()
+    };
+    Other {
+        load,
+        stick: nodes(|status| *status == Status::Stick),
+        slip: nodes(|status| matches!(status, Status::Slip(_))),
+        change,
+    }
+}
+
+impl Problem<'_> {
+    /// Looks for statuses in equilibrium among all that there are; None where there is none, and where
+    /// there are too many to be tried.
+    pub(super) fn enumerated(&self, place: &Place, setting: &Setting) -> Option<Vec<Status>> {
+        let all = self.can_enumerate(place, 1).then(|| self.every(place))?;
+        all.into_iter().find(|statuses| self.try_statuses(place, statuses, setting).is_some())
+    }
+
+    /// Returns whether all contact states of so many steps, whose nodes face what they do in a place, can be
+    /// tried.
+    pub(super) fn can_enumerate(&self, place: &Place, steps: usize) -> bool {
+        self.number_of_states(place).is_some_and(|number| number * steps <= self.most_states())
+    }
+
+    /// Returns the number of contact states that are tried at most: fewer of a large model.
+    fn most_states(&self) -> usize {
+        1 + WORK / self.model.dofs()
+    }
+
+    /// Returns the number of all contact states in a place; None of more than [`ALL`].
+    fn number_of_states(&self, place: &Place) -> Option<usize> {
+        let mut choices = (0..place.pairings.len()).map(|i| self.choices(place, i).len());
+        let number = choices.try_fold(1_usize, |n, choices| n.checked_mul(choices));
+        number.filter(|n| *n <= ALL)
+    }
+
+    /// Returns every contact state in a place.
+    fn every(&self, place: &Place) -> Vec<Vec<Status>> {
+        (0..place.pairings.len()).fold(vec![Vec::new()], |states, i| {
+            let choices = self.choices(place, i);
+            let with = |state: &Vec<Status>| {
+                choices.iter().map(|c| [&state[..], &[*c]].concat()).collect::<Vec<_>>()
+            };
+            states.iter().flat_map(with).collect()
+        })
+    }
+
+    /// Returns the equilibria of a step among some states, each once, other than the one that it led to.
+    fn others(&self, step: &Taken, states: &[Vec<Status>]) -> Vec<Other> {
+        let setting = setting(self, step);
+        let scale = step.u.amax();
+        let mut others: Vec<(DVector<f64>, Other)> = Vec::new();
+        for statuses in states {
+            let Some(moved) = self.try_statuses(&step.place, statuses, &setting) else { continue };
+            let apart = |u: &DVector<f64>| (&moved.u - u).amax();
+            let change = apart(&step.u);
+            if change > DISTINCT * scale && others.iter().all(|(u, _)| apart(u) > DISTINCT * scale)
+            {
+                others.push((moved.u, other(self, statuses, step.to, change)));
+            }
+        }
+        others.into_iter().map(|(_, other)| other).collect()
+    }
+
+    /// Returns the states that differ from that of a step in one entry, of those in contact or beside one, as
+    /// many as are tried.
+    fn neighbours(&self, step: &Taken) -> Vec<Vec<Status>> {
+        let Taken { place, statuses, .. } = step;
+        let closed = |i: usize| statuses.get(i).is_some_and(|status| status.is_closed());
+        let near = |i: &usize| closed(*i) || closed(i + 1) || *i > 0 && closed(i - 1);
+        let with = |i: usize| {
+            let other =
+                self.choices(place, i).into_iter().filter(move |other| *other != statuses[i]);
+            other.map(move |other| {
+                let mut state = statuses.clone();
+                state[i] = other;
+                state
+            })
+        };
+        (0..statuses.len()).filter(near).flat_map(with).take(self.most_states()).collect()
+    }
+
+    /// Returns the statuses that an entry can have.
+    fn choices(&self, place: &Place, i: usize) -> Vec<Status> {
+        let slips = [Status::Slip(Sense::Forward), Status::Slip(Sense::Backward)];
+        match (&place.pairings[i], self.closing(place, i)) {
+            (None, _) => vec![Status::Open],
+            (_, Status::Stick) if self.friction.is_finite() => {
+                [&[Status::Open, Status::Stick][..], &slips].concat()
+            }
+            (_, closed) => vec![Status::Open, closed],
+        }
+    }
+}

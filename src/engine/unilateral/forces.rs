@@ -1,0 +1,152 @@
+//! The contact forces of an iteration, from what is left of the equations of equilibrium.
+//!
+//! ```text
+//!   K u − F − friction = Σ p_i n_i·(e_c − Σ w e_t) + Σ q_i t_i·(e_c − Σ w e_t) + restraints
+//! ```
+//!
+//! The equations of a contact node contain its own forces alone. Where restraints take them away,
+//! the equations of the target nodes decide; a force that they leave open is not determined.
+
+use std::collections::BTreeSet;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::contact::{Pairing, STEEP};
+use problem::model::{Dof, Model, NodeId};
+
+/// A singular value, over that of a force on an equation of its own, below which a combination of
+/// forces is not determined.
+const UNDETERMINED: f64 = 1e-9;
+
+/// The forces on a contact node.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Force {
+    /// Whether restraints leave them undetermined: then they are the least of those that hold the
+    /// bodies in equilibrium.
+    pub(super) undetermined: bool,
+    /// The force along the normal, force; > 0 where it presses.
+    pub(super) normal: f64,
+    /// The force along the tangent, which is the normal turned left, force.
+    pub(super) tangent: f64,
+}
+
+/// A closed contact node and the forces that are not known of it.
+#[derive(Clone, Copy)]
+pub(super) struct Contact<'a> {
+    pub(super) pairing: &'a Pairing,
+    /// Whether the tangential force is a reaction; otherwise it is part of `friction`.
+    pub(super) sticks: bool,
+}
+
+/// Returns the tangent of a pairing: its normal turned left.
+pub(super) fn tangent(pairing: &Pairing) -> [f64; 2] {
+    [-pairing.normal[1], pairing.normal[0]]
+}
+
+/// Returns the forces on each contact from `reaction`, which is K u − F − friction by degree of
+/// freedom.
+pub(super) fn forces(model: &Model, contacts: &[Contact], reaction: &DVector<f64>) -> Vec<Force> {
+    let mut rest = reaction.clone();
+    let direct: Vec<Option<Force>> =
+        contacts.iter().map(|contact| direct(model, *contact, reaction)).collect();
+    let mut hard = Vec::new();
+    for (i, (contact, force)) in contacts.iter().zip(&direct).enumerate() {
+        match force {
+            Some(force) => add(contact.pairing, *force, -1.0, &mut rest),
+            None => hard.push(i),
+        }
+    }
+    let mut found: Vec<Force> = direct.into_iter().map(Option::unwrap_or_default).collect();
+    if !hard.is_empty() {
+        let unknown: Vec<Contact> = hard.iter().map(|i| contacts[*i]).collect();
+        for (i, force) in hard.into_iter().zip(by_target(model, &unknown, &rest)) {
+            found[i] = force;
+        }
+    }
+    found
+}
+
+/// Adds `factor` times the forces of a contact, on its node and reversed on its target, to `load`.
+pub(super) fn add(pairing: &Pairing, force: Force, factor: f64, load: &mut DVector<f64>) {
+    let (normal, tangent) = (pairing.normal, tangent(pairing));
+    let force = [0, 1].map(|d| factor * (force.normal * normal[d] + force.tangent * tangent[d]));
+    let mut on = |node: NodeId, weight: f64| {
+        for dof in node.dofs() {
+            load[dof.index()] += weight * force[dof.direction()];
+        }
+    };
+    on(pairing.node, 1.0);
+    pairing.masters.iter().for_each(|&(master, w)| on(master, -w));
+}
+
+/// Returns the forces on a contact node from its own equations; None where restraints take them.
+fn direct(model: &Model, contact: Contact, reaction: &DVector<f64>) -> Option<Force> {
+    let Contact { pairing, sticks } = contact;
+    let ([nx, ny], [rx, ry]) = (pairing.normal, pairing.node.of(reaction));
+    let along = |n: f64, r: f64| {
+        (!sticks && n.abs() >= STEEP).then(|| Force { normal: r / n, ..Force::default() })
+    };
+    match model.restraints_of(pairing.node) {
+        [false, false] => {
+            let tangent = if sticks { nx * ry - ny * rx } else { 0.0 };
+            Some(Force { normal: nx * rx + ny * ry, tangent, undetermined: false })
+        }
+        [true, false] => along(ny, ry),
+        [false, true] => along(nx, rx),
+        [true, true] => None,
+    }
+}
+
+/// Returns the forces of contacts from all equations in which they occur, by least squares.
+fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<Force> {
+    let columns: Vec<(usize, Force)> = (0..contacts.len())
+        .flat_map(|i| {
+            let tangent = Force { tangent: 1.0, ..Force::default() };
+            let tangent = contacts[i].sticks.then_some((i, tangent));
+            [Some((i, Force { normal: 1.0, ..Force::default() })), tangent].into_iter().flatten()
+        })
+        .collect();
+    let nodes = contacts.iter().flat_map(|c| {
+        std::iter::once(c.pairing.node).chain(c.pairing.masters.iter().map(|(master, _)| *master))
+    });
+    let equations: BTreeSet<Dof> =
+        nodes.flat_map(NodeId::dofs).filter(|dof| !model.is_restrained(*dof)).collect();
+    let equations: Vec<Dof> = equations.into_iter().collect();
+    let mut matrix = DMatrix::zeros(equations.len().max(columns.len()), columns.len());
+    let mut load = DVector::zeros(rest.len());
+    for (column, (i, unit)) in columns.iter().enumerate() {
+        add(contacts[*i].pairing, *unit, 1.0, &mut load);
+        for (row, dof) in equations.iter().enumerate() {
+            matrix[(row, column)] = load[dof.index()];
+        }
+        add(contacts[*i].pairing, *unit, -1.0, &mut load);
+    }
+    let right = DVector::from_fn(matrix.nrows(), |row, _| {
+        equations.get(row).map_or(0.0, |dof| rest[dof.index()])
+    });
+    let svd = matrix.svd(true, true);
+    let limit = UNDETERMINED;
+    let v = svd.v_t.as_ref().expect("V was asked for").transpose();
+    let free: Vec<usize> =
+        (0..columns.len()).filter(|&k| svd.singular_values[k] <= limit).collect();
+    let value = svd.solve(&right, limit).expect("U and V were asked for");
+    let mut forces = vec![Force::default(); contacts.len()];
+    for (column, (i, unit)) in columns.iter().enumerate() {
+        let open = free.iter().any(|&k| v[(column, k)].abs() > UNDETERMINED.sqrt());
+        forces[*i].undetermined |= open;
+        match unit.normal {
+            0.0 => forces[*i].tangent = value[column],
+            _ => forces[*i].normal = value[column],
+        }
+    }
+    forces
+}
+
+/// Returns the contact forces by degree of freedom, force.
+pub(super) fn load_of(pairings: &[Option<Pairing>], forces: &[Force], dofs: usize) -> DVector<f64> {
+    let mut load = DVector::zeros(dofs);
+    for (pairing, force) in pairings.iter().zip(forces) {
+        pairing.iter().for_each(|pairing| add(pairing, *force, 1.0, &mut load));
+    }
+    load
+}

@@ -1,0 +1,386 @@
+//! The problem of contact under one load: the scene, where its nodes face the target, and what statuses
+//! impose.
+
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use super::forces::{Force, tangent};
+use super::reduced::Last;
+use super::rigid;
+use super::status::Memory;
+use crate::condensation::{Bodies, Inside};
+use crate::contact::{Pairing, Sense, Status, Surfaces};
+use crate::elimination::{Constraint, Motion};
+use crate::request::Request;
+use crate::session::Session;
+use crate::solution::{Choice, Cycle};
+use crate::stiffness::Stiffness;
+use crate::support::supports;
+use base::error::InputError;
+use problem::model::{Dof, Model, NodeId};
+use problem::modelling::{Coupling, Geometry};
+
+/// The gap over the size of the scene below which it is closed.
+const CLOSED: f64 = 5e-13;
+
+/// The size of the scene over its distance from the origin below which gaps have fewer digits than
+/// [`CLOSED`] asks for: four units in the last place of a coordinate over [`CLOSED`].
+const RESOLVED: f64 = 4.0 * f64::EPSILON / CLOSED;
+
+/// How much of |q| over μ p is rounding.
+pub(super) const CONE: f64 = 1e-12;
+
+/// The depth of a target node inside the contact surface, over the model's size, that is reported;
+/// where curved surfaces lie on each other, their nodes stand inside by the sagitta of an edge.
+const UNSEEN: f64 = 1e-3;
+
+/// The scene, its stiffness, and its surfaces.
+pub(super) struct Problem<'a> {
+    pub(super) request: &'a Request,
+    pub(super) model: &'a Arc<Model>,
+    pub(super) stiffness: Arc<Stiffness>,
+    pub(super) surfaces: Arc<Surfaces>,
+    /// The gap below which a node is closed, length.
+    pub(super) closed: f64,
+    /// The triangles at a restraint of the body to which contact passes its force.
+    pub(super) supports: Vec<usize>,
+    /// Coulomb's coefficient, infinite where nodes stick.
+    pub(super) friction: f64,
+    pub(super) bodies: Bodies,
+    /// The whole matrix that was factored last.
+    pub(super) last: Last,
+    /// The stiffness of the springs on which the nodes stand, over that of the bodies ([`Stiffness`]).
+    pub(super) springs: f64,
+    /// The target that each contact node faces in the initial shape.
+    initial: Arc<Vec<Option<Pairing>>>,
+}
+
+/// What a step of the load starts from, and the load at its end.
+pub(super) struct Setting<'a> {
+    /// The load by degree of freedom, restrained ones included, force.
+    pub(super) load: DVector<f64>,
+    /// The displacements from which slips count, length.
+    pub(super) before: &'a DVector<f64>,
+    /// The statuses from which the search starts; none at the beginning of the path.
+    pub(super) statuses: Option<&'a [Status]>,
+    /// Whether equations are solved, and residuals taken, on the whole bodies.
+    pub(super) whole: bool,
+}
+
+/// A shape and the target that each contact node faces in it.
+#[derive(Clone)]
+pub(super) struct Place {
+    /// The coordinates of each node, length.
+    pub(super) shape: Arc<Vec<[f64; 2]>>,
+    /// The pairing of each entry of the contact surface.
+    pub(super) pairings: Arc<Vec<Option<Pairing>>>,
+}
+
+/// An iteration: the statuses that were imposed, and what came of them.
+#[derive(Clone)]
+pub(super) struct Iteration {
+    pub(super) statuses: Vec<Status>,
+    /// The constraints that imposed them.
+    pub(super) constraints: Vec<Constraint>,
+    /// The earlier iterations with these statuses; None where they are new.
+    pub(super) cycle: Option<Cycle>,
+    /// What the statuses lead to.
+    pub(super) moved: Moved,
+    /// The gap of each entry afterwards, length; None where it faces nothing, and where it stands open
+    /// inside the bodies as long as displacements there are unknown.
+    pub(super) gaps: Vec<Option<f64>>,
+    /// The largest gap of a closed node or penetration of another one afterwards, length.
+    pub(super) violation: f64,
+    /// Whether it was not solved for, as its contact state was solved in the same place before.
+    pub(super) returned: bool,
+    /// How its statuses were chosen.
+    pub(super) choice: Choice,
+    /// The stiffness of the springs on which the nodes stood, over that of the bodies.
+    pub(super) springs: f64,
+}
+
+impl Iteration {
+    /// Returns whether the displacements of both surfaces are known.
+    pub(super) fn knows_surfaces(&self) -> bool {
+        self.moved.inside.as_ref().is_none_or(Inside::knows_surfaces)
+    }
+
+    /// Returns the next iteration, to which the statuses of this one return.
+    pub(super) fn again(&self, memory: &mut Memory) -> Self {
+        let cycle = memory.keep(&self.statuses);
+        Iteration { cycle, returned: true, choice: Choice::Asked, ..self.clone() }
+    }
+}
+
+/// The displacements and forces under imposed statuses.
+#[derive(Clone)]
+pub(super) struct Moved {
+    /// The displacements by degree of freedom, length; 0 inside the bodies as long as `inside` is there.
+    pub(super) u: DVector<f64>,
+    /// What gives the displacements inside; None once they are known.
+    pub(super) inside: Option<Inside>,
+    /// The forces on each entry of the contact surface, force.
+    pub(super) forces: Vec<Force>,
+    /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
+    pub(super) friction: Vec<(Dof, f64)>,
+    /// The largest change of a sliding node's friction over that of μ times the normal forces which
+    /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
+    pub(super) feedback: f64,
+    /// K u − F on the equations that contact can bind, force: the forces of contact.
+    pub(super) reaction: DVector<f64>,
+    /// The relative residual of the equations that were solved.
+    pub(super) residual: f64,
+    /// Whether these were the equations of the whole bodies.
+    pub(super) whole: bool,
+}
+
+impl Moved {
+    /// Finds the displacements inside the bodies, where they are not known.
+    pub(super) fn complete(&mut self) {
+        if let Some(inside) = self.inside.take() {
+            self.u = inside.expand();
+        }
+    }
+}
+
+/// The equilibrium under a load.
+pub(super) struct Equilibrium {
+    pub(super) place: Place,
+    pub(super) last: Iteration,
+    /// The part of the step after which the first node closes that closed in it; None where none did.
+    pub(super) closing: Option<f64>,
+    /// What is left of the change of shape: that of the displacements at the last measurement of
+    /// contact, length; 0 in the initial geometry.
+    pub(super) shape_change: f64,
+    /// The largest force of the springs on which it was found, over the largest of the loads and of those
+    /// of contact; None where it was found without springs.
+    pub(super) springs: Option<f64>,
+}
+
+/// The result of an attempt to solve.
+pub(super) enum Solved {
+    Moved(Moved),
+    /// A degree of freedom without restraint, and the motion under the load on soft springs.
+    Free {
+        dof: Dof,
+        motion: Option<DVector<f64>>,
+    },
+}
+
+/// Sees each iteration, and the place in which its contact was measured.
+pub(super) type Watch<'w> = dyn FnMut(&Place, &Iteration) + 'w;
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(
+        request: &'a Request,
+        model: &'a Arc<Model>,
+        session: &Session,
+    ) -> Result<Self, InputError> {
+        let surfaces = Arc::new(Surfaces::new(model)?);
+        surfaces.check_initial_penetration(model)?;
+        let initial = Arc::new(surfaces.pairings(request.contact.coupling, &model.nodes));
+        let stiffness = session.stiffness(model);
+        Ok(Problem {
+            request,
+            model,
+            surfaces,
+            closed: CLOSED * size(model),
+            supports: stiffness.about(&supports(model, &model.restrained)),
+            stiffness,
+            friction: request.contact.friction.coefficient(),
+            bodies: bodies(request, model, &initial, session),
+            last: Last::default(),
+            initial,
+            springs: 0.0,
+        })
+    }
+
+    /// Returns the same problem with every node on springs of a stiffness over that of the bodies.
+    pub(super) fn with_springs(&self, stiffness: f64) -> Problem<'a> {
+        let initial = Arc::clone(&self.initial);
+        Problem {
+            surfaces: Arc::clone(&self.surfaces),
+            supports: self.supports.clone(),
+            stiffness: Arc::new(Stiffness::on_springs(self.model, stiffness)),
+            bodies: bodies(self.request, self.model, &initial, &Session::default()),
+            last: Last::default(),
+            initial,
+            springs: stiffness,
+            ..*self
+        }
+    }
+
+    /// Returns the load at a part of the path, restrained degrees of freedom included, force.
+    pub(super) fn load(&self, part: f64) -> DVector<f64> {
+        // Without friction the path is the whole load.
+        if self.friction > 0.0 { self.model.load_after(part) } else { &self.model.load * part }
+    }
+
+    /// Returns whether contact is measured in the current shape.
+    pub(super) fn is_current(&self) -> bool {
+        self.request.contact.geometry == Geometry::Current
+    }
+
+    /// Returns the target that each contact node faces: in the shape that displacements `u` lead to,
+    /// or in the initial shape.
+    pub(super) fn place(&self, u: &DVector<f64>) -> Place {
+        let shape = self.model.shape(u);
+        let pairings = match self.is_current() {
+            true => Arc::new(self.surfaces.pairings(self.request.contact.coupling, &shape)),
+            false => Arc::clone(&self.initial),
+        };
+        Place { shape: Arc::new(shape), pairings }
+    }
+
+    /// Returns the gap of an entry after displacements `u`, along the normal of its place, length.
+    fn gap(&self, pairing: &Pairing, u: &DVector<f64>) -> f64 {
+        pairing.opening(|n| self.model.at(n)) + pairing.opening(|n| n.of(u))
+    }
+
+    /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
+    pub(super) fn gaps(&self, place: &Place, u: &DVector<f64>) -> Vec<Option<f64>> {
+        place.pairings.iter().map(|p| p.as_ref().map(|p| self.gap(p, u))).collect()
+    }
+
+    /// Returns the gap of each entry afterwards as far as the displacements are known, length.
+    pub(super) fn known_gaps(&self, place: &Place, moved: &Moved) -> Vec<Option<f64>> {
+        let is_known = |p: &&Pairing| {
+            let mut nodes = std::iter::once(p.node).chain(p.masters.iter().map(|(m, _)| *m));
+            moved.inside.as_ref().is_none_or(|inside| nodes.all(|node| inside.knows(node)))
+        };
+        let known =
+            |p: &Option<Pairing>| p.as_ref().filter(is_known).map(|p| self.gap(p, &moved.u));
+        place.pairings.iter().map(known).collect()
+    }
+
+    /// Returns the status with which an entry closes.
+    pub(super) fn closing(&self, place: &Place, i: usize) -> Status {
+        let transmits = place.pairings[i].as_ref().is_some_and(|p| self.transmits_shear(p));
+        if transmits { Status::Stick } else { Status::Slip(Sense::Free) }
+    }
+
+    /// Returns whether friction acts on a pairing. On a line of symmetry, which restrains the node
+    /// and a node of its target across the normal, it does not.
+    pub(super) fn transmits_shear(&self, pairing: &Pairing) -> bool {
+        let across = [0, 1].map(|d| pairing.normal[1 - d].abs() > 1.0 - CONE);
+        let on_line = |d: usize| {
+            let restrained = |node| self.model.restraints_of(node)[d];
+            across[d]
+                && restrained(pairing.node)
+                && pairing.masters.iter().any(|(master, _)| restrained(*master))
+        };
+        self.friction > 0.0 && !(0..2).any(on_line)
+    }
+
+    /// Returns whether restraints leave the forces of each entry undetermined, with the open nodes
+    /// that touch counted as closed: they could carry a part as well.
+    pub(super) fn undetermined(&self, place: &Place, last: &Iteration) -> Vec<bool> {
+        let touching = |i: usize| match (last.statuses[i], last.gaps[i]) {
+            (Status::Open, Some(gap)) if gap <= self.closed => Status::Slip(Sense::Free),
+            (status, _) => status,
+        };
+        let statuses: Vec<Status> = (0..last.statuses.len()).map(touching).collect();
+        // Whether they are determined does not depend on how large they are.
+        let forces = self.forces(place, &statuses, &last.moved.reaction);
+        forces.iter().map(|force| force.undetermined).collect()
+    }
+
+    /// Returns whether a node stands inside the target before any load.
+    pub(super) fn overlaps(&self, place: &Place) -> bool {
+        self.at_the_start(place).iter().flatten().any(|gap| *gap < -self.closed)
+    }
+
+    /// Returns whether restraints, and the nodes that touch the target before any load, hold the bodies.
+    pub(super) fn is_held(&self, place: &Place) -> bool {
+        let gaps = self.at_the_start(place);
+        let touches = |i: usize| gaps[i].is_some_and(|gap| gap <= self.closed);
+        let status = |i: usize| if touches(i) { self.closing(place, i) } else { Status::Open };
+        let statuses: Vec<Status> = (0..gaps.len()).map(status).collect();
+        let before = DVector::zeros(self.model.dofs());
+        let setting =
+            Setting { load: before.clone(), before: &before, statuses: None, whole: false };
+        rigid::holds(self.model, &self.constraints(place, &statuses, &setting))
+    }
+
+    /// Returns the gap of each entry before any load, length.
+    pub(super) fn at_the_start(&self, place: &Place) -> Vec<Option<f64>> {
+        self.gaps(place, &DVector::zeros(self.model.dofs()))
+    }
+
+    /// Returns the target node that lies deepest inside the contact surface under node to segment;
+    /// None where none lies deeper than [`UNSEEN`].
+    pub(super) fn unseen(&self, last: &Iteration) -> Option<(NodeId, f64)> {
+        if self.request.contact.coupling != Coupling::Nts {
+            return None;
+        }
+        let deepest = self.surfaces.deepest_target_node(&self.model.shape(&last.moved.u))?;
+        (deepest.1 > UNSEEN * size(self.model)).then_some(deepest)
+    }
+
+    /// Returns the contact node that lies deepest inside the target's body in the shape reached, whatever
+    /// edges it faces; None where none lies deeper than [`UNSEEN`].
+    pub(super) fn inside(&self, last: &Iteration) -> Option<(NodeId, f64)> {
+        let shape = self.model.shape(&last.moved.u);
+        let deepest = self.surfaces.deepest_contact_node(self.model, &shape)?;
+        (deepest.1 > UNSEEN * size(self.model)).then_some(deepest)
+    }
+
+    /// Returns the constraints that impose statuses.
+    pub(super) fn constraints(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        setting: &Setting,
+    ) -> Vec<Constraint> {
+        let constraint = |(pairing, status): (&Option<Pairing>, &Status)| {
+            let pairing = pairing.as_ref().filter(|_| status.is_closed())?;
+            let closing = -pairing.opening(|n| self.model.at(n));
+            let motion = match status {
+                Status::Stick => {
+                    let ([tx, ty], [bx, by]) =
+                        (tangent(pairing), pairing.motion(|n| n.of(setting.before)));
+                    let kept = tx * bx + ty * by;
+                    let [nx, ny] = pairing.normal;
+                    Motion::Both([closing * nx + kept * tx, closing * ny + kept * ty])
+                }
+                _ => Motion::Along(pairing.normal, closing),
+            };
+            Some(Constraint { node: pairing.node, masters: pairing.masters.clone(), motion })
+        };
+        place.pairings.iter().zip(statuses).filter_map(constraint).collect()
+    }
+}
+
+/// Returns the bodies of a model, of which `session` may have factors.
+fn bodies(
+    request: &Request,
+    model: &Arc<Model>,
+    initial: &[Option<Pairing>],
+    session: &Session,
+) -> Bodies {
+    let bodies = Bodies::new(model, session).expecting(initial);
+    match request.contact.geometry {
+        Geometry::Initial => bodies.facing(initial, request.contact.friction.coefficient() > 0.0),
+        Geometry::Current => bodies,
+    }
+}
+
+/// Returns the largest gap of a closed node or penetration of another one, length.
+pub(super) fn violation(gaps: &[Option<f64>], statuses: &[Status]) -> f64 {
+    let of_entry = |(gap, status): (&Option<f64>, &Status)| match gap {
+        Some(gap) if status.is_closed() => gap.abs(),
+        Some(gap) => (-gap).max(0.0),
+        None => 0.0,
+    };
+    gaps.iter().zip(statuses).map(of_entry).fold(0.0, f64::max)
+}
+
+/// Returns the larger extent of the model, or what its coordinates can resolve of it, length.
+fn size(model: &Model) -> f64 {
+    let bounds = model.bounds();
+    // A gap in the current shape is a difference of coordinates and has no digits below theirs.
+    let farthest =
+        [bounds.low, bounds.high].as_flattened().iter().map(|x| x.abs()).fold(0.0, f64::max);
+    bounds.larger_side().max(RESOLVED * farthest)
+}

@@ -1,0 +1,173 @@
+//! Whether restraints and contact hold the bodies as rigid ones: what they leave free moves without
+//! any force, whatever the materials.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::forces::tangent;
+use super::nonnegative::least;
+use crate::contact::Pairing;
+use crate::elimination::{Constraint, Motion};
+use problem::model::{Dof, Model, NodeId};
+
+/// The least eigenvalue of the Gram matrix, over the largest, that a motion free of force has.
+const FREE: f64 = 1e-12;
+
+/// The part of the load below which what nothing opposes is rounding.
+const OPPOSED: f64 = 1e-9;
+
+/// The number of contact nodes up to which a motion is looked for that no contact opposes.
+const MOST: usize = 150;
+
+/// Returns whether no body can move as a rigid one under its restraints and `constraints`.
+pub(super) fn holds(model: &Model, constraints: &[Constraint]) -> bool {
+    let motions = Motions::new(model, &model.nodes);
+    let mut gram = motions.restrained();
+    for Constraint { node, masters, motion } in constraints {
+        let directions = match motion {
+            Motion::Along(normal, _) => vec![*normal],
+            Motion::Both(_) => vec![[1.0, 0.0], [0.0, 1.0]],
+        };
+        for direction in directions {
+            let row = motions.relative(*node, masters, direction);
+            gram += &row * row.transpose();
+        }
+    }
+    let stiffness = gram.symmetric_eigenvalues();
+    stiffness.is_empty() || stiffness.min() > FREE * stiffness.max()
+}
+
+/// Returns the degree of freedom that moves most in a motion of rigid bodies on which the load does
+/// work and which no contact force opposes: under it there is no equilibrium. `friction` is the
+/// coefficient of a pairing, infinite where it sticks. None where there is no such motion, and of more
+/// than 150 contact nodes.
+///
+/// ```text
+///   d = f + Σ λ_i a_i    λ ≥ 0,  a_iᵀ d ≥ 0,  λ_i a_iᵀ d = 0    so that   fᵀ d = dᵀ d
+/// ```
+///
+/// f is the load and a_i the work of an extreme force of contact, n or n ± μ t on the node and the
+/// reverse on its target, in each motion that the restraints leave: d is what is left of the load where
+/// contact forces Σ λ_i a_i oppose the most of it (J. J. Moreau, C. R. Acad. Sci. Paris 255 (1962) 238-240).
+pub(super) fn escape(
+    (model, shape): (&Model, &[[f64; 2]]),
+    pairings: &[Option<Pairing>],
+    friction: impl Fn(&Pairing) -> f64,
+    load: &DVector<f64>,
+) -> Option<Dof> {
+    let motions = Motions::new(model, shape);
+    let gaps: Vec<&Pairing> = pairings.iter().flatten().collect();
+    let eigen = motions.restrained().symmetric_eigen();
+    let limit = FREE * eigen.eigenvalues.amax();
+    let free: Vec<usize> =
+        (0..motions.count()).filter(|i| eigen.eigenvalues[*i] <= limit).collect();
+    if free.is_empty() || gaps.len() > MOST {
+        return None;
+    }
+    let basis = eigen.eigenvectors.select_columns(&free);
+    let work = |dof: Dof| motions.along(dof) * load[dof.index()];
+    let f = basis.tr_mul(&model.all_dofs().map(work).sum::<DVector<f64>>());
+    let forces = gaps.iter().flat_map(|pairing| {
+        let of_force = |force| motions.relative(pairing.node, &pairing.masters, force);
+        extreme_forces(pairing, friction(pairing)).into_iter().map(of_force).collect::<Vec<_>>()
+    });
+    let columns: Vec<DVector<f64>> = forces.map(|force| basis.tr_mul(&force)).collect();
+    let forces = match columns.is_empty() {
+        true => DMatrix::zeros(free.len(), 0),
+        false => DMatrix::from_columns(&columns),
+    };
+    let sizes = least(&forces.tr_mul(&forces), &forces.tr_mul(&f), DVector::zeros(forces.ncols()))?;
+    let left = &f + forces * sizes;
+    if left.amax() <= OPPOSED * load.amax() {
+        return None;
+    }
+    let motion = basis * left;
+    let size = |dof: &Dof| motions.along(*dof).dot(&motion).abs();
+    model.all_dofs().max_by(|a, b| size(a).total_cmp(&size(b)))
+}
+
+/// Returns the directions of the forces on a node whose sums are all forces that contact transmits
+/// under a coefficient of friction.
+fn extreme_forces(pairing: &Pairing, friction: f64) -> Vec<[f64; 2]> {
+    let (n, t) = (pairing.normal, tangent(pairing));
+    match friction {
+        0.0 => vec![n],
+        f64::INFINITY => vec![n, t, t.map(|x| -x)],
+        mu => [mu, -mu].map(|mu| [0, 1].map(|d| n[d] + mu * t[d])).to_vec(),
+    }
+}
+
+/// The rigid motions of all bodies in a shape: two translations and a rotation each.
+struct Motions<'a> {
+    model: &'a Model,
+    /// The coordinates of each node, length.
+    shape: &'a [[f64; 2]],
+    /// The body of each node; None for a node of no triangle.
+    body: Vec<Option<usize>>,
+    /// The middle of each body, length.
+    middle: Vec<[f64; 2]>,
+    /// The larger extent of the model, length.
+    size: f64,
+}
+
+impl<'a> Motions<'a> {
+    fn new(model: &'a Model, shape: &'a [[f64; 2]]) -> Self {
+        let mut body = vec![None; model.nodes.len()];
+        let mut middle = Vec::new();
+        for (b, part) in model.bodies.iter().enumerate() {
+            part.nodes.iter().for_each(|n| body[n.index()] = Some(b));
+            let places = part.nodes.iter().map(|n| shape[n.index()]);
+            let sum = places.fold([0.0; 2], |[x, y], p| [x + p[0], y + p[1]]);
+            middle.push(sum.map(|s| s / part.nodes.len() as f64));
+        }
+        let far = |n: &NodeId| {
+            let [x, y] = shape[n.index()];
+            (x - middle[0][0]).hypot(y - middle[0][1])
+        };
+        let nodes = model.bodies.iter().flat_map(|body| &body.nodes);
+        let size = nodes.map(far).fold(0.0, f64::max);
+        Motions { model, shape, body, middle, size }
+    }
+
+    fn count(&self) -> usize {
+        3 * self.middle.len()
+    }
+
+    /// Returns the Gram matrix of the restraints.
+    fn restrained(&self) -> DMatrix<f64> {
+        let mut gram = DMatrix::zeros(self.count(), self.count());
+        for dof in self.model.all_dofs().filter(|dof| self.model.is_restrained(*dof)) {
+            let row = self.along(dof);
+            gram += &row * row.transpose();
+        }
+        gram
+    }
+
+    /// Returns a degree of freedom in each rigid motion.
+    fn along(&self, dof: Dof) -> DVector<f64> {
+        self.of(dof.node(), [0, 1].map(|d| if d == dof.direction() { 1.0 } else { 0.0 }))
+    }
+
+    /// Returns the component along `direction` of a node's motion less that of its masters in each
+    /// rigid motion.
+    fn relative(
+        &self,
+        node: NodeId,
+        masters: &[(NodeId, f64)],
+        direction: [f64; 2],
+    ) -> DVector<f64> {
+        let target = masters.iter().map(|(master, w)| self.of(*master, direction) * *w);
+        target.fold(self.of(node, direction), |row, part| row - part)
+    }
+
+    /// Returns the component of a node's motion along `direction` in each rigid motion.
+    fn of(&self, node: NodeId, [dx, dy]: [f64; 2]) -> DVector<f64> {
+        let mut row = DVector::zeros(self.count());
+        if let Some(b) = self.body[node.index()] {
+            let ([x, y], [mx, my]) = (self.shape[node.index()], self.middle[b]);
+            row[3 * b] = dx;
+            row[3 * b + 1] = dy;
+            row[3 * b + 2] = (dy * (x - mx) - dx * (y - my)) / self.size;
+        }
+        row
+    }
+}

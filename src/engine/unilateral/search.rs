@@ -1,0 +1,425 @@
+//! The search for the equilibrium under one load: statuses are imposed, and the next ones follow from
+//! the forces, gaps and slips.
+
+use std::collections::VecDeque;
+
+use nalgebra::DVector;
+
+use super::forces::{Force, tangent};
+use super::problem::{
+    CONE, Equilibrium, Iteration, Moved, Place, Problem, Setting, Solved, Watch, violation,
+};
+use super::status::{Memory, first_closed, nearest_open, next_closed};
+use crate::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
+use crate::elimination::Constraint;
+use crate::error::{Cause, Error, NoEquilibrium};
+use crate::solution::{Choice, Cycle};
+use numbers::solve::largest;
+
+/// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
+/// second set takes those that penetrate by more than this part of the deepest penetration.
+pub const FIRST_GROWTH: f64 = 0.9;
+
+/// The number of iterations beyond one for each contact node after which the search ends.
+const PATIENCE: usize = 100;
+
+/// The number of iterations that are kept while one node changes at a time: a search without success
+/// goes round a few contact states.
+const RETURNING: usize = 8;
+
+/// The change of the displacements, over the largest, below which a shape agrees with the one in
+/// which its contact was measured.
+pub(super) const SETTLED: f64 = 1e-12;
+
+/// The same where rounding lets the change shrink no further.
+pub(super) const STALLED: f64 = 1e-8;
+
+/// The number of shapes in which contact is measured before the search ends.
+const SHAPES: usize = 60;
+
+impl Problem<'_> {
+    /// Finds the equilibrium of a setting in the shape that it leads to.
+    pub(super) fn equilibrium(
+        &self,
+        setting: &Setting,
+        watch: &mut Watch,
+    ) -> Result<Equilibrium, Error> {
+        let mut gaps = Vec::new();
+        let mut first: Option<Iteration> = None;
+        let mut keep_first = |place: &Place, iteration: &Iteration| {
+            first.get_or_insert_with(|| iteration.clone());
+            watch(place, iteration);
+        };
+        let mut start = setting.statuses.map(<[Status]>::to_vec);
+        let mut before: Option<(Moved, f64)> = None;
+        let mut memory = Memory::default();
+        for _ in 0..SHAPES {
+            memory.move_on();
+            let place = self.place(before.as_ref().map_or(setting.before, |(moved, _)| &moved.u));
+            if before.is_none() {
+                gaps = self.gaps(&place, setting.before);
+            }
+            let mut last = self.settle(&place, start, setting, &mut memory, &mut keep_first)?;
+            let change = |last: &Iteration, before: &Option<(Moved, f64)>| match before {
+                _ if !self.is_current() => 0.0,
+                Some((moved, _)) => largest((&last.moved.u - &moved.u).as_slice()),
+                None => f64::INFINITY,
+            };
+            let of_surfaces = change(&last, &before);
+            let stalled = before.as_ref().is_some_and(|(_, old)| of_surfaces > old / 2.0);
+            let is_settled = |change: f64, last: &Iteration| {
+                let scale = largest(last.moved.u.as_slice());
+                change <= SETTLED * scale || (stalled && change <= STALLED * scale)
+            };
+            if is_settled(of_surfaces, &last) {
+                // Inside, the bodies may move more.
+                self.complete(&place, &mut last);
+                before.iter_mut().for_each(|(moved, _)| moved.complete());
+                let shape_change = change(&last, &before);
+                if is_settled(shape_change, &last) {
+                    let closing =
+                        first.and_then(|first| self.first_closing(&gaps, first, &place, &last));
+                    return Ok(Equilibrium { place, last, closing, shape_change, springs: None });
+                }
+            }
+            start = Some(last.statuses);
+            before = Some((last.moved, of_surfaces));
+        }
+        let strained = before.map_or(String::new(), |(moved, _)| self.strained(&moved.u));
+        let what = format!(
+            "the shape did not settle when contact was measured in it {SHAPES} times{strained}"
+        );
+        Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
+    }
+
+    /// Solves the last contact state of an equilibrium again, on the whole bodies, unless it was
+    /// solved there; where that asks for other statuses, searches on from it there.
+    pub(super) fn confirmed(
+        &self,
+        found: Equilibrium,
+        setting: &Setting,
+        watch: &mut Watch,
+    ) -> Result<Equilibrium, Error> {
+        if found.last.moved.whole {
+            return Ok(found);
+        }
+        match self.confirm(&found.place, &found.last, setting)? {
+            Some(last) => Ok(Equilibrium { last, ..found }),
+            None => {
+                let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
+                self.equilibrium(&Setting { load, statuses, ..*setting }, watch)
+            }
+        }
+    }
+
+    /// Solves a contact state again as `setting` says; None where it asks for other statuses then.
+    pub(super) fn confirm(
+        &self,
+        place: &Place,
+        found: &Iteration,
+        setting: &Setting,
+    ) -> Result<Option<Iteration>, Error> {
+        let Iteration { statuses, constraints, cycle, choice, .. } = found.clone();
+        let Solved::Moved(moved) = self.solve(place, &statuses, &constraints, setting)? else {
+            return Ok(None);
+        };
+        let reached = self.reached(place, (statuses, constraints), cycle, moved);
+        let last = Iteration { choice, ..reached };
+        let wanted = self.wanted(place, &last, setting, false);
+        Ok((wanted == last.statuses).then_some(last))
+    }
+
+    /// Returns the part of a step after which the first node closes that closed in it, from its gaps
+    /// before the step and those that the statuses before the step, those of the `first` iteration, led
+    /// to.
+    fn first_closing(
+        &self,
+        before: &[Option<f64>],
+        mut first: Iteration,
+        place: &Place,
+        last: &Iteration,
+    ) -> Option<f64> {
+        let closes =
+            |i: &usize| first.statuses[*i] == Status::Open && last.statuses[*i].is_closed();
+        let closing: Vec<usize> = (0..before.len()).filter(closes).collect();
+        if closing.iter().any(|i| first.gaps[*i].is_none()) {
+            self.complete(place, &mut first);
+        }
+        let part = |i: usize| {
+            let (from, to) = (before[i]?, first.gaps[i]?);
+            (from > self.closed && to < -self.closed).then(|| from / (from - to))
+        };
+        closing.into_iter().filter_map(part).reduce(f64::min)
+    }
+
+    /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active set,
+    /// by a fixed point on the bounds of friction, or among all statuses that there are.
+    ///
+    /// # Errors
+    /// Not even the bodies as rigid ones are in equilibrium, or no statuses were found.
+    pub(super) fn settle(
+        &self,
+        place: &Place,
+        start: Option<Vec<Status>>,
+        setting: &Setting,
+        memory: &mut Memory,
+        watch: &mut Watch,
+    ) -> Result<Iteration, Error> {
+        let start = (start.unwrap_or_else(|| self.first(place, setting.before)), Choice::Asked);
+        let found = self.active_set(place, start, setting, memory, watch);
+        let Err(Error::Equilibrium(why)) = found else { return found };
+        let escaping = || self.escape(place, &setting.load, self.friction);
+        if !self.is_current()
+            && self.springs == 0.0
+            && let Some(dof) = escaping()
+        {
+            return Err(self.escapes(dof).into());
+        }
+        let bounds = self.by_bounds(place, setting).map(|statuses| (statuses, Choice::Bounds));
+        let all = || self.enumerated(place, setting).map(|statuses| (statuses, Choice::Enumerated));
+        let Some(start) = bounds.or_else(all) else { return Err(why.into()) };
+        memory.move_on();
+        self.active_set(place, start, setting, memory, watch)
+    }
+
+    /// Goes from statuses to those that they ask for, until they ask for themselves.
+    fn active_set(
+        &self,
+        place: &Place,
+        (mut statuses, choice): (Vec<Status>, Choice),
+        setting: &Setting,
+        memory: &mut Memory,
+        watch: &mut Watch,
+    ) -> Result<Iteration, Error> {
+        let limit = PATIENCE + self.model.contact.nodes.len();
+        let mut against = String::new();
+        let mut recent: VecDeque<Iteration> = VecDeque::new();
+        for k in 1..=limit {
+            let mut iteration = match recent.iter().find(|known| known.statuses == statuses) {
+                Some(known) => known.again(memory),
+                None => self.iteration(place, statuses, setting, memory)?,
+            };
+            if k == 1 {
+                iteration.choice = choice;
+            }
+            let wanted = self.wanted_of_all(place, &mut iteration, setting, memory.iterations == 1);
+            watch(place, &iteration);
+            if wanted == iteration.statuses {
+                return Ok(iteration);
+            }
+            if k == limit {
+                self.complete(place, &mut iteration);
+                against = self.against(&iteration, &wanted) + &self.strained(&iteration.moved.u);
+            }
+            statuses = memory.next(&iteration.statuses, wanted);
+            if memory.one_at_a_time {
+                recent.push_front(iteration);
+                recent.truncate(RETURNING);
+            }
+        }
+        let never_slides = match self.friction.is_infinite() {
+            true => "; where no node may slide there may be none: give a finite coefficient",
+            false => "",
+        };
+        let what = format!(
+            "none of the contact states of {limit} iterations is in equilibrium{}{against}{never_slides}",
+            memory.returned()
+        );
+        Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
+    }
+
+    /// Says why an iteration asks for other statuses, of the first node that is to change.
+    fn against(&self, iteration: &Iteration, wanted: &[Status]) -> String {
+        let change = (0..wanted.len()).find(|&i| wanted[i] != iteration.statuses[i]);
+        let Some(i) = change else { return String::new() };
+        let why = match (iteration.statuses[i], wanted[i]) {
+            (Status::Open, _) => "is open inside the target",
+            (_, Status::Open) => "is closed and pulls",
+            _ => "slides or sticks against its friction",
+        };
+        format!("; in the last, node {} {why}", self.model.contact.nodes[i])
+    }
+
+    fn first(&self, place: &Place, u: &DVector<f64>) -> Vec<Status> {
+        let closed = first_closed(&self.gaps(place, u), self.closed);
+        let status = |i: usize| if closed[i] { self.closing(place, i) } else { Status::Open };
+        (0..closed.len()).map(status).collect()
+    }
+
+    /// Returns the statuses that an iteration asks for, and where these are its own as far as the
+    /// surfaces are known, looks at the whole bodies too.
+    fn wanted_of_all(
+        &self,
+        place: &Place,
+        iteration: &mut Iteration,
+        setting: &Setting,
+        first: bool,
+    ) -> Vec<Status> {
+        let wanted = self.wanted(place, iteration, setting, first);
+        if wanted == iteration.statuses && !iteration.knows_surfaces() {
+            self.complete(place, iteration);
+            return self.wanted(place, iteration, setting, first);
+        }
+        wanted
+    }
+
+    /// Finds the displacements inside the bodies, where they are not known, and the gaps that follow.
+    pub(super) fn complete(&self, place: &Place, iteration: &mut Iteration) {
+        if iteration.moved.inside.is_none() {
+            return;
+        }
+        iteration.moved.complete();
+        iteration.gaps = self.gaps(place, &iteration.moved.u);
+        iteration.violation = violation(&iteration.gaps, &iteration.statuses);
+    }
+
+    /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
+    pub(super) fn wanted(
+        &self,
+        place: &Place,
+        iteration: &Iteration,
+        setting: &Setting,
+        first: bool,
+    ) -> Vec<Status> {
+        let growth = first && setting.statuses.is_none();
+        let deep = if growth { FIRST_GROWTH * iteration.violation } else { 0.0 }.max(self.closed);
+        let rounding = CONE * largest(iteration.moved.u.as_slice());
+        let forces = iteration.moved.forces.iter().map(|f| f.normal);
+        let most = forces.fold(largest(setting.load.as_slice()), f64::max);
+        let status = |i: usize| {
+            let (Some(pairing), Some(gap)) = (&place.pairings[i], iteration.gaps[i]) else {
+                return Status::Open;
+            };
+            let Force { normal, tangent, undetermined } = iteration.moved.forces[i];
+            match iteration.statuses[i] {
+                Status::Open if gap < -deep => self.closing(place, i),
+                Status::Open => Status::Open,
+                _ if normal < -ROUNDING_OF_A_FORCE * most => Status::Open,
+                _ if undetermined && gap > self.closed => Status::Open,
+                // A normal force may be less than nothing by rounding.
+                Status::Stick if tangent.abs() > self.friction * normal.abs() * (1.0 + CONE) => {
+                    Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
+                }
+                Status::Slip(sense)
+                    if sense.sign() * self.slip(pairing, iteration, setting) < -rounding =>
+                {
+                    Status::Stick
+                }
+                kept => kept,
+            }
+        };
+        (0..iteration.statuses.len()).map(status).collect()
+    }
+
+    /// Returns the least force of a node in contact, and the least friction that one that sticks has
+    /// left, over the largest force; infinite where nothing is in contact.
+    pub(super) fn margin(&self, iteration: &Iteration) -> f64 {
+        let pairs = || iteration.statuses.iter().zip(&iteration.moved.forces);
+        let largest = pairs().map(|(_, force)| force.normal.abs()).fold(0.0, f64::max);
+        let left = |(status, force): (&Status, &Force)| match status {
+            Status::Open => f64::INFINITY,
+            Status::Stick if self.friction.is_finite() => {
+                force.normal.abs().min((self.friction * force.normal - force.tangent.abs()).abs())
+            }
+            _ => force.normal.abs(),
+        };
+        pairs().map(left).fold(f64::INFINITY, f64::min) / largest
+    }
+
+    /// Returns how far a node slipped along the tangent in a step of the load, length.
+    fn slip(&self, pairing: &Pairing, iteration: &Iteration, setting: &Setting) -> f64 {
+        let [ux, uy] = pairing.motion(|n| n.of(&iteration.moved.u));
+        let [bx, by] = pairing.motion(|n| n.of(setting.before));
+        let [tx, ty] = tangent(pairing);
+        tx * (ux - bx) + ty * (uy - by)
+    }
+
+    /// Imposes `statuses`, or more closed nodes where they do not restrain the bodies.
+    fn iteration(
+        &self,
+        place: &Place,
+        mut statuses: Vec<Status>,
+        setting: &Setting,
+        memory: &mut Memory,
+    ) -> Result<Iteration, Error> {
+        for (status, pairing) in statuses.iter_mut().zip(&*place.pairings) {
+            if pairing.is_none() {
+                *status = Status::Open;
+            }
+        }
+        let (constraints, moved) = loop {
+            let constraints = self.constraints(place, &statuses, setting);
+            match self.solve(place, &statuses, &constraints, setting)? {
+                Solved::Moved(moved) => break (constraints, moved),
+                Solved::Free { dof, motion } => {
+                    if !self.restrain_more(place, &mut statuses, setting, motion) {
+                        return Err(self.unrestrained(&place.pairings, &constraints, dof).into());
+                    }
+                }
+            }
+        };
+        let cycle = memory.keep(&statuses);
+        Ok(self.reached(place, (statuses, constraints), cycle, moved))
+    }
+
+    /// Returns the iteration that imposed statuses by constraints and led to `moved`.
+    pub(super) fn reached(
+        &self,
+        place: &Place,
+        (statuses, constraints): (Vec<Status>, Vec<Constraint>),
+        cycle: Option<Cycle>,
+        moved: Moved,
+    ) -> Iteration {
+        let gaps = self.known_gaps(place, &moved);
+        let violation = violation(&gaps, &statuses);
+        Iteration {
+            statuses,
+            constraints,
+            cycle,
+            moved,
+            gaps,
+            violation,
+            returned: false,
+            choice: Choice::Asked,
+            springs: self.springs,
+        }
+    }
+
+    /// Closes more nodes, or lets one stick; false where there is none.
+    fn restrain_more(
+        &self,
+        place: &Place,
+        statuses: &mut [Status],
+        setting: &Setting,
+        motion: Option<DVector<f64>>,
+    ) -> bool {
+        let gaps = self.gaps(place, setting.before);
+        let first = motion.and_then(|u| next_closed(statuses, &gaps, &place.pairings, &u));
+        let more = first.map_or_else(|| nearest_open(statuses, &gaps), |i| vec![i]);
+        more.iter().for_each(|&i| statuses[i] = self.closing(place, i));
+        if !more.is_empty() {
+            return true;
+        }
+        let slides = |status: &&mut Status| matches!(status, Status::Slip(s) if s.sign() != 0.0);
+        statuses.iter_mut().find(slides).map(|status| *status = Status::Stick).is_some()
+    }
+
+    /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
+    pub(super) fn try_statuses(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        setting: &Setting,
+    ) -> Option<Moved> {
+        let constraints = self.constraints(place, statuses, setting);
+        let Ok(Solved::Moved(moved)) = self.solve(place, statuses, &constraints, setting) else {
+            return None;
+        };
+        let mut iteration = self.reached(place, (statuses.to_vec(), constraints), None, moved);
+        let wanted = self.wanted_of_all(place, &mut iteration, setting, false);
+        (wanted == iteration.statuses).then(|| {
+            self.complete(place, &mut iteration);
+            iteration.moved
+        })
+    }
+}

@@ -1,0 +1,199 @@
+//! What is said of bodies that neither contact nor restraints hold.
+
+use nalgebra::DVector;
+
+use super::path::part_of_load;
+use super::problem::{Place, Problem, Setting};
+use super::rigid;
+use crate::contact::{Pairing, Status};
+use crate::elimination::{Constraint, Elimination};
+use crate::error::{Cause, NoEquilibrium};
+use crate::range::{beyond_range, inside_out};
+use base::error::InputError;
+use base::plain::six_digits;
+use numbers::solve::SparseCholesky;
+use problem::model::{Dof, NodeId};
+
+/// The ratio of moduli beyond which they, and not the units, make a held matrix singular.
+const FAR_APART: f64 = 1e6;
+
+impl Problem<'_> {
+    /// Says that nothing opposes a motion of a body as a rigid one.
+    pub(super) fn escapes(&self, dof: Dof) -> NoEquilibrium {
+        let (node, direction) = (self.named(dof.node()), dof.axis());
+        let start = self.place(&DVector::zeros(self.model.dofs()));
+        let gaps = self.at_the_start(&start).into_iter().flatten();
+        let apart = match gaps.reduce(f64::min).filter(|least| *least > self.closed) {
+            Some(least) => {
+                format!(", whose surfaces are at least {} apart,", six_digits(least))
+            }
+            None => String::new(),
+        };
+        let what = format!(
+            "the load moves {node} in {direction} with the whole body, and neither restraints nor \
+             contact{apart} oppose that motion; restrain it"
+        );
+        NoEquilibrium { cause: self.cause(), what }
+    }
+
+    /// Returns what a motion that nothing opposes shows: in the current geometry it may be opposed in
+    /// another shape.
+    fn cause(&self) -> Cause {
+        if self.is_current() { Cause::NotFound } else { Cause::NoneExists }
+    }
+
+    /// Checks a step of the path between two loads: in the current geometry contact has no meaning at a
+    /// triangle that is turned inside out.
+    ///
+    /// # Errors
+    /// Names the triangle that is turned inside out first, and under which load.
+    pub(super) fn in_range(
+        &self,
+        [before, after]: [&DVector<f64>; 2],
+        [from, to]: [f64; 2],
+    ) -> Result<(), NoEquilibrium> {
+        if !self.is_current() {
+            return Ok(());
+        }
+        let moved = after - before;
+        let shape = |part: f64| self.model.shape(&(before + &moved * part));
+        let first = |part: f64| inside_out(self.model, &shape(part)).next();
+        if first(1.0).is_none() {
+            return Ok(());
+        }
+        let [_, part] = bisected([0.0, 1.0], |part| first(part).is_none());
+        let triangle = first(part).expect("it was at the end of the range");
+        let stages = if self.friction > 0.0 { self.model.stages.len() } else { 1 };
+        let what = format!(
+            "triangle {triangle} is turned inside out under about {}, where its displacements between \
+             two steps are taken to grow with the load{}",
+            part_of_load(from + part * (to - from), stages),
+            self.strained(after)
+        );
+        Err(NoEquilibrium { cause: Cause::OutOfRange, what })
+    }
+
+    /// Returns the degree of freedom that moves most where contact in a place does not oppose a motion of
+    /// the bodies as rigid ones under a load; None where there is no such motion.
+    pub(super) fn escape(&self, place: &Place, load: &DVector<f64>, friction: f64) -> Option<Dof> {
+        let shape = if self.is_current() { &*place.shape } else { &self.model.nodes };
+        let friction = |pairing: &Pairing| match self.transmits_shear(pairing) {
+            true => friction,
+            false => 0.0,
+        };
+        rigid::escape((self.model, shape), &place.pairings, friction, load)
+    }
+
+    /// Says of a step of the path between two loads that friction does not hold the bodies as rigid ones:
+    /// from where on, and which coefficient would. None where it can, and where that is not known.
+    pub(super) fn slides(&self, u: &DVector<f64>, [from, to]: [f64; 2]) -> Option<NoEquilibrium> {
+        let place = self.place(u);
+        let free =
+            |part: f64, friction: f64| self.escape(&place, &self.model.load_after(part), friction);
+        let dof = free(to, self.friction)?;
+        let stages = self.model.stages.len();
+        let [last, _] = bisected([from, to], |part| free(part, self.friction).is_none());
+        let when = match last > 0.0 {
+            true => format!("from {} on", part_of_load(last, stages)),
+            false => "under any part of the load".into(),
+        };
+        if free(to, f64::INFINITY).is_some() {
+            let NoEquilibrium { cause, what } = self.escapes(dof);
+            return Some(NoEquilibrium { cause, what: format!("{what} ({when})") });
+        }
+        // What holds the loads at both ends of a stage holds those between them.
+        let ends: Vec<f64> = (to.ceil() as usize..=stages).map(|stage| stage as f64).collect();
+        let holds = |friction: f64| ends.iter().all(|end| free(*end, friction).is_none());
+        let larger = (0..60).map(|k| self.friction * 2_f64.powi(k));
+        let more = larger.take_while(|more| more.is_finite()).find(|more| holds(*more));
+        let needed = more.map_or(String::new(), |more| {
+            let [_, least] = bisected([more, more / 2.0], holds);
+            format!("; it needs a coefficient of {}", rounded_up(least))
+        });
+        let body = self.model.body_of(dof.node());
+        let body = body.map_or("a body".into(), |body| format!("body {:?}", body.name));
+        let what =
+            format!("friction cannot hold the load: {body} slides as a whole {when}{needed}");
+        Some(NoEquilibrium { cause: self.cause(), what })
+    }
+
+    /// Says that displacements strain the bodies beyond small strains; no text where they do not.
+    pub(super) fn strained(&self, u: &DVector<f64>) -> String {
+        let words = beyond_range(self.model, &self.stiffness.states(u), u);
+        words.map_or(String::new(), |words| format!("; {words}"))
+    }
+
+    /// Returns the words for a node and its body.
+    fn named(&self, node: NodeId) -> String {
+        let body = self.model.body_of(node);
+        format!("node {node}{}", body.map_or(String::new(), |b| format!(" of body {:?}", b.name)))
+    }
+
+    pub(super) fn unrestrained(
+        &self,
+        pairings: &[Option<Pairing>],
+        constraints: &[Constraint],
+        dof: Dof,
+    ) -> InputError {
+        if pairings.iter().all(Option::is_none) {
+            let what = "no contact node faces the target, and nothing else restrains the bodies";
+            let fix = "name surfaces that face each other; list cnt in order along its surface";
+            return InputError::new("contact.cnt, contact.trg", what, fix);
+        }
+        let (node, direction) = (dof.node(), dof.axis());
+        if rigid::holds(self.model, constraints) {
+            let moduli = self.model.triangles.iter().map(|triangle| triangle.material.e);
+            let (least, most) =
+                moduli.fold((f64::MAX, 0.0), |(l, m): (f64, f64), e| (l.min(e), m.max(e)));
+            let apart = most / least;
+            let ratio = match apart.is_finite() {
+                true => format!("{apart:.0e}"),
+                false => "more than 1e308".into(),
+            };
+            let what = format!(
+                "restraints and contact hold the bodies, but in f64 the matrix is singular at node \
+                 {node}, direction {direction}; the moduli are {ratio} apart"
+            );
+            let fix = "choose moduli that are closer, or restrain the stiff body itself";
+            return match apart > FAR_APART {
+                true => InputError::new("materials", what, fix),
+                false => InputError::new("mesh, materials", what, "choose other units"),
+            };
+        }
+        let what = format!(
+            "{} can move in {direction} with every contact node in contact",
+            self.named(node)
+        );
+        let fix =
+            "restrain that motion, or let the surfaces rub or stick (\"friction\": \"stick\")";
+        InputError::new("restraints, contact.friction", what, fix)
+    }
+
+    /// Returns a node that statuses leave free to move; None where they restrain the bodies.
+    pub(super) fn unrestrained_node(
+        &self,
+        place: &Place,
+        statuses: &[Status],
+        setting: &Setting,
+    ) -> Option<NodeId> {
+        let constraints = self.constraints(place, statuses, setting);
+        let t = Elimination::closing(&self.model.restrained, &constraints);
+        let singular = SparseCholesky::new(self.stiffness.reduced(&t)).err()?;
+        Some(t.dof(singular.column).node())
+    }
+}
+
+/// Narrows a range down to 1e-6 of it, so that `holds` at the first end and does not at the second.
+fn bisected([mut held, mut free]: [f64; 2], holds: impl Fn(f64) -> bool) -> [f64; 2] {
+    let least = 1e-6 * (free - held).abs();
+    while (free - held).abs() > least {
+        let middle = (held + free) / 2.0;
+        if holds(middle) { held = middle } else { free = middle }
+    }
+    [held, free]
+}
+
+/// Rounds up to three decimals, but for what bisection leaves open.
+fn rounded_up(x: f64) -> f64 {
+    (1000.0 * x * (1.0 - 2e-6)).ceil() / 1000.0
+}

@@ -1,0 +1,71 @@
+//! Mathcad's arrays and semantics: an interpreter for listings in the notation of
+//! `listings/README.md`.
+//!
+//! ```
+//! use plane_contact::paper::mathcad::{Limits, Listing, Settings, Value};
+//!
+//! let text = "twice(x) :=\n  for i ∈ 1 .. rows(x)\n    y[i] ← 2·x[i]\n  y";
+//! let listing = Listing::parse("twice", text)?;
+//! let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
+//! let x = plane_contact::paper::mathcad::array::Column::from_vec(vec![1.5, 4.0]);
+//! let outcome = worksheet.call(&[Value::from(&x)])?;
+//! assert_eq!(outcome.value.to_string(), "3; 8");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | modules, each using only those above it | what they contain |
+//! |---|---|
+//! | [`mod@array`], [`value`] | the mirror's arrays with `ORIGIN = 1`, a listing's values |
+//! | [`settings`] | the worksheet's settings, and limits against hostile listings |
+//! | [`failure`] | what can go wrong |
+//! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
+//! | [`edit`], [`mod@file`] | the alternative readings of a listing; files of several listings |
+//! | [`observe`] | watching a run: traces and coverage |
+//! | `arithmetic`, `matrices`, `x87`, `function` | operations on values, and the functions a listing may call |
+//! | `lacking` | Mathcad's functions and units that are not here |
+//! | [`json`] | values as JSON |
+//! | [`sheet`] | what a worksheet defines above a program |
+//! | `state`, `entry`, `call`, `eval`, [`run`] | running a listing |
+//! | [`xmcd`] | the second notation: worksheets as Mathcad saves them |
+//! | `words` | what Mathcad's error messages mean |
+//! | [`worksheet`] | executing a worksheet beside its saved results |
+//!
+//! `README.md` in this directory lists Mathcad's semantics one by one, with the source of each.
+#![forbid(unsafe_code)]
+
+pub mod array;
+pub mod edit;
+pub mod failure;
+pub mod file;
+pub mod json;
+pub mod listing;
+pub mod observe;
+pub mod run;
+pub mod settings;
+pub mod sheet;
+pub mod value;
+pub mod worksheet;
+pub mod xmcd;
+
+mod arithmetic;
+mod call;
+mod entry;
+mod eval;
+mod function;
+mod lacking;
+mod lexer;
+mod matrices;
+mod parser;
+mod state;
+pub mod syntax;
+mod words;
+mod x87;
+
+pub use edit::Edit;
+pub use failure::{Cause, Failure, ParseError};
+pub use listing::{Line, Listing};
+pub use observe::{Observer, Recorder};
+pub use run::{Outcome, Runner};
+pub use settings::{Conjunction, Limits, Settings};
+pub use sheet::Sheet;
+pub use value::{Array, Value};

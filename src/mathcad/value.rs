@@ -1,0 +1,323 @@
+//! The values of a listing: numbers, arrays, arrays of arrays and strings.
+
+use std::fmt;
+use std::rc::Rc;
+
+use thiserror::Error;
+
+use super::array::{Column, Table};
+use numbers::scalar::Scalar;
+
+/// A value of a listing. Copying one is cheap: arrays are shared until a copy is written to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    Number(f64),
+    Array(Rc<Array>),
+    /// An array with entries that are arrays or strings, such as the element matrices `B`.
+    Nested(Rc<Nested>),
+    /// A string, such as `trace` returns.
+    Text(Rc<str>),
+}
+
+/// A matrix, a column when `cols` is 1. It is stored by rows, so that a new row does not move the
+/// others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Grid<T> {
+    rows: usize,
+    cols: usize,
+    entries: Vec<T>,
+}
+
+/// A matrix of numbers.
+pub type Array = Grid<f64>;
+
+impl<T: Clone + Default> Grid<T> {
+    /// Makes the array whose entry in row `i` and column `j`, from 0, is `entry(i, j)`.
+    pub fn from_fn(rows: usize, cols: usize, mut entry: impl FnMut(usize, usize) -> T) -> Self {
+        let entries = (0..rows * cols).map(|k| entry(k / cols, k % cols)).collect();
+        Grid { rows, cols, entries }
+    }
+
+    pub fn column(entries: Vec<T>) -> Self {
+        Grid { rows: entries.len(), cols: 1, entries }
+    }
+
+    /// Makes an array of `cols` columns, at least one, from its entries row by row.
+    pub fn from_rows(cols: usize, entries: Vec<T>) -> Self {
+        Grid { rows: entries.len() / cols, cols, entries }
+    }
+
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    pub fn cols(&self) -> usize {
+        self.cols
+    }
+
+    /// Returns the entries row by row.
+    pub fn entries(&self) -> &[T] {
+        &self.entries
+    }
+
+    /// Returns the entries row by row, to be changed in place.
+    pub fn entries_mut(&mut self) -> &mut [T] {
+        &mut self.entries
+    }
+
+    /// Returns the entry in row `i` and column `j`, from 0, if there is one.
+    pub fn get(&self, i: usize, j: usize) -> Option<&T> {
+        (i < self.rows && j < self.cols).then(|| &self.entries[i * self.cols + j])
+    }
+
+    /// Writes an entry that [`Grid::get`] finds, and returns the old one.
+    pub fn set(&mut self, i: usize, j: usize, value: T) -> T {
+        std::mem::replace(&mut self.entries[i * self.cols + j], value)
+    }
+
+    /// Returns how many entries [`Grid::grow`] would add.
+    pub fn missing(&self, i: usize, j: usize) -> usize {
+        if i < self.rows && j < self.cols {
+            return 0;
+        }
+        let (rows, cols) = (self.rows.max(i.saturating_add(1)), self.cols.max(j.saturating_add(1)));
+        rows.saturating_mul(cols) - self.entries.len()
+    }
+
+    /// Makes room for row `i` and column `j`, from 0; new entries are 0.
+    pub fn grow(&mut self, i: usize, j: usize) {
+        let (rows, cols) = (self.rows.max(i + 1), self.cols.max(j + 1));
+        if cols != self.cols {
+            self.widen(cols);
+        }
+        self.entries.resize(rows * cols, T::default());
+        self.rows = rows;
+    }
+
+    /// Makes a row a column, or a column a row.
+    pub fn turn(&mut self) {
+        std::mem::swap(&mut self.rows, &mut self.cols);
+    }
+
+    /// Returns the array with rows and columns exchanged.
+    pub fn transposed(&self) -> Self {
+        Grid::from_fn(self.cols, self.rows, |i, j| self.entries[j * self.cols + i].clone())
+    }
+
+    fn widen(&mut self, cols: usize) {
+        let old = std::mem::take(&mut self.entries);
+        self.entries = vec![T::default(); self.rows * cols];
+        for (i, row) in old.chunks_exact(self.cols.max(1)).enumerate() {
+            self.entries[i * cols..i * cols + self.cols].clone_from_slice(row);
+        }
+        self.cols = cols;
+    }
+}
+
+/// An array of values, with what it stores and how deep it goes, counted as it is written to:
+/// arrays that hold one another many times over would take too long to count.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Nested {
+    grid: Grid<Value>,
+    count: usize,
+    depth: usize,
+}
+
+impl Nested {
+    pub fn new(grid: Grid<Value>) -> Self {
+        let count = grid.entries.iter().map(Value::count).sum();
+        let depth = 1 + grid.entries.iter().map(Value::depth).max().unwrap_or(0);
+        Nested { grid, count, depth }
+    }
+
+    pub fn grid(&self) -> &Grid<Value> {
+        &self.grid
+    }
+
+    /// Returns how many numbers all its entries store.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Writes an entry, and makes the array larger where it does not reach so far.
+    pub fn write(&mut self, i: usize, j: usize, value: Value) {
+        self.count += self.grid.missing(i, j);
+        if self.grid.get(i, j).is_none() {
+            self.grid.grow(i, j);
+        }
+        self.depth = self.depth.max(1 + value.depth());
+        let new = value.count();
+        let old = self.grid.set(i, j, value);
+        self.count = self.count + new - old.count();
+    }
+}
+
+impl Default for Value {
+    fn default() -> Self {
+        Value::Number(0.0)
+    }
+}
+
+impl Value {
+    /// Returns how many numbers the value stores, eight bytes of text counting as one.
+    pub fn count(&self) -> usize {
+        match self {
+            Value::Number(_) => 1,
+            Value::Array(a) => a.entries.len(),
+            Value::Nested(v) => v.count,
+            Value::Text(t) => t.len() / size_of::<f64>() + 1,
+        }
+    }
+
+    /// Returns how deep arrays stand within each other.
+    pub fn depth(&self) -> usize {
+        match self {
+            Value::Nested(v) => v.depth,
+            _ => 0,
+        }
+    }
+
+    pub fn size(&self) -> (usize, usize) {
+        match self {
+            Value::Array(a) => (a.rows, a.cols),
+            Value::Nested(v) => (v.grid.rows, v.grid.cols),
+            Value::Number(_) | Value::Text(_) => (1, 1),
+        }
+    }
+
+    /// Returns the entry in row `i` and column `j`, from 0, of an array that has it.
+    pub fn entry(&self, i: usize, j: usize) -> Option<Value> {
+        match self {
+            Value::Array(a) => a.get(i, j).copied().map(Value::Number),
+            Value::Nested(v) => v.grid.get(i, j).cloned(),
+            Value::Number(_) | Value::Text(_) => None,
+        }
+    }
+
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Value::Number(x) => Some(*x),
+            _ => None,
+        }
+    }
+
+    pub fn kind(&self) -> String {
+        match self {
+            Value::Number(x) => format!("the number {x}"),
+            Value::Array(a) => format!("a {} x {} array", a.rows, a.cols),
+            Value::Nested(v) if v.grid.cols == 1 => format!("a column of {} arrays", v.grid.rows),
+            Value::Nested(v) => format!("a {} x {} array of arrays", v.grid.rows, v.grid.cols),
+            Value::Text(_) => "a string".into(),
+        }
+    }
+
+    /// Makes an array of entries: of numbers, if all are numbers.
+    pub fn grid(grid: Grid<Value>) -> Self {
+        match grid.entries.iter().map(Value::number).collect() {
+            Some(entries) => Array { rows: grid.rows, cols: grid.cols, entries }.into(),
+            None => Value::Nested(Rc::new(Nested::new(grid))),
+        }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Number(x) => write!(f, "{x}"),
+            Value::Text(t) => f.write_str(t),
+            Value::Nested(_) => f.write_str(&self.kind()),
+            Value::Array(a) => {
+                for (i, row) in a.entries.chunks(a.cols.max(1)).enumerate() {
+                    let row: Vec<_> = row.iter().map(f64::to_string).collect();
+                    write!(f, "{}{}", if i == 0 { "" } else { "; " }, row.join(" "))?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Self {
+        Value::Number(x)
+    }
+}
+
+impl From<usize> for Value {
+    fn from(n: usize) -> Self {
+        Value::Number(n as f64)
+    }
+}
+
+impl From<Array> for Value {
+    fn from(a: Array) -> Self {
+        Value::Array(Rc::new(a))
+    }
+}
+
+impl From<&Table<f64>> for Value {
+    fn from(table: &Table<f64>) -> Self {
+        let m = table.as_matrix();
+        Array::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)].to_f64()).into()
+    }
+}
+
+impl From<&Table<usize>> for Value {
+    fn from(table: &Table<usize>) -> Self {
+        Value::from(&table.map(|n| n as f64))
+    }
+}
+
+impl From<&Column<f64>> for Value {
+    fn from(column: &Column<f64>) -> Self {
+        Array::column(column.iter().map(|x| x.to_f64()).collect()).into()
+    }
+}
+
+impl From<&Column<usize>> for Value {
+    fn from(column: &Column<usize>) -> Self {
+        Value::from(&column.map(|n| n as f64))
+    }
+}
+
+impl FromIterator<Value> for Value {
+    fn from_iter<I: IntoIterator<Item = Value>>(values: I) -> Self {
+        let column = Grid::column(values.into_iter().collect());
+        Value::Nested(Rc::new(Nested::new(column)))
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("expected {expected}, found {found}")]
+pub struct ShapeError {
+    pub expected: &'static str,
+    pub found: String,
+}
+
+impl ShapeError {
+    fn new(expected: &'static str, found: &Value) -> Self {
+        ShapeError { expected, found: found.kind() }
+    }
+}
+
+impl<T: Scalar> TryFrom<&Value> for Table<T> {
+    type Error = ShapeError;
+    fn try_from(value: &Value) -> Result<Self, ShapeError> {
+        let Value::Array(a) = value else {
+            return Err(ShapeError::new("an array", value));
+        };
+        Ok(Table::from_fn(a.rows, a.cols, |i, j| T::from_f64(a.entries[(i - 1) * a.cols + j - 1])))
+    }
+}
+
+impl<T: Scalar> TryFrom<&Value> for Column<T> {
+    type Error = ShapeError;
+    fn try_from(value: &Value) -> Result<Self, ShapeError> {
+        match value {
+            Value::Array(a) if a.cols == 1 => {
+                Ok(Column::from_vec(a.entries.iter().map(|&x| T::from_f64(x)).collect()))
+            }
+            _ => Err(ShapeError::new("a column", value)),
+        }
+    }
+}

@@ -1,0 +1,326 @@
+//! A worksheet's file: its settings and regions, with the results that Mathcad saved.
+
+use roxmltree::{Document as Xml, Node, ParsingOptions};
+
+use super::places::Placed;
+use super::read::{self, Math};
+use super::{Unsupported, scan};
+use crate::settings::Settings;
+use crate::value::{Grid, Value};
+use base::error::{InputError, Result};
+
+/// The most bytes of a file that is read: its regions become text and then trees.
+pub const LARGEST: usize = 1 << 26;
+
+/// The most regions, each of which may rest on all others; the largest of 266 public worksheets has
+/// 631.
+const REGIONS: usize = 5_000;
+
+/// A worksheet as its file has it.
+#[derive(Clone, Debug)]
+pub struct Worksheet {
+    pub settings: Settings,
+    /// The regions in the order in which Mathcad evaluates them.
+    pub regions: Vec<Region>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Region {
+    pub id: String,
+    pub tag: String,
+    pub content: Content,
+    /// What Mathcad saved of the region's evaluation.
+    pub saved: Option<Saved>,
+}
+
+impl Region {
+    /// Returns the text of the listing that a region is: a function, or a program, which is a function
+    /// without parameters.
+    pub fn listing(&self) -> Option<String> {
+        match &self.content {
+            Content::Function { text, .. } => Some(text.clone()),
+            Content::Definition { name, lines, is_program: true, .. } => {
+                Some(format!("{name}() :=\n  {}\n", lines.join("\n  ")))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// What a region says, in the text notation.
+#[derive(Clone, Debug)]
+pub enum Content {
+    /// Nothing to execute: words, a page break, a region that is switched off.
+    Silent,
+    /// `name(parameters) :=` and a program.
+    Function { name: String, text: String },
+    /// `target := value`: the name, the target if it has subscripts, and the lines of the value, which
+    /// may be a program.
+    Definition {
+        name: String,
+        entry: Option<String>,
+        lines: Vec<String>,
+        is_program: bool,
+        global: bool,
+    },
+    /// `name :=` an array of numbers.
+    Table { name: String, value: Value },
+    /// `name := from, second .. to`.
+    Range { name: String, range: String },
+    /// `expression =`.
+    Evaluation(String),
+    /// A construct that the interpreter does not have; the names that the region would define.
+    Unsupported { names: Vec<String>, construct: String },
+}
+
+/// A result that Mathcad saved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Saved {
+    Value(Value),
+    /// The words of the error.
+    Error(String),
+    /// A result that is no real number, array or string.
+    Unsupported(String),
+}
+
+/// Reads a worksheet.
+/// Errors: the text is no XML, or no worksheet of Mathcad 13 to 15.
+pub fn read(text: &str, place: &str) -> Result<Worksheet> {
+    let wrong = |what: String| {
+        let fix = "give an .xmcd or .xmcdz file that Mathcad 13, 14 or 15 saved (a Prime worksheet saved \
+                   anew)";
+        InputError::new(place, what, fix)
+    };
+    if text.len() > LARGEST {
+        return Err(wrong(format!(
+            "the file has {} bytes, at most {LARGEST} are read",
+            text.len()
+        )));
+    }
+    scan::check(text).map_err(|why| wrong(format!("the file is refused: {why}")))?;
+    let options = ParsingOptions { nodes_limit: 1 << 24, ..ParsingOptions::default() };
+    let xml = Xml::parse_with_options(text.trim_start_matches('\u{feff}'), options)
+        .map_err(|why| wrong(format!("the file is no XML: {why}")))?;
+    let root = xml.root_element();
+    if root.tag_name().name() != "worksheet" {
+        return Err(wrong(format!("the file is no worksheet but <{}>", root.tag_name().name())));
+    }
+    let mut regions = Vec::new();
+    if let Some(list) = child(root, "regions") {
+        collect(list, &mut regions);
+    }
+    if regions.len() > REGIONS {
+        return Err(wrong(format!("the file has more than {REGIONS} regions")));
+    }
+    Ok(Worksheet { settings: settings(root), regions })
+}
+
+fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|child| child.tag_name().name() == name)
+}
+
+fn settings(root: Node<'_, '_>) -> Settings {
+    let find = |name: &str, attribute: &str| {
+        let node = root.descendants().find(|node| node.tag_name().name() == name)?;
+        node.attribute(attribute)
+    };
+    let plain = Settings::default();
+    let origin = find("builtInVariables", "array-origin").and_then(|origin| origin.parse().ok());
+    Settings {
+        origin: origin.unwrap_or(0),
+        zero_over_zero_is_zero: find("calculationBehavior", "zero-over-zero") == Some("0"),
+        exact_boolean: find("calculationBehavior", "exact-boolean") != Some("false"),
+        ..plain
+    }
+}
+
+/// Collects the regions below a node, those of areas in the area's place, from top to bottom and
+/// from left to right.
+fn collect(list: Node<'_, '_>, found: &mut Vec<Region>) {
+    let regions = list.children().filter(|node| node.tag_name().name() == "region");
+    let mut placed: Vec<_> = regions.map(|node| (place(node), node)).collect();
+    placed.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    for (_, node) in placed {
+        match child(node, "area") {
+            Some(area) if area.ancestors().count() < 64 => collect(area, found),
+            _ => {
+                found.push(region(node));
+                // Text has regions of its own within its lines.
+                let text = child(node, "text").into_iter().flat_map(|text| text.descendants());
+                let within = text.filter(|node| node.tag_name().name() == "region");
+                found.extend(within.map(region));
+            }
+        }
+    }
+}
+
+fn place(node: Node<'_, '_>) -> (f64, f64) {
+    let number = |name| node.attribute(name).and_then(|x| x.parse::<f64>().ok());
+    (number("align-y").or(number("top")).unwrap_or(0.0), number("left").unwrap_or(0.0))
+}
+
+fn region(node: Node<'_, '_>) -> Region {
+    let attribute = |name| node.attribute(name).unwrap_or_default().to_string();
+    let (id, tag) = (attribute("region-id"), attribute("tag"));
+    let Some(math) = child(node, "math") else {
+        let construct = ["plot", "component", "picture", "ole"];
+        let other = construct.into_iter().find_map(|name| child(node, name));
+        let content = match other.map(|other| (other.tag_name().name(), other)) {
+            Some(("plot", _)) => unsupported(vec![], "a plot"),
+            Some((name, other)) => {
+                let outputs = child(other, "outputs").map(Math::new);
+                unsupported(outputs.map(|all| targets(all.parts())).unwrap_or_default(), name)
+            }
+            None => Content::Silent,
+        };
+        return Region { id, tag, content, saved: None };
+    };
+    let inside = math.children().find(Node::is_element).map(Math::new).map(shown_definition);
+    let content = match inside {
+        Some(_) if math.attribute("disable-calc") == Some("true") => Content::Silent,
+        Some(inside) => match read::check_depth(math) {
+            Ok(()) => content(inside),
+            Err(Unsupported(construct)) => unsupported(names(inside), &construct),
+        },
+        None => Content::Silent,
+    };
+    let error = math.descendants().find_map(|node| node.attribute("error"));
+    let result = math.descendants().find(|node| node.tag_name().name() == "result");
+    let shown_in = math.descendants().find(|node| node.tag_name().name() == "unitOverride");
+    let saved = match (error, result, shown_in) {
+        (Some(error), ..) => Some(Saved::Error(error.into())),
+        (None, Some(_), Some(unit)) => Some(Saved::Unsupported(read::shown_in(Math::new(unit)))),
+        (None, Some(result), None) => result.children().find(Node::is_element).map(saved),
+        (None, None, _) => None,
+    };
+    Region { id, tag, content, saved }
+}
+
+/// Returns the definition that a region shows the result of, as `x := 3 =`; else the region.
+fn shown_definition<'a, 'i>(node: Math<'a, 'i>) -> Math<'a, 'i> {
+    let is_definition = |part: &Math<'_, '_>| matches!(part.tag(), "define" | "globalDefine");
+    let first = node.part(0).ok().filter(|_| node.tag() == "eval");
+    first.filter(is_definition).unwrap_or(node)
+}
+
+fn unsupported(names: Vec<String>, construct: &str) -> Content {
+    Content::Unsupported { names, construct: construct.into() }
+}
+
+/// The names that a region defines, whatever it says of them.
+fn names(node: Math<'_, '_>) -> Vec<String> {
+    let defines = matches!(node.tag(), "define" | "globalDefine");
+    targets(node.parts().take(usize::from(defines)))
+}
+
+/// The names that left sides define, in their order, whatever else stands in them.
+fn targets<'a, 'i: 'a>(left: impl Iterator<Item = Math<'a, 'i>>) -> Vec<String> {
+    let mut open: Vec<_> = left.collect();
+    let mut names = Vec::new();
+    while let Some(left) = open.pop() {
+        match left.tag() {
+            "id" => names.extend(read::name(left)),
+            "function" => open.extend(left.parts().take(1)),
+            // The array of an entry.
+            "apply" => open.extend(left.parts().skip(1).take(1)),
+            "parens" | "matrix" => open.extend(left.parts()),
+            _ => {}
+        }
+    }
+    names.reverse();
+    names
+}
+
+fn content(node: Math<'_, '_>) -> Content {
+    let content = match node.tag() {
+        "define" | "globalDefine" => definition(node),
+        "eval" => node.part(0).and_then(evaluation),
+        "id" if node.text() == "Given" => Err(Unsupported("a solve block".into())),
+        "symEval" => Err(read::unsupported(node)),
+        // An equation that nothing evaluates, such as a condition of a solve block.
+        _ => Ok(Content::Silent),
+    };
+    content.unwrap_or_else(|Unsupported(construct)| unsupported(names(node), &construct))
+}
+
+fn evaluation(node: Math<'_, '_>) -> Result<Content, Unsupported> {
+    read::expression(node).map(Content::Evaluation)
+}
+
+fn definition(node: Math<'_, '_>) -> Result<Content, Unsupported> {
+    let (mut left, mut right) = (node.part(0)?, node.part(1)?);
+    while let Some(inside) = left.inside() {
+        left = inside;
+    }
+    let global = node.tag() == "globalDefine";
+    if right.tag() == "eval" {
+        right = right.part(0)?;
+    }
+    let lines = |level| read::lines(right, level);
+    match left.tag() {
+        "function" => {
+            let name = read::name(left.part(0)?)?;
+            let parameters = left.part(1)?.parts().map(read::name);
+            let parameters = parameters.collect::<Result<Vec<_>, _>>()?.join(", ");
+            let text = format!("{name}({parameters}) :=\n{}\n", lines(1)?.join("\n"));
+            Ok(Content::Function { name, text })
+        }
+        "id" => {
+            let name = read::name(left)?;
+            if right.tag() == "range" {
+                return Ok(Content::Range { name, range: read::range(right)? });
+            }
+            if let Some(value) = table(right).filter(|_| !global) {
+                return Ok(Content::Table { name, value });
+            }
+            let is_program = right.tag() == "program";
+            Ok(Content::Definition { name, entry: None, lines: lines(0)?, is_program, global })
+        }
+        "apply" => {
+            if right.tag() == "program" {
+                return Err(Unsupported("a program that defines entries of an array".into()));
+            }
+            let name = read::name(left.part(1)?)?;
+            let entry = Some(read::target(left)?);
+            Ok(Content::Definition { name, entry, lines: lines(0)?, is_program: false, global })
+        }
+        "matrix" => Err(Unsupported("a definition of several names at once".into())),
+        _ => Err(read::unsupported(left)),
+    }
+}
+
+/// Reads an array of numbers that are spelled out.
+fn table(node: Math<'_, '_>) -> Option<Value> {
+    saved_value(node).ok().filter(|value| matches!(value, Value::Array(_)))
+}
+
+fn saved(node: Node<'_, '_>) -> Saved {
+    let depth = read::check_depth(node);
+    match depth.and_then(|()| saved_value(Math::new(node))) {
+        Ok(value) => Saved::Value(value),
+        Err(Unsupported(construct)) => Saved::Unsupported(construct),
+    }
+}
+
+fn saved_value(node: Math<'_, '_>) -> Result<Value, Unsupported> {
+    match node.tag() {
+        "real" => {
+            let x = node.text().parse().ok().filter(|x: &f64| x.is_finite());
+            x.map(Value::Number).ok_or_else(|| Unsupported(format!("the number {:?}", node.text())))
+        }
+        "str" => Ok(Value::Text(node.text().into())),
+        "matrix" => {
+            let size = |name| node.attribute(name).and_then(|n| n.parse::<usize>().ok());
+            let entries =
+                node.parts().map(saved_value).collect::<Result<Vec<Value>, Unsupported>>()?;
+            match (size("rows"), size("cols")) {
+                (Some(rows), Some(cols)) if rows.checked_mul(cols) == Some(entries.len()) => {
+                    let entry = |i: usize, j: usize| -> Value { entries[j * rows + i].clone() };
+                    Ok(Value::grid(Grid::from_fn(rows, cols, entry)))
+                }
+                _ => Err(Unsupported("a matrix that is not full".into())),
+            }
+        }
+        _ => Err(read::unsupported(node)),
+    }
+}

@@ -1,0 +1,425 @@
+//! From XMCD to the text notation.
+
+use roxmltree::Node;
+
+use super::places::{Level, Placed, in_exponent, in_fraction, in_transpose};
+use super::{COMPARISONS, FUNCTIONS, Unsupported};
+use crate::lacking::is_unit;
+use crate::lexer::{KEYWORDS, name_length};
+use crate::syntax::Comparison;
+
+type Read<T> = Result<T, Unsupported>;
+
+/// How deep the elements of a region may stand within each other.
+const DEPTH: usize = 300;
+
+/// An element without Mathcad's notes on where it came from.
+#[derive(Clone, Copy)]
+pub struct Math<'a, 'i>(Node<'a, 'i>);
+
+impl<'a, 'i> Math<'a, 'i> {
+    pub fn new(mut node: Node<'a, 'i>) -> Self {
+        while node.tag_name().name() == "provenance"
+            && let Some(last) = node.children().rfind(Node::is_element)
+        {
+            node = last;
+        }
+        Math(node)
+    }
+
+    pub fn tag(self) -> &'a str {
+        self.0.tag_name().name()
+    }
+
+    pub fn parts(self) -> impl Iterator<Item = Math<'a, 'i>> {
+        self.0.children().filter(Node::is_element).map(Math::new)
+    }
+
+    pub fn part(self, k: usize) -> Read<Math<'a, 'i>> {
+        self.parts().nth(k).ok_or_else(|| Unsupported(format!("an incomplete `{}`", self.tag())))
+    }
+
+    pub fn text(self) -> &'a str {
+        self.0.text().unwrap_or_default()
+    }
+
+    pub fn attribute(self, name: &str) -> Option<&'a str> {
+        self.0.attribute(name)
+    }
+
+    /// Returns the operator of an `apply`.
+    fn operator(self) -> &'a str {
+        match self.tag() {
+            "apply" => self.parts().next().map_or("", Math::tag),
+            _ => "",
+        }
+    }
+}
+
+/// Refuses a region that is nested too deeply.
+pub fn check_depth(node: Node<'_, '_>) -> Read<()> {
+    let mut deepest = 0;
+    for descendant in node.descendants() {
+        // Counted by steps upwards, not by recursion, and no further than the limit.
+        let above = descendant.ancestors().take(DEPTH + 1);
+        deepest = deepest.max(above.take_while(|above| *above != node).count());
+    }
+    if deepest < DEPTH {
+        Ok(())
+    } else {
+        Err(Unsupported("an expression nested too deeply".into()))
+    }
+}
+
+/// Reads a name.
+pub fn name(id: Math<'_, '_>) -> Read<String> {
+    if id.tag() != "id" {
+        return Err(unsupported(id));
+    }
+    let mut name = id.text().to_string();
+    if let Some(subscript) = id.attribute("subscript") {
+        // An empty one makes a name of its own too: a variable `m` beside the unit.
+        let subscript = if subscript.is_empty() { "_" } else { subscript };
+        name = format!("{name}.{subscript}");
+    }
+    let starts = name.starts_with(|c: char| !c.is_numeric() && c != '\'' && c != '.');
+    match starts && name_length(&name) == name.len() && !KEYWORDS.contains(&name.as_str()) {
+        true => Ok(name),
+        false if is_unit(&name) => Err(Unsupported(format!("units: {name}"))),
+        false => Err(Unsupported(format!("the name {name:?}"))),
+    }
+}
+
+/// Reads the lines of a program or the one line of an expression, indented `level` deep.
+pub fn lines(node: Math<'_, '_>, level: usize) -> Read<Vec<String>> {
+    let mut lines = vec![];
+    match node.tag() {
+        "program" => {
+            for statement in node.parts() {
+                lines.extend(self::lines(statement, level)?);
+            }
+        }
+        _ => statement(node, level, &mut lines)?,
+    }
+    Ok(lines)
+}
+
+fn statement(node: Math<'_, '_>, level: usize, lines: &mut Vec<String>) -> Read<()> {
+    let mut block = |head: String, body: Option<Math<'_, '_>>| -> Read<()> {
+        lines.push(format!("{:1$}{head}", "", 2 * level));
+        if let Some(body) = body {
+            lines.extend(self::lines(body, level + 1)?);
+        }
+        Ok(())
+    };
+    match node.tag() {
+        "for" | "while" | "otherwise" => {
+            let body = node.parts().last();
+            block(head(node)?, body)
+        }
+        "tryCatch" => {
+            block("try".into(), Some(node.part(0)?))?;
+            block("on error".into(), Some(node.part(1)?))
+        }
+        "ifThen" => {
+            let (condition, body) = (expression(node.part(0)?)?, node.part(1)?);
+            match body.tag() {
+                "for" => block(format!("{} if {condition}", head(body)?), body.parts().last()),
+                "localDefine" if body.part(1)?.tag() == "tryCatch" => {
+                    block(format!("if {condition}"), Some(body))
+                }
+                "program" | "ifThen" | "otherwise" | "while" | "tryCatch" => {
+                    block(format!("if {condition}"), Some(body))
+                }
+                _ => block(format!("{} if {condition}", head(body)?), None),
+            }
+        }
+        "localDefine" if node.part(1)?.tag() == "tryCatch" => {
+            let (target, attempt) = (target(node.part(0)?)?, node.part(1)?);
+            for (word, k) in [("try", 0), ("on error", 1)] {
+                block(word.into(), None)?;
+                block(format!("  {target} ← {}", expression(attempt.part(k)?)?), None)?;
+            }
+            Ok(())
+        }
+        _ => block(head(node)?, None),
+    }
+}
+
+/// Reads a statement's own line.
+fn head(node: Math<'_, '_>) -> Read<String> {
+    Ok(match node.tag() {
+        "for" => format!("for {} ∈ {}", name(node.part(0)?)?, range(node.part(1)?)?),
+        "while" => format!("while {}", expression(node.part(0)?)?),
+        "otherwise" | "break" | "continue" => node.tag().into(),
+        "return" => format!("return {}", expression(node.part(0)?)?),
+        "localDefine" => {
+            format!("{} ← {}", target(node.part(0)?)?, expression(node.part(1)?)?)
+        }
+        _ => expression(node)?,
+    })
+}
+
+/// Reads what is assigned to: a name, or an entry of a name.
+pub fn target(node: Math<'_, '_>) -> Read<String> {
+    let what = match node.tag() {
+        "id" => return name(node),
+        "matrix" => "several names at once",
+        _ if node.is_entry() => return expression(node),
+        _ if node.operator() == "matcol" => "a column",
+        _ => "an entry of an expression",
+    };
+    Err(Unsupported(format!("an assignment to {what}")))
+}
+
+/// Reads what a loop runs over.
+pub fn range(node: Math<'_, '_>) -> Read<String> {
+    match node.tag() {
+        "range" => {}
+        "sequence" if node.parts().any(|part| part.tag() == "range") => {
+            return Err(Unsupported("a range within a list".into()));
+        }
+        "sequence" => {
+            return Ok(node.parts().map(expression).collect::<Read<Vec<_>>>()?.join(", "));
+        }
+        _ => return expression(node),
+    }
+    let (start, end) = (node.part(0)?, expression(node.part(1)?)?);
+    let start = match start.tag() {
+        "sequence" => {
+            format!("{}, {}", expression(start.part(0)?)?, expression(start.part(1)?)?)
+        }
+        _ => expression(start)?,
+    };
+    Ok(format!("{start} .. {end}"))
+}
+
+pub fn expression(node: Math<'_, '_>) -> Read<String> {
+    text(node, false)
+}
+
+/// Spells an expression that binds at least as tightly as `least`, in parentheses if it does not.
+fn operand(node: Math<'_, '_>, least: Level, subscript: bool) -> Read<String> {
+    wrapped(node, node.level() < least, subscript)
+}
+
+fn wrapped(node: Math<'_, '_>, parentheses: bool, subscript: bool) -> Read<String> {
+    let text = text(node, subscript)?;
+    Ok(if parentheses { format!("({text})") } else { text })
+}
+
+/// Spells an expression; within subscripts, sums of plain names stand close.
+fn text(node: Math<'_, '_>, subscript: bool) -> Read<String> {
+    Ok(match node.tag() {
+        "real" => number(node.text())?,
+        "str" if !node.text().contains(['"', '\n', '\r']) => format!("\"{}\"", node.text()),
+        "id" => name(node)?,
+        "parens" => format!("({})", text(node.part(0)?, subscript)?),
+        "matrix" => matrix(node)?,
+        "apply" => apply(node, subscript)?,
+        _ => return Err(unsupported(node)),
+    })
+}
+
+/// Spells a number as the text does: Mathcad's own spelling where the text reads it.
+fn number(text: &str) -> Read<String> {
+    let not_finite = || Unsupported(format!("the number {text:?}"));
+    let x: f64 = text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(not_finite)?;
+    let spelled = super::write::number(x.abs());
+    Ok(if x.is_sign_negative() { format!("−{spelled}") } else { spelled })
+}
+
+fn matrix(node: Math<'_, '_>) -> Read<String> {
+    let size = |name| node.attribute(name).and_then(|n| n.parse::<usize>().ok());
+    let entries: Vec<_> = node.parts().collect();
+    let (Some(rows), Some(cols)) = (size("rows"), size("cols")) else {
+        return Err(Unsupported("a matrix without its size".into()));
+    };
+    if entries.is_empty() || rows.checked_mul(cols) != Some(entries.len()) {
+        return Err(Unsupported("a matrix that is not full".into()));
+    }
+    let plain = entries.iter().all(|entry| entry.level() == Level::Atom);
+    let between = if plain { " " } else { "   " };
+    let row = |i: usize| -> Read<String> {
+        let row = (0..cols).map(|j| expression(entries[j * rows + i]));
+        Ok(row.collect::<Read<Vec<_>>>()?.join(between))
+    };
+    Ok(format!("({})", (0..rows).map(row).collect::<Read<Vec<_>>>()?.join("; ")))
+}
+
+fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
+    let operator = node.part(0)?;
+    if operator.tag() == "id" && operator.text() == "if" {
+        return Ok(format!("if({})", list(node, 1)?));
+    }
+    if operator.tag() == "id" {
+        return Ok(format!("{}({})", name(operator)?, list(node, 1)?));
+    }
+    if let Some((_, function, n)) = FUNCTIONS.iter().find(|(o, _, _)| *o == operator.tag()) {
+        let mut operands = Vec::new();
+        for k in 1..=*n {
+            operands.push(expression(node.part(k)?)?);
+        }
+        if operator.tag() == "log" {
+            operands.reverse();
+        }
+        return Ok(format!("{function}({})", operands.join(",")));
+    }
+    let x = node.part(1)?;
+    let y = || node.part(2);
+    let infix = |sign: &str, left: Level, right: Level| -> Read<String> {
+        Ok([operand(x, left, subscript)?, sign.into(), operand(y()?, right, subscript)?].concat())
+    };
+    if let Some(at) = COMPARISONS.iter().position(|name| *name == operator.tag()) {
+        // One within another on the left, without parentheses, is a chain.
+        return infix(&format!(" {} ", Comparison::ALL[at].sign()), Level::Comparison, Level::Sum);
+    }
+    match operator.tag() {
+        "or" => infix(" ∨ ", Level::Any, Level::All),
+        "and" => infix(" ∧ ", Level::All, Level::Not),
+        "not" => Ok(format!("¬{}", operand(x, Level::Not, subscript)?)),
+        "plus" | "minus" => {
+            let sign = if operator.tag() == "plus" { "+" } else { "−" };
+            let (x, y) =
+                (operand(x, Level::Sum, subscript)?, operand(y()?, Level::Product, subscript)?);
+            let close = subscript && !x.contains('[') && !y.contains('[');
+            Ok(if close { format!("{x}{sign}{y}") } else { format!("{x} {sign} {y}") })
+        }
+        "mult" => {
+            let x = operand(x, Level::Product, subscript)?;
+            let y = operand(y()?, Level::Negative, subscript)?;
+            let groups = x.ends_with(')') && y.starts_with('(');
+            Ok(if groups { format!("{x} · {y}") } else { format!("{x}·{y}") })
+        }
+        "div" => {
+            let (above, below) = (Level::Product, Level::Negative);
+            let x = wrapped(x, in_fraction(x, above), subscript)?;
+            let y = y()?;
+            Ok(format!("{x} / {}", wrapped(y, in_fraction(y, below), subscript)?))
+        }
+        "neg" => Ok(format!("−{}", operand(x, Level::Power, subscript)?)),
+        "pow" => {
+            let y = y()?;
+            let exponent = wrapped(y, in_exponent(y), subscript)?;
+            Ok(format!("{}^{exponent}", operand(x, Level::Behind, subscript)?))
+        }
+        "absval" => Ok(format!("|{}|", text(x, subscript)?)),
+        "transpose" => {
+            let inside = x.inside().filter(|inside| in_transpose(*inside)).unwrap_or(x);
+            Ok(format!("{}ᵀ", operand(inside, Level::Behind, subscript)?))
+        }
+        "indexer" => {
+            let array = operand(x, Level::Behind, subscript)?;
+            Ok(format!("{array}[{}]", subscripts(y()?)?))
+        }
+        "matcol" => {
+            let array = operand(x, Level::Behind, subscript)?;
+            Ok(format!("{array}⟨{}⟩", text(y()?, true)?))
+        }
+        "summation" | "product" if x.tag() == "lambda" && node.parts().count() == 3 => {
+            let sign = if operator.tag() == "product" { "∏" } else { "∑" };
+            let (variable, term) = (name(x.part(0)?.part(0)?)?, expression(x.part(1)?)?);
+            let (from, to) = (expression(y()?.part(0)?)?, expression(y()?.part(1)?)?);
+            Ok(format!("{sign}({variable} ∈ {from} .. {to}, {term})"))
+        }
+        _ => Err(unsupported(operator)),
+    }
+}
+
+/// Spells arguments, from part `k` on.
+fn list(node: Math<'_, '_>, k: usize) -> Read<String> {
+    let first = node.part(k)?;
+    let all: Vec<_> = match first.tag() {
+        "sequence" => first.parts().collect(),
+        _ => node.parts().skip(k).collect(),
+    };
+    Ok(all.into_iter().map(expression).collect::<Read<Vec<_>>>()?.join(","))
+}
+
+fn subscripts(node: Math<'_, '_>) -> Read<String> {
+    match node.tag() {
+        "sequence" => {
+            let all = node.parts().map(|part| text(part, true));
+            Ok(all.collect::<Read<Vec<_>>>()?.join(","))
+        }
+        _ => text(node, true),
+    }
+}
+
+/// Names the construct that an element is.
+pub fn unsupported(node: Math<'_, '_>) -> Unsupported {
+    let words = match node.tag() {
+        "apply" => match node.parts().next() {
+            Some(operator) => return unsupported(operator),
+            None => "an empty place",
+        },
+        "imag" | "complex" | "conjugate" => "complex numbers",
+        "unitedValue" | "unitMonomial" | "unitReference" => return units(node),
+        "symEval" | "symResult" => "symbolics",
+        "derivative" => "a derivative",
+        "integral" => "an integral",
+        "Find" | "Minerr" | "Minimize" | "Maximize" | "Odesolve" => "a solve block",
+        "vectorize" => "vectorize",
+        "crossProduct" => "the cross product",
+        "range" => "a range in an expression",
+        "program" => "a program in an expression",
+        "placeholder" => "an empty place",
+        tag => return Unsupported(format!("`{tag}`")),
+    };
+    Unsupported(words.into())
+}
+
+/// Names the units of a result.
+fn units(node: Math<'_, '_>) -> Unsupported {
+    let inside = node.0.descendants();
+    let names: Vec<_> = inside.filter_map(|unit| unit.attribute("unit")).collect();
+    Unsupported(if names.is_empty() {
+        "units".into()
+    } else {
+        format!("units: {}", names.join("·"))
+    })
+}
+
+/// Names the unit in which a result is shown, of which the saved number is a multiple.
+pub fn shown_in(unit: Math<'_, '_>) -> String {
+    let names = unit.0.descendants().filter(|node| node.tag_name().name() == "id");
+    let names: Vec<_> = names.filter_map(|id| id.text()).collect();
+    format!("units: {}", names.join("·"))
+}
+
+impl Placed for Math<'_, '_> {
+    fn level(self) -> Level {
+        if self.tag() == "real" {
+            let negative = self.text().starts_with('-');
+            return if negative { Level::Negative } else { Level::Atom };
+        }
+        match self.operator() {
+            "or" => Level::Any,
+            "and" => Level::All,
+            "not" => Level::Not,
+            operator if COMPARISONS.contains(&operator) => Level::Comparison,
+            "plus" | "minus" => Level::Sum,
+            "mult" | "div" => Level::Product,
+            "neg" => Level::Negative,
+            "pow" => Level::Power,
+            "transpose" | "matcol" => Level::Behind,
+            "indexer" if !self.is_entry() => Level::Behind,
+            _ => Level::Atom,
+        }
+    }
+
+    fn inside(self) -> Option<Self> {
+        if self.tag() == "parens" { self.parts().next() } else { None }
+    }
+
+    fn is_plain_opposite(self) -> bool {
+        match self.operator() {
+            "neg" => self.parts().nth(1).is_some_and(|x| x.level() >= Level::Behind),
+            _ => self.tag() == "real" && self.level() == Level::Negative,
+        }
+    }
+
+    fn is_entry(self) -> bool {
+        self.operator() == "indexer" && self.parts().nth(1).is_some_and(|x| x.tag() == "id")
+    }
+}

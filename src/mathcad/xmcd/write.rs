@@ -1,0 +1,318 @@
+//! From the syntax tree to XMCD.
+
+use super::places::{Level, Placed, in_exponent, in_fraction, in_transpose};
+use super::{COMPARISONS, FUNCTIONS};
+use crate::lexer::Names;
+use crate::listing::Listing;
+use crate::syntax::{Comparison, Expr, Kind, Operation, Range, Reference, Statement, Step};
+use crate::value::Array;
+use base::xml::Element;
+
+/// Writes the definition of a listing's function, or of a name where it has no parameters.
+pub fn definition(listing: &Listing) -> Element {
+    let writer = Writer { names: &listing.names };
+    let name = id(listing.function());
+    let left = match listing.parameters.as_slice() {
+        [] => name,
+        parameters => {
+            let parameters = parameters.iter().map(|slot| id(listing.names.name(*slot)));
+            let parameters = Element::new("ml:boundVars").with_all(parameters);
+            Element::new("ml:function").with(name).with(parameters)
+        }
+    };
+    let body = writer.block(&listing.program);
+    let is_line = listing.parameters.is_empty() && listing.program.len() == 1;
+    // Without parameters a line alone would be the definition of a value.
+    let body = if is_line { Element::new("ml:program").with(body) } else { body };
+    Element::new("ml:define").with(left).with(body)
+}
+
+/// Writes an expression, the only line of a listing.
+/// Panics if the listing is anything else.
+pub fn expression(listing: &Listing) -> Element {
+    match listing.program.as_slice() {
+        [Statement { step: Step::Evaluate { value, guard: None }, .. }] => {
+            Writer { names: &listing.names }.expr(value)
+        }
+        _ => panic!("{} is no expression", listing.name()),
+    }
+}
+
+/// Writes a name; a full stop in it begins Mathcad's literal subscript.
+pub fn id(name: &str) -> Element {
+    let (name, subscript) = name.split_once('.').unwrap_or((name, ""));
+    let id = Element::with_text("ml:id", name).set("xml:space", "preserve");
+    if subscript.is_empty() { id } else { id.set("subscript", subscript) }
+}
+
+/// Writes an array of numbers, column by column.
+pub fn matrix(array: &Array) -> Element {
+    let (rows, cols) = (array.rows(), array.cols());
+    let places = (0..cols).flat_map(|j| (0..rows).map(move |i| (i, j)));
+    let entries = places.map(|(i, j)| real(array.entries()[i * cols + j]));
+    Element::new("ml:matrix")
+        .set("rows", rows.to_string())
+        .set("cols", cols.to_string())
+        .with_all(entries)
+}
+
+pub fn real(x: f64) -> Element {
+    Element::with_text("ml:real", &number(x))
+}
+
+/// Spells a number as Mathcad saves it: 15 digits where they read back to the same number, else 17.
+pub fn number(x: f64) -> String {
+    let fifteen = format!("{x:.14e}");
+    let text = if fifteen.parse() == Ok(x) { fifteen } else { format!("{x:.16e}") };
+    let (mantissa, exponent) = text.split_once('e').expect("scientific notation");
+    let exponent: i32 = exponent.parse().expect("a whole exponent");
+    let (sign, mantissa) = mantissa.strip_prefix('-').map_or(("", mantissa), |m| ("-", m));
+    let digits = mantissa.replace('.', "");
+    let digits = digits.trim_end_matches('0');
+    let digits = if digits.is_empty() { "0" } else { digits };
+    let point = |at: usize| match digits.len() <= at {
+        true => format!("{digits:0<at$}"),
+        false => format!("{}.{}", &digits[..at], &digits[at..]),
+    };
+    match exponent {
+        0..15 => format!("{sign}{}", point(exponent as usize + 1)),
+        -4..0 => format!("{sign}0.{:0>1$}{digits}", "", (-exponent - 1) as usize),
+        _ => {
+            let side = if exponent < 0 { '-' } else { '+' };
+            format!("{sign}{}E{side}{:02}", point(1), exponent.abs())
+        }
+    }
+}
+
+pub fn parens(x: Element) -> Element {
+    Element::new("ml:parens").with(x)
+}
+
+/// Writes an operator before its operands.
+pub fn apply(operator: &'static str, operands: impl IntoIterator<Item = Element>) -> Element {
+    Element::new("ml:apply").with(Element::new(operator)).with_all(operands)
+}
+
+fn sequence(mut elements: Vec<Element>) -> Element {
+    match elements.len() {
+        1 => elements.remove(0),
+        _ => Element::new("ml:sequence").with_all(elements),
+    }
+}
+
+struct Writer<'a> {
+    names: &'a Names,
+}
+
+impl Writer<'_> {
+    /// Writes the lines of a block: one stands bare, several are a program.
+    fn block(&self, block: &[Statement]) -> Element {
+        match block {
+            [one] => self.statement(&one.step),
+            several => {
+                let lines = several.iter().map(|statement| self.statement(&statement.step));
+                Element::new("ml:program").with_all(lines)
+            }
+        }
+    }
+
+    fn statement(&self, step: &Step) -> Element {
+        let line = match step {
+            Step::If { condition, body } => {
+                return Element::new("ml:ifThen").with(self.expr(condition)).with(self.block(body));
+            }
+            Step::While { condition, body } => {
+                return Element::new("ml:while").with(self.expr(condition)).with(self.block(body));
+            }
+            Step::Otherwise { body } => Element::new("ml:otherwise").with(self.block(body)),
+            Step::Try { body, fallback } => {
+                Element::new("ml:tryCatch").with(self.block(body)).with(self.block(fallback))
+            }
+            Step::For { name, range, body, .. } => Element::new("ml:for")
+                .with(id(self.names.name(*name)))
+                .with(self.range(range))
+                .with(self.block(body)),
+            Step::Assign { target, value, .. } => {
+                Element::new("ml:localDefine").with(self.reference(target)).with(self.expr(value))
+            }
+            Step::Evaluate { value, .. } => self.expr(value),
+            Step::Return { value, .. } => Element::new("ml:return").with(self.expr(value)),
+            Step::Break { .. } => Element::new("ml:break"),
+            Step::Continue { .. } => Element::new("ml:continue"),
+        };
+        match step.condition() {
+            Some(guard) => Element::new("ml:ifThen").with(self.expr(guard)).with(line),
+            None => line,
+        }
+    }
+
+    fn range(&self, range: &Range) -> Element {
+        match range {
+            Range::Over(values) => sequence(values.iter().map(|x| self.expr(x)).collect()),
+            Range::Span { from, second, to } => {
+                let start = [from].into_iter().chain(second).map(|x| self.expr(x)).collect();
+                Element::new("ml:range").with(sequence(start)).with(self.expr(to))
+            }
+        }
+    }
+
+    fn reference(&self, reference: &Reference) -> Element {
+        let name = id(self.names.name(reference.name));
+        let subscripts: Vec<_> = reference.subscripts().map(|x| self.expr(x)).collect();
+        match subscripts.is_empty() {
+            true => name,
+            false => apply("ml:indexer", [name, sequence(subscripts)]),
+        }
+    }
+
+    fn expr(&self, expr: &Expr) -> Element {
+        match &expr.kind {
+            Kind::Number(x) => real(*x),
+            Kind::Text(text) => Element::with_text("ml:str", text).set("xml:space", "preserve"),
+            Kind::Read(reference) => self.reference(reference),
+            Kind::Entry { of, subscripts } => {
+                let subscripts = subscripts.iter().map(|x| self.expr(x)).collect();
+                apply("ml:indexer", [self.behind(of), sequence(subscripts)])
+            }
+            Kind::Group(x) => parens(self.expr(x)),
+            Kind::Array { entries, cols } => {
+                let rows = entries.len() / cols;
+                let places = (0..*cols).flat_map(|j| (0..rows).map(move |i| i * cols + j));
+                Element::new("ml:matrix")
+                    .set("rows", rows.to_string())
+                    .set("cols", cols.to_string())
+                    .with_all(places.map(|k| self.expr(&entries[k])))
+            }
+            Kind::Magnitude(x) => apply("ml:absval", [self.expr(x)]),
+            Kind::Negative(x) => match x.kind {
+                Kind::Number(x) => real(-x),
+                _ => apply("ml:neg", [self.expr(x)]),
+            },
+            Kind::Not(x) => apply("ml:not", [self.expr(x)]),
+            Kind::Transpose(x) => {
+                let inside = if in_transpose(&**x) { parens(self.expr(x)) } else { self.behind(x) };
+                apply("ml:transpose", [inside])
+            }
+            Kind::Column(x, j) => apply("ml:matcol", [self.behind(x), self.expr(j)]),
+            Kind::Power(x, y) => apply("ml:pow", [self.expr(x), self.without(y, in_exponent)]),
+            Kind::Arithmetic(Operation::Divide, x, y) => {
+                let above = self.without(x, |x| in_fraction(x, Level::Product));
+                let below = self.without(y, |y| in_fraction(y, Level::Negative));
+                apply("ml:div", [above, below])
+            }
+            Kind::Arithmetic(operation, x, y) => {
+                let operator = match operation {
+                    Operation::Add => "ml:plus",
+                    Operation::Subtract => "ml:minus",
+                    Operation::Multiply | Operation::Divide => "ml:mult",
+                };
+                apply(operator, [self.expr(x), self.expr(y)])
+            }
+            Kind::Compare(comparison, x, y) => {
+                apply(compared(*comparison), [self.expr(x), self.expr(y)])
+            }
+            Kind::Chain(first, rest) => {
+                rest.iter().fold(self.expr(first), |left, (comparison, x)| {
+                    apply(compared(*comparison), [left, self.expr(x)])
+                })
+            }
+            Kind::All(operands) => self.chain("ml:and", operands),
+            Kind::Any(operands) => self.chain("ml:or", operands),
+            Kind::Call(name, arguments) => self.call(self.names.name(*name), arguments),
+            Kind::If(parts) => {
+                let parts = parts.iter().map(|x| self.expr(x)).collect();
+                Element::new("ml:apply").with(id("if")).with(sequence(parts))
+            }
+            Kind::Series { function, name, parts } => {
+                let [from, to, term] = &**parts;
+                let product = self.names.name(*function) == "∏";
+                let bound = Element::new("ml:boundVars").with(id(self.names.name(*name)));
+                let lambda = Element::new("ml:lambda").with(bound).with(self.expr(term));
+                let bounds = Element::new("ml:bounds").with(self.expr(from)).with(self.expr(to));
+                apply(if product { "ml:product" } else { "ml:summation" }, [lambda, bounds])
+            }
+        }
+    }
+
+    /// Writes an operand, without its parentheses where they stand for Mathcad's own place.
+    fn without<'e>(&self, x: &'e Expr, placed: impl Fn(&'e Expr) -> bool) -> Element {
+        match x.inside().filter(|inside| placed(inside)) {
+            Some(inside) => self.expr(inside),
+            None => self.expr(x),
+        }
+    }
+
+    /// Writes what something stands behind, in parentheses unless it is a name or has them.
+    fn behind(&self, x: &Expr) -> Element {
+        let inside = self.expr(x);
+        if x.level() < Level::Atom || x.is_entry() { parens(inside) } else { inside }
+    }
+
+    fn chain(&self, operator: &'static str, operands: &[Expr]) -> Element {
+        let operands = operands.iter().map(|x| self.expr(x));
+        operands.reduce(|all, next| apply(operator, [all, next])).expect("two operands or more")
+    }
+
+    fn call(&self, name: &str, arguments: &[Expr]) -> Element {
+        let mut written: Vec<_> = arguments.iter().map(|x| self.expr(x)).collect();
+        let known = FUNCTIONS.iter().position(|(_, f, n)| *f == name && *n == arguments.len());
+        match known {
+            Some(at) => {
+                if name == "log" {
+                    written.reverse();
+                }
+                apply(OPERATORS[at], written)
+            }
+            None => Element::new("ml:apply").with(id(name)).with(sequence(written)),
+        }
+    }
+}
+
+/// The elements of [`FUNCTIONS`] and [`COMPARISONS`] as they are written.
+const OPERATORS: [&str; FUNCTIONS.len()] =
+    ["ml:sqrt", "ml:nthRoot", "ml:log", "ml:vectorSum", "ml:determinant", "ml:factorial"];
+const PREFIXED: [&str; COMPARISONS.len()] = [
+    "ml:equal",
+    "ml:notEqual",
+    "ml:lessThan",
+    "ml:lessOrEqual",
+    "ml:greaterThan",
+    "ml:greaterOrEqual",
+];
+
+fn compared(comparison: Comparison) -> &'static str {
+    let at = Comparison::ALL.iter().position(|c| *c == comparison).unwrap_or_default();
+    PREFIXED[at]
+}
+
+impl Placed for &Expr {
+    fn level(self) -> Level {
+        match &self.kind {
+            Kind::Any(_) => Level::Any,
+            Kind::All(_) => Level::All,
+            Kind::Not(_) => Level::Not,
+            Kind::Compare(..) | Kind::Chain(..) => Level::Comparison,
+            Kind::Arithmetic(Operation::Add | Operation::Subtract, ..) => Level::Sum,
+            Kind::Arithmetic(Operation::Multiply | Operation::Divide, ..) => Level::Product,
+            Kind::Negative(_) => Level::Negative,
+            Kind::Power(..) => Level::Power,
+            Kind::Transpose(_) | Kind::Column(..) | Kind::Entry { .. } => Level::Behind,
+            _ => Level::Atom,
+        }
+    }
+
+    fn inside(self) -> Option<Self> {
+        match &self.kind {
+            Kind::Group(x) => Some(x),
+            _ => None,
+        }
+    }
+
+    fn is_plain_opposite(self) -> bool {
+        matches!(&self.kind, Kind::Negative(x) if x.level() >= Level::Behind)
+    }
+
+    fn is_entry(self) -> bool {
+        matches!(&self.kind, Kind::Read(reference) if reference.row.is_some())
+    }
+}

@@ -1,0 +1,36 @@
+//! A scene as a worksheet of Mathcad and as a program for Octave and MATLAB: the listings with the
+//! tables that they need, and the run around them.
+
+pub mod mathcad;
+pub mod octave;
+pub mod probe;
+
+use ::mathcad::array::Table;
+use paper::mirror::{Pairs, Reading, Worksheet};
+
+/// What is exported.
+pub struct Export<'a> {
+    /// What the worksheet is called.
+    pub title: &'a str,
+    pub sheet: &'a Worksheet<f64>,
+    pub reading: &'a Reading,
+    /// The shape in which `c_cnt` is called.
+    pub node_n: &'a Table<f64>,
+    /// What the areas are multiplied by, length.
+    pub thickness: f64,
+    /// The load and its iterations, if they are exported too.
+    pub run: Option<Run>,
+}
+
+/// The iterations of the variant `printed`, and what this program has for them.
+pub struct Run {
+    /// The load vector, 0 at restrained equations, force. 2R.
+    pub force: Vec<f64>,
+    pub iterations: usize,
+    /// The pairs at the initial shape.
+    pub pairs: Pairs<f64>,
+    /// The displacements at the end, length. 2R.
+    pub u: Vec<f64>,
+    /// The von Mises stresses at the end, stress. M.
+    pub stress: Vec<f64>,
+}

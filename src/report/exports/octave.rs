@@ -1,0 +1,390 @@
+//! The program for Octave and MATLAB: one function file, its listings translated from the syntax
+//! tree.
+//!
+//! Operations keep their order. Matrix products are sums of outer products, k = 1, 2, ..., so that
+//! no library reorders them. Where a false operand of `∧` is to decide though another fails (R4),
+//! operands that cannot fail come first.
+
+use std::collections::BTreeSet;
+
+use super::Export;
+use ::mathcad::syntax::{
+    Comparison, Expr, Kind, Operation, Range, Reference, Slot, Statement, Step,
+};
+use ::mathcad::xmcd::write::number;
+use ::mathcad::{Array, Conjunction, Listing, Value};
+use paper::listings::{Which, tables};
+use problem::element::Plane;
+
+const HELPERS: &str = "
+function c = over(a, b)
+  if any(b(:) == 0)
+    error('Division by zero.');
+  end
+  c = a / b;
+end
+
+function c = ordered(a, b)
+  if isscalar(a) || isscalar(b)
+    c = a * b;
+    return
+  end
+  c = a(:,1) * b(1,:);
+  for k = 2:size(a, 2)
+    c = c + a(:,k) * b(k,:);
+  end
+end
+
+function r = upto(a, b)
+  if a <= b
+    r = a:b;
+  else
+    r = a:-1:b;
+  end
+end
+
+function n = rows(v)
+  n = size(v, 1);
+end
+
+function m = identity(n)
+  m = eye(n);
+end
+
+function x = trace(x)
+end
+
+function show(name, x)
+  fprintf('%s %d %d', name, size(x, 1), size(x, 2));
+  fprintf(' %.17g', x);
+  fprintf('\\n');
+end
+
+function beside(name, x, ours)
+  show(name, x);
+  show(['ours_' name], ours);
+  show(['difference_' name], max(abs(x(:) - ours(:))));
+end
+";
+
+const STRAIN: &str = "
+function d = D(e, nu)
+  f = over(e, (1 + nu) * (1 - 2 * nu));
+  d = [f * (1 - nu), f * nu, 0; f * nu, f * (1 - nu), 0; 0, 0, f * ((1 - 2 * nu) / 2)];
+end
+";
+
+const STRESS: &str = "
+function d = D(e, nu)
+  f = over(e, 1 - nu * nu);
+  d = [f, f * nu, 0; f * nu, f, 0; 0, 0, f * ((1 - nu) / 2)];
+end
+";
+
+/// Writes the program of an export; its function, and with it the file, is to be called `name`.
+pub fn program(export: &Export, name: &str) -> String {
+    let mut globals = Globals::default();
+    let mut tables_text = String::new();
+    for (table, value) in tables(export.sheet) {
+        match &value {
+            Value::Number(_) => drop(globals.scalars.insert(table)),
+            Value::Nested(_) => drop(globals.nested.insert(table)),
+            _ => {}
+        }
+        globals.names.insert(table);
+        tables_text += &format!("  {} = {};\n", ascii(table), literal(&value));
+    }
+    let mut text = format!(
+        "% {}\n% The listings of A. M. Filipov and M. V. Khomenko as printed, for Octave and MATLAB.\n\
+         % Readings: {}. Run: {name}\n",
+        // One line, whatever it holds.
+        export.title.split_whitespace().collect::<Vec<_>>().join(" "),
+        match export.reading.to_string() {
+            given if given.is_empty() => "all by default".into(),
+            given => given,
+        }
+    );
+    text += &format!("function {name}()\n{}", globals.declaration());
+    text += &tables_text;
+    text += &format!("  node_n = {};\n", literal(&Value::from(export.node_n)));
+    text += "  [k_cnt, ct, yt, dy] = c_cnt(node_n);\n";
+    let ours = export.run.as_ref().map(|run| &run.pairs);
+    for (name, ours) in [
+        ("ct", ours.map(|pairs| Value::from(&pairs.ct))),
+        ("yt", ours.map(|pairs| Value::from(&pairs.yt))),
+        ("dy", ours.map(|pairs| Value::from(&pairs.dy))),
+        ("k_cnt", ours.map(|pairs| Value::from(&pairs.k_cnt))),
+    ] {
+        text += &shown(name, ours);
+    }
+    text += "  show('MJS', Km(k_cnt));\n";
+    if let Some(run) = &export.run {
+        let force = Value::from(Array::column(run.force.clone()));
+        text += &format!(
+            "  F = {};\n  x = node;\n  for k = 1:{}\n    U = Km(c_cnt(x)) \\ F;\n    x = node;\n\
+             \x20   x(:,2) = node(:,2) + U(1:2:end);\n    x(:,3) = node(:,3) + U(2:2:end);\n  end\n",
+            literal(&force),
+            run.iterations
+        );
+        text += &shown("U", Some(Value::from(Array::column(run.u.clone()))));
+    }
+    text += "end\n";
+    for which in Which::ALL {
+        text += &function(&which.under(export.reading), *which, export, &globals);
+    }
+    text += match export.sheet.plane {
+        Plane::Strain => STRAIN,
+        Plane::Stress => STRESS,
+    };
+    text + HELPERS
+}
+
+/// Writes the statement that prints a result by its name, and what this program has for it beside.
+fn shown(name: &str, ours: Option<Value>) -> String {
+    match ours {
+        Some(ours) => format!("  beside('{name}', {name}, {});\n", literal(&ours)),
+        None => format!("  show('{name}', {name});\n"),
+    }
+}
+
+/// The names of the worksheet, and what they stand for.
+#[derive(Default)]
+struct Globals {
+    names: BTreeSet<&'static str>,
+    scalars: BTreeSet<&'static str>,
+    nested: BTreeSet<&'static str>,
+}
+
+impl Globals {
+    fn declaration(&self) -> String {
+        let names: Vec<_> = self.names.iter().map(|name| ascii(name)).collect();
+        format!("  global {}\n", names.join(" "))
+    }
+}
+
+/// Spells a name in ASCII; the listings' one Greek letter is `ν`.
+fn ascii(name: &str) -> String {
+    name.replace('ν', "nu")
+}
+
+fn literal(value: &Value) -> String {
+    match value {
+        Value::Number(x) => number(*x),
+        Value::Array(a) => {
+            let rows = a.entries().chunks(a.cols().max(1));
+            let row = |row: &[f64]| row.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
+            format!("[ ...\n    {}]", rows.map(row).collect::<Vec<_>>().join("; ...\n    "))
+        }
+        Value::Nested(v) => {
+            let entries: Vec<_> = v.grid().entries().iter().map(literal).collect();
+            format!("{{ ...\n    {}}}", entries.join("; ...\n    "))
+        }
+        Value::Text(_) => unreachable!("no table is a string"),
+    }
+}
+
+/// Translates a listing: its value, and for `c_cnt` the columns that it leaves.
+fn function(listing: &Listing, which: Which, export: &Export, globals: &Globals) -> String {
+    let mut scalars = BTreeSet::new();
+    let mut translator =
+        Translator { listing, globals, scalars: BTreeSet::new(), conjunction: export.reading.r4 };
+    // A name that is a number in one statement and an array in another is none.
+    for _ in 0..2 {
+        translator.scalars = scalars.clone();
+        scalars.clear();
+        translator.find_scalars(&listing.program, &mut scalars);
+    }
+    let more = if which == Which::CCnt { ", ct, yt, dy" } else { "" };
+    let parameters: Vec<_> =
+        listing.parameters.iter().map(|slot| ascii(listing.names.name(*slot))).collect();
+    let mut text =
+        format!("\nfunction [value{more}] = {}({})\n", listing.function(), parameters.join(", "));
+    text += &globals.declaration();
+    translator.block(&listing.program, 1, &mut text);
+    text + "end\n"
+}
+
+struct Translator<'a> {
+    listing: &'a Listing,
+    globals: &'a Globals,
+    /// Names that hold numbers only.
+    scalars: BTreeSet<Slot>,
+    conjunction: Conjunction,
+}
+
+impl Translator<'_> {
+    fn name(&self, slot: Slot) -> String {
+        ascii(self.listing.names.name(slot))
+    }
+
+    fn find_scalars(&self, block: &[Statement], found: &mut BTreeSet<Slot>) {
+        for Statement { step, .. } in block {
+            match step {
+                Step::For { name, .. } => drop(found.insert(*name)),
+                Step::Assign { target, value, .. }
+                    if target.row.is_none() && self.is_scalar(value) =>
+                {
+                    found.insert(target.name);
+                }
+                _ => {}
+            }
+            step.blocks().into_iter().for_each(|block| self.find_scalars(block, found));
+        }
+    }
+
+    fn is_scalar(&self, expr: &Expr) -> bool {
+        match &expr.kind {
+            Kind::Number(_) | Kind::Compare(..) | Kind::All(_) | Kind::Magnitude(_) => true,
+            Kind::Read(reference) => {
+                let name = self.listing.names.name(reference.name);
+                match reference.row {
+                    Some(_) => !self.globals.nested.contains(name),
+                    None => {
+                        self.scalars.contains(&reference.name)
+                            || self.globals.scalars.contains(name)
+                    }
+                }
+            }
+            Kind::Group(x) | Kind::Negative(x) => self.is_scalar(x),
+            Kind::Arithmetic(_, x, y) => self.is_scalar(x) && self.is_scalar(y),
+            Kind::Call(name, _) => {
+                matches!(self.listing.names.name(*name), "rows" | "min" | "max")
+            }
+            _ => false,
+        }
+    }
+
+    fn block(&self, block: &[Statement], level: usize, text: &mut String) {
+        for Statement { line, step } in block {
+            let line = &self.listing.lines()[*line];
+            *text += &format!("{:1$}% {2}: {3}\n", "", 2 * level, line.printed, line.text);
+            self.statement(step, level, text);
+        }
+    }
+
+    fn statement(&self, step: &Step, level: usize, text: &mut String) {
+        let mut put = |level: usize, line: &str| {
+            *text += &format!("{:1$}{line}\n", "", 2 * level);
+        };
+        let guard = step.condition().filter(|_| !matches!(step, Step::If { .. }));
+        if let Some(guard) = guard {
+            put(level, &format!("if {}", self.expr(guard)));
+        }
+        let inner = level + usize::from(guard.is_some());
+        match step {
+            Step::For { name, range: Range::Span { from, second: None, to }, body, .. } => {
+                let (from, to) = (self.expr(from), self.expr(to));
+                put(inner, &format!("for {} = upto({from}, {to})", self.name(*name)));
+                self.block(body, inner + 1, text);
+            }
+            Step::If { condition, body } => {
+                put(inner, &format!("if {}", self.expr(condition)));
+                self.block(body, inner + 1, text);
+            }
+            Step::Assign { target, value, .. } => {
+                let value = self.expr(value);
+                put(inner, &format!("{} = {value};", self.target(target)));
+            }
+            Step::Evaluate { value, .. } => put(inner, &format!("value = {};", self.expr(value))),
+            other => unreachable!("the listings have no {other:?}"),
+        }
+        let mut close = |level: usize| *text += &format!("{:1$}end\n", "", 2 * level);
+        if !step.blocks().is_empty() {
+            close(inner);
+        }
+        if guard.is_some() {
+            close(level);
+        }
+    }
+
+    fn target(&self, target: &Reference) -> String {
+        let name = self.name(target.name);
+        match (&target.row, &target.col) {
+            (Some(row), Some(col)) => format!("{name}({}, {})", self.expr(row), self.expr(col)),
+            (Some(row), None) => format!("{name}({}, 1)", self.expr(row)),
+            _ => name,
+        }
+    }
+
+    fn expr(&self, expr: &Expr) -> String {
+        match &expr.kind {
+            Kind::Number(x) => number(*x),
+            Kind::Read(reference) => {
+                let name = self.name(reference.name);
+                let subscripts: Vec<_> = reference.subscripts().map(|x| self.expr(x)).collect();
+                let nested = self.globals.nested.contains(self.listing.names.name(reference.name));
+                match (subscripts.is_empty(), nested) {
+                    (true, _) => name,
+                    (false, true) => format!("{name}{{{}}}", subscripts.join(", ")),
+                    (false, false) => format!("{name}({})", subscripts.join(", ")),
+                }
+            }
+            Kind::Group(x) => format!("({})", self.expr(x)),
+            Kind::Array { entries, cols } => {
+                let row = |row: &[Expr]| self.list(row);
+                format!("[{}]", entries.chunks(*cols).map(row).collect::<Vec<_>>().join("; "))
+            }
+            Kind::Magnitude(x) => format!("abs({})", self.expr(x)),
+            Kind::Negative(x) => format!("-{}", self.expr(x)),
+            Kind::Transpose(x) => format!("{}.'", self.expr(x)),
+            Kind::Arithmetic(Operation::Divide, x, y) => {
+                format!("over({}, {})", self.expr(x), self.expr(y))
+            }
+            Kind::Arithmetic(Operation::Multiply, x, y)
+                if !self.is_scalar(x) && !self.is_scalar(y) =>
+            {
+                format!("ordered({}, {})", self.expr(x), self.expr(y))
+            }
+            Kind::Arithmetic(operation, x, y) => {
+                let sign = match operation {
+                    Operation::Add => "+",
+                    Operation::Subtract => "-",
+                    _ => "*",
+                };
+                format!("{} {sign} {}", self.expr(x), self.expr(y))
+            }
+            Kind::Compare(comparison, x, y) => {
+                let sign = match comparison {
+                    Comparison::Equal => "==",
+                    Comparison::Unequal => "~=",
+                    Comparison::Less => "<",
+                    Comparison::LessOrEqual => "<=",
+                    Comparison::Greater => ">",
+                    Comparison::GreaterOrEqual => ">=",
+                };
+                format!("{} {sign} {}", self.expr(x), self.expr(y))
+            }
+            Kind::All(operands) => self.all(operands),
+            Kind::Call(name, arguments) => {
+                format!("{}({})", self.name(*name), self.list(arguments))
+            }
+            other => unreachable!("the listings have no {other:?}"),
+        }
+    }
+
+    fn list(&self, exprs: &[Expr]) -> String {
+        exprs.iter().map(|x| self.expr(x)).collect::<Vec<_>>().join(", ")
+    }
+
+    fn all(&self, operands: &[Expr]) -> String {
+        let mut operands: Vec<&Expr> = operands.iter().collect();
+        if self.conjunction == Conjunction::Guarded {
+            operands.sort_by_key(|x| self.can_fail(x));
+        }
+        let text: Vec<_> = operands.into_iter().map(|x| self.expr(x)).collect();
+        match self.conjunction {
+            Conjunction::Eager => format!("all([{}])", text.join(", ")),
+            _ => text.join(" && "),
+        }
+    }
+
+    /// Returns whether an expression has subscripts or divides.
+    fn can_fail(&self, expr: &Expr) -> bool {
+        let own = match &expr.kind {
+            Kind::Read(reference) => reference.row.is_some(),
+            Kind::Arithmetic(operation, ..) => *operation == Operation::Divide,
+            _ => false,
+        };
+        own || expr.parts().into_iter().any(|part| self.can_fail(part))
+    }
+}

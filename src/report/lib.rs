@@ -1,0 +1,57 @@
+//! What a run leaves: tables for people, pictures for the eye, files for machines.
+//!
+//! Reports print and draw what [`engine`] and [`studies`] found, and
+//! solve nothing. The same input gives the same bytes: no clock, no hash order and no machine is in
+//! them, but for the times and the memory that `trade` measures.
+//!
+//! | module                                             | what it writes                         |
+//! |----------------------------------------------------|----------------------------------------|
+//! | `tables`, `folder`, `result_file`, `pressure`      | a run: tables, folder, `result.json`   |
+//! | `audit`, `comparison`, `extremes`, `plan`, `trace` | a study each                           |
+//! | `answers`                                          | the marks of answers to exercises      |
+//! | `snapshot`, `statuses`, `trade`                    | a study each                           |
+//! | `picture`, `vtu`                                   | pictures and files for viewers         |
+//! | `page`                                             | pages of HTML, each one file           |
+//! | `evaluation`, `failure`, `json`, `schema`          | JSON, and what is in it                |
+//! | `matrix_market`, `output`                          | other files                            |
+//! | `sweep`                                            | job files of engines                   |
+//! | `worksheet`                                        | a worksheet of Mathcad, compared       |
+//! | `changes`, `edited`, `scenes`                      | edited listings, scenes that are there |
+//! | `printed`                                          | what is printed, fitted, and as CSV    |
+//! | `layout`, `numbers`                                | columns of words, numbers as text      |
+#![forbid(unsafe_code)]
+
+pub mod answers;
+pub mod audit;
+pub mod changes;
+pub mod claims;
+pub mod comparison;
+pub mod edited;
+pub mod evaluation;
+pub mod exports;
+pub mod extremes;
+pub mod failure;
+pub mod folder;
+pub mod json;
+mod layout;
+pub mod matrix_market;
+pub mod numbers;
+mod output;
+pub mod page;
+pub mod picture;
+pub mod plan;
+pub mod pressure;
+pub mod printed;
+mod result_file;
+pub mod scenes;
+pub mod schema;
+pub mod snapshot;
+pub mod statuses;
+pub mod sweep;
+pub mod tables;
+pub mod trace;
+pub mod trade;
+pub mod vtu;
+pub mod worksheet;
+
+pub use result_file::{ElementRow, IterationRow, MOST_TRIANGLES, ResultFile};
