@@ -86,21 +86,32 @@ fn read(work: &Work, mutants: &mut [Mutant]) -> Result<BTreeMap<String, Source>,
     Ok(sources)
 }
 
+/// The parts of the workspace that are mutated: all of them use `base`, which has the runtime.
+const PARTS: [&str; 5] = ["numbers", "mathcad", "problem", "paper", "engine"];
+
 fn add_runtime(work: &Work) -> Result<(), Failure> {
-    let library = work.tree().join("src/lib.rs");
-    let text = fs::read_to_string(&library)?;
+    let src = work.tree().join("src");
+    fs::write(src.join("base/mutants.rs"), include_str!("runtime.rs"))?;
+    add(&src.join("base/lib.rs"), "pub mod mutants;")?;
+    for part in PARTS {
+        add(&src.join(part).join("lib.rs"), "mod mutants {\n    pub use ::base::mutants::*;\n}")?;
+    }
+    Ok(())
+}
+
+/// Adds items to a library, whose code may then be what no one writes.
+fn add(library: &Path, items: &str) -> Result<(), Failure> {
+    let text = fs::read_to_string(library)?;
     let allowed = "#![allow(warnings, arithmetic_overflow, unconditional_panic)]\n";
     let at = text.find("#![forbid").ok_or("lib.rs forbids nothing")?;
-    let text = format!("{}{allowed}{}\nmod mutants;\n", &text[..at], &text[at..]);
-    fs::write(&library, text)?;
-    fs::write(library.with_file_name("mutants.rs"), include_str!("runtime.rs"))?;
+    fs::write(library, format!("{}{allowed}{}\n{items}\n", &text[..at], &text[at..]))?;
     Ok(())
 }
 
 /// Returns the errors of the compiler.
 fn errors(work: &Work) -> Result<Vec<Value>, Failure> {
     let output = Command::new("cargo")
-        .args(["check", "--lib", "--locked", "--message-format=json"])
+        .args(["check", "--workspace", "--lib", "--locked", "--message-format=json"])
         .current_dir(work.tree())
         .env("CARGO_TARGET_DIR", work.target())
         .output()?;
