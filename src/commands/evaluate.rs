@@ -15,7 +15,7 @@ use super::{print, print_either, read_listing, told, waiting};
 #[derive(clap::Args)]
 #[command(after_help = "\
 The file holds one function or several, in the notation of listings/README.md. Rules, and where each
-was measured: src/paper/mathcad/README.md.
+was measured: src/mathcad/README.md.
 
 Examples:
   plane-contact evaluate gauss.txt --call \"gauss(A, 2)\" --inputs '{\"A\": [[2, 1, 5], [1, 3, 10]]}'
@@ -75,7 +75,7 @@ pub fn run(args: &Args) -> Result<u8> {
     };
     let fix = match failure.cause {
         Cause::Unsupported { .. } | Cause::Complex { .. } => {
-            "the program may be right: write it with what src/paper/mathcad/README.md lists"
+            "the program may be right: write it with what src/mathcad/README.md lists"
         }
         Cause::Limit { of: "steps", .. } => "correct the program, or give more steps by --limit",
         _ => "correct the program or its inputs",

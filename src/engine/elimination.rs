@@ -70,25 +70,6 @@ impl<T: Scalar> Constraint<T> {
     }
 }
 
-/// Returns whether two states bind the same motions by weights and in directions that differ by at most
-/// `most`.
-pub(super) fn are_alike(one: &[Constraint], other: &[Constraint], most: f64) -> bool {
-    let near = |a: f64, b: f64| (a - b).abs() <= most;
-    let same_motion = |a: &Motion, b: &Motion| match (a, b) {
-        (Motion::Both(_), Motion::Both(_)) => true,
-        (Motion::Along(n, _), Motion::Along(m, _)) => near(n[0], m[0]) && near(n[1], m[1]),
-        _ => false,
-    };
-    let alike = |(a, b): (&Constraint, &Constraint)| {
-        let mut masters = a.masters.iter().zip(&b.masters);
-        a.node == b.node
-            && a.masters.len() == b.masters.len()
-            && masters.all(|(a, b)| a.0 == b.0 && near(a.1, b.1))
-            && same_motion(&a.motion, &b.motion)
-    };
-    one.len() == other.len() && one.iter().zip(other).all(alike)
-}
-
 impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {
     /// Binds the node by eq. (1): u_c = Σ w u_t.
     fn from(bound: NodeToSegment<T>) -> Self {

@@ -43,7 +43,7 @@ impl Held {
         let bodies = kept.and_then(|nodes| session.condensed(&stiffness, model, nodes));
         let condensed = bodies
             .filter(|bodies| bodies.has(constraints))
-            .and_then(|bodies| Bound::new(bodies, &t, constraints));
+            .and_then(|bodies| Bound::new(bodies, &t));
         let factors: Box<dyn Normed + Send> = match condensed {
             Some(bound) => Box::new(bound),
             None => Box::new(SparseCholesky::new(stiffness.reduced(&t)).ok()?),

@@ -84,7 +84,7 @@ impl Condensing {
         &self,
         state: &State<T>,
         stiffness: &Stiffness,
-    ) -> (Elimination, Option<Arc<Bound>>) {
+    ) -> (Elimination, Option<Bound>) {
         let constraints: Vec<Constraint> =
             state.constraints.iter().map(|c| c.map(Scalar::to_f64)).collect();
         let t = Elimination::new(&state.model.restrained, &constraints);
@@ -96,8 +96,8 @@ impl Condensing {
 impl Sparse<f64> for Condensing {
     fn solve(&self, state: &State<f64>) -> Result<Solved<f64>, Unsolved> {
         let (t, bound) = self.factors(state, state.stiffness);
-        let refined = |bound: Arc<Bound>| {
-            let (x, residual) = refined(state.stiffness, &t, &*bound, state.f).ok()?;
+        let refined = |bound: Bound| {
+            let (x, residual) = refined(state.stiffness, &t, &bound, state.f).ok()?;
             Some(Solved { x, residual })
         };
         bound.and_then(refined).map_or_else(|| Whole.solve(state), Ok)
@@ -113,8 +113,8 @@ impl Sparse<Bounded> for Condensing {
     fn solve(&self, state: &State<Bounded>) -> Result<Solved<Bounded>, Unsolved> {
         let (f, stiffness) = (state.f.map(Scalar::to_f64), self.session.stiffness(state.model));
         let (t, bound) = self.factors(state, &stiffness);
-        let refined = |bound: Arc<Bound>| {
-            let (x, residual) = refined(&stiffness, &t, &*bound, &f).ok()?;
+        let refined = |bound: Bound| {
+            let (x, residual) = refined(&stiffness, &t, &bound, &f).ok()?;
             Some((bound, x, residual))
         };
         let with_error = |factors: &dyn Factors<f64>, x: DVector<f64>, residual: f64| {
@@ -162,8 +162,8 @@ impl Sparse<BoundedDouble> for Condensing {
 fn in_double(
     matrix: &SparseSymmetric<F64x2>,
     f: &DVector<F64x2>,
-    factors: Option<Arc<Bound>>,
-) -> Result<(DVector<F64x2>, Option<Arc<Bound>>), Unsolved> {
+    factors: Option<Bound>,
+) -> Result<(DVector<F64x2>, Option<Bound>), Unsolved> {
     /// The relative residual at which refinement ends, in units of the scalar's epsilon.
     const TOL: f64 = 4.0;
     let refined = factors.and_then(|factors| {

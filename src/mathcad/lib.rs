@@ -2,7 +2,7 @@
 //! `listings/README.md`.
 //!
 //! ```
-//! use plane_contact::paper::mathcad::{Limits, Listing, Settings, Value};
+//! use mathcad::{Limits, Listing, Settings, Value};
 //!
 //! let text = "twice(x) :=\n  for i ∈ 1 .. rows(x)\n    y[i] ← 2·x[i]\n  y";
 //! let listing = Listing::parse("twice", text)?;

@@ -77,11 +77,11 @@ fn in_gaps(
     let condensed = facing.condensed(&stiffness, constraints).expect("its target is held");
     let gaps = Gaps::new(&condensed, pairings, sticks).map(Arc::new);
     let is_held = gaps.is_some_and(|gaps| gaps.held(constraints).is_some());
-    let Some(plain_state) = plain.state(&stiffness, constraints, false) else {
-        assert!(!is_held && facing.state(&stiffness, constraints, false).is_none());
+    let Some(plain_state) = plain.state(&stiffness, constraints) else {
+        assert!(!is_held && facing.state(&stiffness, constraints).is_none());
         return None;
     };
-    let state = facing.state(&stiffness, constraints, false).expect("it is held by elimination");
+    let state = facing.state(&stiffness, constraints).expect("it is held by elimination");
     for seed in 1..4 {
         let load = |e: usize| ((e * e + 3 * e) % (7 + seed)) as f64 - 3.0;
         let load = DVector::from_fn(model.dofs(), |e, _| if e < 8 { 0.0 } else { load(e) });

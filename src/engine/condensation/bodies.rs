@@ -10,7 +10,7 @@ use nalgebra::DVector;
 use super::factored::surfaces;
 use super::gaps::Gaps;
 use super::schur::{Condensation, Eliminated};
-use super::state::{Bound, Imposed, OnKept};
+use super::state::{Bound, OnKept};
 use crate::contact::Pairing;
 use crate::elimination::{Constraint, Elimination};
 use crate::session::Session;
@@ -48,10 +48,6 @@ pub struct Bodies {
     facing: Option<(Vec<Option<Pairing>>, bool)>,
     /// The condensed bodies in terms of gaps and slips, once that was tried; None where they cannot be.
     gaps: RefCell<Option<Option<Arc<Gaps>>>>,
-    /// The state of the whole bodies that was factored last.
-    bound: RefCell<Option<Arc<Bound>>>,
-    /// The state of the condensed ones that was factored last.
-    imposed: RefCell<Option<Imposed>>,
     /// The load that was eliminated last.
     loaded: RefCell<Option<Loaded>>,
     /// The nodes to keep for the first contact state of large surfaces, beside those that it binds, the
@@ -95,8 +91,6 @@ impl Bodies {
             current: RefCell::default(),
             facing: None,
             gaps: RefCell::default(),
-            bound: RefCell::default(),
-            imposed: RefCell::default(),
             loaded: RefCell::default(),
             expected: RefCell::default(),
             impossible: Cell::new(!model.has_contact()),
@@ -129,27 +123,14 @@ impl Bodies {
     }
 
     /// Factors the contact state that `constraints` impose on the condensed bodies; None where the
-    /// whole matrix is to be factored. Where they are alike, `again` has factors of the last state serve,
-    /// from which its displacements are refined, if they can be.
-    pub fn state(
-        &self,
-        stiffness: &Stiffness,
-        constraints: &[Constraint],
-        again: bool,
-    ) -> Option<OnKept> {
+    /// whole matrix is to be factored.
+    pub fn state(&self, stiffness: &Stiffness, constraints: &[Constraint]) -> Option<OnKept> {
         let condensation = self.condensed(stiffness, constraints)?;
         let gaps = self.gaps(&condensation);
         if let Some(held) = gaps.and_then(|gaps| gaps.held(constraints)) {
             return Some(OnKept::holding(condensation, held));
         }
-        let serves = |last: &&Imposed| again && last.serves(&condensation, constraints);
-        let mut last = self.imposed.borrow_mut();
-        if let Some(alike) = last.as_ref().filter(serves) {
-            return OnKept::new(condensation, constraints, Some(alike));
-        }
-        let state = OnKept::new(condensation, constraints, None)?;
-        *last = Some(state.imposed(constraints));
-        Some(state)
+        OnKept::new(condensation, constraints)
     }
 
     /// Factors the contact state T of the whole bodies that `constraints` impose; None where the whole
@@ -159,24 +140,16 @@ impl Bodies {
         stiffness: &Stiffness,
         t: &Elimination,
         constraints: &[Constraint],
-    ) -> Option<Arc<Bound>> {
-        let last = self.bound.borrow().clone().filter(|bound| bound.is_of(constraints));
-        if last.is_some() {
-            return last;
-        }
-        let condensation = self.condensed(stiffness, constraints)?;
-        let bound = Arc::new(Bound::new(condensation, t, constraints)?);
+    ) -> Option<Bound> {
+        let bound = Bound::new(self.condensed(stiffness, constraints)?, t)?;
         // They are large, and the search for the state is over.
         self.gaps.take();
-        self.bound.replace(Some(Arc::clone(&bound)));
         Some(bound)
     }
 
     fn forget(&self) {
         self.loaded.take();
         self.gaps.take();
-        self.bound.take();
-        self.imposed.take();
         self.current.take();
     }
 

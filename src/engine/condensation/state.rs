@@ -9,7 +9,7 @@ use super::gaps::Held;
 use super::refinement::refine;
 use super::rows::Rows;
 use super::schur::{Condensation, Eliminated, holds};
-use crate::elimination::{Constraint, Elimination, are_alike};
+use crate::elimination::{Constraint, Elimination};
 use numbers::solve::{DenseCholesky, Factors, Normed};
 use problem::model::{Dof, NodeId};
 
@@ -18,20 +18,8 @@ struct Small {
     condensation: Arc<Condensation>,
     /// The rows of T of the kept degrees of freedom.
     t: Rows,
-    factors: Arc<dyn Factors<f64> + Send + Sync>,
+    factors: Box<dyn Factors<f64> + Send + Sync>,
 }
-
-/// The factors of a contact state, and the constraints that impose it.
-pub(super) struct Imposed {
-    condensation: Arc<Condensation>,
-    constraints: Vec<Constraint>,
-    factors: Arc<dyn Factors<f64> + Send + Sync>,
-    /// The number of columns of T.
-    columns: usize,
-}
-
-/// The change of a weight or a normal below which factors serve another state, whose solution is refined.
-const ALIKE: f64 = 1e-2;
 
 /// The bodies under one contact state, in terms of what is kept of them.
 pub struct OnKept {
@@ -56,8 +44,6 @@ pub struct Bound {
     columns: Vec<usize>,
     /// The index of each degree of freedom inside, and its equation of the state.
     inside: Vec<(usize, usize)>,
-    /// What made T.
-    constraints: Vec<Constraint>,
 }
 
 impl Small {
@@ -68,7 +54,7 @@ impl Small {
         holds(&factors, &matrix.diagonal()).then(|| Small {
             condensation,
             t,
-            factors: Arc::new(factors),
+            factors: Box::new(factors),
         })
     }
 
@@ -87,22 +73,12 @@ impl Small {
 }
 
 impl OnKept {
-    /// Factors a contact state on the kept equations; None where it is singular or nearly so. The factors
-    /// of one that is `alike` serve again.
-    pub(super) fn new(
-        condensation: Arc<Condensation>,
-        constraints: &[Constraint],
-        alike: Option<&Imposed>,
-    ) -> Option<Self> {
+    /// Factors a contact state on the kept equations; None where it is singular or nearly so.
+    pub(super) fn new(condensation: Arc<Condensation>, constraints: &[Constraint]) -> Option<Self> {
         let (t, dofs) = condensation.closing(constraints);
         let shift = DVector::from_iterator(dofs.len(), dofs.iter().map(|d| t.shift()[d.index()]));
         let (t, _) = rows(&t, dofs);
-        let small = match alike.filter(|alike| alike.columns == t.columns) {
-            Some(Imposed { factors, .. }) => {
-                Small { condensation, t, factors: Arc::clone(factors) }
-            }
-            None => Small::new(condensation, t)?,
-        };
+        let small = Small::new(condensation, t)?;
         Some(OnKept { small, shift })
     }
 
@@ -111,18 +87,7 @@ impl OnKept {
         condensation: Arc<Condensation>,
         Held { t, shift, factors }: Held,
     ) -> Self {
-        OnKept { small: Small { condensation, t, factors: Arc::new(factors) }, shift }
-    }
-
-    /// Returns its factors, which `constraints` made.
-    pub(super) fn imposed(&self, constraints: &[Constraint]) -> Imposed {
-        let Small { condensation, factors, t } = &self.small;
-        Imposed {
-            condensation: Arc::clone(condensation),
-            constraints: constraints.to_vec(),
-            factors: Arc::clone(factors),
-            columns: t.columns,
-        }
+        OnKept { small: Small { condensation, t, factors: Box::new(factors) }, shift }
     }
 
     /// Returns the condensed bodies.
@@ -195,13 +160,8 @@ impl Inside {
 }
 
 impl Bound {
-    /// Factors Tᵀ S T of a T that was built from `constraints`; None where that is singular or nearly
-    /// so.
-    pub(crate) fn new(
-        condensation: Arc<Condensation>,
-        all: &Elimination,
-        constraints: &[Constraint],
-    ) -> Option<Self> {
+    /// Factors Tᵀ S T; None where that is singular or nearly so.
+    pub(crate) fn new(condensation: Arc<Condensation>, all: &Elimination) -> Option<Self> {
         let mut inside = Vec::with_capacity(condensation.dofs().len());
         for dof in condensation.dofs() {
             if !condensation.is_kept[dof.index()] {
@@ -211,18 +171,13 @@ impl Bound {
         }
         let (t, columns) = rows(all, &condensation.kept);
         let small = Small::new(condensation, t)?;
-        Some(Bound { small, columns, inside, constraints: constraints.to_vec() })
+        Some(Bound { small, columns, inside })
     }
 
     /// Returns K u − f by degree of freedom under a load `f` on kept nodes alone, force, where u are
     /// the displacements without the shift of the constraints; 0 but on the kept equations.
     pub(crate) fn response(&self, load: &DVector<f64>) -> DVector<f64> {
         self.small.response(load)
-    }
-
-    /// Returns whether its T was built from just these constraints.
-    pub(crate) fn is_of(&self, constraints: &[Constraint]) -> bool {
-        self.constraints == constraints
     }
 }
 
@@ -246,18 +201,6 @@ impl Factors<f64> for Bound {
         self.inside.iter().for_each(|(dof, column)| x[*column] = u[*dof]);
         columns.iter().zip(&q).for_each(|(column, q)| x[*column] = *q);
         x
-    }
-}
-
-impl Imposed {
-    /// Returns whether its factors serve another state of the same condensed bodies.
-    pub(super) fn serves(
-        &self,
-        condensation: &Arc<Condensation>,
-        constraints: &[Constraint],
-    ) -> bool {
-        Arc::ptr_eq(&self.condensation, condensation)
-            && are_alike(&self.constraints, constraints, ALIKE)
     }
 }
 

@@ -1,8 +1,6 @@
 //! What imposed statuses lead to: displacements, the forces of contact, and the friction of nodes that
 //! slide.
 
-use std::collections::BTreeSet;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, Force, forces};
@@ -12,7 +10,7 @@ use crate::contact::{Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, Error, NoEquilibrium};
 use numbers::solve::{Singular, SparseCholesky, SparseSymmetric};
-use problem::model::{Dof, NodeId};
+use problem::model::Dof;
 
 /// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
 const SOFT: f64 = 1e-8;
@@ -27,22 +25,17 @@ impl Problem<'_> {
         setting: &Setting,
     ) -> Result<Solved, Error> {
         let load = &setting.load;
-        // Forces of friction respond to factors as they are.
-        let rubs = self.friction > 0.0 && self.friction.is_finite();
-        let ways: &[bool] = match (setting.whole, rubs) {
-            (true, _) => &[],
-            (false, true) => &[false],
-            (false, false) => &[true, false],
+        let on_surface = match setting.whole {
+            true => None,
+            false => OnSurface::new(self.elastic(), constraints, load),
         };
-        for &again in ways {
-            if let Some(surface) = OnSurface::new(self.elastic(), constraints, load, again)
-                && let Ok(solved) = surface.displacements()
-            {
-                return self.moved(place, statuses, solved, &surface);
-            }
+        if let Some(surface) = on_surface
+            && let Ok(solved) = surface.displacements()
+        {
+            return self.moved(place, statuses, solved, &surface);
         }
         let t = Elimination::closing(&self.model.restrained, constraints);
-        let reduced = match Reduced::new(self.elastic(), &t, (constraints, statuses), load) {
+        let reduced = match Reduced::new(self.elastic(), &t, constraints, load) {
             Ok(reduced) => reduced,
             Err(singular) => return Ok(self.free(&t, singular, load)),
         };
@@ -84,14 +77,9 @@ impl Problem<'_> {
         }))
     }
 
-    /// Returns the nodes to which the bodies were condensed last; None where they were not.
-    pub(super) fn kept(&self) -> Option<BTreeSet<NodeId>> {
-        if self.last.is_condensed() { self.bodies.kept() } else { None }
-    }
-
     fn elastic(&self) -> Elastic<'_> {
-        let Problem { model, stiffness, bodies, last, .. } = self;
-        Elastic { model, stiffness, bodies, last }
+        let Problem { model, stiffness, bodies, .. } = self;
+        Elastic { model, stiffness, bodies }
     }
 
     fn free(&self, t: &Elimination, singular: Singular, load: &DVector<f64>) -> Solved {

@@ -370,7 +370,7 @@ fn solution(
         u: last.moved.u,
         digits: None,
         error_bound: None,
-        kept: problem.kept(),
+        kept: problem.bodies.kept(),
         equilibrium: Some(solution::Equilibrium {
             path,
             uniqueness,

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::forces::{Force, tangent};
-use super::reduced::Last;
 use super::rigid;
 use super::status::Memory;
 use crate::condensation::{Bodies, Inside};
@@ -48,8 +47,6 @@ pub(super) struct Problem<'a> {
     /// Coulomb's coefficient, infinite where nodes stick.
     pub(super) friction: f64,
     pub(super) bodies: Bodies,
-    /// The whole matrix that was factored last.
-    pub(super) last: Last,
     /// The stiffness of the springs on which the nodes stand, over that of the bodies ([`Stiffness`]).
     pub(super) springs: f64,
     /// The target that each contact node faces in the initial shape.
@@ -190,7 +187,6 @@ impl<'a> Problem<'a> {
             stiffness,
             friction: request.contact.friction.coefficient(),
             bodies: bodies(request, model, &initial, session),
-            last: Last::default(),
             initial,
             springs: 0.0,
         })
@@ -204,7 +200,6 @@ impl<'a> Problem<'a> {
             supports: self.supports.clone(),
             stiffness: Arc::new(Stiffness::on_springs(self.model, stiffness)),
             bodies: bodies(self.request, self.model, &initial, &Session::default()),
-            last: Last::default(),
             initial,
             springs: stiffness,
             ..*self

@@ -2,38 +2,15 @@
 //! Tᵀ K T q = f, solved by the factors of the condensed bodies, by factors of their own, or by those of
 //! nearly the same equations, with refinement.
 
-use std::cell::RefCell;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use nalgebra::DVector;
 
 use crate::condensation::{Bodies, Bound, Eliminated, Inside, OnKept, refined};
-use crate::contact::Status;
 use crate::elimination::{Constraint, Elimination};
 use crate::stiffness::Stiffness;
 use numbers::solve::{Normed, Singular, SparseCholesky};
 use problem::model::Model;
-
-/// What a status holds of a node's motion: nothing, the one along the normal, or both.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Held {
-    Nothing,
-    Normal,
-    Both,
-}
-
-/// The factors that were made last, and the statuses under which they were made. Other shapes and
-/// loads under statuses that hold the same motions have equations that are the same or nearly so.
-#[derive(Default)]
-pub(super) struct Last(RefCell<Option<(Vec<Held>, Arc<SparseCholesky>)>>);
-
-impl Last {
-    /// Returns whether they were of the condensed bodies.
-    pub(super) fn is_condensed(&self) -> bool {
-        self.0.borrow().is_none()
-    }
-}
 
 /// The bodies, and what was factored of them.
 #[derive(Clone, Copy)]
@@ -41,7 +18,6 @@ pub(super) struct Elastic<'a> {
     pub(super) model: &'a Model,
     pub(super) stiffness: &'a Stiffness,
     pub(super) bodies: &'a Bodies,
-    pub(super) last: &'a Last,
 }
 
 /// What the bodies under imposed statuses do under a load.
@@ -84,17 +60,14 @@ pub(super) struct OnSurface {
 }
 
 impl OnSurface {
-    /// Factors the equations under a load by degree of freedom on the condensed bodies, or has factors of
-    /// nearly the same ones serve `again`; None where that cannot be.
+    /// Factors the equations under a load by degree of freedom on the condensed bodies; None where that
+    /// cannot be.
     pub(super) fn new(
         elastic: Elastic,
         constraints: &[Constraint],
         load: &DVector<f64>,
-        again: bool,
     ) -> Option<Self> {
-        let state = elastic.bodies.state(elastic.stiffness, constraints, again)?;
-        // Those of a whole matrix are large, and not needed any more.
-        elastic.last.0.take();
+        let state = elastic.bodies.state(elastic.stiffness, constraints)?;
         let load = elastic.bodies.eliminated(&state, load);
         Some(OnSurface { state, load })
     }
@@ -138,68 +111,38 @@ pub(super) struct Reduced<'a> {
 
 /// The factors of the reduced equations.
 enum Made {
-    Condensed(Arc<Bound>),
-    /// Those of the whole matrix, or of nearly the same one.
-    Whole {
-        held: Vec<Held>,
-        factors: RefCell<Arc<SparseCholesky>>,
-    },
+    Condensed(Bound),
+    Whole(Box<SparseCholesky>),
 }
 
 impl<'a> Reduced<'a> {
-    /// Factors on the condensed bodies; where that cannot be, takes the last factors where the
-    /// statuses hold the same motions, else factors the whole matrix.
+    /// Factors on the condensed bodies; where that cannot be, factors the whole matrix.
     ///
     /// # Errors
     /// The matrix is singular.
     pub(super) fn new(
         elastic: Elastic<'a>,
         t: &'a Elimination,
-        (constraints, statuses): (&[Constraint], &[Status]),
+        constraints: &[Constraint],
         load: &'a DVector<f64>,
     ) -> Result<Self, Singular> {
-        if let Some(bound) = elastic.bodies.bound(elastic.stiffness, t, constraints) {
-            // Those of a whole matrix are large, and not needed any more.
-            elastic.last.0.take();
-            return Ok(Reduced { elastic, t, load, made: Made::Condensed(bound) });
-        }
-        let held = |status: &Status| match status {
-            Status::Open => Held::Nothing,
-            Status::Slip(_) => Held::Normal,
-            Status::Stick => Held::Both,
+        let made = match elastic.bodies.bound(elastic.stiffness, t, constraints) {
+            Some(bound) => Made::Condensed(bound),
+            None => Made::Whole(Box::new(SparseCholesky::new(elastic.stiffness.reduced(t))?)),
         };
-        let held: Vec<Held> = statuses.iter().map(held).collect();
-        let last = elastic.last.0.borrow();
-        let same = last.as_ref().filter(|(same, _)| *same == held).map(|(_, made)| made.clone());
-        drop(last);
-        let factors = match same {
-            Some(factors) => factors,
-            None => Arc::new(SparseCholesky::new(elastic.stiffness.reduced(t))?),
-        };
-        elastic.last.0.replace(Some((held.clone(), Arc::clone(&factors))));
-        Ok(Reduced { elastic, t, load, made: Made::Whole { held, factors: RefCell::new(factors) } })
+        Ok(Reduced { elastic, t, load, made })
     }
 
     /// Returns q, and its relative residual.
     fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
         let stiffness = self.elastic.stiffness;
         let by = |factors: &dyn Normed| refined(stiffness, self.t, factors, f);
-        let whole = || SparseCholesky::new(stiffness.reduced(self.t));
         match &self.made {
-            Made::Condensed(bound) => match by(&**bound) {
+            Made::Condensed(bound) => match by(bound) {
                 Ok(solved) => Ok(solved),
-                Err(_) => by(&whole()?).or_else(Ok),
+                Err(_) => by(&SparseCholesky::new(stiffness.reduced(self.t))?).or_else(Ok),
             },
-            Made::Whole { held, factors } => {
-                let first = Arc::clone(&factors.borrow());
-                if let Ok(solved) = by(&*first) {
-                    return Ok(solved);
-                }
-                let made = Arc::new(whole()?);
-                factors.replace(Arc::clone(&made));
-                self.elastic.last.0.replace(Some((held.clone(), Arc::clone(&made))));
-                by(&*made).or_else(Ok)
-            }
+            Made::Whole(whole) => by(&**whole).or_else(Ok),
         }
     }
 
@@ -238,7 +181,7 @@ impl Responds for Reduced<'_> {
     fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
         match &self.made {
             Made::Condensed(bound) => Ok(bound.response(load)),
-            Made::Whole { .. } => Ok(self.left(&self.unshifted(load)?, load)),
+            Made::Whole(_) => Ok(self.left(&self.unshifted(load)?, load)),
         }
     }
 

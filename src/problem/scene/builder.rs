@@ -16,8 +16,8 @@ use base::files;
 /// A scene before it is checked, from code or from a scene file.
 ///
 /// ```
-/// use plane_contact::problem::element::Plane;
-/// use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
+/// use problem::element::Plane;
+/// use problem::scene::{Axis, MeshBuilder, SceneBuilder};
 ///
 /// let mut mesh = MeshBuilder::default();
 /// let bottom = mesh.row([[0.0, 0.0], [1.0, 0.0]]);
@@ -31,7 +31,7 @@ use base::files;
 ///     .pressure("top", 6.3)
 ///     .build()?;
 /// assert_eq!(scene.name, "block");
-/// # Ok::<(), plane_contact::error::InputError>(())
+/// # Ok::<(), base::error::InputError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneBuilder {

@@ -1,4 +1,4 @@
-//! Each rule of `src/paper/mathcad/README.md`, on the smallest listing that shows it.
+//! Each rule of `src/mathcad/README.md`, on the smallest listing that shows it.
 
 use super::{failure, failure_under, outcome, program, value, value_under};
 use plane_contact::mathcad::failure::Subscripts;
