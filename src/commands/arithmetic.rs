@@ -10,7 +10,7 @@ pub struct ArithmeticArgs {
     scalar: ScalarName,
     /// dense-lu (Mathcad's own), sparse-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients
     /// to --tol), refined (factors in the scalar below, refined to --tol) [default: sparse-cholesky;
-    /// sparse-lu under printed in f64, f32 and f64-bounded].
+    /// sparse-lu under printed in f64 and f64-bounded].
     #[arg(long, value_name = "NAME")]
     solver: Option<Solver>,
     /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop; cg also

@@ -13,7 +13,7 @@ use super::session::Session;
 use super::stiffness::Stiffness;
 use numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar, WithBound};
 use numbers::solve::{
-    Arithmetic, Factors, Field, Iterates, Ldlt, Native, ScalarName, Solved, Solver, SparseCholesky,
+    Arithmetic, Factors, Field, Iterates, Ldlt, ScalarName, Solved, Solver, SparseCholesky,
     SparseSymmetric, Unsolved, refine,
 };
 use problem::model::{Model, NodeId};
@@ -45,14 +45,22 @@ pub(super) trait Sparse<T> {
 /// Makes the solver of a run on a model.
 pub(super) type MakeSparse<T> = fn(&Request, &Arc<Model>, &Session) -> Box<dyn Sparse<T>>;
 
-/// Cholesky factors of the whole matrix of each state.
+/// Factors of the whole matrix of each state: Cholesky's, in `f32` LDLᵀ.
 pub(super) struct Whole;
 
-impl<T: Native> Sparse<T> for Whole {
-    fn solve(&self, state: &State<T>) -> Result<Solved<T>, Unsolved> {
+impl Sparse<f64> for Whole {
+    fn solve(&self, state: &State<f64>) -> Result<Solved<f64>, Unsolved> {
         let factors = SparseCholesky::new(state.stiffness.reduced(state.t))?;
         let x = factors.solve(state.f);
         Ok(Solved { residual: factors.residual(&x, state.f), x })
+    }
+}
+
+impl Sparse<f32> for Whole {
+    fn solve(&self, state: &State<f32>) -> Result<Solved<f32>, Unsolved> {
+        let matrix = state.stiffness.reduced(state.t);
+        let x = DVector::from_vec(Ldlt::new(&matrix)?.solve(state.f.as_slice()));
+        Ok(Solved { residual: matrix.residual(&x, state.f), x })
     }
 }
 
@@ -192,11 +200,10 @@ pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
     let solver = arithmetic.solver(variant == Variant::Printed);
     // K beside the matrix of the iteration.
     let beside = usize::from(variant != Variant::Printed);
-    let is_native = matches!(arithmetic.scalar, ScalarName::F32 | ScalarName::F64);
     match solver {
         _ if variant == Variant::Unilateral => 0,
         // Factored in its place.
-        Solver::DenseLu if is_native => 1 + beside,
+        Solver::DenseLu if arithmetic.scalar == ScalarName::F64 => 1 + beside,
         Solver::DenseLu | Solver::DenseCholesky => 2 + beside,
         Solver::SparseLu => 2 * beside,
         _ if beside == 1 && takes_sparse(solver, arithmetic.scalar) => 0,

@@ -108,7 +108,7 @@ fn every_option_that_changes_the_result_is_in_the_folder() {
         "--load-steps 8",
         "--status projection",
         "--scalar f32",
-        "--solver dense-cholesky",
+        "--solver dense-lu",
         "--inputs decimal",
         "--reading R3=nested",
         "--reading R3=per-node",

@@ -52,7 +52,7 @@ pub(super) struct FreeGaps {
     gaps: Arc<Gaps>,
     /// The places of those that are free among the gaps and slips.
     free: Vec<usize>,
-    factors: DenseCholesky<f64>,
+    factors: DenseCholesky,
 }
 
 /// The motions of a contact node that its gap and slip make: both, or the gap alone, by its one free

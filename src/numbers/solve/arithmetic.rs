@@ -73,7 +73,7 @@ pub struct Arithmetic {
     pub scalar: ScalarName,
     /// dense-lu (Mathcad's own), sparse-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients
     /// to --tol), refined (factors in the scalar below, refined to --tol) [default: sparse-cholesky;
-    /// sparse-lu under printed in f64, f32 and f64-bounded].
+    /// sparse-lu under printed in f64 and f64-bounded].
     pub solver: Option<Solver>,
     /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop; cg also
     /// takes that of A scaled to a unit diagonal, refined the next change of x over x [default: 16 eps
@@ -85,12 +85,12 @@ pub struct Arithmetic {
 }
 
 impl Arithmetic {
-    /// Returns the solver asked for; else sparse LU in a scalar of the machine for a matrix that is
+    /// Returns the solver asked for; else sparse LU in `f64` for a matrix that is
     /// `printed`, which need not be positive definite, and sparse Cholesky for every other one.
     pub fn solver(&self, printed: bool) -> Solver {
-        use ScalarName::{BoundedDouble, Exact, F64x2};
-        let slow = matches!(self.scalar, F64x2 | BoundedDouble | Exact);
-        let own = if printed && !slow { Solver::SparseLu } else { Solver::SparseCholesky };
+        use ScalarName::{Bounded, F64};
+        let by_faer = matches!(self.scalar, F64 | Bounded);
+        let own = if printed && by_faer { Solver::SparseLu } else { Solver::SparseCholesky };
         self.solver.unwrap_or(own)
     }
 
@@ -107,7 +107,7 @@ impl Arithmetic {
             Name::F64 | Name::Bounded => {
                 &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg, Refined]
             }
-            Name::F32 => &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg],
+            Name::F32 => &[DenseLu, SparseCholesky, Cg],
             Name::F64x2 => &[DenseLu, SparseCholesky, Cg, Refined],
             Name::Exact | Name::BoundedDouble => &[DenseLu, SparseCholesky],
         };

@@ -13,7 +13,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::{Conj, Par, Side};
 use nalgebra::DVector;
 
-use super::factors::{Native, column};
+use super::factors::column;
 use super::symmetric::SparseSymmetric;
 
 /// Returns whether a pivot is more than what rounding may leave of its diagonal entry `a`, even in a
@@ -29,27 +29,27 @@ pub fn is_large(pivot: f64, a: f64) -> bool {
 const BY_SUPERNODES: f64 = 1.6;
 
 /// The factor L, and the order P of the equations.
-pub(super) struct Cholesky<T> {
+pub(super) struct Cholesky {
     symbolic: SymbolicCholesky<usize>,
-    values: Vec<T>,
+    values: Vec<f64>,
 }
 
 /// L, column by column or by supernodes.
-enum Lower<'a, T> {
-    Entries(SparseColMatRef<'a, usize, T>),
-    Blocks(SupernodalLltRef<'a, usize, T>),
+enum Lower<'a> {
+    Entries(SparseColMatRef<'a, usize, f64>),
+    Blocks(SupernodalLltRef<'a, usize, f64>),
 }
 
-impl<T: Native> Cholesky<T> {
+impl Cholesky {
     /// Factors a matrix in an order of small fill; None where a pivot is not positive.
-    pub(super) fn new(matrix: &SparseSymmetric<T>) -> Option<Self> {
+    pub(super) fn new(matrix: &SparseSymmetric) -> Option<Self> {
         Self::factored(matrix, SymmetricOrdering::Amd)
     }
 
     /// Factors a matrix in an order of its own: `order` has the equation at each place, `place` the
     /// place of each equation. None where a pivot is not positive.
     pub(super) fn ordered(
-        matrix: &SparseSymmetric<T>,
+        matrix: &SparseSymmetric,
         order: &[usize],
         place: &[usize],
     ) -> Option<Self> {
@@ -57,16 +57,16 @@ impl<T: Native> Cholesky<T> {
         Self::factored(matrix, SymmetricOrdering::Custom(order))
     }
 
-    fn factored(matrix: &SparseSymmetric<T>, order: SymmetricOrdering<usize>) -> Option<Self> {
+    fn factored(matrix: &SparseSymmetric, order: SymmetricOrdering<usize>) -> Option<Self> {
         let side = Side::Lower;
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold(BY_SUPERNODES),
             ..CholeskySymbolicParams::default()
         };
         let symbolic = factorize_symbolic_cholesky(matrix.pattern(), side, order, params).ok()?;
-        let mut values = vec![T::from_f64(0.0); symbolic.len_val()];
+        let mut values = vec![0.0; symbolic.len_val()];
         // One thread: faster for plane problems, and faer's bits depend on the number of threads.
-        let scratch = symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Default::default());
+        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
         let mut memory = MemBuffer::new(scratch);
         let a = SparseColMatRef::new(matrix.pattern(), matrix.values());
         let (regularization, stack) = (LltRegularization::default(), MemStack::new(&mut memory));
@@ -78,8 +78,8 @@ impl<T: Native> Cholesky<T> {
     }
 
     /// Returns the solution x of A x = `b`.
-    pub(super) fn solve(&self, b: &DVector<T>) -> DVector<T> {
-        let scratch = self.symbolic.solve_in_place_scratch::<T>(1, Par::Seq);
+    pub(super) fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
+        let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
         let mut memory = MemBuffer::new(scratch);
         let mut x = b.clone();
         LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
@@ -92,17 +92,17 @@ impl<T: Native> Cholesky<T> {
     }
 
     /// Returns whether every pivot is more than rounding leaves of the matrix's `diagonal`.
-    pub(super) fn has_large_pivots(&self, diagonal: &DVector<T>) -> bool {
+    pub(super) fn has_large_pivots(&self, diagonal: &DVector<f64>) -> bool {
         let pivots = self.pivots().into_iter().zip(diagonal);
-        pivots.into_iter().all(|(pivot, a)| is_large(pivot, a.to_f64()))
+        pivots.into_iter().all(|(pivot, a)| is_large(pivot, *a))
     }
 
     /// Returns the square of each diagonal entry of L, the pivots, by equation.
     fn pivots(&self) -> Vec<f64> {
         let mut pivots = vec![0.0; self.symbolic.nrows()];
         let order = self.symbolic.perm().map(|order| order.arrays().0);
-        let mut keep = |place: usize, l: T| {
-            pivots[order.map_or(place, |order| order[place])] = l.to_f64() * l.to_f64();
+        let mut keep = |place: usize, l: f64| {
+            pivots[order.map_or(place, |order| order[place])] = l * l;
         };
         match self.lower() {
             Lower::Entries(l) => (0..l.ncols()).for_each(|j| keep(j, l.val_of_col(j)[0])),
@@ -118,8 +118,8 @@ impl<T: Native> Cholesky<T> {
 
     /// Visits the entries of L from the row and column `from` on, columns in turn: row and column from
     /// there, value.
-    pub(super) fn visit_last(&self, from: usize, mut visit: impl FnMut(usize, usize, T)) {
-        let mut visit = |i: usize, j: usize, l: &T| visit(i - from, j - from, *l);
+    pub(super) fn visit_last(&self, from: usize, mut visit: impl FnMut(usize, usize, f64)) {
+        let mut visit = |i: usize, j: usize, l: &f64| visit(i - from, j - from, *l);
         match self.lower() {
             Lower::Entries(l) => {
                 for j in from..l.ncols() {
@@ -144,13 +144,13 @@ impl<T: Native> Cholesky<T> {
 
     /// Solves L z = b for the first entries of z, up to `inside`, in place, and leaves in the others
     /// what those leave of b; in the order of the factor.
-    pub(super) fn eliminate(&self, inside: usize, z: &mut [T]) {
+    pub(super) fn eliminate(&self, inside: usize, z: &mut [f64]) {
         match self.lower() {
             Lower::Entries(l) => {
                 for j in 0..inside {
                     let (rows, column) = (l.row_idx_of_col_raw(j), l.val_of_col(j));
                     // Of a load on few equations most stay 0.
-                    if z[j] == T::from_f64(0.0) {
+                    if z[j] == 0.0 {
                         continue;
                     }
                     z[j] /= column[0];
@@ -168,7 +168,7 @@ impl<T: Native> Cholesky<T> {
 
     /// Solves Lᵀ x = z for the first entries of x, up to `inside`, in place, where the others are those of
     /// x already; in the order of the factor.
-    pub(super) fn substitute(&self, inside: usize, x: &mut [T]) {
+    pub(super) fn substitute(&self, inside: usize, x: &mut [f64]) {
         match self.lower() {
             Lower::Entries(l) => {
                 for j in (0..inside).rev() {
@@ -189,7 +189,7 @@ impl<T: Native> Cholesky<T> {
     }
 
     /// Returns L in the form in which it was made.
-    fn lower(&self) -> Lower<'_, T> {
+    fn lower(&self) -> Lower<'_> {
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(symbolic) => {
                 Lower::Entries(SparseColMatRef::new(symbolic.factor(), &self.values))
@@ -203,11 +203,11 @@ impl<T: Native> Cholesky<T> {
 
 /// Returns the sum of the products of the entries of a column with those of `x` in their `rows`, in four
 /// parts, as no one of which waits for another.
-fn product<T: Native>(rows: &[usize], column: &[T], x: &[T]) -> T {
+fn product(rows: &[usize], column: &[f64], x: &[f64]) -> f64 {
     let (rows, column) = (rows.chunks_exact(4), column.chunks_exact(4));
     let last = rows.remainder().iter().zip(column.remainder());
-    let last = last.fold(T::from_f64(0.0), |sum, (i, l)| sum + *l * x[*i]);
-    let mut sums = [T::from_f64(0.0); 4];
+    let last = last.fold(0.0, |sum, (i, l)| sum + *l * x[*i]);
+    let mut sums = [0.0; 4];
     for (rows, column) in rows.zip(column) {
         (0..4).for_each(|k| sums[k] += column[k] * x[rows[k]]);
     }
@@ -215,17 +215,14 @@ fn product<T: Native>(rows: &[usize], column: &[T], x: &[T]) -> T {
 }
 
 /// Takes the numbers of a slice, and leaves zeros.
-fn taken<T: Native>(slice: &mut [T]) -> Vec<T> {
+fn taken(slice: &mut [f64]) -> Vec<f64> {
     let numbers = slice.to_vec();
-    slice.fill(T::from_f64(0.0));
+    slice.fill(0.0);
     numbers
 }
 
 /// Solves with the memory that a factor by supernodes needs.
-fn with_scratch<T: Native>(
-    factor: &SupernodalLltRef<'_, usize, T>,
-    solve: impl FnOnce(&mut MemStack),
-) {
-    let scratch = factor.symbolic().solve_in_place_scratch::<T>(1, Par::Seq);
+fn with_scratch(factor: &SupernodalLltRef<'_, usize, f64>, solve: impl FnOnce(&mut MemStack)) {
+    let scratch = factor.symbolic().solve_in_place_scratch::<f64>(1, Par::Seq);
     solve(MemStack::new(&mut MemBuffer::new(scratch)));
 }

@@ -39,7 +39,7 @@ pub struct Condensed {
 
 /// A part of the matrix that no entry joins to the others, factored.
 struct Part {
-    factor: Cholesky<f64>,
+    factor: Cholesky,
     /// The equation at each place of the order: those inside, then those kept, as they were given.
     order: Vec<usize>,
     /// The places of the latter among all that are kept.

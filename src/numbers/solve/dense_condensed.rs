@@ -18,7 +18,7 @@ use super::factors::{column, of_columns, of_columns_mut};
 
 /// A symmetric matrix condensed to its last equations.
 pub struct DenseCondensed {
-    first: DenseCholesky<f64>,
+    first: DenseCholesky,
     /// X, a column for each of the last equations.
     across: DMatrix<f64>,
     /// The lower triangle of S.
@@ -73,7 +73,7 @@ impl DenseCondensed {
     }
 
     /// Returns the factors of the first equations.
-    pub fn first(&self) -> &DenseCholesky<f64> {
+    pub fn first(&self) -> &DenseCholesky {
         &self.first
     }
 }

@@ -3,34 +3,19 @@
 use std::sync::Arc;
 
 use faer::linalg::solvers::Solve;
-use faer::traits::RealField;
 use faer::{MatMut, MatRef};
 use nalgebra::{DMatrix, DVector};
 
 use crate::scalar::Scalar;
 
-/// A scalar of the machine, which faer computes with.
-pub trait Native: Scalar + RealField {
-    /// The distance of 1 from the next larger number.
-    const EPSILON: f64;
-}
-
-impl Native for f64 {
-    const EPSILON: f64 = f64::EPSILON;
-}
-
-impl Native for f32 {
-    const EPSILON: f64 = f32::EPSILON as f64;
-}
-
 /// The factors of a square matrix A.
-pub trait Factors<T>: Sync {
+pub trait Factors<T = f64>: Sync {
     /// Returns the solution x of A x = `b`.
     fn solve(&self, b: &DVector<T>) -> DVector<T>;
 }
 
 /// Factors of a matrix whose norm is known, by which solutions are refined.
-pub trait Normed: Factors<f64> {
+pub trait Normed: Factors {
     /// Returns the largest row sum of |A|.
     fn norm(&self) -> f64;
 }
@@ -42,10 +27,10 @@ impl<T, F: Factors<T> + Send + ?Sized> Factors<T> for Arc<F> {
 }
 
 /// LU factors of a matrix that they keep.
-pub trait Lu<T>: Factors<T> {
+pub trait Lu: Factors {
     /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
     /// vectors, 0 when x and b are 0.
-    fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64;
+    fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64;
 }
 
 /// A column whose pivot vanished: the matrix has no unique solution.
@@ -56,7 +41,7 @@ pub struct Singular {
     pub pivot: f64,
 }
 
-pub fn solve<T: Native>(factors: &impl Solve<T>, b: &DVector<T>) -> DVector<T> {
+pub fn solve(factors: &impl Solve<f64>, b: &DVector<f64>) -> DVector<f64> {
     let x = factors.solve(MatRef::from_column_major_slice(b.as_slice(), b.len(), 1));
     DVector::from_fn(b.len(), |i, _| x[(i, 0)])
 }

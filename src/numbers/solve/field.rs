@@ -26,6 +26,26 @@ pub trait Field: Clone {
     fn subtract_product(&mut self, a: &Self, b: &Self);
 }
 
+impl Field for f32 {
+    const EPSILON: f64 = f32::EPSILON as f64;
+
+    fn zero() -> Self {
+        0.0
+    }
+    fn size(&self) -> f64 {
+        f64::from(self.abs())
+    }
+    fn vanishes(&self) -> bool {
+        *self == 0.0
+    }
+    fn over(&self, other: &Self) -> Self {
+        self / other
+    }
+    fn subtract_product(&mut self, a: &Self, b: &Self) {
+        *self -= a * b;
+    }
+}
+
 impl Field for F64x2 {
     const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
 

@@ -1,11 +1,13 @@
-//! Sparse LDLᵀ without pivoting, for numbers that no library factors: double-doubles and rationals.
+//! Sparse LDLᵀ without pivoting, for `f32`, double-doubles and rationals.
 //!
 //! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS
 //! 31(4), 2005 (up-looking, by the elimination tree); the order of the equations is that
 //! of `ordering`.
 
+use nalgebra::DVector;
+
 use super::elimination_tree::Tree;
-use super::factors::Singular;
+use super::factors::{Factors, Singular};
 use super::field::Field;
 use super::ordering::{order, places};
 use super::symmetric::SparseSymmetric;
@@ -88,6 +90,12 @@ impl<F: Field> Ldlt<F> {
             x[e] = value;
         }
         x
+    }
+}
+
+impl Factors<f32> for Ldlt<f32> {
+    fn solve(&self, b: &DVector<f32>) -> DVector<f32> {
+        DVector::from_vec(self.solve(b.as_slice()))
     }
 }
 

@@ -1,4 +1,4 @@
-//! Dense LU with row exchanges, for numbers that no library factors: double-doubles and rationals.
+//! Dense LU with row exchanges, for `f32`, double-doubles and rationals.
 
 use nalgebra::DMatrix;
 

@@ -43,7 +43,7 @@ pub use condensed::{Condensed, Eliminated};
 pub use dense::{DenseCholesky, DenseLu};
 pub use dense_condensed::DenseCondensed;
 pub use error_bound::{error_bound, error_of_rest, inverse_norm};
-pub use factors::{Factors, Lu, Native, Normed, Singular, backward_error, largest};
+pub use factors::{Factors, Lu, Normed, Singular, backward_error, largest};
 pub use field::Field;
 pub use iterative::{NotConverged, Unsolved, conjugate_gradients, refine};
 pub use ldlt::Ldlt;

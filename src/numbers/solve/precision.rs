@@ -2,10 +2,10 @@
 //!
 //! | | `f32` | `f64`, `f64-bounded` | `f64x2`, `f64x2-bounded` | `exact` |
 //! |---|---|---|---|---|
-//! | `dense-lu` | faer | faer | own | own |
-//! | `sparse-lu` | faer | faer | - | - |
-//! | `dense-cholesky` | faer | faer | - | - |
-//! | `sparse-cholesky` | faer | faer | LDLᵀ | LDLᵀ modulo a prime, lifted |
+//! | `dense-lu` | own | faer | own | own |
+//! | `sparse-lu` | - | faer | - | - |
+//! | `dense-cholesky` | - | faer | - | - |
+//! | `sparse-cholesky` | LDLᵀ | faer | LDLᵀ | LDLᵀ modulo a prime, lifted |
 //! | `cg` | to `tol` | to `tol` | to `tol`; - with a bound | - |
 //! | `refined` | - | factors in f32 | factors in f64; - with a bound | - |
 
@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use super::arithmetic::Solver;
 use super::dense::{DenseCholesky, DenseLu};
 use super::error_bound::error_bound;
-use super::factors::{Factors, Lu, Native};
+use super::factors::{Factors, Lu};
 use super::field::Field;
 use super::iterative::{Unsolved, conjugate_gradients, refine};
 use super::ldlt::Ldlt;
@@ -80,15 +80,17 @@ pub trait Iterates: Precision {
 }
 
 impl Iterates for f64 {
-    const EPSILON: f64 = <f64 as Native>::EPSILON;
+    const EPSILON: f64 = f64::EPSILON;
 
     fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self> {
-        refined::<f32, f64>(a, b, tol)
+        let factors = Ldlt::new(&a.map(|x| *x as f32))?;
+        let x = refine(&factors, a, b, [tol, tol])?;
+        Ok(Solved { residual: a.residual(&x, b), x })
     }
 }
 
 impl Iterates for f32 {
-    const EPSILON: f64 = <f32 as Native>::EPSILON;
+    const EPSILON: f64 = <f32 as Field>::EPSILON;
 
     fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self> {
         by_gradients(a, b, tol)
@@ -99,7 +101,9 @@ impl Iterates for F64x2 {
     const EPSILON: f64 = <F64x2 as Field>::EPSILON;
 
     fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self> {
-        refined::<f64, F64x2>(a, b, tol)
+        let factors = SparseCholesky::new(a.map(|x| x.to_f64()))?;
+        let x = refine(&factors, a, b, [tol, tol])?;
+        Ok(Solved { residual: a.residual(&x, b), x })
     }
 }
 
@@ -118,11 +122,7 @@ impl Precision for f64 {
 
 impl Precision for f32 {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
-        native(a, b, by, tol)
-    }
-
-    fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
-        Ok(solved(&SparseLu::new(a)?, b))
+        own(&a, b, by, tol)
     }
 }
 
@@ -135,7 +135,7 @@ impl Precision for Bounded {
             return Self::solve_sparse(&a, b);
         }
         let (values, f) = (a.map(Scalar::to_f64).dense(), b.map(Scalar::to_f64));
-        let (factors, solved): (Box<dyn Factors<f64>>, _) = match by {
+        let (factors, solved): (Box<dyn Factors>, _) = match by {
             Solver::DenseLu => {
                 let lu = DenseLu::new(values)?;
                 let solved = solved(&lu, &f);
@@ -169,7 +169,7 @@ impl Precision for BoundedDouble {
 
 /// Returns a solution of A x = b with the bound on its error, by factors of A rounded to `f64`.
 fn with_bound<V: Rounded>(
-    factors: &dyn Factors<f64>,
+    factors: &dyn Factors,
     a: &SparseSquare<WithBound<V>>,
     b: &DVector<WithBound<V>>,
     solved: Solved<V>,
@@ -180,16 +180,25 @@ fn with_bound<V: Rounded>(
 
 impl Precision for F64x2 {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
-        let sparse = SparseSymmetric::of_lower(&a);
-        let x = match by {
-            by if by.iterates() => return Self::iterate(&sparse, b, by, tol),
-            Solver::DenseLu => {
-                DVector::from_vec(solve_dense(|i, j| a[(i, j)], b.as_slice().to_vec())?)
-            }
-            _ => DVector::from_vec(Ldlt::new(&sparse)?.solve(b.as_slice())),
-        };
-        Ok(Solved { residual: sparse.residual(&x, b), x })
+        own(&a, b, by, tol)
     }
+}
+
+/// Solves by elimination of our own, or to a tolerance.
+fn own<T: Field + Iterates>(
+    a: &DMatrix<T>,
+    b: &DVector<T>,
+    by: Solver,
+    tol: Option<f64>,
+) -> Outcome<T> {
+    let sparse = SparseSymmetric::of_lower(a);
+    let x = match by {
+        by if by.iterates() => return T::iterate(&sparse, b, by, tol),
+        Solver::DenseLu => solve_dense(|i, j| a[(i, j)], b.as_slice().to_vec())?,
+        _ => Ldlt::new(&sparse)?.solve(b.as_slice()),
+    };
+    let x = DVector::from_vec(x);
+    Ok(Solved { residual: sparse.residual(&x, b), x })
 }
 
 impl Precision for Exact {
@@ -223,30 +232,23 @@ impl Precision for Exact {
     }
 }
 
-/// Solves in a scalar of the machine by faer, or to a tolerance.
-fn native<T: Native + Iterates>(
-    a: DMatrix<T>,
-    b: &DVector<T>,
-    by: Solver,
-    tol: Option<f64>,
-) -> Outcome<T> {
+/// Solves by faer, or to a tolerance.
+fn native(a: DMatrix<f64>, b: &DVector<f64>, by: Solver, tol: Option<f64>) -> Outcome<f64> {
     match by {
         Solver::DenseLu => return Ok(solved(&DenseLu::new(a)?, b)),
-        Solver::SparseLu => {
-            return T::solve_sparse(&SparseSquare::of(&a), b);
-        }
+        Solver::SparseLu => return f64::solve_sparse(&SparseSquare::of(&a), b),
         _ => (),
     }
     let sparse = SparseSymmetric::of_lower(&a);
     let x = match by {
         Solver::DenseCholesky => DenseCholesky::new(&a)?.solve(b),
-        by if by.iterates() => return T::iterate(&sparse, b, by, tol),
+        by if by.iterates() => return f64::iterate(&sparse, b, by, tol),
         _ => SparseCholesky::new(sparse.clone())?.solve(b),
     };
     Ok(Solved { residual: sparse.residual(&x, b), x })
 }
 
-fn solved<T: Native>(lu: &impl Lu<T>, b: &DVector<T>) -> Solved<T> {
+fn solved(lu: &impl Lu, b: &DVector<f64>) -> Solved<f64> {
     let x = lu.solve(b);
     Solved { residual: lu.residual(&x, b), x }
 }
@@ -254,15 +256,4 @@ fn solved<T: Native>(lu: &impl Lu<T>, b: &DVector<T>) -> Solved<T> {
 fn by_gradients<T: Iterates>(a: &SparseSymmetric<T>, b: &DVector<T>, tol: f64) -> Outcome<T> {
     let x = conjugate_gradients(a, b, tol, T::EPSILON)?;
     Ok(Solved { residual: a.residual(&x, b), x })
-}
-
-/// Solves by sparse Cholesky factors in L, refined by residuals in T.
-fn refined<L: Native, T: Scalar>(
-    matrix: &SparseSymmetric<T>,
-    b: &DVector<T>,
-    tol: f64,
-) -> Outcome<T> {
-    let factors = SparseCholesky::new(matrix.map(|x| L::from_f64(x.to_f64())))?;
-    let x = refine(&factors, matrix, b, [tol, tol])?;
-    Ok(Solved { residual: matrix.residual(&x, b), x })
 }

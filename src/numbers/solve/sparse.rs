@@ -1,14 +1,11 @@
 //! Cholesky factors of sparse symmetric matrices that are positive definite.
 
-use std::marker::PhantomData;
-
 use nalgebra::DVector;
 
 use super::cholesky::Cholesky;
 use super::error_bound::inverse_norm;
-use super::factors::{Factors, Native, Normed, Singular};
+use super::factors::{Factors, Normed, Singular};
 use super::symmetric::SparseSymmetric;
-use crate::scalar::Scalar;
 
 /// Beyond this over the scalar's epsilon (5e14 in f64), the displacements under a load of the size
 /// of the stiffness mean a singular matrix; both are scaled to a unit diagonal.
@@ -23,18 +20,18 @@ const SMALL_PART: f64 = 1e-5;
 const SHIFT: f64 = 1e-10 / f64::EPSILON;
 
 /// A symmetric positive definite matrix and its Cholesky factors.
-pub struct SparseCholesky<T: Native = f64> {
-    matrix: SparseSymmetric<T>,
+pub struct SparseCholesky {
+    matrix: SparseSymmetric,
     /// The largest row sum of its sizes.
     norm: f64,
-    factors: Cholesky<T>,
+    factors: Cholesky,
 }
 
-impl<T: Native> SparseCholesky<T> {
+impl SparseCholesky {
     /// Factors a `matrix` that must be positive definite.
     /// Errors: names an equation that a trial load, scaled by the diagonal, moves without bound:
     /// the matrix is singular or nearly so.
-    pub fn new(matrix: SparseSymmetric<T>) -> Result<Self, Singular> {
+    pub fn new(matrix: SparseSymmetric) -> Result<Self, Singular> {
         let Some(factors) = Cholesky::new(&matrix) else {
             return Err(mechanism(&matrix));
         };
@@ -43,24 +40,24 @@ impl<T: Native> SparseCholesky<T> {
         let Some((column, size)) = probe(&cholesky.factors, &diagonal) else {
             return Ok(cholesky);
         };
-        let small = SMALL_PART * UNBOUNDED / T::EPSILON;
+        let small = SMALL_PART * UNBOUNDED / f64::EPSILON;
         if size < small && cholesky.factors.has_large_pivots(&diagonal) {
             return Ok(cholesky);
         }
         match size.max(largest_motion(&cholesky, &diagonal)) {
-            size if size.is_finite() && size < UNBOUNDED / T::EPSILON => Ok(cholesky),
+            size if size.is_finite() && size < UNBOUNDED / f64::EPSILON => Ok(cholesky),
             size => Err(Singular { column, pivot: 1.0 / size }),
         }
     }
 
     /// Returns the solution x of A x = `b`.
-    pub fn solve(&self, b: &DVector<T>) -> DVector<T> {
+    pub fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         self.factors.solve(b)
     }
 
     /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
     /// vectors, 0 when x and b are 0.
-    pub fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
+    pub fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
         self.matrix.residual(x, b)
     }
 }
@@ -71,31 +68,29 @@ impl Normed for SparseCholesky {
     }
 }
 
-impl<T: Native> Factors<T> for SparseCholesky<T> {
-    fn solve(&self, b: &DVector<T>) -> DVector<T> {
+impl Factors for SparseCholesky {
+    fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         SparseCholesky::solve(self, b)
     }
 }
 
 /// Returns the largest motion under loads of 1, both scaled to a unit diagonal: what no single trial
 /// load is sure to find.
-pub fn largest_motion<T: Native>(factors: &impl Factors<T>, diagonal: &DVector<T>) -> f64 {
-    let scale = diagonal.map(|d| d.to_f64().sqrt());
+pub fn largest_motion(factors: &impl Factors, diagonal: &DVector<f64>) -> f64 {
+    let scale = diagonal.map(|d| d.sqrt());
     let ones = DVector::from_element(scale.len(), 1.0);
-    inverse_norm(&Scaled { factors, scale, scalar: PhantomData }, &ones)
+    inverse_norm(&Scaled { factors, scale }, &ones)
 }
 
 /// The factors of A scaled to a unit diagonal.
-struct Scaled<'a, T, F> {
+struct Scaled<'a, F> {
     factors: &'a F,
     scale: DVector<f64>,
-    scalar: PhantomData<T>,
 }
 
-impl<T: Native, F: Factors<T>> Factors<f64> for Scaled<'_, T, F> {
+impl<F: Factors> Factors for Scaled<'_, F> {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        let load = b.component_mul(&self.scale).map(T::from_f64);
-        self.factors.solve(&load).map(Scalar::to_f64).component_mul(&self.scale)
+        self.factors.solve(&b.component_mul(&self.scale)).component_mul(&self.scale)
     }
 }
 
@@ -107,21 +102,21 @@ pub(super) fn trial_load(i: usize) -> f64 {
 
 /// Returns the equation that moves most under a trial load, and how far, both scaled to a unit
 /// diagonal; nothing without equations.
-fn probe<T: Native>(factors: &Cholesky<T>, diagonal: &DVector<T>) -> Option<(usize, f64)> {
-    let scale = diagonal.map(|d| d.to_f64().sqrt());
-    let load = DVector::from_fn(scale.len(), |i, _| T::from_f64(trial_load(i) * scale[i]));
-    let moved = factors.solve(&load).map(Scalar::to_f64).component_mul(&scale);
+fn probe(factors: &Cholesky, diagonal: &DVector<f64>) -> Option<(usize, f64)> {
+    let scale = diagonal.map(|d| d.sqrt());
+    let load = DVector::from_fn(scale.len(), |i, _| (trial_load(i) * scale[i]));
+    let moved = factors.solve(&load).component_mul(&scale);
     let largest = moved.iter().map(|x| x.abs()).enumerate();
     largest.reduce(|a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a })
 }
 
 /// Returns the equation that a singular matrix leaves free to move.
-pub fn mechanism<T: Native>(matrix: &SparseSymmetric<T>) -> Singular {
+pub fn mechanism(matrix: &SparseSymmetric) -> Singular {
     let diagonal = matrix.diagonal();
-    if let Some(column) = diagonal.iter().position(|d| d.to_f64().is_nan() || d.to_f64() <= 0.0) {
-        return Singular { column, pivot: diagonal[column].to_f64() };
+    if let Some(column) = diagonal.iter().position(|d| d.is_nan() || *d <= 0.0) {
+        return Singular { column, pivot: diagonal[column] };
     }
-    let shifted = Cholesky::new(&matrix.with_diagonal(SHIFT * T::EPSILON));
+    let shifted = Cholesky::new(&matrix.with_diagonal(SHIFT * f64::EPSILON));
     let shifted = shifted.and_then(|factors| probe(&factors, &diagonal));
     let (column, size) = shifted.unwrap_or((0, f64::INFINITY));
     Singular { column, pivot: 1.0 / size }

@@ -6,11 +6,10 @@ use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use nalgebra::DVector;
 
 use super::dense::DenseLu;
-use super::factors::{Factors, Lu, Native, Singular, backward_error, largest, solve};
+use super::factors::{Factors, Lu, Singular, backward_error, largest, solve};
 use super::sparse::{largest_motion, mechanism};
 use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
-use crate::scalar::Scalar;
 
 /// The motion under loads of 1, over that which a pivot of dense LU that counts as 0 would bring,
 /// beyond which dense LU says whether a matrix is singular.
@@ -20,16 +19,16 @@ const DOUBTFUL: f64 = 1e-3;
 const LARGEST_DENSE: usize = 3000;
 
 /// A matrix and its sparse LU factors.
-pub struct SparseLu<T: Native = f64> {
-    matrix: SparseColMat<usize, T>,
-    factors: solvers::Lu<usize, T>,
+pub struct SparseLu {
+    matrix: SparseColMat<usize, f64>,
+    factors: solvers::Lu<usize, f64>,
 }
 
-impl<T: Native> SparseLu<T> {
+impl SparseLu {
     /// Factors an n x n `matrix`, which should be symmetric but for rounding.
     /// Errors: those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
-    pub fn new(matrix: &SparseSquare<T>) -> Result<Self, Singular> {
+    pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
         let columns = columns(matrix);
         faer::set_global_parallelism(Par::Seq);
         let symbolic = SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory");
@@ -38,7 +37,7 @@ impl<T: Native> SparseLu<T> {
         };
         let lu = SparseLu { matrix: columns, factors };
         let motion = motion(&lu, &lu.matrix);
-        if motion < DOUBTFUL * farthest::<T>(matrix.size()) {
+        if motion < DOUBTFUL * farthest(matrix.size()) {
             return Ok(lu);
         }
         judged(matrix, motion).map_or(Ok(lu), Err)
@@ -47,47 +46,47 @@ impl<T: Native> SparseLu<T> {
 
 /// Returns the largest motion of a matrix by its factors, under loads of 1, both scaled to columns whose
 /// largest entry is 1.
-fn motion<T: Native>(factors: &impl Factors<T>, matrix: &SparseColMat<usize, T>) -> f64 {
-    let scale = |j| T::from_f64(largest(matrix.val_of_col(j)));
+fn motion(factors: &impl Factors, matrix: &SparseColMat<usize, f64>) -> f64 {
+    let scale = |j| largest(matrix.val_of_col(j));
     let scale = DVector::from_fn(matrix.ncols(), |j, _| scale(j));
     largest_motion(factors, &scale)
 }
 
-impl<T: Native> Factors<T> for SparseLu<T> {
-    fn solve(&self, b: &DVector<T>) -> DVector<T> {
+impl Factors for SparseLu {
+    fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         solve(&self.factors, b)
     }
 }
 
-impl<T: Native> Lu<T> for SparseLu<T> {
-    fn residual(&self, x: &DVector<T>, b: &DVector<T>) -> f64 {
+impl Lu for SparseLu {
+    fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
         let mut rest = -b;
-        let mut row_sums = DVector::<T>::zeros(x.len());
+        let mut row_sums = DVector::<f64>::zeros(x.len());
         for entry in self.matrix.triplet_iter() {
             rest[entry.row] += *entry.val * x[entry.col];
-            row_sums[entry.row] += Scalar::abs(*entry.val);
+            row_sums[entry.row] += entry.val.abs();
         }
         backward_error(&rest, largest(row_sums.as_slice()), x, b)
     }
 }
 
 /// Returns the motion under loads of 1 that a pivot of dense LU that counts as 0 would bring.
-fn farthest<T: Native>(n: usize) -> f64 {
-    1.0 / (16.0 * n as f64 * T::EPSILON)
+fn farthest(n: usize) -> f64 {
+    1.0 / (16.0 * n as f64 * f64::EPSILON)
 }
 
 /// Returns why a matrix is taken for singular that loads of 1 move by `motion`; None where it is not.
-fn judged<T: Native>(matrix: &SparseSquare<T>, motion: f64) -> Option<Singular> {
+fn judged(matrix: &SparseSquare, motion: f64) -> Option<Singular> {
     let n = matrix.size();
     if n <= LARGEST_DENSE {
         return DenseLu::new(matrix.dense()).err();
     }
-    let moves_too_far = motion.is_nan() || motion >= farthest::<T>(n);
+    let moves_too_far = motion.is_nan() || motion >= farthest(n);
     moves_too_far.then(|| mechanism(&SparseSymmetric::new(n, matrix.entries())))
 }
 
 /// Returns the entries that are not 0, column by column.
-fn columns<T: Native>(matrix: &SparseSquare<T>) -> SparseColMat<usize, T> {
+fn columns(matrix: &SparseSquare) -> SparseColMat<usize, f64> {
     let n = matrix.size();
     let (mut starts, mut rows, mut values) = (vec![0; n + 1], Vec::new(), Vec::new());
     for (row, column, value) in matrix.entries() {
