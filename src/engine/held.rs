@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::condensation::{Bound, refined};
 use super::elimination::Elimination;
+use super::fast::condensation::{Bound, refined};
 use super::session::Session;
 use super::solution::{Solution, Step};
 use super::stiffness::Stiffness;

@@ -2,7 +2,6 @@
 #![forbid(unsafe_code)]
 
 mod assessment;
-pub mod condensation;
 pub mod contact;
 mod decisions;
 mod distance;
@@ -31,10 +30,10 @@ mod support;
 mod unilateral;
 
 pub use assessment::{Assessment, Measured};
-pub use condensation::kept_equations;
 pub use decisions::{Decision, decisions};
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
+pub use fast::condensation::kept_equations;
 pub use found::FoundPairs;
 pub use hertz::Hertz;
 pub use memory::Bytes;

@@ -21,7 +21,7 @@
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::condensation::{Condensation, Factored, few_surfaces};
+use super::fast::condensation::{Condensation, Factored, few_surfaces};
 use super::stiffness::Stiffness;
 use base::error::InputError;
 use problem::model::{Model, NodeId};

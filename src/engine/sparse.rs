@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::condensation::{Bodies, Bound, refined};
 use super::elimination::{Constraint, Elimination};
+use super::fast::condensation::{Bodies, Bound, refined};
 use super::request::Request;
 use super::residual::error_of_solution;
 use super::session::Session;

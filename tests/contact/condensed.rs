@@ -6,8 +6,10 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Barrier};
 
 use nalgebra::DVector;
-use plane_contact::engine::condensation::{Bodies as Condensing, Condensation, Factored, refine};
 use plane_contact::engine::contact::{Pairing, Surfaces};
+use plane_contact::engine::fast::condensation::{
+    Bodies as Condensing, Condensation, Factored, refine,
+};
 use plane_contact::engine::{Constraint, Elimination, Motion, Session, Stiffness};
 use plane_contact::numbers::solve::{Factors, SparseCholesky};
 use plane_contact::problem::element::Plane;

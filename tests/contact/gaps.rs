@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use nalgebra::DVector;
-use plane_contact::engine::condensation::{Bodies as Condensing, Gaps};
 use plane_contact::engine::contact::{Pairing, Surfaces};
+use plane_contact::engine::fast::condensation::{Bodies as Condensing, Gaps};
 use plane_contact::engine::{Constraint, Motion, Session, Stiffness};
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{ContactModel, Coupling};

@@ -6,8 +6,8 @@ use std::rc::Rc;
 
 use nalgebra::DVector;
 
-use crate::condensation::{Bodies, Bound, Eliminated, Inside, OnKept, refined};
 use crate::elimination::{Constraint, Elimination};
+use crate::fast::condensation::{Bodies, Bound, Eliminated, Inside, OnKept, refined};
 use crate::stiffness::Stiffness;
 use numbers::solve::{Normed, Singular, SparseCholesky};
 use problem::model::Model;

@@ -104,7 +104,7 @@ pub(super) fn trial_load(i: usize) -> f64 {
 /// diagonal; nothing without equations.
 fn probe(factors: &Cholesky, diagonal: &DVector<f64>) -> Option<(usize, f64)> {
     let scale = diagonal.map(|d| d.sqrt());
-    let load = DVector::from_fn(scale.len(), |i, _| (trial_load(i) * scale[i]));
+    let load = DVector::from_fn(scale.len(), |i, _| trial_load(i) * scale[i]);
     let moved = factors.solve(&load).component_mul(&scale);
     let largest = moved.iter().map(|x| x.abs()).enumerate();
     largest.reduce(|a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a })

@@ -27,6 +27,6 @@ pub use bodies::{Bodies, kept_equations};
 pub use factored::{Factored, few_surfaces};
 pub use gaps::Gaps;
 pub use refinement::refine;
-pub(super) use refinement::refined;
+pub(crate) use refinement::refined;
 pub use schur::{Condensation, Eliminated};
 pub use state::{Bound, Inside, OnKept};
