@@ -24,7 +24,7 @@ const KINDS: &[(&str, &str)] = &[
 /// ```
 /// let error = serde_json::from_str::<Vec<f64>>(r#"["x"]"#).expect_err("no number");
 /// let words = "the text \"x\" where a number is expected, at line 1 column 4";
-/// assert_eq!(plane_contact::plain::plain(&error), words);
+/// assert_eq!(base::plain::plain(&error), words);
 /// ```
 pub fn plain(error: &impl Display) -> String {
     let text = error.to_string();
