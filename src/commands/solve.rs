@@ -120,17 +120,16 @@ pub fn run(args: &Args) -> Result<u8> {
     let ((solution, accuracy), plan) = (solved?, plan?);
     let assessment = waiting("assessing", || assess(args, &solution, &session))?;
     session.release();
+    let result = if is_written {
+        report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?
+    } else {
+        report::folder::result(&solution, &assessment, Some(&plan), wanted)
+    };
     if args.json {
-        let result = if is_written {
-            report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?
-        } else {
-            report::folder::result(&solution, &assessment, Some(&plan), wanted)
-        };
         tell(&accuracy);
         print(&result)?;
         return Ok(status(&solution));
     }
-    report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?;
     let tables = tables::solution(&solution, &assessment)
         + &tables::error_estimates(&solution, &assessment)
         + &tables::probes(&solution, &assessment)

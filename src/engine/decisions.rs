@@ -11,6 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fast::listings::Boxes;
+use super::not_finite::finite;
 use mathcad::Conjunction;
 use mathcad::array::{Table, rows};
 use numbers::scalar::{Scalar, Unsure};
@@ -39,7 +40,7 @@ impl Decision {
     /// A comparison in iteration `iteration` that counts for `node` and that rounding may have
     /// decided.
     pub fn unsure(iteration: usize, node: NodeId, condition: String, by: Unsure) -> Self {
-        let [margin, bound] = [by.margin, by.bound].map(|x| Some(x).filter(|x| x.is_finite()));
+        let [margin, bound] = [by.margin, by.bound].map(finite);
         Decision { iteration, node, condition, margin, bound }
     }
 }

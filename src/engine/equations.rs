@@ -9,8 +9,7 @@ use super::contact::{Surfaces, hidden};
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
 use super::request::Request;
-use super::session::Session;
-use super::sparse::{MakeSparse, Sparse, State, takes_sparse};
+use super::sparse::{Sparse, State};
 use super::stiffness::Stiffness;
 use super::support::{support, supports};
 use base::error::InputError;
@@ -68,17 +67,15 @@ pub(super) struct Solved<T> {
 }
 
 impl<'a, T: Precision> Equations<'a, T> {
-    /// Prepares the equations of `request`. `load` is the whole load by degree of freedom, force;
-    /// `sparse` solves where the solver takes a sparse matrix.
+    /// Prepares the equations of `request`. `sparse` solves them where the solver takes a sparse matrix.
     ///
     /// # Errors
     /// The stiffness overflows.
     pub fn new(
-        (request, session): (&'a Request, &Session),
+        request: &'a Request,
         model: &'a Arc<Model>,
         sheet: &'a Worksheet<T>,
-        load: DVector<T>,
-        sparse: Option<MakeSparse<T>>,
+        sparse: Option<Box<dyn Sparse<T>>>,
         interpreter: Option<&'a Interpreter>,
         number: &dyn Fn(f64) -> T,
     ) -> Result<Self, Error> {
@@ -86,16 +83,14 @@ impl<'a, T: Precision> Equations<'a, T> {
             Schedule::Total => T::one(),
             Schedule::Stepped => T::from_number(request.iterations),
         };
-        let restrained = restrained(model, request);
+        let (load, restrained) = (model.load_in(number), restrained(model, request));
         let f = DVector::from_fn(load.len(), |e, _| match restrained[e] {
             true => T::zero(),
             false => load[e] / share,
         });
-        let is_sparse = takes_sparse(request.solver(), request.arithmetic.scalar);
-        let sparse = sparse.filter(|_| is_sparse);
         let assembly = match (request.variant, sparse) {
             (Variant::Printed, _) => Assembly::Printed,
-            (_, Some(make)) => Assembly::Sparse(make(request, model, session)),
+            (_, Some(sparse)) => Assembly::Sparse(sparse),
             (_, None) => Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
                 Some(edited) => edited?,
                 None => door::free_stiffness(sheet, &request.reading)?,

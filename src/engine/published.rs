@@ -20,7 +20,7 @@ use super::found::FoundPairs;
 use super::request::Request;
 use super::session::Session;
 use super::solution::{Cycle, Detail, Published, Solution, Step, StepBounds, max_displacement};
-use super::sparse::{MakeSparse, dense_matrices};
+use super::sparse::{MakeSparse, dense_matrices, takes_sparse};
 use super::support::passed_on;
 use base::error::InputError;
 use base::memory;
@@ -60,11 +60,14 @@ pub(super) fn published<T: Precision>(
     let model = request.model()?;
     let number = |x: f64| number_of(request, x);
     let sheet = door::worksheet(&model, number);
-    let load = model.load_in(number);
     let interpreter = (!request.edited.is_empty())
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
     let interpreter = interpreter.as_ref();
-    let mut run = Run::new((request, session), &model, &sheet, load, sparse, interpreter, &number)?;
+    let is_sparse = request.variant != Variant::Printed
+        && takes_sparse(request.solver(), request.arithmetic.scalar);
+    let sparse = sparse.filter(|_| is_sparse).map(|make| make(request, &model, session));
+    let equations = Equations::new(request, &model, &sheet, sparse, interpreter, &number)?;
+    let mut run = Run::new(request, &model, &sheet, interpreter, equations)?;
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
     for k in 1..=request.iterations {
         let step = run.iterate(k)?;
@@ -204,17 +207,13 @@ struct Found<T> {
 
 impl<'a, T: Precision> Run<'a, T> {
     fn new(
-        (request, session): (&'a Request, &Session),
+        request: &'a Request,
         model: &'a Arc<Model>,
         sheet: &'a Worksheet<T>,
-        load: DVector<T>,
-        sparse: Option<MakeSparse<T>>,
         interpreter: Option<&'a Interpreter>,
-        number: &dyn Fn(f64) -> T,
+        equations: Equations<'a, T>,
     ) -> Result<Self, Error> {
         let mortar = request.contact.coupling == Coupling::Mortar;
-        let equations =
-            Equations::new((request, session), model, sheet, load, sparse, interpreter, number)?;
         let surfaces = (mortar && request.variant != Variant::Printed)
             .then(|| Surfaces::new(model))
             .transpose()?;

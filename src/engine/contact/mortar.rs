@@ -18,7 +18,7 @@
 //! The integrals are computed in any scalar. A target edge that covers less than [`ROUNDING`] of a
 //! contact edge does not count, so that no sliver hangs on rounding; what may hang on it is whether two
 //! edges face each other, which of two overlapping target edges is nearer, and whether a node is covered
-//! at all. In numbers with a bound each such comparison is told with the nodes whose weights it counts
+//! at all. In numbers with a bound each such comparison is reported with the nodes whose weights it counts
 //! for.
 
 use std::cmp::Ordering;
@@ -163,7 +163,7 @@ impl<T: Scalar> Search<'_, T> {
     }
 }
 
-/// Returns the order of two distances, which no comparison of the scalar's own tells of.
+/// Returns the order of two distances, without a comparison of the scalar itself, which would be recorded.
 fn in_order<T: Scalar>(a: T, b: T) -> Ordering {
     let beyond = || (a - b).to_f64().partial_cmp(&0.0).unwrap_or(Ordering::Equal);
     a.to_f64().total_cmp(&b.to_f64()).then_with(beyond)

@@ -33,10 +33,7 @@ pub fn c_cnt<T: Scalar>(
             mirror::edge(sheet, node_n, i1, i2, &mut ct)?;
         }
     }
-    let yt = mirror::distances(sheet, node_n, &ct)?;
-    let status = |i1| mirror::status(sheet, reading, &ct, &yt, i1);
-    let (dy, k_cnt) = mirror::weights(sheet, reading, node_n, &ct, &status)?;
-    Ok(Pairs { ct, yt, dy, k_cnt })
+    mirror::on_edges(sheet, reading, node_n, ct)
 }
 
 impl<'a, T: Scalar> Boxes<'a, T> {

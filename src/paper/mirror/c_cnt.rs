@@ -1,6 +1,6 @@
 //! Listing `c_cnt` (fig. 2): the contact pairs (`listings/READING.md`, section 2).
 //!
-//! [`c_cnt`] is the listing. Below it stand its parts in printed order: [`edges`] is lines 2 to 7,
+//! [`c_cnt`] is the listing. Below it stand its parts: [`edges`] is lines 2 to 7, [`on_edges`] the rest:
 //! [`distances`] 8 to 10, [`weights`] 11 to 14 with [`status`] 15 to 18 and [`link`] 19 to 30.
 
 use super::conditions::{and, is_in_box, is_jumped_after, is_jumped_before, is_near};
@@ -55,6 +55,19 @@ pub fn c_cnt<T: Scalar>(
 ) -> Result<Pairs<T>, Failure> {
     //#  1 c_cnt(node_n) :=
     let ct = edges(sheet, node_n)?;
+    on_edges(sheet, reading, node_n, ct)
+}
+
+/// Finds the pairs on the target edges `ct`: lines 8 to 31.
+///
+/// # Errors
+/// Those of [`c_cnt`] from line 8 on.
+pub fn on_edges<T: Scalar>(
+    sheet: &Worksheet<T>,
+    reading: &Reading,
+    node_n: &Table<T>,
+    ct: Column<usize>,
+) -> Result<Pairs<T>, Failure> {
     let yt = distances(sheet, node_n, &ct)?;
     let status = |i1| status(sheet, reading, &ct, &yt, i1);
     let (dy, k_cnt) = weights(sheet, reading, node_n, &ct, &status)?;

@@ -21,29 +21,29 @@ const HANDY_VALUES: Range<i32> = -4..7;
 /// Writes `value` with its errors: `42 +- 3 MPa (mesh), +- 2e-12 (arithmetic)`.
 ///
 /// Given are the value; its unit, which may be empty; and each error, in that unit, with its
-/// source, at least one. An error of None is unknown, which is told in words and leaves the value two
+/// source, at least one. An error of None is unknown, which is said in words and leaves the value two
 /// digits: `about 42 MPa, error unknown (mesh)`.
 pub fn uncertain(value: f64, unit: &str, errors: &[(Option<f64>, &str)]) -> String {
     let known = value.is_finite() && errors.iter().all(|(error, _)| error.is_some());
     let largest =
         errors.iter().filter_map(|(error, _)| *error).fold(0.0, |m: f64, e| m.max(e.abs()));
-    let told = |(k, (error, source)): (usize, &(Option<f64>, &str))| {
+    let error_in_words = |(k, (error, source)): (usize, &(Option<f64>, &str))| {
         let Some(error) = error else { return format!("error unknown ({source})") };
         let rounded = Decimal::at_least(error.abs(), known && error.abs() == largest);
         let rounded = rounded.map_or("0".into(), |r| to_place(r.value(), r.place(), HANDY_ERRORS));
         let unit = if known && k == 0 { unit } else { "" };
         format!("+- {} ({source})", with_unit(&rounded, unit))
     };
-    let told = errors.iter().enumerate().map(told).collect::<Vec<_>>().join(", ");
+    let words = errors.iter().enumerate().map(error_in_words).collect::<Vec<_>>().join(", ");
     if !known {
         let place = if value == 0.0 { 0 } else { exponent(value) - 1 };
-        return format!("about {}, {told}", with_unit(&at_place(value, place), unit));
+        return format!("about {}, {words}", with_unit(&at_place(value, place), unit));
     }
     let shown = match Decimal::at_least(largest, true) {
         Some(error) => at_place(value, error.place()),
         None => shortest(value),
     };
-    format!("{shown} {told}")
+    format!("{shown} {words}")
 }
 
 /// Writes `value` rounded to a multiple of 10^place.

@@ -33,8 +33,11 @@ const REASONS: &[(&str, &str)] = &[
     ("decided_by_rounding", "it is not known who is in contact without rounding"),
     ("displacement_arithmetic", "no bound is known"),
     ("displacement_mesh", "the variant is printed with contact, or a body has too few triangles"),
-    ("distance", "there is no such solution, or the scene has no contact"),
-    ("distance_from_equilibrium", "there is none, or it is the reference solution"),
+    ("distance", "it was left out, there is no such solution, or the scene has no contact"),
+    (
+        "distance_from_equilibrium",
+        "it was left out, there is none, or it is the reference solution",
+    ),
     ("equilibrium", "there is none, or the scene has no contact"),
     ("reference", "there is none, or the scene has no contact"),
     ("change", "the scene stands at none of the places tried, meshes differ, or the run failed"),

@@ -65,7 +65,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
         solved => solved.ok(),
     };
     if let Some(solution) = solution {
-        end(&mut run, &solution, rounding.as_ref(), bounds);
+        end(&mut run, &solution, &stiffness, rounding.as_ref(), bounds);
         run.decided_by_rounding =
             rounding.and_then(|rounding| rounding.decisions).unwrap_or_default();
     }
@@ -298,7 +298,13 @@ fn printed(request: &Request, model: &Model, pairs: &FoundPairs) -> Option<DMatr
 }
 
 /// Records the end of a run: displacements, stresses, reactions and the contact surface.
-fn end(run: &mut Run, solution: &Solution, rounding: Option<&Rounding>, bounds: Bounds) {
+fn end(
+    run: &mut Run,
+    solution: &Solution,
+    stiffness: &Stiffness,
+    rounding: Option<&Rounding>,
+    bounds: Bounds,
+) {
     let (model, units) = (&*solution.model, &solution.request.scene.units);
     let bound = rounding.and_then(|rounding| rounding.displacement);
     let scale = Scale::new(model, solution.u.amax());
@@ -326,7 +332,7 @@ fn end(run: &mut Run, solution: &Solution, rounding: Option<&Rounding>, bounds: 
     let strains = largest(solution, |state| state.von_mises_strain);
     let strains = Numbers::list("", strains, error(|errors| errors.strain));
     set("largest von Mises strain", strains);
-    let force = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
+    let force = stiffness.times(&solution.u) - &model.load;
     let restrained = model.node_ids().filter(|node| model.restraints_of(*node) != [false; 2]);
     let reactions = restrained.map(|node| {
         let (of_node, restrained) = (node.of(&force), model.restraints_of(node));
