@@ -9,6 +9,7 @@ use clap::{Parser, Subcommand};
 use plane_contact::Error;
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::memory;
 use plane_contact::report::failure::failure;
 
 /// Audited reimplementation of a published plane contact algorithm (Filipov & Khomenko): finite
@@ -82,10 +83,8 @@ fn main() -> ExitCode {
         Err(why) => return ended(commands::help(&why).map(done), json),
     };
     // What they take is no longer free when a command asks how much is.
-    if let Err(why) = rayon::ThreadPoolBuilder::new().build_global() {
-        let what = format!("its threads cannot start: {why}");
-        let fix = "give it more memory, or fewer threads (RAYON_NUM_THREADS)";
-        return ended(Err(InputError::new("the process", what, fix).into()), json);
+    if let Err(why) = start_threads() {
+        return ended(Err(why.into()), json);
     }
     let result = match command {
         Command::Record(args) => commands::record::run(&args).map(done),
@@ -117,6 +116,19 @@ fn main() -> ExitCode {
         Command::Schema(args) => commands::schema::run(&args).map(done),
     };
     ended(result, json)
+}
+
+/// Starts the threads that all commands share, as many as rayon would: RAYON_NUM_THREADS, or one for
+/// each processor.
+fn start_threads() -> Result<(), InputError> {
+    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
+    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = asked.filter(|threads| *threads > 0).unwrap_or_else(processors);
+    memory::check_stacks(threads)?;
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(|why| {
+        let what = format!("its threads cannot start: {why}");
+        InputError::new("the process", what, memory::FIX_THREADS)
+    })
 }
 
 /// Returns the exit status of what was done, once an error is said.

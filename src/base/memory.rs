@@ -42,6 +42,27 @@ fn address_space() -> Option<u64> {
     Some(free - (free / 4).min(BETWEEN))
 }
 
+/// What to do about threads that do not fit.
+pub const FIX_THREADS: &str = "give it more memory, or fewer threads (RAYON_NUM_THREADS)";
+
+/// Checks that the stacks of `threads` threads fit in the addresses that the process may still ask for:
+/// a thread that starts where none are left cannot allocate, and aborts the process.
+pub fn check_stacks(threads: usize) -> Result<()> {
+    /// Rust's own size of a thread's stack, bytes.
+    const STACK: f64 = 2_097_152.0;
+    let (needed, free) =
+        (threads as f64 * STACK, address_space().map_or(f64::MAX, |free| free as f64));
+    if needed <= free {
+        return Ok(());
+    }
+    let what = format!(
+        "its threads cannot start: their stacks need {}; {} are free",
+        readable(needed),
+        readable(free)
+    );
+    Err(InputError::new("the process", what, FIX_THREADS))
+}
+
 /// Checks that `needed` bytes fit in those that are free; `place` and `fix` are those of the error.
 pub fn check_bytes(needed: f64, place: &str, whose: &str, fix: &str) -> Result<()> {
     if needed <= LITTLE {
