@@ -8,7 +8,7 @@ use plane_contact::files;
 use plane_contact::report::extremes as report;
 use plane_contact::studies::extremes::{Generator, generators, measure};
 
-use super::{TablesArgs, folder, print, print_fitted, waiting};
+use super::{TablesArgs, folder, print, print_report, waiting};
 
 /// Sweep magnitudes until something breaks down, every answer compared with exact numbers.
 #[derive(clap::Args)]
@@ -44,7 +44,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let chosen = chosen(generators(), &args.names)?;
     if args.list {
-        return print_fitted(&report::list(&chosen));
+        return print_report(report::list(&chosen));
     }
     args.tables.check("extremes")?;
     let out = folder(&args.out, "extremes".into());

@@ -46,7 +46,8 @@ use plane_contact::problem::modelling::{
     check_tolerance,
 };
 use plane_contact::problem::scene::{Load, Scene, SceneBuilder};
-use plane_contact::report::printed;
+use plane_contact::report::model::Report;
+use plane_contact::report::text::fitted;
 
 /// The option that all commands share.
 #[derive(clap::Args)]
@@ -264,7 +265,7 @@ pub fn say_written(folder: &Path, written: bool) {
 /// Writes to standard error, for people; where that cannot be written, results and exit status are as
 /// if it could.
 pub fn tell(text: &str) {
-    let _ = std::io::stderr().write_all(printed::fitted(text, width()).as_bytes());
+    let _ = std::io::stderr().write_all(fitted(text, width()).as_bytes());
 }
 
 /// Shows the help that was asked for, with the styles of a terminal where it fits.
@@ -313,30 +314,35 @@ impl TablesArgs {
         Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &command, &[]))?)
     }
 
-    /// Prints a text with tables, which `command` made.
-    pub fn print(&self, command: &str, text: &str) -> Result<()> {
+    /// Prints a report that `command` made.
+    pub fn print(&self, command: &str, report: impl Into<Report>) -> Result<()> {
+        let report = report.into();
         if let Some(folder) = &self.csv {
-            let tables = printed::tables(text).into_iter();
+            let tables = report.csv().into_iter();
             let tables: Vec<_> = tables.map(|(name, csv)| (format!("{name}.csv"), csv)).collect();
             files::write_all(folder, &format!("{command} --csv"), &tables)?;
         }
-        print_fitted(text)
+        print_report(report)
     }
 }
 
-/// Prints a text for people: its tables and lines fitted to the terminal, and nothing in it that
-/// commands one.
-pub fn print_fitted(text: &str) -> Result<()> {
-    print(&printed::fitted(text, width()))
+/// Prints a report, fitted to the terminal.
+pub fn print_report(report: impl Into<Report>) -> Result<()> {
+    print(&report.into().text(width()))
 }
 
-/// Prints a document, or in its place the text for people.
-pub fn print_either(
+/// Prints lines of prose, fitted to the terminal.
+pub fn print_fitted(text: &str) -> Result<()> {
+    print(&fitted(text, width()))
+}
+
+/// Prints a document, or in its place a report.
+pub fn print_either<R: Into<Report>>(
     json: bool,
     document: impl FnOnce() -> String,
-    text: impl FnOnce() -> String,
+    report: impl FnOnce() -> R,
 ) -> Result<()> {
-    if json { print(&document()) } else { print_fitted(&text()) }
+    if json { print(&document()) } else { print_report(report()) }
 }
 
 /// Returns the characters of a line: those of the terminal; where there is none, of the variable

@@ -12,7 +12,7 @@ use plane_contact::studies::audit::findings::FINDINGS;
 use plane_contact::studies::benchmark::Kind;
 use plane_contact::suggestion::did_you_mean;
 
-use super::print_fitted;
+use super::{print_fitted, print_report};
 
 /// List the scenes that are part of the program, the findings' own, and the generators.
 #[derive(clap::Args)]
@@ -48,7 +48,7 @@ pub fn run(_: &Args) -> Result<()> {
     let generators = generators.get_subcommands();
     let generators: Vec<_> =
         generators.map(|c| (c.get_name().to_string(), about(c).unwrap_or_default())).collect();
-    print_fitted(&report::text(&scenes, &findings, &generators))
+    print_report(report::text(&scenes, &findings, &generators))
 }
 
 pub fn run_scene(args: &SceneArgs) -> Result<()> {

@@ -1,0 +1,49 @@
+//! The tables of a report as CSV (RFC 4180).
+
+use super::model::{Block, Report, Table};
+use super::printed;
+
+impl Report {
+    /// Returns each table as CSV, with the name of its file: the first words of its title.
+    pub fn csv(&self) -> Vec<(String, String)> {
+        let mut files: Vec<(String, String)> = Vec::new();
+        for block in &self.blocks {
+            match block {
+                Block::Table { title, table } => {
+                    let mut name = name(title);
+                    if files.iter().any(|(other, _)| *other == name) {
+                        name += &format!("-{}", files.len() + 1);
+                    }
+                    files.push((name, table.csv()));
+                }
+                Block::Printed(text) => files.extend(printed::tables(text)),
+                Block::Heading { .. } | Block::Line { .. } | Block::Code(_) => {}
+            }
+        }
+        files
+    }
+}
+
+/// Returns a file's name of the first words of a title.
+fn name(title: &str) -> String {
+    let end = title.find([':', '(', ',']).unwrap_or(title.len());
+    let words = title[..end].split(|c: char| !c.is_ascii_alphanumeric());
+    let words: Vec<_> = words.filter(|word| !word.is_empty()).map(str::to_lowercase).collect();
+    if words.is_empty() { "table".into() } else { words.join("-") }
+}
+
+impl<R> Table<R> {
+    /// Writes the headings and the rows, numbers with all their digits.
+    pub fn csv(&self) -> String {
+        let rows = self.cells.iter().map(|row| row.iter().map(|cell| cell.exact()).collect());
+        std::iter::once(self.headings.clone()).chain(rows).map(line).collect()
+    }
+}
+
+fn line(cells: Vec<String>) -> String {
+    let quoted = |cell: String| match cell.contains(['"', ',', '\n', '\r']) {
+        true => format!("\"{}\"", cell.replace('"', "\"\"")),
+        false => cell,
+    };
+    cells.into_iter().map(quoted).collect::<Vec<_>>().join(",") + "\r\n"
+}

@@ -1,0 +1,271 @@
+//! What a command reports to people: headings, lines, code and tables with typed cells. Text, CSV
+//! and Markdown are renderings of it (`text`, `csv`, `markdown`).
+
+use std::fmt::{self, Display, Formatter};
+
+use super::numbers::{percent, short};
+use problem::model::{NodeId, TriangleId};
+
+/// A report, from its first block to its last.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    pub blocks: Vec<Block>,
+}
+
+/// A part of a report.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Block {
+    /// The heading of the report (level 1) or of a section (level 2).
+    Heading { level: usize, text: String },
+    /// A line of prose; from level 1 on it belongs to what stands above it.
+    Line { level: usize, text: String },
+    /// Lines that are shown as they are.
+    Code(String),
+    /// A table under its title, which may be empty.
+    Table { title: String, table: Table },
+    /// A text with tables, which `printed` takes apart.
+    Printed(String),
+}
+
+impl From<String> for Report {
+    fn from(text: String) -> Self {
+        Report { blocks: vec![Block::Printed(text)] }
+    }
+}
+
+impl From<&String> for Report {
+    fn from(text: &String) -> Self {
+        text.clone().into()
+    }
+}
+
+impl Report {
+    /// Starts a report under its heading.
+    pub fn titled(text: impl Into<String>) -> Self {
+        Report::default().with(Block::Heading { level: 1, text: text.into() })
+    }
+
+    fn with(mut self, block: Block) -> Self {
+        self.blocks.push(block);
+        self
+    }
+
+    #[must_use]
+    pub fn heading(self, text: impl Into<String>) -> Self {
+        self.with(Block::Heading { level: 2, text: text.into() })
+    }
+
+    #[must_use]
+    pub fn line(self, text: impl Into<String>) -> Self {
+        self.with(Block::Line { level: 0, text: text.into() })
+    }
+
+    /// Adds a line that belongs to what stands above it.
+    #[must_use]
+    pub fn note(self, text: impl Into<String>) -> Self {
+        self.with(Block::Line { level: 1, text: text.into() })
+    }
+
+    /// Adds a line that belongs to the note above it.
+    #[must_use]
+    pub fn detail(self, text: impl Into<String>) -> Self {
+        self.with(Block::Line { level: 2, text: text.into() })
+    }
+
+    /// Adds notes, or the one note that an option has.
+    #[must_use]
+    pub fn notes(self, texts: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        texts.into_iter().fold(self, Report::note)
+    }
+
+    #[must_use]
+    pub fn code(self, lines: impl Into<String>) -> Self {
+        self.with(Block::Code(lines.into()))
+    }
+
+    /// Adds a table under its title, whose first words name its CSV file.
+    #[must_use]
+    pub fn table<R>(self, title: impl Into<String>, table: Table<R>) -> Self {
+        let Table { headings, cells, .. } = table;
+        self.with(Block::Table { title: title.into(), table: Table { rows: (), headings, cells } })
+    }
+
+    /// Adds all of another report.
+    #[must_use]
+    pub fn then(mut self, other: impl Into<Report>) -> Self {
+        self.blocks.extend(other.into().blocks);
+        self
+    }
+}
+
+/// Cells in rows and columns, made column by column of `rows`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table<R = ()> {
+    rows: R,
+    pub headings: Vec<String>,
+    /// Row by row, a cell for each heading.
+    pub cells: Vec<Vec<Cell>>,
+}
+
+impl<R> Table<Vec<R>> {
+    /// Starts a table with a row for each of `rows`.
+    pub fn of(rows: impl IntoIterator<Item = R>) -> Self {
+        let rows: Vec<R> = rows.into_iter().collect();
+        Table { cells: vec![Vec::new(); rows.len()], rows, headings: Vec::new() }
+    }
+
+    /// Adds a column: its heading, and its cell of each row.
+    #[must_use]
+    pub fn column<C: Into<Cell>>(mut self, heading: impl Display, cell: impl Fn(&R) -> C) -> Self {
+        self.headings.push(heading.to_string());
+        for (cells, row) in self.cells.iter_mut().zip(&self.rows) {
+            cells.push(cell(row).into());
+        }
+        self
+    }
+}
+
+/// A cell of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// Nothing belongs here.
+    Empty,
+    /// There is no number, and why.
+    Missing(Option<&'static str>),
+    Text(String),
+    Integer(i128),
+    /// A finite number, and how it is shown.
+    Number {
+        value: f64,
+        notation: Notation,
+    },
+    /// A finite part of 1, shown in per cent with so many decimals.
+    Percent {
+        part: f64,
+        decimals: usize,
+    },
+}
+
+/// How a number is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Notation {
+    /// As [`short`] writes it.
+    Short,
+    /// With so many decimals.
+    Decimals(usize),
+    /// With so many decimals before a power of ten.
+    Scientific(usize),
+}
+
+impl Cell {
+    /// Shows a number with so many decimals.
+    pub fn decimals(value: f64, decimals: usize) -> Self {
+        Cell::number(value, Notation::Decimals(decimals))
+    }
+
+    /// Shows a number with so many decimals before a power of ten.
+    pub fn scientific(value: f64, decimals: usize) -> Self {
+        Cell::number(value, Notation::Scientific(decimals))
+    }
+
+    /// Shows a part of 1 in per cent with so many decimals.
+    pub fn percent(part: f64, decimals: usize) -> Self {
+        if part.is_finite() { Cell::Percent { part, decimals } } else { Cell::Missing(None) }
+    }
+
+    fn number(value: f64, notation: Notation) -> Self {
+        if value.is_finite() { Cell::Number { value, notation } } else { Cell::Missing(None) }
+    }
+
+    /// Says why there is no number, where there is none.
+    #[must_use]
+    pub fn because(self, reason: &'static str) -> Self {
+        match self {
+            Cell::Missing(_) => Cell::Missing(Some(reason)),
+            cell => cell,
+        }
+    }
+
+    /// Whether a column of such cells stands to the right.
+    pub fn is_numeric(&self) -> bool {
+        match self {
+            Cell::Missing(_) | Cell::Integer(_) | Cell::Number { .. } | Cell::Percent { .. } => {
+                true
+            }
+            Cell::Empty | Cell::Text(_) => false,
+        }
+    }
+
+    /// Writes a cell for machines: numbers with all their digits, none as nothing.
+    pub fn exact(&self) -> String {
+        match self {
+            Cell::Empty | Cell::Missing(_) => String::new(),
+            Cell::Text(text) => text.clone(),
+            Cell::Integer(n) => n.to_string(),
+            Cell::Number { value, .. } => format!("{value:?}"),
+            Cell::Percent { part, .. } => format!("{part:?}"),
+        }
+    }
+}
+
+/// Writes a cell for people; a number that is missing as `-`.
+impl Display for Cell {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        match *self {
+            Cell::Empty => Ok(()),
+            Cell::Missing(_) => write!(out, "-"),
+            Cell::Text(ref text) => write!(out, "{text}"),
+            Cell::Integer(n) => write!(out, "{n}"),
+            Cell::Number { value, notation: Notation::Short } => write!(out, "{}", short(value)),
+            Cell::Number { value, notation: Notation::Decimals(n) } => write!(out, "{value:.n$}"),
+            Cell::Number { value, notation: Notation::Scientific(n) } => {
+                write!(out, "{value:.n$e}")
+            }
+            Cell::Percent { part, decimals } => write!(out, "{}", percent(part, decimals)),
+        }
+    }
+}
+
+/// Shows a number as [`short`] writes it.
+impl From<f64> for Cell {
+    fn from(value: f64) -> Self {
+        Cell::number(value, Notation::Short)
+    }
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        if text.is_empty() { Cell::Empty } else { Cell::Text(text) }
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        text.to_string().into()
+    }
+}
+
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Cell::Missing(None), T::into)
+    }
+}
+
+macro_rules! integers {
+    ($($of:ty: $number:expr),+) => {
+        $(impl From<$of> for Cell {
+            fn from(number: $of) -> Self {
+                Cell::Integer(($number)(number) as i128)
+            }
+        })+
+    };
+}
+
+integers!(
+    u8: |n| n,
+    u32: |n| n,
+    u64: |n| n,
+    usize: |n| n,
+    NodeId: NodeId::number,
+    TriangleId: TriangleId::number
+);

@@ -1,0 +1,173 @@
+//! A report as text, fitted to a width, with nothing in it that controls a terminal.
+
+use super::layout::filled;
+use super::model::{Block, Cell, Report, Table};
+use super::printed;
+
+impl Report {
+    /// Writes the report in lines of at most `width` characters: prose is broken between words, and a
+    /// table that is wider becomes a record for each row.
+    pub fn text(&self, width: usize) -> String {
+        let mut text = String::new();
+        let mut previous = None;
+        for block in &self.blocks {
+            if previous.is_some_and(|previous| is_apart(previous, block)) {
+                text += "\n";
+            }
+            text += &match block {
+                Block::Heading { text, .. } => fitted(text, width),
+                Block::Line { level, text } => fitted(&indented(text, *level), width),
+                Block::Code(lines) => fitted(&indented(lines, 1), width),
+                Block::Table { title, table } if title.is_empty() => table.text(width),
+                Block::Table { title, table } => fitted(title, width) + &table.text(width),
+                Block::Printed(text) => printed::fitted(text, width),
+            };
+            previous = Some(block);
+        }
+        text
+    }
+}
+
+/// Whether a blank line stands between two blocks.
+fn is_apart(previous: &Block, next: &Block) -> bool {
+    match (previous, next) {
+        (Block::Printed(_), _) | (_, Block::Printed(_)) => false,
+        (_, Block::Heading { .. }) => true,
+        (_, Block::Table { title, .. }) if !title.is_empty() => true,
+        (Block::Table { .. }, Block::Table { .. }) => true,
+        (Block::Heading { .. } | Block::Line { level: 0, .. }, _) => false,
+        (_, Block::Line { level, .. }) => *level == 0,
+        (_, Block::Code(_) | Block::Table { .. }) => false,
+    }
+}
+
+fn indented(text: &str, level: usize) -> String {
+    text.lines().map(|line| format!("{}{line}\n", "  ".repeat(level))).collect()
+}
+
+/// Returns text as it is shown in lines of at most `width` characters: a line is broken between
+/// words, a word that is longer than a line too, and what controls a terminal becomes U+FFFD.
+pub fn fitted(text: &str, width: usize) -> String {
+    let text = text.replace(controls_a_terminal, "\u{fffd}");
+    let text: String = text.lines().map(|line| prose(line, width)).collect();
+    text.lines().map(|line| broken(line, width)).collect()
+}
+
+/// Whether a character is a control character other than a line feed or a tab, or changes the
+/// direction of the text behind it.
+fn controls_a_terminal(c: char) -> bool {
+    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || c.is_control() && !['\n', '\t'].contains(&c)
+}
+
+fn length(line: &str) -> usize {
+    line.chars().count()
+}
+
+/// Fills a line between words; where it is longer than `width`, the next ones stand two further in.
+fn prose(line: &str, width: usize) -> String {
+    if length(line) <= width {
+        return format!("{line}\n");
+    }
+    let words = line.trim_start();
+    let blanks = line.len() - words.len();
+    filled(&" ".repeat(blanks), blanks + 2, width, words.split(' '), " ")
+}
+
+/// Breaks a line within its words where it is longer than `width`, after a slash where there is one.
+fn broken(line: &str, width: usize) -> String {
+    let (mut text, mut rest) = (String::new(), line.to_string());
+    let indent = line.len() - line.trim_start_matches(' ').len();
+    while length(&rest) > width {
+        let fits: String = rest.chars().take(width).collect();
+        let slash = fits.rfind('/').map(|place| place + 1).filter(|place| *place > indent + 1);
+        let (start, end) = rest.split_at(slash.unwrap_or(fits.len()));
+        text += &format!("{}\n", start.trim_end());
+        rest = " ".repeat(indent) + end.trim_start();
+    }
+    text + &rest + "\n"
+}
+
+impl Table {
+    /// Writes the rows in columns, or as records where these are wider than `width`; then why numbers
+    /// are missing, each reason once.
+    fn text(&self, width: usize) -> String {
+        let shown = |cell: &Cell| cell.to_string().replace(char::is_whitespace, " ");
+        let rows: Vec<Vec<String>> =
+            self.cells.iter().map(|row| row.iter().map(shown).collect()).collect();
+        let aligned = self.aligned(&rows);
+        let fits = aligned.lines().all(|line| length(line) <= width);
+        let rows = if fits { aligned } else { self.records(&rows, width) };
+        let notes = self.reasons().into_iter().map(|reason| format!("  -: {reason}\n"));
+        fitted(&(rows + &notes.collect::<String>()), width)
+    }
+
+    /// Returns why numbers are missing, each reason once.
+    fn reasons(&self) -> Vec<&'static str> {
+        let mut reasons = Vec::new();
+        for cell in self.cells.iter().flatten() {
+            if let Cell::Missing(Some(reason)) = cell
+                && !reasons.contains(reason)
+            {
+                reasons.push(*reason);
+            }
+        }
+        reasons
+    }
+
+    /// Lays out the rows in columns under their headings: numbers to the right, words to the left.
+    fn aligned(&self, rows: &[Vec<String>]) -> String {
+        let columns = 0..self.headings.len();
+        let lines = || std::iter::once(&self.headings).chain(rows);
+        let widths: Vec<usize> = columns
+            .clone()
+            .map(|j| lines().map(|line| length(&line[j])).max().unwrap_or(0))
+            .collect();
+        let numeric: Vec<bool> =
+            columns.map(|j| self.cells.iter().all(|row| row[j].is_numeric())).collect();
+        let line = |cells: &Vec<String>| {
+            let cells = cells.iter().zip(&widths).zip(&numeric).map(|((cell, &width), numeric)| {
+                if *numeric { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+            });
+            format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
+        };
+        let rule: Vec<String> = widths.iter().map(|width| "-".repeat(*width)).collect();
+        let rows: String = rows.iter().map(line).collect();
+        format!("{}  {}\n{rows}", line(&self.headings), rule.join("  "))
+    }
+
+    /// Writes a record for each row: its first cell, then each other cell beside its heading, or
+    /// behind it where that would be too wide.
+    fn records(&self, rows: &[Vec<String>], width: usize) -> String {
+        let headings = self.headings.iter().skip(1).map(|heading| length(heading)).max();
+        let headings = headings.unwrap_or(0);
+        let beside = self.records_by(rows, width, |heading, cell| {
+            let start = format!("    {heading:<headings$}  ");
+            filled(&start, headings + 6, width, cell.split(' '), " ")
+        });
+        if beside.lines().all(|line| length(line) <= width) {
+            return beside;
+        }
+        self.records_by(rows, width, |heading, cell| {
+            let words = format!("{heading}: {cell}");
+            prose(&format!("    {}", words.trim_start_matches(": ")), width)
+        })
+    }
+
+    /// Writes a record for each row: its first cell, then what `line` makes of a heading and another
+    /// cell.
+    fn records_by(
+        &self,
+        rows: &[Vec<String>],
+        width: usize,
+        line: impl Fn(&str, &str) -> String,
+    ) -> String {
+        let record = |row: &Vec<String>| {
+            let first = format!("{} {}", self.headings[0], row[0]);
+            let first = filled("  ", 4, width, first.trim().split(' '), " ");
+            let cells = self.headings.iter().zip(row).skip(1).filter(|(_, cell)| !cell.is_empty());
+            first + &cells.map(|(heading, cell)| line(heading, cell)).collect::<String>()
+        };
+        rows.iter().map(record).collect()
+    }
+}
