@@ -5,7 +5,8 @@ mod commands;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser};
+use commands::Command;
 use plane_contact::Error;
 use plane_contact::error::InputError;
 use plane_contact::files;
@@ -17,6 +18,15 @@ use plane_contact::report::failure::failure;
 #[derive(Parser)]
 #[command(
     version,
+    arg_required_else_help = true,
+    args_conflicts_with_subcommands = true,
+    subcommand_value_name = "COMMAND",
+    help_template = "\
+{about-with-newline}
+{usage-heading} {usage}
+
+{before-help}Options:
+{options}{after-help}",
     after_help = "\
 Exit status: 0 done; 1 what was compared differs; 2 the input is at fault; 3 the published
 algorithm fails as printed (an audit result); 4 no equilibrium was found, or more than one.
@@ -25,97 +35,64 @@ Examples:
   plane-contact solve                        the paper's example
   plane-contact solve fig1 --variant printed
   plane-contact audit                        every ambiguity and finding, on the paper's example
-  plane-contact c-cnt fig1
-  plane-contact km fig1 --coupled-by none"
+  plane-contact listing run c_cnt fig1
+  plane-contact snapshot record fig1
+  plane-contact scene copy fig1 --out my     a scene to edit
+  plane-contact --completions bash > /etc/bash_completion.d/plane-contact"
 )]
 struct Cli {
+    /// Print the completions of a shell.
+    #[arg(long, value_name = "SHELL")]
+    completions: Option<clap_complete::Shell>,
+    /// Print a man page.
+    #[arg(long, conflicts_with = "completions")]
+    man: bool,
     #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Subcommand)]
-enum Command {
-    Solve(commands::solve::Args),
-    Record(commands::record::Args),
-    Verify(commands::verify::Args),
-    Explain(commands::verify::ExplainArgs),
-    Diff(commands::diff::Args),
-    Accept(commands::accept::Args),
-    Sweep(commands::sweep::Args),
-    Key(commands::sweep::KeyArgs),
-    Audit(commands::audit::Args),
-    CCnt(commands::c_cnt::Args),
-    Km(commands::km::Args),
-    Mesh(commands::mesh::Args),
-    Scenes(commands::scenes::Args),
-    Scene(commands::scenes::SceneArgs),
-    Plan(commands::plan::Args),
-    Statuses(commands::statuses::Args),
-    Trace(commands::trace::Args),
-    Evaluate(commands::evaluate::Args),
-    Mathcad(commands::mathcad::Args),
-    Listing(commands::listing::Args),
-    Lesson(commands::lesson::Args),
-    Report(commands::report::Args),
-    Trade(commands::trade::Args),
-    Export(commands::export::Args),
-    Compare(commands::compare::Args),
-    Extremes(commands::extremes::Args),
-    Schema(commands::schema::Args),
+    command: Option<Command>,
 }
 
 fn main() -> ExitCode {
     #[cfg(unix)]
     heed_signals();
-    let done = |()| 0;
     // Every command that prints JSON has this option.
     let json = std::env::args_os().any(|arg| arg == "--json");
-    let command = match Cli::try_parse() {
-        Ok(Cli { command }) => command,
+    let mut grammar = Cli::command();
+    grammar = grammar.before_help(commands::grouped(&grammar));
+    let parsed = grammar.try_get_matches_from_mut(std::env::args_os());
+    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
+        Ok(cli) => cli,
         Err(why) if why.use_stderr() => {
+            let renamed = commands::renamed(&why);
             if json {
-                let _ = commands::print(&failure(&usage(&why)));
+                let _ = commands::print(&failure(&usage(&why, renamed.as_deref())));
             }
-            commands::tell(&why.render().to_string());
+            match renamed {
+                Some(text) => commands::print_stderr(&format!("error: {text}\n")),
+                None => commands::print_stderr(&why.render().to_string()),
+            }
             return ExitCode::from(2);
         }
         // What was asked for is help, or the version.
-        Err(why) => return ended(commands::help(&why).map(done), json),
+        Err(why) => return exit_code(commands::help(&why).map(|()| 0), json),
+    };
+    let Some(command) = cli.command else {
+        return exit_code(commands::print(&shell_files(&cli, grammar)).map(|()| 0), json);
     };
     // What they take is no longer free when a command asks how much is.
     if let Err(why) = start_threads() {
-        return ended(Err(why.into()), json);
+        return exit_code(Err(why.into()), json);
     }
-    let result = match command {
-        Command::Record(args) => commands::record::run(&args).map(done),
-        Command::Verify(args) => commands::verify::run(&args),
-        Command::Explain(args) => commands::verify::run_explain(&args),
-        Command::Diff(args) => commands::diff::run(&args),
-        Command::Accept(args) => commands::accept::run(&args).map(done),
-        Command::Sweep(args) => commands::sweep::run(&args),
-        Command::Key(args) => commands::sweep::run_key(&args).map(done),
-        Command::Solve(args) => commands::solve::run(&args),
-        Command::Audit(args) => commands::audit::run(&args).map(done),
-        Command::CCnt(args) => commands::c_cnt::run(&args).map(done),
-        Command::Km(args) => commands::km::run(&args).map(done),
-        Command::Mesh(args) => commands::mesh::run(&args).map(done),
-        Command::Scenes(args) => commands::scenes::run(&args).map(done),
-        Command::Scene(args) => commands::scenes::run_scene(&args).map(done),
-        Command::Plan(args) => commands::plan::run(&args).map(done),
-        Command::Statuses(args) => commands::statuses::run(&args).map(done),
-        Command::Trace(args) => commands::trace::run(&args),
-        Command::Evaluate(args) => commands::evaluate::run(&args),
-        Command::Mathcad(args) => commands::mathcad::run(&args),
-        Command::Listing(args) => commands::listing::run(&args).map(done),
-        Command::Lesson(args) => commands::lesson::run(&args).map(done),
-        Command::Report(args) => commands::report::run(&args).map(done),
-        Command::Trade(args) => commands::trade::run(&args).map(done),
-        Command::Export(args) => commands::export::run(&args).map(done),
-        Command::Compare(args) => commands::compare::run(&args).map(done),
-        Command::Extremes(args) => commands::extremes::run(&args).map(done),
-        Command::Schema(args) => commands::schema::run(&args).map(done),
-    };
-    ended(result, json)
+    exit_code(command.run(), json)
+}
+
+/// Returns the completions of a shell, or the man page: what is asked for in place of a command.
+fn shell_files(cli: &Cli, mut grammar: clap::Command) -> String {
+    let mut text = Vec::new();
+    match cli.completions {
+        Some(shell) => clap_complete::generate(shell, &mut grammar, "plane-contact", &mut text),
+        None => clap_mangen::Man::new(grammar).render(&mut text).expect("memory can be written"),
+    }
+    String::from_utf8(text).expect("help is UTF-8")
 }
 
 /// Starts the threads that all commands share, as many as rayon would: RAYON_NUM_THREADS, or one for
@@ -131,15 +108,15 @@ fn start_threads() -> Result<(), InputError> {
     })
 }
 
-/// Returns the exit status of what was done, once an error is said.
-fn ended(result: Result<u8, Error>, json: bool) -> ExitCode {
+/// Returns the exit status of a command, once its error is reported.
+fn exit_code(result: Result<u8, Error>, json: bool) -> ExitCode {
     match result {
         Ok(status) => ExitCode::from(status),
         Err(error) => {
             if json {
                 let _ = commands::print(&failure(&error));
             }
-            ExitCode::from(commands::told(&error))
+            ExitCode::from(commands::report_error(&error))
         }
     }
 }
@@ -168,10 +145,10 @@ fn is_ignored(signal: i32) -> bool {
 }
 
 /// Returns a fault of the command line.
-fn usage(why: &clap::Error) -> Error {
+fn usage(why: &clap::Error, renamed: Option<&str>) -> Error {
     let text = why.render().to_string();
     let start = text.lines().take_while(|line| !line.is_empty()).map(str::trim);
     let start = start.collect::<Vec<_>>().join(" ");
-    let what = start.trim_start_matches("error: ");
+    let what = renamed.unwrap_or(start.trim_start_matches("error: "));
     InputError::new("the command line", what, "see --help").into()
 }

@@ -11,13 +11,14 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::Wanted;
-use plane_contact::report::{audit as report, folder, pressure};
+use plane_contact::report::{audit as report, folder, pressure, statuses as status_report};
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::range::range;
+use plane_contact::studies::audit::statuses::measure;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
 use plane_contact::suggestion::did_you_mean;
 
-use super::{TablesArgs, print, print_either, progress, tell};
+use super::{TablesArgs, print, print_either, print_stderr, progress, waiting};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -27,12 +28,18 @@ then three tables: the readings (what the other reading changes), the findings (
 arise, contradicted; with a number), and the variants side by side. --finding explains one on its
 smallest scene, or on SCENE where that is given. The whole takes 30 to 80 times as long as solve.
 
+--statuses: for a node that jumped deeper into the target than c_tll the paper names two remedies and
+takes the cheaper: signs, as the listing prints it, and intersection; projection is the exact answer.
+Wrong statuses are counted by depth of the jump, operations by size. It takes 150 times as long as
+solve on fig1.
+
 Examples:
   plane-contact audit
   plane-contact audit fig1 --json
   plane-contact audit --range
   plane-contact audit --finding C4
   plane-contact audit strand --finding K1
+  plane-contact audit --statuses --scenes 1000 --json
   plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
                                                   a picture a finding and a variant")]
 pub struct Args {
@@ -47,6 +54,16 @@ pub struct Args {
     /// says which); takes several times as long.
     #[arg(long, conflicts_with_all = ["scene", "finding"])]
     range: bool,
+    /// Compare the rules that decide who is in contact, on random scenes whose statuses are known.
+    #[arg(long, conflicts_with_all = ["scene", "finding", "range"])]
+    statuses: bool,
+    /// Random scenes for each row of the tables of --statuses.
+    #[arg(long, value_name = "N", default_value_t = 200, requires = "statuses")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    scenes: u32,
+    /// Seed of the random scenes.
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "statuses")]
+    seed: u64,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -60,8 +77,21 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     match &args.finding {
         Some(id) => explain(args, find(id)?),
+        None if args.statuses => statuses(args),
         None => whole(args),
     }
+}
+
+fn statuses(args: &Args) -> Result<()> {
+    args.tables.check("audit")?;
+    let measured = waiting("measuring", || measure(args.scenes as usize, args.seed));
+    let (text, json) = (status_report::text(&measured), status_report::json(&measured));
+    if let Some(out) = &args.out {
+        let picture = status_report::picture(&measured);
+        let files = [("statuses.json", &json), ("statuses.svg", &picture)];
+        files::write_all(out, "audit --statuses", &files)?;
+    }
+    if args.json { print(&json) } else { args.tables.print("audit", &text) }
 }
 
 fn find(id: &str) -> Result<&'static Finding, InputError> {
@@ -100,7 +130,7 @@ fn whole(args: &Args) -> Result<()> {
     let case = Case::within_memory(scene)?;
     let places = if args.range { range(Reading::default())? } else { Vec::new() };
     if !std::io::stderr().is_terminal() {
-        tell(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
+        print_stderr(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
     }
     let bar = progress(steps(), "auditing {pos} of {len} {wide_bar} {eta}");
     let found = audit(&case, &places, &|| bar.inc(1));

@@ -9,16 +9,8 @@ use plane_contact::files;
 use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
-use super::{TablesArgs, export::DeckArgs};
-use super::{folder, folder_name, print, waiting};
-
-plane_contact::choices! {
-    /// A code whose results are compared.
-    Code {
-        /// CalculiX.
-        Calculix = "calculix",
-    }
-}
+use super::calculix::{Code, DeckArgs};
+use super::{TablesArgs, folder, folder_name, print, waiting};
 
 /// Run a scene here and in another code, and show the differences.
 #[derive(clap::Args)]
@@ -34,16 +26,15 @@ each contact state, summed.
 contact.
 
 Examples:
-  plane-contact compare strand --with calculix --variant tied
-  plane-contact compare strand --with calculix --variant unilateral --coupling mortar --friction 0
-  plane-contact compare strand --with calculix --variant unilateral --friction 0 \
-                        --contact pair --penalty 1e7 --json")]
+  plane-contact compare strand --variant tied
+  plane-contact compare strand --variant unilateral --coupling mortar --friction 0
+  plane-contact compare strand --variant unilateral --friction 0 --contact pair --penalty 1e7")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
     scene: String,
     /// The code.
-    #[arg(long, value_name = "CODE")]
+    #[arg(long, value_name = "CODE", default_value = "calculix")]
     with: Code,
     #[command(flatten)]
     deck: DeckArgs,

@@ -13,7 +13,7 @@ use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::lesson::exercise::Exercise;
 use plane_contact::studies::lesson::{Switch, repair, run as execute, switches};
 
-use super::{read_listing, say_written, waiting};
+use super::{read_listing, report_written, waiting};
 
 /// Write a page that teaches the listings: both of them, stepped forwards and backwards on a scene.
 #[derive(clap::Args)]
@@ -40,7 +40,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     listing: Option<String>,
     /// Make the page of an exercise: a scene that belongs to this number, such as a student's, and
-    /// to the seed. The page saves answers for `plane-contact verify`.
+    /// to the seed. The page saves answers for `plane-contact snapshot verify`.
     #[arg(long, value_name = "N", conflicts_with_all = ["scene", "nodes", "listing"])]
     exercise: Option<u64>,
     /// The seed of the class.
@@ -62,7 +62,7 @@ pub fn run(args: &Args) -> Result<()> {
     let own = || Path::new("out").join(format!("{name}.html"));
     let out = args.out.clone().unwrap_or_else(own);
     files::write(&out, &page)?;
-    say_written(&out, true);
+    report_written(&out, true);
     Ok(())
 }
 

@@ -1,31 +1,20 @@
-//! One module a command.
+//! The commands: one module for each, one folder for each group.
 
-pub mod accept;
-mod answers;
 mod arithmetic;
-pub mod audit;
-pub mod c_cnt;
-pub mod compare;
-pub mod diff;
-pub mod evaluate;
-pub mod export;
-pub mod extremes;
-pub mod km;
-pub mod lesson;
-pub mod listing;
-pub mod mathcad;
-pub mod mesh;
-pub mod plan;
-pub mod record;
-pub mod report;
-pub mod scenes;
-pub mod schema;
-pub mod solve;
-pub mod statuses;
-pub mod sweep;
-pub mod trace;
-pub mod trade;
-pub mod verify;
+mod audit;
+mod calculix;
+mod compare;
+mod extremes;
+mod lesson;
+mod listing;
+mod mathcad;
+mod report;
+mod scene;
+mod schema;
+mod snapshot;
+mod solve;
+mod sweep;
+mod trade;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -33,6 +22,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use arithmetic::ArithmeticArgs;
+use clap::Subcommand;
+use clap::error::{ContextKind, ErrorKind};
 use indicatif::{ProgressBar, ProgressStyle};
 use plane_contact::engine::Request;
 use plane_contact::engine::error::{Error, Result};
@@ -49,11 +40,110 @@ use plane_contact::problem::scene::{Load, Scene, SceneBuilder};
 use plane_contact::report::model::Report;
 use plane_contact::report::text::fitted;
 
+#[derive(Subcommand)]
+pub enum Command {
+    Solve(solve::Args),
+    Extremes(extremes::Args),
+    Trade(trade::Args),
+    Sweep(sweep::Args),
+    Audit(audit::Args),
+    Report(report::Args),
+    Lesson(lesson::Args),
+    Compare(compare::Args),
+    #[command(subcommand)]
+    Listing(listing::Command),
+    #[command(subcommand)]
+    Mathcad(mathcad::Command),
+    #[command(subcommand)]
+    Snapshot(snapshot::Command),
+    #[command(subcommand)]
+    Scene(scene::Command),
+    Schema(schema::Args),
+}
+
+impl Command {
+    /// Runs the command; returns the exit status.
+    pub fn run(self) -> Result<u8> {
+        let done = |()| 0;
+        match self {
+            Command::Solve(args) => solve::run(&args),
+            Command::Extremes(args) => extremes::run(&args).map(done),
+            Command::Trade(args) => trade::run(&args).map(done),
+            Command::Sweep(args) => sweep::run(&args),
+            Command::Audit(args) => audit::run(&args).map(done),
+            Command::Report(args) => report::run(&args).map(done),
+            Command::Lesson(args) => lesson::run(&args).map(done),
+            Command::Compare(args) => compare::run(&args).map(done),
+            Command::Listing(command) => listing::run(&command),
+            Command::Mathcad(command) => mathcad::run(&command),
+            Command::Snapshot(command) => snapshot::run(&command),
+            Command::Scene(command) => scene::run(&command).map(done),
+            Command::Schema(args) => schema::run(&args).map(done),
+        }
+    }
+}
+
+/// The commands as the first page of help groups them.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Compute", &["solve", "compare", "trade", "extremes", "sweep"]),
+    ("Audit and teach", &["audit", "report", "lesson"]),
+    ("Listings and Mathcad", &["listing", "mathcad"]),
+    ("Snapshots", &["snapshot"]),
+    ("Scenes and files", &["scene", "schema"]),
+];
+
+/// Returns the list of the commands by group, each with what it does or the commands in it.
+pub fn grouped(grammar: &clap::Command) -> String {
+    let row = |name: &&str| {
+        let command = grammar.find_subcommand(name).expect("a group has commands that exist");
+        let about = command.get_about().expect("a command says what it does");
+        format!("  {name:<9} {about}\n")
+    };
+    let group = |(heading, names): &(&str, &[&str])| {
+        format!("{heading}:\n{}", names.iter().map(row).collect::<String>())
+    };
+    GROUPS.iter().map(group).collect::<Vec<_>>().join("\n")
+}
+
+/// Commands that have another name than before, and that name.
+const RENAMED: &[(&str, &str)] = &[
+    ("record", "snapshot record"),
+    ("verify", "snapshot verify"),
+    ("explain", "snapshot explain"),
+    ("diff", "snapshot diff"),
+    ("accept", "snapshot accept"),
+    ("c-cnt", "listing run c_cnt"),
+    ("km", "listing run Km"),
+    ("trace", "listing trace"),
+    ("evaluate", "listing evaluate"),
+    ("listing LISTING", "listing convert LISTING"),
+    ("mathcad FILE.xmcd", "mathcad run FILE.xmcd"),
+    ("export", "mathcad export`, `mathcad probe` or `scene export"),
+    ("scenes", "scene list"),
+    ("scene NAME", "scene copy NAME"),
+    ("mesh", "scene mesh"),
+    ("plan", "scene plan"),
+    ("key", "scene key"),
+    ("statuses", "audit --statuses"),
+];
+
+/// Returns what a command that was called by its old name is called now.
+pub fn renamed(why: &clap::Error) -> Option<String> {
+    if why.kind() != ErrorKind::InvalidSubcommand {
+        return None;
+    }
+    let verb = std::env::args_os().nth(1)?;
+    let is_asked = |(old, _): &&(&str, &str)| verb.to_str() == old.split(' ').next();
+    let (old, new) = RENAMED.iter().find(is_asked)?;
+    // A command in a group may be mistyped.
+    let is_mistyped = old.contains(' ') && why.get(ContextKind::SuggestedSubcommand).is_some();
+    (!is_mistyped).then(|| format!("`{old}` is now `{new}`"))
+}
+
 /// The option that all commands share.
 #[derive(clap::Args)]
 pub struct ReadingArg {
     /// Readings that differ from the default, such as R2=printed,R5=node_n.
-    ///
     /// R1 beside|inside, R2 odd|printed, R3 collect|per-node|nested, R4
     /// guarded|left-to-right|eager, R5 node|node_n, R6 strain|stress (default: the scene's), R7
     /// total|stepped (default: the variant's), R8 mm|m (unit of c_tol in a scene in mm).
@@ -252,9 +342,9 @@ pub fn within(error: Error, place: &str) -> Error {
     }
 }
 
-/// Says on standard error that files were written to `folder`, or why not.
-pub fn say_written(folder: &Path, written: bool) {
-    tell(&match written {
+/// Prints to standard error that files were written to `folder`, or why not.
+pub fn report_written(folder: &Path, written: bool) {
+    print_stderr(&match written {
         true => format!("Written to {}\n", folder.display()),
         false => {
             "No field is written: the two runs have no displacements of the same nodes\n".into()
@@ -262,9 +352,9 @@ pub fn say_written(folder: &Path, written: bool) {
     });
 }
 
-/// Writes to standard error, for people; where that cannot be written, results and exit status are as
+/// Prints to standard error, for people; where that cannot be written, results and exit status are as
 /// if it could.
-pub fn tell(text: &str) {
+pub fn print_stderr(text: &str) {
     let _ = std::io::stderr().write_all(fitted(text, width()).as_bytes());
 }
 
@@ -275,9 +365,9 @@ pub fn help(asked: &clap::Error) -> Result<()> {
     if fits { print_by(|_| asked.print()) } else { print_fitted(&text) }
 }
 
-/// Says on standard error why a command that printed its document fails, and returns the exit status.
-pub fn told(error: &Error) -> u8 {
-    tell(&format!("error: {error}\n"));
+/// Prints an error to standard error; returns its exit status.
+pub fn report_error(error: &Error) -> u8 {
+    print_stderr(&format!("error: {error}\n"));
     error.exit_status()
 }
 

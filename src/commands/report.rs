@@ -13,7 +13,7 @@ use plane_contact::report::page::report::{self as page, Report};
 use plane_contact::studies::audit::{Case, audit};
 use plane_contact::studies::calculix::{self, Comparison, Contact, Fields, Pair, Part};
 
-use super::{say_written, waiting};
+use super::{report_written, waiting};
 
 /// The most bytes of a chart of `trade`; one has some 30,000.
 const CHART: u64 = 1 << 24;
@@ -61,7 +61,7 @@ pub fn run(args: &Args) -> Result<()> {
     let charts = args.charts.as_deref().map_or(Ok(Vec::new()), charts)?;
     let html = waiting("auditing", || page_of(args, &case, charts))?;
     files::write(&args.out, &html)?;
-    say_written(&args.out, true);
+    report_written(&args.out, true);
     Ok(())
 }
 

@@ -16,25 +16,24 @@ does not name is not allowed.
 Examples:
   plane-contact schema                       the list
   plane-contact schema result
+  plane-contact schema listing trace
   plane-contact schema scene > scene.schema.json")]
 pub struct Args {
     /// The name of a schema, or of a command [default: the list of them].
     #[arg(value_name = "NAME")]
-    name: Option<String>,
-    /// List the schemas: name, documents, commands.
-    #[arg(long, conflicts_with = "name")]
-    list: bool,
+    name: Vec<String>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let Some(name) = &args.name else {
+    if args.name.is_empty() {
         let line = |schema: &plane_contact::report::schema::Named| {
             let commands: String =
                 schema.commands.iter().map(|c| format!(", {c} --json")).collect();
             format!("{:<10}{}{commands}\n", schema.name, schema.of)
         };
         return print_fitted(&SCHEMAS.iter().map(line).collect::<String>());
-    };
+    }
+    let name = args.name.join(" ");
     let asked = |commands: &[&str]| commands.contains(&name.as_str());
     let schema = SCHEMAS.iter().find(|schema| schema.name == name || asked(schema.commands));
     let schema = schema.ok_or_else(|| {

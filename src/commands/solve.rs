@@ -18,8 +18,8 @@ use plane_contact::studies::trade::{check_accuracy, solve_to};
 
 use super::arithmetic::ArithmeticArgs;
 use super::{
-    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, progress, tell, told,
-    waiting,
+    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, print_stderr,
+    progress, read_listing, report_error, waiting,
 };
 
 /// Run the iterations and write pictures and data.
@@ -126,7 +126,7 @@ pub fn run(args: &Args) -> Result<u8> {
         report::folder::result(&solution, &assessment, Some(&plan), wanted)
     };
     if args.json {
-        tell(&accuracy);
+        print_stderr(&accuracy);
         print(&result)?;
         return Ok(status(&solution));
     }
@@ -185,7 +185,7 @@ fn edited(args: &Args, mut request: Request) -> Result<Request> {
     for (which, file) in [(Which::CCnt, &args.c_cnt), (Which::Km, &args.km)] {
         let Some(file) = file else { continue };
         let place = file.display().to_string();
-        let edited = Edited::new(&place, &super::read_listing(&place)?)?;
+        let edited = Edited::new(&place, &read_listing(&place)?)?;
         if edited.which != which {
             let what = format!("it is the listing {}, not {which}", edited.which);
             return Err(InputError::new(place, what, "give it to the other option").into());
@@ -229,7 +229,7 @@ fn status(solution: &Solution) -> u8 {
         return 0;
     }
     let what = "the one that was found is not the only one: see the line Equilibrium".into();
-    told(&NoEquilibrium { cause: Cause::Several, what }.into())
+    report_error(&NoEquilibrium { cause: Cause::Several, what }.into())
 }
 
 /// Returns the solution, and under `--accuracy` how its precision was found.

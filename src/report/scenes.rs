@@ -27,6 +27,6 @@ pub fn text(
     format!(
         "Scenes: plane-contact solve NAME\n{scenes}\n\
          Findings: plane-contact audit --finding ID; the scene is findings/ID\n{findings}\n\
-         Generators: plane-contact mesh KIND\n{generators}"
+         Generators: plane-contact scene mesh KIND\n{generators}"
     )
 }

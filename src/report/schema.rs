@@ -38,7 +38,7 @@ pub const SCHEMAS: &[Named] = &[
     Named { name: "answers", of: "answers to an exercise", commands: &[], make: read::<Answers> },
     Named {
         name: "marks",
-        of: "what verify --json prints of answers",
+        of: "what snapshot verify prints of answers",
         commands: &[],
         make: printed::<OfNone<answers::Document>>,
     },
@@ -64,9 +64,9 @@ pub const SCHEMAS: &[Named] = &[
         make: printed::<OfScene<audit::FindingRow>>,
     },
     Named {
-        name: "c-cnt",
+        name: "c_cnt",
         of: "a call of c_cnt",
-        commands: &["c-cnt"],
+        commands: &["listing run c_cnt"],
         make: printed::<OfScene<Found>>,
     },
     Named {
@@ -78,7 +78,7 @@ pub const SCHEMAS: &[Named] = &[
     Named {
         name: "evaluate",
         of: "a program's value or failure",
-        commands: &["evaluate"],
+        commands: &["listing evaluate"],
         make: printed::<OfNone<evaluation::Document>>,
     },
     Named {
@@ -90,25 +90,25 @@ pub const SCHEMAS: &[Named] = &[
     Named {
         name: "mathcad",
         of: "a worksheet, executed",
-        commands: &["mathcad"],
+        commands: &["mathcad run"],
         make: printed::<OfNone<worksheet::Document>>,
     },
     Named {
         name: "plan",
         of: "the plan of a run",
-        commands: &["plan"],
+        commands: &["scene plan"],
         make: printed::<OfScene<plan::Document>>,
     },
     Named {
         name: "statuses",
-        of: "the status rules measured",
-        commands: &["statuses"],
+        of: "audit --statuses",
+        commands: &[],
         make: printed::<OfNone<Measurement>>,
     },
     Named {
         name: "trace",
         of: "a listing executed",
-        commands: &["trace"],
+        commands: &["listing trace"],
         make: printed::<OfScene<trace::Document>>,
     },
     Named {
@@ -120,7 +120,7 @@ pub const SCHEMAS: &[Named] = &[
     Named {
         name: "verify",
         of: "what differs between runs",
-        commands: &["verify", "explain", "diff"],
+        commands: &["snapshot verify", "snapshot explain", "snapshot diff"],
         make: printed::<OfNone<snapshot::Document>>,
     },
 ];

@@ -1,4 +1,4 @@
-//! Sweeps on the engines that run many jobs: a job file each, by the engine's own means.
+//! Sweeps on the engines that run many jobs: a job file, or a list of commands.
 //!
 //! Every case is `plane-contact sweep FILE --case K --row ROW`, which writes one file and leaves an
 //! equal one alone; `plane-contact sweep FILE --rows DIR` gathers the rows and runs what is missing.
@@ -15,10 +15,8 @@ choices! {
         HyperQueue = "hyperqueue",
         /// Snakemake: a rule for each case.
         Snakemake = "snakemake",
-        /// Slurm: a batch script with an array.
-        Slurm = "slurm",
-        /// GNU parallel.
-        Parallel = "parallel",
+        /// Any other: a command of the shell on each line.
+        Commands = "commands",
     }
 }
 
@@ -45,25 +43,13 @@ impl Jobs<'_> {
         (self.memory / 1e6).ceil() as u64
     }
 
-    fn last(&self) -> usize {
-        self.cases - 1
-    }
-
     /// Returns the job file for an engine.
     pub fn file(&self, engine: Engine) -> String {
         match engine {
             Engine::HyperQueue => self.hyperqueue(),
             Engine::Snakemake => self.snakemake(),
-            Engine::Slurm => self.slurm(),
-            Engine::Parallel => self.parallel(),
+            Engine::Commands => self.commands(),
         }
-    }
-
-    /// Returns lines of the shell that name the program, the sweep and the rows; job files name them by
-    /// these variables alone, which no engine takes for its own signs.
-    fn variables(&self) -> String {
-        let [program, sweep, rows] = self.words().map(|word| quoted(&word));
-        format!("export PROGRAM={program} SWEEP={sweep} ROWS={rows}\n")
     }
 
     /// Returns the program, the sweep and the rows, none of which a program takes for an option.
@@ -105,50 +91,14 @@ impl Jobs<'_> {
         )
     }
 
-    fn slurm(&self) -> String {
-        format!(
-            "#!/bin/sh\n\
-             # Slurm: sbatch this file. A case whose row could not be written is queued again.\n\
-             # When all have ended: \"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"\n\
-             #SBATCH --job-name=sweep\n\
-             #SBATCH --array=0-{last}\n\
-             #SBATCH --cpus-per-task=1\n\
-             #SBATCH --mem={memory}M\n\
-             #SBATCH --requeue\n\
-             {variables}\
-             mkdir -p \"$ROWS\"\n\
-             case=$SLURM_ARRAY_TASK_ID\n\
-             \"$PROGRAM\" sweep \"$SWEEP\" --case \"$case\" --row \"$ROWS/$case.json\"\n\
-             status=$?\n\
-             if [ $status -eq {again} ]; then\n    \
-                 scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$case\"\n\
-             fi\n\
-             exit $status\n",
-            last = self.last(),
-            memory = self.megabytes(),
-            variables = self.variables(),
-            again = TRY_AGAIN,
-        )
-    }
-
-    /// The command is one word, which GNU parallel gives to a shell: what stands in the variables is
-    /// neither its sign nor the shell's.
-    fn parallel(&self) -> String {
-        format!(
-            "#!/bin/sh\n\
-             # GNU parallel: sh this file; started again it goes on where it was.\n\
-             set -e\n\
-             export PARALLEL_SHELL=/bin/sh\n\
-             {variables}\
-             mkdir -p \"$ROWS\"\n\
-             seq 0 {last} | parallel --joblog \"$ROWS/joblog\" --resume-failed --retries 3 \\\n    \
-                 --memfree {memory}M \\\n    \
-                 '\"$PROGRAM\" sweep \"$SWEEP\" --case {{}} --row \"$ROWS/{{}}.json\"'\n\
-             \"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"\n",
-            last = self.last(),
-            memory = self.megabytes(),
-            variables = self.variables(),
-        )
+    fn commands(&self) -> String {
+        let [program, sweep, rows] = self.words();
+        let (program, sweep) = (quoted(&program), quoted(&sweep));
+        let command = |case: usize| {
+            let row = quoted(&format!("{rows}/{case}.json"));
+            format!("{program} sweep {sweep} --case {case} --row {row}\n")
+        };
+        (0..self.cases).map(command).collect()
     }
 
     /// The folder of the rows is named by a link: Snakemake takes braces in a name for wildcards.

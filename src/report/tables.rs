@@ -1,4 +1,4 @@
-//! The tables of `solve` and `c-cnt`.
+//! The tables of `solve` and `listing run c_cnt`.
 
 use super::layout::{Table, aligned, counted, listed};
 use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, with_unit};

@@ -260,7 +260,7 @@ fn hertz_has_the_half_width_and_peak_of_its_closed_form() {
 #[test]
 fn the_program_writes_a_folder_that_it_solves() {
     let folder = TempDir::new().unwrap();
-    let made = run(folder.path(), &["mesh", "cook", "--n", "4", "--out", "here/cook"]);
+    let made = run(folder.path(), &["scene", "mesh", "cook", "--n", "4", "--out", "here/cook"]);
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
     assert!(String::from_utf8_lossy(&made.stdout).contains("25 nodes, 32 triangles"));
     for file in ["scene.json", "cook.msh"] {
@@ -273,7 +273,7 @@ fn the_program_writes_a_folder_that_it_solves() {
 #[test]
 fn the_program_refuses_a_parameter_with_status_2() {
     let folder = TempDir::new().unwrap();
-    let refused = run(folder.path(), &["mesh", "punch-patch", "--punch", "5"]);
+    let refused = run(folder.path(), &["scene", "mesh", "punch-patch", "--punch", "5"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("--punch"));
     assert!(!folder.path().join("out").exists(), "nothing is written");

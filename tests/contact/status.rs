@@ -540,20 +540,20 @@ fn the_command_prints_tables_or_json() {
         let output = program::run(Path::new("."), args);
         (output.status.code(), String::from_utf8(output.stdout).unwrap())
     };
-    let (status, tables) = run(&["statuses", "--scenes", "3"]);
+    let (status, tables) = run(&["audit", "--statuses", "--scenes", "3"]);
     assert_eq!(status, Some(0));
     for words in ["seed 1", "depth / c_tll", "signs", "intersection", "projection", "Operations"] {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }
-    let (_, json) = run(&["statuses", "--scenes", "3", "--seed", "7", "--json"]);
+    let (_, json) = run(&["audit", "--statuses", "--scenes", "3", "--seed", "7", "--json"]);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!((&json["scenes"], &json["seed"]), (&3.into(), &7.into()));
     assert_eq!(json["by_depth"][0]["rules"][1]["rule"], "intersection");
-    assert_eq!(run(&["statuses", "--scenes", "0"]).0, Some(2));
+    assert_eq!(run(&["audit", "--statuses", "--scenes", "0"]).0, Some(2));
     let folder = tempfile::TempDir::new().unwrap();
-    let picture = folder.path().join("statuses.svg");
-    run(&["statuses", "--scenes", "3", "--picture", picture.to_str().unwrap()]);
-    let svg = std::fs::read_to_string(picture).unwrap();
+    let out = folder.path().join("o");
+    run(&["audit", "--statuses", "--scenes", "3", "--out", out.to_str().unwrap()]);
+    let svg = std::fs::read_to_string(out.join("statuses.svg")).unwrap();
     let svg = roxmltree::Document::parse(&svg).expect("the picture is XML");
     let points = svg.descendants().filter(|node| node.has_tag_name("circle")).count();
     assert_eq!(points, 36, "6 depths, 3 rules, 2 orientations");

@@ -28,7 +28,7 @@ fn integers_are_exact_and_floats_within_the_tolerance_of_their_line() {
 
 /// `golden/<scene>/snapshot.json` of every shipped scene: facts of every iteration, displacements,
 /// stresses, reactions and the contact surface of every variant. A golden snapshot changes by
-/// `plane-contact accept` only, with its reason.
+/// `plane-contact snapshot accept` only, with its reason.
 #[test]
 fn snapshots_of_every_scene_and_variant() {
     for scene in SCENES {
@@ -74,7 +74,7 @@ fn every_golden_file_is_used() {
     for scene in SCENES {
         // By this program, and by `tests/program/texts.rs`.
         let by_variant = |variant: &Variant| format!("solve-{variant}.snap");
-        let once = ["audit", "plan", "c-cnt"].map(|name| format!("{name}.snap"));
+        let once = ["audit", "plan", "c_cnt"].map(|name| format!("{name}.snap"));
         let mut expected: Vec<String> = Variant::ALL.iter().map(by_variant).chain(once).collect();
         if scene.name == "fig1" {
             let decks = ["tied", "unilateral", "pair"].map(|deck| format!("calculix-{deck}"));

@@ -115,8 +115,10 @@ fn octave_has_our_displacements_on_shipped_scenes() {
     let folder = TempDir::new().expect("a folder");
     for (scene, name) in [("fig1", "fig1"), ("two-blocks", "two_blocks")] {
         let file = format!("{name}.m");
-        let written =
-            run(folder.path(), &["export", scene, "--to", "octave", "--out", file.as_str()]);
+        let written = run(
+            folder.path(),
+            &["mathcad", "export", scene, "--to", "octave", "--out", file.as_str()],
+        );
         assert!(written.status.success(), "{}", String::from_utf8_lossy(&written.stderr));
         let printed = execute(folder.path(), &[name.to_string()]).remove(0).expect("it runs");
         let sheet = initial(scene);

@@ -145,7 +145,7 @@ fn json_alone_writes_no_file_and_a_failure_is_json() {
     assert!(printed.lines().count() > 100, "a line a fact");
     for args in [
         &["solve", "fig1", "--reading", "R4=eager", "--json"][..],
-        &["c-cnt", "fig1", "--reading", "R4=eager", "--json"],
+        &["listing", "run", "c_cnt", "fig1", "--reading", "R4=eager", "--json"],
     ] {
         let output = run(folder.path(), args);
         assert_eq!(output.status.code(), Some(3));
@@ -153,7 +153,7 @@ fn json_alone_writes_no_file_and_a_failure_is_json() {
         let failure = &failure["failure"];
         assert_eq!((&failure["exit_status"], &failure["line"]), (&3.into(), &18.into()));
     }
-    let output = run(folder.path(), &["plan", "nowhere", "--json"]);
+    let output = run(folder.path(), &["scene", "plan", "nowhere", "--json"]);
     let failure: Value = serde_json::from_str(text(&output.stdout)).unwrap();
     assert_eq!(
         (&failure["failure"]["kind"], &failure["failure"]["where"]),
@@ -166,16 +166,17 @@ fn json_alone_writes_no_file_and_a_failure_is_json() {
 fn a_scene_is_read_from_standard_input() {
     let folder = TempDir::new().unwrap();
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/fig1/scene.json");
-    for (command, named) in [("c-cnt", "fig1"), ("solve", "fig1")] {
+    for command in [&["listing", "run", "c_cnt"][..], &["solve"]] {
         let output = Command::new(env!("CARGO_BIN_EXE_plane-contact"))
-            .args([command, "-", "--json"])
+            .args(command)
+            .args(["-", "--json"])
             .current_dir(folder.path())
             .stdin(std::fs::File::open(&golden).unwrap())
             .output()
             .unwrap();
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         let printed = text(&output.stdout).replace("\"stdin\"", "\"fig1\"");
-        assert_eq!(printed, succeeds(folder.path(), &[command, named, "--json"]));
+        assert_eq!(printed, succeeds(folder.path(), &[command, &["fig1", "--json"]].concat()));
     }
 }
 
@@ -240,11 +241,14 @@ fn the_same_input_gives_the_same_bytes() {
 #[test]
 fn c_cnt_prints_tables_and_json() {
     let folder = TempDir::new().unwrap();
-    let tables = succeeds(folder.path(), &["c-cnt", "fig1"]);
+    let tables = succeeds(folder.path(), &["listing", "run", "c_cnt", "fig1"]);
     assert!(tables.contains("Contact nodes (c_tll = 0.001)"), "{tables}");
     assert!(tables.contains("k_cnt: 8 of 13 rows are not zero"), "{tables}");
-    let json: Value =
-        serde_json::from_str(&succeeds(folder.path(), &["c-cnt", "fig1", "--json"])).unwrap();
+    let json: Value = serde_json::from_str(&succeeds(
+        folder.path(),
+        &["listing", "run", "c_cnt", "fig1", "--json"],
+    ))
+    .unwrap();
     assert_eq!(json["ct"], serde_json::json!([1, 2, 2, 3, 3]));
     assert_eq!(json["dy"], serde_json::json!([1, 1, 1, 0, 1]));
     assert_eq!(json["yt"].as_array().unwrap().len(), 5);
@@ -256,8 +260,8 @@ fn c_cnt_prints_tables_and_json() {
 #[test]
 fn km_writes_matrix_market() {
     let folder = TempDir::new().unwrap();
-    let printed = succeeds(folder.path(), &["km", "fig1"]);
-    succeeds(folder.path(), &["km", "fig1", "--matrix-market", "MJS.mtx"]);
+    let printed = succeeds(folder.path(), &["listing", "run", "Km", "fig1"]);
+    succeeds(folder.path(), &["listing", "run", "Km", "fig1", "--matrix-market", "MJS.mtx"]);
     assert_eq!(printed, std::fs::read_to_string(folder.path().join("MJS.mtx")).unwrap());
     let mut lines = printed.lines().filter(|line| !line.starts_with("% "));
     assert_eq!(lines.next(), Some("%%MatrixMarket matrix coordinate real general"));
@@ -268,14 +272,14 @@ fn km_writes_matrix_market() {
     let digits =
         |entry: &str| entry.chars().take_while(|c| *c != 'e').filter(char::is_ascii_digit).count();
     assert!(entries.iter().all(|entry| digits(entry[2]) == 17));
-    let free = succeeds(folder.path(), &["km", "fig1", "--coupled-by", "none"]);
+    let free = succeeds(folder.path(), &["listing", "run", "Km", "fig1", "--coupled-by", "none"]);
     assert_ne!(free, printed);
 }
 
 #[test]
 fn the_published_algorithm_failing_is_exit_status_3() {
     let folder = TempDir::new().unwrap();
-    let args = ["c-cnt", "fig1", "--reading", "R4=left-to-right"];
+    let args = ["listing", "run", "c_cnt", "fig1", "--reading", "R4=left-to-right"];
     let words =
         ["c_cnt, line 18", "This array index is invalid for this array.", "index of yt = 0"];
     fails(folder.path(), &args, 3, &words);
@@ -357,7 +361,7 @@ fn links_and_pipes_stay_what_they_are() {
     let at = |name: &str| folder.path().join(name);
     std::fs::write(at("real.mtx"), "old").unwrap();
     std::os::unix::fs::symlink("real.mtx", at("link.mtx")).unwrap();
-    succeeds(folder.path(), &["km", "fig1", "--matrix-market", "link.mtx"]);
+    succeeds(folder.path(), &["listing", "run", "Km", "fig1", "--matrix-market", "link.mtx"]);
     assert!(std::fs::symlink_metadata(at("link.mtx")).unwrap().is_symlink());
     assert!(std::fs::read_to_string(at("real.mtx")).unwrap().starts_with("%%MatrixMarket"));
     let made = Command::new("mkfifo").arg(at("pipe")).status().expect("mkfifo");
@@ -366,7 +370,7 @@ fn links_and_pipes_stay_what_they_are() {
         let pipe = at("pipe");
         move || std::fs::read_to_string(pipe).unwrap()
     });
-    succeeds(folder.path(), &["km", "fig1", "--matrix-market", "pipe"]);
+    succeeds(folder.path(), &["listing", "run", "Km", "fig1", "--matrix-market", "pipe"]);
     assert!(reader.join().unwrap().starts_with("%%MatrixMarket"));
     assert!(!std::fs::metadata(at("pipe")).unwrap().is_file());
 }
@@ -376,16 +380,22 @@ fn links_and_pipes_stay_what_they_are() {
 fn a_scene_by_path_reads_its_mesh_beside_it() {
     let folder = TempDir::new().unwrap();
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/strand");
-    let by_path = succeeds(folder.path(), &["c-cnt", golden.to_str().unwrap(), "--json"]);
-    assert_eq!(by_path, succeeds(folder.path(), &["c-cnt", "strand", "--json"]));
+    let by_path =
+        succeeds(folder.path(), &["listing", "run", "c_cnt", golden.to_str().unwrap(), "--json"]);
+    assert_eq!(by_path, succeeds(folder.path(), &["listing", "run", "c_cnt", "strand", "--json"]));
     std::fs::copy(golden.join("scene.json"), folder.path().join("alone.json")).unwrap();
-    fails(folder.path(), &["c-cnt", "alone.json"], 2, &["strand.msh", "resolved beside the scene"]);
+    fails(
+        folder.path(),
+        &["listing", "run", "c_cnt", "alone.json"],
+        2,
+        &["strand.msh", "resolved beside the scene"],
+    );
 }
 
 #[test]
 fn trace_shows_what_each_line_read_and_wrote() {
     let folder = TempDir::new().unwrap();
-    let trace = succeeds(folder.path(), &["trace", "fig1", "--node", "7"]);
+    let trace = succeeds(folder.path(), &["listing", "trace", "fig1", "--node", "7"]);
     for words in [
         "contact node 7 (2.3 of fig. 1) (i1 = 3 of 5)",
         "17  dy[i1] ← 1 if i1 < rows(cnt) ∧ yt[i1] < 0 ∧ yt[i1+1] > 0 ∧ ct[i1] > 0",
@@ -396,20 +406,28 @@ fn trace_shows_what_each_line_read_and_wrote() {
     ] {
         assert!(trace.contains(words), "{words:?}: {trace}");
     }
-    let km = succeeds(folder.path(), &["trace", "fig1", "--listing", "Km", "--node", "13"]);
+    let km =
+        succeeds(folder.path(), &["listing", "trace", "fig1", "--listing", "Km", "--node", "13"]);
     assert!(km.contains("element n = 7 of 9 (nodes 7 (2.3 of fig. 1), 13, 12)"), "{km}");
     let json: Value =
-        serde_json::from_str(&succeeds(folder.path(), &["trace", "fig1", "--json"])).unwrap();
+        serde_json::from_str(&succeeds(folder.path(), &["listing", "trace", "fig1", "--json"]))
+            .unwrap();
     assert_eq!(json["result"]["dy"], serde_json::json!([1, 1, 1, 0, 1]));
     assert!(json["steps"].as_array().unwrap().len() > 100);
-    fails(folder.path(), &["trace", "fig1", "--node", "1"], 2, &["node 1 is no contact node"]);
+    fails(
+        folder.path(),
+        &["listing", "trace", "fig1", "--node", "1"],
+        2,
+        &["node 1 is no contact node"],
+    );
 }
 
 /// A summary has what each condition decided; lines, and all digits, as they are asked for.
 #[test]
 fn trace_shows_as_much_as_is_asked_for() {
     let folder = TempDir::new().unwrap();
-    let trace = |args: &[&str]| succeeds(folder.path(), &[&["trace", "fig1"], args].concat());
+    let trace =
+        |args: &[&str]| succeeds(folder.path(), &[&["listing", "trace", "fig1"], args].concat());
     let summary = trace(&["--summary", "--node", "7"]);
     let decided = "   7  yes  ct[3] ← 2
   10  yes  yt[3] ← -0.0015
@@ -431,7 +449,12 @@ fn trace_shows_as_much_as_is_asked_for() {
             .contains("yt[1] ← -0.0004999999999999996\n")
     );
     for lines in ["0", "18-16", "x"] {
-        fails(folder.path(), &["trace", "fig1", "--lines", lines], 2, &["such as 16-18"]);
+        fails(
+            folder.path(),
+            &["listing", "trace", "fig1", "--lines", lines],
+            2,
+            &["such as 16-18"],
+        );
     }
 }
 
@@ -443,18 +466,20 @@ fn trace_runs_an_edited_listing() {
     let listing = include_str!("../../listings/c_cnt.txt");
     let edited = listing.replace("if |yt[i1]| < c_tll", "if |yt[i1]| < 5·c_tll");
     std::fs::write(folder.path().join("edited.txt"), edited).unwrap();
-    let trace =
-        succeeds(folder.path(), &["trace", "fig1", "--listing", "edited.txt", "--node", "8"]);
+    let trace = succeeds(
+        folder.path(),
+        &["listing", "trace", "fig1", "--listing", "edited.txt", "--node", "8"],
+    );
     assert!(trace.contains("dy[4] (node 8): 0 as printed, 1 edited"), "{trace}");
     std::fs::write(folder.path().join("same.txt"), listing).unwrap();
-    let trace = succeeds(folder.path(), &["trace", "fig1", "--listing", "same.txt"]);
+    let trace = succeeds(folder.path(), &["listing", "trace", "fig1", "--listing", "same.txt"]);
     assert!(trace.contains("The edit changes nothing on this scene."), "{trace}");
     // Another order of the operations rounds otherwise, and changes nothing else.
     let line_22 = "  k1 ← 1 − (node[cnt[i1],2] − node[elem[ct[i1],6],2])";
     let rounds = listing.replace(line_22, "  k1 ← 1 + (node[elem[ct[i1],6],2] − node[cnt[i1],2])");
     let rounds = rounds.replace("k1 + k_cnt[cnt[i1],2]", "(0.1 + k1) − 0.1 + k_cnt[cnt[i1],2]");
     std::fs::write(folder.path().join("rounds.txt"), rounds).unwrap();
-    let trace = succeeds(folder.path(), &["trace", "fig1", "--listing", "rounds.txt"]);
+    let trace = succeeds(folder.path(), &["listing", "trace", "fig1", "--listing", "rounds.txt"]);
     assert!(
         trace.contains("The edit changes nothing on this scene.\nThe edit changes the rounding")
     );
@@ -462,7 +487,7 @@ fn trace_runs_an_edited_listing() {
         .unwrap();
     fails(
         folder.path(),
-        &["trace", "fig1", "--listing", "broken.txt"],
+        &["listing", "trace", "fig1", "--listing", "broken.txt"],
         2,
         &["line 15", "column", "expected"],
     );
@@ -470,13 +495,13 @@ fn trace_runs_an_edited_listing() {
         .unwrap();
     fails_after_output(
         folder.path(),
-        &["trace", "fig1", "--listing", "stops.txt"],
+        &["listing", "trace", "fig1", "--listing", "stops.txt"],
         2,
         "Division by zero",
     );
     fails_after_output(
         folder.path(),
-        &["trace", "fig1", "--reading", "R4=eager"],
+        &["listing", "trace", "fig1", "--reading", "R4=eager"],
         3,
         "c_cnt, line 18",
     );
@@ -484,15 +509,21 @@ fn trace_runs_an_edited_listing() {
     let line_18 = "yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ i1 ≥ 2 ∧ ct[i1] > 0";
     let repaired = listing.replace(line_18, "i1 ≥ 2 ∧ yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ ct[i1] > 0");
     std::fs::write(folder.path().join("repaired.txt"), repaired).unwrap();
-    let args = ["trace", "fig1", "--listing", "repaired.txt", "--reading", "R4=left-to-right"];
+    let args =
+        ["listing", "trace", "fig1", "--listing", "repaired.txt", "--reading", "R4=left-to-right"];
     assert!(
         succeeds(folder.path(), &args).contains("The edited listing runs; as printed it fails")
     );
-    fails(folder.path(), &["trace", "fig1", "--listing", "none.txt"], 2, &["cannot be read"]);
+    fails(
+        folder.path(),
+        &["listing", "trace", "fig1", "--listing", "none.txt"],
+        2,
+        &["cannot be read"],
+    );
     std::fs::write(folder.path().join("other.txt"), "f(x) :=\n  x\n").unwrap();
     fails(
         folder.path(),
-        &["trace", "fig1", "--listing", "other.txt"],
+        &["listing", "trace", "fig1", "--listing", "other.txt"],
         2,
         &["neither c_cnt nor Km"],
     );
@@ -506,7 +537,8 @@ fn trace_survives_hostile_listings() {
     let c_cnt = include_str!("../../listings/c_cnt.txt");
     let traced = |text: &str| {
         std::fs::write(folder.path().join("listing.txt"), text).unwrap();
-        let output = run(folder.path(), &["trace", "fig1", "--listing", "listing.txt", "--json"]);
+        let output =
+            run(folder.path(), &["listing", "trace", "fig1", "--listing", "listing.txt", "--json"]);
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     };
     let edited = |from: &str, to: &str| traced(&c_cnt.replace(from, to));
@@ -523,7 +555,7 @@ fn trace_survives_hostile_listings() {
     for matrix in ["MJS[26,1] ← 1", "MJS[30,1] ← 1", "MJS[1,99] ← 1"] {
         let (status, error) = traced(&format!("Km(c_cnt) :=\n  {matrix}\n  MJS\n"));
         assert_eq!(status, Some(0), "{error}");
-        let output = run(folder.path(), &["trace", "fig1", "--listing", "listing.txt"]);
+        let output = run(folder.path(), &["listing", "trace", "fig1", "--listing", "listing.txt"]);
         assert!(
             text(&output.stdout).contains("the shape of the result"),
             "{}",
@@ -592,14 +624,17 @@ fn a_scene_without_contact_is_audited_too() {
     let failed = |row: &&Value| !row["failure"].is_null();
     let rows: Vec<&Value> = audit["readings"].as_array().unwrap().iter().filter(failed).collect();
     assert_eq!(rows.iter().map(|row| &row["reading"]).collect::<Vec<_>>(), ["ORIGIN = 0"]);
-    fails(folder.path(), &["trace", "plain.json"], 2, &["the scene has no contact"]);
+    fails(folder.path(), &["listing", "trace", "plain.json"], 2, &["the scene has no contact"]);
     fails(
         folder.path(),
-        &["trace", "plain.json", "--listing", "Km"],
+        &["listing", "trace", "plain.json", "--listing", "Km"],
         2,
         &["no element has a linked node"],
     );
-    let km = succeeds(folder.path(), &["trace", "plain.json", "--listing", "Km", "--node", "1"]);
+    let km = succeeds(
+        folder.path(),
+        &["listing", "trace", "plain.json", "--listing", "Km", "--node", "1"],
+    );
     assert!(km.contains("element n = 1 of 16"), "{km}");
 }
 
@@ -631,20 +666,5 @@ fn audit_of_readings_on_fig1() {
             (&row["statuses"], &row["entries"], &row["failure"]),
             (&0.into(), &0.into(), &Value::Null)
         );
-    }
-}
-
-#[test]
-fn help_has_examples() {
-    let folder = TempDir::new().unwrap();
-    for args in [
-        &["--help"][..],
-        &["solve", "--help"],
-        &["c-cnt", "--help"],
-        &["km", "--help"],
-        &["trace", "--help"],
-        &["audit", "--help"],
-    ] {
-        assert!(succeeds(folder.path(), args).contains("Examples:"), "{args:?}");
     }
 }

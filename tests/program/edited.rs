@@ -138,15 +138,15 @@ fn scenes_are_found_and_written() {
         let text = [output.stdout, output.stderr].concat();
         (output.status.code().expect("a status"), String::from_utf8(text).expect("UTF-8"))
     };
-    let (status, text) = program(&["scenes"]);
+    let (status, text) = program(&["scene", "list"]);
     assert_eq!(status, 0);
     for name in ["strand", "two-blocks", "C15", "K9", "hertz", "ellipse"] {
         assert!(text.contains(&format!("\n  {name} ")), "{name}: {text}");
     }
     for (name, scene) in [("strand", "my/strand"), ("c4", "my/C4")] {
-        assert_eq!(program(&["scene", name, "--out", scene]).0, 0);
-        assert_eq!(program(&["c-cnt", scene]).0, 0);
-        let (status, text) = program(&["scene", name, "--out", scene]);
+        assert_eq!(program(&["scene", "copy", name, "--out", scene]).0, 0);
+        assert_eq!(program(&["listing", "run", "c_cnt", scene]).0, 0);
+        let (status, text) = program(&["scene", "copy", name, "--out", scene]);
         assert_eq!((status, text.contains("exists already")), (2, true), "{text}");
     }
     let file = at.join("my/C4/scene.json");
@@ -155,7 +155,7 @@ fn scenes_are_found_and_written() {
     for (args, words) in [
         (&["solve", "my/C4"][..], "did you mean \"c_tll\"?"),
         (&["solve", "strnd"], "did you mean \"strand\"?"),
-        (&["scene", "two-block"], "did you mean \"two-blocks\"?"),
+        (&["scene", "copy", "two-block"], "did you mean \"two-blocks\"?"),
         (&["audit", "--finding", "CC4"], "did you mean \"C14\"?"),
         (&["solve", "fig1", "--variant", "steped"], "did you mean \"stepped\"?"),
     ] {

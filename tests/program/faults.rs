@@ -150,7 +150,7 @@ fn a_signal_at_any_moment_leaves_nothing_temporary() {
     let folder = TempDir::new().expect("a folder");
     let mut random = fastrand::Rng::with_seed(16);
     for k in 0..100 {
-        let mut child = start(folder.path(), &["mesh", "blocks", "--out", "o"]);
+        let mut child = start(folder.path(), &["scene", "mesh", "blocks", "--out", "o"]);
         std::thread::sleep(Duration::from_micros(random.u64(1000..8000)));
         kill(&mut child, "TERM");
         assert_eq!(staged(folder.path()), [""; 0], "signal {k}");
@@ -230,7 +230,7 @@ fn no_file_is_written_through_a_link() {
 #[test]
 fn commands_share_a_folder() {
     let folder = TempDir::new().expect("a folder");
-    assert!(run(folder.path(), &["scene", "fig1", "--out", "o"]).status.success());
+    assert!(run(folder.path(), &["scene", "copy", "fig1", "--out", "o"]).status.success());
     let scene = files(&folder.path().join("o"));
     for args in [RUNS[0], RUNS[1], &["solve", "o", "--out", "o", "--csv", "o"]] {
         assert!(run(folder.path(), args).status.success());
@@ -293,12 +293,12 @@ fn a_file_that_may_not_grow_is_named_and_leaves_nothing() {
     std::fs::write(folder.path().join("sweep.json"), sweep).expect("it is written");
     for (command, file) in [
         ("audit fig1 --out", "a"),
-        ("mesh cook --n 50 --out", "m"),
-        ("record fig1 --out", "r.json"),
+        ("scene mesh cook --n 50 --out", "m"),
+        ("snapshot record fig1 --out", "r.json"),
         ("lesson fig1 --out", "page.html"),
         ("report fig1 --out", "report.html"),
         ("sweep sweep.json --out", "rows.jsonl"),
-        ("km fig1 >", "standard output"),
+        ("listing run Km fig1 >", "standard output"),
     ] {
         let out = file.replace(' ', "-");
         let line = format!("ulimit -f 1; $P {command} {out}");
@@ -325,7 +325,7 @@ fn a_read_only_disk_is_named() {
         eprintln!("no disk can be mounted: a read-only one is not tried");
         return;
     }
-    for command in ["solve fig1 --out .", "record fig1", "lesson fig1 --out page.html"] {
+    for command in ["solve fig1 --out .", "snapshot record fig1", "lesson fig1 --out page.html"] {
         let line = format!("{mount} && cd \"$PWD\" && \"$P\" {command}'");
         refused(folder.path(), &line, &["cannot be written: ", "Read-only file system"]);
     }

@@ -267,12 +267,12 @@ fn no_name_of_a_scene_commands_a_terminal() {
         &["solve", "s.json", "--out", "o"][..],
         &["audit", "s.json"],
         &["solve", &name, "--out", "o"],
-        &["trace", &name, "--lines", "1-2"],
-        &["record", &name, "--out", "snapshot.json"],
-        &["verify", "snapshot.json", "--scene", "fig1"],
+        &["listing", "trace", &name, "--lines", "1-2"],
+        &["snapshot", "record", &name, "--out", "snapshot.json"],
+        &["snapshot", "verify", "snapshot.json", "--scene", "fig1"],
         &["solve", "s.json", "--out", &title],
         &["solve", &title],
-        &["verify", &title],
+        &["snapshot", "verify", &title],
         &["solve", "s.json", &format!("--{title}")],
         &["solve", "s.json", "--variant", &title],
     ] {
@@ -303,9 +303,9 @@ fn files_are_valid_whatever_a_title_is() {
     std::fs::copy(folder.path().join("s.json"), folder.path().join("a\nb.json")).expect("a copy");
     for args in [
         &["solve", "s.json", "--out", "."][..],
-        &["export", "s.json", "--to", "mathcad", "--out", "s.xmcd"],
-        &["export", "s.json", "--to", "octave", "--out", "s.m"],
-        &["km", "a\nb.json", "--matrix-market", "s.mtx"],
+        &["mathcad", "export", "s.json", "--to", "mathcad", "--out", "s.xmcd"],
+        &["mathcad", "export", "s.json", "--to", "octave", "--out", "s.m"],
+        &["listing", "run", "Km", "a\nb.json", "--matrix-market", "s.mtx"],
         &["report", "s.json", "--no-audit", "--variant", "tied", "--out", "s.html"],
     ] {
         assert_eq!(run(folder.path(), args).status.code(), Some(0), "{args:?}");

@@ -33,14 +33,22 @@ pub fn refused(folder: &Path, line: &str, words: &[&str]) {
 fn memory_that_a_process_may_not_have_is_refused_with_what_is_needed() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
-    assert!(program::run(folder, &["mesh", "cook", "--n", "200", "--out", "c"]).status.success());
+    assert!(
+        program::run(folder, &["scene", "mesh", "cook", "--n", "200", "--out", "c"])
+            .status
+            .success()
+    );
     let few = "ulimit -v 8000000; $P";
     let words = ["104.5 GB", "80802 x 80802", "coarser mesh"];
     refused(folder, &format!("{few} audit c"), &words);
     refused(folder, &format!("{few} report c"), &words);
     let words = ["limit of 134217728 numbers", "a smaller scene"];
-    refused(folder, "$P trace c --listing Km --node 5", &words);
-    refused(folder, "ulimit -v 4000000; $P mesh cook --n 2000", &["--n", "7.2 GB", "smaller"]);
+    refused(folder, "$P listing trace c --listing Km --node 5", &words);
+    refused(
+        folder,
+        "ulimit -v 4000000; $P scene mesh cook --n 2000",
+        &["--n", "7.2 GB", "smaller"],
+    );
     let mut scene = scene_json("fig1");
     scene["iterations"] = 1_000_000.into();
     std::fs::write(folder.join("long.json"), scene.to_string()).expect("it is written");
@@ -54,7 +62,7 @@ fn memory_that_a_process_may_not_have_is_refused_with_what_is_needed() {
 fn free(limit: usize, threads: usize) -> f64 {
     let folder = tempfile::tempdir().expect("a folder");
     let variables = format!("MALLOC_ARENA_MAX=1 RAYON_NUM_THREADS={threads}");
-    let line = format!("ulimit -v {limit}; {variables} $P mesh cook --n 2000");
+    let line = format!("ulimit -v {limit}; {variables} $P scene mesh cook --n 2000");
     let output = shell(folder.path(), &line);
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
     let (number, unit) = error
@@ -90,10 +98,10 @@ fn what_has_no_end_is_not_read() {
     let folder = tempfile::tempdir().expect("a folder");
     for (command, most) in [
         ("solve", 1 << 28),
-        ("verify", 1 << 28),
-        ("mathcad", 1 << 26),
-        ("trace fig1 --listing", 1 << 24),
-        ("evaluate", 1 << 24),
+        ("snapshot verify", 1 << 28),
+        ("mathcad run", 1 << 26),
+        ("listing trace fig1 --listing", 1 << 24),
+        ("listing evaluate", 1 << 24),
     ] {
         let words = ["/dev/zero", &format!("more than {most} bytes")];
         refused(folder.path(), &format!("$P {command} /dev/zero"), &words);
@@ -103,16 +111,18 @@ fn what_has_no_end_is_not_read() {
     // What is no file has no snapshot and no rows that are kept.
     let sweep = r#"{"format": 1, "scene": "fig1", "list": []}"#;
     std::fs::write(folder.path().join("sweep.json"), sweep).expect("it is written");
-    for (command, device) in
-        [("record fig1", "null"), ("record fig1", "zero"), ("sweep sweep.json", "zero")]
-    {
+    for (command, device) in [
+        ("snapshot record fig1", "null"),
+        ("snapshot record fig1", "zero"),
+        ("sweep sweep.json", "zero"),
+    ] {
         let line = format!("ln -sf /dev/{device} to; ulimit -v 3000000; $P {command} --out to");
         assert_eq!(shell(folder.path(), &line).status.code(), Some(0), "{line}");
     }
     let kept = std::fs::File::create(folder.path().join("long.json")).expect("a file");
     kept.set_len(300_000_000).expect("a length");
     let words = ["long.json", "there cannot be read", "more than 268435456 bytes"];
-    refused(folder.path(), "$P record fig1 --out long.json", &words);
+    refused(folder.path(), "$P snapshot record fig1 --out long.json", &words);
     assert_eq!(kept.metadata().expect("a file").len(), 300_000_000);
 }
 
@@ -192,10 +202,10 @@ fn less_than_a_tenth_of_a_gigabyte_is_told_in_megabytes() {
 #[test]
 fn a_mesh_is_read_within_the_memory_or_refused() {
     let folder = tempfile::tempdir().expect("a folder");
-    let cook = shell(folder.path(), "$P mesh cook --n 300 --out cook");
+    let cook = shell(folder.path(), "$P scene mesh cook --n 300 --out cook");
     assert_eq!(cook.status.code(), Some(0));
     for (limit, expected) in [80_000, 100_000, 120_000, 2_000_000].into_iter().zip([2, 2, 2, 0]) {
-        let line = format!("ulimit -v {limit}; $P plan cook/scene.json --json");
+        let line = format!("ulimit -v {limit}; $P scene plan cook/scene.json --json");
         let output = shell(folder.path(), &line);
         assert_eq!(output.status.code(), Some(expected), "{limit}: {output:?}");
         assert!(output.stdout.ends_with(b"}\n"), "{limit}: {output:?}");
@@ -205,7 +215,7 @@ fn a_mesh_is_read_within_the_memory_or_refused() {
 #[test]
 fn a_large_run_that_does_not_fit_in_memory_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
-    assert!(shell(folder.path(), "$P mesh cook --n 230 --out c").status.success());
+    assert!(shell(folder.path(), "$P scene mesh cook --n 230 --out c").status.success());
     let words = ["106260 free equations need 0.4 GB", "use a coarser mesh"];
     refused(folder.path(), "ulimit -v 300000; $P solve c/scene.json", &words);
 }
@@ -214,7 +224,7 @@ fn a_large_run_that_does_not_fit_in_memory_is_refused() {
 #[test]
 fn a_large_run_is_not_repeated_in_double_doubles() {
     let folder = tempfile::tempdir().expect("a folder");
-    assert!(shell(folder.path(), "$P mesh hertz --size 19 --out hertz").status.success());
+    assert!(shell(folder.path(), "$P scene mesh hertz --size 19 --out hertz").status.success());
     let output = shell(folder.path(), "$P solve hertz --variant printed");
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{error}");
@@ -245,7 +255,7 @@ fn threads_that_cannot_start_are_an_error() {
 fn a_run_of_each_variant_fits_in_the_memory_or_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     for mesh in ["hertz --size 50 --out hertz", "cook --n 105 --out cook"] {
-        assert!(shell(folder.path(), &format!("$P mesh {mesh}")).status.success());
+        assert!(shell(folder.path(), &format!("$P scene mesh {mesh}")).status.success());
     }
     for run in
         ["cook --variant printed", "hertz", "hertz --variant tied", "hertz --variant stepped"]
@@ -270,7 +280,7 @@ fn steps_of_a_listing_have_a_limit_which_is_named() {
     let listing = format!("c_cnt(node_n) :=\n  for i1 ∈ 1 .. 1000\n{times}  x\n");
     std::fs::write(folder.path().join("l.txt"), listing).expect("it is written");
     let words = ["The limit of 67130496 steps is reached", "correct the edited listing"];
-    refused(folder.path(), "$P trace fig1 --listing l.txt", &words);
+    refused(folder.path(), "$P listing trace fig1 --listing l.txt", &words);
     refused(folder.path(), "$P solve fig1 --c-cnt l.txt", &words);
 }
 
@@ -278,7 +288,11 @@ fn steps_of_a_listing_have_a_limit_which_is_named() {
 fn a_listing_that_is_not_in_utf_8_has_a_line() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("l.txt"), b"c_cnt :=\n  \xff").expect("it is written");
-    refused(folder.path(), "$P trace fig1 --listing l.txt", &["l.txt", "line 2 is not in UTF-8"]);
+    refused(
+        folder.path(),
+        "$P listing trace fig1 --listing l.txt",
+        &["l.txt", "line 2 is not in UTF-8"],
+    );
 }
 
 #[test]
@@ -314,7 +328,7 @@ fn hostile_listings_stay_within_the_memory_of_a_process() {
     let long = format!("  v ← identity(2800)·0 + 1{}\n  trace(v)\n", "0".repeat(308));
     listing("trace.txt", &long);
     let run = |name: &str| {
-        let line = format!("ulimit -v 4000000; $P trace fig1 --listing {name}");
+        let line = format!("ulimit -v 4000000; $P listing trace fig1 --listing {name}");
         let output = shell(folder.path(), &line);
         let text = [&output.stdout, &output.stderr]
             .map(|bytes| String::from_utf8_lossy(bytes).into_owned());
@@ -323,15 +337,14 @@ fn hostile_listings_stay_within_the_memory_of_a_process() {
     let (code, text) = run("reads.txt");
     assert!(code == Some(0) && text.contains("shown in the order of execution"), "{code:?}");
     assert!(text.contains("(30000 times, last ⇒ x ← 1)"), "each of them is counted");
-    let json = shell(folder.path(), "$P trace fig1 --listing reads.txt --json").stdout;
+    let json = shell(folder.path(), "$P listing trace fig1 --listing reads.txt --json").stdout;
     let trace: serde_json::Value = serde_json::from_slice(&json).expect("JSON");
     let is_written = |step: &&serde_json::Value| step["writes"][0]["name"] == "x";
     let steps = trace["steps"].as_array().expect("steps").iter();
     let reads = steps.filter(is_written).map(|step| step["reads"].as_array().map(Vec::len));
     assert_eq!(reads.collect::<Vec<_>>(), [Some(1); 30_000], "v is read forty times");
     assert_eq!(run("lines.txt").0, Some(0));
-    let line =
-        "(ulimit -v 1000000; $P trace fig1 --listing long.txt --json || echo failed) | tail -c 400";
+    let line = "(ulimit -v 1000000; $P listing trace fig1 --listing long.txt --json || echo failed) | tail -c 400";
     let end = String::from_utf8(shell(folder.path(), line).stdout).expect("UTF-8");
     assert!(end.ends_with("}\n") && end.contains("\"failure\":null"), "{end}");
     let (code, text) = run("trace.txt");

@@ -1,4 +1,4 @@
-//! The commands of Mathcad's users: `evaluate`, `mathcad`, `listing`, `export --to mathcad|octave`.
+//! The commands of Mathcad's users: `listing evaluate`, `listing convert`, `mathcad`.
 
 use std::path::Path;
 
@@ -31,7 +31,7 @@ fn evaluate_runs_any_program() {
     let folder = TempDir::new().expect("a folder");
     let at = folder.path();
     std::fs::write(at.join("fact.txt"), FACTORIAL).expect("a file");
-    let evaluate = |args: &[&str]| ran(at, &[&["evaluate", "fact.txt"], args].concat());
+    let evaluate = |args: &[&str]| ran(at, &[&["listing", "evaluate", "fact.txt"], args].concat());
     let (status, text, _) =
         evaluate(&["--call", "both(v)", "--inputs", "{\"v\": [3, 4]}", "--json"]);
     assert_eq!(status, 0);
@@ -69,14 +69,16 @@ fn evaluate_runs_any_program() {
 fn listings_change_notation() {
     let folder = TempDir::new().expect("a folder");
     let at = folder.path();
-    assert_eq!(ran(at, &["listing", "Km", "--to", "xmcd", "--out", "km.xmcd"]).0, 0);
-    let (_, text, _) = ran(at, &["listing", "km.xmcd", "--to", "text"]);
-    assert_eq!(text, ran(at, &["listing", "Km", "--to", "text"]).1);
-    let (status, text, _) = ran(at, &["mathcad", "km.xmcd"]);
+    assert_eq!(ran(at, &["listing", "convert", "Km", "--to", "xmcd", "--out", "km.xmcd"]).0, 0);
+    let (_, text, _) = ran(at, &["listing", "convert", "km.xmcd", "--to", "text"]);
+    assert_eq!(text, ran(at, &["listing", "convert", "Km", "--to", "text"]).1);
+    let (status, text, _) = ran(at, &["mathcad", "run", "km.xmcd"]);
     assert_eq!(status, 1, "nothing is saved to compare with");
     assert!(text.contains("Km(c_cnt) :="), "{text}");
     std::fs::write(at.join("no.xmcd"), "<html/>").expect("a file");
-    for command in [&["mathcad", "no.xmcd"][..], &["listing", "no.xmcd", "--to", "text"]] {
+    for command in
+        [&["mathcad", "run", "no.xmcd"][..], &["listing", "convert", "no.xmcd", "--to", "text"]]
+    {
         let (status, _, why) = ran(at, command);
         assert_eq!(status, 2);
         assert!(why.contains("no worksheet but <html>"), "{why}");
@@ -86,8 +88,11 @@ fn listings_change_notation() {
 /// Exports a scene, and returns the differences that the worksheet shows between what it computes
 /// and what it was given as ours.
 fn differences(at: &Path, scene: &str) -> Vec<f64> {
-    assert_eq!(ran(at, &["export", scene, "--to", "mathcad", "--out", "sheet.xmcd"]).0, 0);
-    let (_, text, _) = ran(at, &["mathcad", "sheet.xmcd", "--json"]);
+    assert_eq!(
+        ran(at, &["mathcad", "export", scene, "--to", "mathcad", "--out", "sheet.xmcd"]).0,
+        0
+    );
+    let (_, text, _) = ran(at, &["mathcad", "run", "sheet.xmcd", "--json"]);
     let sheet: Value = serde_json::from_str(&text).expect("JSON");
     let regions = sheet["regions"].as_array().expect("regions").iter();
     let is =
@@ -100,8 +105,10 @@ fn differences(at: &Path, scene: &str) -> Vec<f64> {
 fn the_largest_worksheets_end() {
     let folder = TempDir::new().expect("a folder");
     let at = folder.path();
-    let mesh =
-        ["mesh", "strand", "--duct", "12.2", "--strand", "12", "--size", "1.9", "--out", "small"];
+    let mesh = [
+        "scene", "mesh", "strand", "--duct", "12.2", "--strand", "12", "--size", "1.9", "--out",
+        "small",
+    ];
     assert!(ran(at, &mesh).1.starts_with("269 nodes"));
     let [pairs, displacements, stresses] = differences(at, "small")[..] else { panic!("three") };
     assert_eq!(pairs, 0.0, "bit for bit");
@@ -122,15 +129,12 @@ fn scenes_become_worksheets() {
     // fig1's largest displacement and stress are of these sizes, in mm and MPa.
     assert_near("displacements", displacements, 0.0, 1e-4, &OCTAVE);
     assert_near("stresses", stresses, 0.0, 8.0, &OCTAVE);
-    let (status, _, why) = ran(at, &["export", "strand", "--to", "mathcad"]);
+    let (status, _, why) = ran(at, &["mathcad", "export", "strand", "--to", "mathcad"]);
     assert_eq!(status, 2);
     assert!(why.contains("at most 300 are written"), "{why}");
-    let (status, _, _) = ran(at, &["export", "fig1", "--to", "mathcad", "--variant", "tied"]);
-    assert_eq!(status, 2);
-    assert_eq!(ran(at, &["export", "--to", "octave", "--probe"]).0, 2);
-    assert_eq!(ran(at, &["export", "--to", "mathcad"]).0, 2, "no scene");
-    let (_, probe, _) = ran(at, &["export", "--to", "mathcad", "--probe"]);
+    assert_eq!(ran(at, &["mathcad", "export"]).0, 2, "no scene");
+    let (_, probe, _) = ran(at, &["mathcad", "probe"]);
     std::fs::write(at.join("probe.xmcd"), probe).expect("a file");
-    let (_, text, _) = ran(at, &["mathcad", "probe.xmcd"]);
+    let (_, text, _) = ran(at, &["mathcad", "run", "probe.xmcd"]);
     assert!(text.contains("nothing is saved: open it in Mathcad, and save it"), "{text}");
 }

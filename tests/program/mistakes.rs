@@ -84,12 +84,20 @@ const OTHERS: &[(&str, &str, &str)] = &[
     ("another program in place of c_cnt", "f(n) :=\n  n\n", "solve fig1 --c-cnt FILE"),
     ("a point outside the bodies", "", "solve fig1 --probe 9,9"),
     ("a finding that is not there", "", "audit --finding X9"),
-    ("a generator that is not there", "", "mesh donut"),
-    ("a listing with a bracket too few", "f(n) :=\n  (n + 1\n", "evaluate FILE --call f(1)"),
-    ("a call of a program that is not there", "f(n) :=\n  n\n", "evaluate FILE --call g(1)"),
-    ("a snapshot that is none", "{}", "verify FILE"),
+    ("a generator that is not there", "", "scene mesh donut"),
+    (
+        "a listing with a bracket too few",
+        "f(n) :=\n  (n + 1\n",
+        "listing evaluate FILE --call f(1)",
+    ),
+    (
+        "a call of a program that is not there",
+        "f(n) :=\n  n\n",
+        "listing evaluate FILE --call g(1)",
+    ),
+    ("a snapshot that is none", "{}", "snapshot verify FILE"),
     ("a sweep without a format", "{\"scene\": \"fig1\"}", "sweep FILE"),
-    ("a worksheet that is no XML", "worksheet", "mathcad FILE"),
+    ("a worksheet that is no XML", "worksheet", "mathcad run FILE"),
 ];
 
 /// Changes the field at a JSON pointer to `value`, or leaves it out.

@@ -106,7 +106,7 @@ fn the_lesson_shows_what_the_trace_has() {
     let folder = TempDir::new().expect("a folder");
     let page = made(folder.path(), "lesson.html", &["lesson", "fig1"]);
     let [c_cnt, km] = ["c_cnt", "Km"].map(|listing| {
-        made(folder.path(), listing, &["trace", "fig1", "--listing", listing, "--json"])
+        made(folder.path(), listing, &["listing", "trace", "fig1", "--listing", listing, "--json"])
     });
     let pictures = folder.path().to_string_lossy().into_owned();
     in_browser(&modules, "lesson.cjs", &[&page, &pictures, &c_cnt, &km]);
@@ -137,8 +137,8 @@ fn both_pages_work_in_firefox_too() {
     let made = |name: &str, args: &[&str]| made(folder.path(), name, args);
     let files = [
         made("lesson.html", &["lesson", "fig1"]),
-        made("c_cnt", &["trace", "fig1", "--listing", "c_cnt", "--json"]),
-        made("Km", &["trace", "fig1", "--listing", "Km", "--json"]),
+        made("c_cnt", &["listing", "trace", "fig1", "--listing", "c_cnt", "--json"]),
+        made("Km", &["listing", "trace", "fig1", "--listing", "Km", "--json"]),
         made("report.html", &["report", "fig1", "--no-audit"]),
         made("result.json", &["solve", "fig1", "--fields", "--json"]),
     ];
@@ -150,7 +150,7 @@ fn both_pages_work_in_firefox_too() {
 fn a_report_shows_100_352_triangles() {
     let Some(modules) = browser() else { return };
     let folder = TempDir::new().expect("a folder");
-    made(folder.path(), "mesh", &["mesh", "blocks", "--upper", "224", "--lower", "224"]);
+    made(folder.path(), "mesh", &["scene", "mesh", "blocks", "--upper", "224", "--lower", "224"]);
     let args = ["report", "out/mesh-blocks", "--variant", "unilateral", "--no-audit"];
     let page = made(folder.path(), "report.html", &args);
     in_browser(&modules, "large.cjs", &[&page, "100352"]);
@@ -164,7 +164,7 @@ fn a_report_has_hertz_charts_and_calculix_beside_the_runs() {
         let args = [&["report", "--no-audit"], args].concat();
         in_browser(&modules, "beside.cjs", &[&made(folder.path(), "report.html", &args), kind]);
     };
-    made(folder.path(), "mesh", &["mesh", "hertz"]);
+    made(folder.path(), "mesh", &["scene", "mesh", "hertz"]);
     report("hertz", &["out/mesh-hertz", "--variant", "unilateral"]);
     made(folder.path(), "trade", &["trade", "two-blocks", "--only", "solver", "--out", "charts"]);
     report("charts", &["two-blocks", "--charts", "charts"]);
@@ -197,7 +197,7 @@ fn answers_to_an_exercise_are_marked() {
     for (name, file) in [("right.json", &file), ("wrong.json", &wrong)] {
         std::fs::write(folder.path().join(name), file.to_string()).expect("a file");
     }
-    let verify = |files: &[&str]| run(folder.path(), &[&["verify"], files].concat());
+    let verify = |files: &[&str]| run(folder.path(), &[&["snapshot", "verify"], files].concat());
     assert_eq!(verify(&["right.json"]).status.code(), Some(0));
     let output = verify(&["right.json", "wrong.json"]);
     assert_eq!(output.status.code(), Some(1));

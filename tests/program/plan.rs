@@ -92,7 +92,7 @@ fn the_memory_that_was_measured_is_planned() {
         let scene = if mesh == "strand" {
             Scene::open(mesh).unwrap()
         } else {
-            let words = format!("mesh {mesh} --out mesh");
+            let words = format!("scene mesh {mesh} --out mesh");
             let words: Vec<&str> = words.split(' ').collect();
             assert!(program::run(folder.path(), &words).status.success());
             Scene::open(folder.path().join("mesh/scene.json").to_str().unwrap()).unwrap()

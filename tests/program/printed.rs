@@ -90,12 +90,12 @@ fn every_table_fits() {
         &["audit", "fig1"][..],
         &["audit", "--finding", "C4"],
         &["solve", "fig1", "--no-pictures"],
-        &["plan", "strand"],
-        &["c-cnt", "fig1"],
-        &["scenes"],
-        &["trace", "fig1"],
-        &["trace", "fig1", "--summary"],
-        &["trace", "fig1", "--listing", "Km", "--node", "7"],
+        &["scene", "plan", "strand"],
+        &["listing", "run", "c_cnt", "fig1"],
+        &["scene", "list"],
+        &["listing", "trace", "fig1"],
+        &["listing", "trace", "fig1", "--summary"],
+        &["listing", "trace", "fig1", "--listing", "Km", "--node", "7"],
     ] {
         let whole = printed(at, args);
         for width in [80, 120] {
@@ -129,40 +129,40 @@ const TEXTS: &[&str] = &[
     "solve fig1 --variant tied --c-cnt c_cnt.txt",
     "audit fig1",
     "audit --finding C4",
-    "plan fig1",
-    "c-cnt fig1",
-    "scenes",
-    "trace fig1",
-    "trace fig1 --summary",
-    "trace fig1 --listing Km --node 7",
-    "trace fig1 --reading R4=left-to-right",
-    "trace fig1 --listing c_cnt.txt",
+    "scene plan fig1",
+    "listing run c_cnt fig1",
+    "scene list",
+    "listing trace fig1",
+    "listing trace fig1 --summary",
+    "listing trace fig1 --listing Km --node 7",
+    "listing trace fig1 --reading R4=left-to-right",
+    "listing trace fig1 --listing c_cnt.txt",
     "extremes --list",
     "extremes offset",
-    "statuses --scenes 3",
+    "audit --statuses --scenes 3",
     "trade fig1 --runs 1 --only solver",
     "trade fig1 --runs 1 --only mesh,c_tll",
-    "compare fig1 --with calculix",
-    "c-cnt fig1 --reading R4=left-to-right",
-    "mesh blocks",
-    "scene fig1",
-    "record fig1",
-    "verify out/fig1.snapshot.json",
-    "verify out/fig1.snapshot.json --scene two-blocks",
-    "explain out/fig1.snapshot.json --scene two-blocks",
-    "diff fig1 --variant tied,stepped",
-    "accept out/fig1.snapshot.json --scene two-blocks --reason because",
+    "compare fig1",
+    "listing run c_cnt fig1 --reading R4=left-to-right",
+    "scene mesh blocks",
+    "scene copy fig1",
+    "snapshot record fig1",
+    "snapshot verify out/fig1.snapshot.json",
+    "snapshot verify out/fig1.snapshot.json --scene two-blocks",
+    "snapshot explain out/fig1.snapshot.json --scene two-blocks",
+    "snapshot diff fig1 --variant tied,stepped",
+    "snapshot accept out/fig1.snapshot.json --scene two-blocks --reason because",
     "sweep sweep.json",
-    "evaluate fact.txt --call fact(3)",
-    "evaluate fact.txt --call g(3)",
-    "evaluate wrong.txt --call f(1)",
-    "mathcad w.xmcd",
+    "listing evaluate fact.txt --call fact(3)",
+    "listing evaluate fact.txt --call g(3)",
+    "listing evaluate wrong.txt --call f(1)",
+    "mathcad run w.xmcd",
     "lesson fig1",
     "report fig1 --no-audit --variant tied",
     "schema",
     "solve nosuch",
     "solve fig1 --varient x",
-    "verify fact.txt",
+    "snapshot verify fact.txt",
 ];
 
 /// Runs the program where lines have `columns` characters; returns both of its outputs.
@@ -191,7 +191,7 @@ fn every_text_fits_forty_columns_and_more() {
     ] {
         std::fs::write(at.join(name), text).expect("it is written");
     }
-    run(at, &["export", "fig1", "--to", "mathcad", "--out", "w.xmcd"]);
+    run(at, &["mathcad", "export", "fig1", "--to", "mathcad", "--out", "w.xmcd"]);
     let helps = commands().into_iter().map(|command| format!("{command} --help"));
     for line in TEXTS.iter().map(|line| line.to_string()).chain(["--help".into()]).chain(helps) {
         let args: Vec<&str> = line.split(' ').collect();
@@ -203,7 +203,8 @@ fn every_text_fits_forty_columns_and_more() {
             assert!(wide.is_empty(), "{line} in {columns} columns: {wide:#?}");
         }
     }
-    let fewer = ["20", "40"].map(|columns| in_columns(at, columns, &["c-cnt", "fig1"]));
+    let fewer =
+        ["20", "40"].map(|columns| in_columns(at, columns, &["listing", "run", "c_cnt", "fig1"]));
     assert_eq!(fewer[0], fewer[1]);
 }
 

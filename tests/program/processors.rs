@@ -34,7 +34,11 @@ fn verify(files: &[PathBuf]) {
         return;
     }
     for processor in PROCESSORS {
-        let output = emulated(processor).arg("verify").args(files).output().expect("it starts");
+        let output = emulated(processor)
+            .args(["snapshot", "verify"])
+            .args(files)
+            .output()
+            .expect("it starts");
         let text = String::from_utf8_lossy(&output.stdout);
         let errors = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{processor}: {text}{errors}");

@@ -28,7 +28,7 @@ fn ran(folder: &Path, args: &[&str]) -> (Option<i32>, String) {
 /// The names of the schemas, each with the commands that print such documents under `--json`.
 fn schemas() -> Vec<(String, Vec<String>)> {
     let (status, list) = ran(Path::new(ROOT), &["schema"]);
-    assert_eq!((status, &list), (Some(0), &ran(Path::new(ROOT), &["schema", "--list"]).1));
+    assert_eq!(status, Some(0));
     let line = |line: &str| {
         let mut words = line.split(", ");
         let name = words.next().and_then(|start| start.split_whitespace().next()).expect("a name");
@@ -66,7 +66,7 @@ fn commands_with_json() -> BTreeSet<String> {
         let page = std::fs::read_to_string(file.path()).expect("text");
         let is_option = |line: &str| line.starts_with("      --json");
         let name = file.file_name().into_string().expect("UTF-8");
-        page.lines().any(is_option).then(|| name.trim_end_matches(".snap").to_string())
+        page.lines().any(is_option).then(|| name.trim_end_matches(".snap").replace('-', " "))
     };
     pages.filter_map(|file| with_json(file.expect("a file"))).collect()
 }
@@ -164,13 +164,13 @@ fn succeeding(documents: &mut Documents) {
     documents.printed("audit", 0, "audit two-blocks");
     documents.printed("finding", 0, "audit --finding C4");
     documents.printed("finding", 0, "audit fig1 --finding K1");
-    documents.printed("c-cnt", 0, "c-cnt fig1");
+    documents.printed("c_cnt", 0, "listing run c_cnt fig1");
     documents.printed("extremes", 0, "extremes tolerance surfaces");
-    documents.printed("plan", 0, "plan fig1");
-    documents.printed("plan", 0, "plan strand --variant unilateral");
-    documents.printed("statuses", 0, "statuses --scenes 2");
-    documents.printed("trace", 0, "trace fig1");
-    documents.printed("trace", 0, "trace fig1 --listing Km --node 7");
+    documents.printed("plan", 0, "scene plan fig1");
+    documents.printed("plan", 0, "scene plan strand --variant unilateral");
+    documents.printed("statuses", 0, "audit --statuses --scenes 2");
+    documents.printed("trace", 0, "listing trace fig1");
+    documents.printed("trace", 0, "listing trace fig1 --listing Km --node 7");
     documents.printed("trade", 0, "trade fig1 --runs 1");
     documents.printed("compare", 0, "compare fig1 --with calculix --variant tied");
     documents.printed(
@@ -183,21 +183,21 @@ fn succeeding(documents: &mut Documents) {
 /// Documents of snapshots that agree and differ, of worksheets and programs, and of failures.
 fn differing(documents: &mut Documents) {
     documents.write("sum.txt", "f(n) :=\n  n + 1\n");
-    documents.printed("evaluate", 0, "evaluate sum.txt --call f(2)");
-    documents.printed("evaluate", 2, "evaluate sum.txt --call f(1/0)");
+    documents.printed("evaluate", 0, "listing evaluate sum.txt --call f(2)");
+    documents.printed("evaluate", 2, "listing evaluate sum.txt --call f(1/0)");
     let at = documents.folder.path().to_path_buf();
     let done = |command: &str| {
         let args: Vec<&str> = command.split_whitespace().collect();
         assert_eq!(ran(&at, &args).0, Some(0), "{command}");
     };
-    done("export fig1 --to mathcad --out fig1.xmcd");
+    done("mathcad export fig1 --to mathcad --out fig1.xmcd");
     // Mathcad has saved nothing in it yet.
-    documents.printed("mathcad", 1, "mathcad fig1.xmcd");
-    done("record fig1 --variant printed,tied,stepped,unilateral --out s.json");
-    done("record fig1 --reading R4=eager --out failing.json");
+    documents.printed("mathcad", 1, "mathcad run fig1.xmcd");
+    done("snapshot record fig1 --variant printed,tied,stepped,unilateral --out s.json");
+    done("snapshot record fig1 --reading R4=eager --out failing.json");
     documents.file("snapshot", "s.json");
     documents.file("snapshot", "failing.json");
-    documents.printed("verify", 0, "verify s.json failing.json");
+    documents.printed("verify", 0, "snapshot verify s.json failing.json");
     let text = std::fs::read_to_string(at.join("s.json")).expect("a snapshot");
     let mut changed: Value = serde_json::from_str(&text).expect("JSON");
     let run = &mut changed["runs"]["tied"];
@@ -213,31 +213,30 @@ fn differing(documents: &mut Documents) {
     }]);
     documents.text("snapshot", &changed.to_string());
     documents.write("changed.json", &changed.to_string());
-    documents.printed("verify", 1, "verify changed.json");
-    documents.printed("verify", 1, "explain changed.json");
-    documents.printed("verify", 1, "diff strand --variant stepped,tied");
-    done("accept s.json --scene two-blocks --reason another");
+    documents.printed("verify", 1, "snapshot verify changed.json");
+    documents.printed("verify", 1, "snapshot explain changed.json");
+    documents.printed("verify", 1, "snapshot diff strand --variant stepped,tied");
+    done("snapshot accept s.json --scene two-blocks --reason another");
     documents.file("snapshot", "s.json");
 }
 
 /// What `--json` prints where there is no document, of every command that has it and of each cause.
 fn failing(documents: &mut Documents) {
     for command in commands_with_json() {
-        let place = if command == "diff" { "nowhere nowhere" } else { "nowhere" };
-        let more = if command == "compare" { " --with calculix" } else { "" };
+        let place = if command == "snapshot diff" { "nowhere nowhere" } else { "nowhere" };
         // To verify, a file that cannot be read is a result among others.
-        let schema = if command == "verify" { "verify" } else { "failure" };
-        documents.printed(schema, 2, &format!("{command} {place}{more}"));
+        let schema = if command == "snapshot verify" { "verify" } else { "failure" };
+        documents.printed(schema, 2, &format!("{command} {place}"));
         // What the command line does not know is an error of the input too.
         documents.printed("failure", 2, &format!("{command} --nothing"));
     }
     documents.printed("failure", 3, "solve fig1 --reading R4=left-to-right");
-    documents.printed("failure", 3, "c-cnt fig1 --reading R4=left-to-right");
-    documents.printed("trace", 3, "trace fig1 --reading R4=left-to-right");
+    documents.printed("failure", 3, "listing run c_cnt fig1 --reading R4=left-to-right");
+    documents.printed("trace", 3, "listing trace fig1 --reading R4=left-to-right");
     let listing =
         std::fs::read_to_string(Path::new(ROOT).join("listings/c_cnt.txt")).expect("text");
     documents.write("edited.txt", &listing.replace("if dy[i1] = 1", "if dy[i1+9] = 1"));
-    documents.printed("trace", 2, "trace fig1 --listing edited.txt");
+    documents.printed("trace", 2, "listing trace fig1 --listing edited.txt");
     let hostile = Path::new(ROOT).join("tests/program/hostile");
     let two_answers = hostile.join("rocking-two-answers-a.json");
     documents.printed("result", 4, &format!("solve {} --geometry initial", two_answers.display()));
@@ -282,7 +281,7 @@ fn inputs(documents: &mut Documents) {
         "answers": found.collect::<Vec<_>>() });
     documents.text("answers", &answers.to_string());
     documents.write("answers.json", &answers.to_string());
-    documents.printed("marks", 0, "verify answers.json");
+    documents.printed("marks", 0, "snapshot verify answers.json");
 }
 
 const ANSWERS_FILE: reader::Kind =

@@ -515,7 +515,7 @@ fn sentences_and_tables_of_audit_are_those_of_its_json() {
 #[test]
 fn tables_of_statuses_are_those_of_their_json() {
     let folder = TempDir::new().expect("a folder");
-    let args = ["statuses", "--scenes", "5"];
+    let args = ["audit", "--statuses", "--scenes", "5"];
     let (text, json) = (printed(folder.path(), &args), json_of(folder.path(), &args));
     let rows = json["by_depth"].as_array().expect("rows");
     let printed = cells(&text, "1-wrong-statuses");

@@ -17,7 +17,7 @@ fn ran(folder: &Path, args: &[&str]) -> (i32, String, String) {
 /// A folder with a snapshot `s.json` of `fig1` under two variants.
 fn recorded() -> TempDir {
     let folder = TempDir::new().expect("a folder");
-    let args = ["record", "fig1", "--variant", "stepped,tied", "--out", "s.json"];
+    let args = ["snapshot", "record", "fig1", "--variant", "stepped,tied", "--out", "s.json"];
     let (status, printed, errors) = ran(folder.path(), &args);
     assert_eq!((status, &errors[..]), (0, ""), "{printed}");
     folder
@@ -34,7 +34,7 @@ fn tampered(change: impl FnOnce(&mut Value)) -> (i32, String, String) {
     let mut snapshot = document(folder.path());
     change(&mut snapshot);
     std::fs::write(folder.path().join("t.json"), snapshot.to_string()).expect("written");
-    ran(folder.path(), &["verify", "t.json"])
+    ran(folder.path(), &["snapshot", "verify", "t.json"])
 }
 
 #[track_caller]
@@ -50,13 +50,21 @@ fn the_same_scene_gives_the_same_bytes_and_verifies() {
     let [one, other] = [recorded(), recorded()];
     let read = |folder: &TempDir| std::fs::read(folder.path().join("s.json")).expect("a snapshot");
     assert!(read(&one) == read(&other), "the same bytes");
-    assert_says(&ran(one.path(), &["verify", "s.json"]), 0, &["same, 2 runs", "stepped: same"]);
+    assert_says(
+        &ran(one.path(), &["snapshot", "verify", "s.json"]),
+        0,
+        &["same, 2 runs", "stepped: same"],
+    );
     // Recording again changes nothing, and another content is kept.
     assert_eq!(
-        ran(one.path(), &["record", "fig1", "--variant", "stepped,tied", "--out", "s.json"]).0,
+        ran(
+            one.path(),
+            &["snapshot", "record", "fig1", "--variant", "stepped,tied", "--out", "s.json"]
+        )
+        .0,
         0
     );
-    let kept = ran(one.path(), &["record", "fig1", "--out", "s.json"]);
+    let kept = ran(one.path(), &["snapshot", "record", "fig1", "--out", "s.json"]);
     assert_says(&kept, 2, &["there is another snapshot", "accept"]);
 }
 
@@ -129,7 +137,7 @@ fn a_broken_snapshot_is_the_inputs_fault() {
     let text = std::fs::read(folder.path().join("s.json")).expect("a snapshot");
     std::fs::write(folder.path().join("half.json"), &text[..text.len() / 2]).expect("written");
     assert_says(
-        &ran(folder.path(), &["verify", "half.json"]),
+        &ran(folder.path(), &["snapshot", "verify", "half.json"]),
         2,
         &["the text ends within a", "half.json"],
     );
@@ -139,8 +147,8 @@ fn a_broken_snapshot_is_the_inputs_fault() {
         1,
     );
     std::fs::write(folder.path().join("twice.json"), twice).expect("written");
-    assert_says(&ran(folder.path(), &["verify", "twice.json"]), 2, &["is given twice"]);
-    assert_says(&ran(folder.path(), &["verify", "none.json"]), 2, &["cannot be read"]);
+    assert_says(&ran(folder.path(), &["snapshot", "verify", "twice.json"]), 2, &["is given twice"]);
+    assert_says(&ran(folder.path(), &["snapshot", "verify", "none.json"]), 2, &["cannot be read"]);
 }
 
 #[test]
@@ -186,15 +194,15 @@ fn numbers_that_a_user_expects_have_an_origin_and_a_reason() {
 #[test]
 fn a_failure_is_a_snapshot_like_any_other() {
     let folder = TempDir::new().expect("a folder");
-    let args = ["record", "fig1", "--reading", "R4=left-to-right", "--out", "s.json"];
+    let args = ["snapshot", "record", "fig1", "--reading", "R4=left-to-right", "--out", "s.json"];
     assert_says(&ran(folder.path(), &args), 0, &["exit status 3", "\"line\":18"]);
-    assert_says(&ran(folder.path(), &["verify", "s.json"]), 0, &["same"]);
+    assert_says(&ran(folder.path(), &["snapshot", "verify", "s.json"]), 0, &["same"]);
     let mut snapshot = document(folder.path());
     let facts = &mut snapshot["runs"]["stepped R4=left-to-right"]["facts"];
     assert_eq!(facts["failure"]["listing"], "c_cnt");
     facts["failure"]["line"] = json!(17);
     std::fs::write(folder.path().join("t.json"), snapshot.to_string()).expect("written");
-    assert_says(&ran(folder.path(), &["verify", "t.json"]), 1, &["failure: ", "was "]);
+    assert_says(&ran(folder.path(), &["snapshot", "verify", "t.json"]), 1, &["failure: ", "was "]);
 }
 
 /// The scene of `fig1` in a folder, with another tolerance.
@@ -209,7 +217,8 @@ fn a_changed_scene_is_explained_and_accepted_with_a_reason() {
     let folder = recorded();
     let at = folder.path();
     with_tolerance(at, 0.02);
-    let explained = ran(at, &["explain", "s.json", "--scene", "scene.json", "--out", "why"]);
+    let explained =
+        ran(at, &["snapshot", "explain", "s.json", "--scene", "scene.json", "--out", "why"]);
     let words = [
         "cause: scene contact.c_tll: 0.02, was 0.001 (input)",
         "from the old input this program gives the old run",
@@ -220,13 +229,14 @@ fn a_changed_scene_is_explained_and_accepted_with_a_reason() {
     let svg = std::fs::read_to_string(at.join("why/difference.svg")).expect("a picture");
     roxmltree::Document::parse(&svg).expect("the picture is XML");
     assert!(at.join("why/difference.vtu").exists());
-    let accept =
-        |reason: &str| ran(at, &["accept", "s.json", "--scene", "scene.json", "--reason", reason]);
+    let accept = |reason: &str| {
+        ran(at, &["snapshot", "accept", "s.json", "--scene", "scene.json", "--reason", reason])
+    };
     let before = std::fs::read(at.join("s.json")).expect("a snapshot");
     assert_says(&accept(" "), 2, &["the reason is empty"]);
     assert!(std::fs::read(at.join("s.json")).expect("a snapshot") == before);
     assert_says(&accept("a rougher surface"), 0, &["accepted input", "accepted stepped/u: "]);
-    assert_says(&ran(at, &["verify", "s.json"]), 0, &["same, 2 runs"]);
+    assert_says(&ran(at, &["snapshot", "verify", "s.json"]), 0, &["same, 2 runs"]);
     let log = document(at)["log"].clone();
     let u = log.as_array().expect("a log").iter().find(|entry| entry["entry"] == "stepped/u");
     let u = u.expect("it was accepted");
@@ -244,9 +254,9 @@ fn one_entry_is_accepted_and_the_others_are_not() {
         snapshot["runs"]["tied"]["numbers"][entry]["values"][4][1] = json!(0.5);
     }
     std::fs::write(at.join("s.json"), snapshot.to_string()).expect("written");
-    let accept = ["accept", "s.json", "--entry", "tied/u", "--reason", "it was a slip"];
+    let accept = ["snapshot", "accept", "s.json", "--entry", "tied/u", "--reason", "it was a slip"];
     assert_says(&ran(at, &accept), 0, &["accepted tied/u: "]);
-    let (status, printed, _) = ran(at, &["verify", "s.json"]);
+    let (status, printed, _) = ran(at, &["snapshot", "verify", "s.json"]);
     assert_eq!(status, 1);
     assert!(!printed.contains("  u: ") && printed.contains("stress: 1 of 27"), "{printed}");
     assert_says(&ran(at, &accept), 2, &["nothing differs in what is to be accepted"]);
@@ -257,7 +267,7 @@ fn a_failing_run_is_never_accepted_silently() {
     let folder = TempDir::new().expect("a folder");
     let at = folder.path();
     with_tolerance(at, 0.001);
-    let record = ["record", "scene.json", "--variant", "tied", "--out", "s.json"];
+    let record = ["snapshot", "record", "scene.json", "--variant", "tied", "--out", "s.json"];
     assert_eq!(ran(at, &record).0, 0);
     // A vertical target edge: line 10 divides by zero.
     let mut scene = crate::common::embedded::scene_json("fig1");
@@ -268,14 +278,18 @@ fn a_failing_run_is_never_accepted_silently() {
     let accept = |more: &[&str]| {
         ran(
             at,
-            &[&["accept", "s.json", "--scene", "scene.json", "--reason", "why not"], more].concat(),
+            &[
+                &["snapshot", "accept", "s.json", "--scene", "scene.json", "--reason", "why not"],
+                more,
+            ]
+            .concat(),
         )
     };
     let before = std::fs::read(at.join("s.json")).expect("a snapshot");
     assert_says(&accept(&[]), 2, &["fails now", "\"line\":10", "--failing"]);
     assert!(std::fs::read(at.join("s.json")).expect("a snapshot") == before);
     assert_says(&accept(&["--failing"]), 0, &["accepted tied/failure"]);
-    assert_says(&ran(at, &["verify", "s.json"]), 0, &["same"]);
+    assert_says(&ran(at, &["snapshot", "verify", "s.json"]), 0, &["same"]);
 }
 
 #[test]
@@ -285,8 +299,17 @@ fn reports_are_json_junit_and_markdown() {
     let mut snapshot = document(at);
     snapshot["runs"]["tied"]["numbers"]["u"]["values"][4][1] = json!(0.5);
     std::fs::write(at.join("t.json"), snapshot.to_string()).expect("written");
-    let args =
-        ["verify", "s.json", "t.json", "--json", "--junit", "v.xml", "--report", "v.markdown"];
+    let args = [
+        "snapshot",
+        "verify",
+        "s.json",
+        "t.json",
+        "--json",
+        "--junit",
+        "v.xml",
+        "--report",
+        "v.markdown",
+    ];
     let (status, printed, _) = ran(at, &args);
     assert_eq!(status, 1);
     let report: Value = serde_json::from_str(&printed).expect("JSON");
@@ -306,15 +329,15 @@ fn reports_are_json_junit_and_markdown() {
 fn two_sets_of_options_are_compared() {
     let folder = TempDir::new().expect("a folder");
     let at = folder.path();
-    let differ = ran(at, &["diff", "strand", "--variant", "stepped,tied"]);
+    let differ = ran(at, &["snapshot", "diff", "strand", "--variant", "stepped,tied"]);
     let words = [
         "cause: option variant: \"tied\", was \"stepped\" (option)",
         "first other turn: iteration 2",
     ];
     assert_says(&differ, 1, &words);
-    let same = ran(at, &["diff", "fig1", "--solver", "dense-lu,sparse-cholesky"]);
+    let same = ran(at, &["snapshot", "diff", "fig1", "--solver", "dense-lu,sparse-cholesky"]);
     assert_says(&same, 0, &["same"]);
-    assert_says(&ran(at, &["diff", "fig1"]), 2, &["nothing to compare"]);
-    let both = ran(at, &["diff", "fig1", "two-blocks"]);
+    assert_says(&ran(at, &["snapshot", "diff", "fig1"]), 2, &["nothing to compare"]);
+    let both = ran(at, &["snapshot", "diff", "fig1", "two-blocks"]);
     assert_says(&both, 1, &["cause: scene title", "(input)"]);
 }

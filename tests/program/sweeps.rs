@@ -117,7 +117,7 @@ fn faults_of_the_file_are_named() {
 fn keys_tell_scene_options_and_nothing_else_apart() {
     let folder = TempDir::new().expect("a folder");
     let key = |args: &[&str]| {
-        let (status, printed, errors) = ran(folder.path(), &[&["key"], args].concat());
+        let (status, printed, errors) = ran(folder.path(), &[&["scene", "key"], args].concat());
         assert_eq!(status, 0, "{errors}");
         printed
     };
@@ -394,9 +394,17 @@ fn names_reach(engine: &str, run: impl Fn(&Path)) {
         let file = format!("{name}.json");
         std::fs::rename(at.join("sweep.json"), at.join(&file)).expect("it is renamed");
         let (status, jobs, errors) = ran(at, &["sweep", "--emit", engine, "--", &file]);
+        if engine == "commands" && name.contains('\n') {
+            assert_eq!(status, 2);
+            continue;
+        }
         assert_eq!(status, 0, "{name}: {errors}");
         std::fs::write(at.join("jobs.py"), jobs).expect("written");
         run(at);
+        if engine == "commands" {
+            let rows = format!("{name}.rows");
+            assert_eq!(ran(at, &["sweep", "--rows", &rows, "--", &file]).0, 0);
+        }
         let gathered = std::fs::read(at.join("out").join(format!("{name}.jsonl")));
         let gathered = gathered.unwrap_or_else(|why| panic!("{engine}, {name:?}: {why}"));
         assert_eq!(ran(at, &["sweep", "--out", "here.jsonl", "--", &file]).0, 0);
@@ -408,15 +416,6 @@ fn names_reach(engine: &str, run: impl Fn(&Path)) {
 fn succeeds(command: &mut Command, at: &Path) {
     let output = command.current_dir(at).output().expect("it starts");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-}
-
-#[test]
-fn any_name_reaches_parallel() {
-    let mut program = Command::new("parallel");
-    program.arg("--version");
-    if is_there(program, "REQUIRE_PARALLEL") {
-        names_reach("parallel", |at| succeeds(Command::new("sh").arg("jobs.py"), at));
-    }
 }
 
 #[test]
@@ -438,22 +437,10 @@ fn any_name_reaches_snakemake() {
     }
 }
 
-/// Slurm runs the file once for each case, with its number in a variable.
+/// Commands are lines of the shell, each of which has a whole name.
 #[test]
-fn any_name_reaches_slurm() {
-    names_reach("slurm", |at| {
-        let text = std::fs::read_to_string(at.join("jobs.py")).expect("a job file");
-        let gather = "\n\"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"\n";
-        for case in ["0", "1"] {
-            succeeds(Command::new("sh").arg("jobs.py").env("SLURM_ARRAY_TASK_ID", case), at);
-        }
-        assert!(text.contains(gather.trim()), "{text}");
-        let variables = text.lines().skip_while(|line| line.starts_with('#'));
-        let variables: Vec<&str> =
-            variables.take_while(|line| !line.starts_with("mkdir")).collect();
-        let gather = variables.join("\n") + gather;
-        succeeds(Command::new("sh").args(["-c", &gather]), at);
-    });
+fn any_name_reaches_a_command() {
+    names_reach("commands", |at| succeeds(Command::new("sh").arg("jobs.py"), at));
 }
 
 /// A case runs again where a file that it reads has changed, and no other does.
@@ -463,7 +450,7 @@ fn a_case_is_known_by_every_file_that_it_reads() {
         "grid": {"/scene/mesh": ["a.msh", "b.msh"], "/options/c_tll": [null]}}));
     let at = folder.path();
     for n in ["2", "3", "4"] {
-        assert_eq!(ran(at, &["mesh", "cook", "--n", n, "--out", &format!("c{n}")]).0, 0);
+        assert_eq!(ran(at, &["scene", "mesh", "cook", "--n", n, "--out", &format!("c{n}")]).0, 0);
     }
     let copy = |from: &str, to: &str| {
         std::fs::copy(at.join(from), at.join("c2").join(to)).expect("a copy");
@@ -502,8 +489,6 @@ fn job_files_name_cases_and_memory() {
     for (engine, words) in [
         ("hyperqueue", ["job.program(", "\"mem\": MEGABYTES"]),
         ("snakemake", ["mem_mb=", "retries: 2"]),
-        ("slurm", ["#SBATCH --array=0-9", "scontrol requeue"]),
-        ("parallel", ["seq 0 9", "--memfree"]),
     ] {
         let (status, jobs, _) = ran(folder.path(), &["sweep", "sweep.json", "--emit", engine]);
         assert_eq!(status, 0);

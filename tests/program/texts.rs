@@ -3,12 +3,16 @@
 //! Words are exact. A number may differ by one in its last printed digit, and is not compared where
 //! it is rounding itself (below 1e-9): residuals and what rounding does to a displacement.
 
-use std::path::Path;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use tempfile::TempDir;
 
 use crate::common::golden::assert_golden_by;
 use crate::common::program::run;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Numbers below this are rounding.
 const NOISE: f64 = 1e-9;
@@ -92,43 +96,183 @@ fn audit() {
 
 #[test]
 fn plan() {
-    SCENES.iter().for_each(|scene| assert_text(scene, "plan", &["plan", scene]));
+    SCENES.iter().for_each(|scene| assert_text(scene, "plan", &["scene", "plan", scene]));
 }
 
 #[test]
 fn c_cnt() {
-    SCENES.iter().for_each(|scene| assert_text(scene, "c-cnt", &["c-cnt", scene]));
+    SCENES
+        .iter()
+        .for_each(|scene| assert_text(scene, "c_cnt", &["listing", "run", "c_cnt", scene]));
 }
 
 #[test]
 fn trace() {
-    assert_text("fig1", "trace-c_cnt", &["trace", "fig1"]);
-    assert_text("fig1", "trace-Km", &["trace", "fig1", "--listing", "Km", "--node", "7"]);
+    assert_text("fig1", "trace-c_cnt", &["listing", "trace", "fig1"]);
+    assert_text(
+        "fig1",
+        "trace-Km",
+        &["listing", "trace", "fig1", "--listing", "Km", "--node", "7"],
+    );
 }
 
+/// Returns the names of all commands, such as `listing trace`, by the lists on the pages of help.
+pub fn commands() -> Vec<String> {
+    let mut commands = inner(&[]);
+    let mut k = 0;
+    while let Some(command) = commands.get(k) {
+        let more = inner(&command.split(' ').collect::<Vec<_>>());
+        commands.extend(more);
+        k += 1;
+    }
+    commands
+}
+
+/// Returns the names of the commands on the page of help of a group: the rows before the options.
+fn inner(group: &[&str]) -> Vec<String> {
+    let page = run(Path::new("."), &[group, &["--help"]].concat()).stdout;
+    let page = String::from_utf8(page).expect("UTF-8");
+    let rows = page.lines().skip_while(|line| !line.starts_with("Usage:"));
+    let rows = rows.take_while(|line| !line.starts_with("Options:"));
+    let is_row = |line: &&str| line.starts_with("  ") && line[2..].starts_with(char::is_alphabetic);
+    let names = rows.filter(is_row).filter_map(|line| line.split_whitespace().next());
+    let names = names.filter(|name| *name != "help");
+    names.map(|name| [group, &[name]].concat().join(" ")).collect()
+}
+
+/// Every page of help but those of the generators: two screens at most, with examples.
 #[test]
 fn help() {
-    assert_text("help", "plane-contact", &["--help"]);
-    let commands = commands();
-    assert!(commands.len() >= 12, "{commands:?}");
-    for command in &commands {
-        assert_text("help", command, &[command, "--help"]);
+    let pages = commands().into_iter().filter(|command| !command.starts_with("scene mesh "));
+    let pages: Vec<String> = std::iter::once(String::new()).chain(pages).collect();
+    let file = |page: &String| match page.as_str() {
+        "" => "plane-contact".to_string(),
+        command => command.replace(' ', "-"),
+    };
+    for page in &pages {
+        let args: Vec<&str> = page.split_whitespace().chain(["--help"]).collect();
+        assert_text("help", &file(page), &args);
+        let text = printed(&args);
+        assert!(text.lines().count() <= 100, "{page}: {} lines", text.lines().count());
+        assert!(text.contains("Examples:"), "{page}");
     }
-    let files = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/help"));
-    for file in files.expect("the folder of help pages") {
+    let files = std::fs::read_dir(Path::new(ROOT).join("golden/help"));
+    let there = files.expect("the folder of help pages").map(|file| {
         let name = file.expect("a file").file_name().into_string().expect("UTF-8");
-        let page = name.trim_end_matches(".snap").to_string();
-        assert!(page == "plane-contact" || commands.contains(&page), "{name} is no command's");
-    }
+        name.trim_end_matches(".snap").to_string()
+    });
+    assert_eq!(there.collect::<BTreeSet<_>>(), pages.iter().map(file).collect());
 }
 
-/// The commands, as the first page of help lists them.
-pub fn commands() -> Vec<String> {
-    let page = printed(&["--help"]);
-    let list = page.split("Commands:").nth(1).expect("a list of commands");
-    let lines = list.lines().skip(1).take_while(|line| !line.is_empty());
-    let names = lines
-        .filter(|line| !line.starts_with("   "))
-        .filter_map(|line| line.split_whitespace().next());
-    names.filter(|name| *name != "help").map(String::from).collect()
+/// The commands that a text names: what follows the name of the program.
+fn named(text: &str) -> impl Iterator<Item = Vec<&str>> {
+    let is_word = |word: &&str| word.chars().all(|c| c.is_ascii_alphabetic() || "_-".contains(c));
+    text.split("plane-contact ").skip(1).map(move |rest| {
+        let words = rest.split([' ', '\n', '`', '"', '\'', ',', '.', ':', ';', ')', '|', '\\']);
+        words.take_while(|word| !word.is_empty() && is_word(word)).take(3).collect()
+    })
+}
+
+/// Files with texts for people below a folder.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries =
+        std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry"));
+    let mut files = Vec::new();
+    for path in entries.map(|entry| entry.path()) {
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        if path.is_dir() {
+            files.extend(self::files(&path));
+        } else if ["rs", "md", "snap", "txt"].contains(&ending) {
+            files.push(path);
+        }
+    }
+    files
+}
+
+/// No text names a command that does not exist: sources with messages and help, pages, documents.
+#[test]
+fn every_command_that_a_text_names_exists() {
+    let commands = commands();
+    let root = Path::new(ROOT);
+    let folders = ["src", "golden", "listings", "examples", "benches"];
+    let mut texts: Vec<_> = folders.iter().flat_map(|name| files(&root.join(name))).collect();
+    texts.extend([".ci/run", "README.md"].map(|name| root.join(name)));
+    let mut found = 0;
+    for file in texts {
+        let text = std::fs::read_to_string(&file).expect("text");
+        for words in named(&text).filter(|words| !words.is_empty()) {
+            let is_group = |command: &String| command.starts_with(&format!("{} ", words[0]));
+            let in_group = commands.iter().any(is_group);
+            let name = words.iter().take(1 + usize::from(in_group)).copied().collect::<Vec<_>>();
+            let exists = commands.contains(&name.join(" ")) || words == ["help"];
+            assert!(exists, "{}: plane-contact {}", file.display(), name.join(" "));
+            found += 1;
+        }
+    }
+    assert!(found > 100, "{found} commands are named");
+}
+
+/// A command typed by habit is answered by its new name, which exists.
+#[test]
+fn an_old_command_is_answered_by_the_new_one() {
+    let old = [
+        "record fig1",
+        "verify s.json",
+        "explain s.json",
+        "diff fig1",
+        "accept s.json",
+        "c-cnt fig1",
+        "km fig1",
+        "trace fig1",
+        "evaluate p.txt",
+        "listing c_cnt --to xmcd",
+        "mathcad w.xmcd",
+        "export fig1 --to octave",
+        "scenes",
+        "scene fig1",
+        "mesh cook --n 2",
+        "plan fig1 --json",
+        "key fig1",
+        "statuses --scenes 3",
+    ];
+    for line in old {
+        let output = run(Path::new("."), &line.split(' ').collect::<Vec<_>>());
+        assert_eq!(output.status.code(), Some(2), "{line}");
+        let error = String::from_utf8(output.stderr).expect("UTF-8");
+        let verb = line.split(' ').next().expect("a word");
+        assert!(error.starts_with(&format!("error: `{verb}")), "{line}: {error}");
+        let (_, new) = error.split_once("` is now `").expect("the new name");
+        let new: Vec<&str> = new.split('`').next().expect("a name").split(' ').collect();
+        let is_name = |word: &&&str| word.starts_with(char::is_lowercase) || **word == "Km";
+        let args: Vec<&str> = new.iter().filter(is_name).copied().chain(["--help"]).collect();
+        assert!(run(Path::new("."), &args).status.success(), "{args:?}");
+    }
+    let mistyped = run(Path::new("."), &["listing", "trce", "fig1"]);
+    assert!(String::from_utf8_lossy(&mistyped.stderr).contains("'trace'"));
+}
+
+/// Completions are a script that bash reads; the man page is one that `man` renders.
+#[test]
+fn completions_and_a_man_page() {
+    let script = printed(&["--completions", "bash"]);
+    assert!(script.contains("plane__contact"), "{script}");
+    let folder = TempDir::new().expect("a folder");
+    let there = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("it is written");
+        path
+    };
+    let bash = Command::new("bash").arg("-n").arg(there("c.bash", &script)).status();
+    assert!(bash.expect("bash").success());
+    for shell in ["elvish", "fish", "powershell", "zsh"] {
+        assert!(!printed(&["--completions", shell]).is_empty());
+    }
+    let page = printed(&["--man"]);
+    for part in [".TH plane-contact 1", ".SH NAME", ".SH SYNOPSIS", "snapshot"] {
+        assert!(page.contains(part), "{part}: {page}");
+    }
+    let Ok(man) = Command::new("man").arg("-l").arg(there("page.1", &page)).output() else {
+        return;
+    };
+    assert!(man.status.success() && String::from_utf8_lossy(&man.stdout).contains("SYNOPSIS"));
 }

@@ -144,8 +144,8 @@ fn fields_are_read_by_other_programs() {
         let output = run(folder.path(), args);
         assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
     };
-    write(&["mesh", "cook", "--out", "a <--> \"b\" & c\u{e4}"]);
-    write(&["mesh", "cook", "--n", "80", "--out", "many"]);
+    write(&["scene", "mesh", "cook", "--out", "a <--> \"b\" & c\u{e4}"]);
+    write(&["scene", "mesh", "cook", "--n", "80", "--out", "many"]);
     for scene in ["fig1", "two-blocks", "strand", "a <--> \"b\" & c\u{e4}", "many"] {
         write(&["solve", scene, "--no-pictures", "--fields", "--out", "out"]);
         let output = Command::new("python3")

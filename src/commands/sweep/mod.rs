@@ -1,4 +1,4 @@
-//! `plane-contact sweep` and `plane-contact key`.
+//! `plane-contact sweep`.
 
 mod journal;
 mod workers;
@@ -8,20 +8,18 @@ use std::fs::File;
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 
-use plane_contact::Scene;
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::memory;
-use plane_contact::problem::scene::{SceneFile, sha256};
+use plane_contact::problem::scene::sha256;
 use plane_contact::report::sweep::{Engine, Jobs, TRY_AGAIN};
 use plane_contact::studies::plan::Plan;
-use plane_contact::studies::snapshot::Options;
-use plane_contact::studies::sweep::{Cases, Row, Sweep, key_of, row};
+use plane_contact::studies::sweep::{Cases, Row, Sweep, row};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-use super::{RunArgs, print, print_fitted, tell};
+use super::{print, print_fitted, print_stderr};
 use journal::Journal;
 
 /// The bytes of a sweep.
@@ -46,7 +44,8 @@ runs twice.
 
 Examples:
   plane-contact sweep sweep.json --out rows.jsonl
-  plane-contact sweep sweep.json --emit hyperqueue > jobs.sh
+  plane-contact sweep sweep.json --emit hyperqueue > jobs.py
+  plane-contact sweep sweep.json --emit commands | parallel
   plane-contact sweep sweep.json --rows rows             gathers what an engine ran
 
   {\"format\": 1, \"scene\": \"fig1\",
@@ -62,7 +61,8 @@ pub struct Args {
     /// Folder of rows that an engine wrote: they are taken, and only what is missing runs.
     #[arg(long, value_name = "DIR")]
     rows: Option<PathBuf>,
-    /// Print the job file of an engine and run nothing: hyperqueue, snakemake, slurm, parallel.
+    /// Print the job file of an engine and run nothing: hyperqueue, snakemake; or commands, a command
+    /// of the shell on each line.
     #[arg(long, value_name = "ENGINE")]
     emit: Option<Engine>,
     /// Run this case alone, from zero.
@@ -190,7 +190,7 @@ fn one(cases: &Cases, case: usize, file: &Path) -> Result<u8> {
     match files::write(file, &text) {
         Ok(()) => Ok(0),
         Err(why) => {
-            tell(&format!("error: {why}\n"));
+            print_stderr(&format!("error: {why}\n"));
             Ok(TRY_AGAIN)
         }
     }
@@ -217,6 +217,10 @@ fn emit(args: &Args, cases: &Cases, engine: Engine) -> Result<u8> {
         cases: cases.len(),
         memory,
     };
+    if engine == Engine::Commands && [jobs.program, jobs.sweep, jobs.rows].concat().contains('\n') {
+        let what = "a line holds no name with a line break";
+        return Err(InputError::new("--emit", what, "rename it, or ask for another engine").into());
+    }
     print(&jobs.file(engine))?;
     Ok(0)
 }
@@ -226,26 +230,4 @@ fn name(path: &Path) -> Result<&str, InputError> {
     path.to_str().ok_or_else(|| {
         InputError::new(path.display().to_string(), "its name is not in UTF-8", "rename it")
     })
-}
-
-/// Print the key of a scene under options: the hash by which a sweep knows a case.
-#[derive(clap::Args)]
-#[command(after_help = "\
-Examples:
-  plane-contact key fig1
-  plane-contact key my/scene.json --variant tied")]
-pub struct KeyArgs {
-    /// Path of a scene, or the name of an embedded one.
-    #[arg(value_name = "SCENE")]
-    scene: String,
-    #[command(flatten)]
-    run: RunArgs,
-}
-
-pub fn run_key(args: &KeyArgs) -> Result<()> {
-    let file = SceneFile::read(&args.scene)?;
-    let scene = Scene::of_file(&file)?;
-    let options = Options::of(&args.run.request(&scene));
-    let options = Options { variant: args.run.variant, ..options };
-    print(&(key_of(file, &options)? + "\n"))
 }

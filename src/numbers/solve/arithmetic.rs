@@ -68,19 +68,14 @@ impl Solver {
     schemars::JsonSchema,
 )]
 pub struct Arithmetic {
-    /// f64, f32, f64x2 (31 digits), f64-bounded and f64x2-bounded (the same with a bound on the error
-    /// of the displacements), exact (rational numbers, for some hundred equations).
+    /// The number type.
     pub scalar: ScalarName,
-    /// dense-lu (Mathcad's own), sparse-lu, dense-cholesky, sparse-cholesky, cg (conjugate gradients
-    /// to --tol), refined (factors in the scalar below, refined to --tol) [default: sparse-cholesky;
-    /// sparse-lu under printed in f64 and f64-bounded].
+    /// The solver; null: sparse-cholesky, but sparse-lu under printed in f64 and f64-bounded.
     pub solver: Option<Solver>,
-    /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop; cg also
-    /// takes that of A scaled to a unit diagonal, refined the next change of x over x [default: 16 eps
-    /// of the scalar].
+    /// The relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop; null: 16 eps
+    /// of the scalar.
     pub tol: Option<f64>,
-    /// What the numbers of the scene stand for: binary, the exact value of their f64; decimal, the
-    /// shortest decimal that reads back to it.
+    /// What the numbers of the scene stand for.
     pub inputs: Inputs,
 }
 

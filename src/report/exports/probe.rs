@@ -228,9 +228,9 @@ pub fn worksheet() -> String {
     page.heading("plane-contact: questions to Mathcad / Вопросы к Mathcad");
     page.text(
         "Open this worksheet in Mathcad 14 or 15, let it calculate, save it, and send it: \
-         plane-contact mathcad FILE prints what it decides. Errors are answers too.\n\
+         plane-contact mathcad run FILE prints what it decides. Errors are answers too.\n\
          Откройте этот лист в Mathcad 14 или 15, дайте ему вычислиться, сохраните и пришлите: \
-         plane-contact mathcad FILE напечатает, что из него следует. Ошибки — тоже ответы.",
+         plane-contact mathcad run FILE напечатает, что из него следует. Ошибки — тоже ответы.",
     );
     let v = ::mathcad::Array::column(vec![1.0, 2.0, 3.0]);
     page.define("v", write::matrix(&v), 3);

@@ -120,8 +120,9 @@ fn indent(text: &str, by: &str) -> String {
 
 /// Returns what verifying found as a page of Markdown.
 pub fn markdown(checked: &[Checked]) -> String {
-    let mut text =
-        String::from("# plane-contact verify\n\n| snapshot | run | verdict |\n|---|---|---|\n");
+    let mut text = String::from(
+        "# plane-contact snapshot verify\n\n| snapshot | run | verdict |\n|---|---|---|\n",
+    );
     let row = |file: &str, run: &str, verdict: &str| {
         format!("| {} | {} | {} |\n", escaped(file), escaped(run), escaped(verdict))
     };

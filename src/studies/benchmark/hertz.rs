@@ -30,8 +30,8 @@ parameters! {
     /// form: K. L. Johnson, Contact Mechanics, 1985, section 4.2.
     #[command(after_help = "\
 Examples:
-  plane-contact mesh hertz                about 4,000 equations
-  plane-contact mesh hertz --size 59      about 30,000")]
+  plane-contact scene mesh hertz                about 4,000 equations
+  plane-contact scene mesh hertz --size 59      about 30,000")]
     Hertz {
         /// Elements on the contact half width.
         size: usize = 20,

@@ -16,8 +16,8 @@ parameters! {
     /// displacement -0.010080 mm.
     #[command(after_help = "\
 Examples:
-  plane-contact mesh blocks
-  plane-contact mesh blocks --upper 10 --lower 10      matching nodes")]
+  plane-contact scene mesh blocks
+  plane-contact scene mesh blocks --upper 10 --lower 10      matching nodes")]
     Blocks {
         /// Divisions of the upper block along the contact line.
         upper: usize = 7,
@@ -78,8 +78,8 @@ parameters! {
     /// dimensions", in Computational Methods in Nonlinear Mechanics, Springer, 1991.
     #[command(after_help = "\
 Examples:
-  plane-contact mesh punch-patch
-  plane-contact mesh punch-patch --punch 4 --foundation 4      matching nodes")]
+  plane-contact scene mesh punch-patch
+  plane-contact scene mesh punch-patch --punch 4 --foundation 4      matching nodes")]
     PunchPatch {
         /// Divisions of the punch along the contact line, even.
         punch: usize = 6,

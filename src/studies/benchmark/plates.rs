@@ -20,8 +20,8 @@ parameters! {
     /// Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 28.
     #[command(after_help = "\
 Examples:
-  plane-contact mesh annulus
-  plane-contact mesh annulus --radial 32 --around 64")]
+  plane-contact scene mesh annulus
+  plane-contact scene mesh annulus --radial 32 --around 64")]
     Annulus {
         /// Divisions through the wall.
         radial: usize = 8,
@@ -68,8 +68,8 @@ parameters! {
     /// Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, art. 35.
     #[command(after_help = "\
 Examples:
-  plane-contact mesh hole
-  plane-contact mesh hole --around 64 --outer 20")]
+  plane-contact scene mesh hole
+  plane-contact scene mesh hole --around 64 --outer 20")]
     Hole {
         /// Divisions around the quarter; cells are near square.
         around: usize = 16,
@@ -140,8 +140,8 @@ parameters! {
     /// (1974) 1851-1863.
     #[command(after_help = "\
 Examples:
-  plane-contact mesh cook
-  plane-contact mesh cook --n 32")]
+  plane-contact scene mesh cook
+  plane-contact scene mesh cook --n 32")]
     Cook {
         /// Divisions of each side; (48, 52) is a node where it is even.
         n: usize = 16,
@@ -179,8 +179,8 @@ parameters! {
     /// Source: NAFEMS, The Standard NAFEMS Benchmarks, TNSB rev. 3, 1990, test LE1.
     #[command(after_help = "\
 Examples:
-  plane-contact mesh ellipse
-  plane-contact mesh ellipse --n 64")]
+  plane-contact scene mesh ellipse
+  plane-contact scene mesh ellipse --n 64")]
     Ellipse {
         /// Divisions between the ellipses and along each of them.
         n: usize = 16,

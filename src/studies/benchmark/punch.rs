@@ -20,8 +20,8 @@ parameters! {
     /// Source: K. L. Johnson, Contact Mechanics, 1985, section 2.8.
     #[command(after_help = "\
 Examples:
-  plane-contact mesh punch
-  plane-contact mesh punch --punch 24 --foundation 32 --outer 50")]
+  plane-contact scene mesh punch
+  plane-contact scene mesh punch --punch 24 --foundation 32 --outer 50")]
     Punch {
         /// Divisions of the punch along the contact line.
         punch: usize = 24,

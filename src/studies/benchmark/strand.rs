@@ -41,10 +41,10 @@ parameters! {
     /// close the radii.
     #[command(after_help = "\
 Examples:
-  plane-contact mesh strand                              some 1,100 nodes
-  plane-contact mesh strand --duct 7.61 --size 0.25      nearly conforming
-  plane-contact mesh strand --duct 20 --strand 7.6       a wide duct
-  plane-contact mesh strand --top 0.5                    a stamp a quarter of the disc high")]
+  plane-contact scene mesh strand                              some 1,100 nodes
+  plane-contact scene mesh strand --duct 7.61 --size 0.25      nearly conforming
+  plane-contact scene mesh strand --duct 20 --strand 7.6       a wide duct
+  plane-contact scene mesh strand --top 0.5                    a stamp a quarter of the disc high")]
     Strand {
         /// Radius of the duct, mm.
         duct: f64 = 7.7,

@@ -82,7 +82,8 @@ pub fn accept(
     }
     if accepted.is_empty() {
         let what = "nothing differs in what is to be accepted";
-        let fix = "see `plane-contact verify`; an entry is named run/entry, such as stepped/u";
+        let fix =
+            "see `plane-contact snapshot verify`; an entry is named run/entry, such as stepped/u";
         return Err(InputError::new("--entry", what, fix));
     }
     snapshot.input = verified.input.clone();

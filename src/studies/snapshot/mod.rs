@@ -204,7 +204,7 @@ impl Snapshot {
     /// Names the field that is wrong or lacking, a number that is out of its range, or a format that this
     /// program does not know.
     pub fn read(text: &[u8]) -> Result<Self> {
-        let fix = "give a snapshot as `plane-contact record` writes it";
+        let fix = "give a snapshot as `plane-contact snapshot record` writes it";
         #[derive(Deserialize)]
         struct Head {
             format: Option<u32>,

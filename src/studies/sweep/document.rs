@@ -206,7 +206,8 @@ fn sorted(value: &Value) -> Value {
 
 /// Returns the generator that `parameters` name: its `kind`, and its options of the command line.
 fn kind(parameters: &Value) -> Result<Kind> {
-    let fault = |what: String| InputError::new("generate", what, "see `plane-contact mesh --help`");
+    let fault =
+        |what: String| InputError::new("generate", what, "see `plane-contact scene mesh --help`");
     let fields = parameters.as_object().ok_or_else(|| fault("it is no object".into()))?;
     let name = fields.get("kind").and_then(Value::as_str);
     let name = name.ok_or_else(|| fault("it names no kind".into()))?;

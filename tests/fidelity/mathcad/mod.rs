@@ -20,7 +20,7 @@ use plane_contact::mathcad::{Array, Cause, Limits, Listing, Outcome, Settings, V
 pub fn exported(scene: &str) -> String {
     let out = crate::common::program::run(
         std::path::Path::new("."),
-        &["export", scene, "--to", "mathcad"],
+        &["mathcad", "export", scene, "--to", "mathcad"],
     );
     String::from_utf8(out.stdout).expect("UTF-8")
 }

@@ -104,7 +104,7 @@ const CASES: &[Case] = &[
         input: "",
         command: "mkfifo .plane-contact-staged-x; ln -s d .plane-contact-staged-y; mkdir d; echo a > d/a; \
                   timeout 60 plane-contact solve fig1 --out o >text && \
-                  timeout 60 plane-contact record fig1 --out s.json >text && cat d/a",
+                  timeout 60 plane-contact snapshot record fig1 --out s.json >text && cat d/a",
         status: 0,
         contains: &["a"],
         lacks: &[],
@@ -112,7 +112,7 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: "mkdir e; flock e sleep 20 & sleep 0.3; timeout -s TERM 1 \
-                  plane-contact mesh blocks --out e/o; echo ended with $?; kill %1; ls -A e",
+                  plane-contact scene mesh blocks --out e/o; echo ended with $?; kill %1; ls -A e",
         status: 0,
         contains: &["ended with 124"],
         lacks: &["staged"],
@@ -145,7 +145,7 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: "mkdir o; echo mine > o/cook.msh; \
-                  plane-contact mesh cook --n 2 --out o; status=$?; cat o/*; exit $status",
+                  plane-contact scene mesh cook --n 2 --out o; status=$?; cat o/*; exit $status",
         status: 2,
         contains: &["cook.msh is in the way: it is not from this program", "mine"],
         lacks: &[],
@@ -153,8 +153,8 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: "for i in 1 2 3 4 5; do \
-                  plane-contact record fig1 --variant tied --out s.json >/dev/null 2>&1 & \
-                  plane-contact record fig1 --variant printed --out s.json >/dev/null 2>&1; \
+                  plane-contact snapshot record fig1 --variant tied --out s.json >/dev/null 2>&1 & \
+                  plane-contact snapshot record fig1 --variant printed --out s.json >/dev/null 2>&1; \
                   first=$?; wait $!; echo sum $(($? + first)); rm s.json; done",
         status: 0,
         contains: &["sum 2"],
@@ -171,28 +171,28 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "scene",
-        command: "sed -i 's#cook.msh#/proc/self/environ#' scene.json; SECRET=1 plane-contact plan .",
+        command: "sed -i 's#cook.msh#/proc/self/environ#' scene.json; SECRET=1 plane-contact scene plan .",
         status: 2,
         contains: &["the name leads out of the folder"],
         lacks: &["SECRET"],
     },
     Case {
         input: "scene",
-        command: "mkdir s; mv scene.json s; ln -s ../cook.msh s/cook.msh; plane-contact plan s",
+        command: "mkdir s; mv scene.json s; ln -s ../cook.msh s/cook.msh; plane-contact scene plan s",
         status: 2,
         contains: &["the name leads out of the folder"],
         lacks: &[],
     },
     Case {
         input: "scene",
-        command: "echo 'root:*:20228' > cook.msh; plane-contact plan .",
+        command: "echo 'root:*:20228' > cook.msh; plane-contact scene plan .",
         status: 2,
         contains: &["it is no mesh of Gmsh", "$MeshFormat"],
         lacks: &["root:"],
     },
     Case {
         input: "scene",
-        command: "rm cook.msh; mkfifo cook.msh; timeout 20 plane-contact plan .",
+        command: "rm cook.msh; mkfifo cook.msh; timeout 20 plane-contact scene plan .",
         status: 2,
         contains: &["cook.msh", "it is no ordinary file"],
         lacks: &[],
@@ -200,7 +200,7 @@ const CASES: &[Case] = &[
     Case {
         input: "scene",
         command: "mkdir m; mv cook.msh m; sed -i 's#cook.msh#m/cook.msh#' scene.json; \
-                  plane-contact plan .",
+                  plane-contact scene plan .",
         status: 0,
         contains: &["12 free equations"],
         lacks: &[],
@@ -226,9 +226,9 @@ const CASES: &[Case] = &[
     // Pipes that the user names.
     Case {
         input: "scene",
-        command: "mkfifo p q; cat scene.json > p & plane-contact key p; \
-                  plane-contact record . --out s.json > text; cat s.json > q & \
-                  plane-contact verify q && plane-contact key - < scene.json",
+        command: "mkfifo p q; cat scene.json > p & plane-contact scene key p; \
+                  plane-contact snapshot record . --out s.json > text; cat s.json > q & \
+                  plane-contact snapshot verify q && plane-contact scene key - < scene.json",
         status: 0,
         contains: &[],
         lacks: &["error"],

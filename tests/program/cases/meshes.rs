@@ -15,7 +15,7 @@ macro_rules! edited {
             command: concat!(
                 "sed '",
                 $edit,
-                "' scene.json >edited.json; plane-contact plan edited.json"
+                "' scene.json >edited.json; plane-contact scene plan edited.json"
             ),
             status: $status,
             contains: $contains,
@@ -29,7 +29,11 @@ macro_rules! mesh_edited {
     ($edit:literal, $status:literal, $contains:expr) => {
         Case {
             input: "gmsh",
-            command: concat!("sed -i '", $edit, "' square.msh; plane-contact plan scene.json"),
+            command: concat!(
+                "sed -i '",
+                $edit,
+                "' square.msh; plane-contact scene plan scene.json"
+            ),
             status: $status,
             contains: $contains,
             lacks: &["did you mean \"low\""],
@@ -69,23 +73,23 @@ const CASES: &[Case] = &[
     edited!("s/strain/str\\xE9in/", 2, &["line 2 is not in UTF-8", "save it as UTF-8"]),
     Case {
         input: "json",
-        command: "iconv -t UTF-16 scene.json >edited.json; plane-contact plan edited.json",
+        command: "iconv -t UTF-16 scene.json >edited.json; plane-contact scene plan edited.json",
         status: 2,
         contains: &["the file is in UTF-16", "save it as UTF-8"],
         lacks: &[],
     },
     Case {
         input: "json",
-        command: "plane-contact record scene.json --out s.json; iconv -t UTF-16LE s.json >u.json; \
-                  plane-contact verify u.json",
+        command: "plane-contact snapshot record scene.json --out s.json; iconv -t UTF-16LE s.json >u.json; \
+                  plane-contact snapshot verify u.json",
         status: 2,
         contains: &["the file is in UTF-16"],
         lacks: &[],
     },
     Case {
         input: "json",
-        command: "plane-contact record scene.json --out s.json; sed '1s/^/\\xEF\\xBB\\xBF/' s.json \
-                  >b.json; plane-contact verify b.json && plane-contact diff b.json s.json",
+        command: "plane-contact snapshot record scene.json --out s.json; sed '1s/^/\\xEF\\xBB\\xBF/' s.json \
+                  >b.json; plane-contact snapshot verify b.json && plane-contact snapshot diff b.json s.json",
         status: 0,
         contains: &["b.json: same"],
         lacks: &[],
@@ -93,14 +97,14 @@ const CASES: &[Case] = &[
     Case {
         input: "json",
         command: "(printf '{\"title\": '; head -c 100000 /dev/zero | tr '\\0' '[') >deep.json; \
-                  plane-contact plan deep.json",
+                  plane-contact scene plan deep.json",
         status: 2,
         contains: &["a list where a string is expected", "field title"],
         lacks: &[],
     },
     Case {
         input: "",
-        command: "printf 'f(x) :=\\n  x\\n' >f.txt; plane-contact evaluate f.txt --inputs \
+        command: "printf 'f(x) :=\\n  x\\n' >f.txt; plane-contact listing evaluate f.txt --inputs \
                   '{\"x\": 1, \"x\": 2}'",
         status: 2,
         contains: &["\"x\" is given twice", "--inputs"],
@@ -111,7 +115,7 @@ const CASES: &[Case] = &[
         input: "",
         command: "(printf '{\"materials\": {}, \"elem\": [[]'; head -c 20000000 /dev/zero | \
                   sed 's/\\x00/,[]/g'; echo ']}') >big.json; ulimit -v 1000000; \
-                  plane-contact plan big.json",
+                  plane-contact scene plan big.json",
         status: 2,
         contains: &["big.json: the scene file", "need 6.5 GB"],
         lacks: &[],
@@ -129,7 +133,7 @@ const CASES: &[Case] = &[
         input: "",
         command: "(printf '{\"format\": 1, \"runs\": {\"a\": {\"facts\": {\"b\": [0'; \
                   head -c 20000000 /dev/zero | sed 's/\\x00/,0/g'; echo ']}}}}') >big.json; \
-                  ulimit -v 1000000; plane-contact verify big.json",
+                  ulimit -v 1000000; plane-contact snapshot verify big.json",
         status: 2,
         contains: &["big.json: the snapshot", "need 2.9 GB"],
         lacks: &[],
@@ -141,7 +145,7 @@ const CASES: &[Case] = &[
 json.dump({\"plane\": \"strain\", \"node\": [[1, 0, 0, 0], [2, 1, 0, 0], [3, 0, 1, 0]],
     \"elem\": [[1, 2, 2, 1, 1, 1, 2, 3]],
     \"materials\": {str(i): {\"E\": 1, \"nu\": 0} for i in range(1, n + 1)}}, open(\"m.json\", \"w\"))' && \
-                  timeout 20 plane-contact plan m.json",
+                  timeout 20 plane-contact scene plan m.json",
         status: 2,
         contains: &["there is no physical group \"2\" of triangles"],
         lacks: &[],
@@ -155,14 +159,14 @@ json.dump({\"plane\": \"strain\", \"node\": [[1, 0, 0, 0], [2, 1, 0, 0], [3, 0, 
     },
     Case {
         input: "gmsh",
-        command: "plane-contact plan scene.json",
+        command: "plane-contact scene plan scene.json",
         status: 0,
         contains: &["size, mm", "1 x 1", "sum of the loads, N", "0, -2.5", "nominal strain", "0.0025"],
         lacks: &[],
     },
     Case {
         input: "gmsh",
-        command: "sed -i 's/1000/1/' scene.json; plane-contact plan scene.json",
+        command: "sed -i 's/1000/1/' scene.json; plane-contact scene plan scene.json",
         status: 0,
         contains: &["nominal strain                     2.5"],
         lacks: &[],

@@ -12,7 +12,7 @@ fn sentences() {
 const CASES: &[Case] = &[
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant tied",
         status: 0,
         contains: &["force on target", " 12.60000 ", " 100.0 % "],
@@ -20,7 +20,7 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant stepped",
         status: 0,
         contains: &[" 0.63000 ", " 12.60000 ", " 100.0 % "],
@@ -28,7 +28,7 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant unilateral",
         status: 0,
         contains: &[" 0.78750", " 12.60000"],
@@ -36,7 +36,7 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact audit d/scene.json",
         status: 0,
         contains: &["force on target over load", "  100.0 %"],
@@ -45,7 +45,7 @@ const CASES: &[Case] = &[
     // Under `printed` nothing couples the bodies.
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant printed",
         status: 0,
         contains: &["nothing couples the bodies", " 0.0 % "],
@@ -54,7 +54,7 @@ const CASES: &[Case] = &[
     // A load on the target as well: it is no force of contact.
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/\"pressure\": 6.3 }/\"pressure\": 6.3 }, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"pressure\": 6.3 }/\"pressure\": 6.3 }, \
                   { \"node\": 2, \"force\": [0.0, -100.0] }/' d/scene.json && plane-contact solve \
                   d/scene.json --variant tied",
         status: 0,
@@ -64,7 +64,7 @@ const CASES: &[Case] = &[
     // Opposite loads on both bodies: the sum is 0, and contact passes 12.6 all the same.
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/\"pressure\": 6.3 }/\"pressure\": 6.3 }, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"pressure\": 6.3 }/\"pressure\": 6.3 }, \
                   { \"node\": 2, \"force\": [0.0, 12.6] }/' d/scene.json && plane-contact solve \
                   d/scene.json --variant unilateral",
         status: 0,
@@ -73,7 +73,7 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
                   9/11, 11, 9, 8/' d/scene.json && plane-contact solve d/scene.json",
         status: 3,
         contains: &[
@@ -86,8 +86,8 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
-                  9/11, 11, 9, 8/' d/scene.json && plane-contact c-cnt d/scene.json",
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
+                  9/11, 11, 9, 8/' d/scene.json && plane-contact listing run c_cnt d/scene.json",
         status: 0,
         contains: &["No node is in contact: ct of node 10 is 0", "finding C1"],
         lacks: &["panicked"],
@@ -95,7 +95,7 @@ const CASES: &[Case] = &[
     // The upper block is held: the run ends, and says why it has no contact.
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
                   9/11, 11, 9, 8/; s/{ \"on\": 10, \"fix\"/{ \"node\": 17, \"fix\": [\"y\"] }, { \"on\": 10, \
                   \"fix\"/' d/scene.json && plane-contact solve d/scene.json --variant tied",
         status: 0,
@@ -109,7 +109,7 @@ const CASES: &[Case] = &[
     // A real gap is called a gap.
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i -E 's/\\[(1[0-8]), (.\\..), (.)\\.0/[\\1, \\2, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i -E 's/\\[(1[0-8]), (.\\..), (.)\\.0/[\\1, \\2, \
                   \\3.5/' d/scene.json && plane-contact solve d/scene.json",
         status: 3,
         contains: &["the smallest gap is 5e-1", "give a larger c_tll"],
@@ -118,7 +118,7 @@ const CASES: &[Case] = &[
     // A rule other than the listing's has no box.
     Case {
         input: "",
-        command: "plane-contact scene two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
                   9/11, 11, 9, 8/' d/scene.json && plane-contact solve d/scene.json --status projection",
         status: 0,
         contains: &["In contact at the end: nodes 10, 11, 12"],
@@ -126,21 +126,21 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact c-cnt fig1",
+        command: "plane-contact listing run c_cnt fig1",
         status: 0,
         contains: &["in fig. 1", "2.1", "2.2", "2.3", "2.4", "2.5", "1.4"],
         lacks: &["panicked"],
     },
     Case {
         input: "",
-        command: "plane-contact c-cnt two-blocks",
+        command: "plane-contact listing run c_cnt two-blocks",
         status: 0,
         contains: &["dy"],
         lacks: &["fig. 1"],
     },
     Case {
         input: "",
-        command: "plane-contact export fig1 --to octave",
+        command: "plane-contact mathcad export fig1 --to octave",
         status: 0,
         contains: &["beside('U', U, [", "beside('ct', ct, [", "beside('k_cnt', k_cnt, ["],
         lacks: &["show('U', U)"],

@@ -8,7 +8,7 @@ fn snapshots() {
 /// Records `s.json`.
 macro_rules! recorded {
     ($($then:tt)*) => {
-        concat!("plane-contact record fig1 --variant tied --out s.json >record.txt; ", $($then)*)
+        concat!("plane-contact snapshot record fig1 --variant tied --out s.json >record.txt; ", $($then)*)
     };
 }
 
@@ -30,7 +30,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "r[\"numbers\"][\"u\"][\"values\"][2][1] = float(\"nan\")",
-            "mkdir folder; cp t.json \"a|b<c>&\\`d\\`.json\"; plane-contact verify s.json t.json folder none.json \
+            "mkdir folder; cp t.json \"a|b<c>&\\`d\\`.json\"; plane-contact snapshot verify s.json t.json folder none.json \
              \"a|b<c>&\\`d\\`.json\" s.json --junit j.xml --report r.txt; status=$?; cat j.xml r.txt; exit $status"
         ),
         status: 2,
@@ -53,7 +53,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "r[\"format\"] = 1",
-            "plane-contact verify s.json t.json --json > v.json; plane-contact schema verify > schema.json; \
+            "plane-contact snapshot verify s.json t.json --json > v.json; plane-contact schema verify > schema.json; \
              python3 -c 'import json; v = json.load(open(\"v.json\"))[\"files\"]; print(v[0][\"same\"], v[1][\"failure\"][\"kind\"])'"
         ),
         status: 0,
@@ -66,7 +66,7 @@ const CASES: &[Case] = &[
         command: recorded!(
             "python3 -c 'import json; d = json.load(open(\"s.json\"))\n\
              t = json.dumps(d, sort_keys=True, indent=3).replace(\"\\n\", \"\\r\\n\")\n\
-             open(\"t.json\", \"wb\").write(b\"\\xef\\xbb\\xbf\" + t.encode())'; plane-contact verify t.json"
+             open(\"t.json\", \"wb\").write(b\"\\xef\\xbb\\xbf\" + t.encode())'; plane-contact snapshot verify t.json"
         ),
         status: 0,
         contains: &["same, 1 run"],
@@ -76,7 +76,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "m = d[\"input\"][\"scene\"][\"materials\"]; d[\"input\"][\"scene\"][\"materials\"] = dict(reversed(m.items()))",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 0,
         contains: &["same, 1 run"],
@@ -86,7 +86,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "d[\"input\"][\"scene\"][\"thickness\"] = 2",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 2,
         contains: &["scene was changed after it was recorded"],
@@ -97,7 +97,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "r[\"numbers\"][\"load\"][\"unit\"] = \"kN\"; del r[\"numbers\"][\"u\"][\"unit\"]",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 1,
         contains: &["unit of load: N, was kN", "unit of u: mm, was none"],
@@ -105,7 +105,7 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "units",
-        command: "plane-contact diff scene.json kN.json",
+        command: "plane-contact snapshot diff scene.json kN.json",
         status: 1,
         contains: &[
             "cause: scene units.force: \"kN\", was \"N\" (input)",
@@ -118,7 +118,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "u = r[\"numbers\"][\"u\"]; u[\"values\"][4][2] *= 1.001; u[\"tolerance\"] = {\"absolute\": 1e-20, \"relative\": 0.01}",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 0,
         contains: &["same, 1 run"],
@@ -128,7 +128,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "y = r[\"numbers\"][\"iteration 1 yt\"]; y[\"values\"] = [1e-18 if x == 0 else x for x in y[\"values\"]]; y[\"tolerance\"] = {\"relative\": 0}",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 0,
         contains: &["same, 1 run"],
@@ -138,7 +138,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "r[\"numbers\"][\"u\"][\"tolerance\"] = {\"absolute\": 1, \"relative\": -0.5}",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 2,
         contains: &[
@@ -151,7 +151,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "r[\"numbers\"][\"u\"][\"tolerance\"] = \"1e-3\"",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 2,
         contains: &["the text \"1e-3\" where an object with `absolute`, `relative` or `ulps`"],
@@ -161,7 +161,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "r[\"numbers\"][\"u\"][\"tolerance\"] = {}",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 2,
         contains: &["it is empty: a tolerance is `absolute`, `relative` or `ulps`"],
@@ -169,7 +169,10 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: changed!("r[\"numbers\"][\"u\"][\"bound\"] = -1", "plane-contact verify t.json"),
+        command: changed!(
+            "r[\"numbers\"][\"u\"][\"bound\"] = -1",
+            "plane-contact snapshot verify t.json"
+        ),
         status: 2,
         contains: &["the bound on a rounding error is -1", "numbers.u.bound"],
         lacks: &[],
@@ -177,8 +180,8 @@ const CASES: &[Case] = &[
     // What is no finite number.
     Case {
         input: "overflow",
-        command: "plane-contact record scene.json --variant tied --coupling mortar --status projection \
-                  --solver sparse-lu --out s.json && grep -q null s.json && plane-contact verify s.json",
+        command: "plane-contact snapshot record scene.json --variant tied --coupling mortar --status projection \
+                  --solver sparse-lu --out s.json && grep -q null s.json && plane-contact snapshot verify s.json",
         status: 0,
         contains: &["same, 1 run"],
         lacks: &[],
@@ -187,7 +190,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "r[\"numbers\"][\"u\"][\"values\"][2][1] = None",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 1,
         contains: &["u: 1 of 26 numbers differ", "was no finite number"],
@@ -198,7 +201,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "del r[\"numbers\"][\"stress\"]; r[\"facts\"][\"more\"] = 1",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 1,
         contains: &["stress: new", "more: missing"],
@@ -206,9 +209,9 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact record fig1 --variant tied,stepped --out a.json >record.txt; \
-                  plane-contact record fig1 --variant tied,printed --out b.json >record.txt; \
-                  plane-contact diff a.json b.json",
+        command: "plane-contact snapshot record fig1 --variant tied,stepped --out a.json >record.txt; \
+                  plane-contact snapshot record fig1 --variant tied,printed --out b.json >record.txt; \
+                  plane-contact snapshot diff a.json b.json",
         status: 1,
         contains: &[
             "2 of 3 runs differ",
@@ -220,15 +223,15 @@ const CASES: &[Case] = &[
     // Part of the numbers.
     Case {
         input: "",
-        command: "plane-contact record fig1 --variant tied --only u,pressure --out s.json && grep -c iteration s.json; \
-                  plane-contact verify s.json && plane-contact diff s.json fig1 --variant tied",
+        command: "plane-contact snapshot record fig1 --variant tied --only u,pressure --out s.json && grep -c iteration s.json; \
+                  plane-contact snapshot verify s.json && plane-contact snapshot diff s.json fig1 --variant tied",
         status: 0,
         contains: &["5 facts, ", "s.json: same", "s.json and fig1: same"],
         lacks: &["missing", "new"],
     },
     Case {
         input: "",
-        command: "plane-contact record fig1 --only presure",
+        command: "plane-contact snapshot record fig1 --only presure",
         status: 2,
         contains: &["presure", "pressure"],
         lacks: &[],
@@ -238,8 +241,8 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "r[\"numbers\"][\"u\"][\"values\"][4][2] = 1",
-            "cp t.json before.json; plane-contact accept t.json --dry-run --reason why && cmp t.json before.json \
-             && plane-contact accept t.json --reason why && plane-contact verify t.json"
+            "cp t.json before.json; plane-contact snapshot accept t.json --dry-run --reason why && cmp t.json before.json \
+             && plane-contact snapshot accept t.json --reason why && plane-contact snapshot verify t.json"
         ),
         status: 0,
         contains: &["accepted tied/u: ", "t.json: same"],
@@ -247,15 +250,17 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: recorded!("plane-contact accept s.json --entry tied/presure --reason why"),
+        command: recorded!(
+            "plane-contact snapshot accept s.json --entry tied/presure --reason why"
+        ),
         status: 2,
         contains: &["no run or entry is named \"tied/presure\"", "did you mean \"tied/pressure\"?"],
         lacks: &[],
     },
     Case {
         input: "",
-        command: "plane-contact record fig1 --variant tied,stepped,printed --out s.json >record.txt; \
-                  plane-contact accept s.json --scene two-blocks --reason why > a.txt; wc -l < a.txt; cat a.txt",
+        command: "plane-contact snapshot record fig1 --variant tied,stepped,printed --out s.json >record.txt; \
+                  plane-contact snapshot accept s.json --scene two-blocks --reason why > a.txt; wc -l < a.txt; cat a.txt",
         status: 0,
         contains: &["20\n", "accepted input", "other entries, see the log"],
         lacks: &[],
@@ -265,7 +270,7 @@ const CASES: &[Case] = &[
         input: "",
         command: changed!(
             "r[\"expected\"] = [{\"entry\": \"presure\", \"row\": 5, \"value\": 0, \"tolerance\": {\"absolute\": 1}, \"origin\": {\"closed-form\": \"0\"}, \"reason\": \"free\"}]",
-            "plane-contact verify t.json"
+            "plane-contact snapshot verify t.json"
         ),
         status: 2,
         contains: &["the run has no such numbers", "did you mean \"pressure\"?"],
@@ -274,7 +279,7 @@ const CASES: &[Case] = &[
     // Time is linear in what a snapshot holds: 100,000 steps took more than half an hour.
     Case {
         input: "steps",
-        command: "timeout 300 plane-contact record scene.json --out s.json && timeout 300 plane-contact diff s.json s.json",
+        command: "timeout 300 plane-contact snapshot record scene.json --out s.json && timeout 300 plane-contact snapshot diff s.json s.json",
         status: 0,
         contains: &["same, 1 run"],
         lacks: &[],
@@ -282,7 +287,7 @@ const CASES: &[Case] = &[
     // Through a pipe.
     Case {
         input: "",
-        command: recorded!("cat s.json | plane-contact verify /dev/stdin"),
+        command: recorded!("cat s.json | plane-contact snapshot verify /dev/stdin"),
         status: 0,
         contains: &["same, 1 run"],
         lacks: &[],

@@ -84,7 +84,7 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact record fig1 --variant tied,unilateral --scalar f64x2",
+        command: "plane-contact snapshot record fig1 --variant tied,unilateral --scalar f64x2",
         status: 2,
         contains: &["unilateral does not run in f64x2"],
         lacks: &["panicked"],

@@ -26,62 +26,68 @@ macro_rules! case {
 /// Writes the text of a program to p.txt and executes a call of it.
 macro_rules! program {
     ($text:literal, $call:literal) => {
-        concat!("printf '", $text, "' > p.txt && plane-contact evaluate p.txt --call '", $call, "'")
+        concat!(
+            "printf '",
+            $text,
+            "' > p.txt && plane-contact listing evaluate p.txt --call '",
+            $call,
+            "'"
+        )
     };
 }
 
 const CASES: &[Case] = &[
     // A function's names are those above its definition, its own name too.
-    case!("public", "plane-contact mathcad bind-variable.xmcd", ["1 results same"], []),
-    case!("public", "plane-contact mathcad bind-function.xmcd", ["1 results same"], []),
-    case!("public", "plane-contact mathcad bind-self.xmcd", ["1 results same"], []),
+    case!("public", "plane-contact mathcad run bind-variable.xmcd", ["1 results same"], []),
+    case!("public", "plane-contact mathcad run bind-function.xmcd", ["1 results same"], []),
+    case!("public", "plane-contact mathcad run bind-self.xmcd", ["1 results same"], []),
     // Mathematics within text counts.
-    case!("public", "plane-contact mathcad text.xmcd", ["2 results same", "0 differ"], []),
+    case!("public", "plane-contact mathcad run text.xmcd", ["2 results same", "0 differ"], []),
     // What is no plain name on the left side, or comes from a component, loses its old value.
-    case!("public", "plane-contact mathcad left-side.xmcd", ["5 results same", "0 differ"], []),
+    case!("public", "plane-contact mathcad run left-side.xmcd", ["5 results same", "0 differ"], []),
     case!(
         "public",
-        "plane-contact mathcad component.xmcd" => 1,
+        "plane-contact mathcad run component.xmcd" => 1,
         ["unsupported: component (it rests on D)", "0 differ, 3 regions"],
         []
     ),
     // A result shown in a unit is neither compared nor goes on as input.
     case!(
         "public",
-        "plane-contact mathcad override.xmcd" => 1,
+        "plane-contact mathcad run override.xmcd" => 1,
         ["unsupported: units: %", "0 differ, 4 regions"],
         ["as input"]
     ),
     // A number over a column.
-    case!("public", "plane-contact mathcad over-column.xmcd", ["2 results same"], []),
+    case!("public", "plane-contact mathcad run over-column.xmcd", ["2 results same"], []),
     // Loops over range variables, vectors and lists.
     case!(
         "for-over-a-range-variable",
-        "plane-contact mathcad range-for.xmcd",
+        "plane-contact mathcad run range-for.xmcd",
         ["1 results same"],
         ["unsupported:"]
     ),
     case!(
         "for-over-a-range-variable",
-        "plane-contact mathcad range-for-inline.xmcd",
+        "plane-contact mathcad run range-for-inline.xmcd",
         ["1 results same"],
         []
     ),
     case!(
         "for-over-a-range-variable",
-        "plane-contact mathcad for-list.xmcd",
+        "plane-contact mathcad run for-list.xmcd",
         ["1 results same"],
         []
     ),
     case!(
         "for-over-a-range-variable",
-        "plane-contact evaluate lst.txt --call 'f(1)'",
+        "plane-contact listing evaluate lst.txt --call 'f(1)'",
         ["15\n"],
         []
     ),
     case!(
         "for-over-a-range-variable",
-        "plane-contact listing lst.txt --to xmcd --out l.xmcd && plane-contact listing l.xmcd --to text",
+        "plane-contact listing convert lst.txt --to xmcd --out l.xmcd && plane-contact listing convert l.xmcd --to text",
         ["for x ∈ 1, 5, 9"],
         []
     ),
@@ -104,14 +110,29 @@ const CASES: &[Case] = &[
     // Strings compared.
     case!(
         "strings-compared",
-        "plane-contact mathcad string-eq.xmcd",
+        "plane-contact mathcad run string-eq.xmcd",
         ["0 differ"],
         ["Expected a number", "unsupported:"]
     ),
-    case!("strings-compared", "plane-contact mathcad string-order.xmcd", ["1 results same"], []),
-    case!("strings-compared", "plane-contact evaluate streq.txt --call 'f(\"yes\")'", ["2\n"], []),
-    case!("strings-compared", "plane-contact evaluate streq.txt --call 'f(\"no\")'", ["1\n"], []),
-    case!("strings-compared", "plane-contact evaluate streq.txt --call 'f(3)'" => 2, ["Expected a number, found a string"], []),
+    case!(
+        "strings-compared",
+        "plane-contact mathcad run string-order.xmcd",
+        ["1 results same"],
+        []
+    ),
+    case!(
+        "strings-compared",
+        "plane-contact listing evaluate streq.txt --call 'f(\"yes\")'",
+        ["2\n"],
+        []
+    ),
+    case!(
+        "strings-compared",
+        "plane-contact listing evaluate streq.txt --call 'f(\"no\")'",
+        ["1\n"],
+        []
+    ),
+    case!("strings-compared", "plane-contact listing evaluate streq.txt --call 'f(3)'" => 2, ["Expected a number, found a string"], []),
     case!(
         "",
         program!(
@@ -126,14 +147,19 @@ const CASES: &[Case] = &[
     // The function if.
     case!(
         "the-function-if",
-        "plane-contact mathcad if-function.xmcd",
+        "plane-contact mathcad run if-function.xmcd",
         ["if(x > 2,10,20) =", "3 results same", "0 differ"],
         ["unsupported:"]
     ),
-    case!("the-function-if", "plane-contact evaluate iffun.txt --call 'f(-3)'", ["9\n"], []),
     case!(
         "the-function-if",
-        "plane-contact listing iffun.txt --to xmcd --out l.xmcd && plane-contact listing l.xmcd --to text",
+        "plane-contact listing evaluate iffun.txt --call 'f(-3)'",
+        ["9\n"],
+        []
+    ),
+    case!(
+        "the-function-if",
+        "plane-contact listing convert iffun.txt --to xmcd --out l.xmcd && plane-contact listing convert l.xmcd --to text",
         ["if(x < 0,x^2,2·x)"],
         []
     ),
@@ -158,7 +184,7 @@ const CASES: &[Case] = &[
     // Units.
     case!(
         "units-called-undefined",
-        "plane-contact mathcad units.xmcd",
+        "plane-contact mathcad run units.xmcd",
         [
             "unsupported: units: cm",
             "unsupported: units: m",
@@ -171,82 +197,97 @@ const CASES: &[Case] = &[
     case!("", program!("f(cm) := 3*cm", "f(2)"), ["6\n"], []),
     case!(
         "",
-        "printf 'f(x) := x*kN' > p.txt && plane-contact evaluate p.txt --call 'f(2)' --inputs '{\"kN\": 3}'",
+        "printf 'f(x) := x*kN' > p.txt && plane-contact listing evaluate p.txt --call 'f(2)' --inputs '{\"kN\": 3}'",
         ["6\n"],
         []
     ),
     // Functions that are not had.
     case!(
         "root-called-x",
-        "plane-contact mathcad root.xmcd",
+        "plane-contact mathcad run root.xmcd",
         ["unsupported: the function root"],
         ["`x`", "not defined"]
     ),
-    case!("root-called-x", "plane-contact mathcad builtins.xmcd", ["0 differ"], ["not defined"]),
+    case!(
+        "root-called-x",
+        "plane-contact mathcad run builtins.xmcd",
+        ["0 differ"],
+        ["not defined"]
+    ),
     case!("", program!("f(x) := root(g(y), y, 0, 1)", "f(1)") => 2, ["unsupported: the function root"], ["not defined", "correct the program"]),
     case!("", program!("f(x) := √(x)", "f(-1)") => 2, ["unsupported: complex numbers"], ["correct the program"]),
     case!("", program!("f(x) := h(x)", "f(1)") => 2, ["not defined above: h", "correct the program or its inputs"], ["unsupported"]),
     case!(
         "what-evaluate-lacks",
-        "plane-contact evaluate ex.txt --call 'f(v)' --inputs '{\"v\":[3,1,2]}'",
+        "plane-contact listing evaluate ex.txt --call 'f(v)' --inputs '{\"v\":[3,1,2]}'",
         ["6\n"],
         []
     ),
     case!(
         "what-evaluate-lacks",
-        "plane-contact evaluate othr3.txt --call 'f(1)'",
+        "plane-contact listing evaluate othr3.txt --call 'f(1)'",
         ["1.7320508075688772\n"],
         []
     ),
-    case!("what-evaluate-lacks", "plane-contact evaluate othr3.txt --call 'f(3)'", ["1\n"], []),
-    case!("what-evaluate-lacks", "plane-contact evaluate sq.txt --call 'f(4)'", ["2\n"], []),
+    case!(
+        "what-evaluate-lacks",
+        "plane-contact listing evaluate othr3.txt --call 'f(3)'",
+        ["1\n"],
+        []
+    ),
+    case!(
+        "what-evaluate-lacks",
+        "plane-contact listing evaluate sq.txt --call 'f(4)'",
+        ["2\n"],
+        []
+    ),
     case!("", program!("f(x) := x\n  x + 1\n", "f(1)") => 2, ["a function whose body stands behind `:=`", "line 2 of the file"], []),
     case!("", program!("f(x) := while x\n", "f(1)") => 2, ["expected it indented below"], []),
     case!("", program!("f(x) := g(x)\ng(x) := y <- 2*x\n", "f(4)"), ["8\n"], []),
     // Exit status.
-    case!("exit-status-of-mathcad", "plane-contact mathcad differs.xmcd" => 1, ["1 differ"], []),
-    case!("exit-status-of-mathcad", "plane-contact mathcad differs.xmcd --json" => 1, ["\"differs\""], []),
-    case!("", "plane-contact listing Km --to xmcd --out k.xmcd && plane-contact mathcad k.xmcd" => 1, ["0 results same"], []),
-    case!("", "plane-contact mathcad --help", ["Exit status: 0 where"], []),
+    case!("exit-status-of-mathcad", "plane-contact mathcad run differs.xmcd" => 1, ["1 differ"], []),
+    case!("exit-status-of-mathcad", "plane-contact mathcad run differs.xmcd --json" => 1, ["\"differs\""], []),
+    case!("", "plane-contact listing convert Km --to xmcd --out k.xmcd && plane-contact mathcad run k.xmcd" => 1, ["0 results same"], []),
+    case!("", "plane-contact mathcad run --help", ["Exit status: 0 where"], []),
     // Packed worksheets.
     case!(
         "for-over-a-range-variable",
-        "gzip < range-for.xmcd > r.xmcdz && plane-contact mathcad r.xmcdz && plane-contact listing r.xmcdz --to text",
+        "gzip < range-for.xmcd > r.xmcdz && plane-contact mathcad run r.xmcdz && plane-contact listing convert r.xmcdz --to text",
         ["1 results same", "for x ∈ X"],
         []
     ),
-    case!("", "head -c 90000000 /dev/zero | gzip > r.xmcdz && plane-contact mathcad r.xmcdz" => 2, ["more than 67108864 bytes"], []),
-    case!("", "printf '\\037\\213xx' > r.xmcdz && plane-contact mathcad r.xmcdz" => 2, ["cannot be read"], []),
+    case!("", "head -c 90000000 /dev/zero | gzip > r.xmcdz && plane-contact mathcad run r.xmcdz" => 2, ["more than 67108864 bytes"], []),
+    case!("", "printf '\\037\\213xx' > r.xmcdz && plane-contact mathcad run r.xmcdz" => 2, ["cannot be read"], []),
     // To a worksheet and back.
     case!(
         "oneline-function-lost",
-        "plane-contact listing p.txt --to xmcd --out p.xmcd && plane-contact listing p.xmcd --to text > q.txt && plane-contact evaluate q.txt --call 'h()' && plane-contact evaluate q.txt --call 'g()'",
+        "plane-contact listing convert p.txt --to xmcd --out p.xmcd && plane-contact listing convert p.xmcd --to text > q.txt && plane-contact listing evaluate q.txt --call 'h()' && plane-contact listing evaluate q.txt --call 'g()'",
         ["3\nx\n"],
         []
     ),
     case!(
         "oneline-function-lost",
-        "plane-contact listing alone.txt --to xmcd --out p.xmcd && plane-contact listing p.xmcd --to text",
+        "plane-contact listing convert alone.txt --to xmcd --out p.xmcd && plane-contact listing convert p.xmcd --to text",
         ["g() :="],
         []
     ),
     // Limits.
-    case!("steps-do-not-bound-time", "timeout 60 plane-contact evaluate listing.txt --call 'f(1)' --limit 100000000" => 2, ["The limit of 100000000 steps is reached", "--limit"], []),
+    case!("steps-do-not-bound-time", "timeout 60 plane-contact listing evaluate listing.txt --call 'f(1)' --limit 100000000" => 2, ["The limit of 100000000 steps is reached", "--limit"], []),
     case!("", program!("f(x) :=\n  while 1\n    try\n      g(x)\n    on error\n      0\ng(x) :=\n  for i in 1 .. 1000000\n    y <- i\n  y[3]\n", "f(1)' --limit '10000000") => 2, ["The limit of 10000000 steps"], []),
     case!(
         "",
-        "python3 -c \"print('f(x) :=\\n  ' + '0<(0<'*30 + 'x' + '<1)<1'*30)\" > p.txt && timeout 20 plane-contact evaluate p.txt --call 'f(1)'",
+        "python3 -c \"print('f(x) :=\\n  ' + '0<(0<'*30 + 'x' + '<1)<1'*30)\" > p.txt && timeout 20 plane-contact listing evaluate p.txt --call 'f(1)'",
         ["0\n"],
         []
     ),
-    case!("", "python3 -c \"print('f(x) :=\\n  y <- ' + 'x['*40 + '1 2' + ']'*40)\" > p.txt && timeout 20 plane-contact evaluate p.txt --call 'f(1)'" => 2, ["found `2`"], []),
-    case!("", "python3 -c \"print('f(x) :=\\n' + '  x\\n' * 6000000)\" > p.txt && ulimit -v 8000000 && plane-contact evaluate p.txt --call 'f(1)'" => 2, ["more than 16777216 bytes"], []),
-    case!("", "python3 -c \"print('f(x) :=\\n' + '  x\\n' * 3000000)\" > p.txt && ulimit -v 8000000 && plane-contact listing p.txt --to xmcd" => 2, ["at most 1000"], []),
-    case!("", "python3 -c \"print('<worksheet ' + ' '.join('a%d=\\\"1\\\"' % i for i in range(200000)) + '/>')\" > a.xmcd && timeout 10 plane-contact mathcad a.xmcd" => 2, ["more than 64 attributes"], []),
-    case!("", "python3 -c \"print('<worksheet>' + ''.join('<a xmlns:a%d=\\\"1\\\">' % i for i in range(60000)))\" > a.xmcd && timeout 10 plane-contact mathcad a.xmcd" => 2, ["more than 64 namespaces"], []),
+    case!("", "python3 -c \"print('f(x) :=\\n  y <- ' + 'x['*40 + '1 2' + ']'*40)\" > p.txt && timeout 20 plane-contact listing evaluate p.txt --call 'f(1)'" => 2, ["found `2`"], []),
+    case!("", "python3 -c \"print('f(x) :=\\n' + '  x\\n' * 6000000)\" > p.txt && ulimit -v 8000000 && plane-contact listing evaluate p.txt --call 'f(1)'" => 2, ["more than 16777216 bytes"], []),
+    case!("", "python3 -c \"print('f(x) :=\\n' + '  x\\n' * 3000000)\" > p.txt && ulimit -v 8000000 && plane-contact listing convert p.txt --to xmcd" => 2, ["at most 1000"], []),
+    case!("", "python3 -c \"print('<worksheet ' + ' '.join('a%d=\\\"1\\\"' % i for i in range(200000)) + '/>')\" > a.xmcd && timeout 10 plane-contact mathcad run a.xmcd" => 2, ["more than 64 attributes"], []),
+    case!("", "python3 -c \"print('<worksheet>' + ''.join('<a xmlns:a%d=\\\"1\\\">' % i for i in range(60000)))\" > a.xmcd && timeout 10 plane-contact mathcad run a.xmcd" => 2, ["more than 64 namespaces"], []),
     case!(
         "",
-        "python3 -c \"print(''.join('f%d(x) :=\\n  x\\n' % i for i in range(10000)))\" > p.txt && timeout 30 plane-contact evaluate p.txt --call 'f9999(7)'",
+        "python3 -c \"print(''.join('f%d(x) :=\\n  x\\n' % i for i in range(10000)))\" > p.txt && timeout 30 plane-contact listing evaluate p.txt --call 'f9999(7)'",
         ["7\n"],
         []
     ),

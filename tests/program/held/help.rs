@@ -75,15 +75,12 @@ pub const PASSAGES: Passages = Passages {
     ],
 };
 
-/// Every page of help: of the program, of its commands, of the kinds of `mesh`. Without examples,
-/// which are commands, and without what clap writes of itself: defaults that are numbers.
+/// Every page of help, without examples, which are commands, and without what clap writes of itself:
+/// defaults that are numbers.
 pub fn pages() -> String {
-    let commands = names(&[]);
-    let kinds = names(&["mesh"]);
-    let of = |args: &[&str]| page(&[args, &["--help"]].concat());
-    let commands = commands.iter().map(|command| of(&[command]));
-    let kinds = kinds.iter().map(|kind| of(&["mesh", kind]));
-    std::iter::once(of(&[])).chain(commands).chain(kinds).collect()
+    let of =
+        |command: String| page(&command.split_whitespace().chain(["--help"]).collect::<Vec<_>>());
+    std::iter::once(String::new()).chain(crate::texts::commands()).map(of).collect()
 }
 
 fn page(args: &[&str]) -> String {
@@ -98,19 +95,9 @@ fn page(args: &[&str]) -> String {
     lines.join("\n").replace("[default: 200]", "").replace("[default: 1]", "") + "\n"
 }
 
-/// The commands that a page of help lists.
-fn names(of: &[&str]) -> Vec<String> {
-    let page = page(&[of, &["--help"]].concat());
-    let list = page.split("Commands:").nth(1).expect("a list of commands");
-    let lines = list.lines().skip(1).take_while(|line| !line.is_empty());
-    let names = lines
-        .filter(|line| !line.starts_with("   "))
-        .filter_map(|line| line.split_whitespace().next());
-    names.filter(|name| *name != "help").map(String::from).collect()
-}
-
 fn commands() -> Vec<String> {
-    let km = String::from_utf8(run(Path::new("."), &["km", "fig1"]).stdout).expect("UTF-8");
+    let km = String::from_utf8(run(Path::new("."), &["listing", "run", "Km", "fig1"]).stdout)
+        .expect("UTF-8");
     let entry = km.split_whitespace().last().and_then(|entry| entry.split('e').next());
     let figures = entry.expect("an entry").chars().filter(char::is_ascii_digit).count();
     let pair = Pair::new(&STRAND.model, None, Friction::STICK);

@@ -67,7 +67,7 @@ pub const CLAIMS: &[Claim] = &[
         basis: Basis::Random,
         number: "share of the nodes in contact that the rule misses, the target below, after a jump to \
                  twice c_tll",
-        command: &["statuses", "--scenes", "20", "--json"],
+        command: &["audit", "--statuses", "--scenes", "20", "--json"],
         at: &["/by_depth/2/rules/0/missed", "/by_depth/2/touching"],
         measure: measures::signs_go_wrong,
     },
@@ -90,7 +90,7 @@ pub const CLAIMS: &[Claim] = &[
         says: "comparing signs takes fewer operations than intersecting elements",
         basis: Basis::Random,
         number: "operations of the intersection over those of the sign rule, on the largest surfaces tried",
-        command: &["statuses", "--scenes", "20", "--json"],
+        command: &["audit", "--statuses", "--scenes", "20", "--json"],
         at: &["/by_size/5/rules/1/operations", "/by_size/5/rules/0/operations"],
         measure: measures::fewer_operations,
     },

@@ -1,4 +1,4 @@
-//! `plane-contact verify` on answers that pages of exercises exported.
+//! `plane-contact snapshot verify` on answers that pages of exercises exported.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use plane_contact::files::json;
 use plane_contact::report::answers::{self as report, Marked};
 use plane_contact::studies::lesson::exercise::{ANSWERS, Answers};
 
-use super::print_either;
+use crate::commands::print_either;
 
 /// Returns whether the text of a file has answers: whether it names a kind.
 pub fn are_in(text: &[u8]) -> bool {

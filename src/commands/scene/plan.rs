@@ -1,4 +1,4 @@
-//! `plane-contact plan`.
+//! `plane-contact scene plan`.
 
 use plane_contact::engine::error::Result;
 use plane_contact::memory;
@@ -6,7 +6,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
 use plane_contact::studies::plan::Plan;
 
-use super::{RunArgs, TablesArgs, print};
+use crate::commands::{RunArgs, TablesArgs, print};
 
 /// What solve will build and what not, why, and what it will cost; nothing is solved.
 #[derive(clap::Args)]
@@ -18,9 +18,9 @@ what is left out or could be: orphan nodes, restrained equations, bodies that no
 of a symmetric scene.
 
 Examples:
-  plane-contact plan
-  plane-contact plan strand --variant tied --solver sparse-cholesky
-  plane-contact plan fig1 --json")]
+  plane-contact scene plan
+  plane-contact scene plan strand --variant tied --solver sparse-cholesky
+  plane-contact scene plan fig1 --json")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
@@ -40,5 +40,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&report::json(&scene, &plan));
     }
-    args.tables.print("plan", &report::text(&plan, &scene.units, memory::free()))
+    args.tables.print("scene plan", &report::text(&plan, &scene.units, memory::free()))
 }

@@ -1,4 +1,4 @@
-//! `plane-contact diff`.
+//! `plane-contact snapshot diff`.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use plane_contact::report::snapshot::{self as report, Checked};
 use plane_contact::studies::snapshot::{Bounds, Run, Snapshot, Verified, difference};
 
 use super::verify::DIFFERS;
-use super::{print_either, waiting};
+use crate::commands::{print_either, report_written, waiting};
 
 /// Compare two snapshots, or a scene under two sets of options.
 #[derive(clap::Args)]
@@ -22,10 +22,10 @@ Each side is a snapshot or a scene; a scene is run. With one side alone, some op
 values, one for each run. A difference is explained as verify does it.
 
 Examples:
-  plane-contact diff strand --variant stepped,tied
-  plane-contact diff old.json new.json
-  plane-contact diff my/snapshot.json my/scene.json --out why
-  plane-contact diff fig1 --reading R5=node --reading R5=node_n")]
+  plane-contact snapshot diff strand --variant stepped,tied
+  plane-contact snapshot diff old.json new.json
+  plane-contact snapshot diff my/snapshot.json my/scene.json --out why
+  plane-contact snapshot diff fig1 --reading R5=node --reading R5=node_n")]
 pub struct Args {
     /// A snapshot or a scene, and another one.
     #[arg(value_name = "A [B]", num_args = 1..=2, required = true)]
@@ -77,7 +77,7 @@ pub fn run(args: &Args) -> Result<u8> {
     print_either(args.json, || report::json(&checked), || report::text(&checked))?;
     if let (Some(folder), Some((old, run))) = (&args.out, first_pair(&sides[0], &verified)) {
         let written = report::difference_files(folder, &verified.input.build()?, [old, run])?;
-        super::say_written(folder, written);
+        report_written(folder, written);
     }
     Ok(if verified.is_same() { 0 } else { DIFFERS })
 }

@@ -1,4 +1,4 @@
-//! `plane-contact trace`.
+//! `plane-contact listing trace`.
 
 use std::cell::OnceCell;
 
@@ -16,7 +16,7 @@ use plane_contact::report::changes::changes;
 use plane_contact::report::trace::{self as report, Shown, Telling, Traced};
 use plane_contact::studies::audit::trace::{self, Product, Step};
 
-use super::{ReadingArg, print_by, print_fitted, told, width};
+use crate::commands::{ReadingArg, print_by, print_fitted, read_listing, report_error, width};
 
 /// Execute a listing and show, line by line, what each statement read and wrote.
 #[derive(clap::Args)]
@@ -27,14 +27,14 @@ executes an edited listing on the same scene, and reports what the edit changes 
 listings/README.md).
 
 Examples:
-  plane-contact trace fig1
-  plane-contact trace fig1 --node 7
-  plane-contact trace fig1 --summary                      a line for each decision
-  plane-contact trace fig1 --lines 16-18 --exact
-  plane-contact trace fig1 --listing Km --node 7
-  plane-contact trace fig1 --reading R4=left-to-right     the listing stops: exit status 3
-  plane-contact trace strand --listing my-c_cnt.txt --node 113
-  plane-contact trace fig1 --json")]
+  plane-contact listing trace fig1
+  plane-contact listing trace fig1 --node 7
+  plane-contact listing trace fig1 --summary                      a line for each decision
+  plane-contact listing trace fig1 --lines 16-18 --exact
+  plane-contact listing trace fig1 --listing Km --node 7
+  plane-contact listing trace fig1 --reading R4=left-to-right     the listing stops: exit status 3
+  plane-contact listing trace strand --listing my-c_cnt.txt --node 113
+  plane-contact listing trace fig1 --json")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
@@ -89,7 +89,7 @@ pub fn run(args: &Args) -> Result<u8> {
         print_by(|out| report::write_json(out, &of, &execute, &outcome, &why))?;
         // The failure stands in the document: no other one follows.
         let failure = outcome.get().and_then(|outcome| outcome.as_ref().err());
-        return Ok(failure.map_or(0, |failure| told(&blame(failure))));
+        return Ok(failure.map_or(0, |failure| report_error(&blame(failure))));
     }
     let lines = args.lines.unwrap_or([1, usize::MAX]);
     let shown = Shown { summary: args.summary, lines, exact: args.exact, width: width() };
@@ -141,7 +141,7 @@ fn choose(name: &str, reading: &Reading) -> Result<Chosen> {
     if let Ok(which) = name.parse::<Which>() {
         return Ok(Chosen { which, listing: which.under(reading), edited: false });
     }
-    let edited = Edited::new(name, &super::read_listing(name)?)?;
+    let edited = Edited::new(name, &read_listing(name)?)?;
     Ok(Chosen { which: edited.which, listing: edited.listing(), edited: true })
 }
 

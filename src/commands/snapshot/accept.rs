@@ -1,4 +1,4 @@
-//! `plane-contact accept`.
+//! `plane-contact snapshot accept`.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use plane_contact::report::snapshot as report;
 use plane_contact::studies::snapshot::{Chosen, accept, verify};
 
 use super::verify::read;
-use super::{print_fitted, waiting};
+use crate::commands::{print_fitted, waiting, within};
 
 /// Take new values into a snapshot, with a reason.
 #[derive(clap::Args)]
@@ -19,10 +19,10 @@ how much in units of its bound, the reason, the version of the program; a short 
 printed. Nothing is taken where a run fails that did not, unless --failing says that it should.
 
 Examples:
-  plane-contact accept out/fig1.snapshot.json --reason \"the load was doubled\"
-  plane-contact accept my/snapshot.json --dry-run --reason \"not yet\"
-  plane-contact accept my/snapshot.json --entry stepped/u --reason \"a finer solver\"
-  plane-contact accept my/snapshot.json --scene my/scene.json --reason \"a stiffer block\"")]
+  plane-contact snapshot accept out/fig1.snapshot.json --reason \"the load was doubled\"
+  plane-contact snapshot accept my/snapshot.json --dry-run --reason \"not yet\"
+  plane-contact snapshot accept my/snapshot.json --entry stepped/u --reason \"a finer solver\"
+  plane-contact snapshot accept my/snapshot.json --scene my/scene.json --reason \"a stiffer block\"")]
 pub struct Args {
     /// A snapshot.
     #[arg(value_name = "FILE")]
@@ -49,7 +49,7 @@ pub fn run(args: &Args) -> Result<()> {
     let mut snapshot = read(&args.file)?;
     let place = args.file.display().to_string();
     let verified = waiting("verifying", || verify(&snapshot, scene.as_ref(), &|| ()));
-    let verified = verified.map_err(|error| super::within(error, &place))?;
+    let verified = verified.map_err(|error| within(error, &place))?;
     let (entry, reason, failing) = (args.entry.as_deref(), &args.reason[..], args.failing);
     let accepted = accept(&mut snapshot, &verified, Chosen { entry, reason, failing })?;
     if !args.dry_run {

@@ -1,4 +1,4 @@
-//! `plane-contact verify` and `plane-contact explain`.
+//! `plane-contact snapshot verify`.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,8 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, Checked};
 use plane_contact::studies::snapshot::{self, Snapshot};
 
-use super::{answers, print_either, progress, waiting};
+use super::answers;
+use crate::commands::{print_either, progress, report_error, within};
 
 /// The exit status where what was compared differs, or nothing was compared.
 pub const DIFFERS: u8 = 1;
@@ -28,10 +29,10 @@ Files that the page of an exercise saved (`lesson --exercise`) are marked: how m
 and what the others should be.
 
 Examples:
-  plane-contact verify out/fig1.snapshot.json
-  plane-contact verify my/*.json --junit verify.xml --report summary.markdown
-  plane-contact verify my/snapshot.json --scene my/scene.json    the scene as it is today
-  plane-contact verify answers/*.json                            a class")]
+  plane-contact snapshot verify out/fig1.snapshot.json
+  plane-contact snapshot verify my/*.json --junit verify.xml --report summary.markdown
+  plane-contact snapshot verify my/snapshot.json --scene my/scene.json    the scene as it is today
+  plane-contact snapshot verify answers/*.json                            a class")]
 pub struct Args {
     /// Snapshots; or answers to exercises.
     #[arg(value_name = "FILE", required = true)]
@@ -71,10 +72,10 @@ pub fn run(args: &Args) -> Result<u8> {
 
 /// Prints what verifying found, and returns the exit status: that of the first file that could not be
 /// verified, else whether all is the same.
-fn report(checked: &[Checked], json: bool) -> Result<u8> {
+pub fn report(checked: &[Checked], json: bool) -> Result<u8> {
     print_either(json, || report::json(checked), || report::text(checked))?;
     let failures = checked.iter().filter_map(|checked| checked.verified.as_ref().err());
-    let statuses: Vec<u8> = failures.map(super::told).collect();
+    let statuses: Vec<u8> = failures.map(report_error).collect();
     let is_same = checked.iter().all(Checked::is_same);
     Ok(statuses.first().copied().unwrap_or(if is_same { 0 } else { DIFFERS }))
 }
@@ -89,7 +90,7 @@ fn snapshot_of(file: &Path, text: io::Result<Vec<u8>>) -> Result<Snapshot> {
     let place = file.display().to_string();
     let text = text.map_err(|why| {
         let what = format!("the snapshot cannot be read: {why}");
-        InputError::new(&place, what, "give a file as `plane-contact record` writes it")
+        InputError::new(&place, what, "give a file as `plane-contact snapshot record` writes it")
     })?;
     Ok(Snapshot::read(&text).map_err(|error| error.within(&place))?)
 }
@@ -106,54 +107,11 @@ fn check(
         let file = file.display().to_string();
         let verified = snapshot.and_then(|snapshot| {
             let verified = snapshot::verify(&snapshot, scene, &|| bar.inc(1));
-            verified.map_err(|error| super::within(error, &file))
+            verified.map_err(|error| within(error, &file))
         });
         Checked { file, verified }
     };
     let checked = files.iter().zip(snapshots).map(check).collect();
     bar.finish_and_clear();
     checked
-}
-
-/// Explain why a scene no longer gives what its snapshot recorded.
-#[derive(clap::Args)]
-#[command(after_help = "\
-Follows both runs in the order of computation (scene, mesh, worksheet; then in each iteration target
-edges, distances, statuses, pairs, matrix, displacements) and names the first difference, with the
-line of the listing that decides it, its cause, and how that is known.
-
-Examples:
-  plane-contact explain out/fig1.snapshot.json
-  plane-contact explain my/snapshot.json --scene my/scene.json --out why")]
-pub struct ExplainArgs {
-    /// A snapshot.
-    #[arg(value_name = "FILE")]
-    file: PathBuf,
-    /// Run this scene in place of the one in the snapshot.
-    #[arg(long, value_name = "SCENE")]
-    scene: Option<String>,
-    /// Print JSON in place of text.
-    #[arg(long)]
-    json: bool,
-    /// Folder for the difference of the displacements of the first run that differs:
-    /// difference.vtu and difference.svg.
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-}
-
-pub fn run_explain(args: &ExplainArgs) -> Result<u8> {
-    let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let snapshot = read(&args.file)?;
-    let verified = waiting("verifying", || snapshot::verify(&snapshot, scene.as_ref(), &|| ()));
-    let file = args.file.display().to_string();
-    let verified = verified.map_err(|error| super::within(error, &file))?;
-    let differing = verified.runs.iter().find(|run| !run.differences.is_empty()).cloned();
-    let input = verified.input.clone();
-    let status = report(&[Checked { file, verified: Ok(verified) }], args.json)?;
-    if let (Some(folder), Some(run)) = (&args.out, differing) {
-        let old = snapshot.runs.get(&run.name).expect("the run was read from there");
-        let written = report::difference_files(folder, &input.build()?, [old, &run.run])?;
-        super::say_written(folder, written);
-    }
-    Ok(status)
 }

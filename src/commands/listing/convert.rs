@@ -1,4 +1,4 @@
-//! `plane-contact listing`.
+//! `plane-contact listing convert`.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,8 @@ use plane_contact::mathcad::xmcd::page;
 use plane_contact::mathcad::{Limits, Listing, file};
 use plane_contact::paper::listings::Which;
 
-use super::{LARGEST_LISTING, mathcad, write_or_print};
+use crate::commands::mathcad::run as worksheet;
+use crate::commands::{LARGEST_LISTING, write_or_print};
 
 plane_contact::choices! {
     /// A notation of listings.
@@ -25,9 +26,9 @@ plane_contact::choices! {
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  plane-contact listing c_cnt --to xmcd --out c_cnt.xmcd
-  plane-contact listing worksheet.xmcd --to text
-  plane-contact listing my-program.txt --to xmcd")]
+  plane-contact listing convert c_cnt --to xmcd --out c_cnt.xmcd
+  plane-contact listing convert worksheet.xmcd --to text
+  plane-contact listing convert my-program.txt --to xmcd")]
 pub struct Args {
     /// c_cnt, Km, a file of listings, or a worksheet, whose functions and programs are taken.
     #[arg(value_name = "LISTING")]
@@ -56,7 +57,7 @@ fn read(name: &str) -> Result<Vec<Listing>> {
     let wrong = |what: String| {
         InputError::new(name, what, "give c_cnt, Km, a file of listings or a worksheet")
     };
-    let text = mathcad::read_text(Path::new(name))
+    let text = worksheet::read_text(Path::new(name))
         .map_err(|why| wrong(format!("the listing cannot be read: {why}")))?;
     if !text.trim_start_matches('\u{feff}').starts_with('<') {
         if text.len() as u64 > LARGEST_LISTING {
@@ -76,7 +77,7 @@ fn read(name: &str) -> Result<Vec<Listing>> {
             }
             _ => continue,
         };
-        let listing = Listing::parse_within(&region.id, &text, &mathcad::limits());
+        let listing = Listing::parse_within(&region.id, &text, &worksheet::limits());
         listings.push(listing.map_err(|error| wrong(error.to_string()))?);
     }
     match listings.is_empty() {

@@ -1,4 +1,4 @@
-//! `plane-contact record`.
+//! `plane-contact snapshot record`.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,8 +12,8 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot as report;
 use plane_contact::studies::snapshot::{Bounds, FIELDS, Snapshot};
 
-use super::arithmetic::ArithmeticArgs;
-use super::{ModelArgs, ReadingArg, print_fitted, waiting};
+use crate::commands::arithmetic::ArithmeticArgs;
+use crate::commands::{ModelArgs, ReadingArg, print_fitted, waiting};
 
 /// Record what a scene gives, to be verified later: a regression snapshot.
 #[derive(clap::Args)]
@@ -21,13 +21,14 @@ use super::{ModelArgs, ReadingArg, print_fitted, waiting};
 Writes a file of JSON for each scene: the scene and its mesh, whole; for each run its options, its
 discrete facts (who is in contact, target edges, iterations, a failure and its listing line) and its
 numbers, each array with the bound on its rounding errors. A snapshot of a scene that fails as
-printed is a snapshot like any other. An existing snapshot is not replaced: see accept.
+printed is a snapshot like any other. An existing snapshot is not replaced: see
+snapshot accept.
 
 Examples:
-  plane-contact record fig1 --variant printed,tied,stepped,unilateral
-  plane-contact record my/scene.json --out my/snapshot.json
-  plane-contact record fig1 --only u,pressure             a small one: what comes out at the end
-  plane-contact record fig1 --reading R4=left-to-right    an expected failure")]
+  plane-contact snapshot record fig1 --variant printed,tied,stepped,unilateral
+  plane-contact snapshot record my/scene.json --out my/snapshot.json
+  plane-contact snapshot record fig1 --only u,pressure             a small one: what comes out at the end
+  plane-contact snapshot record fig1 --reading R4=left-to-right    an expected failure")]
 pub struct Args {
     /// Paths of scenes, or names of embedded ones.
     #[arg(value_name = "SCENE", required = true)]
@@ -99,7 +100,8 @@ fn write_new(file: &Path, text: &str) -> Result<()> {
             Ok(_) => "there is another snapshot".into(),
             Err(why) => format!("the file that is there cannot be read: {why}"),
         };
-        let fix = "see what differs by `plane-contact verify`, take new values by `accept`, or \
+        let fix = "see what differs by `plane-contact snapshot verify`, take new values by
+                   `plane-contact snapshot accept`, or \
                    delete the file";
         return Err(InputError::new(place, what, fix).into());
     }

@@ -1,22 +1,22 @@
-//! `plane-contact mesh`.
+//! `plane-contact scene mesh`.
 
 use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
 use plane_contact::studies::benchmark::Kind;
 
-use super::{folder, print_fitted};
+use crate::commands::{folder, print_fitted};
 
 /// Generate a mesh and its scene: a benchmark, or the paper's example.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Writes scene.json and KIND.msh (Gmsh MSH 2.2, text, with named physical groups) to --out; solve
-runs that folder. mesh KIND --help says what is known of its solution.
+runs that folder. scene mesh KIND --help says what is known of its solution.
 
 Examples:
-  plane-contact mesh cook --n 32 --out cook
+  plane-contact scene mesh cook --n 32 --out cook
   plane-contact solve cook
-  plane-contact mesh blocks --upper 7 --lower 10")]
+  plane-contact scene mesh blocks --upper 7 --lower 10")]
 pub struct Args {
     #[command(subcommand)]
     kind: Kind,

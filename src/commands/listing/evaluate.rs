@@ -1,4 +1,4 @@
-//! `plane-contact evaluate`.
+//! `plane-contact listing evaluate`.
 
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -9,7 +9,7 @@ use plane_contact::files;
 use plane_contact::mathcad::{Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
 use plane_contact::report::evaluation as report;
 
-use super::{print, print_either, read_listing, told, waiting};
+use crate::commands::{print, print_either, read_listing, report_error, waiting};
 
 /// Run a program in the notation of the listings.
 #[derive(clap::Args)]
@@ -18,8 +18,8 @@ The file holds one function or several, in the notation of listings/README.md. R
 was measured: src/mathcad/README.md.
 
 Examples:
-  plane-contact evaluate gauss.txt --call \"gauss(A, 2)\" --inputs '{\"A\": [[2, 1, 5], [1, 3, 10]]}'
-  plane-contact evaluate sum.txt --call \"sum(10)\" --settings origin=0 --json")]
+  plane-contact listing evaluate gauss.txt --call \"gauss(A, 2)\" --inputs '{\"A\": [[2, 1, 5], [1, 3, 10]]}'
+  plane-contact listing evaluate sum.txt --call \"sum(10)\" --settings origin=0 --json")]
 pub struct Args {
     /// The file of the program.
     #[arg(value_name = "FILE")]
@@ -32,7 +32,6 @@ pub struct Args {
     inputs: String,
     /// Settings of the worksheet that differ from the default, such as
     /// origin=0,zero-over-zero=0,exact-boolean=false.
-    ///
     /// origin N (default 1), zero-over-zero error|0, exact-boolean true|false, conjunction
     /// guarded|left-to-right|eager, descending counts-down|empty, last-if previous|0, tiny itself|0.
     #[arg(long, value_name = "LIST", default_value = "")]
@@ -86,7 +85,7 @@ pub fn run(args: &Args) -> Result<u8> {
     }
     // The failure of the program is what was asked for: no other document follows it.
     print(&report::error_json(&failure))?;
-    Ok(told(&wrong))
+    Ok(report_error(&wrong))
 }
 
 /// The call of a function on names of the worksheet.

@@ -1,4 +1,4 @@
-//! `plane-contact mathcad`.
+//! `plane-contact mathcad run`.
 
 use std::fs::File;
 use std::io;
@@ -13,7 +13,7 @@ use plane_contact::mathcad::{Limits, xmcd::document};
 use plane_contact::report::exports::probe;
 use plane_contact::report::worksheet as report;
 
-use super::{print_either, progress};
+use crate::commands::{print_either, progress};
 
 /// Execute a worksheet of Mathcad 13 to 15 beside the results that it saved.
 #[derive(clap::Args)]
@@ -28,13 +28,13 @@ Exit status: 0 where results were compared and all agree, 1 where one differs or
 compared, 2 where the file is no worksheet.
 
 Examples:
-  plane-contact mathcad worksheet.xmcd
-  plane-contact mathcad worksheet.xmcdz --json")]
+  plane-contact mathcad run worksheet.xmcd
+  plane-contact mathcad run worksheet.xmcdz --json")]
 pub struct Args {
     /// The worksheet, .xmcd or .xmcdz.
     #[arg(value_name = "FILE.xmcd")]
     file: PathBuf,
-    /// The most steps of all regions together, as those of `evaluate`; one region may take half of
+    /// The most steps of all regions together, as those of `listing evaluate`; one region may take half of
     /// those that are left.
     #[arg(long, value_name = "STEPS", default_value_t = Limits::default().steps)]
     limit: u64,

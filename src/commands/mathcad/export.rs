@@ -1,0 +1,116 @@
+//! `plane-contact mathcad export`.
+
+use std::path::{Path, PathBuf};
+
+use plane_contact::engine::error::Result;
+use plane_contact::engine::{self, Request};
+use plane_contact::error::InputError;
+use plane_contact::files;
+use plane_contact::paper::door;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::exports::{Export, Run, mathcad, octave};
+
+use crate::commands::{ReadingArg, waiting, write_or_print};
+
+plane_contact::choices! {
+    /// What executes the listings.
+    Target {
+        /// Mathcad 14 and 15: a worksheet.
+        Mathcad = "mathcad",
+        /// Octave and MATLAB: a function file.
+        Octave = "octave",
+    }
+}
+
+/// Write the listings with a scene's tables: a worksheet, or a program for Octave and MATLAB.
+#[derive(clap::Args)]
+#[command(after_help = "\
+The listings are those printed, with the iterations of the variant printed and our results beside them.
+Octave wants the file called as its function: NAME.m.
+
+Examples:
+  plane-contact mathcad export fig1 --out fig1.xmcd
+  plane-contact mathcad export fig1 --to octave --out fig1.m")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    scene: String,
+    /// mathcad or octave.
+    #[arg(long, value_name = "PROGRAM", default_value = "mathcad")]
+    to: Target,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// Write to a file in place of standard output.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    args.out.as_deref().map_or(Ok(()), files::check_file)?;
+    let text = match args.to {
+        Target::Mathcad => listings(args, mathcad::worksheet)?,
+        Target::Octave => {
+            let name = function_name(args);
+            listings(args, |export| octave::program(export, &name))?
+        }
+    };
+    write_or_print(&args.out, &text)
+}
+
+/// Writes the listings with the scene's tables, and the variant `printed` if it can be solved.
+fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
+    let scene = Scene::open(&args.scene)?;
+    let reading = args.reading.reading;
+    let request = Request::new(&scene).variant(Variant::Printed).reading(reading);
+    let model = request.model()?;
+    if model.nodes.len() > MOST_NODES {
+        let what =
+            format!("the scene has {} nodes, at most {MOST_NODES} are written", model.nodes.len());
+        let fix = "make a coarser mesh";
+        return Err(InputError::new(&scene.name, what, fix).into());
+    }
+    if let Some(n) = model.dropped.first() {
+        let what =
+            format!("node {n} belongs to no triangle: Km as printed is singular (finding K4)");
+        return Err(InputError::new(&scene.name, what, "remove it from the mesh file").into());
+    }
+    let sheet = door::worksheet(&model, |x| x);
+    // Where the run stops, the worksheet has the listings alone.
+    let run =
+        waiting("solving", || engine::solve(&request, &mut |_| ())).ok().map(|solution| Run {
+            force: solution
+                .model
+                .load_in(|x| x)
+                .iter()
+                .zip(&model.restrained)
+                .map(|(f, restrained)| if *restrained { 0.0 } else { *f })
+                .collect(),
+            iterations: solution.steps.len(),
+            pairs: door::Call::c_cnt(&model, &reading, &model.nodes)
+                .expect("the run called it")
+                .pairs,
+            u: solution.u.iter().copied().collect(),
+            stress: solution.elements.iter().map(|state| state.von_mises_stress).collect(),
+        });
+    Ok(write(&Export {
+        title: &scene.title,
+        sheet: &sheet,
+        reading: &reading,
+        node_n: &sheet.node,
+        thickness: model.thickness,
+        run,
+    }))
+}
+
+/// The most nodes of a scene that Mathcad is given: its matrix has twice as many rows.
+const MOST_NODES: usize = 300;
+
+/// The function that the file is called after.
+fn function_name(args: &Args) -> String {
+    let stem = args.out.as_deref().unwrap_or(Path::new(&args.scene)).file_stem();
+    let stem = stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let name: String = stem.chars().map(plain).collect();
+    if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("scene_{name}") }
+}

@@ -1,0 +1,54 @@
+//! `plane-contact scene copy`.
+
+use std::path::PathBuf;
+
+use plane_contact::engine::error::Result;
+use plane_contact::error::InputError;
+use plane_contact::files;
+use plane_contact::problem::scene::{Embedded, FINDING_SCENES, SCENES};
+use plane_contact::suggestion::did_you_mean;
+
+use crate::commands::print_fitted;
+
+/// Write a scene of the program to a folder, to edit it.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  plane-contact scene copy fig1 --out my
+  plane-contact scene copy C4
+  plane-contact solve my")]
+pub struct Args {
+    /// A scene of the program, or a finding: plane-contact scene list lists them.
+    #[arg(value_name = "NAME")]
+    name: String,
+    /// Folder for scene.json and its mesh [default: the scene's name].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    let scene = find(&args.name)?;
+    let folder = args.out.clone().unwrap_or_else(|| scene.name.into());
+    let file = folder.join("scene.json");
+    if file.exists() {
+        let fix = "choose another folder with --out";
+        return Err(InputError::new(file.display().to_string(), "it exists already", fix).into());
+    }
+    let mut written = scene.files.to_vec();
+    written.push(("scene.json", scene.scene));
+    files::write_all(&folder, "scene copy", &written)?;
+    let folder = folder.display();
+    print_fitted(&format!("Written to {folder}; plane-contact solve {folder} runs it\n"))
+}
+
+/// The scene of that name, or of the finding of that name.
+fn find(name: &str) -> Result<&'static Embedded, InputError> {
+    let all = || SCENES.iter().chain(FINDING_SCENES);
+    let short = |scene: &'static Embedded| scene.name.trim_start_matches("findings/");
+    let is =
+        |scene: &&'static Embedded| scene.name == name || short(scene).eq_ignore_ascii_case(name);
+    all().find(is).ok_or_else(|| {
+        let fix = did_you_mean(name, all().map(short)) + "plane-contact scene list lists them";
+        InputError::new("NAME", format!("there is no scene {name:?}"), fix)
+    })
+}

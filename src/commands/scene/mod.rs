@@ -1,0 +1,40 @@
+//! `plane-contact scene`.
+
+mod copy;
+mod export;
+mod key;
+mod list;
+mod mesh;
+mod plan;
+
+use plane_contact::engine::error::Result;
+
+/// List, copy, mesh, plan, or export a scene, or print its key.
+#[derive(clap::Subcommand)]
+#[command(after_help = "\
+Examples:
+  plane-contact scene list
+  plane-contact scene copy fig1 --out my
+  plane-contact scene mesh cook --n 32 --out cook
+  plane-contact scene plan strand
+  plane-contact scene export strand --out strand.inp")]
+pub enum Command {
+    List(list::Args),
+    Copy(copy::Args),
+    Mesh(mesh::Args),
+    Plan(plan::Args),
+    Export(export::Args),
+    Key(key::Args),
+}
+
+/// Runs the command.
+pub fn run(command: &Command) -> Result<()> {
+    match command {
+        Command::List(args) => list::run(args),
+        Command::Copy(args) => copy::run(args),
+        Command::Mesh(args) => mesh::run(args),
+        Command::Plan(args) => plan::run(args),
+        Command::Export(args) => export::run(args),
+        Command::Key(args) => key::run(args),
+    }
+}
