@@ -56,8 +56,8 @@ fn main() -> ExitCode {
     heed_signals();
     // Every command that prints JSON has this option.
     let json = std::env::args_os().any(|arg| arg == "--json");
-    let mut grammar = Cli::command();
-    grammar = grammar.before_help(commands::grouped(&grammar));
+    let groups = commands::grouped(&Cli::command());
+    let mut grammar = Cli::command().before_help(groups);
     let parsed = grammar.try_get_matches_from_mut(std::env::args_os());
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
