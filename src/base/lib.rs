@@ -1,4 +1,4 @@
-//! What every part of plane-contact uses: errors of the input, files, closed sets of choices, and words.
+//! What every part of the program uses: errors of the input, files, closed sets of choices, and words.
 #![forbid(unsafe_code)]
 
 mod choices;

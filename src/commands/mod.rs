@@ -92,7 +92,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Scenes and files", &["scene", "schema"]),
 ];
 
-/// Returns the list of the commands by group, each with what it does or the commands in it.
+/// Returns the list of the commands by group, each with what it does.
 pub fn grouped(grammar: &clap::Command) -> String {
     let row = |name: &&str| {
         let command = grammar.find_subcommand(name).expect("a group has commands that exist");
@@ -102,7 +102,7 @@ pub fn grouped(grammar: &clap::Command) -> String {
     let group = |(heading, names): &(&str, &[&str])| {
         format!("{heading}:\n{}", names.iter().map(row).collect::<String>())
     };
-    GROUPS.iter().map(group).collect::<Vec<_>>().join("\n")
+    GROUPS.iter().map(group).collect::<Vec<_>>().join("\n").trim_end().to_string()
 }
 
 /// Commands that have another name than before, and that name.
