@@ -24,14 +24,15 @@ use super::{TablesArgs, print, print_either, print_stderr, progress, waiting};
 #[derive(clap::Args)]
 #[command(after_help = "\
 First the claims of the paper with their verdicts, how far each reaches, and what they assume;
-then three tables: the readings (what the other reading changes), the findings (holds, does not
-arise, contradicted; with a number), and the variants side by side. --finding explains one on its
-smallest scene, or on SCENE where that is given. The whole takes 30 to 80 times as long as solve.
+then three tables: the readings (what the other reading changes), the findings (present, not
+triggered here, contradicted; with a number), and the variants side by side. --finding explains one
+on its smallest scene, or on SCENE where that is given. The whole takes 30 to 80 times as long as
+solve.
 
---statuses: for a node that jumped deeper into the target than c_tll the paper names two remedies and
-takes the cheaper: signs, as the listing prints it, and intersection; projection is the exact answer.
-Wrong statuses are counted by depth of the jump, operations by size. It takes 150 times as long as
-solve on fig1.
+--statuses: for a node that jumped deeper into the target than c_tll the paper names two remedies
+and takes the cheaper: signs, as the listing prints it, and intersection; projection is the exact
+answer. Wrong statuses are counted by depth of the jump, operations by size. It takes 150 times as
+long as solve on fig1.
 
 Examples:
   plane-contact audit

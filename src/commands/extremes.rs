@@ -10,7 +10,7 @@ use plane_contact::studies::extremes::{Generator, generators, measure};
 
 use super::{TablesArgs, folder, print, print_report, waiting};
 
-/// Sweep magnitudes until something breaks down, every answer compared with exact numbers.
+/// Find where a method breaks down, every answer compared with exact numbers.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Each generator sweeps one magnitude. A cell is exact, a number of right digits, WRONG (an answer

@@ -15,7 +15,7 @@ use plane_contact::studies::lesson::{Switch, repair, run as execute, switches};
 
 use super::{read_listing, report_written, waiting};
 
-/// Write a page that teaches the listings: both of them, stepped forwards and backwards on a scene.
+/// Write a lesson: both listings, stepped forwards and backwards on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
 The page is one file that opens offline. It shows the listing as printed with the current line lit,

@@ -225,7 +225,7 @@ impl ModelArgs {
 /// What a run changes of its scene; the result is that of a scene file edited so.
 #[derive(clap::Args)]
 pub struct SceneArgs {
-    /// The tolerance of the contact search in place of the scene's, length; the text's c_tol.
+    /// The tolerance of the contact search in place of the scene's, length.
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     c_tll: Option<f64>,
     /// The number of iterations of printed, tied and stepped in place of the scene's.

@@ -13,17 +13,17 @@ use plane_contact::studies::trade::{self, Knob, Options, Trial, peak};
 
 use super::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
 
-/// The runs of each trial unless told otherwise.
+/// The runs of each trial by default.
 const RUNS: u16 = 3;
 
-/// Measure speed against accuracy: precisions, solvers and the paper's own knobs.
+/// Measure speed against accuracy: precisions, solvers and the paper's own parameters.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Times are medians of several runs in one process, in turn (A B C A B C ...), each of which factors
 anew; what has taken 0.05 s is not run again. Peak memory is that of a process of its own, program
 included. Settings of contact are varied in f64 by sparse-cholesky, meshes under unilateral.
 Geometry is what the paper leaves open of its example: clearance, radius, mesh, shape of the
-stamp's top, unit of c_tol, each with the claims' verdicts; its runs are not timed. Writes
+stamp's top, unit of c_tll, each with the claims' verdicts; its runs are not timed. Writes
 trade.json, trade.csv, trade.svg and, of geometry, a picture a parameter to --out. The whole takes 50
 to 150 times as long as solve.
 
