@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
 use plane_contact::files;
-use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot as report;
-use plane_contact::studies::snapshot::{Chosen, accept, verify};
+use plane_contact::studies::snapshot::{Chosen, accept};
 
-use super::verify::read;
-use crate::commands::{print_fitted, waiting, within};
+use super::verify::verify_one;
+use crate::commands::print_fitted;
 
 /// Take new values into a snapshot, with a reason.
 #[derive(clap::Args)]
@@ -45,11 +44,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let mut snapshot = read(&args.file)?;
-    let place = args.file.display().to_string();
-    let verified = waiting("verifying", || verify(&snapshot, scene.as_ref(), &|| ()));
-    let verified = verified.map_err(|error| within(error, &place))?;
+    let (mut snapshot, verified) = verify_one(&args.file, args.scene.as_deref())?;
     let (entry, reason, failing) = (args.entry.as_deref(), &args.reason[..], args.failing);
     let accepted = accept(&mut snapshot, &verified, Chosen { entry, reason, failing })?;
     if !args.dry_run {

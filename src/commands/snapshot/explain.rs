@@ -3,12 +3,10 @@
 use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
-use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, Checked};
-use plane_contact::studies::snapshot;
 
 use super::verify;
-use crate::commands::{report_written, waiting, within};
+use crate::commands::report_written;
 
 /// Explain why a scene no longer gives what its snapshot recorded.
 #[derive(clap::Args)]
@@ -37,11 +35,8 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<u8> {
-    let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let snapshot = verify::read(&args.file)?;
-    let verified = waiting("verifying", || snapshot::verify(&snapshot, scene.as_ref(), &|| ()));
+    let (snapshot, verified) = verify::verify_one(&args.file, args.scene.as_deref())?;
     let file = args.file.display().to_string();
-    let verified = verified.map_err(|error| within(error, &file))?;
     let differing = verified.runs.iter().find(|run| !run.differences.is_empty()).cloned();
     let input = verified.input.clone();
     let status = verify::report(&[Checked { file, verified: Ok(verified) }], args.json)?;

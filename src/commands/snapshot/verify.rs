@@ -8,10 +8,10 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, Checked};
-use plane_contact::studies::snapshot::{self, Snapshot};
+use plane_contact::studies::snapshot::{self, Snapshot, Verified};
 
 use super::answers;
-use crate::commands::{print_either, progress, report_error, within};
+use crate::commands::{print_either, progress, report_error, waiting, within};
 
 /// The exit status where what was compared differs, or nothing was compared.
 pub const DIFFERS: u8 = 1;
@@ -80,9 +80,13 @@ pub fn report(checked: &[Checked], json: bool) -> Result<u8> {
     Ok(statuses.first().copied().unwrap_or(if is_same { 0 } else { DIFFERS }))
 }
 
-/// Reads a snapshot.
-pub fn read(file: &Path) -> Result<Snapshot> {
-    snapshot_of(file, files::read(file))
+/// Reads a snapshot and runs it again, on `scene` where that is given.
+pub fn verify_one(file: &Path, scene: Option<&str>) -> Result<(Snapshot, Verified)> {
+    let scene = scene.map(Scene::open).transpose()?;
+    let snapshot = snapshot_of(file, files::read(file))?;
+    let verified = waiting("verifying", || snapshot::verify(&snapshot, scene.as_ref(), &|| ()));
+    let verified = verified.map_err(|error| within(error, &file.display().to_string()))?;
+    Ok((snapshot, verified))
 }
 
 /// Reads the snapshot in the text of a file.
