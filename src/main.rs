@@ -82,7 +82,7 @@ fn main() -> ExitCode {
     if let Err(why) = start_threads() {
         return exit_code(Err(why.into()), json);
     }
-    exit_code(command.run(), json)
+    exit_code(command.run().map_err(named_by_option), json)
 }
 
 /// Returns the completions of a shell, or the man page: what is asked for in place of a command.
@@ -93,6 +93,16 @@ fn shell_files(cli: &Cli, mut grammar: clap::Command) -> String {
         None => clap_mangen::Man::new(grammar).render(&mut text).expect("memory can be written"),
     }
     String::from_utf8(text).expect("help is UTF-8")
+}
+
+/// Names the option where the arithmetic that is asked for is at fault: the library names its field.
+fn named_by_option(error: Error) -> Error {
+    match error {
+        Error::Input(why) if ["scalar", "solver", "tol"].contains(&&*why.place) => {
+            InputError { place: format!("--{}", why.place), ..why }.into()
+        }
+        other => other,
+    }
 }
 
 /// Starts the threads that all commands share, as many as rayon would: RAYON_NUM_THREADS, or one for

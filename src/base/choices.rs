@@ -1,14 +1,28 @@
 //! Closed sets of choices, such as readings and variants.
 
-/// Declares a closed set of choices with their names on the command line and in files.
+/// Returns `name: meaning` of each choice; a meaning is a sentence that becomes a part of one.
+pub fn help(choices: &[(&str, &str)]) -> String {
+    let phrase = |meaning: &str| {
+        let meaning = meaning.replace('`', "");
+        let meaning = meaning.trim().trim_end_matches('.');
+        let is_word = meaning.chars().nth(1).is_some_and(|c| !c.is_uppercase());
+        let first = meaning.len().min(usize::from(is_word));
+        meaning[..first].to_lowercase() + &meaning[first..]
+    };
+    let choices = choices.iter().map(|(name, meaning)| format!("{name}: {}", phrase(meaning)));
+    choices.collect::<Vec<_>>().join("; ")
+}
+
+/// Declares a closed set of choices with their names on the command line and in files. Doc comments say
+/// what each means, also in help.
 #[macro_export]
 macro_rules! choices {
     ($(#[$doc:meta])* $name:ident {
-        $($(#[$vdoc:meta])* $variant:ident = $text:literal),+ $(,)?
+        $($(#[doc = $vdoc:literal])* $variant:ident = $text:literal),+ $(,)?
     }) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
         $(#[$doc])*
-        pub enum $name { $($(#[$vdoc])* #[serde(rename = $text)] $variant),+ }
+        pub enum $name { $($(#[doc = $vdoc])* #[serde(rename = $text)] $variant),+ }
 
         impl $name {
             /// All of them, with the default first.
@@ -17,6 +31,11 @@ macro_rules! choices {
             /// Returns the name on the command line.
             pub fn name(self) -> &'static str {
                 match self { $($name::$variant => $text),+ }
+            }
+
+            /// Returns each name with what it means, its doc comment, for help.
+            pub fn help() -> String {
+                $crate::choices::help(&[$(($text, concat!($($vdoc),*))),+])
             }
         }
 

@@ -1,7 +1,7 @@
 //! What every part of the program uses: errors of the input, files, closed sets of choices, and words.
 #![forbid(unsafe_code)]
 
-mod choices;
+pub mod choices;
 pub mod error;
 pub mod files;
 pub mod memory;

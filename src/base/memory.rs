@@ -50,17 +50,9 @@ pub const FIX_THREADS: &str = "give it more memory, or fewer threads (RAYON_NUM_
 pub fn check_stacks(threads: usize) -> Result<()> {
     /// Rust's own size of a thread's stack, bytes.
     const STACK: f64 = 2_097_152.0;
-    let (needed, free) =
-        (threads as f64 * STACK, address_space().map_or(f64::MAX, |free| free as f64));
-    if needed <= free {
-        return Ok(());
-    }
-    let what = format!(
-        "its threads cannot start: their stacks need {}; {} are free",
-        readable(needed),
-        readable(free)
-    );
-    Err(InputError::new("the process", what, FIX_THREADS))
+    let whose = "its threads cannot start: their stacks";
+    let free = address_space().map_or(f64::MAX, |free| free as f64);
+    compare(threads as f64 * STACK, free, "the process", whose, FIX_THREADS)
 }
 
 /// Checks that `needed` bytes fit in those that are free; `place` and `fix` are those of the error.
@@ -68,36 +60,40 @@ pub fn check_bytes(needed: f64, place: &str, whose: &str, fix: &str) -> Result<(
     if needed <= LITTLE {
         return Ok(());
     }
-    let free = free().unwrap_or(u128::MAX) as f64;
+    compare(needed, free().map_or(f64::MAX, |free| free as f64), place, whose, fix)
+}
+
+/// Checks that `matrices` dense 2r x 2r matrices fit in `free` bytes.
+///
+/// # Errors
+/// Says how much they need where they do not.
+pub fn check(r: usize, matrices: usize, free: Option<u128>) -> Result<()> {
+    let n = 2 * r;
+    let whose = format!("R = {r} nodes, with {matrices} dense matrices of {n} x {n},");
+    let free = free.map_or(f64::MAX, |free| free as f64);
+    compare(needed(r, matrices) as f64, free, "the mesh", &whose, FIX)
+}
+
+fn compare(needed: f64, free: f64, place: &str, whose: &str, fix: &str) -> Result<()> {
     if needed <= free {
         return Ok(());
     }
-    let what = format!("{whose} need {}; {} are free", readable(needed), readable(free));
-    Err(InputError::new(place, what, fix))
+    // With as many digits as tell the two apart.
+    let words = (0..9).map(|digits| [needed, free].map(|bytes| in_words(bytes, digits)));
+    let [needed, free] = words.reduce(|a, b| if a[0] == a[1] { b } else { a }).expect("nine");
+    Err(InputError::new(place, format!("{whose} need {needed}; {free} are free"), fix))
 }
 
 /// Returns bytes in words: of less than 0.1 GB, in MB.
 pub fn readable(bytes: f64) -> String {
-    if bytes < 1e8 { format!("{:.0} MB", bytes / 1e6) } else { format!("{:.1} GB", bytes / 1e9) }
+    in_words(bytes, 0)
 }
 
-/// Checks that `matrices` dense 2r x 2r matrices fit in `free` bytes.
-/// Errors: says how much they need where they do not.
-pub fn check(r: usize, matrices: usize, free: Option<u128>) -> Result<()> {
-    let free = free.unwrap_or(u128::MAX);
-    if needed(r, matrices) <= free {
-        return Ok(());
+/// Returns the same with `more` digits.
+fn in_words(bytes: f64, more: usize) -> String {
+    if bytes < 1e8 {
+        format!("{:.more$} MB", bytes / 1e6)
+    } else {
+        format!("{:.*} GB", 1 + more, bytes / 1e9)
     }
-    Err(InputError::new(
-        "the mesh",
-        format!(
-            "R = {r} nodes need {:.1} GB for {matrices} dense matrices of {} x {}; \
-             {:.1} GB are free",
-            needed(r, matrices) as f64 / 1e9,
-            2 * r,
-            2 * r,
-            free as f64 / 1e9
-        ),
-        FIX,
-    ))
 }

@@ -36,7 +36,7 @@ use plane_contact::problem::modelling::{
     ContactModel, Coupling, Friction, Geometry, StatusRule, Variant, check_iterations,
     check_tolerance,
 };
-use plane_contact::problem::scene::{Load, Scene, SceneBuilder};
+use plane_contact::problem::scene::{Scene, SceneBuilder};
 use plane_contact::report::model::Report;
 use plane_contact::report::text::fitted;
 
@@ -176,27 +176,26 @@ impl RunArgs {
 /// How contact is modelled beyond what the paper prints, in place of what the scene says.
 #[derive(clap::Args)]
 pub struct ModelArgs {
-    /// nts: node to segment, two weights a node, as c_cnt does; mortar: averaged over what the
-    /// node's edges cover [default: the scene's].
-    #[arg(long)]
+    #[arg(long, help = format!("{} [default: the scene's]", Coupling::help()))]
     coupling: Option<Coupling>,
     /// Under unilateral: Coulomb's coefficient, 0 (contact nodes slide freely), or stick (they never
     /// slide); under printed, tied and stepped it changes only the equilibrium that they are
     /// compared with [default: the scene's].
     #[arg(long, value_name = "MU")]
     friction: Option<Friction>,
-    /// Under unilateral, the shape in which contact is measured: current (the one reached), or initial
-    /// (small displacements) [default: the scene's].
-    #[arg(long)]
+    #[arg(long, help = format!(
+        "Under unilateral, the shape in which contact is measured. {} [default: the scene's]",
+        Geometry::help()
+    ))]
     geometry: Option<Geometry>,
     /// Under unilateral with friction, the number of equal steps in which the load of a stage grows
     /// [default: the scene's, or 16].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     load_steps: Option<u32>,
-    /// Under tied and stepped, who is in contact: signs (as c_cnt prints), intersection (the text's
-    /// other remedy), projection (signed distance to the nearest target edge) [default: the
-    /// scene's].
-    #[arg(long, value_name = "RULE")]
+    #[arg(long, value_name = "RULE", help = format!(
+        "Under tied and stepped, who is in contact. {} [default: the scene's]",
+        StatusRule::help()
+    ))]
     status: Option<StatusRule>,
 }
 
@@ -259,8 +258,7 @@ impl SceneArgs {
             description.iterations = iterations;
         }
         if let Some(factor) = self.load_factor {
-            description.loads.iter_mut().for_each(|load| load.scale(factor));
-            if !description.loads.iter().all(Load::is_finite) {
+            if !description.loads.iter_mut().all(|load| load.scale(factor)) {
                 let what = format!("{} times the loads is no finite number", six_digits(factor));
                 let fix = "give a number such as 0.5";
                 return Err(InputError::new("--load-factor", what, fix).into());

@@ -47,10 +47,7 @@ pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
     scene: String,
-    /// printed: Km as printed; tied: eq. (1) on total displacements; stepped: eq. (1) on
-    /// increments; unilateral: gaps closed along the normal, the reference solution [default: the
-    /// scene's].
-    #[arg(long)]
+    #[arg(long, help = format!("{} [default: the scene's]", Variant::help()))]
     variant: Option<Variant>,
     #[command(flatten)]
     model: ModelArgs,

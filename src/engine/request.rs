@@ -122,7 +122,7 @@ impl Request {
     pub fn decides_by_listing(&self) -> bool {
         match self.variant {
             Variant::Printed => true,
-            Variant::Tied | Variant::Stepped => self.contact.status == StatusRule::Signs,
+            Variant::Tied | Variant::Stepped => self.contact.status.is_printed(),
             Variant::Unilateral => false,
         }
     }

@@ -16,13 +16,13 @@ use base::plain::six_digits;
 choices! {
     /// A variant: how the contact pairs enter the equations, and what load an iteration carries.
     Variant {
-        /// Eq. (1) on increments: equal steps of the load, the shape updated after each.
+        /// Eq. (1) on increments, the shape updated after each of equal steps of the load.
         Stepped = "stepped",
-        /// Eq. (1) imposed on total displacements.
+        /// Eq. (1) on total displacements.
         Tied = "tied",
         /// `Km` exactly as printed.
         Printed = "printed",
-        /// Gaps are closed along the normal and released where they would pull.
+        /// Gaps closed along the normal, and released where they would pull: the reference solution.
         Unilateral = "unilateral",
     }
 }
@@ -114,9 +114,9 @@ impl<'de> Deserialize<'de> for Friction {
 choices! {
     /// The shape in which `unilateral` measures normals, weights and gaps.
     Geometry {
-        /// The current shape: the one that is reached.
+        /// The one that is reached.
         Current = "current",
-        /// The initial shape: the theory of small displacements, as Hertz's.
+        /// That of small displacements, as in Hertz's theory.
         Initial = "initial",
     }
 }
@@ -124,9 +124,9 @@ choices! {
 choices! {
     /// The method that binds a contact node to the target surface.
     Coupling {
-        /// Node to segment: to the two nodes of one edge, as `c_cnt` does.
+        /// Node to segment, which has two master nodes, those of one edge, as in `c_cnt`.
         Nts = "nts",
-        /// Mortar with dual multipliers: to the nodes of all edges that its own edges cover.
+        /// Dual multipliers, averaged over the nodes of all edges that the node's own edges cover.
         Mortar = "mortar",
     }
 }
@@ -134,13 +134,24 @@ choices! {
 choices! {
     /// The rule that decides the status of a contact node.
     StatusRule {
-        /// The rule of lines 16 to 18 of `c_cnt` as printed.
+        /// Lines 16 to 18 of `c_cnt` as printed.
         Signs = "signs",
-        /// The rule of line 16, or a side of the node's triangles crosses the target surface.
+        /// Line 16, or a side of the node's triangles crosses the target surface, the text's other
+        /// remedy.
         Intersection = "intersection",
         /// The signed distance to the nearest target edge is c_tll or less, and the node at most
         /// c_tll past the surface's end.
         Projection = "projection",
+    }
+}
+
+impl StatusRule {
+    /// Returns whether `c_cnt` itself decides, by the lines that the paper prints.
+    pub fn is_printed(self) -> bool {
+        match self {
+            StatusRule::Signs => true,
+            StatusRule::Intersection | StatusRule::Projection => false,
+        }
     }
 }
 

@@ -102,7 +102,7 @@ fn stamps_of_all_heights_are_well_shaped() {
             Ok(made) => made.mesh,
             // The wall's chords would cut into the disc.
             Err(why) => {
-                assert!(top > 1.0 && duct < 7.7 && why.place == "--top", "{what}: {why}");
+                assert!(top > 1.0 && duct < 7.7 && why.place == "top", "{what}: {why}");
                 continue;
             }
         };

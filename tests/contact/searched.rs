@@ -298,7 +298,7 @@ fn units_change_nothing_of_a_search() {
             let (length, force) = (2.0_f64.powi(length), 2.0_f64.powi(force));
             let mut other = scene.clone();
             other.mesh.nodes.iter_mut().flat_map(|node| &mut node.xyz).for_each(|x| *x *= length);
-            other.description.loads.iter_mut().for_each(|load| load.scale(length * force));
+            assert!(other.description.loads.iter_mut().all(|load| load.scale(length * force)));
             other.description.materials.0.iter_mut().for_each(|(_, own)| own.e *= force);
             assert_eq!(words(&other), words(&scene), "{seed}: {length} {force}");
         }

@@ -163,7 +163,7 @@ fn loads_of_edges() {
     let all = scene.pressure("top 0", 8.0).force(3, [1.0, 2.0]).traction("bottom 0", [3.0, 5.0]);
     let model = load(all.clone());
     assert_eq!(model.total_load(), [4.0, -8.0 + 2.0 + 5.0]);
-    assert_eq!(model.free_load().sum(), 1.0 - 8.0 + 2.0, "not that on held nodes");
+    assert_eq!(model.free_part(&model.load).sum(), 1.0 - 8.0 + 2.0, "not that on held nodes");
     // Twice each number: that is twice a force, and eight times what an edge of a body carries.
     let twice = [12.0, 20.0, 12.0, 20.0, 2.0, 4.0 - 32.0, 0.0, -32.0];
     assert_eq!(model.load_in(|x| 2.0 * x).as_slice(), twice);

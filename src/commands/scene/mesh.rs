@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
+use plane_contact::error::InputError;
 use plane_contact::studies::benchmark::Kind;
 
 use crate::commands::{folder, print_fitted};
@@ -26,7 +27,9 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let benchmark = args.kind.generate()?;
+    let benchmark = args.kind.generate().map_err(|why| {
+        InputError { place: format!("--{}", why.place), ..why } // a parameter is an option
+    })?;
     let out = folder(&args.out, format!("mesh-{}", benchmark.name));
     benchmark.write(&out)?;
     let mesh = &benchmark.mesh;

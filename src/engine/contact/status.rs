@@ -34,7 +34,7 @@ use std::collections::HashMap;
 
 use mathcad::Conjunction;
 use mathcad::array::Table;
-use numbers::scalar::{Scalar, Unsure, compared};
+use numbers::scalar::{Scalar, compared};
 use paper::door::{self, ContactStatus};
 use paper::mirror::{self, Failure, Pairs, Reading, Worksheet, c_cnt};
 use problem::model::{EdgeId, Model, NodeId};
@@ -87,8 +87,8 @@ fn guarded(reading: &Reading) -> Reading {
     Reading { r4: Conjunction::Guarded, ..*reading }
 }
 
-/// Returns the decisions of a rule other than *signs* in iteration `k` that rounding may have taken,
-/// in numbers that carry a bound.
+/// Returns the decisions of a rule in iteration `k` that rounding may have taken, in numbers that carry
+/// a bound.
 /// Errors: those of [`statuses`].
 pub fn decisions<T: Scalar>(
     rule: StatusRule,
@@ -98,29 +98,43 @@ pub fn decisions<T: Scalar>(
     node_n: &Table<T>,
     k: usize,
 ) -> Result<Vec<Decision>, Failure> {
-    let (target, of_target) = compared(|| Target::new(model, node_n));
-    let nodes = &model.contact.nodes;
-    let mut left = Vec::new();
-    let mut leave = |node: NodeId, unsure: Vec<Unsure>| {
-        let condition = || format!("a comparison of the rule {rule}");
-        left.extend(unsure.into_iter().map(|by| Decision::unsure(k, node, condition(), by)));
-    };
-    leave(nodes[0], of_target);
-    if rule == StatusRule::Intersection {
-        let reading = guarded(reading);
-        let pairs = c_cnt(sheet, &reading, node_n)?;
-        for (k, status) in door::statuses(model, &pairs).into_iter().enumerate() {
-            let work =
-                || by_intersection(model, &target, node_n, is_near(sheet, &pairs, k + 1), status);
-            leave(status.node, compared(work).1);
+    match rule {
+        StatusRule::Signs => {
+            Ok(decisions::decisions(sheet, reading, node_n, &c_cnt(sheet, reading, node_n)?, k))
         }
-        left.extend(decisions::decisions(sheet, &reading, node_n, &pairs, k));
-    } else {
-        for node in nodes {
-            leave(*node, compared(|| by_projection(&target, sheet.c_tll, node_n, *node)).1);
+        StatusRule::Intersection => {
+            let reading = guarded(reading);
+            let pairs = c_cnt(sheet, &reading, node_n)?;
+            let found = door::statuses(model, &pairs);
+            let mut left = unsure(rule, model, node_n, k, |target, i| {
+                let is_near = is_near(sheet, &pairs, i + 1);
+                by_intersection(model, target, node_n, is_near, found[i])
+            });
+            left.extend(decisions::decisions(sheet, &reading, node_n, &pairs, k));
+            Ok(left)
         }
+        StatusRule::Projection => Ok(unsure(rule, model, node_n, k, |target, i| {
+            by_projection(target, sheet.c_tll, node_n, model.contact.nodes[i])
+        })),
     }
-    Ok(left)
+}
+
+/// Returns the comparisons that rounding may have decided where `status` of each contact node, by its
+/// place in the surface, is found in iteration `k`; the first node has those of the target itself.
+fn unsure<T: Scalar>(
+    rule: StatusRule,
+    model: &Model,
+    node_n: &Table<T>,
+    k: usize,
+    status: impl Fn(&Target<T>, usize) -> ContactStatus<T>,
+) -> Vec<Decision> {
+    let nodes = &model.contact.nodes;
+    let (target, of_target) = compared(|| Target::new(model, node_n));
+    let of_nodes = (0..nodes.len()).map(|i| (nodes[i], compared(|| status(&target, i)).1));
+    let all = [(nodes[0], of_target)].into_iter().chain(of_nodes);
+    all.flat_map(|(node, unsure)| unsure.into_iter().map(move |by| (node, by)))
+        .map(|(node, by)| Decision::unsure(k, node, format!("a comparison of the rule {rule}"), by))
+        .collect()
 }
 
 /// The target edges in a shape.

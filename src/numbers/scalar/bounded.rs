@@ -321,6 +321,8 @@ impl<V: Rounded> Subscript for WithBound<V> {
 }
 
 impl<V: Rounded> Scalar for WithBound<V> {
+    const EPSILON: f64 = V::EPSILON;
+
     fn from_f64(x: f64) -> Self {
         Self::exactly(V::from_f64(x))
     }

@@ -64,15 +64,17 @@ impl Exact {
 
     /// Makes the number `x`; 0 and 1 take no place in the arena.
     pub fn new(x: RBig) -> Self {
-        match () {
-            _ if x.is_zero() => Exact::ZERO,
-            _ if x.is_one() => Exact::ONE,
-            _ => ARENA.with_borrow_mut(|arena| {
-                let at = u32::try_from(arena.numbers.len()).expect("fewer than 2^32 numbers");
-                arena.numbers.push((arena.epoch, x));
-                Exact { at, epoch: arena.epoch, of_thread: PhantomData }
-            }),
+        if x.is_zero() {
+            return Exact::ZERO;
         }
+        if x.is_one() {
+            return Exact::ONE;
+        }
+        ARENA.with_borrow_mut(|arena| {
+            let at = u32::try_from(arena.numbers.len()).expect("fewer than 2^32 numbers");
+            arena.numbers.push((arena.epoch, x));
+            Exact { at, epoch: arena.epoch, of_thread: PhantomData }
+        })
     }
 
     const fn fixed(at: u32) -> Self {
@@ -101,10 +103,12 @@ impl Exact {
     }
 
     fn sum(x: Self, y: Self) -> Self {
-        match () {
-            _ if x.is(Exact::ZERO) => y,
-            _ if y.is(Exact::ZERO) => x,
-            _ => Exact::combine(x, y, |x, y| x + y),
+        if x.is(Exact::ZERO) {
+            y
+        } else if y.is(Exact::ZERO) {
+            x
+        } else {
+            Exact::combine(x, y, |x, y| x + y)
         }
     }
 
@@ -113,19 +117,23 @@ impl Exact {
     }
 
     fn product(x: Self, y: Self) -> Self {
-        match () {
-            _ if x.is(Exact::ONE) => y,
-            _ if y.is(Exact::ONE) => x,
-            _ => Exact::combine(x, y, |x, y| x * y),
+        if x.is(Exact::ONE) {
+            y
+        } else if y.is(Exact::ONE) {
+            x
+        } else {
+            Exact::combine(x, y, |x, y| x * y)
         }
     }
 
     /// Returns x/y, undefined where y is 0.
     fn quotient(x: Self, y: Self) -> Self {
-        match () {
-            _ if y.is(Exact::ZERO) => Exact::UNDEFINED,
-            _ if y.is(Exact::ONE) => x,
-            _ => Exact::combine(x, y, |x, y| x / y),
+        if y.is(Exact::ZERO) {
+            Exact::UNDEFINED
+        } else if y.is(Exact::ONE) {
+            x
+        } else {
+            Exact::combine(x, y, |x, y| x / y)
         }
     }
 
@@ -161,6 +169,8 @@ impl Subscript for Exact {
 }
 
 impl Scalar for Exact {
+    const EPSILON: f64 = 0.0;
+
     /// Returns exactly `x`, undefined for an infinity or NaN.
     fn from_f64(x: f64) -> Self {
         RBig::try_from(x).map_or(Exact::UNDEFINED, Exact::new)

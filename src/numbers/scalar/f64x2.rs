@@ -151,6 +151,8 @@ impl Subscript for F64x2 {
 }
 
 impl Scalar for F64x2 {
+    const EPSILON: f64 = f64::EPSILON * f64::EPSILON;
+
     fn from_f64(x: f64) -> Self {
         F64x2 { hi: x, lo: 0.0 }
     }

@@ -27,6 +27,8 @@ impl Subscript for f32 {
 macro_rules! native {
     ($($float:ident),+) => {
         $(impl Scalar for $float {
+            const EPSILON: f64 = $float::EPSILON as f64;
+
             fn from_f64(x: f64) -> Self {
                 x as $float
             }

@@ -34,6 +34,9 @@ pub trait Scalar:
     + ClosedMulAssign
     + nalgebra::Scalar
 {
+    /// The distance of 1 from the next larger number; 0 where arithmetic is exact.
+    const EPSILON: f64 = f64::EPSILON;
+
     /// Returns the scalar nearest to `x`.
     fn from_f64(x: f64) -> Self;
 

@@ -1,22 +1,25 @@
 //! The scalar and the solver that are asked for.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use base::choices;
 use base::error::{InputError, Result};
 
 choices! {
     /// The number type that a run computes in.
     ScalarName {
-        /// Computes with 16 digits: Mathcad's own.
+        /// 16 digits, as Mathcad.
         F64 = "f64",
-        /// Computes with 7 digits.
+        /// 7 digits.
         F32 = "f32",
-        /// Computes with 31 digits.
+        /// 31 digits.
         F64x2 = "f64x2",
-        /// Computes with 16 digits, and a bound on the error.
+        /// 16 digits, and a bound on the error of the displacements.
         Bounded = "f64-bounded",
-        /// Computes with 31 digits, and a bound on the error.
+        /// 31 digits, and a bound on the error of the displacements.
         BoundedDouble = "f64x2-bounded",
-        /// Computes with rational numbers, without rounding.
+        /// Rational numbers, without rounding, for some hundred equations.
         Exact = "exact",
     }
 }
@@ -24,17 +27,18 @@ choices! {
 choices! {
     /// How the equations of an iteration are solved.
     Solver {
-        /// LU of the full matrix, with row exchanges.
+        /// LU of the full matrix, with row exchanges, as Mathcad.
         DenseLu = "dense-lu",
         /// LU of the entries that are not 0, with row exchanges.
         SparseLu = "sparse-lu",
-        /// Cholesky of the full matrix.
+        /// The Cholesky factor of the full matrix.
         DenseCholesky = "dense-cholesky",
-        /// Cholesky of the entries that are not 0; LDLᵀ where the scalar has no square root.
+        /// The Cholesky factor of the entries that are not 0, LDLᵀ where the scalar has no square
+        /// root.
         SparseCholesky = "sparse-cholesky",
         /// Conjugate gradients, preconditioned by the diagonal, to the tolerance.
         Cg = "cg",
-        /// Sparse Cholesky in the scalar of half the digits, refined to the tolerance.
+        /// Sparse factors in the scalar of half the digits, refined to the tolerance.
         Refined = "refined",
     }
 }
@@ -49,24 +53,33 @@ choices! {
     }
 }
 
+impl ScalarName {
+    /// Returns the solvers that are offered in the scalar.
+    pub fn solvers(self) -> &'static [Solver] {
+        use Solver::{Cg, DenseLu, Refined, SparseCholesky};
+        match self {
+            ScalarName::F64 | ScalarName::Bounded => Solver::ALL,
+            ScalarName::F32 => &[DenseLu, SparseCholesky, Cg],
+            ScalarName::F64x2 => &[DenseLu, SparseCholesky, Cg, Refined],
+            ScalarName::Exact | ScalarName::BoundedDouble => &[DenseLu, SparseCholesky],
+        }
+    }
+}
+
 impl Solver {
     /// Returns whether it comes nearer to the solution step by step, to a tolerance.
     pub fn iterates(self) -> bool {
-        matches!(self, Solver::Cg | Solver::Refined)
+        match self {
+            Solver::Cg | Solver::Refined => true,
+            Solver::DenseLu | Solver::SparseLu | Solver::DenseCholesky | Solver::SparseCholesky => {
+                false
+            }
+        }
     }
 }
 
 /// In which numbers, by which solver, and to which tolerance a run computes.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    serde::Serialize,
-    serde::Deserialize,
-    schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Arithmetic {
     /// The number type.
     pub scalar: ScalarName,
@@ -83,9 +96,9 @@ impl Arithmetic {
     /// Returns the solver asked for; else sparse LU in `f64` for a matrix that is
     /// `printed`, which need not be positive definite, and sparse Cholesky for every other one.
     pub fn solver(&self, printed: bool) -> Solver {
-        use ScalarName::{Bounded, F64};
-        let by_faer = matches!(self.scalar, F64 | Bounded);
-        let own = if printed && by_faer { Solver::SparseLu } else { Solver::SparseCholesky };
+        let offers_sparse_lu = self.scalar.solvers().contains(&Solver::SparseLu);
+        let own =
+            if printed && offers_sparse_lu { Solver::SparseLu } else { Solver::SparseCholesky };
         self.solver.unwrap_or(own)
     }
 
@@ -97,30 +110,26 @@ impl Arithmetic {
     /// Checks that the solver is offered in the scalar, and that the tolerance is between 0 and 1.
     /// Errors: names the solvers that are offered, or the fault of the tolerance.
     pub fn check(&self) -> Result<()> {
-        use {ScalarName as Name, Solver::*};
-        let offered: &[Solver] = match self.scalar {
-            Name::F64 | Name::Bounded => {
-                &[DenseLu, SparseLu, DenseCholesky, SparseCholesky, Cg, Refined]
-            }
-            Name::F32 => &[DenseLu, SparseCholesky, Cg],
-            Name::F64x2 => &[DenseLu, SparseCholesky, Cg, Refined],
-            Name::Exact | Name::BoundedDouble => &[DenseLu, SparseCholesky],
-        };
-        if !offered.contains(&self.solver(true)) {
+        let (solver, offered) = (self.solver(true), self.scalar.solvers());
+        if !offered.contains(&solver) {
             let names: Vec<&str> = offered.iter().map(|solver| solver.name()).collect();
-            let what = format!("{} does not solve in {}", self.solver(true), self.scalar);
-            return Err(InputError::new("--solver", what, format!("use {}", names.join(", "))));
+            let what = format!("{solver} does not solve in {}", self.scalar);
+            return Err(InputError::new("solver", what, format!("use {}", names.join(", "))));
         }
-        match self.tol {
-            Some(_) if !self.solver(true).iterates() => {
-                let what = format!("{} solves directly: it has no tolerance", self.solver(true));
-                Err(InputError::new("--tol", what, "leave it out, or use --solver cg or refined"))
-            }
-            Some(tol) if !(tol > 0.0 && tol < 1.0) => {
-                let what = format!("the tolerance {tol:e} is not between 0 and 1");
-                Err(InputError::new("--tol", what, "give the largest relative residual, as 1e-12"))
-            }
-            _ => Ok(()),
+        let Some(tol) = self.tol else { return Ok(()) };
+        if !solver.iterates() {
+            let what = format!("{solver} solves directly: it has no tolerance");
+            return Err(InputError::new(
+                "tol",
+                what,
+                "leave it out, or use the solver cg or refined",
+            ));
         }
+        if !(tol > 0.0 && tol < 1.0) {
+            let what = format!("the tolerance {tol:e} is not between 0 and 1");
+            let fix = "give the largest relative residual, as 1e-12";
+            return Err(InputError::new("tol", what, fix));
+        }
+        Ok(())
     }
 }

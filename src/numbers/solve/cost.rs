@@ -32,5 +32,5 @@ pub fn check(equations: usize, growing: bool, iterations: usize) -> Result<()> {
         "{equations} equations in exact numbers, {iterations} iterations, may take \
          {seconds:.0e} s: more than {LIMIT} s"
     );
-    Err(InputError::new("--scalar exact", what, "use f64x2, fewer iterations or a coarser mesh"))
+    Err(InputError::new("scalar", what, "use f64x2, fewer iterations or a coarser mesh"))
 }

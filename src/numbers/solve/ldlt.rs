@@ -6,10 +6,9 @@
 
 use nalgebra::DVector;
 
-use super::elimination_tree::Tree;
+use super::elimination::Field;
 use super::factors::{Factors, Singular};
-use super::field::Field;
-use super::ordering::{order, places};
+use super::ordering::{Tree, order, places};
 use super::symmetric::SparseSymmetric;
 
 /// A symmetric matrix as L D Lᵀ, in an order of its equations that keeps L sparse.

@@ -10,7 +10,7 @@ use dashu_base::BitTest;
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 
-use super::field::Field;
+use super::elimination::Field;
 use super::ldlt::Ldlt;
 use super::symmetric::SparseSymmetric;
 use crate::scalar::rational::lcm;

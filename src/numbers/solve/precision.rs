@@ -14,13 +14,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::arithmetic::Solver;
 use super::dense::{DenseCholesky, DenseLu};
+use super::elimination::{Field, solve_dense};
 use super::error_bound::error_bound;
 use super::factors::{Factors, Lu};
-use super::field::Field;
 use super::iterative::{Unsolved, conjugate_gradients, refine};
 use super::ldlt::Ldlt;
 use super::lifting::lift;
-use super::lu::solve_dense;
 use super::sparse::SparseCholesky;
 use super::sparse_lu::SparseLu;
 use super::square::SparseSquare;
@@ -39,8 +38,11 @@ pub type Outcome<T> = Result<Solved<T>, Unsolved>;
 
 pub trait Precision: Scalar {
     /// Solves `a` x = `b` by a solver that [`check`](super::arithmetic::Arithmetic::check) must
-    /// have passed; every solver but `dense-lu` and `sparse-lu` takes A for symmetric and reads its lower triangle.
-    /// Errors: tells that A is singular, or that an iteration did not converge.
+    /// have passed; every solver but `dense-lu` and `sparse-lu` takes A for symmetric and reads its lower
+    /// triangle. Of those that the scalar does not offer the direct ones count as `sparse-cholesky`.
+    ///
+    /// # Errors
+    /// A is singular, or an iteration did not converge.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self>;
 
     /// Solves by `sparse-lu` from a matrix that is sparse already.
@@ -56,9 +58,6 @@ pub trait Precision: Scalar {
 
 /// A scalar in which A x = b is solved to a tolerance, by products with A and factors in fewer digits.
 pub trait Iterates: Precision {
-    /// The relative distance between neighbouring numbers.
-    const EPSILON: f64;
-
     /// Solves by Cholesky factors in fewer digits, refined to `tol`; by `cg` where there are none.
     /// Errors: the factors tell that A is singular, or the iteration did not converge.
     fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self>;
@@ -74,14 +73,15 @@ pub trait Iterates: Precision {
         let tol = tol.unwrap_or(TOL * Self::EPSILON);
         match by {
             Solver::Refined => Self::refined(a, b, tol),
-            _ => by_gradients(a, b, tol),
+            Solver::Cg => by_gradients(a, b, tol),
+            Solver::DenseLu | Solver::SparseLu | Solver::DenseCholesky | Solver::SparseCholesky => {
+                unreachable!("{by} does not iterate")
+            }
         }
     }
 }
 
 impl Iterates for f64 {
-    const EPSILON: f64 = f64::EPSILON;
-
     fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self> {
         let factors = Ldlt::new(&a.map(|x| *x as f32))?;
         let x = refine(&factors, a, b, [tol, tol])?;
@@ -90,16 +90,12 @@ impl Iterates for f64 {
 }
 
 impl Iterates for f32 {
-    const EPSILON: f64 = <f32 as Field>::EPSILON;
-
     fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self> {
         by_gradients(a, b, tol)
     }
 }
 
 impl Iterates for F64x2 {
-    const EPSILON: f64 = <F64x2 as Field>::EPSILON;
-
     fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self> {
         let factors = SparseCholesky::new(a.map(|x| x.to_f64()))?;
         let x = refine(&factors, a, b, [tol, tol])?;
@@ -131,22 +127,18 @@ impl Precision for Bounded {
     /// of an entry.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
         let a = SparseSquare::of(&a);
-        if by == Solver::SparseLu {
-            return Self::solve_sparse(&a, b);
-        }
         let (values, f) = (a.map(Scalar::to_f64).dense(), b.map(Scalar::to_f64));
-        let (factors, solved): (Box<dyn Factors>, _) = match by {
+        match by {
+            Solver::SparseLu => Self::solve_sparse(&a, b),
             Solver::DenseLu => {
                 let lu = DenseLu::new(values)?;
-                let solved = solved(&lu, &f);
-                (Box::new(lu), solved)
+                Ok(with_bound(&lu, &a, b, solved(&lu, &f)))
             }
-            _ => {
+            Solver::DenseCholesky | Solver::SparseCholesky | Solver::Cg | Solver::Refined => {
                 let factors = SparseCholesky::new(SparseSymmetric::of_lower(&values))?;
-                (Box::new(factors), f64::solve(values, &f, by, tol)?)
+                Ok(with_bound(&factors, &a, b, f64::solve(values, &f, by, tol)?))
             }
-        };
-        Ok(with_bound(&*factors, &a, b, solved))
+        }
     }
 
     fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
@@ -193,9 +185,11 @@ fn own<T: Field + Iterates>(
 ) -> Outcome<T> {
     let sparse = SparseSymmetric::of_lower(a);
     let x = match by {
-        by if by.iterates() => return T::iterate(&sparse, b, by, tol),
+        Solver::Cg | Solver::Refined => return T::iterate(&sparse, b, by, tol),
         Solver::DenseLu => solve_dense(|i, j| a[(i, j)], b.as_slice().to_vec())?,
-        _ => Ldlt::new(&sparse)?.solve(b.as_slice()),
+        Solver::SparseLu | Solver::DenseCholesky | Solver::SparseCholesky => {
+            Ldlt::new(&sparse)?.solve(b.as_slice())
+        }
     };
     let x = DVector::from_vec(x);
     Ok(Solved { residual: sparse.residual(&x, b), x })
@@ -208,7 +202,11 @@ impl Precision for Exact {
         let b: Vec<RBig> = b.iter().map(|x| value(*x)).collect();
         let x = match by {
             Solver::DenseLu => solve_dense(|i, j| value(a[(i, j)]), b)?,
-            _ => {
+            Solver::SparseLu
+            | Solver::DenseCholesky
+            | Solver::SparseCholesky
+            | Solver::Cg
+            | Solver::Refined => {
                 let matrix = SparseSymmetric::of_lower(&a).map(|x| value(*x));
                 match lift(&matrix, &b) {
                     Some(x) => x,
@@ -234,18 +232,15 @@ impl Precision for Exact {
 
 /// Solves by faer, or to a tolerance.
 fn native(a: DMatrix<f64>, b: &DVector<f64>, by: Solver, tol: Option<f64>) -> Outcome<f64> {
-    match by {
+    let symmetric = SparseSymmetric::of_lower(&a);
+    let x = match by {
         Solver::DenseLu => return Ok(solved(&DenseLu::new(a)?, b)),
         Solver::SparseLu => return f64::solve_sparse(&SparseSquare::of(&a), b),
-        _ => (),
-    }
-    let sparse = SparseSymmetric::of_lower(&a);
-    let x = match by {
+        Solver::Cg | Solver::Refined => return f64::iterate(&symmetric, b, by, tol),
         Solver::DenseCholesky => DenseCholesky::new(&a)?.solve(b),
-        by if by.iterates() => return f64::iterate(&sparse, b, by, tol),
-        _ => SparseCholesky::new(sparse.clone())?.solve(b),
+        Solver::SparseCholesky => SparseCholesky::new(symmetric.clone())?.solve(b),
     };
-    Ok(Solved { residual: sparse.residual(&x, b), x })
+    Ok(Solved { residual: symmetric.residual(&x, b), x })
 }
 
 fn solved(lu: &impl Lu, b: &DVector<f64>) -> Solved<f64> {

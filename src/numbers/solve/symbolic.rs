@@ -1,7 +1,6 @@
 //! What Cholesky factors of a sparse matrix will cost, from its pattern alone.
 
-use super::elimination_tree::Tree;
-use super::ordering::{order, places};
+use super::ordering::{Tree, order, places};
 use super::symmetric::Pattern;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema)]

@@ -102,10 +102,11 @@ pub fn freedom(model: &Model, nodes: &[NodeId]) -> Option<&'static str> {
         }
     }
     let stiffness = gram.symmetric_eigenvalues();
-    match () {
-        _ if gram[(0, 0)] == 0.0 => Some("move in x"),
-        _ if gram[(1, 1)] == 0.0 => Some("move in y"),
-        _ if stiffness.min() <= 1e-12 * stiffness.max() => Some("rotate"),
-        _ => None,
+    if gram[(0, 0)] == 0.0 {
+        Some("move in x")
+    } else if gram[(1, 1)] == 0.0 {
+        Some("move in y")
+    } else {
+        (stiffness.min() <= 1e-12 * stiffness.max()).then_some("rotate")
     }
 }

@@ -204,11 +204,6 @@ impl Model {
         })
     }
 
-    /// Returns the load by degree of freedom, 0 at restrained ones, force.
-    pub fn free_load(&self) -> DVector<f64> {
-        self.free_part(&self.load)
-    }
-
     /// Returns a load by degree of freedom with 0 at restrained ones, force.
     pub fn free_part<T: Scalar>(&self, load: &DVector<T>) -> DVector<T> {
         let free = |e, _| if self.restrained[e] { T::zero() } else { load[e] };

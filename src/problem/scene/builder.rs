@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::description::{Axis, Contact, Description, Load, Material, Restraint, Units};
+use super::description::{Axis, Contact, Description, Load, LoadKind, Material, Restraint, Units};
 use super::groups::GroupRef;
 use super::mesh::Mesh;
 use super::source::FileBeside;
@@ -104,17 +104,17 @@ impl SceneBuilder {
 
     /// Loads a group of edges by a pressure that pushes into the body, stress.
     pub fn pressure(self, group: impl Into<GroupRef>, pressure: f64) -> Self {
-        self.load(Load { on: Some(group.into()), pressure: Some(pressure), ..Load::default() })
+        self.load(LoadKind::Pressure { on: group.into(), pressure })
     }
 
     /// Loads a group of edges by a force per area along x and y, stress.
     pub fn traction(self, group: impl Into<GroupRef>, traction: [f64; 2]) -> Self {
-        self.load(Load { on: Some(group.into()), traction: Some(traction), ..Load::default() })
+        self.load(LoadKind::Traction { on: group.into(), traction })
     }
 
     /// Loads the node with number `node` by a force along x and y, force.
     pub fn force(self, node: usize, force: [f64; 2]) -> Self {
-        self.load(Load { node: Some(node), force: Some(force), ..Load::default() })
+        self.load(LoadKind::Force { node, force })
     }
 
     /// Puts the load that was added last into a stage of the path of the load, from 1.
@@ -125,8 +125,9 @@ impl SceneBuilder {
         self
     }
 
-    fn load(mut self, load: Load) -> Self {
-        self.description.loads.push(load);
+    /// Adds a load of any kind, in the first stage.
+    pub fn load(mut self, kind: LoadKind) -> Self {
+        self.description.loads.push(Load { kind, stage: None });
         self
     }
 

@@ -165,40 +165,76 @@ pub enum Axis {
     Y,
 }
 
-/// A load: `on` with `pressure` or `traction`, or `node` with `force`.
-#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq, JsonSchema)]
+/// A load, and when it acts.
+#[derive(Clone, Debug, Serialize, PartialEq, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub on: Option<GroupRef>,
-    /// The pressure that pushes into the body, stress.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pressure: Option<f64>,
-    /// The force per area along x and y, stress.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub traction: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub node: Option<usize>,
-    /// The force on that node along x and y, force.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub force: Option<[f64; 2]>,
+    #[serde(flatten)]
+    pub kind: LoadKind,
     /// The stage, from 1, in which `unilateral` applies the load, after the loads of the stages
     /// before it; the first where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stage: Option<usize>,
 }
 
-impl Load {
-    /// Multiplies the load by `factor`.
-    pub fn scale(&mut self, factor: f64) {
-        let vectors = [&mut self.traction, &mut self.force].into_iter().flatten().flatten();
-        vectors.chain(&mut self.pressure).for_each(|x| *x *= factor);
-    }
+/// The kinds of load, each with its fields in a scene file.
+#[derive(Clone, Debug, Serialize, PartialEq, JsonSchema)]
+#[serde(untagged)]
+pub enum LoadKind {
+    /// A pressure on a group of edges that pushes into the body, stress.
+    Pressure { on: GroupRef, pressure: f64 },
+    /// A force per area on a group of edges along x and y, stress.
+    Traction { on: GroupRef, traction: [f64; 2] },
+    /// A force on a node along x and y, force.
+    Force { node: usize, force: [f64; 2] },
+}
 
-    /// Returns whether all its numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        let vectors = [self.traction, self.force].into_iter().flatten().flatten();
-        vectors.chain(self.pressure).all(f64::is_finite)
+impl LoadKind {
+    /// Returns the numbers to which the load is proportional.
+    pub fn numbers(&mut self) -> &mut [f64] {
+        match self {
+            LoadKind::Pressure { pressure, .. } => std::slice::from_mut(pressure),
+            LoadKind::Traction { traction, .. } => traction,
+            LoadKind::Force { force, .. } => force,
+        }
+    }
+}
+
+impl Load {
+    /// Multiplies the load by `factor`; returns whether all its numbers are finite then.
+    pub fn scale(&mut self, factor: f64) -> bool {
+        let numbers = self.kind.numbers();
+        numbers.iter_mut().for_each(|x| *x *= factor);
+        numbers.iter().all(|x| x.is_finite())
+    }
+}
+
+impl<'de> Deserialize<'de> for Load {
+    /// Reads all fields that any kind has, so that errors name the field, then finds the kind.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Fields {
+            on: Option<GroupRef>,
+            pressure: Option<f64>,
+            traction: Option<[f64; 2]>,
+            node: Option<usize>,
+            force: Option<[f64; 2]>,
+            stage: Option<usize>,
+        }
+        let Fields { on, pressure, traction, node, force, stage } =
+            Fields::deserialize(deserializer)?;
+        let kind = match (on, pressure, traction, node, force) {
+            (Some(on), Some(pressure), None, None, None) => LoadKind::Pressure { on, pressure },
+            (Some(on), None, Some(traction), None, None) => LoadKind::Traction { on, traction },
+            (None, None, None, Some(node), Some(force)) => LoadKind::Force { node, force },
+            _ => {
+                return Err(de::Error::custom(
+                    "a load has either on and pressure, on and traction, or node and force",
+                ));
+            }
+        };
+        Ok(Load { kind, stage })
     }
 }
 

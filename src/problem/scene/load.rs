@@ -1,10 +1,10 @@
 //! The load, consistent with linear edges.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeSet, HashMap};
 
 use nalgebra::DVector;
 
-use super::description::Load;
+use super::description::{Load, LoadKind};
 use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
 use crate::model::{Force, Model, NodeId, Sides};
@@ -12,100 +12,98 @@ use base::error::{InputError, Result};
 use base::memory;
 use numbers::scalar::Scalar;
 
-/// Returns the forces that each stage adds on all 2R degrees of freedom, restrained ones included,
-/// force. There is at least one stage.
+/// The load of a scene, on all 2R degrees of freedom, restrained ones included, force.
+pub struct Loading {
+    /// Its parts, in the order of the scene file.
+    pub forces: Vec<Force>,
+    /// What they come to in `f64`.
+    pub total: DVector<f64>,
+    /// What each stage adds; there is at least one.
+    pub stages: Vec<DVector<f64>>,
+}
+
+/// Returns what `loads` come to.
 ///
 /// # Errors
-/// No load belongs to a stage before the last one; and the errors of [`forces`].
-pub fn stages(
-    mesh: &Mesh,
-    groups: &Groups,
-    model: &Model,
-    loads: &[Load],
-) -> Result<Vec<DVector<f64>>> {
-    let mut stages: BTreeMap<usize, Vec<(usize, &Load)>> = BTreeMap::new();
+/// An edge of a load bounds no triangle or two, a number is not finite, or no load belongs to a stage
+/// before the last one.
+pub fn loading(mesh: &Mesh, groups: &Groups, model: &Model, loads: &[Load]) -> Result<Loading> {
+    let count: usize = loads.iter().map(|load| count(groups, load)).sum();
+    let whose = format!("the {count} edges and nodes that are loaded");
+    let fix = "give fewer loads, or groups of fewer edges";
+    memory::check_bytes((2 * count * size_of::<Force>()) as f64, "loads", &whose, fix)?;
+    let (mut forces, mut total) = (Vec::new(), DVector::zeros(model.dofs()));
     for (k, load) in loads.iter().enumerate() {
-        stages.entry(load.stage.unwrap_or(1)).or_default().push((k, load));
+        let own = parts((mesh, groups, &model.sides), load, &place(k))?;
+        add(&own, &mut total, model, k)?;
+        forces.push(own);
     }
-    let last = stages.keys().next_back().copied().unwrap_or(1);
-    if let Some(of_stage_0) = stages.get(&0) {
-        let place = format!("loads[{}].stage", of_stage_0[0].0);
+    let mut stages = vec![DVector::zeros(model.dofs()); stages(loads, model)?];
+    for (k, (load, own)) in loads.iter().zip(&forces).enumerate() {
+        add(own, &mut stages[load.stage.unwrap_or(1) - 1], model, k)?;
+    }
+    Ok(Loading { forces: forces.into_iter().flatten().collect(), total, stages })
+}
+
+fn place(k: usize) -> String {
+    format!("loads[{k}]")
+}
+
+/// Adds the parts `own` of load `k` to the forces `f`.
+fn add(own: &[Force], f: &mut DVector<f64>, model: &Model, k: usize) -> Result<()> {
+    own.iter().for_each(|force| force.add_to(f, model, &|x| x));
+    let mut dofs = own.iter().flat_map(Force::nodes).flat_map(|node| node.dofs());
+    if dofs.all(|dof| f[dof.index()].is_finite()) {
+        return Ok(());
+    }
+    Err(InputError::new(place(k), "the load is too large to represent", "choose other units"))
+}
+
+/// Returns the number of stages of the load.
+fn stages(loads: &[Load], model: &Model) -> Result<usize> {
+    let numbers: BTreeSet<usize> = loads.iter().map(|load| load.stage.unwrap_or(1)).collect();
+    let last = numbers.last().copied().unwrap_or(1);
+    if let Some(k) = loads.iter().position(|load| load.stage == Some(0)) {
+        let place = format!("{}.stage", place(k));
         return Err(InputError::new(place, "stages count from 1", "give 1 or more"));
     }
-    if let Some(k) = (1..=loads.len().min(last)).find(|k| !stages.contains_key(k)) {
+    if let Some(k) = (1..=loads.len().min(last)).find(|k| !numbers.contains(k)) {
         let what = format!("no load has stage {k}, but one has stage {last}");
         let fix = "number the stages 1, 2, ... without a gap";
         return Err(InputError::new("loads", what, fix));
     }
-    let whose = format!("{} stages of the load", stages.len());
-    let bytes = (stages.len() * model.dofs() * size_of::<f64>()) as f64;
-    memory::check_bytes(bytes, "loads", &whose, "give fewer stages")?;
-    if stages.is_empty() {
-        return Ok(vec![DVector::zeros(model.dofs())]);
-    }
-    let forces = stages.into_values().map(|own| forces(mesh, groups, model, own.into_iter()));
-    forces.map(|forces| Ok(forces?.1)).collect()
-}
-
-/// Returns the parts of `loads`, each with its place in the scene file, and what they come to in
-/// `f64` on all 2R degrees of freedom, restrained ones included, force.
-///
-/// # Errors
-/// A load has another form, its edge bounds no triangle or two, or a number is not finite.
-pub fn forces<'a>(
-    mesh: &Mesh,
-    groups: &Groups,
-    model: &Model,
-    loads: impl Iterator<Item = (usize, &'a Load)> + Clone,
-) -> Result<(Vec<Force>, DVector<f64>)> {
-    let (mut forces, mut f) = (Vec::new(), DVector::zeros(model.dofs()));
-    let count: usize = loads.clone().map(|(_, load)| count(groups, load)).sum();
-    let whose = format!("the {count} edges and nodes that are loaded");
-    let fix = "give fewer loads, or groups of fewer edges";
-    memory::check_bytes((2 * count * size_of::<Force>()) as f64, "loads", &whose, fix)?;
-    for (k, load) in loads {
-        let place = format!("loads[{k}]");
-        let own = parts((mesh, groups, &model.sides), load, &place)?;
-        own.iter().for_each(|force| force.add_to(&mut f, model, &|x| x));
-        let dofs = own.iter().flat_map(Force::nodes).flat_map(|node| node.dofs());
-        if dofs.into_iter().any(|dof| !f[dof.index()].is_finite()) {
-            let what = "the load is too large to represent";
-            return Err(InputError::new(place, what, "choose other units"));
-        }
-        forces.extend(own);
-    }
-    Ok((forces, f))
+    let bytes = (last * model.dofs() * size_of::<f64>()) as f64;
+    memory::check_bytes(
+        bytes,
+        "loads",
+        &format!("{last} stages of the load"),
+        "give fewer stages",
+    )?;
+    Ok(last)
 }
 
 /// Returns the number of parts that a load has.
 fn count(groups: &Groups, load: &Load) -> usize {
-    let edges = load.on.as_ref().and_then(|on| groups.places(1, on, "").ok());
-    edges.map_or(1, <[u32]>::len)
+    match &load.kind {
+        LoadKind::Force { .. } => 1,
+        LoadKind::Pressure { on, .. } | LoadKind::Traction { on, .. } => {
+            groups.places(1, on, "").map_or(1, <[u32]>::len)
+        }
+    }
 }
 
 /// Returns the parts of one load: one for its node, or for each of its edges.
 fn parts(at: (&Mesh, &Groups, &Sides), load: &Load, place: &str) -> Result<Vec<Force>> {
-    match load {
-        Load {
-            node: Some(n),
-            force: Some(force),
-            on: None,
-            pressure: None,
-            traction: None,
-            ..
-        } => {
-            at.0.check_node(*n, &format!("{place}.node"))?;
-            Ok(vec![Force::Node(NodeId::from_number(*n), *force)])
+    match &load.kind {
+        LoadKind::Force { node, force } => {
+            at.0.check_node(*node, &format!("{place}.node"))?;
+            Ok(vec![Force::Node(NodeId::from_number(*node), *force)])
         }
-        Load {
-            on: Some(on), pressure: Some(p), traction: None, node: None, force: None, ..
-        } => on_edges(at, on, place, |edge| Force::Pressure(edge, *p)),
-        Load {
-            on: Some(on), traction: Some(t), pressure: None, node: None, force: None, ..
-        } => on_edges(at, on, place, |edge| Force::Traction(edge, *t)),
-        _ => {
-            let what = "a load is {on, pressure}, {on, traction} or {node, force}";
-            Err(InputError::new(place, what, "give exactly one of the three pairs"))
+        LoadKind::Pressure { on, pressure } => {
+            on_edges(at, on, place, |edge| Force::Pressure(edge, *pressure))
+        }
+        LoadKind::Traction { on, traction } => {
+            on_edges(at, on, place, |edge| Force::Traction(edge, *traction))
         }
     }
 }

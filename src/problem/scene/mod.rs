@@ -29,7 +29,9 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 pub use builder::SceneBuilder;
-pub use description::{Axis, Contact, Description, Load, Material, Materials, Restraint, Units};
+pub use description::{
+    Axis, Contact, Description, Load, LoadKind, Material, Materials, Restraint, Units,
+};
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use groups::GroupRef;
 use groups::Groups;
@@ -158,9 +160,8 @@ impl Scene {
             dropped,
         };
         check::restrained_bodies(&model)?;
-        (model.forces, model.load) =
-            load::forces(&mesh, &physical, &model, description.loads.iter().enumerate())?;
-        model.stages = load::stages(&mesh, &physical, &model, &description.loads)?;
+        let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
+        (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
         Ok(Scene {
             name: name.into(),
             title: description.title.clone(),

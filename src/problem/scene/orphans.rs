@@ -1,6 +1,6 @@
 //! Nodes that belong to no triangle, which are refused or dropped.
 
-use super::description::Description;
+use super::description::{Description, LoadKind};
 use super::mesh::Mesh;
 use super::surface::Surface;
 use base::error::{InputError, Result};
@@ -29,7 +29,10 @@ pub fn drop(mesh: &mut Mesh, dropped: &[usize], description: &Description) -> Re
         restraint.node.map_or(Ok(()), |n| named(n, format!("restraints[{k}].node")))?;
     }
     for (k, load) in description.loads.iter().enumerate() {
-        load.node.map_or(Ok(()), |n| named(n, format!("loads[{k}].node")))?;
+        match load.kind {
+            LoadKind::Force { node, .. } => named(node, format!("loads[{k}].node"))?,
+            LoadKind::Pressure { .. } | LoadKind::Traction { .. } => (),
+        }
     }
     if let Some(Surface::Numbers(numbers)) = description.contact.as_ref().map(|c| &c.contact) {
         numbers.iter().try_for_each(|n| named(*n, "contact.cnt".into()))?;

@@ -13,7 +13,7 @@ use paper::door::{self, Call};
 use paper::listings::{self, Which};
 use paper::mirror::{Km, Pairs, Reading};
 use problem::element::{self, Plane};
-use problem::modelling::{StatusRule, Variant};
+use problem::modelling::Variant;
 
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Effect {
@@ -173,7 +173,7 @@ impl Effect {
         for step in &solution.steps {
             let call = Call::c_cnt(&solution.model, &self.parsed(), &step.shape)
                 .map_err(|why| format!("iteration {}: {why}", step.k))?;
-            if case.scene.contact.status == StatusRule::Signs {
+            if case.scene.contact.status.is_printed() {
                 let Detail::Published(own) = &step.detail else {
                     unreachable!("a published variant")
                 };

@@ -67,9 +67,9 @@ impl Hertz {
     /// Errors: there are fewer than four elements, or too many; the radius or the load is not
     /// positive; the half width is beyond a quarter of the radius.
     pub fn generate(&self) -> Result<SceneBuilder> {
-        check::count("--size", self.size, 4)?;
-        check::positive("--radius", self.radius)?;
-        check::positive("--load", self.load)?;
+        check::count("size", self.size, 4)?;
+        check::positive("radius", self.radius)?;
+        check::positive("load", self.load)?;
         self.check_half_width()?;
         let mut mesh = MeshBuilder::default();
         self.add_block(&mut mesh);
@@ -93,7 +93,7 @@ impl Hertz {
         }
         let what =
             format!("the contact's half width {} mm is outside 0.001 to 0.25 radii", six_digits(a));
-        Err(InputError::new("--load", what, "choose a load for which Hertz's theory holds"))
+        Err(InputError::new("load", what, "choose a load for which Hertz's theory holds"))
     }
 
     /// Half width of the face, length.

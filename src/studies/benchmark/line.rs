@@ -14,11 +14,7 @@ pub fn quarter(k: usize, n: usize) -> [f64; 2] {
 
 /// Cosine and sine at `s` from 0 to 1 of a right angle; both ends exact.
 pub fn cos_sin(s: f64) -> [f64; 2] {
-    match s {
-        0.0 => [1.0, 0.0],
-        1.0 => [0.0, 1.0],
-        _ => [(FRAC_PI_2 * s).cos(), (FRAC_PI_2 * s).sin()],
-    }
+    if s == 1.0 { [0.0, 1.0] } else { [(FRAC_PI_2 * s).cos(), (FRAC_PI_2 * s).sin()] }
 }
 
 /// The point between `a` and `b` at `s` from 0 to 1; both ends exact.
@@ -28,11 +24,7 @@ pub fn between(a: [f64; 2], b: [f64; 2], s: f64) -> [f64; 2] {
 
 /// k of n steps of a quantity that grows by the same factor from `a` to `b`; both ends exact.
 pub fn geometric(a: f64, b: f64, k: usize, n: usize) -> f64 {
-    match k {
-        0 => a,
-        _ if k == n => b,
-        _ => a * (b / a).powf(k as f64 / n as f64),
-    }
+    if k == n { b } else { a * (b / a).powf(k as f64 / n as f64) }
 }
 
 /// Steps by which a curve's length is measured.

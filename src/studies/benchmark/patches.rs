@@ -33,8 +33,8 @@ impl Blocks {
     /// Generates the scene.
     /// Errors: there is no division, or there are too many.
     pub fn generate(&self) -> Result<SceneBuilder> {
-        check::count("--upper", self.upper, 1)?;
-        check::count("--lower", self.lower, 1)?;
+        check::count("upper", self.upper, 1)?;
+        check::count("lower", self.lower, 1)?;
         let mut mesh = MeshBuilder::default();
         let lower = block(&mut mesh, "lower", self.lower, 0.0);
         let upper = block(&mut mesh, "upper", self.upper, SIZE[1]);
@@ -100,9 +100,9 @@ impl PunchPatch {
     /// Generates the scene.
     /// Errors: a number of divisions is odd, zero or too large; the pressure is not positive.
     pub fn generate(&self) -> Result<SceneBuilder> {
-        check::even("--punch", self.punch)?;
-        check::even("--foundation", self.foundation)?;
-        check::positive("--pressure", self.pressure)?;
+        check::even("punch", self.punch)?;
+        check::even("foundation", self.foundation)?;
+        check::positive("pressure", self.pressure)?;
         let mut mesh = MeshBuilder::default();
         self.add_foundation(&mut mesh);
         let n = self.punch;

@@ -37,8 +37,8 @@ impl Annulus {
     /// Generates the scene.
     /// Errors: there is no division, or there are too many.
     pub fn generate(&self) -> Result<SceneBuilder> {
-        check::count("--radial", self.radial, 1)?;
-        check::count("--around", self.around, 2)?;
+        check::count("radial", self.radial, 1)?;
+        check::count("around", self.around, 2)?;
         let mut mesh = MeshBuilder::default();
         let wall = Rows::grid(&mut mesh, "wall", [self.around, self.radial], |i, j| {
             quarter(i, self.around).map(|x| x * part(RADII[0], RADII[1], j, self.radial))
@@ -83,8 +83,8 @@ impl Hole {
     /// Errors: there are fewer than two divisions, or too many; the outer radius is below 1.5 or
     /// beyond 1e6.
     pub fn generate(&self) -> Result<SceneBuilder> {
-        check::count("--around", self.around, 2)?;
-        check::between("--outer", self.outer, [1.5, 1e6])?;
+        check::count("around", self.around, 2)?;
+        check::between("outer", self.outer, [1.5, 1e6])?;
         let n = self.around;
         let radial = (self.outer.ln() * n as f64 / FRAC_PI_2).ceil() as usize;
         let mut mesh = MeshBuilder::default();
@@ -153,7 +153,7 @@ impl Cook {
     /// Errors: there is no division, or there are too many.
     pub fn generate(&self) -> Result<SceneBuilder> {
         let n = self.n;
-        check::count("--n", n, 1)?;
+        check::count("n", n, 1)?;
         let mut mesh = MeshBuilder::default();
         let membrane = Rows::grid(&mut mesh, "membrane", [n, n], |i, j| {
             let left = [0.0, part(0.0, 44.0, j, n)];
@@ -196,7 +196,7 @@ impl Ellipse {
     /// Errors: there are fewer than two divisions, or too many.
     pub fn generate(&self) -> Result<SceneBuilder> {
         let n = self.n;
-        check::count("--n", n, 2)?;
+        check::count("n", n, 2)?;
         let mut mesh = MeshBuilder::default();
         let membrane = Rows::grid(&mut mesh, "membrane", [n, n], |i, j| {
             let [cos, sin] = quarter(i, n);

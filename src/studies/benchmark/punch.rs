@@ -37,9 +37,9 @@ impl Punch {
     /// Errors: there are fewer than four divisions, or too many; the outer radius is below 2 or
     /// beyond 1e4.
     pub fn generate(&self) -> Result<SceneBuilder> {
-        check::count("--punch", self.punch, 4)?;
-        check::count("--foundation", self.foundation, 4)?;
-        check::between("--outer", self.outer, [2.0, 1e4])?;
+        check::count("punch", self.punch, 4)?;
+        check::count("foundation", self.foundation, 4)?;
+        check::between("outer", self.outer, [2.0, 1e4])?;
         let mut mesh = MeshBuilder::default();
         self.add_foundation(&mut mesh);
         self.add_punch(&mut mesh);

@@ -88,11 +88,11 @@ impl Strand {
     /// of the block beside the duct; the top is outside 0.3 to 1.7, or above 1 where the chords of the
     /// wall would cut into the disc.
     pub fn generate(&self) -> Result<SceneBuilder> {
-        check::between("--duct", self.duct, DUCT)?;
-        check::between("--strand", self.strand, [self.duct / WIDEST, self.duct])?;
+        check::between("duct", self.duct, DUCT)?;
+        check::between("strand", self.strand, [self.duct / WIDEST, self.duct])?;
         let coarsest = (COARSEST * self.strand).min(ACROSS * (SIDE - self.duct));
-        check::between("--size", self.size, [FINEST, coarsest])?;
-        check::between("--top", self.top, TOP)?;
+        check::between("size", self.size, [FINEST, coarsest])?;
+        check::between("top", self.top, TOP)?;
         self.check_above_the_centre()?;
         let mut mesh = MeshBuilder::default();
         self.add_block(&mut mesh);
@@ -125,8 +125,8 @@ impl Strand {
             return Ok(());
         }
         let what = format!("chords of the wall cut {sagitta:.2e} mm into the duct beside the disc");
-        let fix = "give 1 at most, a shorter --size or a wider --duct";
-        Err(InputError::new("--top", what, fix))
+        let fix = "give 1 at most, a shorter size or a wider duct";
+        Err(InputError::new("top", what, fix))
     }
 
     /// Edges on a quarter of the lower wall, and on a quarter of the stamp's arc.

@@ -82,8 +82,9 @@ pub fn length_scaled(scalar: ScalarName, blocks: BlocksOf) -> Method {
 /// `tied` with the load in a unit of its own size: what one iteration computes is linear.
 pub fn load_scaled(scalar: ScalarName, blocks: BlocksOf) -> Method {
     remedied("loads scaled", scalar, blocks, |scene| {
-        let pressure =
-            scene.description.loads[0].pressure.as_mut().expect("the load is a pressure");
+        let [pressure] = scene.description.loads[0].kind.numbers() else {
+            panic!("the load is a pressure")
+        };
         let unit = power_of_two(*pressure);
         *pressure /= unit;
         unit

@@ -58,7 +58,7 @@ impl Work<'_> {
         let mut bytes = Bytes::of(self.request, self.model);
         bytes.matrices += self.dense_bytes();
         Cost {
-            dense_matrices: self.dense * self.width(),
+            dense_matrices: self.dense * self.number_bytes().div_ceil(size_of::<f64>()),
             states,
             reference_states,
             operations: self.operations(states, reference_states),
@@ -93,11 +93,11 @@ impl Work<'_> {
     }
 
     fn unilateral_states(&self) -> usize {
-        match (self.candidates, self.request.contact.friction) {
-            (Some(found), Friction::NONE) => 1 + (found.near - found.touching) / NODES_OF_A_STATE,
-            _ if self.settled() => 1,
-            _ => STICKING_STATES,
+        let is_frictionless = self.request.contact.friction == Friction::NONE;
+        if let Some(found) = self.candidates.filter(|_| is_frictionless) {
+            return 1 + (found.near - found.touching) / NODES_OF_A_STATE;
         }
+        if self.settled() { 1 } else { STICKING_STATES }
     }
 
     /// Whether every node that can come to an edge touches one already: there is no contact, or the
@@ -112,29 +112,32 @@ impl Work<'_> {
         if self.candidates.is_none() || same { 0 } else { self.unilateral_states() }
     }
 
-    /// Size of a number, in units of an `f64`.
-    fn width(&self) -> usize {
+    /// The bytes of a number.
+    fn number_bytes(&self) -> usize {
         match self.request.arithmetic.scalar {
-            ScalarName::F32 | ScalarName::F64 => 1,
-            _ => 2,
+            ScalarName::F32 => 4,
+            ScalarName::F64 => 8,
+            ScalarName::F64x2
+            | ScalarName::Bounded
+            | ScalarName::BoundedDouble
+            | ScalarName::Exact => 16,
         }
     }
 
     /// K is 2R x 2R, the others have the equations that are solved.
     fn dense_bytes(&self) -> f64 {
-        let size = match self.request.arithmetic.scalar {
-            ScalarName::F32 => 4.0,
-            ScalarName::F64 => 8.0,
-            _ => 16.0,
-        };
-        let square = |n: usize| size * (n as f64).powi(2);
+        let square = |n: usize| self.number_bytes() as f64 * (n as f64).powi(2);
         let (all, solved) = (2 * self.model.nodes.len(), self.factors.equations);
-        match (self.dense, self.request.variant) {
-            (0, _) => 0.0,
-            (matrices, Variant::Printed) => {
-                (matrices as f64 * square(all)).max(PRINTED_BOUND * (all as f64).powi(2))
+        if self.dense == 0 {
+            return 0.0;
+        }
+        match self.request.variant {
+            Variant::Printed => {
+                (self.dense as f64 * square(all)).max(PRINTED_BOUND * (all as f64).powi(2))
             }
-            (matrices, _) => square(all) + (matrices - 1) as f64 * square(solved),
+            Variant::Tied | Variant::Stepped | Variant::Unilateral => {
+                square(all) + (self.dense - 1) as f64 * square(solved)
+            }
         }
     }
 }

@@ -128,7 +128,7 @@ impl Plan {
             Solver::DenseLu => FactorSize::dense_lu(equations.solved),
             Solver::DenseCholesky => FactorSize::dense_cholesky(equations.solved),
             Solver::SparseLu => sparse.as_lu(),
-            _ => sparse,
+            Solver::SparseCholesky | Solver::Cg | Solver::Refined => sparse,
         };
         let candidates = contact.as_ref().map(|contact| &contact.candidates);
         let near = candidates.map_or(0, |found| found.near);

@@ -88,7 +88,7 @@ fn found(run: &Run, k: usize, i: usize) -> Option<Found> {
 
 /// Returns whether lines 16 to 18 of `c_cnt` decide who is in contact.
 fn follows_listing(run: &Run) -> bool {
-    run.options.status.is_none_or(|rule| rule == StatusRule::Signs)
+    run.options.status.is_none_or(StatusRule::is_printed)
         && !run.facts.names().any(|name| name.ends_with(" statuses"))
 }
 

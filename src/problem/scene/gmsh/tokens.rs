@@ -320,7 +320,7 @@ impl<'a> Tokens<'a> {
             Encoding::Text => {
                 Place::Line(1 + ends + read.iter().filter(|byte| **byte == b'\n').count())
             }
-            _ => Place::Byte(bytes + self.last),
+            Encoding::LittleEndian | Encoding::BigEndian => Place::Byte(bytes + self.last),
         };
         let broken = self.broken.as_ref().filter(|_| self.at == self.held.len());
         let fault = broken.map_or(fault, |why| Fault::Broken { why: why.clone() });

@@ -117,7 +117,9 @@ impl Score {
         // The weights, which the listing computes at once, are no part of search and status.
         let linked = match self.rule {
             StatusRule::Projection => 0,
-            _ => c_cnt(&sheet, &reading, &sheet.node).expect(vertical).dy.iter().sum::<usize>(),
+            StatusRule::Signs | StatusRule::Intersection => {
+                c_cnt(&sheet, &reading, &sheet.node).expect(vertical).dy.iter().sum::<usize>()
+            }
         };
         self.operations += operations - WEIGHTS * linked as u64;
     }
