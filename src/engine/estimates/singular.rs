@@ -175,9 +175,12 @@ impl Around {
     fn loaded(&self, model: &Model) -> Vec<NodeId> {
         let mut forces: BTreeMap<NodeId, [f64; 2]> = BTreeMap::new();
         for force in &model.forces {
-            if let Force::Node(node, [fx, fy]) = force {
-                let sum = forces.entry(*node).or_default();
-                *sum = [sum[0] + fx, sum[1] + fy];
+            match force {
+                Force::Node(node, [fx, fy]) => {
+                    let sum = forces.entry(*node).or_default();
+                    *sum = [sum[0] + fx, sum[1] + fy];
+                }
+                Force::Pressure(..) | Force::Traction(..) => (),
             }
         }
         forces.retain(|node, force| {

@@ -83,7 +83,7 @@ pub fn restraints(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Ve
                 mesh.check_node(n, &format!("{place}.node"))?;
                 restraint.fix.iter().for_each(|axis| restrain(n, axis));
             }
-            _ => {
+            (Some(_), Some(_)) | (None, None) => {
                 let what = "a restraint is {on, fix} or {node, fix}";
                 return Err(InputError::new(place, what, "give exactly one of on and node"));
             }

@@ -10,7 +10,6 @@ use super::mesh::Mesh;
 use crate::model::{Force, Model, NodeId, Sides};
 use base::error::{InputError, Result};
 use base::memory;
-use numbers::scalar::Scalar;
 
 /// The load of a scene, on all 2R degrees of freedom, restrained ones included, force.
 pub struct Loading {
@@ -34,7 +33,7 @@ pub fn loading(mesh: &Mesh, groups: &Groups, model: &Model, loads: &[Load]) -> R
     memory::check_bytes((2 * count * size_of::<Force>()) as f64, "loads", &whose, fix)?;
     let (mut forces, mut total) = (Vec::new(), DVector::zeros(model.dofs()));
     for (k, load) in loads.iter().enumerate() {
-        let own = parts((mesh, groups, &model.sides), load, &place(k))?;
+        let own = parts(mesh, groups, &model.sides, load, &place(k))?;
         add(&own, &mut total, model, k)?;
         forces.push(own);
     }
@@ -93,24 +92,31 @@ fn count(groups: &Groups, load: &Load) -> usize {
 }
 
 /// Returns the parts of one load: one for its node, or for each of its edges.
-fn parts(at: (&Mesh, &Groups, &Sides), load: &Load, place: &str) -> Result<Vec<Force>> {
+fn parts(
+    mesh: &Mesh,
+    groups: &Groups,
+    sides: &Sides,
+    load: &Load,
+    place: &str,
+) -> Result<Vec<Force>> {
     match &load.kind {
         LoadKind::Force { node, force } => {
-            at.0.check_node(*node, &format!("{place}.node"))?;
+            mesh.check_node(*node, &format!("{place}.node"))?;
             Ok(vec![Force::Node(NodeId::from_number(*node), *force)])
         }
         LoadKind::Pressure { on, pressure } => {
-            on_edges(at, on, place, |edge| Force::Pressure(edge, *pressure))
+            on_edges(groups, sides, on, place, |edge| Force::Pressure(edge, *pressure))
         }
         LoadKind::Traction { on, traction } => {
-            on_edges(at, on, place, |edge| Force::Traction(edge, *traction))
+            on_edges(groups, sides, on, place, |edge| Force::Traction(edge, *traction))
         }
     }
 }
 
 /// Returns the `part` of each edge of a group; it receives the edge with the body on its left.
 fn on_edges(
-    (mesh, groups, sides): (&Mesh, &Groups, &Sides),
+    groups: &Groups,
+    sides: &Sides,
     on: &GroupRef,
     place: &str,
     part: impl Fn([NodeId; 2]) -> Force,
@@ -126,25 +132,16 @@ fn on_edges(
             );
             return Err(InputError::new(place, what, "keep one: the load would count twice"));
         }
-        let third = third_node(sides, [a, b], edge.number, place)?;
-        let inside = f64::orientation(mesh.xy(a), mesh.xy(b), mesh.xy(third)) > 0.0;
-        let edge = if inside { [a, b] } else { [b, a] };
-        parts.push(part(edge.map(NodeId::from_number)));
-    }
-    Ok(parts)
-}
-
-/// Returns the node opposite the edge in the one triangle that it bounds.
-fn third_node(sides: &Sides, [a, b]: [usize; 2], number: usize, place: &str) -> Result<usize> {
-    match sides.beside([a, b].map(NodeId::from_number)) {
-        [one] => Ok(one.third.number()),
-        beside => {
+        let beside = sides.beside([a, b].map(NodeId::from_number));
+        let [triangle] = beside else {
             let what = format!(
-                "edge {number} (nodes {a} and {b}) bounds {} triangles: a load needs an edge of \
-                 exactly one",
+                "edge {} (nodes {a} and {b}) bounds {} triangles: a load needs an edge of exactly one",
+                edge.number,
                 beside.len()
             );
-            Err(InputError::new(place, what, "load an outer edge of a body"))
-        }
+            return Err(InputError::new(place, what, "load an outer edge of a body"));
+        };
+        parts.push(part(triangle.nodes));
     }
+    Ok(parts)
 }
