@@ -3,11 +3,10 @@
 /// Returns `name: meaning` of each choice; a meaning is a sentence that becomes a part of one.
 pub fn help(choices: &[(&str, &str)]) -> String {
     let phrase = |meaning: &str| {
-        let meaning = meaning.replace('`', "");
         let meaning = meaning.trim().trim_end_matches('.');
         let is_word = meaning.chars().nth(1).is_some_and(|c| !c.is_uppercase());
-        let first = meaning.len().min(usize::from(is_word));
-        meaning[..first].to_lowercase() + &meaning[first..]
+        let (first, rest) = meaning.split_at(usize::from(is_word));
+        (first.to_lowercase() + rest).replace('`', "")
     };
     let choices = choices.iter().map(|(name, meaning)| format!("{name}: {}", phrase(meaning)));
     choices.collect::<Vec<_>>().join("; ")

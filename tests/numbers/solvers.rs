@@ -128,7 +128,7 @@ fn exact_numbers_take_longer_with_every_iteration_but_the_first() {
 fn a_matrix_that_does_not_fit_is_refused_with_its_size() {
     assert!(check(1000, 3, Some(96_000_000)).is_ok());
     let error = check(1000, 3, Some(95_999_999)).unwrap_err();
-    assert!(error.what.contains("3 dense matrices of 2000 x 2000, need 96 MB"), "{error}");
+    assert!(error.what.contains("need 96.000000 MB; 95.999999 MB are free"), "{error}");
 }
 
 /// Two networks of springs, of stiffness 1 and of stiffness `soft`, the first tied to the ground by a
