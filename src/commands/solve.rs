@@ -109,7 +109,8 @@ pub fn run(args: &Args) -> Result<u8> {
     let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
     let is_written = !args.json || args.out.is_some();
     if is_written {
-        files::check_folder(&out, "solve", report::folder::names(wanted))?;
+        let names = report::folder::names(wanted);
+        files::check_folder(&out, "solve", &names.iter().map(String::as_str).collect::<Vec<_>>())?;
     }
     let session = Session::default();
     // The plan's count of the factors takes a fifth of the time of a large run.

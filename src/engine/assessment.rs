@@ -10,10 +10,10 @@ use super::error::Error;
 use super::estimates::Estimates;
 use super::hertz::Hertz;
 use super::probe::{Probe, probes};
+use super::quantities::{BodySummary, summaries};
 use super::request::Request;
 use super::session::Session;
 use super::solution::{Solution, Start};
-use super::summary::{BodySummary, summaries};
 use base::error::InputError;
 use problem::modelling::{ContactModel, Friction, Variant};
 
@@ -178,6 +178,13 @@ impl<'a> Assessment<'a> {
             Some(measured) => measured.as_ref().ok(),
             None => self.measure(),
         }
+    }
+
+    /// Returns the error of the mesh in each triangle, over that of a mean one
+    /// ([`Discretisation::error_map`](super::estimates::Discretisation::error_map)), where errors are
+    /// estimated.
+    pub fn mesh_error(&self) -> Option<Vec<f64>> {
+        self.estimates.as_ref().map(|estimates| estimates.mesh.error_map())
     }
 
     /// Returns the comparison with the reference solution, where that one was solved.

@@ -5,9 +5,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::not_finite::or_nan;
+use super::quantities::summaries;
 use super::solution::{Solution, max_displacement};
 use super::stiffness::Stiffness;
-use super::summary::summaries;
 
 /// The differences between a run and the solution compared with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

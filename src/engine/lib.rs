@@ -17,6 +17,7 @@ mod memory;
 mod not_finite;
 mod probe;
 mod published;
+pub mod quantities;
 mod range;
 mod request;
 mod residual;
@@ -25,7 +26,6 @@ mod solution;
 mod solve;
 mod sparse;
 mod stiffness;
-mod summary;
 mod support;
 mod unilateral;
 
@@ -37,7 +37,11 @@ pub use fast::condensation::kept_equations;
 pub use found::FoundPairs;
 pub use hertz::Hertz;
 pub use memory::Bytes;
-pub use probe::{Probe, Quantity, check_points};
+pub use probe::{Probe, Probed, check_points};
+pub use quantities::{
+    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleState, TriangleValues,
+    summaries,
+};
 pub use range::{beyond_range, locking};
 pub use request::Request;
 pub use session::Session;
@@ -48,4 +52,3 @@ pub use solution::{
 pub use solve::{check, solve};
 pub use sparse::dense_matrices;
 pub use stiffness::Stiffness;
-pub use summary::{BodySummary, summaries};

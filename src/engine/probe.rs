@@ -11,12 +11,13 @@ use super::estimates::discretisation::{SAFETY, compliance, von_mises};
 use super::estimates::{Cause, Dual, Estimates, Singular, singular};
 use super::held::Held;
 use super::not_finite::finite;
+use super::quantities::{Quantity, TriangleState, TriangleValues, Unit};
 use super::session::Session;
 use super::solution::Solution;
 use base::error::InputError;
 use base::plain::six_digits;
 use numbers::scalar::Bounded;
-use problem::element::{self, Corners, Plane};
+use problem::element::{self, Corners, State};
 use problem::model::{Body, Model, TriangleId};
 
 /// How far outside a triangle, over its size, a point is still of it: typed with eight digits.
@@ -37,23 +38,25 @@ pub struct Probe {
     /// no limit; nothing elsewhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_limit: Option<Cause>,
-    /// The displacement, then the stresses, then the strains.
-    pub quantities: Vec<Quantity>,
+    /// The components of the displacement, then the quantities of the triangle.
+    pub quantities: Vec<Probed>,
 }
 
 /// A number at a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Quantity {
+pub struct Probed {
     /// What it is: `u_x`, `sigma_x`, `epsilon_x`, ...
     pub name: String,
+    /// What it is measured in.
+    pub unit: Unit,
     /// The triangle's value: of a displacement linear, of a stress or strain the same everywhere.
     pub value: f64,
     /// The recovered value, which is continuous within a material and typically nearer to the
-    /// truth; nothing of a displacement, and where nothing is recovered.
+    /// truth; null for a displacement, and where nothing is recovered.
     pub recovered: Option<f64>,
-    /// What the mesh may do to the value; nothing where that is not known.
+    /// The estimated error of the mesh; null where it is not known.
     pub mesh: Option<f64>,
-    /// What rounding may do to it; nothing where that is not known.
+    /// The bound on the error of rounding; null where it is not known.
     pub arithmetic: Option<f64>,
 }
 
@@ -117,15 +120,13 @@ impl Bench<'_> {
         let mut triangles = body.triangles.iter().filter(|id| has(model, **id, at));
         let id = *triangles.next()?;
         let weights = weights(&model.corners(id), at);
-        let [displacement, stress, strain] =
-            [self.displacement(id, weights), self.stress(id, weights), self.strain(id, weights)];
         Some(Probe {
             at,
             body: body.name.clone(),
             triangle: id.number(),
             shared: triangles.map(|id| id.number()).collect(),
             no_limit: self.no_limit(id),
-            quantities: [displacement, stress, strain].concat(),
+            quantities: [self.displacement(id, weights), self.triangle(id, weights)].concat(),
         })
     }
 
@@ -134,7 +135,7 @@ impl Bench<'_> {
         near.map(|point| point.cause)
     }
 
-    fn displacement(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Quantity> {
+    fn displacement(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Probed> {
         let (model, u) = (&*self.solution.model, &self.solution.u);
         let nodes = model.triangle(id).nodes;
         let component = |(d, name): (usize, &str)| {
@@ -144,8 +145,9 @@ impl Bench<'_> {
                 force[dof] = weight;
                 value += weight * u[dof];
             }
-            Quantity {
+            Probed {
                 name: name.into(),
+                unit: Unit::Length,
                 value,
                 recovered: None,
                 mesh: self.dual.as_ref().and_then(|dual| finite(dual.error(&force))),
@@ -155,73 +157,76 @@ impl Bench<'_> {
         ["u_x", "u_y"].into_iter().enumerate().map(component).collect()
     }
 
-    fn stress(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Quantity> {
+    /// Returns the quantities of a triangle, component by component. A difference of stresses is
+    /// estimated by its own value: each quantity is linear in stress, or a seminorm.
+    fn triangle(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Probed> {
         let (model, k) = (&*self.solution.model, id.index());
-        let (plane, nu) = (model.plane, model.triangle(id).material.nu);
-        let (state, corners) = (&self.solution.elements[k], &self.estimates.mesh.recovered[k]);
-        let sigma_z = |s: &Vector3<f64>| match plane {
-            Plane::Strain => nu * (s[0] + s[1]),
-            Plane::Stress => 0.0,
-        };
-        let of = |s: &Vector3<f64>| [s[0], s[1], s[2], sigma_z(s), von_mises(plane, nu, s)];
-        let between = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
-        let (mut value, recovered) = (of(&state.sigma), of(&between));
-        value[4] = state.von_mises_stress;
-        let [x, y, xy] = [0, 1, 2].map(|c| self.bounded[k][c].error());
-        let rounding = [x, y, xy, sigma_z(&Vector3::new(x, y, xy)), self.of_stress[k]];
-        let differences = corners.map(|corner| of(&(corner - state.sigma)).map(f64::abs));
-        self.quantities(
-            id,
-            ["sigma_x", "sigma_y", "tau_xy", "sigma_z", "von Mises stress"],
-            [value, recovered, largest(differences), rounding],
-        )
-    }
-
-    fn strain(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Quantity> {
-        let (model, k) = (&*self.solution.model, id.index());
-        let material = model.triangle(id).material;
-        let c = compliance(model.plane, material.nu) / material.e;
+        let state = &self.solution.elements[k];
         let corners = &self.estimates.mesh.recovered[k];
         let between = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
-        let sigma = self.solution.elements[k].sigma;
-        let rounding = c.abs() * Vector3::from_fn(|i, _| self.bounded[k][i].error());
-        let differences = corners.map(|corner| (c * (corner - sigma)).abs().into());
-        self.quantities(
-            id,
-            ["epsilon_x", "epsilon_y", "gamma_xy"],
-            [
-                self.solution.elements[k].epsilon.into(),
-                (c * between).into(),
-                largest(differences),
-                rounding.into(),
-            ],
-        )
-    }
-
-    /// Puts together values, recovered values, differences between the two, and what rounding may
-    /// do.
-    fn quantities<const N: usize>(
-        &self,
-        id: TriangleId,
-        names: [&str; N],
-        [value, recovered, mesh, arithmetic]: [[f64; N]; 4],
-    ) -> Vec<Quantity> {
-        let is_singular = self.no_limit(id).is_some();
-        let is_recovered = self.estimates.mesh.stress_errors[id.index()].is_finite();
-        let quantity = |(i, name): (usize, &str)| Quantity {
-            name: name.into(),
-            value: value[i],
-            recovered: is_recovered.then_some(recovered[i]),
-            mesh: (is_recovered && !is_singular).then_some(SAFETY * mesh[i]),
-            arithmetic: finite(arithmetic[i]),
+        let own = TriangleValues::new(&TriangleState::new(model, id, state, None));
+        let recovered = self.stressed(id, &between);
+        let differences = corners.map(|corner| self.stressed(id, &(corner - state.sigma)));
+        let is_recovered = self.estimates.mesh.stress_errors[k].is_finite();
+        let is_bounded = is_recovered && self.no_limit(id).is_none();
+        let quantity = |quantity: &Quantity<TriangleValues>| {
+            let numbers = |of: &TriangleValues| (quantity.value)(of).numbers();
+            let (recovered, differences) =
+                (numbers(&recovered), differences.each_ref().map(numbers));
+            let component = |(c, (name, value)): (usize, (String, f64))| {
+                let size = |of: &Option<Vec<f64>>| Some(of.as_ref()?[c].abs());
+                let mesh = differences.iter().map(size).collect::<Option<Vec<_>>>();
+                let mesh = mesh.map(|sizes| SAFETY * sizes.into_iter().fold(0.0, f64::max));
+                Probed {
+                    name,
+                    unit: quantity.unit,
+                    value,
+                    recovered: recovered.as_ref().map(|of| of[c]).filter(|_| is_recovered),
+                    mesh: mesh.filter(|_| is_bounded),
+                    arithmetic: self.rounding(id, quantity.name, c).and_then(finite),
+                }
+            };
+            let names = match quantity.symbols {
+                [] | [_] => vec![quantity.title.to_string()],
+                _ => quantity.components(),
+            };
+            let named = names.into_iter().zip(numbers(&own).unwrap_or_default()).enumerate();
+            named.map(component).collect::<Vec<_>>()
         };
-        names.into_iter().enumerate().map(quantity).collect()
+        TriangleValues::QUANTITIES.iter().flat_map(quantity).collect()
     }
-}
 
-/// Returns the largest of the three corners' values.
-fn largest<const N: usize>(corners: [[f64; N]; 3]) -> [f64; N] {
-    std::array::from_fn(|i| corners.iter().map(|corner| corner[i]).fold(0.0, f64::max))
+    /// Returns the values of a triangle under a stress; its von Mises strain is not known.
+    fn stressed(&self, id: TriangleId, stress: &Vector3<f64>) -> TriangleValues {
+        let model = &*self.solution.model;
+        let material = model.triangle(id).material;
+        let state = State {
+            sigma: *stress,
+            epsilon: compliance(model.plane, material.nu) / material.e * stress,
+            von_mises_stress: von_mises(model.plane, material.nu, stress),
+            von_mises_strain: f64::NAN,
+        };
+        TriangleValues::new(&TriangleState::new(model, id, &state, None))
+    }
+
+    /// Returns what rounding may do to a component of a quantity of a triangle; None where no bound is
+    /// computed.
+    fn rounding(&self, id: TriangleId, quantity: &str, component: usize) -> Option<f64> {
+        let (model, k) = (&*self.solution.model, id.index());
+        let material = model.triangle(id).material;
+        let [x, y, xy] = [0, 1, 2].map(|c| self.bounded[k][c].error());
+        let stress = Vector3::new(x, y, xy);
+        match (quantity, component) {
+            ("sigma", 3) => Some(element::out_of_plane_stress(model.plane, material.nu, &stress)),
+            ("sigma", c) => Some(stress[c]),
+            ("epsilon", c) if c < 3 => {
+                let c_of_stress = compliance(model.plane, material.nu) / material.e;
+                Some((c_of_stress.abs() * stress)[c])
+            }
+            ("von_mises_stress", _) => Some(self.of_stress[k]),
+            _ => None,
+        }
+    }
 }
 
 /// Returns the parts of a triangle's area on the other side of `p` from each corner: all ≥ 0

@@ -5,12 +5,12 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::picture::{self, Drawing, Field};
+use super::quantities::triangle_array;
 use super::result_file::ResultFile;
 use super::{pressure, vtu};
 use base::error::Result;
 use base::files;
-use engine::{Assessment, Solution};
-use problem::element::State;
+use engine::{Assessment, Quantity, Solution, TriangleValues};
 use problem::scene::Scene;
 use studies::plan::Plan;
 
@@ -43,49 +43,62 @@ pub fn write(
     Ok(String::from_utf8(files.swap_remove(0).1).expect("JSON is UTF-8"))
 }
 
-/// The names of the files of a run with pictures: data first, and last the one that needs contact.
-const NAMES: [&str; 6] = [
-    "result.json",
-    "fields.vtu",
-    "mesh.svg",
-    "von_mises_stress.svg",
-    "von_mises_strain.svg",
-    "pressure.svg",
-];
-
 /// Returns the names of the files that a run may leave.
-pub fn names(wanted: Wanted) -> &'static [&'static str] {
-    if wanted.pictures { &NAMES } else { &NAMES[..2] }
+pub fn names(wanted: Wanted) -> Vec<String> {
+    let data = ["result.json", "fields.vtu"].map(String::from);
+    let pictures = ["mesh.svg", "pressure.svg"].map(String::from);
+    let pictures = pictures.into_iter().chain(drawn().map(picture_name));
+    data.into_iter().chain(pictures.filter(|_| wanted.pictures)).collect()
 }
 
-/// Returns the files of a run, each with its name.
+/// Returns the quantities of triangles of which there are pictures: all scalars.
+fn drawn() -> impl Iterator<Item = &'static Quantity<TriangleValues>> {
+    TriangleValues::QUANTITIES.iter().filter(|quantity| quantity.components().len() == 1)
+}
+
+fn picture_name(quantity: &Quantity<TriangleValues>) -> String {
+    format!("{}.svg", quantity.array())
+}
+
+/// Computes the content of a file.
+type Content<'a> = Box<dyn Fn() -> Vec<u8> + Send + Sync + 'a>;
+
+/// Returns the files of a run, each with its name; the first is `result.json`.
 pub fn contents(
     solution: &Solution,
     assessment: &Assessment,
     plan: Option<&Plan>,
     wanted: Wanted,
-) -> Vec<(&'static str, Vec<u8>)> {
+) -> Vec<(String, Vec<u8>)> {
     let scene = &solution.request.scene;
     let drawing = Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
     let displacement = &solution.displacements()[..];
-    let field = |quantity, unit, of: fn(&State) -> f64| {
-        let values: Vec<f64> = solution.elements.iter().map(of).collect();
-        let field = Field { quantity, unit, values: &values, displacement, largest_at: None };
-        picture::field(&drawing, &field).into_bytes()
-    };
-    let stress = || field("von Mises stress", &scene.units.stress, |state| state.von_mises_stress);
-    let strain = || field("von Mises strain", "1", |state| state.von_mises_strain);
-    let result = || result(solution, assessment, plan, wanted).into_bytes();
-    let fields = || vtu::vtu(&drawing, solution, assessment);
-    let mesh = || picture::mesh(&drawing).into_bytes();
-    let pressure = || pressures(solution, assessment).into_bytes();
-    let contents: [&(dyn Fn() -> Vec<u8> + Sync); 6] =
-        [&result, &fields, &mesh, &stress, &strain, &pressure];
-    let mut files: Vec<_> = names(wanted).iter().zip(contents).collect();
-    if solution.contact.is_empty() {
-        files.truncate(NAMES.len() - 1);
+    let mut files: Vec<(String, Content)> = vec![
+        (
+            "result.json".into(),
+            Box::new(|| result(solution, assessment, plan, wanted).into_bytes()),
+        ),
+        ("fields.vtu".into(), Box::new(|| vtu::vtu(&drawing, solution, assessment))),
+    ];
+    if wanted.pictures {
+        files.push(("mesh.svg".into(), Box::new(|| picture::mesh(&drawing).into_bytes())));
+        let triangles = TriangleValues::all(solution, assessment.mesh_error().as_deref());
+        for quantity in drawn() {
+            let Some(array) = triangle_array(quantity, &triangles, &scene.units) else { continue };
+            let drawing = &drawing;
+            let picture = move || {
+                let (quantity, unit, values) = (quantity.title, &array.unit[..], &array.values[..]);
+                let field = Field { quantity, unit, values, displacement, largest_at: None };
+                picture::field(drawing, &field).into_bytes()
+            };
+            files.push((picture_name(quantity), Box::new(picture)));
+        }
+        if !solution.contact.is_empty() {
+            let pressure = || pressures(solution, assessment).into_bytes();
+            files.push(("pressure.svg".into(), Box::new(pressure)));
+        }
     }
-    files.par_iter().with_max_len(1).map(|(name, content)| (**name, content())).collect()
+    files.par_iter().with_max_len(1).map(|(name, content)| (name.clone(), content())).collect()
 }
 
 /// Returns the content of `result.json`, and writes nothing.
@@ -96,7 +109,11 @@ pub fn result(
     wanted: Wanted,
 ) -> String {
     let result = ResultFile::new(solution, assessment, plan);
-    if wanted.fields { result.with_fields(solution).to_json() } else { result.to_json() }
+    if wanted.fields {
+        result.with_fields(solution, assessment).to_json()
+    } else {
+        result.to_json()
+    }
 }
 
 /// Draws the contact pressure of a solution and of those beside which it is assessed.

@@ -7,6 +7,7 @@
 //! | module                                             | what it writes                         |
 //! |----------------------------------------------------|----------------------------------------|
 //! | `tables`, `folder`, `result_file`, `pressure`      | a run: tables, folder, `result.json`   |
+//! | `quantities`                                       | columns and arrays of quantities       |
 //! | `audit`, `comparison`, `extremes`, `plan`, `trace` | a study each                           |
 //! | `answers`                                          | the marks of answers to exercises      |
 //! | `snapshot`, `statuses`, `trade`                    | a study each                           |
@@ -44,6 +45,7 @@ pub mod picture;
 pub mod plan;
 pub mod pressure;
 pub mod printed;
+pub mod quantities;
 mod result_file;
 pub mod scenes;
 pub mod schema;
@@ -57,4 +59,4 @@ pub mod trade;
 pub mod vtu;
 pub mod worksheet;
 
-pub use result_file::{ElementRow, IterationRow, MOST_TRIANGLES, ResultFile};
+pub use result_file::{ElementRow, MOST_TRIANGLES, ResultFile};

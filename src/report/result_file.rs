@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 use super::{json, plan};
 use base::error::{InputError, Result};
 use base::files;
-use engine::contact::{ContactNode, Status};
+use engine::contact::ContactNode;
 use engine::estimates::ErrorEstimates;
 use engine::{
-    Assessment, BodySummary, Cycle, Detail, Distance, Equilibrium, Hertz, Probe, Solution, Step,
+    Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Probe,
+    Solution, TriangleValues,
 };
 use numbers::scalar::rational;
 use numbers::solve::{Arithmetic, ScalarName};
@@ -75,7 +76,7 @@ pub struct ResultFile {
     pub load: [f64; 2],
     /// The numbers, in the mesh file, of the nodes that belong to no triangle and were dropped.
     pub dropped: Vec<NodeId>,
-    /// What each iteration came to, in order.
+    /// The results of each iteration, in order.
     pub iterations: Vec<IterationRow>,
     /// The largest values of each body.
     pub bodies: Vec<BodySummary>,
@@ -106,13 +107,10 @@ pub struct ResultFile {
     /// The file beside this one that has `u` and `elements`, where they are absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields_in: Option<String>,
-    /// The coordinates of each node, length.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub nodes: Option<Vec<[f64; 2]>>,
-    /// The displacement of each node along x and y, length.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub u: Option<Vec<[f64; 2]>>,
-    /// The same in decimal with all digits, where the scalar has more than an `f64`.
+    /// The values at the nodes.
+    #[serde(flatten)]
+    pub nodes: Option<NodeFields>,
+    /// The displacements in decimal with all digits, where the scalar has more than an `f64`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub u_digits: Option<Vec<[String; 2]>>,
     /// The stresses and strains of each triangle.
@@ -127,40 +125,6 @@ pub struct EditedListing {
     pub sha256: String,
 }
 
-/// What an iteration came to.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct IterationRow {
-    /// The number of the iteration, from 1.
-    pub k: usize,
-    /// How many contact nodes were in contact.
-    pub in_contact: usize,
-    /// Which entries of the contact surface were in contact: 1 or 0 for each.
-    pub dy: Vec<u8>,
-    /// Under `unilateral`, the part of the path of the load that was applied; whole numbers end
-    /// stages.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub load: Option<f64>,
-    /// Under `unilateral`, the status of each entry of the contact surface.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub statuses: Option<Vec<Status>>,
-    /// The largest displacement of a node, total, length; nothing of an iteration of `unilateral` with which
-    /// no step of the load ends: it is solved for on the contact surfaces alone.
-    pub max_displacement: Option<f64>,
-    /// Where this contact state came before; nothing where it is new.
-    pub cycle: Option<Cycle>,
-    /// What is left of eq. (1) on total displacements, or of the gaps under `unilateral`, length.
-    pub eq1_residual: f64,
-    /// The same on what this iteration solved for, length: the increment where the load is stepped.
-    pub eq1_residual_step: f64,
-    /// The force that contact passes from one body to the other, force: along the load where that acts
-    /// on one of the two bodies alone, else its size. 0 without contact; nothing where
-    /// `max_displacement` is nothing.
-    pub target_force: Option<f64>,
-    /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations: under `unilateral`, but for
-    /// the last iteration, mostly those of the condensed bodies.
-    pub solve_residual: f64,
-}
-
 /// The stresses and strains of a triangle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ElementRow {
@@ -170,14 +134,8 @@ pub struct ElementRow {
     pub nodes: [NodeId; 3],
     /// The place of its material in `materials`, from 1.
     pub material: usize,
-    /// The stresses sigma_x, sigma_y, tau_xy.
-    pub sigma: [f64; 3],
-    /// The strains e_xx, e_yy, g_xy.
-    pub epsilon: [f64; 3],
-    /// Its von Mises stress.
-    pub von_mises_stress: f64,
-    /// Its von Mises strain.
-    pub von_mises_strain: f64,
+    #[serde(flatten)]
+    pub values: TriangleValues,
 }
 
 impl ResultFile {
@@ -212,7 +170,7 @@ impl ResultFile {
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
             dropped: solution.model.dropped.clone(),
-            iterations: solution.steps.iter().map(IterationRow::new).collect(),
+            iterations: IterationRow::all(solution),
             bodies: assessment.bodies.clone(),
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
@@ -230,29 +188,28 @@ impl ResultFile {
             },
             fields_in: Some("fields.vtu".into()),
             nodes: None,
-            u: None,
             u_digits: digits(solution),
             elements: None,
         };
         let is_small = solution.elements.len() <= MOST_TRIANGLES;
-        if is_small { result.with_fields(solution) } else { result }
+        if is_small { result.with_fields(solution, assessment) } else { result }
     }
 
-    /// Adds the displacements of the nodes and the stresses and strains of the triangles.
+    /// Adds the values of the nodes and of the triangles.
     #[must_use]
-    pub fn with_fields(self, solution: &Solution) -> Self {
-        let (u, elements) = (Some(solution.displacements()), Some(elements(solution)));
-        let nodes = Some(solution.model.nodes.clone());
-        ResultFile { fields_in: None, nodes, u, elements, ..self }
+    pub fn with_fields(self, solution: &Solution, assessment: &Assessment) -> Self {
+        let nodes = Some(NodeFields::new(solution));
+        let elements = Some(elements(solution, assessment.mesh_error().as_deref()));
+        ResultFile { fields_in: None, nodes, elements, ..self }
     }
 
-    /// Returns the displacement of each node, length, and the stresses and strains of each triangle.
+    /// Returns the values of the nodes and of each triangle.
     ///
     /// # Errors
     /// The file does not have them: says which one does.
-    pub fn fields(&self) -> Result<(&[[f64; 2]], &[ElementRow])> {
-        if let (Some(u), Some(elements)) = (&self.u, &self.elements) {
-            return Ok((u, elements));
+    pub fn fields(&self) -> Result<(&NodeFields, &[ElementRow])> {
+        if let (Some(nodes), Some(elements)) = (&self.nodes, &self.elements) {
+            return Ok((nodes, elements));
         }
         let elsewhere = self.fields_in.as_deref().unwrap_or("no file");
         let what = format!("they are not in the result but in {elsewhere} beside it");
@@ -286,28 +243,6 @@ impl EditedListing {
     }
 }
 
-impl IterationRow {
-    fn new(step: &Step) -> Self {
-        let (load, statuses) = match &step.detail {
-            Detail::Unilateral(own) => (Some(own.load), Some(own.statuses.clone())),
-            Detail::Published(_) => (None, None),
-        };
-        IterationRow {
-            load,
-            statuses,
-            k: step.k,
-            in_contact: step.in_contact,
-            dy: step.statuses().into_iter().map(u8::from).collect(),
-            max_displacement: step.max_displacement,
-            cycle: step.cycle.clone(),
-            eq1_residual: step.contact_residual(),
-            eq1_residual_step: step.contact_residual_step(),
-            target_force: step.target_force,
-            solve_residual: step.solve_residual,
-        }
-    }
-}
-
 fn digits(solution: &Solution) -> Option<Vec<[String; 2]>> {
     let digits = match solution.request.arithmetic.scalar {
         ScalarName::Exact => 40,
@@ -330,22 +265,19 @@ fn materials(solution: &Solution) -> Vec<Material> {
     materials
 }
 
-fn elements(solution: &Solution) -> Vec<ElementRow> {
+fn elements(solution: &Solution, mesh_error: Option<&[f64]>) -> Vec<ElementRow> {
     let materials = materials(solution);
-    let place = |triangle: &Triangle| {
-        let Triangle { material, .. } = triangle;
+    let place = |Triangle { material, .. }: &Triangle| {
         let is_same = |other: &Material| (other.e, other.nu) == (material.e, material.nu);
         materials.iter().position(is_same).expect("every triangle has one of them") + 1
     };
-    let rows = solution.elements.iter().zip(&solution.model.triangles).zip(1..);
-    rows.map(|((state, triangle), n)| ElementRow {
+    let values = TriangleValues::all(solution, mesh_error);
+    let rows = values.into_iter().zip(&solution.model.triangles).zip(1..);
+    rows.map(|((values, triangle), n)| ElementRow {
         n,
         nodes: triangle.nodes,
         material: place(triangle),
-        sigma: state.sigma.into(),
-        epsilon: state.epsilon.into(),
-        von_mises_stress: state.von_mises_stress,
-        von_mises_strain: state.von_mises_strain,
+        values,
     })
     .collect()
 }

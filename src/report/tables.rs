@@ -2,15 +2,15 @@
 
 use super::layout::{Table, aligned, counted, listed};
 use super::numbers::{note, or_dash, percent, place, quantity, short, uncertain, with_unit};
-use super::pressure;
 use super::trace::in_figure;
+use super::{pressure, quantities};
 use engine::Decision;
 use engine::contact::{ContactNode, Status, hidden, oddity};
 use engine::error::Error;
 use engine::estimates::ErrorEstimates;
 use engine::estimates::{Certainty, NoLimit};
 use engine::{
-    Assessment, BodySummary, Cycle, Equilibrium, Measured, Path, Probe, Quantity, Solution, Start,
+    Assessment, BodySummary, Equilibrium, IterationRow, Measured, Path, Probe, Solution, Start,
     Step, Unilateral, Uniqueness, beyond_range, last_under_each_load, locking, max_displacement,
 };
 use paper::door::Call;
@@ -142,41 +142,15 @@ fn dropped(scene: &Scene) -> String {
 }
 
 fn iterations(solution: &Solution) -> String {
-    let units = &solution.request.scene.units;
-    let length = |name| quantity(name, &units.length);
-    let [fx, fy] = solution.model.total_load();
-    let load = fx.hypot(fy);
-    let residual = match solution.request.variant {
-        Variant::Unilateral => "gap or overlap left",
-        _ => "eq. (1), total u",
-    };
-    // Without a load an overlap alone may press.
-    let share = |force: Option<f64>| {
-        or_dash(force.filter(|_| load != 0.0), |force| percent(force / load, 1))
-    };
     let springs = |step: &Step| step.unilateral().map_or(0.0, |own| own.springs);
     // Of a shape that was reached on springs, the last iteration.
-    let shown = |i: &usize| {
-        let next = solution.steps.get(i + 1);
-        let own = springs(&solution.steps[*i]);
-        own == 0.0 || next.is_none_or(|next| springs(next) != own)
+    let is_shown = |k: usize| {
+        let own = springs(&solution.steps[k]);
+        own == 0.0 || solution.steps.get(k + 1).is_none_or(|next| springs(next) != own)
     };
-    let steps: Vec<&Step> =
-        (0..solution.steps.len()).filter(shown).map(|i| &solution.steps[i]).collect();
-    let on_springs = steps.iter().any(|step| springs(step) > 0.0);
-    let mut table = Table::of(&steps).column("k", |step| step.k);
-    if on_springs {
-        table = table.column("springs", |step| short(springs(step)));
-    }
-    table
-        .column("in contact", |step| step.in_contact)
-        .column(length("largest |u|"), |step| or_dash(step.max_displacement, short))
-        .column(length(residual), |step| short(step.contact_residual()))
-        .column(quantity("force on target", &units.force), |step| or_dash(step.target_force, short))
-        .column(format!("of {}", short(load)), |step| share(step.target_force))
-        .column("residual", |step| format!("{:.0e}", step.solve_residual))
-        .column("contact state", |step| state(step.cycle.as_ref()))
-        .text()
+    let rows = IterationRow::all(solution).into_iter().enumerate();
+    let rows: Vec<_> = rows.filter(|(k, _)| is_shown(*k)).map(|(_, row)| row).collect();
+    quantities::table(&rows, IterationRow::QUANTITIES, &solution.request.scene.units)
 }
 
 fn path(solution: &Solution) -> Option<&Path> {
@@ -362,51 +336,15 @@ fn why_inside(solution: &Solution, node: NodeId) -> &'static str {
     }
 }
 
-fn state(cycle: Option<&Cycle>) -> String {
-    match cycle {
-        None => "new".into(),
-        Some(Cycle { length: 1, .. }) => "unchanged".into(),
-        Some(cycle) => format!("as in {} (cycle of {})", cycle.members[0], cycle.length),
-    }
-}
-
 fn bodies(units: &Units, bodies: &[BodySummary]) -> String {
-    let stress = quantity("largest von Mises stress", &units.stress);
-    Table::of(bodies)
-        .column("body", |body| body.name.clone())
-        .column("nodes", |body| body.nodes)
-        .column("triangles", |body| body.triangles)
-        .column(quantity("largest |u|", &units.length), |body| short(body.max_displacement))
-        .column(stress, |body| short(body.max_von_mises_stress))
-        .column("at x, y", at)
-        .column("largest von Mises strain", |body| short(body.max_von_mises_strain))
-        .text()
-}
-
-/// Says where a body's largest stress is, and in how many more triangles.
-fn at(body: &&BodySummary) -> String {
-    match body.as_large {
-        0 => place(body.centre, 2),
-        others if others + 1 == body.triangles => "everywhere".into(),
-        others => format!("{} and {others} more", place(body.centre, 2)),
-    }
+    quantities::table(bodies, BodySummary::QUANTITIES, units)
 }
 
 /// Lays out the contact nodes that are in contact at the end.
 fn contact_surface(solution: &Solution) -> String {
-    let units = &solution.request.scene.units;
-    let is_averaged = solution.request.contact.coupling == Coupling::Mortar
-        && solution.request.variant != Variant::Printed;
-    let gap = if is_averaged { "averaged gap" } else { "gap" };
-    Table::of(solution.in_contact())
-        .column("node", |c: &&ContactNode| c.node)
-        .column(quantity("arc", &units.length), |c| short(c.arc))
-        .column(quantity(gap, &units.length), |c| format!("{:.1e}", c.gap))
-        .column(quantity("pressure", &units.stress), |c| or_dash(c.pressure, short))
-        .column(quantity("shear", &units.stress), |c| or_dash(c.shear, short))
-        .column("friction needed", |c| or_dash(c.friction_needed, short))
-        .column("status", |c| or_dash(c.status, |status| status.to_string()))
-        .text()
+    let nodes: Vec<ContactNode> = solution.in_contact().cloned().collect();
+    let shown = ContactNode::QUANTITIES.iter().filter(|quantity| quantity.name != "dy");
+    quantities::table(&nodes, shown, &solution.request.scene.units)
 }
 
 /// Lays out how far the numbers of a run may be from the truth; nothing where that was left out.
@@ -521,16 +459,9 @@ fn probe(units: &Units, probe: &Probe) -> String {
             listed(others)
         ),
     };
-    let unit = |q: &&Quantity| match &q.name {
-        name if name.starts_with("u_") => quantity(name, &units.length),
-        name if name.starts_with("sigma") || name.contains("stress") || name.starts_with("tau") => {
-            quantity(name, &units.stress)
-        }
-        name => name.clone(),
-    };
     let error = |error: Option<f64>| or_dash(error, |x| format!("{x:.1e}"));
     let table = Table::of(&probe.quantities)
-        .column("", unit)
+        .column("", |q| quantity(&q.name, q.unit.in_scene(units)))
         .column("value", |q| short(q.value))
         .column("recovered", |q| or_dash(q.recovered, short))
         .column("+- mesh", |q| error(q.mesh))

@@ -15,11 +15,9 @@ use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
 
 use super::picture::Drawing;
+use super::quantities::{Array, contact_array, node_array, triangle_array};
 use base::xml::Element;
-use engine::contact::Status;
-use engine::{Assessment, Solution};
-use problem::element::{self, State};
-use problem::model::Triangle;
+use engine::{Assessment, ContactNode, NodeFields, Solution, TriangleValues};
 use studies::snapshot::{Options, VERSION};
 
 /// VTK's number for a triangle of three nodes.
@@ -28,59 +26,35 @@ const TRIANGLE: u8 = 5;
 /// The bytes of a block before it is compressed.
 const BLOCK: usize = 1 << 18;
 
-/// A result: the name that the viewer lists, its unit, the number of its components, and all
-/// components of the first point or triangle, then of the second, and so on. Nine are a tensor.
-type Data<'a> = (&'a str, &'a str, usize, &'a [f64]);
-
 /// What the file says of itself: a name and a text each.
 type About<'a> = (&'a str, &'a str);
 
-/// Writes the mesh of `drawing`; of its points the displacements and, with contact, status, pressure
-/// and gap; of its triangles stress and strain as tensors, their von Mises values, the body and, where
-/// it was estimated, the error. Every number reads back to the same bits.
+/// Writes the mesh of `drawing`, the quantities of its nodes, contact nodes and triangles, and the body
+/// of each triangle. Every number reads back to the same bits.
 ///
-/// The status is -1 of a point that is none of the contact surface's, else 0 open, 1 in contact, 2
-/// sliding; pressure and gap are 0 where there is none.
+/// Of a node that is none of the contact surface's a state is -1 and a number 0.
 ///
 /// # Panics
 ///
 /// If a result is not finite.
 pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> Vec<u8> {
-    let (model, scene) = (&*solution.model, &solution.request.scene);
-    let states = || solution.elements.iter().zip(&model.triangles);
-    let tensor = |of: &dyn Fn(&State, &Triangle) -> [f64; 4]| {
-        let nine = |[xx, yy, zz, xy]: [f64; 4]| [xx, xy, 0.0, xy, yy, 0.0, 0.0, 0.0, zz];
-        states().flat_map(|(state, triangle)| nine(of(state, triangle))).collect::<Vec<_>>()
-    };
-    let one = |of: fn(&State) -> f64| solution.elements.iter().map(of).collect::<Vec<_>>();
-    let stress = tensor(&|state, triangle| {
-        let [x, y, xy]: [f64; 3] = state.sigma.into();
-        [x, y, element::out_of_plane_stress(model.plane, triangle.material.nu, &state.sigma), xy]
-    });
-    let strain = tensor(&|state, triangle| {
-        let [x, y, xy]: [f64; 3] = state.epsilon.into();
-        let z = element::out_of_plane_strain(model.plane, triangle.material.nu, &state.epsilon);
-        [x, y, z, xy / 2.0]
-    });
-    let body: Vec<f64> = drawing.region.iter().map(|region| *region as f64).collect();
-    let mesh_error = assessment.estimates.as_ref().map(|estimates| estimates.mesh.error_map());
+    let scene = &solution.request.scene;
     let units = &scene.units;
-    let triangles: [Data; 5] = [
-        ("stress", &units.stress[..], 9, &stress),
-        ("strain", "1", 9, &strain),
-        ("von_mises_stress", &units.stress[..], 1, &one(|s| s.von_mises_stress)),
-        ("von_mises_strain", "1", 1, &one(|s| s.von_mises_strain)),
-        ("body", "", 1, &body),
-    ];
-    let mesh_error = mesh_error.as_deref().map(|error| ("mesh_error", &units.stress[..], 1, error));
-    let triangles: Vec<Data> = triangles.into_iter().chain(mesh_error).collect();
-    let [status, pressure, gap] = surface(solution);
-    let mut points: Vec<Data> = vec![("displacement", &units.length[..], 2, solution.u.as_slice())];
-    if model.has_contact() {
-        points.push(("contact_status", "", 1, &status));
-        points.push(("contact_pressure", &units.stress, 1, &pressure));
-        points.push(("contact_gap", &units.length, 1, &gap));
-    }
+    let values = TriangleValues::all(solution, assessment.mesh_error().as_deref());
+    let triangles = TriangleValues::QUANTITIES.iter();
+    let body = drawing.region.iter().map(|region| *region as f64);
+    let body = Array::new("body", "", 1, body.collect());
+    let triangles: Vec<Array> = triangles
+        .filter_map(|quantity| triangle_array(quantity, &values, units))
+        .chain([body])
+        .collect();
+    let nodes = NodeFields::new(solution);
+    let count = nodes.nodes.len();
+    let at_nodes = NodeFields::QUANTITIES.iter().filter(|quantity| !quantity.title.is_empty());
+    let at_nodes = at_nodes.filter_map(|quantity| node_array(quantity, &nodes, units));
+    let contact = ContactNode::QUANTITIES.iter();
+    let contact = contact.filter_map(|q| contact_array(q, &solution.contact, count, units));
+    let points: Vec<Array> = at_nodes.chain(contact).collect();
     let [scene_sha256, mesh_sha256] = scene.hashes().cloned().unwrap_or_default();
     let program = format!("plane-contact {VERSION}");
     let run = Options::of(&solution.request).name();
@@ -95,35 +69,21 @@ pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> V
     document(&known, &drawing.points, &drawing.triangles, &points, &triangles)
 }
 
-/// Returns status, pressure and gap of every node, as [`vtu`] says.
-fn surface(solution: &Solution) -> [Vec<f64>; 3] {
-    let nodes = solution.model.nodes.len();
-    let [mut status, mut pressure, mut gap] = [-1.0, 0.0, 0.0].map(|value| vec![value; nodes]);
-    for contact in &solution.contact {
-        let k = contact.node.index();
-        status[k] = match (contact.in_contact, contact.status) {
-            (_, Some(Status::Slip(_))) => 2.0,
-            (in_contact, _) => f64::from(in_contact),
-        };
-        (pressure[k], gap[k]) = (contact.pressure.unwrap_or(0.0), contact.gap);
-    }
-    [status, pressure, gap]
-}
-
 pub fn document(
     about: &[About],
     points: &[[f64; 2]],
     triangles: &[[usize; 3]],
-    of_points: &[Data],
-    of_triangles: &[Data],
+    at_points: &[Array],
+    at_triangles: &[Array],
 ) -> Vec<u8> {
     let mut arrays = Arrays::default();
+    let coordinates = Array::new("Points", "", 2, points.as_flattened().to_vec());
     let piece = Element::new("Piece")
         .set("NumberOfPoints", points.len().to_string())
         .set("NumberOfCells", triangles.len().to_string())
-        .with(arrays.results("PointData", of_points, points.len()))
-        .with(arrays.results("CellData", of_triangles, triangles.len()))
-        .with(Element::new("Points").with(arrays.floats(&("Points", "", 2, points.as_flattened()))))
+        .with(arrays.results("PointData", at_points, points.len()))
+        .with(arrays.results("CellData", at_triangles, triangles.len()))
+        .with(Element::new("Points").with(arrays.floats(&coordinates)))
         .with(arrays.cells(triangles));
     let text = Element::new("VTKFile")
         .set("type", "UnstructuredGrid")
@@ -164,19 +124,16 @@ struct Arrays {
 }
 
 impl Arrays {
-    fn results(&mut self, place: &'static str, data: &[Data], count: usize) -> Element {
-        for (name, _, components, values) in data {
-            assert_eq!(
-                values.len(),
-                components * count,
-                "{name}: {components} values for each of {count}"
-            );
-        }
+    fn results(&mut self, place: &'static str, data: &[Array], count: usize) -> Element {
         // The tensor that a viewer takes first.
-        let tensor = data.iter().find(|(_, _, components, _)| *components == 9);
-        let element = tensor
-            .map_or(Element::new(place), |(name, ..)| Element::new(place).set("Tensors", name));
-        element.with_all(data.iter().map(|data| self.floats(data)))
+        let tensor = data.iter().find(|array| array.components == 9);
+        let element = tensor.map_or(Element::new(place), |tensor| {
+            Element::new(place).set("Tensors", tensor.name.clone())
+        });
+        data.iter().fold(element, |element, array| {
+            assert_eq!(array.values.len(), array.components * count, "values of {}", array.name);
+            element.with(self.floats(array))
+        })
     }
 
     fn cells(&mut self, triangles: &[[usize; 3]]) -> Element {
@@ -191,7 +148,7 @@ impl Arrays {
 
     /// Adds floats with all their bits. A vector in the plane gets a third component, 0: viewers
     /// warp by three.
-    fn floats(&mut self, (name, unit, components, values): &Data) -> Element {
+    fn floats(&mut self, Array { name, unit, components, values }: &Array) -> Element {
         assert!(
             values.iter().all(|value| value.is_finite()),
             "{name}: a file for a viewer needs finite numbers"

@@ -46,7 +46,8 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }
     let out = folder.path().join("out/fig1-tied");
-    for picture in ["mesh.svg", "von_mises_stress.svg", "von_mises_strain.svg", "pressure.svg"] {
+    let fields = ["von_mises_stress.svg", "von_mises_strain.svg", "mesh_error.svg"];
+    for picture in ["mesh.svg", "pressure.svg"].into_iter().chain(fields) {
         let svg = std::fs::read_to_string(out.join(picture)).expect("the picture is there");
         roxmltree::Document::parse(&svg).expect("the picture is XML");
     }
@@ -58,7 +59,7 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         (Some("13"), Some("9"))
     );
     let count = std::fs::read_dir(&out).unwrap().count();
-    assert_eq!(count, 7, "with the list of them, and no temporary file is left");
+    assert_eq!(count, 8, "with the list of them, and no temporary file is left");
 }
 
 /// Returns `fields.vtu` of a run's folder without its arrays.
@@ -191,7 +192,7 @@ fn fields_vtu_has_tensors_contact_units_and_where_it_is_from() {
         ("stress", "9", "MPa"),
         ("strain", "9", "1"),
         ("contact_pressure", "1", "MPa"),
-        ("contact_gap", "1", "mm"),
+        ("gap", "1", "mm"),
         ("displacement", "3", "mm"),
     ] {
         let array = array(name);
@@ -199,7 +200,7 @@ fn fields_vtu_has_tensors_contact_units_and_where_it_is_from() {
         let key = array.children().find(|n| n.has_tag_name("InformationKey")).unwrap();
         assert_eq!((key.attribute("name"), key.text()), (Some("UNITS_LABEL"), Some(unit)));
     }
-    assert_eq!(array("contact_status").attribute("NumberOfComponents"), Some("1"));
+    assert_eq!(array("in_contact").attribute("NumberOfComponents"), Some("1"));
     let data = vtu.descendants().find(|n| n.has_tag_name("CellData")).unwrap();
     assert_eq!(data.attribute("Tensors"), Some("stress"));
     let words = |name: &str| {

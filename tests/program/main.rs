@@ -43,6 +43,7 @@ mod plan;
 mod printed;
 mod printed_numbers;
 mod processors;
+mod quantities;
 mod recorded;
 mod result_file;
 mod scene_builder;

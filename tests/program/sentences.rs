@@ -664,15 +664,14 @@ fn sentences_of_solve_are_those_of_its_result() {
         for (row, body) in bodies.iter().zip(result["bodies"].as_array().expect("bodies")) {
             assert_shows(&row[3], &body["max_displacement"], &row.join(" | "));
             assert_shows(&row[4], &body["max_von_mises_stress"], &row.join(" | "));
-            assert_shows(&row[6], &body["max_von_mises_strain"], &row.join(" | "));
+            assert_shows(&row[8], &body["max_von_mises_strain"], &row.join(" | "));
         }
         let surface = result["contact"].as_array().expect("nodes").iter();
         let surface: Vec<&Value> = surface.filter(|node| node["dy"] == 1).collect();
         if !surface.is_empty() {
             for (row, node) in cells(&text, "contact-surface").iter().zip(surface) {
-                for (cell, name) in
-                    row[1..6].iter().zip(["arc", "gap", "pressure", "shear", "friction_needed"])
-                {
+                let names = ["arc", "gap", "force", "pressure", "shear", "friction_needed"];
+                for (cell, name) in row[1..7].iter().zip(names) {
                     assert_shows(cell, &node[name], &format!("{name}: {}", row.join(" | ")));
                 }
             }

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use flate2::read::ZlibDecoder;
+use plane_contact::report::quantities::Array;
 use plane_contact::report::vtu::document;
 use plane_contact::xml::Element;
 use roxmltree::Document;
@@ -34,8 +35,8 @@ const DISPLACEMENT: [f64; 8] =
     [0.1 + 0.2, -1e-300, 5e-324, 0.0, -0.0, f64::MAX, f64::EPSILON, -2.5];
 
 fn written() -> Vec<u8> {
-    let of_triangles = [("a < b", "MPa", 1, &[6.3, f64::MIN_POSITIVE][..])];
-    let points = [("displacement", "mm", 2, &DISPLACEMENT[..])];
+    let of_triangles = [Array::new("a < b", "MPa", 1, vec![6.3, f64::MIN_POSITIVE])];
+    let points = [Array::new("displacement", "mm", 2, DISPLACEMENT.to_vec())];
     document(&[("scene", "fig1 <&>")], &POINTS, &TRIANGLES, &points, &of_triangles)
 }
 

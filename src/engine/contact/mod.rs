@@ -11,12 +11,14 @@ pub mod search;
 mod sliding;
 pub mod status;
 mod surface;
+pub use crate::quantities::ContactNode;
 pub use direction::{hidden, turned};
 pub use mortar::Mortar;
 pub use order::{along, oddity};
 pub use pairing::{Pairing, STEEP};
+pub(crate) use pressure::ContactPlace;
 pub(super) use pressure::arcs;
-pub use pressure::{ContactNode, ROUNDING_OF_A_FORCE, Traction, pulling, reactions};
+pub use pressure::{ROUNDING_OF_A_FORCE, Traction, pulling, reactions};
 pub use sliding::{Sense, Status};
 pub use surface::Surfaces;
 

@@ -2,46 +2,15 @@
 //! the contact body's equations.
 
 use nalgebra::DVector;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use super::pairing::Pairing;
 use super::sliding::Status;
 use super::surface::Surfaces;
+use crate::quantities::ContactNode;
 use problem::model::{Model, NodeId};
 
 /// How far the size of a normal's component may be from 1 where a restraint is across the normal.
 const ACROSS: f64 = 1e-9;
-
-/// A contact node at the end of a run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ContactNode {
-    /// The node of the contact surface.
-    pub node: NodeId,
-    /// The distance from the first contact node along the undeformed contact surface, length.
-    pub arc: f64,
-    /// Whether it is in contact by the variant's own rule.
-    #[serde(rename = "dy", with = "as_number")]
-    #[schemars(with = "u8", range(max = 1))]
-    pub in_contact: bool,
-    /// The distance from the target along its normal, length; < 0 where the node penetrates. Under
-    /// mortar its weighted mean over the surface around the node.
-    pub gap: f64,
-    /// The status under `unilateral`; None under the other variants.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub status: Option<Status>,
-    /// The force on the node along the normal, force; < 0 where it pulls. None where restraints of
-    /// the node leave it undetermined.
-    pub force: Option<f64>,
-    /// The contact pressure: the force over the undeformed surface of the node, stress. None
-    /// for a node that bounds no contact edge.
-    pub pressure: Option<f64>,
-    /// The traction along the tangent, which is the normal turned left, stress.
-    pub shear: Option<f64>,
-    /// |shear| / pressure, the friction that keeps the node from sliding; None where the force
-    /// does not press by more than rounding.
-    pub friction_needed: Option<f64>,
-}
 
 /// The force over the largest of a surface, or of the load, below which it is rounding.
 pub const ROUNDING_OF_A_FORCE: f64 = 1e-11;
@@ -56,19 +25,6 @@ pub fn pulling(surface: &[ContactNode], load: f64) -> Vec<NodeId> {
 /// Returns the largest |force| of those that are determined.
 fn largest(forces: impl Iterator<Item = Option<f64>>) -> f64 {
     forces.flatten().fold(0.0, |largest, force| largest.max(force.abs()))
-}
-
-/// Writes and reads `dy` in files as 1 or 0.
-mod as_number {
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(value: &bool, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_u8(u8::from(*value))
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<bool, D::Error> {
-        Ok(u8::deserialize(deserializer)? == 1)
-    }
 }
 
 /// The contact surface at the end of a run, from which the tractions are computed.
@@ -102,28 +58,50 @@ impl Traction<'_> {
             let pairing = self.pairings[i].as_ref()?;
             let stretch = lengths[1][i] / lengths[0][i];
             let length = over(pairing.length, stretch).unwrap_or(0.0);
-            Some(self.node(i, pairing, arcs[i], length, least))
+            let [normal, tangent] = self.forces[i];
+            Some(ContactNode::compute(&ContactPlace {
+                pairing,
+                arc: arcs[i],
+                area: length * self.model.thickness,
+                in_contact: self.in_contact[i],
+                gap: self.gaps[i].unwrap_or(pairing.gap),
+                status: self.statuses.map(|statuses| statuses[i]),
+                normal,
+                tangent,
+                is_pressed: self.in_contact[i] && normal.is_some_and(|normal| normal > least),
+            }))
         };
         (0..self.pairings.len()).filter_map(node).collect()
     }
+}
 
-    /// Returns the tractions on an entry that represents `length` of the undeformed surface; a force of
-    /// up to `least` presses no node.
-    fn node(&self, i: usize, pairing: &Pairing, arc: f64, length: f64, least: f64) -> ContactNode {
-        let [normal, tangent] = self.forces[i];
-        let area = length * self.model.thickness;
-        let pressing = normal.filter(|normal| self.in_contact[i] && *normal > least);
-        ContactNode {
-            node: pairing.node,
-            arc,
-            in_contact: self.in_contact[i],
-            gap: self.gaps[i].unwrap_or(pairing.gap),
-            status: self.statuses.map(|statuses| statuses[i]),
-            force: normal,
-            pressure: normal.and_then(|normal| over(normal, area)),
-            shear: tangent.and_then(|tangent| over(tangent, area)),
-            friction_needed: pressing.zip(tangent).map(|(normal, tangent)| tangent.abs() / normal),
-        }
+/// A contact node that faces the target.
+pub(crate) struct ContactPlace<'a> {
+    pub pairing: &'a Pairing,
+    /// Its distance along the undeformed surface, length.
+    pub arc: f64,
+    /// The undeformed surface that it represents, length · thickness.
+    pub area: f64,
+    pub in_contact: bool,
+    pub gap: f64,
+    pub status: Option<Status>,
+    /// The force along the normal, force; None where it is not determined.
+    pub normal: Option<f64>,
+    /// The force along the tangent, force; None where it is not determined.
+    pub tangent: Option<f64>,
+    /// Whether it is in contact and pressed by more than rounding.
+    pub is_pressed: bool,
+}
+
+impl ContactPlace<'_> {
+    /// Returns a traction, stress.
+    pub fn over_area(&self, force: Option<f64>) -> Option<f64> {
+        over(force?, self.area)
+    }
+
+    pub fn friction_needed(&self) -> Option<f64> {
+        let normal = self.normal.filter(|_| self.is_pressed)?;
+        Some(self.tangent?.abs() / normal)
     }
 }
 

@@ -1,33 +1,25 @@
 //! The files of a comparison: JSON, CSV, pictures.
 
+use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::{Value, to_value};
 
 use super::{Compared, WORST};
 use crate::json::of_scene;
 use crate::output::csv;
 use crate::picture::{self, Drawing, Field};
+use crate::quantities::{Measured, measured};
 use base::error::Result;
 use base::files::write_all;
 use engine::estimates::Certainty;
+use engine::{Quantity, TriangleState, TriangleValues};
 use problem::element::Plane;
 use problem::model::{NodeId, Triangle, TriangleId};
 use problem::modelling::{Friction, Variant};
 use studies::calculix::{BodyStress, Comparison, Contact, Difference, Largest, Pair};
-
-/// The heading of `nodes.csv`, and the fields of a node that stand under it.
-const NODES: [&str; 2] =
-    ["node,u_x,u_y,u_x_calculix,u_y_calculix,difference", "n,u,u_calculix,difference"];
-
-/// The heading of `elements.csv`, and the fields of a triangle that stand under it.
-const ELEMENTS: [&str; 2] = [
-    "element,sigma_x,sigma_y,tau_xy,von_mises_stress,\
-     sigma_x_calculix,sigma_y_calculix,tau_xy_calculix,von_mises_stress_calculix,difference",
-    "n,sigma,von_mises_stress,sigma_calculix,von_mises_stress_calculix,difference",
-];
 
 /// Writes `compare.json`, `nodes.csv`, `elements.csv` and three pictures to `folder`; gives back
 /// the first one's content.
@@ -60,8 +52,8 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
         folder,
         "compare",
         &[
-            ("nodes.csv", &csv_of(NODES, &nodes)),
-            ("elements.csv", &csv_of(ELEMENTS, &elements)),
+            ("nodes.csv", &nodes_csv(&nodes)),
+            ("elements.csv", &elements_csv(&elements)),
             (
                 "von_mises_stress.svg",
                 &field("von Mises stress, this program", stress, &von_mises[0], &ours.u),
@@ -135,15 +127,15 @@ struct NodeRow {
     difference: f64,
 }
 
-/// The stresses sigma_x, sigma_y, tau_xy of a triangle.
+/// The values of a triangle by both programs, and the largest difference of a stress.
 #[derive(Serialize, JsonSchema)]
 struct ElementRow {
     n: TriangleId,
-    sigma: [f64; 3],
-    sigma_calculix: [f64; 3],
-    von_mises_stress: f64,
-    von_mises_stress_calculix: f64,
     difference: f64,
+    /// The quantities that both know, by their names as in `result.json`; those of CalculiX end in
+    /// `_calculix`.
+    #[serde(flatten)]
+    values: BTreeMap<String, Measured>,
 }
 
 fn document(compared: &Compared, nodes: &[NodeRow], elements: &[ElementRow]) -> String {
@@ -186,39 +178,54 @@ fn nodes(comparison: &Comparison) -> Vec<NodeRow> {
 }
 
 fn elements(comparison: &Comparison) -> Vec<ElementRow> {
-    let Comparison { ours, theirs, von_mises, stress, .. } = comparison;
     let row = |&(n, difference): &(TriangleId, f64)| {
-        let k = n.index();
-        ElementRow {
-            n,
-            sigma: plane(&ours.sigma[k]),
-            sigma_calculix: plane(&theirs.sigma[k]),
-            von_mises_stress: von_mises[0][k],
-            von_mises_stress_calculix: von_mises[1][k],
-            difference,
-        }
+        let [ours, theirs] = of_triangle(comparison, n).map(|values| measured(&values));
+        let ours = ours.into_iter().map(|(name, value)| (name.to_string(), value));
+        let theirs = theirs.into_iter().map(|(name, value)| (format!("{name}_calculix"), value));
+        ElementRow { n, difference, values: ours.chain(theirs).collect() }
     };
-    stress.at.iter().map(row).collect()
+    comparison.stress.at.iter().map(row).collect()
 }
 
-/// Lays out `fields` of rows as CSV; a list of numbers takes as many cells.
-fn csv_of([head, fields]: [&str; 2], rows: &[impl Serialize]) -> String {
-    let cells = |row| {
-        let row = to_value(row).expect("a row has string keys");
-        fields.split(',').flat_map(|field| numbers(&row[field])).collect()
+/// Returns the values of a triangle by this program, and by CalculiX, of which only stresses are known.
+fn of_triangle(comparison: &Comparison, id: TriangleId) -> [TriangleValues; 2] {
+    let Comparison { ours, theirs, von_mises, .. } = comparison;
+    let k = id.index();
+    let state = |[x, y, z, xy, ..]: [f64; 6], von_mises| {
+        TriangleValues::new(&TriangleState::stressed([x, y, xy, z], von_mises))
     };
-    csv(head, rows.iter().map(cells))
+    [state(ours.sigma[k], von_mises[0][k]), state(theirs.sigma[k], von_mises[1][k])]
 }
 
-fn numbers(value: &Value) -> Vec<String> {
-    match value {
-        Value::Array(values) => values.iter().flat_map(numbers).collect(),
-        Value::Number(x) if x.is_f64() => vec![format!("{:e}", x.as_f64().expect("a float"))],
-        other => vec![other.to_string()],
-    }
+fn nodes_csv(nodes: &[NodeRow]) -> String {
+    let cells = |row: &NodeRow| {
+        let numbers = [row.u, row.u_calculix].concat();
+        cells(row.n, numbers.into_iter().chain([row.difference]))
+    };
+    csv("node,u_x,u_y,u_x_calculix,u_y_calculix,difference", nodes.iter().map(cells))
 }
 
-/// Returns sigma_x, sigma_y, tau_xy of the six components of a stress.
-fn plane(sigma: &[f64; 6]) -> [f64; 3] {
-    [sigma[0], sigma[1], sigma[3]]
+/// Lays out a column for each component of a quantity that both programs know.
+fn elements_csv(elements: &[ElementRow]) -> String {
+    let known = TriangleValues::QUANTITIES
+        .iter()
+        .filter(|quantity| elements.iter().all(|row| row.values.contains_key(quantity.name)));
+    let known: Vec<&Quantity<TriangleValues>> = known.collect();
+    let ours = known.iter().map(|quantity| (quantity.name.to_string(), quantity.components()));
+    let theirs = known.iter().map(|quantity| {
+        let components = quantity.components().into_iter().map(|name| name + "_calculix");
+        (format!("{}_calculix", quantity.name), components.collect())
+    });
+    let columns: Vec<(String, Vec<String>)> = ours.chain(theirs).collect();
+    let names: Vec<&str> =
+        columns.iter().flat_map(|(_, names)| names).map(String::as_str).collect();
+    let cells = |row: &ElementRow| {
+        let values = columns.iter().flat_map(|(name, _)| row.values[name].numbers());
+        cells(row.n, values.chain([row.difference]))
+    };
+    csv(&format!("element,{},difference", names.join(",")), elements.iter().map(cells))
+}
+
+fn cells(place: impl Display, numbers: impl Iterator<Item = f64>) -> Vec<String> {
+    std::iter::once(place.to_string()).chain(numbers.map(|x| format!("{x:e}"))).collect()
 }

@@ -19,6 +19,7 @@ const REASONS: &[(&str, &str)] = &[
     ("cycle", "the contact state is new"),
     ("max_displacement", "the search goes on: solved on the contact surfaces alone"),
     ("target_force", "the search goes on: solved on the contact surfaces alone"),
+    ("target_share", "no load acts, or the search goes on"),
     ("hertz", "Hertz's theory does not apply: it takes two curved bodies pressed by a known force"),
     ("pressure", "restraints leave the force undetermined"),
     ("shear", "restraints leave the force undetermined"),

@@ -1,9 +1,9 @@
 //! The page of a report: what was run, what it came to, and the fields of every run.
 //!
 //! Its data: `audit` as `audit --json` has it, `runs`, each with `result` as `result.json` has it,
-//! and the mesh and the fields as numbers in base64, little-endian: `u` and `state` (of a triangle
-//! sigma_x, sigma_y, tau_xy, von Mises stress, e_xx, e_yy, g_xy, von Mises strain) in 32 bits; of
-//! iterations before the last `u`, and the von Mises stress in 16 bits of its largest.
+//! and the mesh and the fields as numbers in base64, little-endian: `u` and `triangles` (all components
+//! of a quantity by its name) in 32 bits; of iterations before the last `u`, and the von Mises stress
+//! in 16 bits of its largest. `quantities` says what there is, and in which units.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -12,9 +12,8 @@ use serde_json::{Value, json};
 
 use super::Page;
 use crate::picture::{colour, points};
-use crate::{ResultFile, audit as audit_report, json, pressure};
-use engine::{Assessment, Detail, Solution, Step, Stiffness};
-use problem::element::State;
+use crate::{ResultFile, audit as audit_report, json, pressure, quantities};
+use engine::{Assessment, Detail, Solution, Step, Stiffness, TriangleState, TriangleValues};
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 use studies::audit::Audit;
@@ -60,6 +59,7 @@ pub fn html(report: &Report) -> String {
         "calculix": report.calculix.as_ref().map(|(compared, heading)| calculix(compared, heading)),
         "charts": charts.collect::<Vec<_>>(),
         "colours": colour::parts(SHADES),
+        "quantities": quantities::on_pages(),
     });
     let Value::Object(own) = own else { unreachable!("it is written as an object") };
     data.extend(own);
@@ -120,9 +120,9 @@ fn run(run: &Run) -> Value {
     let result = ResultFile::new(solution, &run.assessment, None);
     json!({
         "name": pressure::name(solution),
-        "result": ResultFile { nodes: None, u: None, u_digits: None, elements: None, ..result },
+        "result": ResultFile { nodes: None, u_digits: None, elements: None, ..result },
         "u": floats(solution.u.iter().copied()),
-        "state": floats(solution.elements.iter().flat_map(values)),
+        "triangles": triangles(&TriangleValues::all(solution, run.assessment.mesh_error().as_deref())),
         "iterations": before.collect::<Vec<_>>(),
     })
 }
@@ -148,22 +148,26 @@ fn iteration(model: &Model, stiffness: &Stiffness, [own, next]: [&Step; 2]) -> V
     json!({ "k": own.k, "u": floats(u), "von_mises": base64(&parts), "most": most })
 }
 
-/// Returns the eight values of a triangle that a page shows.
-fn values(state: &State) -> [f64; 8] {
-    let ([sx, sy, sxy], [ex, ey, exy]) = (state.sigma.into(), state.epsilon.into());
-    [sx, sy, sxy, state.von_mises_stress, ex, ey, exy, state.von_mises_strain]
+/// Returns the numbers of each quantity that is known in all triangles, by its name.
+fn triangles(values: &[TriangleValues]) -> Value {
+    let known = TriangleValues::QUANTITIES.iter().filter_map(|quantity| {
+        let numbers = values.iter().map(|row| (quantity.value)(row).numbers());
+        Some((quantity.name, floats(numbers.collect::<Option<Vec<_>>>()?.concat())))
+    });
+    Value::from_iter(known)
 }
 
-/// Returns CalculiX's fields as a run; strains, which it is not asked for, are no numbers.
+/// Returns CalculiX's fields as a run.
 fn calculix_run(comparison: &Comparison) -> Value {
     let Fields { u, sigma } = &comparison.theirs;
-    let state = sigma.iter().zip(&comparison.von_mises[1]);
-    let state =
-        state.flat_map(|(s, v)| [s[0], s[1], s[3], *v, f64::NAN, f64::NAN, f64::NAN, f64::NAN]);
+    let state = |(&[x, y, z, xy, ..], von_mises): (&[f64; 6], &f64)| {
+        TriangleValues::new(&TriangleState::stressed([x, y, xy, z], *von_mises))
+    };
+    let values: Vec<_> = sigma.iter().zip(&comparison.von_mises[1]).map(state).collect();
     json!({
         "name": "CalculiX",
         "u": floats(u.as_flattened().iter().copied()),
-        "state": floats(state),
+        "triangles": triangles(&values),
         "iterations": [],
     })
 }

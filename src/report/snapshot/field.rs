@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::picture::{self, Drawing, Field};
+use crate::quantities::Array;
 use crate::vtu;
 use base::error::Result;
 use base::files;
@@ -37,7 +38,8 @@ pub fn difference_files(folder: &Path, scene: &Scene, [old, new]: [&Run; 2]) -> 
         largest_at: None,
     };
     let unit = &scene.units.length[..];
-    let points = [("difference", unit, 2, &difference[..]), ("displacement", unit, 2, &is[..])];
+    let points =
+        [Array::new("difference", unit, 2, difference), Array::new("displacement", unit, 2, is)];
     let vtu = vtu::document(&[], &drawing.points, &drawing.triangles, &points, &[]);
     let picture = picture::field(&drawing, &field);
     let files = [("difference.svg", picture.as_bytes()), ("difference.vtu", &vtu)];

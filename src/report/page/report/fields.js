@@ -24,24 +24,21 @@ function range(values) {
   return [low, high];
 }
 
-/** What can be shown: its name, its unit, and where its values are: a place in a triangle's state,
- * what is taken of a node's displacement, or what is known of a contact node. */
+/** What can be shown: its name, its unit, and where its values are: a component of a quantity of the
+ * triangles, what is taken of a node's displacement, or what is known of a contact node. */
 const FIELDS = [
-  { name: "von Mises stress", unit: "stress", state: 3 },
-  { name: "stress σx", unit: "stress", state: 0 },
-  { name: "stress σy", unit: "stress", state: 1 },
-  { name: "stress τxy", unit: "stress", state: 2 },
-  { name: "von Mises strain", unit: null, state: 7 },
-  { name: "strain εx", unit: null, state: 4 },
-  { name: "strain εy", unit: null, state: 5 },
-  { name: "strain γxy", unit: null, state: 6 },
+  ...data.quantities.triangle.flatMap((quantity) => componentsOf(quantity).map((name, component, { length }) => (
+    { name, unit: quantity.unit, triangle: quantity.name, component, components: length }))),
   { name: "displacement |u|", unit: "length", of: Math.hypot },
   { name: "displacement ux", unit: "length", of: (x) => x },
   { name: "displacement uy", unit: "length", of: (x, y) => y },
-  { name: "gap", unit: "length", contact: "gap" },
-  { name: "contact pressure", unit: "stress", contact: "pressure" },
-  { name: "contact shear", unit: "stress", contact: "shear" },
+  ...data.quantities.contact.filter(({ unit }) => unit).map(({ name, title, unit }) => ({ name: title, unit, contact: name })),
 ];
+
+/** The names of the components of a quantity; its title where it has only one. */
+function componentsOf({ title, symbols }) {
+  return symbols.length > 1 ? symbols.map((symbol) => `${title} ${symbol}`) : [title];
+}
 
 const unitOf = (field) => (field.unit ? (data.units[field.unit] ?? "") : "");
 
@@ -71,15 +68,14 @@ function valuesOf(run, field, k) {
   if (field.contact) return null;
   if (field.of) return ofTriangles(displacements(run, k), field.of);
   const kept = run.iterations[k - 1];
-  if (kept && field.state !== 3) return null;
-  const values = new Float32Array(mesh.count);
+  if (kept && field.triangle !== "von_mises_stress") return null;
   if (kept) {
-    const parts = numbers(Uint16Array, kept.von_mises);
-    return values.map((_, t) => (parts[t] / 65535) * kept.most);
+    return Float32Array.from(numbers(Uint16Array, kept.von_mises), (part) => (part / 65535) * kept.most);
   }
-  run.states ??= numbers(Float32Array, run.state);
-  // What a program was not asked for is no number.
-  return Number.isNaN(run.states[field.state]) ? null : values.map((_, t) => run.states[8 * t + field.state]);
+  const { triangle, component, components } = field;
+  if (!run.triangles[triangle]) return null;
+  const all = ((run.opened_triangles ??= {})[triangle] ??= numbers(Float32Array, run.triangles[triangle]));
+  return all.filter((_, k) => k % components === component);
 }
 
 /** The mean over each triangle's nodes of what `of` takes of a displacement. */

@@ -67,15 +67,21 @@ function frictionTable(cases) {
   return tableOf("Pressure, shear and status by coefficient of friction", [["node", (node) => node], ...columns], nodes);
 }
 
-/** The iterations of a run. */
-function showIterations(run) {
-  byId("iterations").replaceChildren(
-    ...(run.result ? [tableOf(`Iterations of ${run.name}`, [
-      ["iteration", (row) => row.k], ["nodes in contact", (row) => row.in_contact], ["largest displacement", (row) => row.max_displacement],
-      ["cycle of", (row) => row.cycle?.length], ["residual of the contact condition", (row) => row.eq1_residual],
-      ["force on target", (row) => row.target_force],
-    ], run.result.iterations)] : []),
-  );
+/** The columns of the quantities that live on a place, of those that any row has. */
+function columnsOf(place, rows) {
+  const known = data.quantities[place].filter(({ name }) => rows.some((row) => row[name] !== undefined && row[name] !== null));
+  const valueOf = ({ name }) => (row) => (name === "cycle" ? periodOf(row.cycle) : Array.isArray(row[name]) ? row[name].join(", ") : row[name]);
+  const kindOf = (quantity) => (rows.some((row) => typeof valueOf(quantity)(row) === "string") ? "text" : undefined);
+  const headOf = ({ title, unit }) => [title, data.units[unit]].filter(Boolean).join(", ");
+  return known.map((quantity) => [headOf(quantity), valueOf(quantity), kindOf(quantity)]);
+}
+
+const periodOf = (cycle) => (!cycle ? "new" : cycle.length === 1 ? "unchanged" : `as in ${cycle.members[0]} (period of ${cycle.length})`);
+
+/** The iterations of a run, and its bodies at the end. */
+function showIterations({ name, result }) {
+  const tables = result ? [["Iterations", "iteration", result.iterations], ["Bodies", "body", result.bodies]] : [];
+  byId("iterations").replaceChildren(...tables.map(([title, place, rows]) => tableOf(`${title} of ${name}`, columnsOf(place, rows), rows)));
 }
 
 /** The stretch of the contact surface that any run has in contact, with a margin. */
@@ -108,10 +114,7 @@ function showSurface() {
   const rows = runs.flatMap(({ name, result }) => result.contact.map((c) => ({ name, ...c })));
   fill("surface", ...all.flatMap(([title, unit, curves]) => [make("h3", {}, title), chart(title, across, `${title.split(",")[0]}, ${data.units[unit]}`, curves)]),
     hertz && make("p", { class: "muted" }, `Hertz: half width ${short(hertz.half_width)}, peak ${short(hertz.peak)}, relative radius ${short(hertz.radius)}.`),
-    tableOf("Contact nodes", [
-      ["run", (c) => c.name, "text"], ["node", (c) => c.node], ["arc", (c) => c.arc], ["in contact", (c) => c.dy], ["gap (averaged under mortar)", (c) => c.gap],
-      ["status", (c) => c.status, "text"], ["pressure", (c) => c.pressure], ["shear", (c) => c.shear], ["friction needed", (c) => c.friction_needed],
-    ], rows.filter(({ arc }) => from <= arc && arc <= to)));
+    tableOf("Contact nodes", [["run", (c) => c.name, "text"], ...columnsOf("contact", rows)], rows.filter(({ arc }) => from <= arc && arc <= to)));
 }
 
 function showEstimates() {

@@ -1,6 +1,7 @@
 // Two pictures of fields that move together.
 
-const view = { cx: 0, cy: 0, scale: 1, field: FIELDS[0], k: 1, factor: 0, panels: [] };
+const OWN_FIELD = FIELDS.findIndex(({ triangle }) => triangle === "von_mises_stress");
+const view = { cx: 0, cy: 0, scale: 1, field: FIELDS[OWN_FIELD], k: 1, factor: 0, panels: [] };
 const SHADES = data.colours.map(([r, g, b]) => `rgb(${r},${g},${b})`);
 const REST = 120;
 
@@ -151,7 +152,7 @@ function saidOf(panel) {
 /** Which shape is drawn, in words. */
 function drawnShape() {
   if (view.factor === 0) return "undeformed";
-  return view.factor === 1 ? "deformed" : `displacements drawn ${short(view.factor)} times`;
+  return view.factor === 1 ? "deformed" : `displacement scale ${short(view.factor)}`;
 }
 
 /** Computes and draws everything anew. */
@@ -297,13 +298,14 @@ function startViewer() {
     watchPanel(panel);
   });
   byId("field").replaceChildren(...FIELDS.map((field, k) => make("option", { value: k }, field.name)));
+  byId("field").value = OWN_FIELD;
   byId("field").addEventListener("change", (event) => ((view.field = FIELDS[event.target.value]), showFields()));
   view.k = Math.max(...shownRuns.map(iterationsOf));
   byId("iteration").max = view.k;
   byId("iteration").value = view.k;
   byId("iteration").addEventListener("input", (event) => ((view.k = Number(event.target.value)), showFields()));
   byId("factor").value = view.factor;
-  byId("handy").textContent = `such as ${handyFactor()}`;
+  byId("handy").textContent = `for example ${handyFactor()}`;
   byId("factor").addEventListener("change", (event) => ((view.factor = Number(event.target.value) || 0), showFields()));
   const look = (nodes) => {
     lookAt(extent(mesh.at, nodes));

@@ -1,0 +1,511 @@
+//! The quantities of a result. Each is declared once, below; its field in `result.json` and in the
+//! schema, its column in tables, CSV and pages, its array in `fields.vtu`, its picture, its place in
+//! `compare` and in probes, and its line in `golden/quantities.md` follow.
+//!
+//! ```text
+//! struct          lives on               one value of the struct for
+//! IterationRow    an iteration           each iteration
+//! BodySummary     a body                 each body, at the end
+//! NodeFields      a node                 all nodes, at the end
+//! TriangleValues  a triangle             each triangle, at the end
+//! ContactNode     a contact node         each contact node that faces the target, at the end
+//! ```
+//!
+//! An entry is `field: type = value, "title" [symbols] unit, "what it is"`. The title heads columns;
+//! without one the quantity is in `result.json` only. A vector or a tensor has a symbol for each
+//! component.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::contact::{ContactPlace, Status};
+use super::solution::{Cycle, Solution, Step};
+use base::choices;
+use numbers::largest::{Largest, largest};
+use problem::element::{State, out_of_plane_strain, out_of_plane_stress};
+use problem::model::{Body, Model, NodeId, TriangleId};
+use problem::scene::Units;
+
+/// A quantity of the places whose values `T` has.
+pub struct Quantity<T> {
+    /// Its field in files.
+    pub name: &'static str,
+    /// Its name in words, the heading of a column; empty where only files have it.
+    pub title: &'static str,
+    /// Its symbol, of a vector or a tensor that of each component; none where it has none.
+    pub symbols: &'static [&'static str],
+    pub unit: Unit,
+    /// What it is, in a sentence.
+    pub meaning: &'static str,
+    /// Returns its value.
+    pub value: fn(&T) -> Value,
+}
+
+choices! {
+    /// What a quantity is measured in.
+    Unit {
+        /// It is no measured number: a count, a status, a name.
+        None = "",
+        /// It has no unit.
+        One = "1",
+        /// It is a part of a whole.
+        Share = "share",
+        /// That of lengths in the scene.
+        Length = "length",
+        /// That of stresses in the scene.
+        Stress = "stress",
+        /// That of forces in the scene.
+        Force = "force",
+    }
+}
+
+/// The value of a quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// There is none, or it is not determined.
+    Unknown,
+    Count(usize),
+    Number(f64),
+    /// The components of a vector or a tensor, or of all vectors one after the other.
+    Components(Vec<f64>),
+    /// One of several states, and its number in files for viewers.
+    State(u8, String),
+    Words(String),
+}
+
+macro_rules! quantities {
+    (
+        $(#[$doc:meta])*
+        $name:ident from $source:ident: $Source:ty {
+            $($(#[$meta:meta])*
+            $field:ident $(in files $file:literal)?: $type:ty = $value:expr,
+                $title:literal $symbols:tt $unit:ident, $meaning:literal;)+
+        }
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+        pub struct $name {
+            $(#[doc = $meaning] $(#[serde(rename = $file)])? $(#[$meta])* pub $field: $type),+
+        }
+
+        impl $name {
+            /// Its quantities, in order.
+            pub const QUANTITIES: &'static [Quantity<$name>] = &[$(Quantity {
+                name: [$($file,)? stringify!($field)][0],
+                title: $title,
+                symbols: &$symbols,
+                unit: Unit::$unit,
+                meaning: $meaning,
+                value: |values| Value::from(&values.$field),
+            }),+];
+
+            pub(crate) fn compute($source: $Source) -> Self {
+                $name { $($field: $value),+ }
+            }
+        }
+    };
+}
+
+quantities! {
+    /// The results of an iteration.
+    IterationRow from at: &IterationPlace<'_> {
+        k: usize = at.step.k, "k" ["k"] None, "The number of the iteration, from 1.";
+        in_contact: usize = at.step.in_contact, "in contact" [] None,
+            "The number of contact nodes in contact.";
+        dy: Vec<u8> = at.step.statuses().into_iter().map(u8::from).collect(), "" ["dy"] None,
+            "Which entries of the contact surface are in contact: 1 or 0 for each.";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        load: Option<f64> = at.step.unilateral().map(|own| own.load), "load" [] One,
+            "Under `unilateral`, the part of the path of the load that is applied; whole numbers \
+             end stages.";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        statuses: Option<Vec<Status>> = at.step.unilateral().map(|own| own.statuses.clone()),
+            "" [] None,
+            "Under `unilateral`, the status of each entry of the contact surface.";
+        max_displacement: Option<f64> = at.step.max_displacement, "largest |u|" ["max |u|"] Length,
+            "The largest total displacement of a node; null for an iteration of `unilateral` with \
+             which no step of the load ends, as it is solved on the contact surfaces alone.";
+        cycle: Option<Cycle> = at.step.cycle.clone(), "contact state" [] None,
+            "The earlier iterations with this contact state; null where it is new.";
+        eq1_residual: f64 = at.step.contact_residual(), "residual of contact" [] Length,
+            "The residual of the contact condition: of eq. (1) in total displacements, or the \
+             largest gap or overlap left under `unilateral`.";
+        eq1_residual_step: f64 = at.step.contact_residual_step(), "" [] Length,
+            "The same in the displacements solved for: the increment where the load is stepped.";
+        target_force: Option<f64> = at.step.target_force, "force on target" [] Force,
+            "The force that contact passes from one body to the other: along the load where that \
+             acts on one of the two bodies alone, else its size. 0 without contact; null where \
+             max_displacement is.";
+        target_share: Option<f64> = at.target_share(),
+            "share of the load" [] Share,
+            "That force over the size of the whole load; null without a load.";
+        solve_residual: f64 = at.step.solve_residual, "residual" [] One,
+            "The relative residual |A x − b| / (|A| |x| + |b|) of the equations; under \
+             `unilateral`, but for the last iteration, mostly those of the condensed bodies.";
+    }
+}
+
+quantities! {
+    /// The largest values of a body.
+    BodySummary from at: &BodyPlace<'_> {
+        name: String = at.body.name.clone(), "body" [] None, "The name of the body.";
+        nodes: usize = at.body.nodes.len(), "nodes" [] None, "The number of its nodes.";
+        triangles: usize = at.body.triangles.len(), "triangles" [] None,
+            "The number of its triangles.";
+        max_displacement: f64 = at.max_displacement(), "largest |u|" ["max |u|"] Length,
+            "The largest displacement of a node.";
+        max_von_mises_stress: f64 = at.state(at.largest()).von_mises_stress,
+            "largest von Mises stress" ["max σ_v"] Stress,
+            "The largest von Mises stress of its triangles.";
+        at: TriangleId = at.largest(), "" [] None,
+            "The triangle with that stress, the first of those that have it.";
+        as_large: usize = at.most_stressed.others, "others as large" [] None,
+            "The number of other triangles with the same stress to 1e-9 of it, as mirror images \
+             have: only rounding tells which is the largest.";
+        centre: [f64; 2] = at.centre(), "at" ["x", "y"] Length, "The centre of that triangle.";
+        max_von_mises_strain: f64 = at.max_von_mises_strain(),
+            "largest von Mises strain" ["max ε_v"] One,
+            "The largest von Mises strain of its triangles.";
+    }
+}
+
+quantities! {
+    /// The values at the nodes, in order.
+    NodeFields from solution: &Solution {
+        nodes: Vec<[f64; 2]> = solution.model.nodes.clone(), "" ["x", "y"] Length,
+            "The coordinates of each node in the undeformed shape.";
+        u: Vec<[f64; 2]> = solution.displacements(), "displacement" ["u_x", "u_y"] Length,
+            "The displacement of each node along x and y.";
+    }
+}
+
+quantities! {
+    /// The stresses and strains of a triangle.
+    TriangleValues from at: &TriangleState {
+        sigma: [f64; 4] = at.sigma, "stress" ["σ_x", "σ_y", "τ_xy", "σ_z"] Stress,
+            "The stresses sigma_x, sigma_y, tau_xy, sigma_z.";
+        epsilon: [f64; 4] = at.epsilon, "strain" ["ε_x", "ε_y", "γ_xy", "ε_z"] One,
+            "The strains e_xx, e_yy, g_xy, e_zz; the shear strain is the engineering one.";
+        von_mises_stress: f64 = at.von_mises_stress, "von Mises stress" ["σ_v"] Stress,
+            "The von Mises stress.";
+        von_mises_strain: f64 = at.von_mises_strain, "von Mises strain" ["ε_v"] One,
+            "The von Mises strain.";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        mesh_error: Option<f64> = at.mesh_error, "mesh error" [] One,
+            "The estimated error that the mesh causes, in the energy norm, over that norm for a \
+             mean triangle; absent where errors are not estimated.";
+    }
+}
+
+quantities! {
+    /// A contact node at the end of a run.
+    ContactNode from at: &ContactPlace<'_> {
+        node: NodeId = at.pairing.node, "node" [] None, "The node of the contact surface.";
+        arc: f64 = at.arc, "arc" ["s"] Length,
+            "The distance from the first contact node along the undeformed contact surface.";
+        #[serde(with = "as_number")]
+        #[schemars(with = "u8", range(max = 1))]
+        in_contact in files "dy": bool = at.in_contact, "in contact" ["dy"] None,
+            "Whether it is in contact by the variant's own rule: 1 or 0.";
+        gap: f64 = at.gap, "gap" ["g"] Length,
+            "The distance from the target along its normal, < 0 where the node penetrates; under \
+             mortar its weighted mean over the surface around the node.";
+        force: Option<f64> = at.normal, "contact force" [] Force,
+            "The force on the node along the normal, < 0 where it pulls; null where restraints of \
+             the node leave it undetermined.";
+        pressure: Option<f64> = at.over_area(at.normal), "contact pressure" ["p"] Stress,
+            "That force over the undeformed surface of the node; null for a node that bounds no \
+             contact edge.";
+        shear: Option<f64> = at.over_area(at.tangent), "contact shear" ["τ"] Stress,
+            "The traction along the tangent, which is the normal turned left.";
+        friction_needed: Option<f64> = at.friction_needed(), "friction needed" ["|τ|/p"] One,
+            "The coefficient of friction that keeps the node from sliding; null where the force \
+             does not press by more than rounding.";
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        status: Option<Status> = at.status, "contact status" [] None,
+            "Open, stick or slip, under `unilateral`.";
+    }
+}
+
+/// Writes and reads `dy` in files as 1 or 0.
+mod as_number {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(value: &bool, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_u8(u8::from(*value))
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<bool, D::Error> {
+        Ok(u8::deserialize(deserializer)? == 1)
+    }
+}
+
+/// An iteration of a run whose whole load has the size `load`, force.
+pub(crate) struct IterationPlace<'a> {
+    step: &'a Step,
+    load: f64,
+}
+
+impl IterationPlace<'_> {
+    fn target_share(&self) -> Option<f64> {
+        Some(self.step.target_force? / self.load).filter(|share| share.is_finite())
+    }
+}
+
+impl IterationRow {
+    /// Returns the results of each iteration of a solution.
+    pub fn all(solution: &Solution) -> Vec<Self> {
+        let [fx, fy] = solution.model.total_load();
+        let load = fx.hypot(fy);
+        let row = |step| IterationRow::compute(&IterationPlace { step, load });
+        solution.steps.iter().map(row).collect()
+    }
+}
+
+/// A body of a solution.
+pub(crate) struct BodyPlace<'a> {
+    solution: &'a Solution,
+    body: &'a Body,
+    /// Which of its triangles has the largest von Mises stress.
+    most_stressed: Largest,
+}
+
+/// Returns the largest values of each body, in the model's order.
+pub fn summaries(solution: &Solution) -> Vec<BodySummary> {
+    let row = |body: &Body| {
+        let stress = |id: &TriangleId| solution.elements[id.index()].von_mises_stress;
+        let most_stressed =
+            largest(body.triangles.iter().map(stress)).expect("a body has a triangle");
+        BodySummary::compute(&BodyPlace { solution, body, most_stressed })
+    };
+    solution.model.bodies.iter().map(row).collect()
+}
+
+impl BodyPlace<'_> {
+    fn state(&self, id: TriangleId) -> &State {
+        &self.solution.elements[id.index()]
+    }
+
+    /// Returns the states of its triangles.
+    fn states(&self) -> impl Iterator<Item = &State> {
+        self.body.triangles.iter().map(|id| self.state(*id))
+    }
+
+    /// Returns the triangle with the largest von Mises stress.
+    fn largest(&self) -> TriangleId {
+        self.body.triangles[self.most_stressed.first]
+    }
+
+    fn centre(&self) -> [f64; 2] {
+        let corners = self.solution.model.corners(self.largest());
+        [0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 3.0)
+    }
+
+    fn max_displacement(&self) -> f64 {
+        let displacements = self.body.nodes.iter().map(|node| node.of(&self.solution.u));
+        displacements.map(|[x, y]: [f64; 2]| x.hypot(y)).fold(0.0, f64::max)
+    }
+
+    fn max_von_mises_strain(&self) -> f64 {
+        self.states().map(|state| state.von_mises_strain).fold(0.0, f64::max)
+    }
+}
+
+/// The state of a triangle, by this program or by another one; what is not known is NaN.
+pub struct TriangleState {
+    /// sigma_x, sigma_y, tau_xy, sigma_z.
+    pub sigma: [f64; 4],
+    /// e_xx, e_yy, g_xy, e_zz.
+    pub epsilon: [f64; 4],
+    pub von_mises_stress: f64,
+    pub von_mises_strain: f64,
+    /// The error of the mesh there, where it is estimated.
+    pub mesh_error: Option<f64>,
+}
+
+impl TriangleState {
+    /// Returns the state of triangle `id` of a model.
+    pub fn new(model: &Model, id: TriangleId, state: &State, mesh_error: Option<f64>) -> Self {
+        let nu = model.triangle(id).material.nu;
+        let ([x, y, xy], [ex, ey, exy]) = (state.sigma.into(), state.epsilon.into());
+        TriangleState {
+            sigma: [x, y, xy, out_of_plane_stress(model.plane, nu, &state.sigma)],
+            epsilon: [ex, ey, exy, out_of_plane_strain(model.plane, nu, &state.epsilon)],
+            von_mises_stress: state.von_mises_stress,
+            von_mises_strain: state.von_mises_strain,
+            mesh_error,
+        }
+    }
+
+    /// Returns the state of a triangle of which only the stresses are known: sigma_x, sigma_y, tau_xy,
+    /// sigma_z, and the von Mises stress.
+    pub fn stressed(sigma: [f64; 4], von_mises_stress: f64) -> Self {
+        TriangleState {
+            sigma,
+            epsilon: [f64::NAN; 4],
+            von_mises_stress,
+            von_mises_strain: f64::NAN,
+            mesh_error: None,
+        }
+    }
+}
+
+impl TriangleValues {
+    pub fn new(state: &TriangleState) -> Self {
+        TriangleValues::compute(state)
+    }
+
+    /// Returns the values of each triangle of a solution; `mesh_error` has the error of the mesh in
+    /// each, where that is estimated.
+    pub fn all(solution: &Solution, mesh_error: Option<&[f64]>) -> Vec<Self> {
+        let value = |(id, state): (TriangleId, &State)| {
+            let error = mesh_error.map(|error| error[id.index()]);
+            TriangleValues::compute(&TriangleState::new(&solution.model, id, state, error))
+        };
+        solution.model.triangle_ids().zip(&solution.elements).map(value).collect()
+    }
+}
+
+impl NodeFields {
+    pub fn new(solution: &Solution) -> Self {
+        NodeFields::compute(solution)
+    }
+}
+
+impl<T> Quantity<T> {
+    /// Returns the name of each component in ASCII, such as sigma_x; the field's name where there is
+    /// only one.
+    pub fn components(&self) -> Vec<String> {
+        let ascii = |symbol: &str| {
+            [('σ', "sigma"), ('τ', "tau"), ('ε', "epsilon"), ('γ', "gamma")]
+                .into_iter()
+                .fold(symbol.to_string(), |name, (letter, spelt)| name.replace(letter, spelt))
+        };
+        match self.symbols {
+            [] | [_] => vec![self.name.to_string()],
+            components => components.iter().map(|symbol| ascii(symbol)).collect(),
+        }
+    }
+
+    /// Returns the name of its array in a file for viewers, made of its title.
+    pub fn array(&self) -> String {
+        self.title.to_lowercase().replace(' ', "_")
+    }
+}
+
+impl Unit {
+    /// Returns the unit in a scene; empty where it has none.
+    pub fn in_scene(self, units: &Units) -> &str {
+        match self {
+            Unit::None | Unit::One | Unit::Share => "",
+            Unit::Length => &units.length,
+            Unit::Stress => &units.stress,
+            Unit::Force => &units.force,
+        }
+    }
+}
+
+impl Value {
+    /// Returns the numbers of a measured value or of a state; None of what is no number, or not
+    /// known.
+    pub fn numbers(&self) -> Option<Vec<f64>> {
+        match self {
+            Value::Number(x) => Some(vec![*x]),
+            Value::Components(x) => Some(x.clone()),
+            Value::State(number, _) => Some(vec![f64::from(*number)]),
+            Value::Unknown | Value::Count(_) | Value::Words(_) => None,
+        }
+        .filter(|numbers| numbers.iter().all(|x| x.is_finite()))
+    }
+}
+
+impl From<&usize> for Value {
+    fn from(count: &usize) -> Self {
+        Value::Count(*count)
+    }
+}
+
+impl From<&f64> for Value {
+    fn from(x: &f64) -> Self {
+        Value::Number(*x)
+    }
+}
+
+impl<const N: usize> From<&[f64; N]> for Value {
+    fn from(components: &[f64; N]) -> Self {
+        Value::Components(components.to_vec())
+    }
+}
+
+impl From<&Vec<[f64; 2]>> for Value {
+    fn from(vectors: &Vec<[f64; 2]>) -> Self {
+        Value::Components(vectors.as_flattened().to_vec())
+    }
+}
+
+impl From<&NodeId> for Value {
+    fn from(node: &NodeId) -> Self {
+        Value::Count(node.number())
+    }
+}
+
+impl From<&TriangleId> for Value {
+    fn from(triangle: &TriangleId) -> Self {
+        Value::Count(triangle.number())
+    }
+}
+
+impl From<&String> for Value {
+    fn from(words: &String) -> Self {
+        Value::Words(words.clone())
+    }
+}
+
+impl From<&bool> for Value {
+    fn from(is: &bool) -> Self {
+        Value::State(u8::from(*is), u8::from(*is).to_string())
+    }
+}
+
+impl From<&Option<f64>> for Value {
+    fn from(x: &Option<f64>) -> Self {
+        x.map_or(Value::Unknown, Value::Number)
+    }
+}
+
+impl From<&Option<Status>> for Value {
+    fn from(status: &Option<Status>) -> Self {
+        let number = |status: &Status| match status {
+            Status::Open => 0,
+            Status::Stick => 1,
+            Status::Slip(_) => 2,
+        };
+        let state = |status: &Status| Value::State(number(status), status.to_string());
+        status.as_ref().map_or(Value::Unknown, state)
+    }
+}
+
+impl From<&Option<Cycle>> for Value {
+    fn from(cycle: &Option<Cycle>) -> Self {
+        Value::Words(match cycle {
+            None => "new".into(),
+            Some(Cycle { length: 1, .. }) => "unchanged".into(),
+            Some(Cycle { length, members }) => format!("as in {} (period of {length})", members[0]),
+        })
+    }
+}
+
+impl From<&Vec<u8>> for Value {
+    fn from(list: &Vec<u8>) -> Self {
+        Value::Words(list.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "))
+    }
+}
+
+impl From<&Option<Vec<Status>>> for Value {
+    fn from(statuses: &Option<Vec<Status>>) -> Self {
+        let words = |list: &Vec<Status>| {
+            list.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+        };
+        statuses.as_ref().map_or(Value::Unknown, |list| Value::Words(words(list)))
+    }
+}

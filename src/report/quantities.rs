@@ -1,0 +1,222 @@
+//! The quantities of a result as columns of a table and as arrays of numbers, and the page of all.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Value as Json, json};
+
+use super::layout::aligned;
+use super::numbers::{percent, quantity as with_its_unit, short};
+use engine::quantities::{
+    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleValues, Unit, Value,
+};
+use problem::scene::Units;
+
+/// The values of a quantity at all places: its name and unit, the number of components, and all
+/// components of the first place, then of the second, and so on. Nine are a tensor in space.
+pub struct Array {
+    pub name: String,
+    pub unit: String,
+    pub components: usize,
+    pub values: Vec<f64>,
+}
+
+impl Array {
+    pub fn new(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Self {
+        Array { name: name.into(), unit: unit.into(), components, values }
+    }
+}
+
+/// A measured value, as it stands in a file.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Measured {
+    Scalar(f64),
+    Components(Vec<f64>),
+}
+
+impl Measured {
+    pub fn numbers(&self) -> Vec<f64> {
+        match self {
+            Measured::Scalar(x) => vec![*x],
+            Measured::Components(x) => x.clone(),
+        }
+    }
+}
+
+/// Lays out rows in a table with a column for each of `quantities` that has a title and is known in
+/// some row.
+pub fn table<'q, T: 'q>(
+    rows: &[T],
+    quantities: impl IntoIterator<Item = &'q Quantity<T>>,
+    units: &Units,
+) -> String {
+    let is_shown = |quantity: &&Quantity<T>| {
+        let value = |row| (quantity.value)(row);
+        !quantity.title.is_empty() && rows.iter().any(|row| value(row) != Value::Unknown)
+    };
+    let shown: Vec<&Quantity<T>> = quantities.into_iter().filter(is_shown).collect();
+    let headings = shown.iter().flat_map(|quantity| headings(quantity, units));
+    let cells = |row| shown.iter().flat_map(|q| cells(&(q.value)(row), q.unit)).collect();
+    aligned(headings, rows.iter().map(cells))
+}
+
+/// Returns the heading of each component of a quantity.
+fn headings<T>(quantity: &Quantity<T>, units: &Units) -> Vec<String> {
+    let titles = match quantity.symbols {
+        [] | [_] => vec![quantity.title.to_string()],
+        symbols => symbols.iter().map(|symbol| format!("{} {symbol}", quantity.title)).collect(),
+    };
+    let unit = quantity.unit.in_scene(units);
+    titles.iter().map(|title| with_its_unit(title, unit)).collect()
+}
+
+/// Writes a value for people, each component; `-` where it is not known.
+fn cells(value: &Value, unit: Unit) -> Vec<String> {
+    let number = |x: &f64| if unit == Unit::Share { percent(*x, 1) } else { short(*x) };
+    match value {
+        Value::Unknown => vec!["-".into()],
+        Value::Count(n) => vec![n.to_string()],
+        Value::Number(x) => vec![number(x)],
+        Value::Components(x) => x.iter().map(number).collect(),
+        Value::State(_, words) | Value::Words(words) => vec![words.clone()],
+    }
+}
+
+/// Returns the array of a quantity of the triangles; None where it is not known in all of them.
+pub fn triangle_array(
+    quantity: &Quantity<TriangleValues>,
+    triangles: &[TriangleValues],
+    units: &Units,
+) -> Option<Array> {
+    let numbers: Option<Vec<_>> =
+        triangles.iter().map(|row| (quantity.value)(row).numbers()).collect();
+    Some(array(quantity, numbers?.concat(), units))
+}
+
+/// Returns the array of a quantity of the nodes.
+pub fn node_array(
+    quantity: &Quantity<NodeFields>,
+    nodes: &NodeFields,
+    units: &Units,
+) -> Option<Array> {
+    Some(array(quantity, (quantity.value)(nodes).numbers()?, units))
+}
+
+/// Returns the array of a quantity of the contact nodes at all `count` nodes; None where it is nowhere
+/// known. Of a node where it is not known a number is 0, and a state -1.
+pub fn contact_array(
+    quantity: &Quantity<ContactNode>,
+    contact: &[ContactNode],
+    count: usize,
+    units: &Units,
+) -> Option<Array> {
+    let known = |node: &ContactNode| Some((node.node, (quantity.value)(node).numbers()?[0]));
+    let known: Vec<_> = contact.iter().filter_map(known).collect();
+    let unknown = match (quantity.value)(contact.first()?) {
+        Value::State(..) => -1.0,
+        _ => 0.0,
+    };
+    let mut values = vec![unknown; count];
+    known.iter().for_each(|(node, value)| values[node.index()] = *value);
+    (!known.is_empty()).then(|| array(quantity, values, units))
+}
+
+fn array<T>(quantity: &Quantity<T>, values: Vec<f64>, units: &Units) -> Array {
+    let unit = match quantity.unit {
+        Unit::One => "1",
+        unit => unit.in_scene(units),
+    };
+    let (components, values) = match quantity.symbols {
+        [_, _, shear, _] => {
+            // The tensor has half of an engineering strain.
+            let part = if shear.starts_with('γ') { 0.5 } else { 1.0 };
+            let rows = values.as_chunks().0.iter();
+            (9, rows.flat_map(|&[x, y, xy, z]| in_space([x, y, part * xy, z])).collect())
+        }
+        symbols => (symbols.len().max(1), values),
+    };
+    Array::new(&quantity.array(), unit, components, values)
+}
+
+/// Returns the nine components of a tensor, by rows.
+fn in_space([xx, yy, xy, zz]: [f64; 4]) -> [f64; 9] {
+    [xx, xy, 0.0, xy, yy, 0.0, 0.0, 0.0, zz]
+}
+
+/// Returns the measured values of a triangle by their fields, without those that are not known.
+pub fn measured(values: &TriangleValues) -> Vec<(&'static str, Measured)> {
+    let known = |quantity: &Quantity<TriangleValues>| {
+        let numbers = (quantity.value)(values).numbers()?;
+        let value = match numbers[..] {
+            [x] => Measured::Scalar(x),
+            _ => Measured::Components(numbers),
+        };
+        Some((quantity.name, value))
+    };
+    TriangleValues::QUANTITIES.iter().filter_map(known).collect()
+}
+
+/// Returns what a page needs to know of the quantities, by the place where they live.
+pub fn on_pages() -> Json {
+    json!({
+        "iteration": of_place(IterationRow::QUANTITIES),
+        "body": of_place(BodySummary::QUANTITIES),
+        "node": of_place(NodeFields::QUANTITIES),
+        "triangle": of_place(TriangleValues::QUANTITIES),
+        "contact": of_place(ContactNode::QUANTITIES),
+    })
+}
+
+fn of_place<T>(quantities: &[Quantity<T>]) -> Vec<Json> {
+    let shown = quantities.iter().filter(|quantity| !quantity.title.is_empty());
+    shown
+        .map(|quantity| {
+            json!({
+                "name": quantity.name,
+                "title": quantity.title,
+                "symbols": quantity.symbols.iter().map(|s| s.replace('_', "")).collect::<Vec<_>>(),
+                "unit": quantity.unit,
+            })
+        })
+        .collect()
+}
+
+/// Writes all quantities of a result as a page in Markdown: `golden/quantities.md`.
+pub fn page() -> String {
+    "# The quantities of a result\n\n\
+     Made of `src/engine/quantities.rs`, where each is declared once; a test makes this page again. \
+     The field is that of `result.json`; the title heads the columns of tables, CSV and pages, and \
+     names the array in `fields.vtu`, in lower case with `_` for blanks. A quantity without a title is \
+     in `result.json` only. Lengths, stresses and forces are in the units of the scene; `1` has no \
+     unit, `share` is a part of 1.\n"
+        .to_string()
+        + &section("An iteration (`iterations`)", IterationRow::QUANTITIES)
+        + &section("A body (`bodies`)", BodySummary::QUANTITIES)
+        + &section("A node", NodeFields::QUANTITIES)
+        + &section("A triangle (`elements`)", TriangleValues::QUANTITIES)
+        + &section("A contact node (`contact`)", ContactNode::QUANTITIES)
+}
+
+fn section<T>(place: &str, quantities: &[Quantity<T>]) -> String {
+    let row = |q: &Quantity<T>| {
+        let shape = match q.components().len() {
+            1 => "scalar",
+            2 => "vector",
+            _ => "tensor",
+        };
+        let cells = [
+            &format!("`{}`", q.name),
+            q.title,
+            &q.symbols.join(", ").replace('|', "\\|"),
+            q.unit.name(),
+            shape,
+            &q.meaning.replace('|', "\\|"),
+        ];
+        format!("| {} |\n", cells.join(" | "))
+    };
+    format!(
+        "\n## {place}\n\n| field | title | symbol | unit | shape | what it is |\n\
+         |---|---|---|---|---|---|\n{}",
+        quantities.iter().map(row).collect::<String>()
+    )
+}
