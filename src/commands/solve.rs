@@ -128,15 +128,17 @@ pub fn run(args: &Args) -> Result<u8> {
         print(&result)?;
         return Ok(status(&solution));
     }
-    let tables = tables::solution(&solution, &assessment)
-        + &tables::error_estimates(&solution, &assessment)
-        + &tables::probes(&solution, &assessment)
-        + &tables::distance(&solution, &assessment)
-        + &accuracy;
-    let plan = report::plan::line(&plan);
-    let changes = beside_the_print(&solution);
-    let text = format!("{tables}{changes}\n{plan}\nWritten to {}\n", out.display());
-    args.tables.print("solve", &text)?;
+    let mut report = tables::solution(&solution, &assessment)
+        .then(tables::error_estimates(&solution, &assessment))
+        .then(tables::probes(&solution, &assessment))
+        .then(tables::distance(&solution, &assessment));
+    let changes = accuracy + &beside_the_print(&solution);
+    if !changes.is_empty() {
+        report = report.then(changes + "\n");
+    }
+    let report =
+        report.line(report::plan::line(&plan)).line(format!("Written to {}", out.display()));
+    args.tables.print("solve", report)?;
     Ok(status(&solution))
 }
 

@@ -1,6 +1,6 @@
 //! The quantities of a result. Each is declared once, below; its field in `result.json` and in the
-//! schema, its column in tables, CSV and pages, its array in `fields.vtu`, its picture, its place in
-//! `compare` and in probes, and its line in `golden/quantities.md` follow.
+//! schema, its column in tables, CSV and pages, its array in `fields.vtu`, its picture, its place
+//! in `compare` and in probes, and its line in `golden/quantities.md` follow.
 //!
 //! ```text
 //! struct          lives on               one value of the struct for
@@ -11,8 +11,8 @@
 //! ContactNode     a contact node         each contact node that faces the target, at the end
 //! ```
 //!
-//! An entry is `field: type = value, "title" [symbols] unit, "what it is"`. The title heads columns;
-//! without one the quantity is in `result.json` only. A vector or a tensor has a symbol for each
+//! An entry is `field: type = value, "title" [symbols] unit, "what it is"`. The title heads
+//! columns; without one the quantity is in `result.json` only. A vector or a tensor has a symbol for each
 //! component.
 
 use schemars::JsonSchema;
@@ -337,8 +337,8 @@ impl TriangleState {
         }
     }
 
-    /// Returns the state of a triangle of which only the stresses are known: sigma_x, sigma_y, tau_xy,
-    /// sigma_z, and the von Mises stress.
+    /// Returns the state of a triangle of which only the stresses are known: sigma_x, sigma_y,
+    /// tau_xy, sigma_z, and the von Mises stress.
     pub fn stressed(sigma: [f64; 4], von_mises_stress: f64) -> Self {
         TriangleState {
             sigma,
@@ -373,8 +373,8 @@ impl NodeFields {
 }
 
 impl<T> Quantity<T> {
-    /// Returns the name of each component in ASCII, such as sigma_x; the field's name where there is
-    /// only one.
+    /// Returns the name of each component in ASCII, such as sigma_x; the field's name where there
+    /// is only one.
     pub fn components(&self) -> Vec<String> {
         let ascii = |symbol: &str| {
             [('σ', "sigma"), ('τ', "tau"), ('ε', "epsilon"), ('γ', "gamma")]

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use super::layout::aligned;
-use super::numbers::{percent, quantity as with_its_unit, short};
+use super::model::{Cell, Table};
+use super::numbers::quantity as with_its_unit;
 use engine::quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleValues, Unit, Value,
 };
@@ -43,42 +43,42 @@ impl Measured {
     }
 }
 
-/// Lays out rows in a table with a column for each of `quantities` that has a title and is known in
-/// some row.
-pub fn table<'q, T: 'q>(
-    rows: &[T],
+/// Returns a table of `rows` with a column for each component of each of `quantities` that has a
+/// title and is known in some row.
+pub fn table<'r, 'q, T: 'static>(
+    rows: &'r [T],
     quantities: impl IntoIterator<Item = &'q Quantity<T>>,
     units: &Units,
-) -> String {
-    let is_shown = |quantity: &&Quantity<T>| {
-        let value = |row| (quantity.value)(row);
-        !quantity.title.is_empty() && rows.iter().any(|row| value(row) != Value::Unknown)
-    };
-    let shown: Vec<&Quantity<T>> = quantities.into_iter().filter(is_shown).collect();
-    let headings = shown.iter().flat_map(|quantity| headings(quantity, units));
-    let cells = |row| shown.iter().flat_map(|q| cells(&(q.value)(row), q.unit)).collect();
-    aligned(headings, rows.iter().map(cells))
+) -> Table<Vec<&'r T>> {
+    let is_known =
+        |quantity: &Quantity<T>| rows.iter().any(|row| (quantity.value)(row) != Value::Unknown);
+    let mut table = Table::of(rows);
+    for quantity in quantities.into_iter().filter(|q| !q.title.is_empty() && is_known(q)) {
+        for (k, title) in titles(quantity).iter().enumerate() {
+            let heading = with_its_unit(title, quantity.unit.in_scene(units));
+            table = table.column(heading, |row| cell(&(quantity.value)(row), quantity.unit, k));
+        }
+    }
+    table
 }
 
-/// Returns the heading of each component of a quantity.
-fn headings<T>(quantity: &Quantity<T>, units: &Units) -> Vec<String> {
-    let titles = match quantity.symbols {
+/// Returns the title of each component of a quantity.
+fn titles<T>(quantity: &Quantity<T>) -> Vec<String> {
+    match quantity.symbols {
         [] | [_] => vec![quantity.title.to_string()],
         symbols => symbols.iter().map(|symbol| format!("{} {symbol}", quantity.title)).collect(),
-    };
-    let unit = quantity.unit.in_scene(units);
-    titles.iter().map(|title| with_its_unit(title, unit)).collect()
+    }
 }
 
-/// Writes a value for people, each component; `-` where it is not known.
-fn cells(value: &Value, unit: Unit) -> Vec<String> {
-    let number = |x: &f64| if unit == Unit::Share { percent(*x, 1) } else { short(*x) };
+/// Returns the cell of component `k` of a value.
+fn cell(value: &Value, unit: Unit, k: usize) -> Cell {
     match value {
-        Value::Unknown => vec!["-".into()],
-        Value::Count(n) => vec![n.to_string()],
-        Value::Number(x) => vec![number(x)],
-        Value::Components(x) => x.iter().map(number).collect(),
-        Value::State(_, words) | Value::Words(words) => vec![words.clone()],
+        Value::Unknown => Cell::Missing(None),
+        Value::Count(n) => (*n).into(),
+        Value::Number(part) if unit == Unit::Share => Cell::percent(*part, 1),
+        Value::Number(x) => (*x).into(),
+        Value::Components(x) => x[k].into(),
+        Value::State(_, words) | Value::Words(words) => words.clone().into(),
     }
 }
 
@@ -102,8 +102,8 @@ pub fn node_array(
     Some(array(quantity, (quantity.value)(nodes).numbers()?, units))
 }
 
-/// Returns the array of a quantity of the contact nodes at all `count` nodes; None where it is nowhere
-/// known. Of a node where it is not known a number is 0, and a state -1.
+/// Returns the array of a quantity of the contact nodes at all `count` nodes; None where it is
+/// nowhere known. Of a node where it is not known a number is 0, and a state -1.
 pub fn contact_array(
     quantity: &Quantity<ContactNode>,
     contact: &[ContactNode],

@@ -46,7 +46,7 @@ fn the_printed_listings_run_as_their_mirror() {
             let own = result(folder.path(), &common);
             let edited = ["--c-cnt", "c_cnt.txt", "--km", "Km.txt"];
             let edited = result(folder.path(), &[&common[..], &edited].concat());
-            assert_eq!(edited.u, own.u, "{scene} {variant}");
+            assert_eq!(edited.nodes, own.nodes, "{scene} {variant}");
             assert_eq!(edited.iterations, own.iterations, "{scene} {variant}");
             let which: Vec<Which> = edited.edited.iter().map(|edited| edited.listing).collect();
             assert_eq!(which, [Which::CCnt, Which::Km]);

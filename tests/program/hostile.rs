@@ -120,7 +120,7 @@ fn a_list_of_contact_nodes_that_is_no_walk_is_ordered_or_named() {
     let folder = TempDir::new().expect("a folder");
     let text = std::fs::read(case("cnt-shuffled.json")).expect("a case");
     let mut scene: Value = serde_json::from_slice(&text).expect("JSON");
-    let said = "cnt is no walk along its surface";
+    let said = "cnt does not follow its surface";
     scene["contact"]["cnt"] = json!([24, 23, 22, 21]);
     let mut in_order = |variant: &str| {
         scene["variant"] = variant.into();

@@ -70,9 +70,9 @@ choices! {
 }
 
 impl Cause {
-    /// Says of a quantity at the point whether it "has" or "may have" no limit.
-    pub fn has(self) -> &'static str {
-        if self == Cause::Interface { "may have" } else { "has" }
+    /// Says whether the stress at the point "diverges" under refinement, or "may diverge".
+    pub fn diverges(self) -> &'static str {
+        if self == Cause::Interface { "may diverge" } else { "diverges" }
     }
 
     /// Returns whether displacements have no limit either: those of the node under a load, and all

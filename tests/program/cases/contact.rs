@@ -20,7 +20,7 @@ const CASES: &[Case] = &[
         command: "plane-contact solve scene.json",
         status: 0,
         contains: &[
-            "contact states of the last step that differ at one node; earlier steps were not looked at",
+            "contact states of the last step that differ at one node; earlier steps were not examined",
         ],
         lacks: &[],
     },
@@ -41,7 +41,7 @@ const CASES: &[Case] = &[
         command: "plane-contact solve scene.json",
         status: 0,
         contains: &[
-            "what is left of the size of the steps is not known: nodes that overlap the target",
+            "error of the size of the steps: unknown: nodes that overlap the target",
         ],
         lacks: &["half as many"],
     },

@@ -1,0 +1,45 @@
+//! A call of `c_cnt`.
+
+use super::{direction, dropped};
+use crate::model::{Cell, Report, Table};
+use crate::trace::in_figure;
+use paper::door::Call;
+use paper::mirror::Reading;
+use problem::model::{EdgeId, Model, NodeId};
+use problem::scene::Scene;
+
+/// Reports a call of `c_cnt` at the initial shape: its contact nodes, then the rows of k_cnt that
+/// are not zero. In the scene of the paper's fig. 1 each node has its number there.
+pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> Report {
+    let number = |edge: Option<EdgeId>| edge.map_or(0, |edge| model.edge(edge).number);
+    let in_figure = |node: NodeId| in_figure(scene, model, node);
+    let is_figure = scene.name == "fig1";
+    let mut found = Table::of(call.statuses.iter().enumerate())
+        .column("i1", |(k, _)| k + 1)
+        .column("cnt", |(_, status)| status.node)
+        .column("ct", |(_, status)| number(status.edge))
+        .column("yt", |(_, status)| status.distance)
+        .column("dy", |(_, status)| u8::from(status.in_contact));
+    let linked: Vec<NodeId> =
+        model.node_ids().filter(|n| call.row(*n).iter().any(|x| *x != 0.0)).collect();
+    let count = linked.len();
+    let mut rows = Table::of(linked)
+        .column("node", |node| *node)
+        .column("master node", |node| Cell::decimals(call.row(*node)[0], 0))
+        .column("weight", |node| call.row(*node)[1])
+        .column("master node", |node| Cell::decimals(call.row(*node)[2], 0))
+        .column("weight", |node| call.row(*node)[3])
+        .column("surface", |node| match model.contact.nodes.contains(node) {
+            true => "contact",
+            false => "target",
+        });
+    if is_figure {
+        found = found.column("in fig. 1", |(_, status)| in_figure(status.node));
+        rows = rows.column("in fig. 1", |node| in_figure(*node));
+    }
+    Report::default()
+        .notes(dropped(&scene.model))
+        .table(format!("Contact nodes (c_tll = {})", model.contact.tolerance), found)
+        .notes(direction(model, reading, &model.nodes))
+        .table(format!("k_cnt: {count} of {} rows are not zero", model.nodes.len()), rows)
+}

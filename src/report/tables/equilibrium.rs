@@ -1,0 +1,117 @@
+//! What is known of an equilibrium: whether there are others, and how exact its geometry is.
+
+use crate::layout::{counted, listed};
+use crate::model::Report;
+use crate::numbers::{short, with_unit};
+use engine::{Equilibrium, Other, Solution, Uniqueness};
+use problem::model::NodeId;
+use problem::modelling::{Coupling, Geometry};
+
+/// Says whether the equilibrium is the only one, and what is left of the change of the geometry.
+pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
+    let length = |x: f64| with_unit(&short(x), &solution.request.scene.units.length);
+    let springs = found.springs.map(|carried| {
+        format!(
+            "Found on springs, which hold the bodies on the way: in the end they carry at most \
+             {carried:.0e} of the largest force"
+        )
+    });
+    let unseen = found.unseen.map(|(node, depth)| {
+        format!(
+            "Node to segment watches contact nodes only: target node {node} lies {} inside the \
+             contact surface; mortar sees it",
+            length(depth)
+        )
+    });
+    let inside = found.inside.map(|(node, depth)| {
+        let why = why_inside(solution, node);
+        format!(
+            "Contact node {node} lies {} INSIDE THE TARGET in the shape reached{why}",
+            length(depth)
+        )
+    });
+    let geometry = (found.shape_change > 0.0).then(|| {
+        let change = length(found.shape_change);
+        format!("Geometry: its last update changed no displacement component by more than {change}")
+    });
+    let lines = [springs, unseen, inside, geometry].into_iter().flatten();
+    lines.fold(uniqueness(solution, &found.uniqueness), Report::line)
+}
+
+fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
+    let words = match found {
+        Uniqueness::Unique => "the only one in the shape reached (convex, no friction)".into(),
+        Uniqueness::Indifferent { node } => format!(
+            "NOT THE ONLY ONE: node {node} can move without work, as contacts that carry nothing may \
+             open"
+        ),
+        Uniqueness::Unknown { node: None } => "whether it is the only one is not known".into(),
+        Uniqueness::Unknown { node: Some(node) } => format!(
+            "whether it is the only one is not known; node {node} can move without work as long as \
+             the normals of contact stay as they are"
+        ),
+        Uniqueness::Tried { states, steps, all, last_only, others } => {
+            let tried = tried(solution, [*states, *steps], [*all, *last_only]);
+            match others.len() {
+                0 => format!("no other equilibrium found among {tried}"),
+                n => format!("NOT THE ONLY ONE: {n} more among {tried}"),
+            }
+        }
+    };
+    let others = match found {
+        Uniqueness::Tried { others, .. } => &others[..],
+        Uniqueness::Unique | Uniqueness::Indifferent { .. } | Uniqueness::Unknown { .. } => &[],
+    };
+    let other = |other: &Other| {
+        let nodes = |nodes: &[NodeId]| match nodes {
+            [] => "none".into(),
+            nodes => format!("nodes {}", listed(nodes)),
+        };
+        format!(
+            "at load {}: stick {}; slip {}: displacement components change by at most {}",
+            short(other.load),
+            nodes(&other.stick),
+            nodes(&other.slip),
+            with_unit(&short(other.change), &solution.request.scene.units.length)
+        )
+    };
+    Report::default().line(format!("Equilibrium: {words}")).notes(others.iter().map(other))
+}
+
+/// Names the contact states that were tried for other equilibria, and those that were not.
+fn tried(solution: &Solution, [states, steps]: [usize; 2], [all, last_only]: [bool; 2]) -> String {
+    let steps = match last_only {
+        true => "the last step".into(),
+        false => counted(steps, "step of the load", "steps of the load"),
+    };
+    let states = match all {
+        true => format!("all {states} contact states of {steps}"),
+        false => {
+            let states = counted(states, "contact state", "contact states");
+            format!("{states} of {steps} that differ at one node")
+        }
+    };
+    let shapes = match solution.request.contact.geometry {
+        Geometry::Initial => "",
+        Geometry::Current => ", each in the shape reached",
+    };
+    let earlier = if last_only { "; earlier steps were not examined" } else { "" };
+    format!("{states}{shapes}{earlier}")
+}
+
+/// Says how a contact node may lie inside the target.
+fn why_inside(solution: &Solution, node: NodeId) -> &'static str {
+    let contact = solution.request.contact;
+    let is_closed = solution.in_contact().any(|contact| contact.node == node);
+    match (is_closed, contact.coupling, contact.geometry) {
+        (false, ..) => {
+            ": it is treated as separated, as no edge of the target faced it, so that this is NO \
+             EQUILIBRIUM of that shape; give smaller loads, or list the side of the target that it meets"
+        }
+        (true, Coupling::Mortar, _) => ": mortar closes the averaged gap of the edges at a node",
+        (true, Coupling::Nts, Geometry::Initial) => {
+            ": gaps were closed along the normals of the initial shape"
+        }
+        (true, Coupling::Nts, Geometry::Current) => "",
+    }
+}

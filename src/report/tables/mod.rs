@@ -1,0 +1,160 @@
+//! What `solve` and `listing run c_cnt` report.
+
+mod call;
+mod distance;
+mod equilibrium;
+mod estimates;
+mod iterations;
+
+pub use call::pairs;
+pub use distance::distance;
+pub use estimates::{certainty, error_estimates};
+
+use crate::layout::{counted, listed};
+use crate::model::{Cell, Report, Table};
+use crate::numbers::quantity;
+use crate::quantities;
+use engine::contact::{ContactNode, hidden, oddity};
+use engine::{Assessment, BodySummary, Probe, Solution, beyond_range};
+use paper::mirror::Reading;
+use problem::model::Model;
+use problem::modelling::Variant;
+use problem::scene::Units;
+
+/// Reports a run: its iterations, its bodies and its contact surface.
+pub fn solution(solution: &Solution, assessment: &Assessment) -> Report {
+    let path = solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
+    let steps = match path {
+        Some(path) => iterations::load_steps(solution, path, assessment),
+        None => iterations::iterations(solution),
+    };
+    let equilibrium = solution.equilibrium.as_ref();
+    heading(solution)
+        .then(steps)
+        .then(equilibrium.map_or(Report::default(), |found| equilibrium::lines(solution, found)))
+        .then(contact_set(solution))
+        .then(bodies(solution, &assessment.bodies))
+        .then(contact_surface(solution))
+}
+
+/// Names the scene, the variant and the sizes, and what differs from an ordinary run.
+fn heading(solution: &Solution) -> Report {
+    let (request, model) = (&solution.request, &solution.model);
+    let edited = request.edited.iter();
+    Report::titled(&request.scene.title)
+        .line(format!(
+            "scene {}, variant {}: {} load, plane {}; {} nodes, {}; {} factored",
+            request.scene.name,
+            request.variant,
+            request.schedule(),
+            model.plane,
+            model.nodes.len(),
+            counted(model.triangles.len(), "triangle", "triangles"),
+            counted(solution.factored, "matrix", "matrices")
+        ))
+        .notes(edited.map(|edited| format!("with {} as edited in {}", edited.which, edited.place)))
+        .notes(arithmetic(solution))
+        .notes(dropped(model))
+}
+
+/// Names the arithmetic, unless it is the default, and its bound on rounding errors.
+fn arithmetic(solution: &Solution) -> Vec<String> {
+    let arithmetic = solution.request.arithmetic;
+    let bound = solution.error_bound.map(|bound| match bound.is_finite() {
+        true => format!(
+            "rounding changes no displacement by more than {bound:.1e} {}",
+            solution.request.scene.units.length
+        ),
+        false => "rounding error unknown".into(),
+    });
+    let other = (!arithmetic.is_default()).then(|| {
+        let (solver, inputs) = (solution.request.solver(), arithmetic.inputs);
+        format!("in {} by {solver}, inputs {inputs}", arithmetic.scalar)
+    });
+    other.into_iter().chain(bound).collect()
+}
+
+/// Names the nodes that were dropped, by their numbers in the mesh file.
+fn dropped(model: &Model) -> Option<String> {
+    let nodes = listed(&model.dropped);
+    (!nodes.is_empty()).then(|| {
+        format!("Dropped: nodes {nodes} of the mesh belong to no triangle and have no equations")
+    })
+}
+
+/// Names the nodes in contact at the end.
+fn contact_set(solution: &Solution) -> Report {
+    if solution.model.target().is_none() {
+        return Report::default();
+    }
+    let nodes = match solution.last().contact_set(&solution.model) {
+        nodes if nodes.is_empty() => "no node".into(),
+        nodes => format!("nodes {}", listed(nodes)),
+    };
+    let is_printed = solution.request.is_as_printed();
+    let (reading, shape) = (&solution.request.reading, &solution.last().shape);
+    let hidden = is_printed.then(|| direction(&solution.model, reading, shape)).flatten();
+    Report::default().line(format!("In contact at the end: {nodes}")).notes(hidden)
+}
+
+/// Says that no node is in contact because of the direction of the target's edges.
+fn direction(model: &Model, reading: &Reading, shape: &[[f64; 2]]) -> Option<String> {
+    hidden(model, reading, shape).map(|why| format!("No node is in contact: {why}"))
+}
+
+fn bodies(solution: &Solution, bodies: &[BodySummary]) -> Report {
+    let table = quantities::table(bodies, BodySummary::QUANTITIES, &solution.request.scene.units);
+    let beyond = beyond_range(&solution.model, &solution.elements, &solution.u);
+    Report::default().table("Bodies", table).notes(beyond.map(|what| format!("NOTE: {what}")))
+}
+
+/// Lists the nodes in contact at the end.
+fn contact_surface(solution: &Solution) -> Report {
+    let nodes: Vec<ContactNode> = solution.in_contact().cloned().collect();
+    if nodes.is_empty() {
+        return Report::default();
+    }
+    // All of them are in contact.
+    let shown = ContactNode::QUANTITIES.iter().filter(|quantity| quantity.name != "dy");
+    let table = quantities::table(&nodes, shown, &solution.request.scene.units);
+    let variant = solution.request.variant;
+    let uncoupled = (variant == Variant::Printed).then_some(
+        "The pressures are carried by the blocks that Km adds to a body's own equations; nothing \
+         couples the bodies (finding K1), so that none of it reaches the other body",
+    );
+    let unordered = oddity(&solution.model).filter(|_| variant != Variant::Unilateral);
+    let unordered = unordered.map(|what| {
+        format!(
+            "cnt does not follow its surface: {what}; c_cnt takes it as it is (findings C12, C13)"
+        )
+    });
+    Report::default().table("Contact surface", table).notes(uncoupled).notes(unordered)
+}
+
+/// Reports the values at the points that were asked for.
+pub fn probes(solution: &Solution, assessment: &Assessment) -> Report {
+    let units = &solution.request.scene.units;
+    assessment.probes.iter().fold(Report::default(), |report, of| report.then(probe(units, of)))
+}
+
+fn probe(units: &Units, probe: &Probe) -> Report {
+    let [x, y] = probe.at;
+    let title = format!("At {x}, {y}: body {}, triangle {}", probe.body, probe.triangle);
+    let table = Table::of(&probe.quantities)
+        .column("quantity", |q| quantity(&q.name, q.unit.in_scene(units)))
+        .column("value", |q| q.value)
+        .column("recovered", |q| q.recovered)
+        .column("+- mesh", |q| q.mesh.map(|error| Cell::scientific(error, 1)))
+        .column("+- arithmetic", |q| q.arithmetic.map(|error| Cell::scientific(error, 1)));
+    let shared = (!probe.shared.is_empty()).then(|| {
+        let others = listed(&probe.shared);
+        format!(
+            "The point is shared with triangles {others}: recovered values are common, others are not"
+        )
+    });
+    let diverges = probe.no_limit.map(|cause| {
+        let diverges = cause.diverges();
+        format!("Beside {cause}, where the stress {diverges} under refinement: no mesh bounds it")
+    });
+    Report::default().table(title, table).notes(shared).notes(diverges)
+}
