@@ -131,7 +131,12 @@ impl Arrays {
             Element::new(place).set("Tensors", tensor.name.clone())
         });
         data.iter().fold(element, |element, array| {
-            assert_eq!(array.values.len(), array.components * count, "values of {}", array.name);
+            let Array { name, components, values, .. } = array;
+            assert_eq!(
+                values.len(),
+                components * count,
+                "{name}: {components} values for each of {count}"
+            );
             element.with(self.floats(array))
         })
     }

@@ -118,17 +118,22 @@ fn long_arrays_read_back() {
     for count in [1 << 16, 100_003] {
         let values: Vec<f64> = (0..count).map(seeded).collect();
         let triangles = vec![[0, 1, 2]; count];
-        let file = document(&[], &POINTS, &triangles, &[], &[("v", "", 1, &values)]);
+        let file =
+            document(&[], &POINTS, &triangles, &[], &[Array::new("v", "", 1, values.clone())]);
         assert_eq!(bits(&file, "v"), values.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
         assert_eq!(whole(&file, "connectivity"), [0, 1, 2].repeat(count));
-        assert_eq!(document(&[], &POINTS, &triangles, &[], &[("v", "", 1, &values)]), file);
+        assert_eq!(
+            document(&[], &POINTS, &triangles, &[], &[Array::new("v", "", 1, values.clone())]),
+            file
+        );
     }
 }
 
 #[test]
 #[should_panic(expected = "displacement: 2 values for each of 4")]
 fn missing_values_are_refused() {
-    document(&[], &POINTS, &TRIANGLES, &[("displacement", "", 2, &DISPLACEMENT[..6])], &[]);
+    let points = [Array::new("displacement", "", 2, DISPLACEMENT[..6].to_vec())];
+    document(&[], &POINTS, &TRIANGLES, &points, &[]);
 }
 
 /// Four readers find in `fields.vtu` what `result.json` has, with contact and without, of scenes whose

@@ -48,7 +48,7 @@ fn displacement(assessment: &Assessment, errors: &ErrorEstimates, units: &Units)
     let largest = assessment.bodies.iter().map(|body| body.max_displacement).fold(0.0, f64::max);
     let value = match errors.displacement_no_limit {
         Some((node, cause)) => format!(
-            "{} on this mesh; it diverges under refinement: at node {node}, {cause}",
+            "{} on this mesh; in the plane it diverges under refinement: at node {node}, {cause}",
             with_unit(&short(largest), &units.length)
         ),
         None => uncertain(

@@ -5,7 +5,6 @@ use std::fmt;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 
 /// The tolerance of numbers without a bound on their error, relative to the largest of the array.
 pub const WITHOUT_BOUND: f64 = 1e-9;
@@ -116,17 +115,21 @@ impl From<Row> for Vec<serde_json::Value> {
 }
 
 /// The tolerance of a comparison: whatever it names suffices.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "Parts")]
+#[schemars(!try_from, deny_unknown_fields, extend("minProperties" = 1))]
 pub struct Tolerance {
     /// A number, in the unit of what is compared.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub absolute: Option<f64>,
     /// A part of the largest number of the array.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub relative: Option<f64>,
     /// A number of units in the last place of the number itself.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub ulps: Option<f64>,
 }
 
@@ -156,27 +159,6 @@ impl TryFrom<Parts> for Tolerance {
             Some((name, value)) => Err(format!("`{name}` is {value}: {rule}")),
             None => Ok(Tolerance { absolute, relative, ulps }),
         }
-    }
-}
-
-impl JsonSchema for Tolerance {
-    fn schema_name() -> Cow<'static, str> {
-        "Tolerance".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let part = |description: &str| json!({ "type": ["number", "null"], "minimum": 0, "description": description });
-        json_schema!({
-            "type": "object",
-            "description": "The tolerance of a comparison: whatever it names suffices.",
-            "properties": {
-                "absolute": part("A number, in the unit of what is compared."),
-                "relative": part("A part of the largest number of the array."),
-                "ulps": part("A number of units in the last place of the number itself."),
-            },
-            "additionalProperties": false,
-            "minProperties": 1,
-        })
     }
 }
 
