@@ -13,7 +13,7 @@ const REASONS: &[(&str, &str)] = &[
     ("scatter", "there is no order, or a line through two differences only"),
     ("errors", "there is no order of convergence"),
     ("estimates", "nothing moves, or a body has too few triangles"),
-    ("certainty", "the run failed, or the knob has no verdict"),
+    ("certainty", "the run failed, or the parameter has no verdict"),
     ("departure", "there are fewer than three meshes, or nothing moves"),
     ("ladder", "the section is not that of meshes"),
     ("cycle", "the contact state is new"),
@@ -52,9 +52,9 @@ const REASONS: &[(&str, &str)] = &[
     ("tol", "the solver has no tolerance, or the scalar's own"),
 ];
 
-/// Why the error of a number that has no limit as the mesh is refined has no value; the object in
+/// Why the error of a number that diverges under refinement has no value; the object in
 /// which it stands names the point.
-pub const NO_LIMIT: &str = "the number has no limit as the mesh is refined";
+pub const NO_LIMIT: &str = "the number diverges under refinement";
 
 /// Returns why a field has no value.
 pub fn reason(field: &str) -> &'static str {
