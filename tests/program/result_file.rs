@@ -91,7 +91,8 @@ fn fields_of_a_large_mesh_are_elsewhere_unless_asked_for() {
     assert_eq!(read, written);
     let missing = read.fields().expect_err("the fields are elsewhere").to_string();
     assert!(missing.contains("fields.vtu") && missing.contains("--fields"), "{missing}");
-    let asked = ResultFile::from_json(&read.with_fields(&solution, &assessment).to_json()).expect("as above");
+    let asked = ResultFile::from_json(&read.with_fields(&solution, &assessment).to_json())
+        .expect("as above");
     let (nodes, elements) = asked.fields().expect("they were asked for");
     assert_eq!(nodes.u, solution.displacements());
     assert_eq!(elements.len(), solution.elements.len());
