@@ -3,16 +3,13 @@
 use super::arithmetic::{calculate, compare, cost, kind, map, negative, operate, power, transpose};
 use super::entry::entry_of;
 use super::failure::{Cause, Fallible, Subscripts};
-use super::function::Function;
+use super::function::{Builtin, FUNCTION, Function};
 use super::matrices;
 use super::observe::{Observer, Operand};
 use super::settings::Conjunction;
 use super::state::Run;
 use super::syntax::{Comparison, Expr, Kind, Operation, Reference, Slot, Span};
 use super::value::{Array, Grid, Value};
-
-/// The steps that a function of a number takes, such as a sine or a power.
-pub const FUNCTION: u64 = 8;
 
 /// The largest power of a matrix: numbers up to it are whole or not.
 const LARGEST_POWER: f64 = 9_007_199_254_740_992.0;
@@ -79,8 +76,8 @@ impl<O: Observer> Run<'_, '_, O> {
                 self.compared(*comparison, (x, &left), y).map(|(truth, _)| truth_value(truth))
             }
             Kind::Chain(x, rest) => self.chain(x, rest).map(truth_value),
-            Kind::All(operands) => Ok(truth_value(self.all(operands, &expr.span)?)),
-            Kind::Any(operands) => Ok(truth_value(self.any(operands)?)),
+            Kind::All(operands) => self.decide(operands, false, Some(&expr.span)),
+            Kind::Any(operands) => self.decide(operands, true, None),
             Kind::Call(name, _) if self.functions[*name].is_none() => {
                 Err(self.undefined(*name, true, &expr.span))
             }
@@ -121,7 +118,7 @@ impl<O: Observer> Run<'_, '_, O> {
             (Value::Number(x), Value::Number(y)) => compare(comparison, *x, *y, self.settings),
             (Value::Text(x), Value::Text(y)) => {
                 self.spend(left.count() as u64)?;
-                comparison.holds(x.cmp(y))
+                comparison.is_true_of(x.cmp(y))
             }
             _ => return Err(self.fail(&right.span, kind(expected, &other))),
         };
@@ -287,8 +284,8 @@ impl<O: Observer> Run<'_, '_, O> {
         span: &Span,
     ) -> Fallible<Value> {
         let operation = match &self.functions[function] {
-            Some(Function::Sum) => Operation::Add,
-            Some(Function::Product) => Operation::Multiply,
+            Some(Function::Builtin(Builtin { name: "∑", .. })) => Operation::Add,
+            Some(Function::Builtin(Builtin { name: "∏", .. })) => Operation::Multiply,
             _ => return Err(self.undefined(function, true, span)),
         };
         let [from, to, term] = parts;
@@ -323,35 +320,18 @@ impl<O: Observer> Run<'_, '_, O> {
         Ok(result.unwrap_or(if operation == Operation::Add { 0.0 } else { 1.0 }))
     }
 
-    /// Returns whether an `∨` is true, by the worksheet's method of evaluating `∧`: one true
-    /// operand decides.
-    fn any(&mut self, operands: &[Expr]) -> Fallible<bool> {
+    /// Returns what the operands of an `∧` or `∨` decide together, by the worksheet's method of
+    /// evaluating `∧`: one that is `decisive` decides alone. An `∧` has its `span` for the observer.
+    fn decide(
+        &mut self,
+        operands: &[Expr],
+        decisive: bool,
+        span: Option<&Span>,
+    ) -> Fallible<Value> {
         let method = self.settings.conjunction;
-        let (mut any, mut failure) = (false, None);
+        let (mut decided, mut failure, mut seen) = (false, None, vec![]);
         for operand in operands {
-            if method == Conjunction::LeftToRight && any {
-                break;
-            }
-            match self.truth(operand) {
-                Ok(truth) => any |= truth,
-                Err(error) if method != Conjunction::Guarded || error.is_limit() => {
-                    return Err(error);
-                }
-                Err(error) => {
-                    self.spend_on(&error)?;
-                    failure.get_or_insert(error);
-                }
-            }
-        }
-        failure.filter(|_| !any).map_or(Ok(any), Err)
-    }
-
-    /// Returns whether an `∧` is true, by the worksheet's method of evaluating it.
-    fn all(&mut self, operands: &[Expr], span: &Span) -> Fallible<bool> {
-        let method = self.settings.conjunction;
-        let (mut all, mut failure, mut seen) = (true, None, vec![]);
-        for operand in operands {
-            if method == Conjunction::LeftToRight && !all {
+            if method == Conjunction::LeftToRight && decided {
                 break;
             }
             let truth = match self.truth(operand) {
@@ -365,18 +345,23 @@ impl<O: Observer> Run<'_, '_, O> {
                     None
                 }
             };
-            all &= truth != Some(false);
+            decided |= truth == Some(decisive);
             if O::ACTIVE {
                 seen.push(truth);
             }
         }
-        if O::ACTIVE {
-            self.tell_conjunction(operands, &seen, span);
+        if O::ACTIVE
+            && let Some(span) = span
+        {
+            self.report_conjunction(operands, &seen, span);
         }
-        failure.filter(|_| all).map_or(Ok(all), Err)
+        match failure {
+            Some(failure) if !decided => Err(failure),
+            _ => Ok(truth_value(decided == decisive)),
+        }
     }
 
-    fn tell_conjunction(&mut self, operands: &[Expr], seen: &[Option<bool>], span: &Span) {
+    fn report_conjunction(&mut self, operands: &[Expr], seen: &[Option<bool>], span: &Span) {
         let seen = seen.iter().copied().chain(std::iter::repeat(None));
         let operand = |(x, held): (&Expr, _)| Operand { text: self.place(&x.span).text, held };
         let operands: Vec<_> = operands.iter().zip(seen).map(operand).collect();

@@ -1,130 +1,344 @@
 //! The functions that a listing may call: some of Mathcad's own, those of its worksheet, and those
 //! that the caller defines.
 
+use super::arithmetic::{finite, fold, identity, kind, map, sum};
+use super::failure::Cause;
+use super::matrices;
 use super::sheet::{Defined, Sheet};
-use super::value::Value;
+use super::value::{Array, Value};
 use super::x87;
+use numbers::scalar::Scalar;
 
 pub enum Function<'l> {
-    /// `identity(n)`, the n x n matrix.
-    Identity,
-    /// `rows(v)`, a whole number; 0 for what is no array.
-    Rows,
-    /// `cols(v)`, a whole number; 0 for what is no array.
-    Cols,
-    /// `length(v)`, the number of entries of a column.
-    Length,
-    /// `last(v)`, the subscript of the last entry of a column.
-    Last,
-    /// `mean(x, y, ...)`, of all the numbers of all arguments.
-    Mean,
-    /// `sort(v)`, a column in ascending order.
-    Sort,
-    /// `round(x)`, or `round(x, n)` to n decimal places.
-    Round,
-    /// `min(x, y, ...)`, of all the numbers of all arguments.
-    Min,
-    /// `max(x, y, ...)`, of all the numbers of all arguments.
-    Max,
-    /// `trace(x, y, ...)`: a line of output, which is also its value.
-    Trace,
-    /// `augment(x, y, ...)`, arrays side by side.
-    Augment,
-    /// `stack(x, y, ...)`, arrays one below the other.
-    Stack,
-    /// `submatrix(x, row, last row, column, last column)`.
-    Submatrix,
-    /// `lsolve(m, v)`, the solution of m·x = v.
-    Lsolve,
-    /// `determinant(m)`, which Mathcad writes as `|m|`.
-    Determinant,
-    /// `∑(v)`, the sum of a column, and the sum over a range.
-    Sum,
-    /// `∏`, the product over a range.
-    Product,
-    /// `√(x)`, or `√(n, x)`, the n-th root.
-    Root,
-    /// `log(x)` to the base of 10, or `log(x, b)`.
-    Log,
-    /// `mod(x, y)`, the remainder, with the sign of x.
-    Mod,
-    /// `factorial(n)`.
-    Factorial,
-    /// A function of one number, or of each number of an array.
-    Elementary(Elementary),
+    Builtin(&'static Builtin),
     /// A function of the worksheet.
     Program(Defined),
     Outside(Outside<'l>),
 }
 
-/// A function of one number.
-pub type Elementary = fn(f64) -> f64;
-
 /// A function from outside: it returns its value, or why there is none.
 pub type Outside<'l> = Box<dyn FnMut(&[Value]) -> Result<Value, String> + 'l>;
 
-/// The functions of one number, also of each number of an array. Their last bit need not be
-/// Mathcad's.
-const ELEMENTARY: [(&str, Elementary); 20] = [
-    ("sin", x87::sin),
-    ("cos", x87::cos),
-    ("tan", x87::tan),
-    ("cot", |x| 1.0 / x87::tan(x)),
-    ("sec", |x| 1.0 / x87::cos(x)),
-    ("csc", |x| 1.0 / x87::sin(x)),
-    ("asin", f64::asin),
-    ("acos", f64::acos),
-    ("atan", f64::atan),
-    ("sinh", f64::sinh),
-    ("cosh", f64::cosh),
-    ("tanh", f64::tanh),
-    ("asinh", f64::asinh),
-    ("acosh", f64::acosh),
-    ("atanh", f64::atanh),
-    ("exp", f64::exp),
-    ("ln", f64::ln),
-    ("floor", f64::floor),
-    ("ceil", f64::ceil),
-    ("trunc", f64::trunc),
-];
+/// One of Mathcad's own functions.
+pub struct Builtin {
+    pub name: &'static str,
+    /// Returns what a call costs: the numbers that it may store, and its steps.
+    pub cost: fn(&[Value]) -> (usize, u64),
+    pub meaning: Meaning,
+}
+
+/// What a function makes of its arguments.
+pub enum Meaning {
+    /// A number of a number, and of an array each number's. Its last bit need not be Mathcad's.
+    Elementary(fn(f64) -> f64),
+    /// A number of its arguments, which are numbers, and of its own name for messages.
+    Numbers(fn(&[Value], &'static str) -> Result<f64, Cause>),
+    /// A value of its arguments.
+    Values(fn(&[Value]) -> Result<Value, Cause>),
+    /// A value of its arguments and `ORIGIN`.
+    Subscripts(fn(&[Value], i32) -> Result<Value, Cause>),
+    /// `trace(x, y, ...)`: a line of output, which is also its value.
+    Trace,
+}
+
+/// The steps that a function of a number takes, such as a sine or a power.
+pub const FUNCTION: u64 = 8;
+
+/// All built-in functions, each of which is known by this table alone.
+static BUILTINS: [Builtin; 42] = {
+    use Meaning::*;
+    const fn row(
+        name: &'static str,
+        cost: fn(&[Value]) -> (usize, u64),
+        meaning: Meaning,
+    ) -> Builtin {
+        Builtin { name, cost, meaning }
+    }
+    const fn elementary(name: &'static str, function: fn(f64) -> f64) -> Builtin {
+        row(name, |x| (size(x), (1 + FUNCTION) * size(x) as u64), Elementary(function))
+    }
+    [
+        elementary("sin", x87::sin),
+        elementary("cos", x87::cos),
+        elementary("tan", x87::tan),
+        elementary("cot", |x| 1.0 / x87::tan(x)),
+        elementary("sec", |x| 1.0 / x87::cos(x)),
+        elementary("csc", |x| 1.0 / x87::sin(x)),
+        elementary("asin", f64::asin),
+        elementary("acos", f64::acos),
+        elementary("atan", f64::atan),
+        elementary("sinh", f64::sinh),
+        elementary("cosh", f64::cosh),
+        elementary("tanh", f64::tanh),
+        elementary("asinh", f64::asinh),
+        elementary("acosh", f64::acosh),
+        elementary("atanh", f64::atanh),
+        elementary("exp", f64::exp),
+        elementary("ln", f64::ln),
+        elementary("floor", f64::floor),
+        elementary("ceil", f64::ceil),
+        elementary("trunc", f64::trunc),
+        // √(x), or √(n, x), the n-th root.
+        row("√", free, Numbers(root)),
+        // log(x) to the base of 10, or log(x, b).
+        row("log", free, Numbers(log)),
+        // mod(x, y), the remainder, with the sign of x.
+        row("mod", free, Numbers(|xy, name| numbers(xy).and_then(|[x, y]| real(x % y, y, name)))),
+        // So many products, at most.
+        row("factorial", |_| (0, 50), Numbers(factorial)),
+        // identity(n), the n x n matrix.
+        row("identity", square, Values(|n| one(n).and_then(whole).map(identity))),
+        // The numbers of rows and of columns; 0 for what is no array.
+        row("rows", free, Values(|v| one(v).map(|v| extent(v).0.into()))),
+        row("cols", free, Values(|v| one(v).map(|v| extent(v).1.into()))),
+        row("length", free, Values(|v| one(v).map(|v| extent(v).0.into()))),
+        // The subscript of the last entry of a column.
+        row("last", free, Subscripts(last)),
+        // Of all the numbers of all arguments.
+        row("mean", read, Values(mean)),
+        row("min", read, Values(|xs| fold(xs, <f64 as Scalar>::min))),
+        row("max", read, Values(|xs| fold(xs, <f64 as Scalar>::max))),
+        // A column in ascending order.
+        row("sort", sorting, Values(sort)),
+        // round(x), or round(x, n) to n decimal places.
+        row("round", copied, Values(round)),
+        // Arrays side by side, or one below the other.
+        row("augment", copied, Values(|arrays| matrices::join(arrays, false))),
+        row("stack", copied, Values(|arrays| matrices::join(arrays, true))),
+        // submatrix(x, row, last row, column, last column).
+        row("submatrix", copied, Subscripts(submatrix)),
+        // lsolve(m, v), the solution of m·x = v.
+        row("lsolve", eliminated, Values(|mv| two(mv).and_then(|(m, v)| matrices::lsolve(m, v)))),
+        row("determinant", eliminated, Values(|m| one(m).and_then(matrices::determinant))),
+        // Of a column; over a range they are series.
+        row("∑", copied, Values(|v| one(v).and_then(total))),
+        row("∏", copied, Values(|_| Err(only_a_series()))),
+        row("trace", written, Trace),
+    ]
+};
 
 impl Function<'_> {
     /// Returns the function that a name stands for: the worksheet's, or else Mathcad's own.
     pub fn named(sheet: Option<&Sheet>, name: &str) -> Option<Self> {
         let defined = sheet.and_then(|sheet| sheet.defined(name));
-        defined
-            .map(|defined| Function::Program(defined.clone()))
-            .or_else(|| Function::builtin(name))
+        defined.cloned().map(Function::Program).or_else(|| Function::builtin(name))
     }
 
     pub fn builtin(name: &str) -> Option<Self> {
-        Some(match name {
-            "identity" => Function::Identity,
-            "rows" => Function::Rows,
-            "cols" => Function::Cols,
-            "length" => Function::Length,
-            "last" => Function::Last,
-            "mean" => Function::Mean,
-            "sort" => Function::Sort,
-            "round" => Function::Round,
-            "min" => Function::Min,
-            "max" => Function::Max,
-            "trace" => Function::Trace,
-            "augment" => Function::Augment,
-            "stack" => Function::Stack,
-            "submatrix" => Function::Submatrix,
-            "lsolve" => Function::Lsolve,
-            "determinant" => Function::Determinant,
-            "∑" => Function::Sum,
-            "∏" => Function::Product,
-            "√" => Function::Root,
-            "log" => Function::Log,
-            "mod" => Function::Mod,
-            "factorial" => Function::Factorial,
-            name => {
-                let (_, function) = ELEMENTARY.into_iter().find(|(known, _)| *known == name)?;
-                Function::Elementary(function)
-            }
-        })
+        BUILTINS.iter().find(|builtin| builtin.name == name).map(Function::Builtin)
     }
+}
+
+fn free(_: &[Value]) -> (usize, u64) {
+    (0, 0)
+}
+
+fn read(arguments: &[Value]) -> (usize, u64) {
+    (0, size(arguments) as u64)
+}
+
+/// Each number is read and written.
+fn copied(arguments: &[Value]) -> (usize, u64) {
+    (size(arguments), 2 * size(arguments) as u64)
+}
+
+fn square(arguments: &[Value]) -> (usize, u64) {
+    let n = one(arguments).and_then(whole).unwrap_or(0);
+    (n.saturating_mul(n), n.saturating_mul(n) as u64)
+}
+
+/// A comparison for each halving.
+fn sorting(arguments: &[Value]) -> (usize, u64) {
+    let size = size(arguments);
+    (size, (size as u64).saturating_mul(1 + u64::from(size.max(1).ilog2())))
+}
+
+fn eliminated(arguments: &[Value]) -> (usize, u64) {
+    let (numbers, steps) = copied(arguments);
+    let matrix = arguments.first().filter(|matrix| matches!(matrix, Value::Array(_)));
+    (numbers, steps.saturating_add(matrix.map_or(0, matrices::steps)))
+}
+
+/// The line is kept twice, as output and as a value; a number takes eight bytes.
+fn written(arguments: &[Value]) -> (usize, u64) {
+    let characters = arguments.iter().map(characters).fold(0, usize::saturating_add);
+    let numbers = characters.saturating_mul(2).div_ceil(8);
+    (numbers, numbers.saturating_add(characters) as u64)
+}
+
+/// Returns the characters that a value is written in, or more.
+fn characters(value: &Value) -> usize {
+    // All 17 digits and as many zeros as the exponent asks for.
+    let of_number = |x: f64| 24 + Scalar::abs(x).max(f64::MIN_POSITIVE).log10().abs() as usize;
+    match value {
+        Value::Array(array) => array.entries().iter().map(|x| of_number(*x)).sum(),
+        Value::Number(x) => of_number(*x),
+        Value::Nested(_) | Value::Text(_) => 8 * value.count(),
+    }
+}
+
+fn size(values: &[Value]) -> usize {
+    values.iter().map(Value::count).sum()
+}
+
+fn one(arguments: &[Value]) -> Result<&Value, Cause> {
+    match arguments {
+        [argument] => Ok(argument),
+        _ => Err(Cause::Arguments { expected: 1, found: arguments.len() }),
+    }
+}
+
+fn whole(value: &Value) -> Result<usize, Cause> {
+    match value {
+        Value::Number(n) if *n >= 0.0 && n.fract() == 0.0 => Ok(*n as usize),
+        _ => Err(kind("a whole number", value)),
+    }
+}
+
+fn two(arguments: &[Value]) -> Result<(&Value, &Value), Cause> {
+    match arguments {
+        [x, y] => Ok((x, y)),
+        _ => Err(Cause::Arguments { expected: 2, found: arguments.len() }),
+    }
+}
+
+/// Returns the arguments, which must be numbers.
+fn numbers<const N: usize>(arguments: &[Value]) -> Result<[f64; N], Cause> {
+    if arguments.len() != N {
+        return Err(Cause::Arguments { expected: N, found: arguments.len() });
+    }
+    let mut numbers = [0.0; N];
+    for (number, argument) in numbers.iter_mut().zip(arguments) {
+        *number = argument.number().ok_or_else(|| kind("a number", argument))?;
+    }
+    Ok(numbers)
+}
+
+/// Returns a function's value of a number, or of each number of an array.
+pub fn each(
+    arguments: &[Value],
+    function: impl Fn(f64) -> Result<f64, Cause>,
+) -> Result<Value, Cause> {
+    match one(arguments)? {
+        Value::Number(x) => function(*x).map(Value::Number),
+        Value::Array(array) => map(array.clone(), function),
+        other => Err(kind("a number or an array of numbers", other)),
+    }
+}
+
+/// Returns a function's result, if it is a number that is real.
+pub fn real(result: f64, argument: f64, name: &'static str) -> Result<f64, Cause> {
+    if result.is_nan() {
+        Err(Cause::Complex { name: name.into() })
+    } else if result.is_infinite() && name == "exp" {
+        Err(Cause::Overflow { result })
+    } else if result.is_infinite() {
+        Err(Cause::Domain { name: name.into(), argument })
+    } else {
+        Ok(result)
+    }
+}
+
+/// Returns the number of rows and columns: none of what is no array.
+fn extent(value: &Value) -> (usize, usize) {
+    match value {
+        Value::Array(_) | Value::Nested(_) => value.size(),
+        Value::Number(_) | Value::Text(_) => (0, 0),
+    }
+}
+
+/// Returns the subscript of a column's last entry.
+fn last(arguments: &[Value], origin: i32) -> Result<Value, Cause> {
+    let value = one(arguments)?;
+    match (value, value.size()) {
+        (Value::Array(_) | Value::Nested(_), (rows, 1)) if rows > 0 => {
+            Ok(Value::Number(f64::from(origin) + rows as f64 - 1.0))
+        }
+        _ => Err(kind("a column", value)),
+    }
+}
+
+/// Returns the mean of all numbers of all arguments, which are added one after another.
+fn mean(arguments: &[Value]) -> Result<Value, Cause> {
+    let total = fold(arguments, |sum, x| sum + x)?;
+    let mean = total.number().map(|total| total / size(arguments) as f64);
+    mean.map_or(Ok(total), |mean| finite(mean).map(Value::Number))
+}
+
+fn sort(arguments: &[Value]) -> Result<Value, Cause> {
+    let value = one(arguments)?;
+    match value {
+        Value::Array(column) if column.cols() == 1 => {
+            let mut entries = column.entries().to_vec();
+            entries.sort_by(f64::total_cmp);
+            Ok(Array::column(entries).into())
+        }
+        _ => Err(kind("a column of numbers", value)),
+    }
+}
+
+/// Rounds a number, or each number of an array, halves away from 0, to so many decimal places.
+fn round(arguments: &[Value]) -> Result<Value, Cause> {
+    let (x, places) = match arguments {
+        [_] => (arguments, 0.0),
+        _ => {
+            two(arguments)?;
+            let [places] = numbers(&arguments[1..])?;
+            (&arguments[..1], places)
+        }
+    };
+    let scale = 10_f64.powf(places);
+    each(x, |x| finite((x * scale).round() / scale))
+}
+
+fn root(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
+    if arguments.len() == 1 {
+        return numbers(arguments).and_then(|[x]| real(x.sqrt(), x, name));
+    }
+    let [n, x] = numbers(arguments)?;
+    let root = match x < 0.0 && n % 2.0 != 0.0 && n.fract() == 0.0 {
+        true => -(-x).powf(1.0 / n),
+        false => x.powf(1.0 / n),
+    };
+    // The nearest whole number, where it is the root.
+    let whole = root.round();
+    real(if whole.powf(n) == x { whole } else { root }, x, name)
+}
+
+fn log(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
+    if arguments.len() == 1 {
+        return numbers(arguments).and_then(|[x]| real(x.log10(), x, name));
+    }
+    let [x, base] = numbers(arguments)?;
+    let log = x.ln() / base.ln();
+    // The nearest whole number, where it is the logarithm.
+    let whole = log.round();
+    real(if base.powf(whole) == x { whole } else { log }, x, name)
+}
+
+fn factorial(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
+    let [n] = numbers(arguments)?;
+    if n < 0.0 || n.fract() != 0.0 {
+        return Err(Cause::Domain { name: name.into(), argument: n });
+    }
+    finite((1..=n.min(200.0) as u32).fold(1.0, |product, k| product * f64::from(k)))
+}
+
+fn submatrix(arguments: &[Value], origin: i32) -> Result<Value, Cause> {
+    let Some((array, places)) = arguments.split_first() else {
+        return Err(Cause::Arguments { expected: 5, found: 0 });
+    };
+    matrices::part(array, numbers(places)?, origin)
+}
+
+fn total(value: &Value) -> Result<Value, Cause> {
+    match value {
+        Value::Array(a) => finite(sum(a.entries().iter().copied())).map(Value::Number),
+        other => Err(kind("an array of numbers", other)),
+    }
+}
+
+fn only_a_series() -> Cause {
+    let message = "it multiplies over a range, as ∏(i ∈ 1 .. 3, v[i])".into();
+    Cause::Function { name: "∏".into(), message }
 }

@@ -14,9 +14,7 @@ use std::collections::HashMap;
 use std::fmt;
 use std::rc::Rc;
 
-use chumsky::span::SimpleSpan;
-
-use super::syntax::{Slot, Span};
+use super::syntax::{OPERATORS, Slot, Span};
 
 /// A word, number or sign of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,64 +31,56 @@ pub enum Token {
     ClosingBar,
     /// The space between two elements of a row.
     Gap,
+    /// Tokens of several kinds, in words; only where one is expected.
+    Words(&'static str),
 }
 
+/// Writes the token as messages name it.
 impl fmt::Display for Token {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Token::Number(x) => write!(f, "{x}"),
-            Token::Text(text) => write!(f, "\"{text}\""),
+            Token::Number(x) => write!(f, "`{x}`"),
+            Token::Text(text) => write!(f, "`\"{text}\"`"),
             Token::Name(_) | Token::Function(_) => f.write_str("a name"),
-            Token::Sign(sign) => f.write_str(sign),
-            Token::ClosingBar => f.write_str("|"),
+            Token::Sign(sign) => write!(f, "`{sign}`"),
+            Token::ClosingBar => f.write_str("`|`"),
             Token::Gap => f.write_str("the space between two elements"),
+            Token::Words(words) => f.write_str(words),
         }
     }
 }
 
-/// The signs, those of two characters first.
-const SIGNS: [&str; 34] = [
-    ":=", "..", "<-", "<=", ">=", "!=", "←", "∈", "∧", "∨", "¬", "≤", "≥", "≠", "<", ">", "=", "+",
-    "−", "-", "·", "*", "/", "^", "ᵀ", "|", ",", ";", "(", ")", "[", "]", "⟨", "⟩",
-];
+/// The signs that are no operators.
+const SIGNS: [&str; 16] =
+    [":=", "..", "<-", "←", "∈", "^", "ᵀ", "|", ",", ";", "(", ")", "[", "]", "⟨", "⟩"];
 
 /// The words that no name can be.
-pub const KEYWORDS: [&str; 13] = [
-    "for",
-    "while",
-    "if",
-    "otherwise",
-    "try",
-    "return",
-    "break",
-    "continue",
-    "in",
-    "and",
-    "or",
-    "not",
-    "transpose",
-];
+const KEYWORDS: &str = "for while if otherwise try return break continue in and or not transpose";
 
-/// Signs and words as they are typed in ASCII, and what each stands for. `<-` stays what it is: the
-/// grammar knows where it assigns.
-const TYPED: [(&str, &str); 9] = [
-    ("-", "−"),
-    ("*", "·"),
-    ("<=", "≤"),
-    (">=", "≥"),
-    ("!=", "≠"),
-    ("in", "∈"),
-    ("and", "∧"),
-    ("or", "∨"),
-    ("not", "¬"),
-];
+/// Returns the keyword that a word is.
+pub fn keyword(word: &str) -> Option<&'static str> {
+    KEYWORDS.split(' ').find(|keyword| *keyword == word)
+}
 
 /// What `<` and a minus sign behind it may mean.
 pub const ARROW: &str = "`<` and `-` without brackets, which may mean two things: write `x <- 1` to \
                          assign 1, or `x < (-1)` to compare with -1";
 
-fn typed(sign: &'static str) -> &'static str {
-    TYPED.into_iter().find(|(ascii, _)| *ascii == sign).map_or(sign, |(_, meant)| meant)
+/// Returns the sign that a sign or keyword stands for as typed in ASCII, or else itself. `<-` stays
+/// what it is: the grammar knows where it assigns.
+fn printed(typed: &'static str) -> &'static str {
+    match OPERATORS.iter().find(|row| row.typed == typed) {
+        Some(row) => row.sign,
+        None if typed == "in" => "∈",
+        None => typed,
+    }
+}
+
+/// Returns the longest sign at the start of a text.
+fn sign(text: &str) -> Option<&'static str> {
+    let operators = OPERATORS.iter().flat_map(|row| [row.sign, row.typed]);
+    let signs = operators.chain(SIGNS).filter(|sign| !sign.starts_with(char::is_alphabetic));
+    signs.filter(|sign| text.starts_with(sign)).max_by_key(|sign| sign.len())
 }
 
 /// The names of a listing in the order of their first appearance.
@@ -130,7 +120,7 @@ impl Names {
 }
 
 /// A token and where it stands in its line, in bytes.
-pub type Spanned = (Token, SimpleSpan);
+pub type Spanned = (Token, Span);
 
 /// A place in a line, in bytes, and what is wrong there.
 pub type Complaint = (usize, String);
@@ -165,31 +155,31 @@ impl Lexer<'_> {
     /// Returns the token at `at`, and its length in bytes.
     fn token(&mut self, at: usize) -> Result<(Token, usize), Complaint> {
         let rest = &self.text[at..];
-        if let Some(sign) = SIGNS.into_iter().find(|sign| rest.starts_with(sign)) {
+        if let Some(sign) = sign(rest) {
             let behind_less = matches!(self.found.last(), Some((Token::Sign("<"), _)));
             if sign == "-" && behind_less {
                 return Err((at, format!("found {ARROW}")));
             }
-            return Ok((Token::Sign(typed(sign)), sign.len()));
+            return Ok((Token::Sign(printed(sign)), sign.len()));
         }
         match rest.chars().next() {
             Some('"') => text(rest).map_err(|message| (at, message)),
             Some(c) if c.is_ascii_digit() => number(rest).map_err(|message| (at, message)),
             Some(c) if is_letter(c) => Ok(self.name(rest)),
-            _ => Err((
-                at,
-                format!("found {:?}, which is no part of the notation", &rest[..first(rest)]),
-            )),
+            c => {
+                let found = c.map(String::from).unwrap_or_default();
+                Err((at, format!("found {found:?}, which is no part of the notation")))
+            }
         }
     }
 
     fn name(&mut self, rest: &str) -> (Token, usize) {
         let length = name_length(rest);
-        let keyword = KEYWORDS.into_iter().find(|word| *word == &rest[..length]);
-        let token = match &rest[..length] {
-            _ if keyword.is_some() => Token::Sign(typed(keyword.unwrap_or_default())),
-            name if rest[length..].starts_with('(') => Token::Function(self.names.intern(name)),
-            name => Token::Name(self.names.intern(name)),
+        let name = &rest[..length];
+        let token = match keyword(name) {
+            Some(keyword) => Token::Sign(printed(keyword)),
+            None if rest[length..].starts_with('(') => Token::Function(self.names.intern(name)),
+            None => Token::Name(self.names.intern(name)),
         };
         (token, length)
     }
@@ -204,7 +194,7 @@ impl Lexer<'_> {
     /// Adds the token, and a gap before it where there is one, and opens or closes a bracket.
     fn push(&mut self, token: Token, span: Span, spaces: usize) -> Result<(), Complaint> {
         if self.gap(&token, spaces) {
-            self.found.push((Token::Gap, (span.start - spaces..span.start).into()));
+            self.found.push((Token::Gap, span.start - spaces..span.start));
         }
         match token {
             Token::Sign(bracket @ ("(" | "[" | "⟨" | "|")) => self.open.push(bracket),
@@ -214,7 +204,7 @@ impl Lexer<'_> {
         if self.open.len() > self.depth {
             return Err((span.start, format!("found brackets more than {} deep", self.depth)));
         }
-        self.found.push((token, span.into()));
+        self.found.push((token, span));
         Ok(())
     }
 
@@ -244,10 +234,6 @@ pub fn name_length(rest: &str) -> usize {
 /// The roots, sums and products are functions with names of one sign.
 fn is_letter(c: char) -> bool {
     (c.is_alphabetic() || matches!(c, '_' | '√' | '∑' | '∏')) && c != 'ᵀ'
-}
-
-fn first(text: &str) -> usize {
-    text.chars().next().map_or(0, char::len_utf8)
 }
 
 fn number(rest: &str) -> Result<(Token, usize), String> {

@@ -1,328 +1,437 @@
-//! The grammar of one line.
+//! The grammar of one line, read by descent with one token of foresight.
 //!
 //! From the loosest to the tightest: `∨`, `∧`, `¬`, comparisons, `+ −`, `· /`, the sign `−x`,
 //! one power, and behind an operand `xᵀ`, `x[i]`, `x⟨j⟩`. Operators of one level group from the
 //! left, but for a chain of comparisons, `a < b < c`, which is `a < b ∧ b < c`.
 //!
-//! No alternative reads a bracket a second time: nested ones would take twice as long a level.
+//! The lexer bounds how deep brackets stand, and with it how deep the descent goes.
 
 use std::collections::BTreeSet;
 
-use chumsky::error::{RichPattern, RichReason};
-use chumsky::input::MappedInput;
-use chumsky::pratt::{infix, left};
-use chumsky::prelude::*;
-
 use super::lexer::{ARROW, Complaint, Spanned, Token};
-use super::syntax::{Comparison, Expr, Kind, Operation, Range, Reference, Slot, Statement, Step};
+use super::syntax::{
+    Expr, Kind, Level, OPERATORS, Operator, Range, Reference, Slot, Span, Statement, Step,
+};
 
-type Tokens<'t> = MappedInput<'t, Token, SimpleSpan, &'t [Spanned]>;
-type Extra<'t> = extra::Err<Rich<'t, Token>>;
-type Grammar<'t, T> = Boxed<'t, 't, Tokens<'t>, T, Extra<'t>>;
+type Parsed<T> = Result<T, Complaint>;
 
 /// Reads the first line of a listing, `name(parameters) :=`, and returns the parameters.
-pub fn header(tokens: &[Spanned]) -> Result<Vec<Slot>, Complaint> {
-    parse(header_grammar(), tokens)
+///
+/// # Errors
+/// The first token that does not belong there, and what may stand there.
+pub fn header(tokens: &[Spanned]) -> Parsed<Vec<Slot>> {
+    let mut parser = Parser { tokens, next: 0, expected: vec![] };
+    parser.function()?;
+    let parameters = parser.in_brackets(Parser::name)?;
+    parser.need(":=")?;
+    parser.end()?;
+    Ok(parameters)
 }
 
 /// Reads a line of a program, `line` being its place in the listing from 0. Blocks below it are
 /// left empty; that of `x otherwise` is `x`.
-pub fn statement(tokens: &[Spanned], line: usize) -> Result<Statement, Complaint> {
-    Ok(Statement { line, step: parse(step_grammar(line), tokens)? })
+///
+/// # Errors
+/// The first token that does not belong there, and what may stand there.
+pub fn statement(tokens: &[Spanned], line: usize) -> Parsed<Statement> {
+    let mut parser = Parser { tokens, next: 0, expected: vec![] };
+    let step = parser.step(line)?;
+    parser.end()?;
+    Ok(Statement { line, step })
 }
 
-fn parse<'t, T>(grammar: Grammar<'t, T>, tokens: &'t [Spanned]) -> Result<T, Complaint> {
-    let end = tokens.last().map_or(0, |(_, span)| span.end);
-    let input = tokens.split_token_span((end..end).into());
-    grammar.parse(input).into_result().map_err(|errors| complaint(&errors))
+struct Parser<'t> {
+    tokens: &'t [Spanned],
+    /// The place of the next token.
+    next: usize,
+    /// What has been looked for, and at which place.
+    expected: Vec<(usize, Token)>,
 }
 
-fn complaint(errors: &[Rich<'_, Token>]) -> Complaint {
-    let error = &errors[0];
-    if error.found() == Some(&Token::Sign("<-")) {
-        return (error.span().start, format!("found {ARROW}"));
+impl<'t> Parser<'t> {
+    fn token(&self) -> Option<&'t Token> {
+        self.tokens.get(self.next).map(|(token, _)| token)
     }
-    if let RichReason::Custom(message) = error.reason() {
-        return (error.span().start, format!("found {message}"));
+
+    /// Returns where the next token starts, in bytes.
+    fn start(&self) -> usize {
+        let end = self.tokens.last().map_or(0, |(_, span)| span.end);
+        self.tokens.get(self.next).map_or(end, |(_, span)| span.start)
     }
-    let expected: BTreeSet<_> = error.expected().map(pattern).collect();
-    let expected = expected.into_iter().collect::<Vec<_>>().join(" or ");
-    (error.span().start, format!("found {}, expected {expected}", found(error.found())))
-}
 
-fn pattern(pattern: &RichPattern<'_, Token>) -> String {
-    match pattern {
-        RichPattern::Token(token) => found(Some(token)),
-        RichPattern::Label(label) => label.to_string(),
-        _ => found(None),
+    /// Returns the span from `start` to the end of the last token taken.
+    fn span(&self, start: usize) -> Span {
+        start..self.tokens[self.next - 1].1.end
     }
-}
 
-fn found(token: Option<&Token>) -> String {
-    match token {
-        Some(words @ (Token::Name(_) | Token::Function(_) | Token::Gap)) => words.to_string(),
-        Some(token) => format!("`{token}`"),
-        None => "the end of the line".into(),
+    fn expr(&self, kind: Kind, start: usize) -> Expr {
+        Expr { kind, span: self.span(start) }
     }
-}
 
-fn sign<'t>(text: &'static str) -> Grammar<'t, ()> {
-    just(Token::Sign(text)).ignored().boxed()
-}
+    fn expect(&mut self, token: Token) {
+        self.expected.push((self.next, token));
+    }
 
-fn name<'t>() -> Grammar<'t, Slot> {
-    select! { Token::Name(slot) => slot }.labelled("a name").boxed()
-}
+    /// Takes the next token if it is this one.
+    fn takes_token(&mut self, token: Token) -> bool {
+        let is_next = self.token() == Some(&token);
+        self.expect(token);
+        self.next += usize::from(is_next);
+        is_next
+    }
 
-fn function<'t>() -> Grammar<'t, Slot> {
-    select! { Token::Function(slot) => slot }.labelled("a function").boxed()
-}
+    /// Takes the next token if it is this sign or keyword.
+    fn takes(&mut self, sign: &'static str) -> bool {
+        self.takes_token(Token::Sign(sign))
+    }
 
-fn header_grammar<'t>() -> Grammar<'t, Vec<Slot>> {
-    let parameters = name().separated_by(sign(",")).collect().delimited_by(sign("("), sign(")"));
-    function().ignore_then(parameters).then_ignore(sign(":=")).boxed()
-}
+    fn need(&mut self, sign: &'static str) -> Parsed<()> {
+        if self.takes(sign) { Ok(()) } else { self.refuse() }
+    }
 
-fn step_grammar<'t>(line: usize) -> Grammar<'t, Step> {
-    let guard = sign("if").ignore_then(expression()).or_not().boxed();
-    let every = sign("for").ignore_then(name()).then_ignore(sign("∈")).then(range());
-    let every = every.then(guard.clone()).map(|((name, range), guard)| Step::For {
-        name,
-        range,
-        guard,
-        body: vec![],
-    });
-    let when =
-        sign("if").ignore_then(expression()).map(|condition| Step::If { condition, body: vec![] });
-    let while_ = sign("while").ignore_then(expression());
-    let while_ = while_.map(|condition| Step::While { condition, body: vec![] });
-    let otherwise = sign("otherwise").map(|()| Step::Otherwise { body: vec![] });
-    let attempt = sign("try").map(|()| Step::Try { body: vec![], fallback: vec![] });
-    let result = sign("return").ignore_then(expression()).then(guard.clone());
-    let result = result.map(|(value, guard)| Step::Return { value, guard });
-    let leave = sign("break").ignore_then(guard.clone()).map(|guard| Step::Break { guard });
-    let next = sign("continue").ignore_then(guard.clone()).map(|guard| Step::Continue { guard });
-    let arrow = select! { Token::Sign("←" | "<-" | ":=") => () }.labelled("`←`");
-    let assign = reference(expression()).then_ignore(arrow).then(expression()).then(guard.clone());
-    let assign = assign.map(|((target, value), guard)| Step::Assign { target, value, guard });
-    let evaluate = expression().then(guard).map(|(value, guard)| Step::Evaluate { value, guard });
-    let words = choice((while_, otherwise, attempt));
-    let alone = choice((result, leave, next, assign, evaluate)).then(sign("otherwise").or_not());
-    let alone = alone.try_map(move |(step, otherwise), span| match otherwise {
-        None => Ok(step),
-        Some(()) if step.condition().is_some() => {
-            Err(Rich::custom(span, "`if` and `otherwise` on one line"))
+    fn end(&self) -> Parsed<()> {
+        if self.token().is_none() { Ok(()) } else { self.refuse() }
+    }
+
+    /// Refuses the next token.
+    fn refuse<T>(&self) -> Parsed<T> {
+        if self.token() == Some(&Token::Sign("<-")) {
+            return Err((self.start(), format!("found {ARROW}")));
         }
-        Some(()) => Ok(Step::Otherwise { body: vec![Statement { line, step }] }),
-    });
-    choice((every, when, words, alone)).boxed()
-}
+        let expected = self.expected.iter().filter(|(place, _)| *place == self.next);
+        let expected: BTreeSet<String> = expected.map(|(_, token)| token.to_string()).collect();
+        let expected = expected.into_iter().collect::<Vec<_>>().join(" or ");
+        let found = self.token().map_or("the end of the line".into(), Token::to_string);
+        Err((self.start(), format!("found {found}, expected {expected}")))
+    }
 
-/// Reads `from .. to`, `from, second .. to`, or values one after another.
-fn range<'t>() -> Grammar<'t, Range> {
-    let values = expression().separated_by(sign(",")).at_least(1).collect::<Vec<_>>();
-    let end = sign("..").ignore_then(expression()).or_not();
-    let range = values.then(end).try_map(|(mut values, end), _| match (end, values.len()) {
-        (None, _) => Ok(Range::Over(values)),
-        (Some(to), 1 | 2) => {
-            let from = values.remove(0);
-            Ok(Range::Span { from, second: values.pop(), to })
-        }
-        (Some(to), _) => {
-            let span = values[0].span.start..to.span.end;
-            Err(Rich::custom(span.into(), "a range within a list"))
-        }
-    });
-    range.boxed()
-}
+    fn name(&mut self) -> Parsed<Slot> {
+        self.expect(Token::Words("a name"));
+        let Some(Token::Name(slot)) = self.token() else { return self.refuse() };
+        self.next += 1;
+        Ok(*slot)
+    }
 
-fn expression<'t>() -> Grammar<'t, Expr> {
-    let expression = recursive(|expression| {
-        let comparison = comparison(operand(expression.boxed()));
-        let opposite = sign("¬").repeated().count().then(comparison);
-        let opposite = opposite.map_with(|(times, x), e| {
-            (0..times).fold(x, |x, _| node(Kind::Not(Box::new(x)), e.span()))
-        });
-        let all = opposite.separated_by(sign("∧")).at_least(1).collect();
-        let all = all.map(|operands| joined(operands, Kind::All));
-        let any = all.separated_by(sign("∨")).at_least(1).collect();
-        any.map(|operands| joined(operands, Kind::Any))
-    });
-    expression.boxed()
-}
+    fn function(&mut self) -> Parsed<Slot> {
+        self.expect(Token::Words("a function"));
+        let Some(Token::Function(slot)) = self.token() else { return self.refuse() };
+        self.next += 1;
+        Ok(*slot)
+    }
 
-fn comparison<'t>(operand: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
-    let arithmetic = |operations: [Operation; 2]| {
-        let known = move |sign| operations.into_iter().find(|operation| operation.sign() == sign);
-        select! { Token::Sign(sign) if known(sign).is_some() => known(sign) }
-            .unwrapped()
-            .labelled("an operator")
-    };
-    let known = |sign| Comparison::ALL.into_iter().find(|comparison| comparison.sign() == sign);
-    let compare = select! { Token::Sign(sign) if known(sign).is_some() => known(sign) };
-    let compare = compare.unwrapped().labelled("a comparison");
-    let levels = (
-        infix(left(3), arithmetic([Operation::Multiply, Operation::Divide]), |l, o, r, _| {
-            calculation(o, l, r)
-        }),
-        infix(left(2), arithmetic([Operation::Add, Operation::Subtract]), |l, o, r, _| {
-            calculation(o, l, r)
-        }),
-    );
-    let sum = operand.pratt(levels).boxed();
-    let chain = sum.clone().then(compare.then(sum).repeated().collect::<Vec<_>>());
-    chain.map(|(first, rest)| chained(first, rest)).boxed()
-}
-
-fn operand<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
-    let tight = behind(atom(expression.clone()), expression);
-    let negative = |x: Grammar<'t, Expr>| {
-        let negative = sign("−").ignore_then(x.clone());
-        negative.map_with(|x, e| node(Kind::Negative(Box::new(x)), e.span())).or(x).boxed()
-    };
-    let power = tight.clone().then(sign("^").ignore_then(negative(tight)).or_not());
-    let power = power.map_with(|(x, exponent), e| match exponent {
-        Some(y) => node(Kind::Power(Box::new(x), Box::new(y)), e.span()),
-        None => x,
-    });
-    negative(power.boxed()).labelled("an operand").boxed()
-}
-
-/// What may stand behind an operand.
-enum Behind {
-    Transpose,
-    Subscripts(Vec<Expr>),
-    Column(Expr),
-}
-
-fn behind<'t>(atom: Grammar<'t, Expr>, expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
-    let subscripts = expression.clone().separated_by(sign(",")).at_least(1).at_most(2).collect();
-    let behind = choice((
-        sign("ᵀ").map(|()| Behind::Transpose),
-        subscripts.delimited_by(sign("["), sign("]")).map(Behind::Subscripts),
-        expression.delimited_by(sign("⟨"), sign("⟩")).map(Behind::Column),
-    ));
-    let whole = atom.foldl_with(behind.repeated(), |x, behind, e| {
-        let of = Box::new(x);
-        let kind = match behind {
-            Behind::Transpose => Kind::Transpose(of),
-            Behind::Subscripts(subscripts) if is_name(&of) => entry(*of, subscripts, e.span()),
-            Behind::Subscripts(subscripts) => Kind::Entry { of, subscripts },
-            Behind::Column(column) => Kind::Column(of, Box::new(column)),
+    fn step(&mut self, line: usize) -> Parsed<Step> {
+        let start = self.start();
+        let word = match self.token() {
+            Some(Token::Sign(word)) if !self.is_choice() => *word,
+            _ => "",
         };
-        node(kind, e.span())
-    });
-    whole.boxed()
-}
-
-fn is_name(expr: &Expr) -> bool {
-    matches!(&expr.kind, Kind::Read(reference) if reference.row.is_none())
-}
-
-/// Makes the entry of a name.
-fn entry(name: Expr, subscripts: Vec<Expr>, span: SimpleSpan) -> Kind {
-    let mut subscripts = subscripts.into_iter().map(Box::new);
-    let (row, col) = (subscripts.next(), subscripts.next());
-    match name.kind {
-        Kind::Read(reference) => {
-            Kind::Read(Reference { row, col, span: span.into_range(), ..reference })
+        self.next += 1;
+        let step = match word {
+            "for" => {
+                let name = self.name()?;
+                self.need("∈")?;
+                let range = self.range()?;
+                return Ok(Step::For { name, range, guard: self.guard()?, body: vec![] });
+            }
+            "while" => return Ok(Step::While { condition: self.expression()?, body: vec![] }),
+            "if" => return Ok(Step::If { condition: self.expression()?, body: vec![] }),
+            "otherwise" => return Ok(Step::Otherwise { body: vec![] }),
+            "try" => return Ok(Step::Try { body: vec![], fallback: vec![] }),
+            "return" => Step::Return { value: self.expression()?, guard: self.guard()? },
+            "break" => Step::Break { guard: self.guard()? },
+            "continue" => Step::Continue { guard: self.guard()? },
+            _ => {
+                self.next -= 1;
+                self.assignment()?
+            }
+        };
+        if !self.takes("otherwise") {
+            return Ok(step);
         }
-        other => other,
+        if step.condition().is_some() {
+            return Err((start, "found `if` and `otherwise` on one line".into()));
+        }
+        Ok(Step::Otherwise { body: vec![Statement { line, step }] })
     }
-}
 
-fn atom<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Expr> {
-    let plain = select! {
-        Token::Number(x) => Kind::Number(x),
-        Token::Text(text) => Kind::Text(text),
-    };
-    let range = name().then_ignore(sign("∈")).then(expression.clone()).then_ignore(sign(".."));
-    let series = range.then(expression.clone()).then_ignore(sign(",")).then(expression.clone());
-    let series = function().then(series.delimited_by(sign("("), sign(")")));
-    let series = series.map(|(function, (((name, from), to), term))| Kind::Series {
-        function,
-        name,
-        parts: Box::new([from, to, term]),
-    });
-    let arguments =
-        expression.clone().separated_by(sign(",")).collect().delimited_by(sign("("), sign(")"));
-    let call = function().then(arguments).map(|(name, arguments)| Kind::Call(name, arguments));
-    let parts = [(); 2].map(|()| sign(",").ignore_then(expression.clone()));
-    let [then, other] = parts;
-    let parts = expression.clone().then(then).then(other).delimited_by(sign("("), sign(")"));
-    let choice_of = sign("if").ignore_then(parts);
-    let choice_of = choice_of.map(|((condition, x), y)| Kind::If(Box::new([condition, x, y])));
-    let read = name().map_with(|name, e| {
-        let span = e.span().into_range();
-        Kind::Read(Reference { name, row: None, col: None, span })
-    });
-    let row = expression.clone().separated_by(just(Token::Gap)).at_least(1).collect::<Vec<_>>();
-    let rows = row.separated_by(sign(";")).at_least(1).collect::<Vec<_>>();
-    let rows = rows.delimited_by(sign("("), sign(")")).try_map(|rows, span| {
-        bracketed(rows).ok_or_else(|| Rich::custom(span, "rows of different lengths"))
-    });
-    let magnitude = expression
-        .delimited_by(sign("|"), just(Token::ClosingBar))
-        .map(|x| Kind::Magnitude(Box::new(x)));
-    let transpose = sign("transpose").ignore_then(rows.clone());
-    let transpose = transpose.map_with(|rows, e| match rows {
-        Kind::Group(x) => Kind::Transpose(x),
-        array => Kind::Transpose(Box::new(node(array, e.span()))),
-    });
-    choice((plain, series, call, choice_of, read, rows, magnitude, transpose))
-        .map_with(|kind, e| node(kind, e.span()))
-        .boxed()
-}
-
-fn reference<'t>(expression: Grammar<'t, Expr>) -> Grammar<'t, Reference> {
-    let column = sign(",").ignore_then(expression.clone()).or_not();
-    let subscripts = expression.then(column).delimited_by(sign("["), sign("]")).or_not();
-    let reference = name().then(subscripts).map_with(|(name, subscripts), e| {
-        let (row, col) =
-            subscripts.map_or((None, None), |(row, col)| (Some(Box::new(row)), col.map(Box::new)));
-        Reference { name, row, col, span: e.span().into_range() }
-    });
-    reference.boxed()
-}
-
-fn node(kind: Kind, span: SimpleSpan) -> Expr {
-    Expr { kind, span: span.into_range() }
-}
-
-fn calculation(operation: Operation, l: Expr, r: Expr) -> Expr {
-    let span = l.span.start..r.span.end;
-    Expr { kind: Kind::Arithmetic(operation, Box::new(l), Box::new(r)), span }
-}
-
-/// Compares each operand with the next; one alone is itself.
-fn chained(first: Expr, mut rest: Vec<(Comparison, Expr)>) -> Expr {
-    let Some((_, last)) = rest.last() else { return first };
-    let (span, first) = (first.span.start..last.span.end, Box::new(first));
-    let kind = if rest.len() == 1 {
-        let (comparison, second) = rest.remove(0);
-        Kind::Compare(comparison, first, Box::new(second))
-    } else {
-        Kind::Chain(first, rest)
-    };
-    Expr { kind, span }
-}
-
-/// Joins operands, at least one; one alone is itself.
-fn joined(mut operands: Vec<Expr>, by: fn(Vec<Expr>) -> Kind) -> Expr {
-    if operands.len() == 1 {
-        return operands.remove(0);
+    /// Reads an assignment, or a value alone.
+    fn assignment(&mut self) -> Parsed<Step> {
+        let value = self.expression()?;
+        if let Kind::Read(target) = &value.kind {
+            self.expect(Token::Sign("←"));
+            if let Some(Token::Sign("←" | "<-" | ":=")) = self.token() {
+                self.next += 1;
+                let (target, value) = (target.clone(), self.expression()?);
+                return Ok(Step::Assign { target, value, guard: self.guard()? });
+            }
+        }
+        Ok(Step::Evaluate { value, guard: self.guard()? })
     }
-    let span = operands[0].span.start..operands[operands.len() - 1].span.end;
-    Expr { kind: by(operands), span }
-}
 
-/// Makes what stands between round brackets: one expression is that expression, several are an
-/// array, if its rows are of one length.
-fn bracketed(mut rows: Vec<Vec<Expr>>) -> Option<Kind> {
-    let cols = rows[0].len();
-    if rows.len() == 1 && cols == 1 {
-        return Some(Kind::Group(Box::new(rows.remove(0).remove(0))));
+    fn guard(&mut self) -> Parsed<Option<Expr>> {
+        if self.takes("if") { self.expression().map(Some) } else { Ok(None) }
     }
-    let even = rows.iter().all(|row| row.len() == cols);
-    even.then(|| Kind::Array { entries: rows.into_iter().flatten().collect(), cols })
+
+    /// Returns whether the function `if` comes next: the brackets behind it have a comma.
+    fn is_choice(&self) -> bool {
+        let mut depth = 0;
+        let behind = self.tokens[self.next..].iter().skip(1).map(|(token, _)| {
+            match token {
+                Token::Sign("(" | "[" | "⟨") => depth += 1,
+                Token::Sign(")" | "]" | "⟩") => depth -= 1,
+                _ => {}
+            }
+            (token, depth)
+        });
+        let mut inside = behind.take_while(|(_, depth)| *depth > 0);
+        self.token() == Some(&Token::Sign("if")) && inside.any(|at| at == (&Token::Sign(","), 1))
+    }
+
+    /// Reads `from .. to`, `from, second .. to`, or values one after another.
+    fn range(&mut self) -> Parsed<Range> {
+        let start = self.start();
+        let mut values = self.list(Self::expression)?;
+        if !self.takes("..") {
+            return Ok(Range::Over(values));
+        }
+        let to = self.expression()?;
+        if values.len() > 2 {
+            return Err((start, "found a range within a list".into()));
+        }
+        let from = values.remove(0);
+        Ok(Range::Span { from, second: values.pop(), to })
+    }
+
+    /// Reads items, at least one, with commas between them.
+    fn list<T>(&mut self, item: fn(&mut Self) -> Parsed<T>) -> Parsed<Vec<T>> {
+        let mut list = vec![item(self)?];
+        while self.takes(",") {
+            list.push(item(self)?);
+        }
+        Ok(list)
+    }
+
+    /// Reads round brackets with items between commas, or with nothing.
+    fn in_brackets<T>(&mut self, item: fn(&mut Self) -> Parsed<T>) -> Parsed<Vec<T>> {
+        self.need("(")?;
+        if self.takes(")") {
+            return Ok(vec![]);
+        }
+        let list = self.list(item)?;
+        self.need(")")?;
+        Ok(list)
+    }
+
+    fn expression(&mut self) -> Parsed<Expr> {
+        self.joined("∨", Kind::Any, |parser| parser.joined("∧", Kind::All, Self::not))
+    }
+
+    /// Reads operands with a sign between them; one alone is itself.
+    fn joined(
+        &mut self,
+        sign: &'static str,
+        kind: fn(Vec<Expr>) -> Kind,
+        operand: fn(&mut Self) -> Parsed<Expr>,
+    ) -> Parsed<Expr> {
+        let start = self.start();
+        let mut operands = vec![operand(self)?];
+        while self.takes(sign) {
+            operands.push(operand(self)?);
+        }
+        if operands.len() == 1 {
+            Ok(operands.remove(0))
+        } else {
+            Ok(self.expr(kind(operands), start))
+        }
+    }
+
+    fn not(&mut self) -> Parsed<Expr> {
+        let (start, first) = (self.start(), self.next);
+        while self.takes("¬") {}
+        let signs = self.next - first;
+        let value = self.comparison()?;
+        Ok((0..signs).fold(value, |value, _| self.expr(Kind::Not(value.into()), start)))
+    }
+
+    fn comparison(&mut self) -> Parsed<Expr> {
+        let start = self.start();
+        let first = self.calculation(Level::Sum)?;
+        let mut rest = vec![];
+        while let Some(Operator::Compare(comparison)) = self.operator(Level::Comparison) {
+            rest.push((comparison, self.calculation(Level::Sum)?));
+        }
+        let kind = match rest.len() {
+            0 => return Ok(first),
+            1 => {
+                let (comparison, second) = rest.remove(0);
+                Kind::Compare(comparison, first.into(), second.into())
+            }
+            _ => Kind::Chain(first.into(), rest),
+        };
+        Ok(self.expr(kind, start))
+    }
+
+    /// Reads a sum, or a product.
+    fn calculation(&mut self, level: Level) -> Parsed<Expr> {
+        let tighter = |parser: &mut Self| {
+            if level == Level::Sum { parser.calculation(Level::Product) } else { parser.operand() }
+        };
+        let start = self.start();
+        let mut value = tighter(self)?;
+        while let Some(Operator::Calculate(operation)) = self.operator(level) {
+            let kind = Kind::Arithmetic(operation, value.into(), tighter(self)?.into());
+            value = self.expr(kind, start);
+        }
+        Ok(value)
+    }
+
+    /// Takes an operator of a level, if one comes next.
+    fn operator(&mut self, level: Level) -> Option<Operator> {
+        let compares = level == Level::Comparison;
+        self.expect(Token::Words(if compares { "a comparison" } else { "an operator" }));
+        let is_next = |sign| self.token() == Some(&Token::Sign(sign));
+        let found = OPERATORS.iter().find(|row| row.level == level && is_next(row.sign))?;
+        self.next += 1;
+        Some(found.operator)
+    }
+
+    /// Reads a power, or its opposite.
+    fn operand(&mut self) -> Parsed<Expr> {
+        self.signed(|parser| {
+            let start = parser.start();
+            let base = parser.tight()?;
+            if !parser.takes("^") {
+                return Ok(base);
+            }
+            let exponent = parser.signed(Self::tight)?;
+            Ok(parser.expr(Kind::Power(base.into(), exponent.into()), start))
+        })
+    }
+
+    /// Reads a value, or its opposite.
+    fn signed(&mut self, value: fn(&mut Self) -> Parsed<Expr>) -> Parsed<Expr> {
+        let start = self.start();
+        if self.token() != Some(&Token::Sign("−")) {
+            return value(self);
+        }
+        self.next += 1;
+        let value = value(self)?;
+        Ok(self.expr(Kind::Negative(value.into()), start))
+    }
+
+    /// Reads an atom and what stands behind it: transposes, subscripts and columns.
+    fn tight(&mut self) -> Parsed<Expr> {
+        let start = self.start();
+        let mut value = self.atom()?;
+        loop {
+            let kind = if self.takes("ᵀ") {
+                Kind::Transpose(value.into())
+            } else if self.takes("[") {
+                self.entry(value, start)?
+            } else if self.takes("⟨") {
+                let column = self.expression()?;
+                self.need("⟩")?;
+                Kind::Column(value.into(), column.into())
+            } else {
+                return Ok(value);
+            };
+            value = self.expr(kind, start);
+        }
+    }
+
+    /// Reads one subscript or two, and the bracket behind them.
+    fn entry(&mut self, value: Expr, start: usize) -> Parsed<Kind> {
+        let row = self.expression()?;
+        let col = if self.takes(",") { Some(self.expression()?) } else { None };
+        self.need("]")?;
+        if let Kind::Read(Reference { name, row: None, .. }) = value.kind {
+            let (row, col) = (Some(row.into()), col.map(Box::new));
+            return Ok(Kind::Read(Reference { name, row, col, span: self.span(start) }));
+        }
+        let subscripts = [row].into_iter().chain(col).collect();
+        Ok(Kind::Entry { of: value.into(), subscripts })
+    }
+
+    fn atom(&mut self) -> Parsed<Expr> {
+        let (start, token) = (self.start(), self.token());
+        self.expect(Token::Words("an operand"));
+        self.next += 1;
+        let kind = match token {
+            Some(Token::Number(x)) => Kind::Number(*x),
+            Some(Token::Text(text)) => Kind::Text(text.clone()),
+            Some(Token::Name(name)) => {
+                let span = self.span(start);
+                Kind::Read(Reference { name: *name, row: None, col: None, span })
+            }
+            Some(Token::Function(function)) => self.call(*function)?,
+            Some(Token::Sign("if")) => match self.in_brackets(Self::expression)?.try_into() {
+                Ok(parts) => Kind::If(Box::new(parts)),
+                Err(_) => return Err((start, "found `if` without three arguments".into())),
+            },
+            Some(Token::Sign("transpose")) => {
+                let start = self.start();
+                self.need("(")?;
+                match self.rows()? {
+                    Kind::Group(inside) => Kind::Transpose(inside),
+                    array => Kind::Transpose(self.expr(array, start).into()),
+                }
+            }
+            Some(Token::Sign("(")) => self.rows()?,
+            Some(Token::Sign("|")) => {
+                let inside = self.expression()?;
+                if !self.takes_token(Token::ClosingBar) {
+                    return self.refuse();
+                }
+                Kind::Magnitude(inside.into())
+            }
+            _ => {
+                self.next -= 1;
+                return self.refuse();
+            }
+        };
+        Ok(self.expr(kind, start))
+    }
+
+    /// Reads the arguments of a function, or the range and the term of a series.
+    fn call(&mut self, function: Slot) -> Parsed<Kind> {
+        let is_series = matches!(self.tokens.get(self.next + 2), Some((Token::Sign("∈"), _)));
+        if !is_series {
+            return Ok(Kind::Call(function, self.in_brackets(Self::expression)?));
+        }
+        self.need("(")?;
+        let name = self.name()?;
+        self.need("∈")?;
+        let from = self.expression()?;
+        self.need("..")?;
+        let to = self.expression()?;
+        self.need(",")?;
+        let term = self.expression()?;
+        self.need(")")?;
+        Ok(Kind::Series { function, name, parts: Box::new([from, to, term]) })
+    }
+
+    /// Reads what stands in round brackets, the first of which is taken: one expression is that
+    /// expression, several are an array.
+    fn rows(&mut self) -> Parsed<Kind> {
+        let start = self.tokens[self.next - 1].1.start;
+        let mut entries = vec![self.expression()?];
+        // How many entries there are up to the end of each row.
+        let mut ends = vec![];
+        while !self.takes(")") {
+            if !self.takes_token(Token::Gap) {
+                self.need(";")?;
+                ends.push(entries.len());
+            }
+            entries.push(self.expression()?);
+        }
+        ends.push(entries.len());
+        let cols = ends[0];
+        if (1..).zip(&ends).any(|(row, end)| *end != row * cols) {
+            return Err((start, "found rows of different lengths".into()));
+        }
+        if entries.len() == 1 {
+            return Ok(Kind::Group(entries.remove(0).into()));
+        }
+        Ok(Kind::Array { entries, cols })
+    }
 }

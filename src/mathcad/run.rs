@@ -3,9 +3,8 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use super::eval::FUNCTION;
 use super::failure::{Cause, Fallible};
-use super::function::Function;
+use super::function::{FUNCTION, Function};
 use super::listing::Listing;
 use super::observe::Observer;
 use super::settings::{Limits, Settings};

@@ -147,6 +147,74 @@ pub enum Comparison {
     GreaterOrEqual,
 }
 
+/// What stands between two operands, or, as `¬`, before one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    Any,
+    All,
+    Not,
+    Compare(Comparison),
+    Calculate(Operation),
+}
+
+/// How tightly an expression binds, from the loosest to the tightest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    Any,
+    All,
+    Not,
+    Comparison,
+    Sum,
+    Product,
+    Negative,
+    Power,
+    /// With a transpose, subscripts or a column behind it.
+    Behind,
+    Atom,
+}
+
+/// The spelling of an operator in the notations.
+#[derive(Debug)]
+pub struct Spelling {
+    pub operator: Operator,
+    pub level: Level,
+    /// As printed.
+    pub sign: &'static str,
+    /// As typed in ASCII.
+    pub typed: &'static str,
+    /// The element of XMCD.
+    pub element: &'static str,
+}
+
+/// All operators, each of which is known by this table alone.
+pub const OPERATORS: [Spelling; 13] = {
+    use Comparison::*;
+    use Operation::*;
+    use Operator::*;
+    const fn row(
+        operator: Operator,
+        level: Level,
+        [sign, typed, element]: [&'static str; 3],
+    ) -> Spelling {
+        Spelling { operator, level, sign, typed, element }
+    }
+    [
+        row(Any, Level::Any, ["∨", "or", "ml:or"]),
+        row(All, Level::All, ["∧", "and", "ml:and"]),
+        row(Not, Level::Not, ["¬", "not", "ml:not"]),
+        row(Compare(Equal), Level::Comparison, ["=", "=", "ml:equal"]),
+        row(Compare(Unequal), Level::Comparison, ["≠", "!=", "ml:notEqual"]),
+        row(Compare(Less), Level::Comparison, ["<", "<", "ml:lessThan"]),
+        row(Compare(LessOrEqual), Level::Comparison, ["≤", "<=", "ml:lessOrEqual"]),
+        row(Compare(Greater), Level::Comparison, [">", ">", "ml:greaterThan"]),
+        row(Compare(GreaterOrEqual), Level::Comparison, ["≥", ">=", "ml:greaterOrEqual"]),
+        row(Calculate(Add), Level::Sum, ["+", "+", "ml:plus"]),
+        row(Calculate(Subtract), Level::Sum, ["−", "-", "ml:minus"]),
+        row(Calculate(Multiply), Level::Product, ["·", "*", "ml:mult"]),
+        row(Calculate(Divide), Level::Product, ["/", "/", "ml:div"]),
+    ]
+};
+
 impl Step {
     /// Returns the expressions on the statement's own line, in the order of the text.
     pub fn expressions(&self) -> Vec<&Expr> {
@@ -205,30 +273,28 @@ impl Reference {
     }
 }
 
+impl Operator {
+    /// Returns the operator's row of [`OPERATORS`].
+    pub fn spelling(self) -> &'static Spelling {
+        OPERATORS.iter().find(|row| row.operator == self).expect("every operator has a row")
+    }
+}
+
 impl Operation {
     /// Returns the sign by which the listing writes it.
     pub fn sign(self) -> &'static str {
-        match self {
-            Operation::Add => "+",
-            Operation::Subtract => "−",
-            Operation::Multiply => "·",
-            Operation::Divide => "/",
-        }
+        Operator::Calculate(self).spelling().sign
     }
 }
 
 impl Comparison {
-    pub const ALL: [Comparison; 6] = [
-        Comparison::Equal,
-        Comparison::Unequal,
-        Comparison::Less,
-        Comparison::LessOrEqual,
-        Comparison::Greater,
-        Comparison::GreaterOrEqual,
-    ];
+    /// Returns the sign by which the listing writes it.
+    pub fn sign(self) -> &'static str {
+        Operator::Compare(self).spelling().sign
+    }
 
-    /// Returns whether the comparison is true of what stands so.
-    pub fn holds(self, order: Ordering) -> bool {
+    /// Returns whether the comparison is true of two values in that order.
+    pub fn is_true_of(self, order: Ordering) -> bool {
         match self {
             Comparison::Equal => order.is_eq(),
             Comparison::Unequal => order.is_ne(),
@@ -236,18 +302,6 @@ impl Comparison {
             Comparison::LessOrEqual => order.is_le(),
             Comparison::Greater => order.is_gt(),
             Comparison::GreaterOrEqual => order.is_ge(),
-        }
-    }
-
-    /// Returns the sign by which the listing writes it.
-    pub fn sign(self) -> &'static str {
-        match self {
-            Comparison::Equal => "=",
-            Comparison::Unequal => "≠",
-            Comparison::Less => "<",
-            Comparison::LessOrEqual => "≤",
-            Comparison::Greater => ">",
-            Comparison::GreaterOrEqual => "≥",
         }
     }
 }

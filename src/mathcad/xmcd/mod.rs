@@ -19,14 +19,15 @@ pub struct Unsupported(pub String);
 /// The operators of one operand or two that are functions in the text: the operator's element, the
 /// function, and the number of operands.
 const FUNCTIONS: [(&str, &str, usize); 6] = [
-    ("sqrt", "√", 1),
-    ("nthRoot", "√", 2),
-    ("log", "log", 2),
-    ("vectorSum", "∑", 1),
-    ("determinant", "determinant", 1),
-    ("factorial", "factorial", 1),
+    ("ml:sqrt", "√", 1),
+    ("ml:nthRoot", "√", 2),
+    ("ml:log", "log", 2),
+    ("ml:vectorSum", "∑", 1),
+    ("ml:determinant", "determinant", 1),
+    ("ml:factorial", "factorial", 1),
 ];
 
-/// The comparisons' elements, in the order of [`Comparison::ALL`](super::syntax::Comparison::ALL).
-const COMPARISONS: [&str; 6] =
-    ["equal", "notEqual", "lessThan", "lessOrEqual", "greaterThan", "greaterOrEqual"];
+/// Returns the name of an element without that of its namespace.
+fn tag(element: &'static str) -> &'static str {
+    element.trim_start_matches("ml:")
+}

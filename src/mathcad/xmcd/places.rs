@@ -1,20 +1,6 @@
 //! How tightly the text notation binds, and where the two notations differ in parentheses.
 
-/// From the loosest to the tightest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Level {
-    Any,
-    All,
-    Not,
-    Comparison,
-    Sum,
-    Product,
-    Negative,
-    Power,
-    /// With a transpose, subscripts or a column behind it.
-    Behind,
-    Atom,
-}
+use crate::syntax::Level;
 
 /// What the places ask of an expression, in either notation.
 pub trait Placed: Copy {

@@ -2,11 +2,11 @@
 
 use roxmltree::Node;
 
-use super::places::{Level, Placed, in_exponent, in_fraction, in_transpose};
-use super::{COMPARISONS, FUNCTIONS, Unsupported};
+use super::places::{Placed, in_exponent, in_fraction, in_transpose};
+use super::{FUNCTIONS, Unsupported, tag};
 use crate::lacking::is_unit;
-use crate::lexer::{KEYWORDS, name_length};
-use crate::syntax::Comparison;
+use crate::lexer::{keyword, name_length};
+use crate::syntax::{Level, OPERATORS, Operation, Operator, Spelling};
 
 type Read<T> = Result<T, Unsupported>;
 
@@ -47,7 +47,12 @@ impl<'a, 'i> Math<'a, 'i> {
         self.0.attribute(name)
     }
 
-    /// Returns the operator of an `apply`.
+    /// Returns the operator of an `apply`, if it is one of [`OPERATORS`].
+    fn spelling(self) -> Option<&'static Spelling> {
+        OPERATORS.iter().find(|row| tag(row.element) == self.operator())
+    }
+
+    /// Returns the element of the operator of an `apply`.
     fn operator(self) -> &'a str {
         match self.tag() {
             "apply" => self.parts().next().map_or("", Math::tag),
@@ -83,7 +88,7 @@ pub fn name(id: Math<'_, '_>) -> Read<String> {
         name = format!("{name}.{subscript}");
     }
     let starts = name.starts_with(|c: char| !c.is_numeric() && c != '\'' && c != '.');
-    match starts && name_length(&name) == name.len() && !KEYWORDS.contains(&name.as_str()) {
+    match starts && name_length(&name) == name.len() && keyword(&name).is_none() {
         true => Ok(name),
         false if is_unit(&name) => Err(Unsupported(format!("units: {name}"))),
         false => Err(Unsupported(format!("the name {name:?}"))),
@@ -255,7 +260,7 @@ fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
     if operator.tag() == "id" {
         return Ok(format!("{}({})", name(operator)?, list(node, 1)?));
     }
-    if let Some((_, function, n)) = FUNCTIONS.iter().find(|(o, _, _)| *o == operator.tag()) {
+    if let Some((_, function, n)) = FUNCTIONS.iter().find(|(o, _, _)| tag(o) == operator.tag()) {
         let mut operands = Vec::new();
         for k in 1..=*n {
             operands.push(expression(node.part(k)?)?);
@@ -265,38 +270,12 @@ fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
         }
         return Ok(format!("{function}({})", operands.join(",")));
     }
+    if let Some(row) = node.spelling() {
+        return between(row, node, subscript);
+    }
     let x = node.part(1)?;
     let y = || node.part(2);
-    let infix = |sign: &str, left: Level, right: Level| -> Read<String> {
-        Ok([operand(x, left, subscript)?, sign.into(), operand(y()?, right, subscript)?].concat())
-    };
-    if let Some(at) = COMPARISONS.iter().position(|name| *name == operator.tag()) {
-        // One within another on the left, without parentheses, is a chain.
-        return infix(&format!(" {} ", Comparison::ALL[at].sign()), Level::Comparison, Level::Sum);
-    }
     match operator.tag() {
-        "or" => infix(" ∨ ", Level::Any, Level::All),
-        "and" => infix(" ∧ ", Level::All, Level::Not),
-        "not" => Ok(format!("¬{}", operand(x, Level::Not, subscript)?)),
-        "plus" | "minus" => {
-            let sign = if operator.tag() == "plus" { "+" } else { "−" };
-            let (x, y) =
-                (operand(x, Level::Sum, subscript)?, operand(y()?, Level::Product, subscript)?);
-            let close = subscript && !x.contains('[') && !y.contains('[');
-            Ok(if close { format!("{x}{sign}{y}") } else { format!("{x} {sign} {y}") })
-        }
-        "mult" => {
-            let x = operand(x, Level::Product, subscript)?;
-            let y = operand(y()?, Level::Negative, subscript)?;
-            let groups = x.ends_with(')') && y.starts_with('(');
-            Ok(if groups { format!("{x} · {y}") } else { format!("{x}·{y}") })
-        }
-        "div" => {
-            let (above, below) = (Level::Product, Level::Negative);
-            let x = wrapped(x, in_fraction(x, above), subscript)?;
-            let y = y()?;
-            Ok(format!("{x} / {}", wrapped(y, in_fraction(y, below), subscript)?))
-        }
         "neg" => Ok(format!("−{}", operand(x, Level::Power, subscript)?)),
         "pow" => {
             let y = y()?;
@@ -324,6 +303,38 @@ fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
         }
         _ => Err(unsupported(operator)),
     }
+}
+
+/// Spells an operator of [`OPERATORS`] with its operands. The left one needs no parentheses where it
+/// is of the operator's level: a comparison within another is a chain.
+fn between(row: &Spelling, node: Math<'_, '_>, subscript: bool) -> Read<String> {
+    let (sign, level, x) = (row.sign, row.level, node.part(1)?);
+    let right = |least: Level| operand(node.part(2)?, least, subscript);
+    if row.operator == Operator::Calculate(Operation::Divide) {
+        let y = node.part(2)?;
+        let above = wrapped(x, in_fraction(x, Level::Product), subscript)?;
+        return Ok(format!(
+            "{above} / {}",
+            wrapped(y, in_fraction(y, Level::Negative), subscript)?
+        ));
+    }
+    let left = operand(x, level, subscript)?;
+    Ok(match row.operator {
+        Operator::Any => format!("{left} {sign} {}", right(Level::All)?),
+        Operator::All => format!("{left} {sign} {}", right(Level::Not)?),
+        Operator::Not => format!("{sign}{left}"),
+        Operator::Compare(_) => format!("{left} {sign} {}", right(Level::Sum)?),
+        Operator::Calculate(Operation::Add | Operation::Subtract) => {
+            let right = right(Level::Product)?;
+            let close = subscript && !left.contains('[') && !right.contains('[');
+            if close { format!("{left}{sign}{right}") } else { format!("{left} {sign} {right}") }
+        }
+        Operator::Calculate(Operation::Multiply | Operation::Divide) => {
+            let right = right(Level::Negative)?;
+            let groups = left.ends_with(')') && right.starts_with('(');
+            if groups { format!("{left} {sign} {right}") } else { format!("{left}{sign}{right}") }
+        }
+    })
 }
 
 /// Spells arguments, from part `k` on.
@@ -393,13 +404,10 @@ impl Placed for Math<'_, '_> {
             let negative = self.text().starts_with('-');
             return if negative { Level::Negative } else { Level::Atom };
         }
+        if let Some(row) = self.spelling() {
+            return row.level;
+        }
         match self.operator() {
-            "or" => Level::Any,
-            "and" => Level::All,
-            "not" => Level::Not,
-            operator if COMPARISONS.contains(&operator) => Level::Comparison,
-            "plus" | "minus" => Level::Sum,
-            "mult" | "div" => Level::Product,
             "neg" => Level::Negative,
             "pow" => Level::Power,
             "transpose" | "matcol" => Level::Behind,

@@ -1,10 +1,10 @@
 //! From the syntax tree to XMCD.
 
-use super::places::{Level, Placed, in_exponent, in_fraction, in_transpose};
-use super::{COMPARISONS, FUNCTIONS};
+use super::FUNCTIONS;
+use super::places::{Placed, in_exponent, in_fraction, in_transpose};
 use crate::lexer::Names;
 use crate::listing::Listing;
-use crate::syntax::{Comparison, Expr, Kind, Operation, Range, Reference, Statement, Step};
+use crate::syntax::{Expr, Kind, Level, Operation, Operator, Range, Reference, Statement, Step};
 use crate::value::Array;
 use base::xml::Element;
 
@@ -200,24 +200,22 @@ impl Writer<'_> {
                 let below = self.without(y, |y| in_fraction(y, Level::Negative));
                 apply("ml:div", [above, below])
             }
-            Kind::Arithmetic(operation, x, y) => {
-                let operator = match operation {
-                    Operation::Add => "ml:plus",
-                    Operation::Subtract => "ml:minus",
-                    Operation::Multiply | Operation::Divide => "ml:mult",
-                };
-                apply(operator, [self.expr(x), self.expr(y)])
-            }
-            Kind::Compare(comparison, x, y) => {
-                apply(compared(*comparison), [self.expr(x), self.expr(y)])
-            }
+            Kind::Arithmetic(operation, x, y) => apply(
+                Operator::Calculate(*operation).spelling().element,
+                [self.expr(x), self.expr(y)],
+            ),
+            Kind::Compare(comparison, x, y) => apply(
+                Operator::Compare(*comparison).spelling().element,
+                [self.expr(x), self.expr(y)],
+            ),
             Kind::Chain(first, rest) => {
                 rest.iter().fold(self.expr(first), |left, (comparison, x)| {
-                    apply(compared(*comparison), [left, self.expr(x)])
+                    let element = Operator::Compare(*comparison).spelling().element;
+                    apply(element, [left, self.expr(x)])
                 })
             }
-            Kind::All(operands) => self.chain("ml:and", operands),
-            Kind::Any(operands) => self.chain("ml:or", operands),
+            Kind::All(operands) => self.chain(Operator::All, operands),
+            Kind::Any(operands) => self.chain(Operator::Any, operands),
             Kind::Call(name, arguments) => self.call(self.names.name(*name), arguments),
             Kind::If(parts) => {
                 let parts = parts.iter().map(|x| self.expr(x)).collect();
@@ -248,41 +246,25 @@ impl Writer<'_> {
         if x.level() < Level::Atom || x.is_entry() { parens(inside) } else { inside }
     }
 
-    fn chain(&self, operator: &'static str, operands: &[Expr]) -> Element {
+    fn chain(&self, operator: Operator, operands: &[Expr]) -> Element {
         let operands = operands.iter().map(|x| self.expr(x));
-        operands.reduce(|all, next| apply(operator, [all, next])).expect("two operands or more")
+        operands
+            .reduce(|all, next| apply(operator.spelling().element, [all, next]))
+            .expect("two operands or more")
     }
 
     fn call(&self, name: &str, arguments: &[Expr]) -> Element {
         let mut written: Vec<_> = arguments.iter().map(|x| self.expr(x)).collect();
-        let known = FUNCTIONS.iter().position(|(_, f, n)| *f == name && *n == arguments.len());
-        match known {
-            Some(at) => {
+        match FUNCTIONS.iter().find(|(_, f, n)| *f == name && *n == arguments.len()) {
+            Some((element, ..)) => {
                 if name == "log" {
                     written.reverse();
                 }
-                apply(OPERATORS[at], written)
+                apply(element, written)
             }
             None => Element::new("ml:apply").with(id(name)).with(sequence(written)),
         }
     }
-}
-
-/// The elements of [`FUNCTIONS`] and [`COMPARISONS`] as they are written.
-const OPERATORS: [&str; FUNCTIONS.len()] =
-    ["ml:sqrt", "ml:nthRoot", "ml:log", "ml:vectorSum", "ml:determinant", "ml:factorial"];
-const PREFIXED: [&str; COMPARISONS.len()] = [
-    "ml:equal",
-    "ml:notEqual",
-    "ml:lessThan",
-    "ml:lessOrEqual",
-    "ml:greaterThan",
-    "ml:greaterOrEqual",
-];
-
-fn compared(comparison: Comparison) -> &'static str {
-    let at = Comparison::ALL.iter().position(|c| *c == comparison).unwrap_or_default();
-    PREFIXED[at]
 }
 
 impl Placed for &Expr {
@@ -292,12 +274,19 @@ impl Placed for &Expr {
             Kind::All(_) => Level::All,
             Kind::Not(_) => Level::Not,
             Kind::Compare(..) | Kind::Chain(..) => Level::Comparison,
-            Kind::Arithmetic(Operation::Add | Operation::Subtract, ..) => Level::Sum,
-            Kind::Arithmetic(Operation::Multiply | Operation::Divide, ..) => Level::Product,
+            Kind::Arithmetic(operation, ..) => Operator::Calculate(*operation).spelling().level,
             Kind::Negative(_) => Level::Negative,
             Kind::Power(..) => Level::Power,
             Kind::Transpose(_) | Kind::Column(..) | Kind::Entry { .. } => Level::Behind,
-            _ => Level::Atom,
+            Kind::Number(_)
+            | Kind::Text(_)
+            | Kind::Read(_)
+            | Kind::Group(_)
+            | Kind::Array { .. }
+            | Kind::Magnitude(_)
+            | Kind::Call(..)
+            | Kind::If(_)
+            | Kind::Series { .. } => Level::Atom,
         }
     }
 
