@@ -41,7 +41,12 @@ impl Element {
 
     /// Writes the whole document: the declaration, then this element.
     pub fn document(&self) -> String {
-        let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+        String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n") + &self.text()
+    }
+
+    /// Returns the element as it stands in a document.
+    pub fn text(&self) -> String {
+        let mut out = String::new();
         self.write(&mut out);
         out
     }

@@ -86,8 +86,8 @@ impl<O: Observer> Run<'_, '_, O> {
             last: None,
             trace: vec![],
         };
-        let (value, trace) = run.run(arguments)?.into_value()?;
-        self.trace.extend(trace);
-        Ok(value)
+        let outcome = run.run(arguments)?.outcome()?;
+        self.trace.extend(outcome.trace_output);
+        Ok(outcome.value)
     }
 }

@@ -29,8 +29,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         };
         let value = value.map_err(|cause| self.fail(&reference.span, cause))?;
         if O::ACTIVE {
-            let (whole, count) = whole_subscripts(subscripts);
-            self.observer.read(self.access(reference.name, &whole[..count], &value));
+            let subscripts = whole_subscripts(subscripts);
+            self.observer.read(self.access(reference.name, &subscripts, &value));
         }
         Ok(value)
     }
@@ -52,94 +52,50 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         Ok(())
     }
 
-    /// Writes `x` to an entry, and makes the array larger where it does not reach so far.
-    pub fn write(&mut self, target: &Reference, subscripts: Subscripts, x: f64) -> Fallible<()> {
-        let (i, j) = self.place_of(target, subscripts)?;
-        if !O::ACTIVE && self.overwrite(target.name, subscripts, (i, j), x) {
-            return Ok(());
-        }
-        self.prepare(target, subscripts, (i, j), 1)?;
-        let cell = &mut self.cells[target.name];
-        cell.local = true;
-        match &mut cell.value {
-            Some(Value::Array(array)) => {
-                let array = Rc::make_mut(array);
-                if i >= array.rows() || j >= array.cols() {
-                    array.grow(i, j);
-                }
-                array.set(i, j, x);
-            }
-            Some(Value::Nested(_)) => self.write_nested(target.name, i, j, Value::Number(x)),
-            _ => unreachable!("an entry is prepared in an array"),
-        }
-        if O::ACTIVE {
-            let (whole, count) = whole_subscripts(Some(subscripts));
-            self.observer.write(self.access(target.name, &whole[..count], &Value::Number(x)));
-        }
-        Ok(())
-    }
-
-    /// Writes a value that is no number to an entry: the array becomes one of arrays.
-    pub fn write_value(
+    /// Writes a value to an entry, and makes the array larger where it does not reach so far. By a
+    /// value that is no number an array of numbers becomes one of arrays.
+    pub fn write(
         &mut self,
         target: &Reference,
         subscripts: Subscripts,
         value: Value,
     ) -> Fallible<()> {
         self.check_nesting(value.depth())?;
-        let (i, j) = self.place_of(target, subscripts)?;
+        let name = || self.listing.names.name(target.name).into();
+        let (i, j) = offsets(subscripts, self.settings.origin, &name)
+            .map_err(|cause| self.fail(&target.span, cause))?;
         self.prepare(target, subscripts, (i, j), value.count())?;
         let cell = &mut self.cells[target.name];
         cell.local = true;
-        if let Some(Value::Array(array)) = &cell.value {
-            let entry = |i, j| Value::Number(array.entries()[i * array.cols() + j]);
-            let grid = Grid::from_fn(array.rows(), array.cols(), entry);
-            cell.value = Some(Value::Nested(Rc::new(Nested::new(grid))));
+        if let (Some(Value::Array(array)), Value::Number(x)) = (&mut cell.value, &value) {
+            let array = Rc::make_mut(array);
+            if array.get(i, j).is_none() {
+                array.grow(i, j);
+            }
+            array.set(i, j, *x);
+        } else {
+            self.write_nested(target.name, i, j, value.clone());
         }
-        self.write_nested(target.name, i, j, value.clone());
         if O::ACTIVE {
-            let (whole, count) = whole_subscripts(Some(subscripts));
-            self.observer.write(self.access(target.name, &whole[..count], &value));
+            let subscripts = whole_subscripts(Some(subscripts));
+            self.observer.write(self.access(target.name, &subscripts, &value));
         }
         Ok(())
     }
 
-    /// Writes to an entry that was prepared, of a name that holds an array of arrays.
+    /// Writes to an entry that was prepared, of an array that is or becomes one of arrays.
     fn write_nested(&mut self, slot: Slot, i: usize, j: usize, value: Value) {
-        if let Some(Value::Nested(nested)) = &mut self.cells[slot].value {
+        let cell = &mut self.cells[slot].value;
+        if let Some(Value::Array(array)) = cell {
+            let entry = |i, j| Value::Number(array.entries()[i * array.cols() + j]);
+            let grid = Grid::from_fn(array.rows(), array.cols(), entry);
+            *cell = Some(Value::Nested(Rc::new(Nested::new(grid))));
+        }
+        if let Some(Value::Nested(nested)) = cell {
             let nested = Rc::make_mut(nested);
             self.stored -= nested.count() + nested.grid().missing(i, j);
             nested.write(i, j, value);
             self.stored += nested.count();
-        }
-    }
-
-    /// Returns the row and column, from 0, of the entry that is written to.
-    fn place_of(&self, target: &Reference, subscripts: Subscripts) -> Fallible<(usize, usize)> {
-        let name = || self.listing.names.name(target.name).into();
-        let place = offsets(subscripts, self.settings.origin, &name);
-        place.map_err(|cause| self.fail(&target.span, cause))
-    }
-
-    /// Writes a number over a number of an array of the program's own that nothing else shares: the
-    /// short way. Returns whether there was such an entry.
-    fn overwrite(
-        &mut self,
-        slot: Slot,
-        subscripts: Subscripts,
-        (i, j): (usize, usize),
-        x: f64,
-    ) -> bool {
-        let Variable { value: Some(Value::Array(array)), local: true } = &mut self.cells[slot]
-        else {
-            return false;
-        };
-        match Rc::get_mut(array) {
-            Some(a) if a.get(i, j).is_some() && (subscripts.col.is_some() || a.cols() == 1) => {
-                a.set(i, j, x);
-                true
-            }
-            _ => false,
         }
     }
 
@@ -186,12 +142,9 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     }
 }
 
-fn whole_subscripts(subscripts: Option<Subscripts>) -> ([i64; 2], usize) {
-    match subscripts {
-        None => ([0, 0], 0),
-        Some(Subscripts { row, col: None }) => ([row as i64, 0], 1),
-        Some(Subscripts { row, col: Some(col) }) => ([row as i64, col as i64], 2),
-    }
+fn whole_subscripts(subscripts: Option<Subscripts>) -> Vec<i64> {
+    let numbers = subscripts.into_iter().flat_map(|s| [Some(s.row), s.col]);
+    numbers.flatten().map(|x| x as i64).collect()
 }
 
 /// Returns the entry of a value, which messages call `name`.

@@ -153,17 +153,6 @@ enum Turns {
 /// README.md).
 const RANGE_END: f64 = 1e-12;
 
-/// Returns the numbers of a range, if its step leads from its start to its end.
-fn span(from: f64, second: Option<f64>, to: f64, descending_is_empty: bool) -> Option<Turns> {
-    let step = match second {
-        Some(second) => second - from,
-        None if from <= to || descending_is_empty => 1.0,
-        None => -1.0,
-    };
-    let leads = second.is_none() || (to - from) * step > 0.0 || to == from && step != 0.0;
-    leads.then_some(Turns::Span { from, step, to })
-}
-
 impl Turns {
     fn value(&self, turn: usize) -> Option<Value> {
         match self {
@@ -206,15 +195,8 @@ impl<O: Observer> Run<'_, '_, O> {
         self.room(0)
     }
 
-    /// Returns the value of a program that has run, and what it traced.
-    pub fn into_value(mut self) -> Fallible<(Value, Vec<String>)> {
-        match self.last.take() {
-            Some(value) => Ok((value, self.trace)),
-            None => Err(self.fail_line(Cause::NoValue)),
-        }
-    }
-
-    fn outcome(mut self) -> Fallible<Outcome> {
+    /// Returns what a program that has run leaves behind.
+    pub fn outcome(mut self) -> Fallible<Outcome> {
         let Some(value) = self.last.take() else {
             return Err(self.fail_line(Cause::NoValue));
         };
@@ -331,6 +313,10 @@ impl<O: Observer> Run<'_, '_, O> {
         Ok(Flow::Next)
     }
 
+    /// Returns the values of a loop's variable.
+    ///
+    /// # Errors
+    /// The step of a range leads away from its end.
     fn turns(&mut self, range: &Range) -> Fallible<Turns> {
         let (from, second, to) = match range {
             Range::Over(values) => match self.range_variable(values) {
@@ -343,10 +329,15 @@ impl<O: Observer> Run<'_, '_, O> {
                 (from, second, self.number(to)?)
             }
         };
-        let turns = span(from, second, to, self.settings.descending_is_empty);
-        turns.ok_or_else(|| {
-            self.fail_line(Cause::Range { from, second: second.unwrap_or(from), to })
-        })
+        let step = match second {
+            Some(second) => second - from,
+            None if from <= to || self.settings.descending_is_empty => 1.0,
+            None => -1.0,
+        };
+        if second.is_none() || (to - from) * step > 0.0 || to == from && step != 0.0 {
+            return Ok(Turns::Span { from, step, to });
+        }
+        Err(self.fail_line(Cause::Range { from, second: second.unwrap_or(from), to }))
     }
 
     /// Returns the numbers of the worksheet's range variable, if a loop runs over one.
@@ -379,10 +370,9 @@ impl<O: Observer> Run<'_, '_, O> {
         // Lets go of an array first: shared with the value of the last statement, it would be
         // copied.
         self.last = None;
-        match (self.subscripts(target)?, &value) {
-            (None, _) => self.store(target.name, value.clone())?,
-            (Some(subscripts), Value::Number(x)) => self.write(target, subscripts, *x)?,
-            (Some(subscripts), _) => self.write_value(target, subscripts, value.clone())?,
+        match self.subscripts(target)? {
+            None => self.store(target.name, value.clone())?,
+            Some(subscripts) => self.write(target, subscripts, value.clone())?,
         }
         self.last = Some(value);
         Ok(())

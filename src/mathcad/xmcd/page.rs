@@ -5,8 +5,11 @@
 use super::write;
 use crate::listing::Listing;
 use crate::settings::Settings;
-use base::xml::Element;
+use base::xml::{Element, escape};
 
+/// A blank worksheet, with places for what concerns its calculation. Seventeen digits, so that a
+/// shown number reads back.
+const BLANK: &str = include_str!("worksheet.xml");
 /// The height of a line, in points.
 const LINE: f64 = 19.5;
 /// The space between two regions.
@@ -92,22 +95,16 @@ impl Page {
         self
     }
 
-    /// Writes the worksheet.
+    /// Returns the file of the worksheet.
     pub fn finish(self, title: &str, settings: &Settings) -> String {
-        let user = Element::new("userData").with(Element::with_text("title", title));
-        Element::new("worksheet")
-            .set("version", "3.0.3")
-            .set("xmlns", "http://schemas.mathsoft.com/worksheet30")
-            .set("xmlns:ws", "http://schemas.mathsoft.com/worksheet30")
-            .set("xmlns:ml", "http://schemas.mathsoft.com/math30")
-            .with(
-                Element::new("metadata")
-                    .with(Element::with_text("generator", "plane-contact"))
-                    .with(user),
-            )
-            .with(around(settings))
-            .with(Element::new("regions").with_all(self.regions))
-            .document()
+        let regions = Element::new("regions").with_all(self.regions).text();
+        let zero_over_zero = if settings.zero_over_zero_is_zero { "0" } else { "error" };
+        BLANK
+            .replace("{title}", &escape(title))
+            .replace("{origin}", &settings.origin.to_string())
+            .replace("{exact-boolean}", &settings.exact_boolean.to_string())
+            .replace("{zero-over-zero}", zero_over_zero)
+            .replace("{regions}", &regions)
     }
 }
 
@@ -119,97 +116,4 @@ pub fn listings(listings: &[Listing]) -> String {
     }
     let names: Vec<_> = listings.iter().map(Listing::function).collect();
     page.finish(&names.join(", "), &Settings::default())
-}
-
-/// Writes the settings of a blank worksheet, but for those that concern calculation.
-fn around(settings: &Settings) -> Element {
-    let calculation = Element::new("calculation")
-        .with(
-            Element::new("builtInVariables")
-                .set("array-origin", settings.origin.to_string())
-                .set("convergence-tolerance", "0.001")
-                .set("constraint-tolerance", "0.001"),
-        )
-        .with(
-            Element::new("calculationBehavior")
-                .set("automatic-recalculation", "true")
-                .set("exact-boolean", settings.exact_boolean.to_string())
-                .set("zero-over-zero", if settings.zero_over_zero_is_zero { "0" } else { "error" }),
-        )
-        .with(Element::new("units").with(Element::new("currentUnitSystem").set("name", "si")));
-    let editor = Element::new("editor")
-        .with(Element::new("ruler").set("ruler-unit", "in"))
-        .with(Element::new("grid").set("granularity-x", "6").set("granularity-y", "6"));
-    let file = Element::new("fileFormat")
-        .set("image-type", "none")
-        .set("save-numeric-results", "true")
-        .set("exclude-large-results", "false")
-        .set("screen-dpi", "96");
-    Element::new("settings")
-        .with(presentation())
-        .with(calculation)
-        .with(editor)
-        .with(file)
-        .with(Element::new("miscellaneous").with(Element::new("handbook")))
-}
-
-fn presentation() -> Element {
-    let style = |(name, size, weight): (&str, &str, &str)| {
-        let block = Element::new("blockAttr")
-            .set("margin-left", "0")
-            .set("margin-right", "0")
-            .set("text-align", "left");
-        let inline = font(Element::new("inlineAttr"), "Arial", size, weight);
-        Element::new("textStyle").set("name", name).with(block).with(inline)
-    };
-    let styles = [("Normal", "10", "normal"), ("Heading 1", "14", "bold")].map(style);
-    let users = (1..=7).map(|k| format!("User {k}"));
-    let names = ["Variables", "Constants"].map(String::from).into_iter().chain(users);
-    let names = names.chain(["Math Text Font".into()]);
-    let math = |name: String| {
-        font(Element::new("mathStyle").set("name", name), "Times New Roman", "10", "normal")
-    };
-    let operators = [
-        ("multiplication", "narrow-dot"),
-        ("derivative", "derivative"),
-        ("literal-subscript", "large"),
-        ("definition", "colon-equal"),
-        ("global-definition", "triple-equal"),
-        ("local-definition", "left-arrow"),
-        ("equality", "bold-equal"),
-        ("symbolic-evaluation", "right-arrow"),
-    ];
-    let operators = operators.iter().fold(Element::new("operators"), |e, (k, v)| e.set(k, *v));
-    // Seventeen digits, so that a shown number reads back.
-    let results = Element::new("results")
-        .with(Element::new("general").set("precision", "17"))
-        .with(Element::new("matrix").set("display-style", "matrix"));
-    let rendering = Element::new("mathRendering")
-        .set("equation-color", "#000")
-        .with(operators)
-        .with(Element::new("mathStyles").with_all(names.map(math)))
-        .with(Element::new("dimensionNames"))
-        .with(Element::new("symbolics"))
-        .with(results);
-    let margins = ["left", "right", "top", "bottom"];
-    let margins = margins.iter().fold(Element::new("margins"), |e, side| e.set(side, "36"));
-    let page = Element::new("pageModel").set("paper-code", "9").set("orientation", "portrait");
-    let colours = Element::new("colorModel")
-        .set("background-color", "#fff")
-        .set("default-highlight-color", "#ffff80");
-    Element::new("presentation")
-        .with(Element::new("textRendering").with(Element::new("textStyles").with_all(styles)))
-        .with(rendering)
-        .with(page.with(margins))
-        .with(colours)
-        .with(Element::new("language").set("math", "ru").set("UI", "ru"))
-}
-
-fn font(element: Element, family: &str, size: &str, weight: &str) -> Element {
-    element
-        .set("font-family", family)
-        .set("font-charset", "0")
-        .set("font-size", size)
-        .set("font-weight", weight)
-        .set("font-style", "normal")
 }

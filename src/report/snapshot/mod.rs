@@ -43,7 +43,7 @@ pub fn file(snapshot: &Snapshot) -> String {
 
 /// Returns what was recorded, for people.
 pub fn recorded(snapshot: &Snapshot) -> String {
-    let run = |(name, run): (&str, &Run)| {
+    let run = |(name, run): (&String, &Run)| {
         let (facts, numbers) = (run.facts.len(), run.numbers.iter().map(|(_, n)| n.places().len()));
         let failure = run.facts.get("failure").filter(|failure| !failure.is_null());
         let failure = failure.map_or(String::new(), |failure| {

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::compare::{Difference, Kind};
-use super::place::place;
 use super::verify::{Verified, VerifiedRun};
 use super::{Numbers, Run, Snapshot, VERSION};
 use base::error::{InputError, Result};
@@ -111,11 +110,10 @@ impl Chosen<'_> {
 /// # Errors
 /// It names neither.
 fn check_entry(entry: &str, snapshot: &Snapshot, verified: &Verified) -> Result<()> {
-    let runs =
-        snapshot.runs.iter().chain(verified.runs.iter().map(|run| (&run.name[..], &run.run)));
+    let runs = snapshot.runs.iter().chain(verified.runs.iter().map(|run| (&run.name, &run.run)));
     let names = runs.flat_map(|(name, run)| {
-        let entries = run.facts.names().chain(run.numbers.names());
-        std::iter::once(name.into()).chain(entries.map(move |entry| format!("{name}/{entry}")))
+        let entries = run.facts.keys().chain(run.numbers.keys());
+        std::iter::once(name.clone()).chain(entries.map(move |entry| format!("{name}/{entry}")))
     });
     let names: Vec<String> = names.collect();
     if names.iter().any(|name| name == entry) {
@@ -152,20 +150,19 @@ fn check_run(new: &VerifiedRun, taken: &[&Difference], failing: bool) -> Result<
 fn take(old: &mut Run, new: &Run, some: Option<&Vec<&Difference>>) {
     let chosen = some.map(|some| some.iter().map(|d| &d.entry[..]).collect::<HashSet<_>>());
     let is_taken = |name: &str| chosen.as_ref().is_none_or(|chosen| chosen.contains(name));
-    old.facts.retain(|name| !is_taken(name) || new.facts.get(name).is_some());
+    old.facts.retain(|name, _| !is_taken(name) || new.facts.get(name).is_some());
     for (name, fact) in new.facts.iter().filter(|(name, _)| is_taken(name)) {
-        old.facts.set(name, fact.clone());
+        old.facts.insert(name.clone(), fact.clone());
     }
-    old.numbers.retain(|name| !is_taken(name) || new.numbers.get(name).is_some());
+    old.numbers.retain(|name, _| !is_taken(name) || new.numbers.get(name).is_some());
     for (name, numbers) in new.numbers.iter().filter(|(name, _)| is_taken(name)) {
         let tolerance = old.numbers.get(name).and_then(|numbers| numbers.tolerance);
-        old.numbers.set(name, Numbers { tolerance, ..numbers.clone() });
+        old.numbers.insert(name.clone(), Numbers { tolerance, ..numbers.clone() });
     }
     if chosen.is_none() {
         old.decided_by_rounding = new.decided_by_rounding.clone();
     }
-    old.facts.sort_by_key(place);
-    old.numbers.sort_by_key(place);
+    old.sort();
 }
 
 fn acceptance(run: &str, difference: &Difference, reason: &str) -> Acceptance {

@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
+use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::Run;
-use super::entries::Entries;
 use super::expected::There;
 use super::numbers::{Number, Numbers, WITHOUT_BOUND};
 use super::place::place;
@@ -126,13 +126,13 @@ fn difference(entry: &str, kind: Kind) -> Difference {
 /// Adds the entries that one side alone has, of those that `keeps` names.
 fn unmatched<T>(
     found: &mut Vec<Difference>,
-    old: &Entries<T>,
-    new: &Entries<T>,
+    old: &IndexMap<String, T>,
+    new: &IndexMap<String, T>,
     keeps: impl Fn(&str) -> bool,
 ) {
-    let lost = old.names().filter(|name| keeps(name) && new.get(name).is_none());
+    let lost = old.keys().filter(|name| keeps(name) && !new.contains_key(*name));
     found.extend(lost.map(|name| difference(name, Kind::Missing)));
-    let added = new.names().filter(|name| keeps(name) && old.get(name).is_none());
+    let added = new.keys().filter(|name| keeps(name) && !old.contains_key(*name));
     found.extend(added.map(|name| difference(name, Kind::Extra)));
 }
 

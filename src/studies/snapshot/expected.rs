@@ -75,7 +75,8 @@ impl Expected {
             return Err(InputError::new(place(), "the reason is empty", "say why it is expected"));
         }
         if run.numbers.get(&self.entry).is_none() {
-            let fix = did_you_mean(&self.entry, run.numbers.names()) + "name an entry of `numbers`";
+            let fix = did_you_mean(&self.entry, run.numbers.keys().map(String::as_str))
+                + "name an entry of `numbers`";
             return Err(InputError::new(place(), "the run has no such numbers", fix));
         }
         Ok(())

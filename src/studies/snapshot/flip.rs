@@ -89,7 +89,7 @@ fn found(run: &Run, k: usize, i: usize) -> Option<Found> {
 /// Returns whether lines 16 to 18 of `c_cnt` decide who is in contact.
 fn follows_listing(run: &Run) -> bool {
     run.options.status.is_none_or(StatusRule::is_printed)
-        && !run.facts.names().any(|name| name.ends_with(" statuses"))
+        && !run.facts.keys().any(|name| name.ends_with(" statuses"))
 }
 
 /// Returns what differs, and the line of `c_cnt` that decides it.

@@ -13,7 +13,6 @@
 
 mod accept;
 mod compare;
-mod entries;
 mod expected;
 mod explain;
 mod facts;
@@ -26,8 +25,9 @@ mod record;
 mod verify;
 mod way;
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
+use indexmap::IndexMap;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -42,7 +42,6 @@ use problem::scene::{Scene, Units};
 
 pub use accept::{Acceptance, Chosen, accept};
 pub use compare::{Difference, Kind, compare};
-pub use entries::Entries;
 pub use expected::{Expected, Origin};
 pub use explain::{Cause, Class, Explanation, Side, explain};
 pub use flip::Flip;
@@ -73,7 +72,8 @@ pub struct Snapshot {
     /// The scene and its mesh, whole.
     pub input: Input,
     /// The runs by name.
-    pub runs: Entries<Run>,
+    #[schemars(with = "BTreeMap<String, Run>")]
+    pub runs: IndexMap<String, Run>,
     /// What was accepted since, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub log: Vec<Acceptance>,
@@ -91,10 +91,10 @@ pub struct Run {
     pub only: Option<Vec<String>>,
     /// What is the same or not.
     #[schemars(schema_with = "facts::schema")]
-    pub facts: Entries<Value>,
+    pub facts: IndexMap<String, Value>,
     /// What is the same within bounds.
-    #[schemars(extend("propertyNames" = place::names()))]
-    pub numbers: Entries<Numbers>,
+    #[schemars(with = "BTreeMap<String, Numbers>", extend("propertyNames" = place::names()))]
+    pub numbers: IndexMap<String, Numbers>,
     /// Numbers that a user expects, with their origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub expected: Vec<Expected>,
@@ -105,9 +105,15 @@ pub struct Run {
 
 impl Run {
     fn new(options: Options) -> Self {
-        let (facts, numbers) = (Entries::default(), Entries::default());
+        let (facts, numbers) = (IndexMap::new(), IndexMap::new());
         let (expected, decided_by_rounding) = (Vec::new(), Vec::new());
         Run { options, only: None, facts, numbers, expected, decided_by_rounding }
+    }
+
+    /// Brings facts and numbers into the order of computation.
+    fn sort(&mut self) {
+        self.facts.sort_by_cached_key(|name, _| place::place(name));
+        self.numbers.sort_by_cached_key(|name, _| place::place(name));
     }
 
     /// Returns whether an entry is one that the run was asked to record.
@@ -117,8 +123,8 @@ impl Run {
 
     /// Leaves out what is not among the numbers `only`, where these are given.
     fn keep_only(&mut self, only: Option<Vec<String>>) {
-        self.facts.retain(|name| is_kept(&only, name));
-        self.numbers.retain(|name| is_kept(&only, name));
+        self.facts.retain(|name, _| is_kept(&only, name));
+        self.numbers.retain(|name, _| is_kept(&only, name));
         self.only = only;
     }
 
@@ -186,8 +192,7 @@ impl Snapshot {
         }
         let recorded: engine::error::Result<Vec<Run>> =
             requests.par_iter().map(|request| record(request, bounds)).collect();
-        let mut runs = Entries::default();
-        recorded?.into_iter().for_each(|run| runs.set(run.options.name(), run));
+        let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
         let (version, units) = (VERSION.into(), scene.units.clone());
         let input = Input::of(scene)?;
         Ok(Snapshot { format: FORMAT, version, units, input, runs, log: Vec::new() })
@@ -195,7 +200,7 @@ impl Snapshot {
 
     /// Leaves out all numbers but those of the end that `only` names ([`FIELDS`]), and all iterations.
     pub fn keep_only(&mut self, only: &[String]) {
-        self.runs.iter_mut().for_each(|(_, run)| run.keep_only(Some(only.to_vec())));
+        self.runs.values_mut().for_each(|run| run.keep_only(Some(only.to_vec())));
     }
 
     /// Reads a snapshot.

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::Run;
 use super::numbers::{Error as Rounded, Numbers, WITHOUT_BOUND};
 use super::options::Options;
-use super::place::{of_iteration, place};
+use super::place::of_iteration;
 use engine::contact::{ContactNode, Pairing};
 use engine::error::{Error, Result};
 use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
@@ -56,10 +56,10 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
         let bounds = rounding.as_ref().and_then(|rounding| rounding.steps[k]);
         of.iteration(&mut run, step, bounds);
     }
-    run.facts.set("iterations", json!(steps.len()));
+    run.facts.insert("iterations".into(), json!(steps.len()));
     let (status, failure) = outcome(&solved);
-    run.facts.set("exit status", json!(status));
-    run.facts.set("failure", failure);
+    run.facts.insert("exit status".into(), json!(status));
+    run.facts.insert("failure".into(), failure);
     let solution = match solved {
         Err(why @ Error::Input(_)) => return Err(why),
         solved => solved.ok(),
@@ -69,8 +69,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
         run.decided_by_rounding =
             rounding.and_then(|rounding| rounding.decisions).unwrap_or_default();
     }
-    run.facts.sort_by_key(place);
-    run.numbers.sort_by_key(place);
+    run.sort();
     Ok(run)
 }
 
@@ -110,19 +109,20 @@ fn worksheet(run: &mut Run, request: &Request, model: &Model) {
     let units = &request.scene.units;
     let contact: Vec<usize> = model.contact.nodes.iter().map(|node| node.number()).collect();
     let target: Vec<usize> = model.target_edges().map(|edge| edge.number).collect();
-    run.facts.set("cnt", json!(contact));
-    run.facts.set("trg", json!(target));
+    run.facts.insert("cnt".into(), json!(contact));
+    run.facts.insert("trg".into(), json!(target));
     let restrained = model.all_dofs().filter(|dof| model.is_restrained(*dof));
     let restrained: Vec<String> =
         restrained.map(|dof| format!("{}{}", dof.node(), dof.axis())).collect();
-    run.facts.set("restrained", json!(restrained));
+    run.facts.insert("restrained".into(), json!(restrained));
     let given = Rounded { bound: Some(0.0), floor: 0.0 };
-    run.numbers.set("c_tll", Numbers::list(&units.length, [model.contact.tolerance], given));
+    run.numbers
+        .insert("c_tll".into(), Numbers::list(&units.length, [model.contact.tolerance], given));
     let load: f64 = model.load.iter().map(|f| f.abs()).sum();
     // An edge's load is computed with a square root and some products.
     let bound = load * ROUNDED;
     let error = Rounded { bound: Some(bound), floor: bound };
-    run.numbers.set("load", Numbers::list(&units.force, model.total_load(), error));
+    run.numbers.insert("load".into(), Numbers::list(&units.force, model.total_load(), error));
 }
 
 /// The sizes of which positions and distances are differences, length.
@@ -176,34 +176,34 @@ impl Recorded<'_> {
         let weights = Rounded { bound: bounds.map(|bounds| bounds.weights), floor: weights };
         if let Detail::Unilateral(own) = &step.detail {
             // Where a node closes divides a step, so that this is a number like others.
-            run.numbers.set(
+            run.numbers.insert(
                 name("load"),
                 Numbers::list("", [own.load], Rounded { bound: None, floor: ROUNDED }),
             );
             let statuses: Vec<String> = own.statuses.iter().map(ToString::to_string).collect();
-            run.facts.set(name("statuses"), json!(statuses));
+            run.facts.insert(name("statuses"), json!(statuses));
         }
         let (faced, distances) = self.faced(step);
-        run.facts.set(name("ct"), json!(faced));
-        run.numbers.set(name("yt"), Numbers::list(&units.length, distances, yt));
+        run.facts.insert(name("ct"), json!(faced));
+        run.numbers.insert(name("yt"), Numbers::list(&units.length, distances, yt));
         let dy: Vec<u8> = step.statuses().into_iter().map(u8::from).collect();
-        run.facts.set(name("dy"), json!(dy));
-        run.facts.set(name("in contact"), json!(step.contact_set(self.model)));
+        run.facts.insert(name("dy"), json!(dy));
+        run.facts.insert(name("in contact"), json!(step.contact_set(self.model)));
         let (mates, of_mates) = mates(step);
-        run.facts.set(name("mates"), json!(mates));
-        run.numbers.set(name("weights"), Numbers::list("", of_mates, weights));
+        run.facts.insert(name("mates"), json!(mates));
+        run.numbers.insert(name("weights"), Numbers::list("", of_mates, weights));
         let matrix = match &step.cycle {
             // The matrix of a state that came before is the same.
             Some(cycle) => run.numbers.get(&of_iteration(cycle.members[0], "MJS")).cloned(),
             None => self.matrix(step, weights),
         };
-        matrix.into_iter().for_each(|matrix| run.numbers.set(name("MJS"), matrix));
+        run.numbers.extend(matrix.map(|matrix| (name("MJS"), matrix)));
         if step.max_displacement.is_some() {
             let error = Rounded { bound: bounds.map(|bounds| bounds.u), floor: moved };
             let largest = Numbers::list(&units.length, step.max_displacement, error);
-            run.numbers.set(name("u"), largest);
+            run.numbers.insert(name("u"), largest);
         }
-        run.facts.set(name("cycle"), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
+        run.facts.insert(name("cycle"), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
     }
 
     /// Returns the number of each contact node's target edge, 0 for none, and its distance from it,
@@ -320,7 +320,7 @@ fn end(
         None => Rounded::default(),
         Some((bound, floor)) => Rounded { bound: bound.as_ref().map(of), floor: of(floor) },
     };
-    let mut set = |name: &str, numbers: Numbers| run.numbers.set(name, numbers);
+    let mut set = |name: &str, numbers: Numbers| run.numbers.insert(name.into(), numbers);
     let u = (1..).zip(solution.displacements());
     set("u", Numbers::rows(&units.length, u, error(|errors| errors.displacement)));
     let stresses = solution.elements.iter().map(|state| <[f64; 3]>::from(state.sigma));

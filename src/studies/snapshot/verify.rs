@@ -99,7 +99,7 @@ pub fn verify(
         None => (own?, snapshot.input.clone()),
         Some(scene) => (scene.clone(), Input::of(scene)?),
     };
-    let runs: Vec<(&str, &Run)> = snapshot.runs.iter().collect();
+    let runs: Vec<(&String, &Run)> = snapshot.runs.iter().collect();
     let verified = runs.par_iter().map(|(name, old)| {
         let verified = verify_run(snapshot, &scene, &input, name, old);
         done();
@@ -124,7 +124,7 @@ fn verify_run(
     // Equal bits need no bounds, which take another run.
     let run = again(Bounds::LeftOut)?;
     let (differences, compared) = compare(old, &run);
-    let has_bits = |(name, was): (&str, &Numbers)| {
+    let has_bits = |(name, was): (&String, &Numbers)| {
         run.numbers.get(name).is_some_and(|is| is.values == was.values)
     };
     if differences.is_empty() && old.numbers.iter().all(has_bits) {
@@ -144,17 +144,16 @@ fn verify_run(
 pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
     let single = old.runs.len() == 1 && new.runs.len() == 1;
     let compared = old.runs.iter().map(|(name, was)| {
-        let other =
-            if single { new.runs.iter().next() } else { new.runs.get(name).map(|is| (name, is)) };
+        let other = if single { new.runs.first() } else { new.runs.get_key_value(name) };
         let Some((other, is)) = other else {
             return VerifiedRun::alone(name, Presence::Missing, was);
         };
-        let name = if name == other { name.into() } else { format!("{name} and {other}") };
+        let name = if name == other { name.clone() } else { format!("{name} and {other}") };
         let was = Side { version: &old.version, input: &old.input, run: was };
         let is = Side { version: &new.version, input: &new.input, run: is };
         VerifiedRun::compared(name, was, is)
     });
-    let added = new.runs.iter().filter(|(name, _)| !single && old.runs.get(name).is_none());
+    let added = new.runs.iter().filter(|(name, _)| !single && !old.runs.contains_key(*name));
     let added = added.map(|(name, is)| VerifiedRun::alone(name, Presence::New, is));
     Verified { input: new.input.clone(), runs: compared.chain(added).collect() }
 }

@@ -48,8 +48,8 @@ pub fn decided_by_rounding(
 /// Returns a run without its way from iteration `first` on.
 pub fn without_way(run: &Run, first: usize) -> Run {
     let mut run = run.clone();
-    run.facts.retain(|name| !is_of_way(name, first));
-    run.numbers.retain(|name| !is_of_way(name, first));
+    run.facts.retain(|name, _| !is_of_way(name, first));
+    run.numbers.retain(|name, _| !is_of_way(name, first));
     run
 }
 
