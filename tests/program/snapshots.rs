@@ -222,7 +222,7 @@ fn a_changed_scene_is_explained_and_accepted_with_a_reason() {
     let words = [
         "cause: scene contact.c_tll: 0.02, was 0.001 (input)",
         "from the old input this program gives the old run",
-        "first other turn: iteration 1, node 8, c_cnt line 16: |yt| 4.000e-3 < c_tll 2e-2",
+        "first divergence: iteration 1, node 8, c_cnt line 16: |yt| 4.000e-3 < c_tll 2e-2",
         "c_cnt line 16: dy[i1] ← 1 if |yt[i1]| < c_tll ∧ ct[i1] > 0",
     ];
     assert_says(&explained, 1, &words);
@@ -332,7 +332,7 @@ fn two_sets_of_options_are_compared() {
     let differ = ran(at, &["snapshot", "diff", "strand", "--variant", "stepped,tied"]);
     let words = [
         "cause: option variant: \"tied\", was \"stepped\" (option)",
-        "first other turn: iteration 2",
+        "first divergence: iteration 2",
     ];
     assert_says(&differ, 1, &words);
     let same = ran(at, &["snapshot", "diff", "fig1", "--solver", "dense-lu,sparse-cholesky"]);

@@ -69,10 +69,10 @@ fn verdict(run: &VerifiedRun) -> String {
         _ if run.presence != Presence::Both => words::presence(run.presence).into(),
         (0, _) => "nothing was compared".into(),
         (compared, true) => {
-            let way = run.way.map_or(String::new(), |first| {
-                format!("; rounding decides the way there from iteration {first} on")
+            let path = run.path.map_or(String::new(), |first| {
+                format!("; rounding decides the path from iteration {first} on")
             });
-            format!("same, {compared} facts and numbers{way}")
+            format!("same, {compared} facts and numbers{path}")
         }
         (_, false) => "differs".into(),
     }
@@ -249,9 +249,9 @@ struct RunRow<'a> {
     presence: Presence,
     /// How many facts and numbers were compared.
     compared: usize,
-    /// The iteration from which on rounding decides the way to the equilibrium, which is not compared
-    /// from there on; null where the runs go the same way.
-    way: Option<usize>,
+    /// The iteration from which on rounding decides the path to the equilibrium, which is not compared
+    /// from there on; null where the runs take the same path.
+    path: Option<usize>,
     /// Why it differs; null where it does not.
     explanation: &'a Option<Explanation>,
     /// What differs, in the order of computation.
@@ -265,7 +265,7 @@ impl<'a> From<&'a VerifiedRun> for RunRow<'a> {
             same: run.is_same(),
             presence: run.presence,
             compared: run.compared,
-            way: run.way,
+            path: run.path,
             explanation: &run.explanation,
             differences: &run.differences,
         }

@@ -30,7 +30,7 @@ pub fn explanation(explanation: &Explanation) -> String {
         (Some(first), Some(flip)) => {
             text += &format!("first difference: {first}\n");
             let later = if explanation.later > 0 { "; everything later follows" } else { "" };
-            text += &format!("first other turn: {}{later}\n", turn(flip));
+            text += &format!("first divergence: {}{later}\n", turn(flip));
             text.extend(flip.line.iter().map(|line| format!("  {line}\n")));
         }
     }

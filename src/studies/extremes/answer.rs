@@ -58,9 +58,10 @@ impl Answer {
 
     /// This answer against the `exact` one: another contact state is wrong, whatever `quantity` is.
     pub fn against(&self, exact: &Answer, quantity: Quantity) -> Verdict {
-        match self.in_contact == exact.in_contact {
-            true => quantity(self, exact),
-            false => Verdict::of_status(false),
+        if self.in_contact == exact.in_contact {
+            quantity(self, exact)
+        } else {
+            Verdict::of_status(false)
         }
     }
 
@@ -85,10 +86,12 @@ impl Answer {
             |of: &dyn Fn(usize) -> RBig| dofs.iter().map(|&e| abs(of(e))).max().unwrap_or_default();
         let error = largest(&|e| &self.u[e] - &exact.u[e]);
         let size = largest(&|e| exact.u[e].clone());
-        match () {
-            _ if error.is_zero() => 0.0,
-            _ if size.is_zero() => f64::INFINITY,
-            _ => (error / size).to_f64().value(),
+        if error.is_zero() {
+            0.0
+        } else if size.is_zero() {
+            f64::INFINITY
+        } else {
+            (error / size).to_f64().value()
         }
     }
 }

@@ -24,11 +24,14 @@ pub enum Verdict {
 impl Verdict {
     /// From the relative error of an answer.
     pub fn of_error(error: f64) -> Self {
-        match () {
-            _ if error.is_nan() => Verdict::Wrong("NaN"),
-            _ if error == 0.0 => Verdict::Exact,
-            _ if error > 0.1 => Verdict::Wrong("no digit"),
-            _ => Verdict::Digits(-error.log10()),
+        if error.is_nan() {
+            Verdict::Wrong("NaN")
+        } else if error == 0.0 {
+            Verdict::Exact
+        } else if error > 0.1 {
+            Verdict::Wrong("no digit")
+        } else {
+            Verdict::Digits(-error.log10())
         }
     }
 

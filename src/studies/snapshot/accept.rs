@@ -18,7 +18,7 @@ use base::suggestion::did_you_mean;
 pub struct Acceptance {
     /// The run and the entry: `stepped/u`, or `input`.
     pub entry: String,
-    /// What it was; of numbers the one that changed most, in units of what it may.
+    /// What it was; of numbers the one that changed most, in multiples of its tolerance.
     pub from: Value,
     /// What it is.
     pub to: Value,

@@ -41,7 +41,7 @@ pub enum Kind {
     Expected { was: f64, is: Option<Number>, limit: Number, reason: String },
 }
 
-/// The number that differs most, in units of what it may.
+/// The number that differs most, in multiples of its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(inline)]
 pub struct Worst {

@@ -110,7 +110,7 @@ fn causes(old: Side, new: Side) -> Vec<Cause> {
         let [was, is] = [old, new].map(|side| {
             serde_json::to_value(&side.input.scene).expect("a description is an object")
         });
-        values(&mut causes, "scene", &was, &is);
+        fields(&mut causes, Class::Input, "scene", &was, &is);
     }
     if old.input.mesh_sha256 != new.input.mesh_sha256 {
         mesh(&mut causes, &old.input.mesh, &new.input.mesh);
@@ -119,49 +119,42 @@ fn causes(old: Side, new: Side) -> Vec<Cause> {
     causes
 }
 
-/// Collects the fields in which two documents differ.
-fn values(causes: &mut Vec<Cause>, path: &str, was: &Value, is: &Value) {
+/// Collects the fields in which two documents differ; a list of objects is compared one by one.
+fn fields(causes: &mut Vec<Cause>, class: Class, path: &str, was: &Value, is: &Value) {
     if was == is {
         return;
     }
-    let below = |name: &str| match path {
-        "scene" => format!("scene {name}"),
-        _ => format!("{path}.{name}"),
-    };
     match (was, is) {
         (Value::Object(old), Value::Object(new)) => {
+            let separator = if path.contains(' ') { '.' } else { ' ' };
             let added = new.keys().filter(|name| !old.contains_key(*name));
             for name in old.keys().chain(added) {
                 let [was, is] = [old, new].map(|side| side.get(name).unwrap_or(&Value::Null));
-                values(causes, &below(name), was, is);
+                fields(causes, class, &format!("{path}{separator}{name}"), was, is);
             }
         }
-        (Value::Array(old), Value::Array(new)) if is_of_parts(old) && old.len() == new.len() => {
+        (Value::Array(old), Value::Array(new))
+            if old.iter().any(Value::is_object) && old.len() == new.len() =>
+        {
             for (k, (was, is)) in old.iter().zip(new).enumerate() {
-                values(causes, &format!("{path}[{k}]"), was, is);
+                fields(causes, class, &format!("{path}[{k}]"), was, is);
             }
         }
-        _ => push(causes, Class::Input, path.into(), text(was), text(is)),
+        _ => {
+            let [was, is] = [was, is].map(|value| match value {
+                Value::Null => "the default".into(),
+                value => value.to_string(),
+            });
+            causes.push(Cause { class, place: path.into(), was, is });
+        }
     }
-}
-
-/// Returns whether a list is one of objects, which are compared one by one.
-fn is_of_parts(list: &[Value]) -> bool {
-    list.iter().any(Value::is_object)
-}
-
-fn text(value: &Value) -> String {
-    if value.is_null() { "the default".into() } else { value.to_string() }
-}
-
-fn push(causes: &mut Vec<Cause>, class: Class, place: String, was: String, is: String) {
-    causes.push(Cause { class, place, was, is });
 }
 
 /// Collects the differences of two meshes: groups, then nodes, then elements.
 fn mesh(causes: &mut Vec<Cause>, old: &Mesh, new: &Mesh) {
-    let mut add =
-        |place: String, was: String, is: String| push(causes, Class::Input, place, was, is);
+    let mut add = |place: String, was: String, is: String| {
+        causes.push(Cause { class: Class::Input, place, was, is });
+    };
     if old.names != new.names {
         let [was, is] = [old, new].map(|mesh| {
             let name = |n: &PhysicalName| (n.dim, n.tag, n.name.clone());
@@ -192,47 +185,25 @@ fn mesh(causes: &mut Vec<Cause>, old: &Mesh, new: &Mesh) {
     }
 }
 
-/// Collects the differences of two sets of options: the variant, the reading, the other options, and
-/// last what only changes how numbers are computed.
+/// Collects the differences of two sets of options, last what only changes how numbers are computed.
 fn options(causes: &mut Vec<Cause>, old: &Options, new: &Options) {
     let [was, is] = [old, new].map(|options| {
-        let value = serde_json::to_value(options).expect("options have string keys");
-        value.as_object().cloned().expect("options are an object")
+        let mut document = serde_json::to_value(options).expect("options have string keys");
+        document["reading"] =
+            serde_json::to_value(options.reading).expect("a reading has string keys");
+        document
     });
-    let numeric = ["scalar", "solver", "tol", "inputs"];
-    let of = |side: &serde_json::Map<String, Value>, name: &str| {
-        side.get(name).cloned().unwrap_or(Value::Null)
-    };
-    let names: Vec<&String> =
-        was.keys().chain(is.keys().filter(|name| !was.contains_key(*name))).collect();
-    let (late, early): (Vec<&String>, Vec<&String>) =
-        names.into_iter().partition(|name| numeric.contains(&name.as_str()));
-    for name in early.into_iter().chain(late) {
-        let (a, b) = (of(&was, name), of(&is, name));
-        if a == b {
-            continue;
-        }
-        match name.as_str() {
-            "reading" => readings(causes, old, new),
-            name => {
-                let class = if numeric.contains(&name) { Class::Solver } else { Class::Option };
-                push(causes, class, format!("option {name}"), text(&a), text(&b));
-            }
+    let mut found = Vec::new();
+    fields(&mut found, Class::Option, "option", &was, &is);
+    for cause in &mut found {
+        if let Some(id) = cause.place.strip_prefix("option reading.") {
+            (cause.class, cause.place) = (Class::Reading, format!("reading {id}"));
+        } else if ["scalar", "solver", "tol", "inputs"].contains(&&cause.place["option ".len()..]) {
+            cause.class = Class::Solver;
         }
     }
-}
-
-/// Collects the readings in which two sets differ.
-fn readings(causes: &mut Vec<Cause>, old: &Options, new: &Options) {
-    let [was, is] = [old, new]
-        .map(|options| serde_json::to_value(options.reading).expect("a reading has string keys"));
-    let (was, is) = (was.as_object(), is.as_object());
-    for (id, a) in was.into_iter().flatten() {
-        let b = is.and_then(|is| is.get(id)).cloned().unwrap_or(Value::Null);
-        if *a != b {
-            push(causes, Class::Reading, format!("reading {id}"), text(a), text(&b));
-        }
-    }
+    found.sort_by_key(|cause| cause.class == Class::Solver);
+    causes.append(&mut found);
 }
 
 /// Runs what was recorded again and says what that shows.

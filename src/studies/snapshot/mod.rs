@@ -23,7 +23,6 @@ mod options;
 mod place;
 mod record;
 mod verify;
-mod way;
 
 use std::collections::{BTreeMap, HashSet};
 

@@ -4,12 +4,13 @@ use rayon::prelude::*;
 
 use super::compare::{Difference, compare};
 use super::explain::{Explanation, Side, explain};
+use super::place::iteration;
 use super::record::{Bounds, record};
-use super::way::{decided_by_rounding, without_way};
 use super::{Input, Numbers, Run, Snapshot, VERSION};
 use base::choices;
 use engine::error::Result;
-use problem::scene::Scene;
+use problem::modelling::Variant;
+use problem::scene::{Scene, SceneBuilder};
 
 /// What came of verifying a snapshot.
 #[derive(Clone, Debug)]
@@ -45,9 +46,9 @@ pub struct VerifiedRun {
     pub differences: Vec<Difference>,
     /// How many facts and numbers were compared.
     pub compared: usize,
-    /// The iteration from which on rounding decides the way to the equilibrium, which the two runs
-    /// reach by different ones; these are not compared from there on.
-    pub way: Option<usize>,
+    /// The iteration from which on rounding decides the path to the equilibrium, such as which of two
+    /// nodes closes first. The two runs take different paths, which are not compared from there on.
+    pub path: Option<usize>,
     /// Why it differs; None where it does not.
     pub explanation: Option<Explanation>,
 }
@@ -65,22 +66,22 @@ impl VerifiedRun {
         self.differences.is_empty() && self.compared > 0
     }
 
-    fn same(name: &str, run: Run, compared: usize, way: Option<usize>) -> Self {
+    fn same(name: &str, run: Run, compared: usize, path: Option<usize>) -> Self {
         let (name, presence, differences) = (name.into(), Presence::Both, Vec::new());
-        VerifiedRun { name, presence, run, differences, compared, way, explanation: None }
+        VerifiedRun { name, presence, run, differences, compared, path, explanation: None }
     }
 
     fn compared(name: String, old: Side, new: Side) -> Self {
         let (differences, compared) = compare(old.run, new.run);
         let explanation = explain(old, new, &differences);
         let (presence, run) = (Presence::Both, new.run.clone());
-        VerifiedRun { name, presence, run, differences, compared, way: None, explanation }
+        VerifiedRun { name, presence, run, differences, compared, path: None, explanation }
     }
 
     fn alone(name: &str, presence: Presence, run: &Run) -> Self {
         let (name, run) = (name.into(), run.clone());
         let (differences, compared, explanation) = (Vec::new(), 0, None);
-        VerifiedRun { name, presence, run, differences, compared, way: None, explanation }
+        VerifiedRun { name, presence, run, differences, compared, path: None, explanation }
     }
 }
 
@@ -116,13 +117,13 @@ fn verify_run(
     old: &Run,
 ) -> Result<VerifiedRun> {
     let request = old.options.request(scene);
-    let again = |bounds: Bounds| -> Result<Run> {
+    let rerun = |bounds: Bounds| -> Result<Run> {
         let mut run = record(&request, bounds)?;
         run.keep_only(old.only.clone());
         Ok(run)
     };
     // Equal bits need no bounds, which take another run.
-    let run = again(Bounds::LeftOut)?;
+    let run = rerun(Bounds::LeftOut)?;
     let (differences, compared) = compare(old, &run);
     let has_bits = |(name, was): (&String, &Numbers)| {
         run.numbers.get(name).is_some_and(|is| is.values == was.values)
@@ -130,10 +131,10 @@ fn verify_run(
     if differences.is_empty() && old.numbers.iter().all(has_bits) {
         return Ok(VerifiedRun::same(name, run, compared, None));
     }
-    let run = again(Bounds::Computed)?;
+    let run = rerun(Bounds::Computed)?;
     let (differences, _) = compare(old, &run);
     if let Some(first) = decided_by_rounding(input, &run, &differences)? {
-        let (_, compared) = compare(&without_way(old, first), &without_way(&run, first));
+        let (_, compared) = compare(&without_path(old, first), &without_path(&run, first));
         return Ok(VerifiedRun::same(name, run, compared, Some(first)));
     }
     let was = Side { version: &snapshot.version, input: &snapshot.input, run: old };
@@ -156,4 +157,56 @@ pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
     let added = new.runs.iter().filter(|(name, _)| !single && !old.runs.contains_key(*name));
     let added = added.map(|(name, is)| VerifiedRun::alone(name, Presence::New, is));
     Verified { input: new.input.clone(), runs: compared.chain(added).collect() }
+}
+
+/// The changes of the moduli by which rounding is tried, in units of 2^-52: as small as rounding itself.
+const TRIALS: [f64; 6] = [-1.0, 1.0, -2.0, 2.0, -3.0, 3.0];
+
+/// Returns the first iteration of the `differences` of a run from an earlier one where these are of the
+/// path alone, and rounding decides it: with moduli that differ in their last digit the run takes another
+/// path there too, or before.
+///
+/// # Errors
+/// The scene with such moduli is at fault.
+fn decided_by_rounding(
+    input: &Input,
+    run: &Run,
+    differences: &[Difference],
+) -> Result<Option<usize>> {
+    let Some(first) = first_iteration(differences) else { return Ok(None) };
+    if run.options.variant != Some(Variant::Unilateral)
+        || !differences.iter().all(|d| is_of_path(&d.entry, first))
+    {
+        return Ok(None);
+    }
+    for units in TRIALS {
+        let mut description = input.scene.clone();
+        for (_, material) in &mut description.materials.0 {
+            material.e *= 1.0 + units * f64::EPSILON;
+        }
+        let (name, mesh) = (input.name.clone(), input.mesh.clone());
+        let scene = SceneBuilder { name, mesh, description }.build()?;
+        let changed = record(&run.options.request(&scene), Bounds::LeftOut)?;
+        if first_iteration(&compare(run, &changed).0).is_some_and(|other| other <= first) {
+            return Ok(Some(first));
+        }
+    }
+    Ok(None)
+}
+
+/// Returns a run without its path from iteration `first` on.
+fn without_path(run: &Run, first: usize) -> Run {
+    let mut run = run.clone();
+    run.facts.retain(|name, _| !is_of_path(name, first));
+    run.numbers.retain(|name, _| !is_of_path(name, first));
+    run
+}
+
+fn is_of_path(entry: &str, first: usize) -> bool {
+    entry == "iterations" || iteration(entry).is_some_and(|(k, _)| k >= first)
+}
+
+/// Returns the first iteration of which something differs; None where nothing does.
+fn first_iteration(differences: &[Difference]) -> Option<usize> {
+    differences.iter().filter_map(|d| Some(iteration(&d.entry)?.0)).min()
 }

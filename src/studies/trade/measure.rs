@@ -1,7 +1,5 @@
-//! Trials run in turn, timed, and measured against the best of them. What several knobs ask for, the
-//! request as it is, is run and timed for the first of them.
+//! Trials run in turn, timed, and measured against the best of them.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -41,10 +39,10 @@ pub fn measure(
     let reference = model.target().and_then(|_| solve(&request.equilibrium(), &mut |_| ()).ok());
     let is_asked = |knob: &Knob| options.only.contains(knob);
     let places = is_asked(&Knob::Geometry).then(|| places(request)).transpose()?;
-    let (mut sections, mut all, mut measured) = (Vec::new(), Vec::new(), Vec::<Measured>::new());
+    let (mut sections, mut all) = (Vec::new(), Vec::new());
     for knob in Knob::ALL.iter().copied().filter(is_asked).filter(|k| *k != Knob::Geometry) {
         let trials = trials(request, knob);
-        let runs = runs(request, &trials, options.runs, &measured, &watch)?;
+        let runs = timed(request, &trials, options.runs, &watch)?;
         let meshes = match knob {
             Knob::Mesh => meshes(&request.scene, trials.len() - 1)?,
             _ => Vec::new(),
@@ -53,13 +51,16 @@ pub fn measure(
         let bench =
             Bench { scene: &request.scene, trials: &trials, runs: &runs, meshes, reference };
         sections.push(bench.section(request, knob));
-        all.extend_from_slice(&trials);
-        let own = trials.into_iter().zip(runs).map(|(trial, run)| Measured { trial, run });
-        measured.extend(own.filter(|measured| measured.trial.turns_nothing()));
+        all.extend(trials);
     }
+    let peak_of = |trial: &Trial| {
+        let bytes = peak(trial);
+        watch("peak memory");
+        bytes
+    };
     // Nothing more is timed: what is left is computed side by side, in other processes too.
-    let (peaks, geometry) = rayon::join(
-        || peaks(&all, &peak, &watch),
+    let (peaks, geometry): (Vec<Option<u64>>, _) = rayon::join(
+        || all.par_iter().map(peak_of).collect(),
         || places.map(|places| geometry(request, &places, &watch)),
     );
     let rows = sections.iter_mut().flat_map(|section: &mut Section| &mut section.rows);
@@ -95,60 +96,9 @@ struct Run {
     certainty: Option<Certainty>,
 }
 
-/// What was measured of a trial.
-struct Measured {
-    trial: Trial,
-    run: Arc<Run>,
-}
-
-/// Returns the runs of the trials; [`timed_anew`] runs those that were not `measured` before.
-fn runs(
-    request: &Request,
-    trials: &[Trial],
-    rounds: usize,
-    measured: &[Measured],
-    watch: &impl Fn(&str),
-) -> Result<Vec<Arc<Run>>, Error> {
-    let known = |trial: &Trial| {
-        let is_known = |other: &&Measured| {
-            other.trial.is_same_run(trial) && judges(other.trial.knob) == judges(trial.knob)
-        };
-        measured.iter().find(is_known).map(|same| Arc::clone(&same.run))
-    };
-    let known: Vec<Option<Arc<Run>>> = trials.iter().map(known).collect();
-    let is_new = |(_, known): &(&Trial, &Option<Arc<Run>>)| known.is_none();
-    let new: Vec<Trial> =
-        trials.iter().zip(&known).filter(is_new).map(|(trial, _)| trial.clone()).collect();
-    let mut runs = timed_anew(request, &new, rounds, watch)?.into_iter();
-    (new.len() * rounds..trials.len() * rounds).for_each(|_| watch("known"));
-    let next = |known: Option<Arc<Run>>| {
-        known.unwrap_or_else(|| Arc::new(runs.next().expect("the others were run")))
-    };
-    Ok(known.into_iter().map(next).collect())
-}
-
-/// Returns the peak memory of each trial; those that ask for the same have the one of the first.
-fn peaks(
-    trials: &[Trial],
-    peak: &(impl Fn(&Trial) -> Option<u64> + Sync),
-    watch: &(impl Fn(&str) + Sync),
-) -> Vec<Option<u64>> {
-    let first = |place: usize| {
-        let is_same = |other: &Trial| other.is_same_run(&trials[place]);
-        trials[..place].iter().position(is_same).unwrap_or(place)
-    };
-    let of_first = |place: usize| {
-        let bytes = (first(place) == place).then(|| peak(&trials[place])).flatten();
-        watch("peak memory");
-        bytes
-    };
-    let of_firsts: Vec<_> = (0..trials.len()).into_par_iter().map(of_first).collect();
-    (0..trials.len()).map(|place| of_firsts[first(place)]).collect()
-}
-
 /// Runs the trials in turn, `rounds` times, each from the scene alone: a time includes every
 /// factorisation.
-fn timed_anew(
+fn timed(
     request: &Request,
     trials: &[Trial],
     rounds: usize,
@@ -208,7 +158,7 @@ fn light(mut solution: Solution) -> Solution {
 struct Bench<'a> {
     scene: &'a Scene,
     trials: &'a [Trial],
-    runs: &'a [Arc<Run>],
+    runs: &'a [Run],
     /// The meshes of the knob *mesh* but the scene's own; none of another one.
     meshes: Vec<Refined>,
     reference: Option<&'a Solution>,

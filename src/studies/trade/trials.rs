@@ -102,21 +102,6 @@ impl Trial {
         Ok(request)
     }
 
-    /// Whether it asks for the request as it is, but for variant and arithmetic.
-    pub(super) fn turns_nothing(&self) -> bool {
-        match self.setting {
-            Setting::Own => true,
-            Setting::Refined(_) | Setting::Half => false,
-            _ => self.own,
-        }
-    }
-
-    /// Whether both turn nothing, and ask for the same.
-    pub(super) fn is_same_run(&self, other: &Trial) -> bool {
-        let all_same = self.variant == other.variant && self.arithmetic == other.arithmetic;
-        self.turns_nothing() && other.turns_nothing() && all_same
-    }
-
     /// Knob, variant and place: a name that no other trial has.
     pub fn name(&self) -> String {
         format!("{}/{}/{}", self.knob, self.variant, self.label)
