@@ -5,7 +5,7 @@ use std::cell::Cell;
 
 use super::failure::{Cause, Failure, Fallible};
 use super::function::Function;
-use super::lacking;
+use super::unsupported;
 use super::listing::Listing;
 use super::observe::Place;
 use super::settings::{Limits, Settings};
@@ -100,13 +100,13 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
         let name = self.listing.names.name(slot);
         let of_sheet =
             |has: fn(&Sheet, &str) -> bool| self.sheet.is_some_and(|sheet| has(sheet, name));
-        let construct = if called && lacking::is_function(name) {
+        let construct = if called && unsupported::is_function(name) {
             format!("the function {name}")
         } else if of_sheet(|sheet, name| sheet.range(name).is_some()) {
             format!("a range variable in an expression ({name})")
         } else if called {
             return self.fail(span, Cause::Undefined { name: name.into() });
-        } else if lacking::is_unit(name) && !of_sheet(|sheet, name| sheet.program(name).is_some()) {
+        } else if unsupported::is_unit(name) && !of_sheet(|sheet, name| sheet.program(name).is_some()) {
             format!("units: {name}")
         } else if self.functions[slot].is_some() {
             format!("a function as a value ({name})")

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use super::failure::{Cause, Fallible};
 use super::function::Function;
-use super::lacking;
+use super::unsupported;
 use super::listing::Listing;
 use super::settings::{Limits, Settings};
 use super::sheet::{Numbers, Sheet};
@@ -223,7 +223,7 @@ impl Execution<'_> {
         let unknown =
             |of: &&str| *of != name && !self.sheet.has(of) && Function::builtin(of).is_none();
         if let Some(of) = program.free_names().into_iter().find(unknown) {
-            let outcome = match lacking::construct(of) {
+            let outcome = match unsupported::construct(of) {
                 Some(construct) => Outcome::Unsupported(construct),
                 None => Outcome::Failed(Cause::Undefined { name: of.into() }),
             };

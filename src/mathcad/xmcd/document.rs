@@ -2,7 +2,7 @@
 
 use roxmltree::{Document as Xml, Node, ParsingOptions};
 
-use super::places::Placed;
+use super::parentheses::Operand;
 use super::read::{self, Math};
 use super::{Unsupported, scan};
 use crate::settings::Settings;

@@ -3,11 +3,11 @@
 //! What is read becomes the text notation of `listings/README.md`, and with it the one syntax tree;
 //! what is written comes from that tree. Parentheses differ: a fraction's bar and an exponent's
 //! place need none in Mathcad, and a transposed entry needs some. Both directions follow
-//! `places`, so that a listing comes back byte for byte.
+//! `parentheses`, so that a listing comes back byte for byte.
 
 pub mod document;
 pub mod page;
-mod places;
+mod parentheses;
 pub mod read;
 mod scan;
 pub mod write;

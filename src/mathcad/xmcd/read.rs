@@ -2,9 +2,9 @@
 
 use roxmltree::Node;
 
-use super::places::{Placed, in_exponent, in_fraction, in_transpose};
+use super::parentheses::{Operand, in_exponent, in_fraction, in_transpose};
 use super::{FUNCTIONS, Unsupported, tag};
-use crate::lacking::is_unit;
+use crate::unsupported::is_unit;
 use crate::lexer::{keyword, name_length};
 use crate::syntax::{Level, OPERATORS, Operation, Operator, Spelling};
 
@@ -398,7 +398,7 @@ pub fn shown_in(unit: Math<'_, '_>) -> String {
     format!("units: {}", names.join("·"))
 }
 
-impl Placed for Math<'_, '_> {
+impl Operand for Math<'_, '_> {
     fn level(self) -> Level {
         if self.tag() == "real" {
             let negative = self.text().starts_with('-');

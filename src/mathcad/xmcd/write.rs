@@ -1,7 +1,7 @@
 //! From the syntax tree to XMCD.
 
 use super::FUNCTIONS;
-use super::places::{Placed, in_exponent, in_fraction, in_transpose};
+use super::parentheses::{Operand, in_exponent, in_fraction, in_transpose};
 use crate::lexer::Names;
 use crate::listing::Listing;
 use crate::syntax::{Expr, Kind, Level, Operation, Operator, Range, Reference, Statement, Step};
@@ -267,7 +267,7 @@ impl Writer<'_> {
     }
 }
 
-impl Placed for &Expr {
+impl Operand for &Expr {
     fn level(self) -> Level {
         match &self.kind {
             Kind::Any(_) => Level::Any,

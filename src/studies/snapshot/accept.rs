@@ -167,8 +167,8 @@ fn take(old: &mut Run, new: &Run, some: Option<&Vec<&Difference>>) {
 
 fn acceptance(run: &str, difference: &Difference, reason: &str) -> Acceptance {
     let (from, to, bounds, differing) = match &difference.kind {
-        Kind::Missing => (json!("there"), json!("missing"), None, None),
-        Kind::Extra => (json!("missing"), json!("there"), None, None),
+        Kind::Missing => (json!("present"), json!("missing"), None, None),
+        Kind::Extra => (json!("missing"), json!("present"), None, None),
         Kind::Fact { was, is } => (was.clone(), is.clone(), None, None),
         Kind::Unit { was, is } => (json!(was), json!(is), None, None),
         Kind::Shape { was, is, .. } => {
