@@ -75,7 +75,9 @@ impl Edit {
     }
 
     /// Returns the listing under this reading.
-    /// Errors: names a range that the listing does not have, or why the edited listing cannot be
+    ///
+    /// # Errors
+    /// Names a range that the listing does not have, or why the edited listing cannot be
     /// read.
     pub fn apply(&self, listing: &Listing) -> Result<Listing, EditError> {
         let mut lines = listing.lines().to_vec();

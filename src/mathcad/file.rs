@@ -6,7 +6,9 @@ use super::listing::Listing;
 use super::settings::Limits;
 
 /// Reads all listings of a file, in order; messages call the file `name`.
-/// Errors: the first place at which the text leaves the notation, or that it holds no listing.
+///
+/// # Errors
+/// The first place at which the text leaves the notation, or that it holds no listing.
 pub fn listings(name: &str, text: &str, limits: &Limits) -> Result<Vec<Listing>, ParseError> {
     let text = text.trim_start_matches('\u{feff}');
     let mut starts = Vec::new();

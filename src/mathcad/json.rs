@@ -6,7 +6,9 @@ use super::value::{Array, Grid, Value};
 
 /// Returns the value that a JSON document spells: a list of lists is an array by rows, and any
 /// other list a column.
-/// Errors: what cannot be a value of a worksheet.
+///
+/// # Errors
+/// What cannot be a value of a worksheet.
 pub fn read(json: &Json) -> Result<Value, String> {
     match json {
         Json::Number(x) => Ok(x.as_f64().unwrap_or(f64::NAN).into()),

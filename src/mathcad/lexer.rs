@@ -126,7 +126,9 @@ pub type Spanned = (Token, Span);
 pub type Complaint = (usize, String);
 
 /// Splits the `text` of a line into tokens.
-/// Errors: names a character or number that the notation does not know, or brackets more than
+///
+/// # Errors
+/// Names a character or number that the notation does not know, or brackets more than
 /// `depth` deep.
 pub fn tokens(text: &str, names: &mut Names, depth: usize) -> Result<Vec<Spanned>, Complaint> {
     let mut lexer = Lexer { text, names, found: vec![], open: vec![], depth };

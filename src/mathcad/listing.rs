@@ -77,13 +77,17 @@ impl Listing {
     /// Reads a listing in the notation of `listings/README.md`, under the default [`Limits`].
     ///
     /// `name` is what messages call the listing.
-    /// Errors: names the first place at which the text leaves the notation.
+    ///
+    /// # Errors
+    /// Names the first place at which the text leaves the notation.
     pub fn parse(name: &str, text: &str) -> Result<Self, ParseError> {
         Self::parse_within(name, text, &Limits::default())
     }
 
     /// Reads a listing under limits of the caller's.
-    /// Errors: names the first place at which the text leaves the notation, or the limit that it
+    ///
+    /// # Errors
+    /// Names the first place at which the text leaves the notation, or the limit that it
     /// exceeds.
     pub fn parse_within(name: &str, text: &str, limits: &Limits) -> Result<Self, ParseError> {
         Self::parse_at(name, &text.lines().collect::<Vec<_>>(), 0, limits)

@@ -41,7 +41,9 @@ pub fn determinant(value: &Value) -> Result<Value, Cause> {
 }
 
 /// Returns the solution of `a`·x = `b` by elimination with row pivots.
-/// Errors: the sizes do not match, or the matrix is singular.
+///
+/// # Errors
+/// The sizes do not match, or the matrix is singular.
 pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     let (Value::Array(a), Value::Array(b)) = (a, b) else {
         return Err(kind("a square matrix and a column", if a.number().is_some() { a } else { b }));

@@ -3,25 +3,25 @@
 use super::listing::Line;
 use super::value::Value;
 
-/// Is told what happens as a listing runs. `()` is told nothing and costs nothing.
+/// What watches a run of a listing: each method is called when its event happens. `()` watches
+/// nothing and costs nothing.
 pub trait Observer {
-    /// Where this is false, the run does not even prepare what it would tell.
+    /// Where this is false, the run does not even prepare its reports.
     const ACTIVE: bool = true;
 
-    /// Is told that the statement of a line begins.
+    /// The statement of a line begins.
     fn statement(&mut self, _line: &Line) {}
 
-    /// Is told that a name or an entry was read.
+    /// A name or an entry was read.
     fn read(&mut self, _access: Access<'_>) {}
 
-    /// Is told that a name or an entry was written to; for a loop variable, once for each turn.
+    /// A name or an entry was written to; a loop variable is in each turn.
     fn write(&mut self, _access: Access<'_>) {}
 
-    /// Is told whether a statement's condition was true.
+    /// A statement's condition was evaluated: whether it was true.
     fn condition(&mut self, _place: Place<'_>, _held: bool) {}
 
-    /// Is told the operands of an `∧`: true, false, or `None` for one that failed or was not
-    /// evaluated.
+    /// An `∧` was evaluated: its operands.
     fn conjunction(&mut self, _place: Place<'_>, _operands: &[Operand<'_>]) {}
 }
 

@@ -36,17 +36,9 @@ pub struct Outcome {
 }
 
 impl Listing {
-    /// Returns a worksheet for the listing, in which only Mathcad's own functions are defined.
+    /// Returns a runner of the listing where only Mathcad's own functions are defined.
     pub fn runner(&self, settings: &Settings, limits: &Limits) -> Runner<'_> {
-        Runner {
-            listing: self,
-            sheet: None,
-            settings: settings.clone(),
-            limits: limits.clone(),
-            values: vec![None; self.names.len()],
-            functions: self.names.all().map(Function::builtin).collect(),
-            spent: Cell::default(),
-        }
+        Runner::new(self, None, settings, limits)
     }
 
     /// Returns a runner of the listing in the worksheet `sheet`.
@@ -56,19 +48,29 @@ impl Listing {
         settings: &Settings,
         limits: &Limits,
     ) -> Runner<'l> {
-        Runner {
-            listing: self,
-            sheet: Some(sheet),
-            settings: settings.clone(),
-            limits: limits.clone(),
-            values: self.names.all().map(|name| sheet.value(name)).collect(),
-            functions: self.names.all().map(|name| Function::named(Some(sheet), name)).collect(),
-            spent: Cell::default(),
-        }
+        Runner::new(self, Some(sheet), settings, limits)
     }
 }
 
 impl<'l> Runner<'l> {
+    fn new(
+        listing: &'l Listing,
+        sheet: Option<&'l Sheet>,
+        settings: &Settings,
+        limits: &Limits,
+    ) -> Self {
+        let names = || listing.names.all();
+        Runner {
+            listing,
+            sheet,
+            settings: settings.clone(),
+            limits: limits.clone(),
+            values: names().map(|name| sheet?.value(name)).collect(),
+            functions: names().map(|name| Function::named(sheet, name)).collect(),
+            spent: Cell::default(),
+        }
+    }
+
     /// Defines a name above the listing. A name that the listing does not use is passed over.
     pub fn define(&mut self, name: &str, value: impl Into<Value>) -> &mut Self {
         if let Some(slot) = self.listing.names.find(name) {
@@ -100,7 +102,9 @@ impl<'l> Runner<'l> {
     }
 
     /// Calls the listing's function under the eyes of an observer.
-    /// Errors: returns the failure that stopped the program; the observer has then seen all that
+    ///
+    /// # Errors
+    /// Returns the failure that stopped the program; the observer has then seen all that
     /// came before.
     pub fn call_observed<O: Observer>(
         &mut self,

@@ -5,12 +5,12 @@ use std::cell::Cell;
 
 use super::failure::{Cause, Failure, Fallible};
 use super::function::Function;
-use super::unsupported;
 use super::listing::Listing;
 use super::observe::Place;
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
 use super::syntax::{Slot, Span};
+use super::unsupported;
 use super::value::Value;
 
 /// A name's value, and whether the program wrote it.
@@ -106,7 +106,9 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
             format!("a range variable in an expression ({name})")
         } else if called {
             return self.fail(span, Cause::Undefined { name: name.into() });
-        } else if unsupported::is_unit(name) && !of_sheet(|sheet, name| sheet.program(name).is_some()) {
+        } else if unsupported::is_unit(name)
+            && !of_sheet(|sheet, name| sheet.program(name).is_some())
+        {
             format!("units: {name}")
         } else if self.functions[slot].is_some() {
             format!("a function as a value ({name})")

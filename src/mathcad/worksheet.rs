@@ -6,10 +6,10 @@ use std::rc::Rc;
 
 use super::failure::{Cause, Fallible};
 use super::function::Function;
-use super::unsupported;
 use super::listing::Listing;
 use super::settings::{Limits, Settings};
 use super::sheet::{Numbers, Sheet};
+use super::unsupported;
 use super::value::Value;
 use super::words;
 use super::xmcd::document::{Content, Region, Saved, Worksheet};

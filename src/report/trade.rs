@@ -14,11 +14,11 @@ use engine::estimates::Certainty;
 use problem::modelling::Variant;
 use problem::scene::Scene;
 use studies::audit::claims::{Claim, Elsewhere};
-use studies::audit::range::{Parameter, Place};
-use studies::trade::{Came, Errors, Knob, Order, Reached, Row, Section, Trade};
+use studies::audit::range::{self, Place};
+use studies::trade::{Came, Errors, Order, Parameter, Reached, Row, Section, Trade};
 
 /// The heading of `trade.csv`.
-pub const COLUMNS: &str = "knob,variant,setting,own,equations,in_contact,cycle,seconds,runs,\
+pub const COLUMNS: &str = "parameter,variant,setting,own,equations,in_contact,cycle,seconds,runs,\
     peak_bytes,error_displacement,error_energy,error_von_mises,\
     change_displacement,change_energy,change_von_mises,pareto,failure";
 
@@ -57,7 +57,7 @@ fn cells(section: &Section, row: &Row) -> Vec<String> {
             .map(|error| error.filter(|error| error.is_finite()))
     });
     let start = [
-        section.knob.to_string(),
+        section.parameter.to_string(),
         row.variant.to_string(),
         row.label.clone(),
         row.own.to_string(),
@@ -72,7 +72,7 @@ fn cells(section: &Section, row: &Row) -> Vec<String> {
     start.into_iter().chain(parts.concat().into_iter().map(text)).chain(end).collect()
 }
 
-/// Lays out a table for each knob, and its answers.
+/// Lays out a table for each parameter, and its answers.
 pub fn text(trade: &Trade) -> String {
     let mut text = format!(
         "Speed against accuracy: scene {}, {} nodes, {} triangles; \
@@ -80,11 +80,11 @@ pub fn text(trade: &Trade) -> String {
          displacement: largest difference of a node's displacement over the largest displacement; energy: \
          energy norm of the difference over that of the whole; von Mises: largest relative difference of a \
          body's largest von Mises stress; moved by: displacement, from the row marked >\n\
-         * is on the Pareto front (time, displacement) of its table, > where the scene has the knob\n",
+         * is on the Pareto front (time, displacement) of its table, > where the scene has the parameter\n",
         trade.scene, trade.nodes, trade.triangles, trade.runs
     );
     for section in &trade.sections {
-        text += &format!("\n{}, errors against {}\n", section.knob, section.against);
+        text += &format!("\n{}, errors against {}\n", section.parameter, section.against);
         if !section.rows.is_empty() {
             text += &trials(section);
         }
@@ -111,7 +111,7 @@ fn trials(section: &Section) -> String {
     let table = Table::of(&section.rows)
         .column("", |row| [mark(row.pareto, "*"), mark(row.own, ">")].concat())
         .column("variant", |row| row.variant)
-        .column(section.knob, |row| row.label.clone())
+        .column(section.parameter, |row| row.label.clone())
         .column("equations", |row| row.equations)
         .column("in contact", |row| or_dash(row.in_contact, |n| n.to_string()))
         .column("time, s", |row| or_dash(row.seconds, |s| format!("{s:.4}")))
@@ -139,13 +139,13 @@ fn orders(orders: &[Order]) -> String {
         .text()
 }
 
-/// Draws time against error: a series for each knob, and rings around what is on its front. None where
+/// Draws time against error: a series for each parameter, and rings around what is on its front. None where
 /// nothing was timed.
 pub fn picture(trade: &Trade) -> Option<String> {
     let place = |row: &Row| row.seconds.zip(row.error).map(|(s, e)| [s, e.displacement]);
     let shown = |p: &[f64; 2]| p[1] > 0.0 && p[1].is_finite();
     let of_section = |section: &Section| Series {
-        name: section.knob.to_string(),
+        name: section.parameter.to_string(),
         points: section.rows.iter().filter_map(place).filter(shown).collect(),
         style: Style::Dots,
     };
@@ -156,14 +156,14 @@ pub fn picture(trade: &Trade) -> Option<String> {
         points: front.collect(),
         style: Style::Rings,
     };
-    let timed = trade.sections.iter().filter(|section| section.knob != Knob::Geometry);
+    let timed = trade.sections.iter().filter(|section| section.parameter != Parameter::Geometry);
     let series: Vec<Series> = timed.clone().map(of_section).chain([front]).collect();
     if series.iter().all(|series| series.points.is_empty()) {
         return None;
     }
     let axes = ["time, s", "relative error of the displacements"]
         .map(|label| Axis { label, logarithmic: true });
-    let references = timed.map(|s| format!("{}: against {}.", s.knob, s.against));
+    let references = timed.map(|s| format!("{}: against {}.", s.parameter, s.against));
     let captions: Vec<String> =
         references.chain(["What has no error, the best itself, is not shown.".into()]).collect();
     Some(chart(&format!("Speed against accuracy: {}", trade.scene), axes, &series, &captions))
@@ -172,15 +172,15 @@ pub fn picture(trade: &Trade) -> Option<String> {
 /// Draws what each parameter of the range does, a picture each with its name: the errors of the
 /// variants, what c_tol does, and under them the verdicts.
 pub fn geometry(section: &Section) -> Vec<(String, String)> {
-    let picture = |p: &Parameter| (format!("geometry-{p}.svg"), over_parameter(section, *p));
-    let parameters = Parameter::ALL.iter().filter(|_| !section.claims.is_empty());
+    let picture = |p: &range::Parameter| (format!("geometry-{p}.svg"), over_parameter(section, *p));
+    let parameters = range::Parameter::ALL.iter().filter(|_| !section.claims.is_empty());
     parameters.map(picture).collect()
 }
 
 /// The claim whose number is drawn: what c_tol changes.
 const DRAWN: &str = "P10";
 
-fn over_parameter(section: &Section, parameter: Parameter) -> String {
+fn over_parameter(section: &Section, parameter: range::Parameter) -> String {
     let here = |place: Place| Some(place.value).filter(|_| place.parameter == parameter);
     let error = |row: &Row| Some([here(row.place?)?, row.error?.energy]);
     let of_variant = |variant: &Variant| Series {

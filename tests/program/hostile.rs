@@ -107,8 +107,8 @@ fn no_number_of_a_table_is_undefined() {
     let several = ended("solve", "friction-inf", "--variant unilateral --geometry initial");
     assert_eq!(several.status, Some(4), "{}", several.text);
     has_no_undefined_number(&several.text);
-    for (name, knob) in [("trade-NaN", "mesh"), ("pivot-NaN", "solver")] {
-        let ended = ended("trade", name, &format!("--runs 1 --only {knob}"));
+    for (name, parameter) in [("trade-NaN", "mesh"), ("pivot-NaN", "solver")] {
+        let ended = ended("trade", name, &format!("--runs 1 --only {parameter}"));
         assert_eq!(ended.status, Some(0), "{name}: {}", ended.text);
         has_no_undefined_number(&ended.text);
     }

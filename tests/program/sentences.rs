@@ -11,7 +11,7 @@ use plane_contact::report::printed::tables;
 use plane_contact::report::{comparison, trade as report};
 use plane_contact::studies::benchmark::{Annulus, Strand};
 use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair};
-use plane_contact::studies::trade::{Knob, Options, measure};
+use plane_contact::studies::trade::{Options, Parameter, measure};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -213,7 +213,7 @@ fn nearest(words: &str, section: &Section) {
 }
 
 /// Checks a sentence that names its variant.
-fn of_variant(knob: &str, sentence: &str, json: &Value) {
+fn of_variant(parameter: &str, sentence: &str, json: &Value) {
     let (variant, words) = sentence.split_once(": ").expect(sentence);
     let section = Section::of(json, Some(variant));
     let mut words = words;
@@ -231,7 +231,7 @@ fn of_variant(knob: &str, sentence: &str, json: &Value) {
     if let Some((before, _)) = words.split_once(". At ") {
         words = &words[..before.len() + 1];
     }
-    match knob {
+    match parameter {
         "c_tll" => tolerance(words, &section),
         "iterations" => iterations(words, &section),
         _ => nearest(words, &section),
@@ -363,24 +363,24 @@ fn of_halves(sentence: &str, json: &Value) {
 }
 
 /// Checks every sentence of `trade` on a request; returns how many there are.
-fn check_trade(request: &Request, only: &[Knob]) -> usize {
+fn check_trade(request: &Request, only: &[Parameter]) -> usize {
     let options = Options { runs: 1, only: only.to_vec() };
     let trade = measure(request, &options, |_| None, |_| ()).expect("it is measured");
     let json: Value = serde_json::from_str(&report::json(&request.scene, &trade)).expect("JSON");
     let mut count = 0;
     for section in json["sections"].as_array().expect("sections") {
-        let knob = section["knob"].as_str().expect("a name");
+        let parameter = section["parameter"].as_str().expect("a name");
         for sentence in section["answers"].as_array().expect("sentences") {
             let sentence = sentence.as_str().expect("a text");
             count += 1;
-            match knob {
+            match parameter {
                 _ if section["rows"].as_array().expect("rows").is_empty() => {
                     assert!(!sentence.contains(|c: char| c.is_ascii_digit()), "{sentence}");
                 }
                 "arithmetic" | "solver" => of_numbers(sentence, section),
                 "mesh" => of_meshes(sentence, section),
                 "symmetry" => of_halves(sentence, section),
-                _ => of_variant(knob, sentence, section),
+                _ => of_variant(parameter, sentence, section),
             }
         }
     }
@@ -393,29 +393,38 @@ fn open(name: &str) -> Scene {
 
 #[test]
 fn sentences_of_trade_are_those_of_its_rows() {
-    let knobs: Vec<Knob> =
-        Knob::ALL.iter().copied().filter(|knob| *knob != Knob::Geometry).collect();
+    let parameters: Vec<Parameter> = Parameter::ALL
+        .iter()
+        .copied()
+        .filter(|parameter| *parameter != Parameter::Geometry)
+        .collect();
     for scene in ["fig1", "two-blocks"] {
-        let count = check_trade(&Request::new(&open(scene)), &knobs);
+        let count = check_trade(&Request::new(&open(scene)), &parameters);
         assert!(count >= 15, "{scene}: {count}");
     }
     let annulus = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.build());
-    check_trade(&Request::new(&annulus.expect("in range")), &knobs);
+    check_trade(&Request::new(&annulus.expect("in range")), &parameters);
     // The own setting at either end of the sweep, and beyond it.
     for (tolerance, iterations) in [(1e-6, 1), (1e-7, 320), (0.1, 400), (0.5, 2)] {
         let mut request = Request::new(&open("fig1"));
         (request.tolerance, request.iterations) = (Some(tolerance), iterations);
-        check_trade(&request, &[Knob::Tolerance, Knob::Iterations]);
+        check_trade(&request, &[Parameter::Tolerance, Parameter::Iterations]);
     }
 }
 
 /// The paper's example, where the smallest c_tll is not the one that moves most; and a coarser one.
 #[test]
 fn sentences_of_trade_on_the_example_are_those_of_its_rows() {
-    let knobs = [Knob::Tolerance, Knob::Iterations, Knob::Status, Knob::Coupling, Knob::Symmetry];
-    assert!(check_trade(&Request::new(&open("strand")), &knobs[..1]) == 2);
+    let parameters = [
+        Parameter::Tolerance,
+        Parameter::Iterations,
+        Parameter::Status,
+        Parameter::Coupling,
+        Parameter::Symmetry,
+    ];
+    assert!(check_trade(&Request::new(&open("strand")), &parameters[..1]) == 2);
     let coarse = Strand { size: 0.9, ..Strand::default() }.generate().and_then(|b| b.build());
-    check_trade(&Request::new(&coarse.expect("in range")), &knobs);
+    check_trade(&Request::new(&coarse.expect("in range")), &parameters);
 }
 
 fn printed(folder: &Path, args: &[&str]) -> String {

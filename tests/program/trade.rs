@@ -16,14 +16,14 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::symmetry::half;
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::report::trade as report;
-use plane_contact::studies::audit::range::{Parameter, Place};
+use plane_contact::studies::audit::range::{self, Place};
 use plane_contact::studies::benchmark::{Annulus, Strand};
 use plane_contact::studies::trade::{
-    self, Came, Knob, Options, Order, Row, Trade, pareto, solve_to,
+    self, Came, Options, Order, Parameter, Row, Trade, pareto, solve_to,
 };
 use serde_json::{Value, json};
 
-fn measured(scene: &Scene, only: &[Knob]) -> Trade {
+fn measured(scene: &Scene, only: &[Parameter]) -> Trade {
     let options = Options { runs: 1, only: only.to_vec() };
     let request = Request::new(scene);
     trade::measure(&request, &options, |_| None, |_| ()).expect("it is measured")
@@ -97,7 +97,7 @@ fn squares_of_differences_add_in_the_energy_norm() {
 #[test]
 fn the_ladder_finds_its_limit() {
     let scene = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.build()).unwrap();
-    let trade = measured(&scene, &[Knob::Mesh]);
+    let trade = measured(&scene, &[Parameter::Mesh]);
     let section = &trade.sections[0];
     let ladder = section.ladder.as_ref().expect("every mesh ran");
     assert_near("Pythagoras", ladder.departure.unwrap(), 0.0, 1.0, &HALF);
@@ -109,21 +109,21 @@ fn the_ladder_finds_its_limit() {
 }
 
 #[test]
-fn every_knob_has_its_rows_and_every_row_its_columns() {
-    let trade = measured(&open("fig1"), Knob::ALL);
-    assert_eq!(trade.sections.len(), Knob::ALL.len());
+fn every_parameter_has_its_rows_and_every_row_its_columns() {
+    let trade = measured(&open("fig1"), Parameter::ALL);
+    assert_eq!(trade.sections.len(), Parameter::ALL.len());
     for section in &trade.sections {
-        let none = matches!(section.knob, Knob::Symmetry | Knob::Geometry);
-        assert_eq!(section.rows.is_empty(), none, "{}", section.knob);
-        assert!(!section.answers.is_empty(), "{}", section.knob);
+        let none = matches!(section.parameter, Parameter::Symmetry | Parameter::Geometry);
+        assert_eq!(section.rows.is_empty(), none, "{}", section.parameter);
+        assert!(!section.answers.is_empty(), "{}", section.parameter);
         for row in &section.rows {
-            let (knob, label) = (section.knob, &row.label);
+            let (parameter, label) = (section.parameter, &row.label);
             assert!(row.failure.is_some() != row.seconds.is_some(), "{label}");
-            assert!(row.seconds.is_none() || row.error.is_some(), "{knob}: {label}");
+            assert!(row.seconds.is_none() || row.error.is_some(), "{parameter}: {label}");
             assert!(row.runs == 1 && row.equations > 0);
         }
         let ran = section.rows.iter().any(|row| row.error.is_some());
-        assert_eq!(section.rows.iter().any(|row| row.pareto), ran, "{}", section.knob);
+        assert_eq!(section.rows.iter().any(|row| row.pareto), ran, "{}", section.parameter);
     }
     let text = report::text(&trade);
     for words in ["c_tll", "von Mises", "exact", "equilibrium"] {
@@ -134,10 +134,10 @@ fn every_knob_has_its_rows_and_every_row_its_columns() {
 /// Each place of the range has a row for every variant, none is dropped, and rounding decides no
 /// number of them; the verdicts are those of `audit`.
 #[test]
-fn geometry_is_a_knob_of_the_example() {
+fn geometry_is_a_parameter_of_the_example() {
     let section = &*GEOMETRY;
     assert_eq!(section.rows.len(), 3 * RANGE.len());
-    for parameter in Parameter::ALL {
+    for parameter in range::Parameter::ALL {
         let of = || section.rows.iter().filter(|row| row.place.unwrap().parameter == *parameter);
         assert_eq!(of().count(), 3 * parameter.values().len(), "{parameter}");
         assert_eq!(of().filter(|row| row.own).count(), 3, "{parameter}");
@@ -170,7 +170,7 @@ fn a_place_of_the_range_is_a_run_of_its_scene() {
         request.tolerance = Some(tolerance);
         solve(&request, &mut |_| ()).expect("it runs")
     };
-    let here = |place: Place| place.parameter == Parameter::Clearance && place.value == 0.4;
+    let here = |place: Place| place.parameter == range::Parameter::Clearance && place.value == 0.4;
     let number = |id: &str| {
         let judged = GEOMETRY.claims.iter().find(|judged| judged.claim.id == id).expect("a claim");
         let at = judged.elsewhere.iter().find(|other| here(other.place)).expect("a place");
@@ -185,20 +185,20 @@ fn a_place_of_the_range_is_a_run_of_its_scene() {
 }
 
 #[test]
-fn geometry_is_no_knob_of_other_scenes() {
+fn geometry_is_no_parameter_of_other_scenes() {
     let mut other = Strand::default().generate().and_then(|b| b.build()).expect("in range");
     other.name = "strand".into();
-    let trade = measured(&other, &[Knob::Geometry]);
+    let trade = measured(&other, &[Parameter::Geometry]);
     let section = &trade.sections[0];
     assert!(section.rows.is_empty() && section.claims.is_empty());
-    assert!(section.answers[0].contains("knob of the embedded scene strand only"));
+    assert!(section.answers[0].contains("parameter of the embedded scene strand only"));
     assert!(report::geometry(section).is_empty());
 }
 
 #[test]
 fn csv_and_json_agree() {
     let scene = open("fig1");
-    let trade = measured(&scene, &[Knob::Arithmetic, Knob::Tolerance]);
+    let trade = measured(&scene, &[Parameter::Arithmetic, Parameter::Tolerance]);
     let (csv, json) = (report::csv(&trade), report::json(&scene, &trade));
     let json: Value = serde_json::from_str(&json).expect("JSON");
     let mut lines = csv.lines();
@@ -222,15 +222,15 @@ fn csv_and_json_agree() {
 
 #[test]
 fn the_picture_is_xml() {
-    let untimed = measured(&open("fig1"), &[Knob::Geometry]);
+    let untimed = measured(&open("fig1"), &[Parameter::Geometry]);
     assert_eq!(report::picture(&untimed), None, "a chart without a point");
-    let svg = report::picture(&measured(&open("fig1"), &[Knob::Solver])).expect("a chart");
+    let svg = report::picture(&measured(&open("fig1"), &[Parameter::Solver])).expect("a chart");
     roxmltree::Document::parse(&svg).expect("XML");
 }
 
 #[test]
 fn errors_fall_with_precision() {
-    let trade = measured(&open("fig1"), &[Knob::Arithmetic]);
+    let trade = measured(&open("fig1"), &[Parameter::Arithmetic]);
     let error = |label: &str| {
         let row = trade.sections[0].rows.iter().find(|row| row.label == label);
         row.and_then(|row| row.error).expect("the trial ran").displacement
@@ -244,7 +244,7 @@ fn errors_fall_with_precision() {
 #[test]
 fn lame_converges_with_order_1_in_the_energy_norm() {
     let scene = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.build()).unwrap();
-    let trade = measured(&scene, &[Knob::Mesh]);
+    let trade = measured(&scene, &[Parameter::Mesh]);
     let section = &trade.sections[0];
     let errors: Vec<f64> = section.rows.iter().map(|row| row.error.unwrap().energy).collect();
     assert!(errors.len() >= 4 && errors.windows(2).all(|e| e[1] < e[0]), "{errors:?}");
@@ -402,7 +402,7 @@ fn half_a_scene_is_not_refined() {
 fn everything_but_times_is_reproducible() {
     let scene = open("fig1");
     let measured = || {
-        let mut trade = measured(&scene, Knob::ALL);
+        let mut trade = measured(&scene, Parameter::ALL);
         for row in trade.sections.iter_mut().flat_map(|section| &mut section.rows) {
             (row.seconds, row.pareto) = (None, false);
         }

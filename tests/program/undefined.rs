@@ -71,8 +71,8 @@ fn a_share_of_nothing_is_a_dash_with_its_reason() {
 fn a_trade_of_what_does_not_move_has_no_undefined_number() {
     let folder = TempDir::new().unwrap();
     let nothing = scene(0.0, 0.0);
-    for knob in ["mesh", "solver", "arithmetic"] {
-        let args = ["trade", "scene.json", "--runs", "1", "--out", "t", "--only", knob];
+    for parameter in ["mesh", "solver", "arithmetic"] {
+        let args = ["trade", "scene.json", "--runs", "1", "--out", "t", "--only", parameter];
         let (status, text) = output(folder.path(), &nothing, &args);
         assert_eq!(status, Some(0), "{text}");
         has_no_undefined_number(&text);

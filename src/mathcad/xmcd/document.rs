@@ -84,7 +84,9 @@ pub enum Saved {
 }
 
 /// Reads a worksheet.
-/// Errors: the text is no XML, or no worksheet of Mathcad 13 to 15.
+///
+/// # Errors
+/// The text is no XML, or no worksheet of Mathcad 13 to 15.
 pub fn read(text: &str, place: &str) -> Result<Worksheet> {
     let wrong = |what: String| {
         let fix = "give an .xmcd or .xmcdz file that Mathcad 13, 14 or 15 saved (a Prime worksheet saved \

@@ -4,9 +4,9 @@ use roxmltree::Node;
 
 use super::parentheses::{Operand, in_exponent, in_fraction, in_transpose};
 use super::{FUNCTIONS, Unsupported, tag};
-use crate::unsupported::is_unit;
 use crate::lexer::{keyword, name_length};
 use crate::syntax::{Level, OPERATORS, Operation, Operator, Spelling};
+use crate::unsupported::is_unit;
 
 type Read<T> = Result<T, Unsupported>;
 

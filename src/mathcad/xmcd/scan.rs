@@ -8,7 +8,9 @@ const ATTRIBUTES: usize = 64;
 const NAMESPACES: usize = 64;
 
 /// Checks what every element has.
-/// Errors: the first element that has too many attributes, or stands under too many namespaces.
+///
+/// # Errors
+/// The first element that has too many attributes, or stands under too many namespaces.
 pub fn check(xml: &str) -> Result<(), String> {
     let mut open: Vec<usize> = vec![];
     let mut namespaces = 0;

@@ -17,7 +17,9 @@ const STICK_SLOPE: f64 = 0.1;
 
 /// The deck of a problem: plane triangles, the whole load in one static step; displacements and
 /// stresses go to the `.dat` file, where ccx prints seven digits (`.frd`: six).
-/// Errors: the surfaces of a pair bound no triangle.
+///
+/// # Errors
+/// The surfaces of a pair bound no triangle.
 pub fn deck(problem: &Problem) -> Result<String> {
     let model = problem.model;
     let contact = match problem.contact {

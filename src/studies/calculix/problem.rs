@@ -67,7 +67,9 @@ impl Contact {
     /// The problems whose sum a solution is. With total load that is its last step. With stepped
     /// load it is the sum of the increments: each contact state that came, with the whole load,
     /// times its share of the steps. The last step's state comes last.
-    /// Errors: the variant is `printed`, which constrains nothing.
+    ///
+    /// # Errors
+    /// The variant is `printed`, which constrains nothing.
     pub fn parts(solution: &Solution) -> Result<Vec<Part>> {
         Contact::check_equations(solution.request.variant)?;
         let steps = solution.steps.len();

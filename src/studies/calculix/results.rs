@@ -16,7 +16,9 @@ enum Block {
 /// increments the last.
 ///
 /// A plane triangle has two integration points across the thickness: its stress is their mean.
-/// Errors: a node or a triangle is missing; something is no number.
+///
+/// # Errors
+/// A node or a triangle is missing; something is no number.
 pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields> {
     let mut u = vec![None; nodes];
     let mut points: Vec<Vec<[f64; 6]>> = vec![Vec::new(); triangles];

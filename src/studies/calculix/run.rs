@@ -30,7 +30,9 @@ pub struct Ran {
 }
 
 /// Runs `program` on a deck for each part and sums the results with the parts' shares.
-/// Errors: there is no such program, or it fails, with the last lines of its output; its results
+///
+/// # Errors
+/// There is no such program, or it fails, with the last lines of its output; its results
 /// cannot be read; a pair's surfaces bound no triangle.
 pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Result<Ran> {
     let version = version(program)?;
@@ -44,7 +46,9 @@ pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Resul
 }
 
 /// Checks that `program` can be started.
-/// Errors: says how to install or to name it.
+///
+/// # Errors
+/// Says how to install or to name it.
 pub fn check(program: &str) -> Result<()> {
     version(program).map(drop)
 }

@@ -66,22 +66,17 @@ impl VerifiedRun {
         self.differences.is_empty() && self.compared > 0
     }
 
-    fn same(name: &str, run: Run, compared: usize, path: Option<usize>) -> Self {
-        let (name, presence, differences) = (name.into(), Presence::Both, Vec::new());
-        VerifiedRun { name, presence, run, differences, compared, path, explanation: None }
+    /// Makes a run that is not compared.
+    fn new(name: impl Into<String>, presence: Presence, run: Run) -> Self {
+        let (name, differences) = (name.into(), Vec::new());
+        VerifiedRun { name, presence, run, differences, compared: 0, path: None, explanation: None }
     }
 
     fn compared(name: String, old: Side, new: Side) -> Self {
         let (differences, compared) = compare(old.run, new.run);
         let explanation = explain(old, new, &differences);
-        let (presence, run) = (Presence::Both, new.run.clone());
-        VerifiedRun { name, presence, run, differences, compared, path: None, explanation }
-    }
-
-    fn alone(name: &str, presence: Presence, run: &Run) -> Self {
-        let (name, run) = (name.into(), run.clone());
-        let (differences, compared, explanation) = (Vec::new(), 0, None);
-        VerifiedRun { name, presence, run, differences, compared, path: None, explanation }
+        let run = VerifiedRun::new(name, Presence::Both, new.run.clone());
+        VerifiedRun { differences, compared, explanation, ..run }
     }
 }
 
@@ -129,13 +124,14 @@ fn verify_run(
         run.numbers.get(name).is_some_and(|is| is.values == was.values)
     };
     if differences.is_empty() && old.numbers.iter().all(has_bits) {
-        return Ok(VerifiedRun::same(name, run, compared, None));
+        return Ok(VerifiedRun { compared, ..VerifiedRun::new(name, Presence::Both, run) });
     }
     let run = rerun(Bounds::Computed)?;
     let (differences, _) = compare(old, &run);
     if let Some(first) = decided_by_rounding(input, &run, &differences)? {
         let (_, compared) = compare(&without_path(old, first), &without_path(&run, first));
-        return Ok(VerifiedRun::same(name, run, compared, Some(first)));
+        let run = VerifiedRun::new(name, Presence::Both, run);
+        return Ok(VerifiedRun { compared, path: Some(first), ..run });
     }
     let was = Side { version: &snapshot.version, input: &snapshot.input, run: old };
     Ok(VerifiedRun::compared(name.into(), was, Side { version: VERSION, input, run: &run }))
@@ -147,7 +143,7 @@ pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
     let compared = old.runs.iter().map(|(name, was)| {
         let other = if single { new.runs.first() } else { new.runs.get_key_value(name) };
         let Some((other, is)) = other else {
-            return VerifiedRun::alone(name, Presence::Missing, was);
+            return VerifiedRun::new(name, Presence::Missing, was.clone());
         };
         let name = if name == other { name.clone() } else { format!("{name} and {other}") };
         let was = Side { version: &old.version, input: &old.input, run: was };
@@ -155,7 +151,7 @@ pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
         VerifiedRun::compared(name, was, is)
     });
     let added = new.runs.iter().filter(|(name, _)| !single && !old.runs.contains_key(*name));
-    let added = added.map(|(name, is)| VerifiedRun::alone(name, Presence::New, is));
+    let added = added.map(|(name, is)| VerifiedRun::new(name, Presence::New, is.clone()));
     Verified { input: new.input.clone(), runs: compared.chain(added).collect() }
 }
 

@@ -53,7 +53,9 @@ pub fn check_accuracy(accuracy: f64) -> Result<(), InputError> {
 
 /// Solves `request` in a session in the cheapest precision in which the relative error of the displacements, by
 /// rounding alone, is at most `accuracy`; the request's own arithmetic does not count.
-/// Errors: an accuracy that is not between 0 and 1, or that no precision meets; those of [`Session::solve`]
+///
+/// # Errors
+/// An accuracy that is not between 0 and 1, or that no precision meets; those of [`Session::solve`]
 /// in the last precision where none has a result.
 pub fn solve_to(request: &Request, session: &Session, accuracy: f64) -> Result<Reached, Error> {
     check_accuracy(accuracy)?;

@@ -1,10 +1,10 @@
-//! The knob *geometry*: what the paper leaves open of its example, one thing at a time.
+//! The parameter *geometry*: what the paper leaves open of its example, one thing at a time.
 
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::Knob;
+use super::Parameter;
 use super::errors::Errors;
 use super::rows::{Row, Section};
 use super::trials::CARRYING;
@@ -18,7 +18,9 @@ use problem::modelling::Variant;
 
 /// Returns the places that are measured on the scene of `request`: none where it is not the paper's
 /// example.
-/// Errors: those of [`range`].
+///
+/// # Errors
+/// Those of [`range`].
 pub fn places(request: &Request) -> Result<Range> {
     if is_example(&request.scene) { range(request.reading) } else { Ok(Vec::new()) }
 }
@@ -39,7 +41,7 @@ pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync
     let claims = judge(&on_runs, &Case::of(request.clone()), places);
     let answers = match rows.is_empty() {
         true => vec![
-            "Geometry is a knob of the embedded scene strand only: of another scene nothing says \
+            "Geometry is a parameter of the embedded scene strand only: of another scene nothing says \
              from which radii, mesh and shape of the stamp it was made."
                 .into(),
         ],
@@ -54,9 +56,9 @@ pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync
             [places.into()].into_iter().chain(CARRYING.iter().filter_map(of)).collect()
         }
     };
-    let (knob, against) = (Knob::Geometry, against(Knob::Geometry));
+    let (parameter, against) = (Parameter::Geometry, against(Parameter::Geometry));
     Section {
-        knob,
+        parameter,
         against,
         rows,
         orders: Vec::new(),

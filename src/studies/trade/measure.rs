@@ -9,7 +9,7 @@ use super::geometry::{geometry, places};
 use super::order::{Order, departure};
 use super::rows::{Ladder, Row, Section, Trade};
 use super::trials::{Against, EXACT, Trial, exact_seconds, trials};
-use super::{Knob, words};
+use super::{Parameter, words};
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
@@ -23,12 +23,14 @@ pub const PATIENCE: f64 = 0.05;
 pub struct Options {
     /// How many times each trial is run, in turn: A B C A B C ...
     pub runs: usize,
-    pub only: Vec<Knob>,
+    pub only: Vec<Parameter>,
 }
 
-/// Turns the knobs of `request` and measures what comes of each place. `peak` gives a trial's peak
+/// Turns the parameters of `request` and measures what comes of each place. `peak` gives a trial's peak
 /// memory, of several trials at once, `watch` is called after each run with what was run.
-/// Errors: the scene cannot be refined. A trial that fails is a row that says why.
+///
+/// # Errors
+/// The scene cannot be refined. A trial that fails is a row that says why.
 pub fn measure(
     request: &Request,
     options: &Options,
@@ -37,20 +39,22 @@ pub fn measure(
 ) -> Result<Trade, Error> {
     let model = &request.scene.model;
     let reference = model.target().and_then(|_| solve(&request.equilibrium(), &mut |_| ()).ok());
-    let is_asked = |knob: &Knob| options.only.contains(knob);
-    let places = is_asked(&Knob::Geometry).then(|| places(request)).transpose()?;
+    let is_asked = |parameter: &Parameter| options.only.contains(parameter);
+    let places = is_asked(&Parameter::Geometry).then(|| places(request)).transpose()?;
     let (mut sections, mut all) = (Vec::new(), Vec::new());
-    for knob in Knob::ALL.iter().copied().filter(is_asked).filter(|k| *k != Knob::Geometry) {
-        let trials = trials(request, knob);
+    for parameter in
+        Parameter::ALL.iter().copied().filter(is_asked).filter(|k| *k != Parameter::Geometry)
+    {
+        let trials = trials(request, parameter);
         let runs = timed(request, &trials, options.runs, &watch)?;
-        let meshes = match knob {
-            Knob::Mesh => meshes(&request.scene, trials.len() - 1)?,
+        let meshes = match parameter {
+            Parameter::Mesh => meshes(&request.scene, trials.len() - 1)?,
             _ => Vec::new(),
         };
         let reference = reference.as_ref();
         let bench =
             Bench { scene: &request.scene, trials: &trials, runs: &runs, meshes, reference };
-        sections.push(bench.section(request, knob));
+        sections.push(bench.section(request, parameter));
         all.extend(trials);
     }
     let peak_of = |trial: &Trial| {
@@ -77,13 +81,15 @@ pub fn measure(
 }
 
 /// How many times [`measure`] calls `watch`.
-/// Errors: those of the knob *geometry*.
+///
+/// # Errors
+/// Those of the parameter *geometry*.
 pub fn steps(request: &Request, options: &Options) -> Result<usize, Error> {
-    options.only.iter().try_fold(0, |steps, knob| {
+    options.only.iter().try_fold(0, |steps, parameter| {
         Ok(steps
-            + match knob {
-                Knob::Geometry => places(request)?.len(),
-                knob => trials(request, *knob).len() * (options.runs + 1),
+            + match parameter {
+                Parameter::Geometry => places(request)?.len(),
+                parameter => trials(request, *parameter).len() * (options.runs + 1),
             })
     })
 }
@@ -118,7 +124,7 @@ fn timed(
                 let seconds = start.elapsed().as_secs_f64();
                 if round == 0 {
                     let solution = match solution {
-                        Ok(solution) if !judges(trial.knob) => Ok(light(solution)),
+                        Ok(solution) if !judges(trial.parameter) => Ok(light(solution)),
                         other => other.map_err(|why| why.to_string()),
                     };
                     let equations = request.scene.model.dofs();
@@ -129,13 +135,13 @@ fn timed(
             watch(&trial.name());
         }
     }
-    Ok(trials.par_iter().zip(runs).map(|(trial, run)| judged(trial.knob, run)).collect())
+    Ok(trials.par_iter().zip(runs).map(|(trial, run)| judged(trial.parameter, run)).collect())
 }
 
-/// A run with what rounding decides in it, where its knob judges.
-fn judged(knob: Knob, run: Run) -> Run {
+/// A run with what rounding decides in it, where its parameter judges.
+fn judged(parameter: Parameter, run: Run) -> Run {
     match run.solution {
-        Ok(solution) if judges(knob) => {
+        Ok(solution) if judges(parameter) => {
             let (solution, certainty) = certain(solution, &Session::default());
             Run { solution: Ok(light(solution)), certainty: Some(certainty), ..run }
         }
@@ -143,9 +149,12 @@ fn judged(knob: Knob, run: Run) -> Run {
     }
 }
 
-/// Whether a knob is one of the paper's, whose verdict must not rest on rounding.
-fn judges(knob: Knob) -> bool {
-    matches!(knob, Knob::Tolerance | Knob::Iterations | Knob::Status | Knob::Coupling)
+/// Whether a parameter is one of the paper's, whose verdict must not rest on rounding.
+fn judges(parameter: Parameter) -> bool {
+    matches!(
+        parameter,
+        Parameter::Tolerance | Parameter::Iterations | Parameter::Status | Parameter::Coupling
+    )
 }
 
 /// A solution without all steps but the last.
@@ -159,23 +168,24 @@ struct Bench<'a> {
     scene: &'a Scene,
     trials: &'a [Trial],
     runs: &'a [Run],
-    /// The meshes of the knob *mesh* but the scene's own; none of another one.
+    /// The meshes of the parameter *mesh* but the scene's own; none of another one.
     meshes: Vec<Refined>,
     reference: Option<&'a Solution>,
 }
 
 impl Bench<'_> {
-    /// What there is to say of a knob, but for the memory that its trials take.
-    fn section(&self, request: &Request, knob: Knob) -> Section {
+    /// What there is to say of a parameter, but for the memory that its trials take.
+    fn section(&self, request: &Request, parameter: Parameter) -> Section {
         let places = (0..self.trials.len()).into_par_iter();
         let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
         mark_front(&mut rows);
-        let (orders, ladder) = if knob == Knob::Mesh { self.ladder() } else { Default::default() };
-        let exact = (knob == Knob::Arithmetic).then(|| exact_seconds(request));
-        let half = (knob == Knob::Symmetry).then(|| symmetry::half(self.scene)).flatten();
+        let (orders, ladder) =
+            if parameter == Parameter::Mesh { self.ladder() } else { Default::default() };
+        let exact = (parameter == Parameter::Arithmetic).then(|| exact_seconds(request));
+        let half = (parameter == Parameter::Symmetry).then(|| symmetry::half(self.scene)).flatten();
         let mut section = Section {
-            knob,
-            against: words::against(knob),
+            parameter,
+            against: words::against(parameter),
             rows,
             orders,
             ladder,
@@ -219,16 +229,16 @@ impl Bench<'_> {
 
     /// `best`, or where it failed the last trial before it that did not.
     fn best_that_ran(&self, place: usize, best: usize) -> Option<usize> {
-        match self.trials[place].knob {
-            Knob::Symmetry => Some(best),
+        match self.trials[place].parameter {
+            Parameter::Symmetry => Some(best),
             _ => (place..=best).rev().find(|k| self.runs[*k].solution.is_ok()),
         }
     }
 
-    /// The trial of the same variant where the scene has the knob; knobs that change the mesh have
+    /// The trial of the same variant where the scene has the parameter; parameters that change the mesh have
     /// their own measure.
     fn unchanged(&self, trial: &Trial) -> Option<usize> {
-        let mesh = matches!(trial.knob, Knob::Mesh | Knob::Symmetry);
+        let mesh = matches!(trial.parameter, Parameter::Mesh | Parameter::Symmetry);
         let same = |other: &Trial| !mesh && other.own && other.variant == trial.variant;
         self.trials.iter().position(same)
     }

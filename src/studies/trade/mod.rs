@@ -1,8 +1,8 @@
-//! Speed against accuracy: what each number type and solver and each of the paper's own knobs
+//! Speed against accuracy: what each number type and solver and each of the paper's own parameters
 //! costs, and how accurate it is.
 //!
 //! ```text
-//!  Request, Knob --trials--> Trial --> Request --measure--> seconds, bytes, Solution
+//!  Request, Parameter --trials--> Trial --> Request --measure--> seconds, bytes, Solution
 //!                                                              |
 //!  words <-- Section (rows, orders of convergence) <-- errors, order, pareto
 //! ```
@@ -33,7 +33,7 @@ use base::choices;
 choices! {
     /// What is varied: number type, solver, mesh, a parameter of contact, half of a scene, or what the
     /// paper leaves open.
-    Knob {
+    Parameter {
         /// The number type in which a run computes.
         Arithmetic = "arithmetic",
         /// How the equations are solved.

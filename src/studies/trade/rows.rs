@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::Knob;
+use super::Parameter;
 use super::errors::Errors;
 use super::order::Order;
 use crate::audit::claims::Judged;
@@ -24,7 +24,7 @@ pub struct Trade {
 
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Section {
-    pub knob: Knob,
+    pub parameter: Parameter,
     /// What errors are measured against, in words.
     pub against: &'static str,
     /// What was measured of each trial, in the order of the trials.
@@ -60,7 +60,7 @@ pub struct Ladder {
 /// What was measured of a trial. Times and peaks are this machine's.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Row {
-    /// Where the knob stood, in words.
+    /// Where the parameter stood, in words.
     #[serde(rename = "setting")]
     pub label: String,
     /// The same in numbers; of geometry only.
@@ -82,10 +82,10 @@ pub struct Row {
     pub peak_bytes: Option<u64>,
     /// How far it is from what the section measures against, over that; nothing of a failure.
     pub error: Option<Errors>,
-    /// How far it is from the same variant where the scene has the knob; nothing where the scene
+    /// How far it is from the same variant where the scene has the parameter; nothing where the scene
     /// has none of the places.
     pub change: Option<Errors>,
-    /// Whether rounding decides who is in contact; nothing of a failure and of a knob that has no
+    /// Whether rounding decides who is in contact; nothing of a failure and of a parameter that has no
     /// verdict.
     pub certainty: Option<Certainty>,
     pub own: bool,

@@ -1,6 +1,6 @@
-//! What is tried of each knob.
+//! What is tried of each parameter.
 
-use super::Knob;
+use super::Parameter;
 use base::error::InputError;
 use engine::Request;
 use numbers::solve::{Arithmetic, ScalarName, Solver, cost};
@@ -21,7 +21,7 @@ const ITERATIONS: [usize; 9] = [1, 2, 5, 10, 20, 40, 80, 160, 320];
 /// The variants that carry load across; the last one is not the paper's.
 pub(super) const CARRYING: [Variant; 3] = [Variant::Tied, Variant::Stepped, Variant::Unilateral];
 
-/// How a trial's request differs from the one whose knobs are turned, beside variant and
+/// How a trial's request differs from the one whose parameters are turned, beside variant and
 /// arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Setting {
@@ -46,22 +46,22 @@ pub enum Against {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    pub knob: Knob,
+    pub parameter: Parameter,
     pub label: String,
     pub variant: Variant,
     pub arithmetic: Arithmetic,
     pub setting: Setting,
     pub against: Against,
-    /// Whether this is where the scene has the knob.
+    /// Whether this is where the scene has the parameter.
     pub own: bool,
 }
 
 impl Trial {
     /// `variant` as the request has it, in the quickest arithmetic that rounds as little as Mathcad
     /// does, against the reference solution.
-    fn new(knob: Knob, label: impl Into<String>, variant: Variant) -> Self {
+    fn new(parameter: Parameter, label: impl Into<String>, variant: Variant) -> Self {
         Trial {
-            knob,
+            parameter,
             label: label.into(),
             variant,
             arithmetic: sparse(ScalarName::F64),
@@ -71,8 +71,10 @@ impl Trial {
         }
     }
 
-    /// What it asks for, where everything but the knob is as `request` has it.
-    /// Errors: the scene cannot be refined or halved.
+    /// What it asks for, where everything but the parameter is as `request` has it.
+    ///
+    /// # Errors
+    /// The scene cannot be refined or halved.
     pub fn request(&self, request: &Request) -> Result<Request, InputError> {
         let mut request = request.clone().variant(self.variant).arithmetic(self.arithmetic);
         match self.setting {
@@ -102,62 +104,62 @@ impl Trial {
         Ok(request)
     }
 
-    /// Knob, variant and place: a name that no other trial has.
+    /// Parameter, variant and place: a name that no other trial has.
     pub fn name(&self) -> String {
-        format!("{}/{}/{}", self.knob, self.variant, self.label)
+        format!("{}/{}/{}", self.parameter, self.variant, self.label)
     }
 }
 
 /// The trial of that name ([`Trial::name`]).
 pub fn find(request: &Request, name: &str) -> Option<Trial> {
-    let all = Knob::ALL.iter().flat_map(|knob| trials(request, *knob));
+    let all = Parameter::ALL.iter().flat_map(|parameter| trials(request, *parameter));
     all.into_iter().find(|trial| trial.name() == name)
 }
 
-/// Everything to measure of a knob of `request`, geometry aside, which has scenes of its own; nothing
-/// where its scene does not have the knob.
-pub fn trials(request: &Request, knob: Knob) -> Vec<Trial> {
+/// Everything to measure of a parameter of `request`, geometry aside, which has scenes of its own; nothing
+/// where its scene does not have the parameter.
+pub fn trials(request: &Request, parameter: Parameter) -> Vec<Trial> {
     let contact = request.scene.model.target().is_some();
-    match knob {
-        Knob::Arithmetic => arithmetic(request),
-        Knob::Solver => solvers(request),
-        Knob::Mesh => meshes(&request.scene),
-        Knob::Symmetry => halves(request, contact),
-        Knob::Geometry => Vec::new(),
+    match parameter {
+        Parameter::Arithmetic => arithmetic(request),
+        Parameter::Solver => solvers(request),
+        Parameter::Mesh => meshes(&request.scene),
+        Parameter::Symmetry => halves(request, contact),
+        Parameter::Geometry => Vec::new(),
         _ if !contact => Vec::new(),
-        Knob::Tolerance => {
+        Parameter::Tolerance => {
             let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
             let place = |c: f64| (format!("{c:e}"), Setting::Tolerance(c));
-            turned(knob, &tolerances(own), own, place)
+            turned(parameter, &tolerances(own), own, place)
         }
-        Knob::Iterations => {
+        Parameter::Iterations => {
             let place = |n: usize| (n.to_string(), Setting::Iterations(n));
-            turned(knob, &iterations(request.iterations), request.iterations, place)
+            turned(parameter, &iterations(request.iterations), request.iterations, place)
         }
-        Knob::Status => {
+        Parameter::Status => {
             let place = |rule: StatusRule| (rule.to_string(), Setting::Status(rule));
-            turned(knob, StatusRule::ALL, request.contact.status, place)
+            turned(parameter, StatusRule::ALL, request.contact.status, place)
         }
-        Knob::Coupling => {
+        Parameter::Coupling => {
             let place = |c: Coupling| (c.to_string(), Setting::Coupling(c));
-            turned(knob, Coupling::ALL, request.contact.coupling, place)
+            turned(parameter, Coupling::ALL, request.contact.coupling, place)
         }
     }
 }
 
-/// A knob at each of `values` under each variant that has it and carries load across; the scene has
-/// the knob at `own`.
+/// A parameter at each of `values` under each variant that has it and carries load across; the scene has
+/// the parameter at `own`.
 fn turned<T: Copy + PartialEq>(
-    knob: Knob,
+    parameter: Parameter,
     values: &[T],
     own: T,
     place: impl Fn(T) -> (String, Setting),
 ) -> Vec<Trial> {
-    // Only the coupling is a knob of `unilateral` too.
-    let variants = if knob == Knob::Coupling { &CARRYING[..] } else { &CARRYING[..2] };
+    // Only the coupling is a parameter of `unilateral` too.
+    let variants = if parameter == Parameter::Coupling { &CARRYING[..] } else { &CARRYING[..2] };
     let trial = |(variant, value): (Variant, T)| {
         let (label, setting) = place(value);
-        Trial { setting, own: value == own, ..Trial::new(knob, label, variant) }
+        Trial { setting, own: value == own, ..Trial::new(parameter, label, variant) }
     };
     let of = |variant: &Variant| {
         let variant = *variant;
@@ -204,7 +206,7 @@ fn arithmetic(request: &Request) -> Vec<Trial> {
     if exact_seconds(request) <= EXACT {
         arithmetics.push(("exact", sparse(Exact)));
     }
-    against_the_last(Knob::Arithmetic, request, arithmetics)
+    against_the_last(Parameter::Arithmetic, request, arithmetics)
 }
 
 fn solvers(request: &Request) -> Vec<Trial> {
@@ -221,11 +223,11 @@ fn solvers(request: &Request) -> Vec<Trial> {
         ("cg to 16 eps", by(F64, Cg)),
         ("f64x2 to compare", sparse(F64x2)),
     ];
-    against_the_last(Knob::Solver, request, arithmetics)
+    against_the_last(Parameter::Solver, request, arithmetics)
 }
 
 fn against_the_last(
-    knob: Knob,
+    parameter: Parameter,
     request: &Request,
     arithmetics: Vec<(&str, Arithmetic)>,
 ) -> Vec<Trial> {
@@ -233,7 +235,7 @@ fn against_the_last(
     let trial = |(label, arithmetic): (&str, Arithmetic)| Trial {
         arithmetic,
         against,
-        ..Trial::new(knob, label, measured_variant(request))
+        ..Trial::new(parameter, label, measured_variant(request))
     };
     arithmetics.into_iter().map(trial).collect()
 }
@@ -246,7 +248,7 @@ fn meshes(scene: &Scene) -> Vec<Trial> {
         setting: Setting::Refined(times),
         against: Against::Trial(count - 1),
         own: times == 0,
-        ..Trial::new(Knob::Mesh, format!("h / {}", 1 << times), Variant::Unilateral)
+        ..Trial::new(Parameter::Mesh, format!("h / {}", 1 << times), Variant::Unilateral)
     };
     (0..count).map(trial).collect()
 }
@@ -280,7 +282,8 @@ fn halves(request: &Request, contact: bool) -> Vec<Trial> {
     let variants: &[Variant] = if contact { &CARRYING } else { &own };
     let trial = |(k, variant): (usize, &Variant)| {
         let against = Against::Trial(2 * k);
-        let whole = Trial { against, own: true, ..Trial::new(Knob::Symmetry, "whole", *variant) };
+        let whole =
+            Trial { against, own: true, ..Trial::new(Parameter::Symmetry, "whole", *variant) };
         let half =
             Trial { setting: Setting::Half, own: false, label: "half".into(), ..whole.clone() };
         [whole, half]

@@ -1,6 +1,6 @@
 //! What the tables say, in sentences. No time stands in them: the same on every run.
 
-use super::Knob;
+use super::Parameter;
 use super::errors::Errors;
 use super::order::Order;
 use super::rows::{Ladder, Row, Section};
@@ -14,32 +14,32 @@ use problem::scene::Scene;
 const NOTICEABLE: f64 = 0.01;
 
 /// What errors are measured against, in words.
-pub fn against(knob: Knob) -> &'static str {
-    match knob {
-        Knob::Arithmetic => "the last row that ran",
-        Knob::Solver => "f64x2",
-        Knob::Mesh => "the reference solution on the finest mesh that ran",
-        Knob::Symmetry => "the whole scene under the same variant",
+pub fn against(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::Arithmetic => "the last row that ran",
+        Parameter::Solver => "f64x2",
+        Parameter::Mesh => "the reference solution on the finest mesh that ran",
+        Parameter::Symmetry => "the whole scene under the same variant",
         _ => "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)",
     }
 }
 
 /// What a section's numbers say, a sentence for each question; its own `answers` do not count.
 pub fn answers(scene: &Scene, section: &Section) -> Vec<String> {
-    let Section { knob, rows, exact_seconds, asymmetry, .. } = section;
-    match knob {
-        Knob::Symmetry if rows.is_empty() => {
+    let Section { parameter, rows, exact_seconds, asymmetry, .. } = section;
+    match parameter {
+        Parameter::Symmetry if rows.is_empty() => {
             vec!["The scene is not symmetric about a vertical line: it has no half.".into()]
         }
         _ if rows.is_empty() => vec!["The scene has no contact: there is nothing to vary.".into()],
-        Knob::Arithmetic => arithmetic(rows, *exact_seconds),
-        Knob::Solver => solver(rows),
-        Knob::Mesh => mesh(scene, section),
-        Knob::Tolerance => by_variant(scene, rows, tolerance),
-        Knob::Iterations => by_variant(scene, rows, iterations),
-        Knob::Status | Knob::Coupling => by_variant(scene, rows, nearest),
-        Knob::Symmetry => halves(scene, rows, asymmetry.unwrap_or(0.0)),
-        Knob::Geometry => unreachable!("its section has words of its own"),
+        Parameter::Arithmetic => arithmetic(rows, *exact_seconds),
+        Parameter::Solver => solver(rows),
+        Parameter::Mesh => mesh(scene, section),
+        Parameter::Tolerance => by_variant(scene, rows, tolerance),
+        Parameter::Iterations => by_variant(scene, rows, iterations),
+        Parameter::Status | Parameter::Coupling => by_variant(scene, rows, nearest),
+        Parameter::Symmetry => halves(scene, rows, asymmetry.unwrap_or(0.0)),
+        Parameter::Geometry => unreachable!("its section has words of its own"),
     }
 }
 

@@ -37,7 +37,7 @@ pub fn solved(request: &Request) -> Solution {
     solve(request, &mut |_| ()).expect("the variant runs")
 }
 
-/// A variant of the paper in numbers of type `scalar`, with a knob turned.
+/// A variant of the paper in numbers of type `scalar`, with a parameter turned.
 pub fn turned(variant: Variant, scalar: ScalarName, turn: impl Fn(&mut Request)) -> Solution {
     let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
     let mut request = Request::new(&STRAND).variant(variant).arithmetic(arithmetic);
