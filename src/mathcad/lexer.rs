@@ -79,7 +79,8 @@ fn printed(typed: &'static str) -> &'static str {
 /// Returns the longest sign at the start of a text.
 fn sign(text: &str) -> Option<&'static str> {
     let operators = OPERATORS.iter().flat_map(|row| [row.sign, row.typed]);
-    let signs = operators.chain(SIGNS).filter(|sign| !sign.starts_with(char::is_alphabetic));
+    let signs =
+        operators.chain(SIGNS).filter(|sign| !sign.starts_with(|c: char| c.is_ascii_alphabetic()));
     signs.filter(|sign| text.starts_with(sign)).max_by_key(|sign| sign.len())
 }
 
