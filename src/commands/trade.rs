@@ -9,7 +9,7 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
-use plane_contact::studies::trade::{self, Options, Parameter, Trial, peak};
+use plane_contact::studies::trade::{self, Options, Trial, Varied, peak};
 
 use super::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
 
@@ -43,7 +43,7 @@ pub struct Args {
     /// What to vary: arithmetic, solver, mesh, c_tll, iterations, status, coupling, symmetry,
     /// geometry [default: all].
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
-    only: Vec<Parameter>,
+    only: Vec<Varied>,
     #[command(flatten)]
     reading: ReadingArg,
     /// Print trade.json in place of the tables; files are written only to a folder that --out names.
@@ -66,10 +66,10 @@ pub fn run(args: &Args) -> Result<()> {
     if let Some(name) = &args.peak_of {
         return peak_of(&request, name);
     }
-    let only = if args.only.is_empty() { Parameter::ALL.to_vec() } else { args.only.clone() };
+    let only = if args.only.is_empty() { Varied::ALL.to_vec() } else { args.only.clone() };
     let options = Options { runs: usize::from(args.runs), only };
     let differs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
-    let asked: Vec<String> = args.only.iter().map(Parameter::to_string).chain(differs).collect();
+    let asked: Vec<String> = args.only.iter().map(Varied::to_string).chain(differs).collect();
     let start = format!("trade-{}", scene.name);
     let out = folder(&args.out, folder_name(start, &request, &asked));
     let is_written = !args.json || args.out.is_some();

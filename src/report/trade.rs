@@ -15,7 +15,7 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 use studies::audit::claims::{Claim, Elsewhere};
 use studies::audit::range::{self, Place};
-use studies::trade::{Came, Errors, Order, Parameter, Reached, Row, Section, Trade};
+use studies::trade::{Came, Errors, Order, Reached, Row, Section, Trade, Varied};
 
 /// The heading of `trade.csv`.
 pub const COLUMNS: &str = "parameter,variant,setting,own,equations,in_contact,cycle,seconds,runs,\
@@ -156,7 +156,7 @@ pub fn picture(trade: &Trade) -> Option<String> {
         points: front.collect(),
         style: Style::Rings,
     };
-    let timed = trade.sections.iter().filter(|section| section.parameter != Parameter::Geometry);
+    let timed = trade.sections.iter().filter(|section| section.parameter != Varied::Geometry);
     let series: Vec<Series> = timed.clone().map(of_section).chain([front]).collect();
     if series.iter().all(|series| series.points.is_empty()) {
         return None;

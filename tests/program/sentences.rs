@@ -11,7 +11,7 @@ use plane_contact::report::printed::tables;
 use plane_contact::report::{comparison, trade as report};
 use plane_contact::studies::benchmark::{Annulus, Strand};
 use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair};
-use plane_contact::studies::trade::{Options, Parameter, measure};
+use plane_contact::studies::trade::{Options, Varied, measure};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -363,7 +363,7 @@ fn of_halves(sentence: &str, json: &Value) {
 }
 
 /// Checks every sentence of `trade` on a request; returns how many there are.
-fn check_trade(request: &Request, only: &[Parameter]) -> usize {
+fn check_trade(request: &Request, only: &[Varied]) -> usize {
     let options = Options { runs: 1, only: only.to_vec() };
     let trade = measure(request, &options, |_| None, |_| ()).expect("it is measured");
     let json: Value = serde_json::from_str(&report::json(&request.scene, &trade)).expect("JSON");
@@ -393,11 +393,8 @@ fn open(name: &str) -> Scene {
 
 #[test]
 fn sentences_of_trade_are_those_of_its_rows() {
-    let parameters: Vec<Parameter> = Parameter::ALL
-        .iter()
-        .copied()
-        .filter(|parameter| *parameter != Parameter::Geometry)
-        .collect();
+    let parameters: Vec<Varied> =
+        Varied::ALL.iter().copied().filter(|parameter| *parameter != Varied::Geometry).collect();
     for scene in ["fig1", "two-blocks"] {
         let count = check_trade(&Request::new(&open(scene)), &parameters);
         assert!(count >= 15, "{scene}: {count}");
@@ -408,20 +405,15 @@ fn sentences_of_trade_are_those_of_its_rows() {
     for (tolerance, iterations) in [(1e-6, 1), (1e-7, 320), (0.1, 400), (0.5, 2)] {
         let mut request = Request::new(&open("fig1"));
         (request.tolerance, request.iterations) = (Some(tolerance), iterations);
-        check_trade(&request, &[Parameter::Tolerance, Parameter::Iterations]);
+        check_trade(&request, &[Varied::Tolerance, Varied::Iterations]);
     }
 }
 
 /// The paper's example, where the smallest c_tll is not the one that moves most; and a coarser one.
 #[test]
 fn sentences_of_trade_on_the_example_are_those_of_its_rows() {
-    let parameters = [
-        Parameter::Tolerance,
-        Parameter::Iterations,
-        Parameter::Status,
-        Parameter::Coupling,
-        Parameter::Symmetry,
-    ];
+    let parameters =
+        [Varied::Tolerance, Varied::Iterations, Varied::Status, Varied::Coupling, Varied::Symmetry];
     assert!(check_trade(&Request::new(&open("strand")), &parameters[..1]) == 2);
     let coarse = Strand { size: 0.9, ..Strand::default() }.generate().and_then(|b| b.build());
     check_trade(&Request::new(&coarse.expect("in range")), &parameters);

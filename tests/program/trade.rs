@@ -19,11 +19,11 @@ use plane_contact::report::trade as report;
 use plane_contact::studies::audit::range::{self, Place};
 use plane_contact::studies::benchmark::{Annulus, Strand};
 use plane_contact::studies::trade::{
-    self, Came, Options, Order, Parameter, Row, Trade, pareto, solve_to,
+    self, Came, Options, Order, Row, Trade, Varied, pareto, solve_to,
 };
 use serde_json::{Value, json};
 
-fn measured(scene: &Scene, only: &[Parameter]) -> Trade {
+fn measured(scene: &Scene, only: &[Varied]) -> Trade {
     let options = Options { runs: 1, only: only.to_vec() };
     let request = Request::new(scene);
     trade::measure(&request, &options, |_| None, |_| ()).expect("it is measured")
@@ -97,7 +97,7 @@ fn squares_of_differences_add_in_the_energy_norm() {
 #[test]
 fn the_ladder_finds_its_limit() {
     let scene = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.build()).unwrap();
-    let trade = measured(&scene, &[Parameter::Mesh]);
+    let trade = measured(&scene, &[Varied::Mesh]);
     let section = &trade.sections[0];
     let ladder = section.ladder.as_ref().expect("every mesh ran");
     assert_near("Pythagoras", ladder.departure.unwrap(), 0.0, 1.0, &HALF);
@@ -110,10 +110,10 @@ fn the_ladder_finds_its_limit() {
 
 #[test]
 fn every_parameter_has_its_rows_and_every_row_its_columns() {
-    let trade = measured(&open("fig1"), Parameter::ALL);
-    assert_eq!(trade.sections.len(), Parameter::ALL.len());
+    let trade = measured(&open("fig1"), Varied::ALL);
+    assert_eq!(trade.sections.len(), Varied::ALL.len());
     for section in &trade.sections {
-        let none = matches!(section.parameter, Parameter::Symmetry | Parameter::Geometry);
+        let none = matches!(section.parameter, Varied::Symmetry | Varied::Geometry);
         assert_eq!(section.rows.is_empty(), none, "{}", section.parameter);
         assert!(!section.answers.is_empty(), "{}", section.parameter);
         for row in &section.rows {
@@ -188,7 +188,7 @@ fn a_place_of_the_range_is_a_run_of_its_scene() {
 fn geometry_is_no_parameter_of_other_scenes() {
     let mut other = Strand::default().generate().and_then(|b| b.build()).expect("in range");
     other.name = "strand".into();
-    let trade = measured(&other, &[Parameter::Geometry]);
+    let trade = measured(&other, &[Varied::Geometry]);
     let section = &trade.sections[0];
     assert!(section.rows.is_empty() && section.claims.is_empty());
     assert!(section.answers[0].contains("parameter of the embedded scene strand only"));
@@ -198,7 +198,7 @@ fn geometry_is_no_parameter_of_other_scenes() {
 #[test]
 fn csv_and_json_agree() {
     let scene = open("fig1");
-    let trade = measured(&scene, &[Parameter::Arithmetic, Parameter::Tolerance]);
+    let trade = measured(&scene, &[Varied::Arithmetic, Varied::Tolerance]);
     let (csv, json) = (report::csv(&trade), report::json(&scene, &trade));
     let json: Value = serde_json::from_str(&json).expect("JSON");
     let mut lines = csv.lines();
@@ -222,15 +222,15 @@ fn csv_and_json_agree() {
 
 #[test]
 fn the_picture_is_xml() {
-    let untimed = measured(&open("fig1"), &[Parameter::Geometry]);
+    let untimed = measured(&open("fig1"), &[Varied::Geometry]);
     assert_eq!(report::picture(&untimed), None, "a chart without a point");
-    let svg = report::picture(&measured(&open("fig1"), &[Parameter::Solver])).expect("a chart");
+    let svg = report::picture(&measured(&open("fig1"), &[Varied::Solver])).expect("a chart");
     roxmltree::Document::parse(&svg).expect("XML");
 }
 
 #[test]
 fn errors_fall_with_precision() {
-    let trade = measured(&open("fig1"), &[Parameter::Arithmetic]);
+    let trade = measured(&open("fig1"), &[Varied::Arithmetic]);
     let error = |label: &str| {
         let row = trade.sections[0].rows.iter().find(|row| row.label == label);
         row.and_then(|row| row.error).expect("the trial ran").displacement
@@ -244,7 +244,7 @@ fn errors_fall_with_precision() {
 #[test]
 fn lame_converges_with_order_1_in_the_energy_norm() {
     let scene = Annulus { radial: 4, around: 8 }.generate().and_then(|b| b.build()).unwrap();
-    let trade = measured(&scene, &[Parameter::Mesh]);
+    let trade = measured(&scene, &[Varied::Mesh]);
     let section = &trade.sections[0];
     let errors: Vec<f64> = section.rows.iter().map(|row| row.error.unwrap().energy).collect();
     assert!(errors.len() >= 4 && errors.windows(2).all(|e| e[1] < e[0]), "{errors:?}");
@@ -402,7 +402,7 @@ fn half_a_scene_is_not_refined() {
 fn everything_but_times_is_reproducible() {
     let scene = open("fig1");
     let measured = || {
-        let mut trade = measured(&scene, Parameter::ALL);
+        let mut trade = measured(&scene, Varied::ALL);
         for row in trade.sections.iter_mut().flat_map(|section| &mut section.rows) {
             (row.seconds, row.pareto) = (None, false);
         }

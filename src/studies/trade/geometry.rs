@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::Parameter;
+use super::Varied;
 use super::errors::Errors;
 use super::rows::{Row, Section};
 use super::trials::CARRYING;
@@ -56,7 +56,7 @@ pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync
             [places.into()].into_iter().chain(CARRYING.iter().filter_map(of)).collect()
         }
     };
-    let (parameter, against) = (Parameter::Geometry, against(Parameter::Geometry));
+    let (parameter, against) = (Varied::Geometry, against(Varied::Geometry));
     Section {
         parameter,
         against,

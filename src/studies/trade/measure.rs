@@ -9,7 +9,7 @@ use super::geometry::{geometry, places};
 use super::order::{Order, departure};
 use super::rows::{Ladder, Row, Section, Trade};
 use super::trials::{Against, EXACT, Trial, exact_seconds, trials};
-use super::{Parameter, words};
+use super::{Varied, words};
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
@@ -23,7 +23,7 @@ pub const PATIENCE: f64 = 0.05;
 pub struct Options {
     /// How many times each trial is run, in turn: A B C A B C ...
     pub runs: usize,
-    pub only: Vec<Parameter>,
+    pub only: Vec<Varied>,
 }
 
 /// Turns the parameters of `request` and measures what comes of each place. `peak` gives a trial's peak
@@ -39,16 +39,15 @@ pub fn measure(
 ) -> Result<Trade, Error> {
     let model = &request.scene.model;
     let reference = model.target().and_then(|_| solve(&request.equilibrium(), &mut |_| ()).ok());
-    let is_asked = |parameter: &Parameter| options.only.contains(parameter);
-    let places = is_asked(&Parameter::Geometry).then(|| places(request)).transpose()?;
+    let is_asked = |parameter: &Varied| options.only.contains(parameter);
+    let places = is_asked(&Varied::Geometry).then(|| places(request)).transpose()?;
     let (mut sections, mut all) = (Vec::new(), Vec::new());
-    for parameter in
-        Parameter::ALL.iter().copied().filter(is_asked).filter(|k| *k != Parameter::Geometry)
+    for parameter in Varied::ALL.iter().copied().filter(is_asked).filter(|k| *k != Varied::Geometry)
     {
         let trials = trials(request, parameter);
         let runs = timed(request, &trials, options.runs, &watch)?;
         let meshes = match parameter {
-            Parameter::Mesh => meshes(&request.scene, trials.len() - 1)?,
+            Varied::Mesh => meshes(&request.scene, trials.len() - 1)?,
             _ => Vec::new(),
         };
         let reference = reference.as_ref();
@@ -88,7 +87,7 @@ pub fn steps(request: &Request, options: &Options) -> Result<usize, Error> {
     options.only.iter().try_fold(0, |steps, parameter| {
         Ok(steps
             + match parameter {
-                Parameter::Geometry => places(request)?.len(),
+                Varied::Geometry => places(request)?.len(),
                 parameter => trials(request, *parameter).len() * (options.runs + 1),
             })
     })
@@ -139,7 +138,7 @@ fn timed(
 }
 
 /// A run with what rounding decides in it, where its parameter judges.
-fn judged(parameter: Parameter, run: Run) -> Run {
+fn judged(parameter: Varied, run: Run) -> Run {
     match run.solution {
         Ok(solution) if judges(parameter) => {
             let (solution, certainty) = certain(solution, &Session::default());
@@ -150,11 +149,8 @@ fn judged(parameter: Parameter, run: Run) -> Run {
 }
 
 /// Whether a parameter is one of the paper's, whose verdict must not rest on rounding.
-fn judges(parameter: Parameter) -> bool {
-    matches!(
-        parameter,
-        Parameter::Tolerance | Parameter::Iterations | Parameter::Status | Parameter::Coupling
-    )
+fn judges(parameter: Varied) -> bool {
+    matches!(parameter, Varied::Tolerance | Varied::Iterations | Varied::Status | Varied::Coupling)
 }
 
 /// A solution without all steps but the last.
@@ -175,14 +171,14 @@ struct Bench<'a> {
 
 impl Bench<'_> {
     /// What there is to say of a parameter, but for the memory that its trials take.
-    fn section(&self, request: &Request, parameter: Parameter) -> Section {
+    fn section(&self, request: &Request, parameter: Varied) -> Section {
         let places = (0..self.trials.len()).into_par_iter();
         let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
         mark_front(&mut rows);
         let (orders, ladder) =
-            if parameter == Parameter::Mesh { self.ladder() } else { Default::default() };
-        let exact = (parameter == Parameter::Arithmetic).then(|| exact_seconds(request));
-        let half = (parameter == Parameter::Symmetry).then(|| symmetry::half(self.scene)).flatten();
+            if parameter == Varied::Mesh { self.ladder() } else { Default::default() };
+        let exact = (parameter == Varied::Arithmetic).then(|| exact_seconds(request));
+        let half = (parameter == Varied::Symmetry).then(|| symmetry::half(self.scene)).flatten();
         let mut section = Section {
             parameter,
             against: words::against(parameter),
@@ -230,7 +226,7 @@ impl Bench<'_> {
     /// `best`, or where it failed the last trial before it that did not.
     fn best_that_ran(&self, place: usize, best: usize) -> Option<usize> {
         match self.trials[place].parameter {
-            Parameter::Symmetry => Some(best),
+            Varied::Symmetry => Some(best),
             _ => (place..=best).rev().find(|k| self.runs[*k].solution.is_ok()),
         }
     }
@@ -238,7 +234,7 @@ impl Bench<'_> {
     /// The trial of the same variant where the scene has the parameter; parameters that change the mesh have
     /// their own measure.
     fn unchanged(&self, trial: &Trial) -> Option<usize> {
-        let mesh = matches!(trial.parameter, Parameter::Mesh | Parameter::Symmetry);
+        let mesh = matches!(trial.parameter, Varied::Mesh | Varied::Symmetry);
         let same = |other: &Trial| !mesh && other.own && other.variant == trial.variant;
         self.trials.iter().position(same)
     }

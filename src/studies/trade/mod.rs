@@ -2,7 +2,7 @@
 //! costs, and how accurate it is.
 //!
 //! ```text
-//!  Request, Parameter --trials--> Trial --> Request --measure--> seconds, bytes, Solution
+//!  Request, Varied --trials--> Trial --> Request --measure--> seconds, bytes, Solution
 //!                                                              |
 //!  words <-- Section (rows, orders of convergence) <-- errors, order, pareto
 //! ```
@@ -33,7 +33,7 @@ use base::choices;
 choices! {
     /// What is varied: number type, solver, mesh, a parameter of contact, half of a scene, or what the
     /// paper leaves open.
-    Parameter {
+    Varied {
         /// The number type in which a run computes.
         Arithmetic = "arithmetic",
         /// How the equations are solved.

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::Parameter;
+use super::Varied;
 use super::errors::Errors;
 use super::order::Order;
 use crate::audit::claims::Judged;
@@ -24,7 +24,7 @@ pub struct Trade {
 
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Section {
-    pub parameter: Parameter,
+    pub parameter: Varied,
     /// What errors are measured against, in words.
     pub against: &'static str,
     /// What was measured of each trial, in the order of the trials.

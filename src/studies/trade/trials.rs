@@ -1,6 +1,6 @@
 //! What is tried of each parameter.
 
-use super::Parameter;
+use super::Varied;
 use base::error::InputError;
 use engine::Request;
 use numbers::solve::{Arithmetic, ScalarName, Solver, cost};
@@ -46,7 +46,7 @@ pub enum Against {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    pub parameter: Parameter,
+    pub parameter: Varied,
     pub label: String,
     pub variant: Variant,
     pub arithmetic: Arithmetic,
@@ -59,7 +59,7 @@ pub struct Trial {
 impl Trial {
     /// `variant` as the request has it, in the quickest arithmetic that rounds as little as Mathcad
     /// does, against the reference solution.
-    fn new(parameter: Parameter, label: impl Into<String>, variant: Variant) -> Self {
+    fn new(parameter: Varied, label: impl Into<String>, variant: Variant) -> Self {
         Trial {
             parameter,
             label: label.into(),
@@ -112,35 +112,35 @@ impl Trial {
 
 /// The trial of that name ([`Trial::name`]).
 pub fn find(request: &Request, name: &str) -> Option<Trial> {
-    let all = Parameter::ALL.iter().flat_map(|parameter| trials(request, *parameter));
+    let all = Varied::ALL.iter().flat_map(|parameter| trials(request, *parameter));
     all.into_iter().find(|trial| trial.name() == name)
 }
 
 /// Everything to measure of a parameter of `request`, geometry aside, which has scenes of its own; nothing
 /// where its scene does not have the parameter.
-pub fn trials(request: &Request, parameter: Parameter) -> Vec<Trial> {
+pub fn trials(request: &Request, parameter: Varied) -> Vec<Trial> {
     let contact = request.scene.model.target().is_some();
     match parameter {
-        Parameter::Arithmetic => arithmetic(request),
-        Parameter::Solver => solvers(request),
-        Parameter::Mesh => meshes(&request.scene),
-        Parameter::Symmetry => halves(request, contact),
-        Parameter::Geometry => Vec::new(),
+        Varied::Arithmetic => arithmetic(request),
+        Varied::Solver => solvers(request),
+        Varied::Mesh => meshes(&request.scene),
+        Varied::Symmetry => halves(request, contact),
+        Varied::Geometry => Vec::new(),
         _ if !contact => Vec::new(),
-        Parameter::Tolerance => {
+        Varied::Tolerance => {
             let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
             let place = |c: f64| (format!("{c:e}"), Setting::Tolerance(c));
             turned(parameter, &tolerances(own), own, place)
         }
-        Parameter::Iterations => {
+        Varied::Iterations => {
             let place = |n: usize| (n.to_string(), Setting::Iterations(n));
             turned(parameter, &iterations(request.iterations), request.iterations, place)
         }
-        Parameter::Status => {
+        Varied::Status => {
             let place = |rule: StatusRule| (rule.to_string(), Setting::Status(rule));
             turned(parameter, StatusRule::ALL, request.contact.status, place)
         }
-        Parameter::Coupling => {
+        Varied::Coupling => {
             let place = |c: Coupling| (c.to_string(), Setting::Coupling(c));
             turned(parameter, Coupling::ALL, request.contact.coupling, place)
         }
@@ -150,13 +150,13 @@ pub fn trials(request: &Request, parameter: Parameter) -> Vec<Trial> {
 /// A parameter at each of `values` under each variant that has it and carries load across; the scene has
 /// the parameter at `own`.
 fn turned<T: Copy + PartialEq>(
-    parameter: Parameter,
+    parameter: Varied,
     values: &[T],
     own: T,
     place: impl Fn(T) -> (String, Setting),
 ) -> Vec<Trial> {
     // Only the coupling is a parameter of `unilateral` too.
-    let variants = if parameter == Parameter::Coupling { &CARRYING[..] } else { &CARRYING[..2] };
+    let variants = if parameter == Varied::Coupling { &CARRYING[..] } else { &CARRYING[..2] };
     let trial = |(variant, value): (Variant, T)| {
         let (label, setting) = place(value);
         Trial { setting, own: value == own, ..Trial::new(parameter, label, variant) }
@@ -206,7 +206,7 @@ fn arithmetic(request: &Request) -> Vec<Trial> {
     if exact_seconds(request) <= EXACT {
         arithmetics.push(("exact", sparse(Exact)));
     }
-    against_the_last(Parameter::Arithmetic, request, arithmetics)
+    against_the_last(Varied::Arithmetic, request, arithmetics)
 }
 
 fn solvers(request: &Request) -> Vec<Trial> {
@@ -223,11 +223,11 @@ fn solvers(request: &Request) -> Vec<Trial> {
         ("cg to 16 eps", by(F64, Cg)),
         ("f64x2 to compare", sparse(F64x2)),
     ];
-    against_the_last(Parameter::Solver, request, arithmetics)
+    against_the_last(Varied::Solver, request, arithmetics)
 }
 
 fn against_the_last(
-    parameter: Parameter,
+    parameter: Varied,
     request: &Request,
     arithmetics: Vec<(&str, Arithmetic)>,
 ) -> Vec<Trial> {
@@ -248,7 +248,7 @@ fn meshes(scene: &Scene) -> Vec<Trial> {
         setting: Setting::Refined(times),
         against: Against::Trial(count - 1),
         own: times == 0,
-        ..Trial::new(Parameter::Mesh, format!("h / {}", 1 << times), Variant::Unilateral)
+        ..Trial::new(Varied::Mesh, format!("h / {}", 1 << times), Variant::Unilateral)
     };
     (0..count).map(trial).collect()
 }
@@ -282,8 +282,7 @@ fn halves(request: &Request, contact: bool) -> Vec<Trial> {
     let variants: &[Variant] = if contact { &CARRYING } else { &own };
     let trial = |(k, variant): (usize, &Variant)| {
         let against = Against::Trial(2 * k);
-        let whole =
-            Trial { against, own: true, ..Trial::new(Parameter::Symmetry, "whole", *variant) };
+        let whole = Trial { against, own: true, ..Trial::new(Varied::Symmetry, "whole", *variant) };
         let half =
             Trial { setting: Setting::Half, own: false, label: "half".into(), ..whole.clone() };
         [whole, half]

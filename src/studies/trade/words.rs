@@ -1,6 +1,6 @@
 //! What the tables say, in sentences. No time stands in them: the same on every run.
 
-use super::Parameter;
+use super::Varied;
 use super::errors::Errors;
 use super::order::Order;
 use super::rows::{Ladder, Row, Section};
@@ -14,12 +14,12 @@ use problem::scene::Scene;
 const NOTICEABLE: f64 = 0.01;
 
 /// What errors are measured against, in words.
-pub fn against(parameter: Parameter) -> &'static str {
+pub fn against(parameter: Varied) -> &'static str {
     match parameter {
-        Parameter::Arithmetic => "the last row that ran",
-        Parameter::Solver => "f64x2",
-        Parameter::Mesh => "the reference solution on the finest mesh that ran",
-        Parameter::Symmetry => "the whole scene under the same variant",
+        Varied::Arithmetic => "the last row that ran",
+        Varied::Solver => "f64x2",
+        Varied::Mesh => "the reference solution on the finest mesh that ran",
+        Varied::Symmetry => "the whole scene under the same variant",
         _ => "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)",
     }
 }
@@ -28,18 +28,18 @@ pub fn against(parameter: Parameter) -> &'static str {
 pub fn answers(scene: &Scene, section: &Section) -> Vec<String> {
     let Section { parameter, rows, exact_seconds, asymmetry, .. } = section;
     match parameter {
-        Parameter::Symmetry if rows.is_empty() => {
+        Varied::Symmetry if rows.is_empty() => {
             vec!["The scene is not symmetric about a vertical line: it has no half.".into()]
         }
         _ if rows.is_empty() => vec!["The scene has no contact: there is nothing to vary.".into()],
-        Parameter::Arithmetic => arithmetic(rows, *exact_seconds),
-        Parameter::Solver => solver(rows),
-        Parameter::Mesh => mesh(scene, section),
-        Parameter::Tolerance => by_variant(scene, rows, tolerance),
-        Parameter::Iterations => by_variant(scene, rows, iterations),
-        Parameter::Status | Parameter::Coupling => by_variant(scene, rows, nearest),
-        Parameter::Symmetry => halves(scene, rows, asymmetry.unwrap_or(0.0)),
-        Parameter::Geometry => unreachable!("its section has words of its own"),
+        Varied::Arithmetic => arithmetic(rows, *exact_seconds),
+        Varied::Solver => solver(rows),
+        Varied::Mesh => mesh(scene, section),
+        Varied::Tolerance => by_variant(scene, rows, tolerance),
+        Varied::Iterations => by_variant(scene, rows, iterations),
+        Varied::Status | Varied::Coupling => by_variant(scene, rows, nearest),
+        Varied::Symmetry => halves(scene, rows, asymmetry.unwrap_or(0.0)),
+        Varied::Geometry => unreachable!("its section has words of its own"),
     }
 }
 
