@@ -22,7 +22,7 @@ choices! {
         Tied = "tied",
         /// `Km` exactly as printed.
         Printed = "printed",
-        /// Gaps closed along the normal, and released where they would pull: the reference solution.
+        /// Gaps closed along the normal, and released where they would pull, the reference solution.
         Unilateral = "unilateral",
     }
 }
