@@ -32,7 +32,7 @@ pub fn hold(data: &[u8]) {
     reads_back(result, data, ResultFile::to_json);
     if let Ok(answers) = serde_json::from_str::<Answers>(text) {
         let marked = [Marked { file: "fuzz".into(), marks: answers.marks(), answers }];
-        assert!(!answers::json(&marked).is_empty() && !answers::text(&marked).is_empty());
+        assert!(!answers::json(&marked).is_empty() && !answers::report(&marked).blocks.is_empty());
     }
 }
 
@@ -76,11 +76,8 @@ fn of_snapshot(snapshot: &Snapshot) {
             let checked = [Checked { file: "fuzz".into(), verified: Ok(verified) }];
             // What is no number differs, and is null.
             let json: Result<Value, _> = serde_json::from_str(&report::json(&checked));
-            assert!(
-                json.is_ok()
-                    && !report::text(&checked).is_empty()
-                    && !report::markdown(&checked).is_empty()
-            );
+            let found = report::report(&checked);
+            assert!(json.is_ok() && !found.text(80).is_empty() && !found.markdown().is_empty());
             assert!(!report::junit(&checked).is_empty());
         }
         Err(error) => assert_eq!(error.exit_status(), 2, "{error}"),

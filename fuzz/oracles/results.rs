@@ -36,5 +36,5 @@ pub fn hold(data: &[u8]) {
         comparison: &Comparison::new(model, Fields::of(ours), theirs),
     };
     sound::document(&comparison::json(&compared));
-    sound::text(&comparison::text(&compared));
+    sound::text(&comparison::report(&compared).text(80));
 }

@@ -20,7 +20,7 @@ pub fn hold(data: &[u8]) {
     checked.iter().filter_map(|region| region.value.as_ref()).for_each(listing::is_finite);
     let decided = probe::decided(&sheet, &checked);
     sound::document(&worksheet::json("fuzz", &checked, &decided));
-    assert!(!worksheet::text(&checked, &decided).is_empty());
+    assert!(!worksheet::report(&checked, &decided).text(80).is_empty());
 }
 
 /// Returns the program of a region, which has one if it can be read in the text notation.

@@ -86,13 +86,16 @@ pub fn run(args: &Args) -> Result<()> {
 fn statuses(args: &Args) -> Result<()> {
     args.tables.check("audit")?;
     let measured = waiting("measuring", || measure(args.scenes as usize, args.seed));
-    let (text, json) = (status_report::text(&measured), status_report::json(&measured));
+    let json = status_report::json(&measured);
     if let Some(out) = &args.out {
         let picture = status_report::picture(&measured);
         let files = [("statuses.json", &json), ("statuses.svg", &picture)];
         files::write_all(out, "audit --statuses", &files)?;
     }
-    if args.json { print(&json) } else { args.tables.print("audit", &text) }
+    if args.json {
+        return print(&json);
+    }
+    args.tables.print("audit", status_report::report(&measured))
 }
 
 fn find(id: &str) -> Result<&'static Finding, InputError> {
@@ -119,7 +122,7 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
         files::write_all(out, &format!("audit --finding {}", finding.id), &[(name, picture)])?;
     }
     let json = || report::finding_json(finding, &measured, &case.scene);
-    print_either(args.json, json, || report::explain(finding, &measured, &case.scene))
+    print_either(args.json, json, || report::explanation(finding, &measured, &case.scene))
 }
 
 fn whole(args: &Args) -> Result<()> {
@@ -136,11 +139,12 @@ fn whole(args: &Args) -> Result<()> {
     let bar = progress(steps(), "auditing {pos} of {len} {wide_bar} {eta}");
     let found = audit(&case, &places, &|| bar.inc(1));
     bar.finish_and_clear();
-    let (text, json) = (report::text(&found, &case.scene), report::json(&found, &case.scene));
+    let json = report::json(&found, &case.scene);
+    let report = report::report(&found, &case.scene);
     if let Some(out) = &args.out {
-        write(out, &case, &found, &text, &json)?;
+        write(out, &case, &found, &report.text(usize::MAX), &json)?;
     }
-    if args.json { print(&json) } else { args.tables.print("audit", &text) }
+    if args.json { print(&json) } else { args.tables.print("audit", report) }
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.

@@ -87,6 +87,6 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json);
     }
-    args.tables
-        .print("compare", &format!("{}\nWritten to {}\n", report::text(&compared), out.display()))
+    let report = report::report(&compared).line(format!("Written to {}", out.display()));
+    args.tables.print("compare", report)
 }

@@ -53,12 +53,14 @@ pub fn run(args: &Args) -> Result<()> {
         files::check_folder(&out, "extremes", &["extremes.txt", "extremes.json"])?;
     }
     let measured = waiting("sweeping", || measure(&chosen));
-    let (text, json) = (report::text(&measured), report::json(&measured));
+    let json = report::json(&measured);
     if !is_written {
         return print(&json);
     }
-    let mut written = vec![("extremes.txt".into(), &text), ("extremes.json".into(), &json)];
     let pictures: Vec<_> = measured.iter().map(|of| (of.name, report::pictures(of))).collect();
+    let report = report::report(&measured);
+    let text = report.text(usize::MAX);
+    let mut written = vec![("extremes.txt".into(), &text), ("extremes.json".into(), &json)];
     for (name, pictures) in &pictures {
         for (picture, k) in pictures.iter().zip(1..) {
             let more = if k == 1 { String::new() } else { format!("-{k}") };
@@ -66,7 +68,7 @@ pub fn run(args: &Args) -> Result<()> {
         }
     }
     files::write_all(&out, "extremes", &written)?;
-    if args.json { print(&json) } else { args.tables.print("extremes", &text) }
+    if args.json { print(&json) } else { args.tables.print("extremes", report) }
 }
 
 /// The generators of these names, in the order of the list; all of them where no name is given.

@@ -403,8 +403,7 @@ impl TablesArgs {
     }
 
     /// Prints a report that `command` made.
-    pub fn print(&self, command: &str, report: impl Into<Report>) -> Result<()> {
-        let report = report.into();
+    pub fn print(&self, command: &str, report: Report) -> Result<()> {
         if let Some(folder) = &self.csv {
             let tables = report.csv().into_iter();
             let tables: Vec<_> = tables.map(|(name, csv)| (format!("{name}.csv"), csv)).collect();
@@ -415,8 +414,8 @@ impl TablesArgs {
 }
 
 /// Prints a report, fitted to the terminal.
-pub fn print_report(report: impl Into<Report>) -> Result<()> {
-    print(&report.into().text(width()))
+pub fn print_report(report: Report) -> Result<()> {
+    print(&report.text(width()))
 }
 
 /// Prints lines of prose, fitted to the terminal.
@@ -425,10 +424,10 @@ pub fn print_fitted(text: &str) -> Result<()> {
 }
 
 /// Prints a document, or in its place a report.
-pub fn print_either<R: Into<Report>>(
+pub fn print_either(
     json: bool,
     document: impl FnOnce() -> String,
-    report: impl FnOnce() -> R,
+    report: impl FnOnce() -> Report,
 ) -> Result<()> {
     if json { print(&document()) } else { print_report(report()) }
 }

@@ -12,6 +12,7 @@ use plane_contact::paper::listings::Which;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::Wanted;
+use plane_contact::report::model::Report;
 use plane_contact::report::{self, tables};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::{check_accuracy, solve_to};
@@ -124,20 +125,18 @@ pub fn run(args: &Args) -> Result<u8> {
         report::folder::result(&solution, &assessment, Some(&plan), wanted)
     };
     if args.json {
-        print_stderr(&accuracy);
+        print_stderr(&accuracy.text(usize::MAX));
         print(&result)?;
         return Ok(status(&solution));
     }
-    let mut report = tables::solution(&solution, &assessment)
+    let report = tables::solution(&solution, &assessment)
         .then(tables::error_estimates(&solution, &assessment))
         .then(tables::probes(&solution, &assessment))
-        .then(tables::distance(&solution, &assessment));
-    let changes = accuracy + &beside_the_print(&solution);
-    if !changes.is_empty() {
-        report = report.then(changes + "\n");
-    }
-    let report =
-        report.line(report::plan::line(&plan)).line(format!("Written to {}", out.display()));
+        .then(tables::distance(&solution, &assessment))
+        .then(accuracy)
+        .then(beside_the_print(&solution))
+        .line(report::plan::line(&plan))
+        .line(format!("Written to {}", out.display()));
     args.tables.print("solve", report)?;
     Ok(status(&solution))
 }
@@ -200,15 +199,15 @@ fn edited(args: &Args, mut request: Request) -> Result<Request> {
 }
 
 /// Compares a run of edited listings with that of the printed ones; nothing where none is edited.
-fn beside_the_print(solution: &Solution) -> String {
+fn beside_the_print(solution: &Solution) -> Report {
     if solution.request.edited.is_empty() {
-        return String::new();
+        return Report::default();
     }
     let mut request = solution.request.clone();
     request.edited.clear();
     match engine::solve(&request, &mut |_| ()) {
-        Ok(printed) => report::edited::beside(&printed, solution),
-        Err(why) => format!("\nThe edited listings run; as printed: {why}\n"),
+        Ok(printed) => report::edited::report(&printed, solution),
+        Err(why) => Report::default().line(format!("The edited listings run; as printed: {why}")),
     }
 }
 
@@ -233,7 +232,7 @@ fn status(solution: &Solution) -> u8 {
 }
 
 /// Returns the solution, and under `--accuracy` how its precision was found.
-fn solve(args: &Args, request: &Request, session: &Session) -> Result<(Solution, String)> {
+fn solve(args: &Args, request: &Request, session: &Session) -> Result<(Solution, Report)> {
     if let Some(asked) = args.accuracy {
         let reached = solve_to(request, session, asked)?;
         let words = report::trade::reached(&reached, asked);
@@ -248,5 +247,5 @@ fn solve(args: &Args, request: &Request, session: &Session) -> Result<(Solution,
     };
     let solution = session.solve(request, &mut |_: &Step| progress.inc(1))?;
     progress.finish_and_clear();
-    Ok((solution, String::new()))
+    Ok((solution, Report::default()))
 }

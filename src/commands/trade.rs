@@ -90,8 +90,8 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json);
     }
-    args.tables
-        .print("trade", &format!("{}\nWritten to {}\n", report::text(&measured), out.display()))
+    let report = report::report(&measured).line(format!("Written to {}", out.display()));
+    args.tables.print("trade", report)
 }
 
 /// The peak memory of a process that runs nothing but `trial`: this command again, with one more

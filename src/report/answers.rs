@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::json::headed;
-use super::layout::{Table, listed};
+use super::json;
+use super::layout::listed;
+use super::model::{Report, Table};
 use super::numbers::{or_dash, short};
 use studies::lesson::exercise::{Answers, Mark};
 
@@ -27,23 +28,22 @@ impl Marked {
     }
 }
 
-/// Lays out a line a file: who answered, how many are right, and what is wrong.
-pub fn text(marked: &[Marked]) -> String {
+/// Reports a row for each file: who answered, how many answers are right, and what is wrong.
+pub fn report(marked: &[Marked]) -> Report {
     let wrong = |marked: &&Marked| {
         let wrong = marked.marks.iter().filter(|mark| !mark.right);
-        let in_words = |mark: &Mark| {
-            let Mark { node, of, said, found, .. } = mark;
+        listed(wrong.map(|Mark { node, of, said, found, .. }| {
             format!("node {node}: {of} is {}, not {}", short(*found), or_dash(*said, short))
-        };
-        listed(wrong.map(in_words))
+        }))
     };
-    Table::of(marked)
+    let table = Table::of(marked)
         .column("file", |marked| marked.file.clone())
         .column("student", |marked| marked.answers.student.clone())
         .column("exercise", |marked| marked.answers.exercise)
-        .column("right", |marked| format!("{} of {}", marked.right(), marked.marks.len()))
-        .column("wrong", wrong)
-        .text()
+        .column("right", |marked| marked.right())
+        .column("questions", |marked| marked.marks.len())
+        .column("wrong", wrong);
+    Report::default().table("", table)
 }
 
 /// The marks of files of answers.
@@ -66,20 +66,15 @@ struct Row<'a> {
     marks: &'a [Mark],
 }
 
-impl<'a> Row<'a> {
-    fn new(marked: &'a Marked) -> Self {
-        Row {
-            file: &marked.file,
-            student: &marked.answers.student,
-            exercise: marked.answers.exercise,
-            seed: marked.answers.seed,
-            right: marked.right(),
-            of: marked.marks.len(),
-            marks: &marked.marks,
-        }
-    }
-}
-
 pub fn json(marked: &[Marked]) -> String {
-    headed(&Document { answers: marked.iter().map(Row::new).collect() })
+    let rows = marked.iter().map(|marked| Row {
+        file: &marked.file,
+        student: &marked.answers.student,
+        exercise: marked.answers.exercise,
+        seed: marked.answers.seed,
+        right: marked.right(),
+        of: marked.marks.len(),
+        marks: &marked.marks,
+    });
+    json::line(None, &Document { answers: rows.collect() })
 }

@@ -1,6 +1,7 @@
 //! What an edited listing changes of what the printed one computes.
 
 use super::layout::counted;
+use super::model::Report;
 use super::numbers::six_digits;
 use mathcad::array::Table;
 use paper::mirror::Pairs;
@@ -45,8 +46,8 @@ impl Compared {
     }
 }
 
-/// Tells what an edited listing changes against the listing as printed; rounding is no change.
-pub fn changes(printed: &Product, edited: &Product, model: &Model) -> String {
+/// Reports what an edited listing changes against the listing as printed; rounding is no change.
+pub fn report(printed: &Product, edited: &Product, model: &Model) -> Report {
     let (lines, rounded) = match (printed, edited) {
         (Product::Pairs(a), Product::Pairs(b)) => of_pairs(a, b, model),
         (Product::Matrix(a), Product::Matrix(b))
@@ -56,17 +57,15 @@ pub fn changes(printed: &Product, edited: &Product, model: &Model) -> String {
         }
         _ => (vec!["the shape of the result".into()], vec![]),
     };
-    let rounding = match rounded.len() {
-        0 => String::new(),
-        n => {
-            let (numbers, most) = (counted(n, "number", "numbers"), largest(&rounded));
-            format!("The edit changes the rounding of {numbers}, by at most {most:.1e}.\n")
-        }
+    let report = match lines.is_empty() {
+        true => Report::default().line("The edit changes nothing on this scene."),
+        false => Report::default().line("The edit changes:").notes(lines),
     };
-    match lines.as_slice() {
-        [] => format!("\nThe edit changes nothing on this scene.\n{rounding}"),
-        lines => format!("\nThe edit changes:\n  {}\n{rounding}", lines.join("\n  ")),
+    if rounded.is_empty() {
+        return report;
     }
+    let (numbers, most) = (counted(rounded.len(), "number", "numbers"), largest(&rounded));
+    report.line(format!("The edit changes the rounding of {numbers}, by at most {most:.1e}."))
 }
 
 fn largest(numbers: &[f64]) -> f64 {

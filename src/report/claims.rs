@@ -1,79 +1,65 @@
-//! The register of claims, for people, and as the table of README.md.
+//! The register of claims.
 
-use super::layout::{Table, listed};
+use super::layout::listed;
+use super::model::{Report, Table};
 use super::numbers::{or_dash, short};
 use studies::audit::Assumption;
 use studies::audit::claims::{Elsewhere, Judged};
 use studies::audit::range::Parameter;
 
-/// Lays out the verdicts, what each number is and how to reproduce it, and the assumptions that they
+/// Reports the verdicts, what each value is and how to reproduce it, and the assumptions that they
 /// rest on.
-pub fn text(claims: &[Judged], assumptions: &[Assumption]) -> String {
-    let verdicts = Table::of(claims)
+pub fn report(claims: &[Judged], assumptions: &[Assumption]) -> Report {
+    let judged = Table::of(claims)
         .column("id", |judged| judged.claim.id)
         .column("line", |judged| judged.claim.line)
-        .column("verdict", |judged| judged.measured.verdict)
-        .column("scope", |judged| judged.scope)
-        .column("certainty", |judged| judged.claim.basis)
-        .column("value", |judged| or_dash(judged.measured.number, short))
-        .column("the paper says that", |judged| judged.claim.says)
-        .text();
-    let numbers = Table::of(claims.iter().filter(|judged| !judged.claim.at.is_empty()))
+        .column("verdict", |judged| judged.measured.verdict.to_string())
+        .column("scope", |judged| judged.scope.to_string())
+        .column("certainty", |judged| judged.claim.basis.to_string())
+        .column("value", |judged| judged.measured.number)
+        .column("the paper says that", |judged| judged.claim.says);
+    let values = Table::of(claims.iter().filter(|judged| !judged.claim.at.is_empty()))
         .column("id", |judged| judged.claim.id)
         .column("what the value is", |judged| judged.claim.number)
-        .column("printed by", |judged| command(judged))
-        .column("JSON pointer", |judged| judged.claim.at.join(" over "))
-        .text();
-    let range = over_the_range(claims);
-    let range = match range.is_empty() {
-        true => {
-            "  Measured on runs: of this scene only; audit --range tries other radii, meshes, shapes \
-             of the stamp and units of c_tol.\n"
-                .into()
-        }
-        false => format!("  Over the range of what the paper leaves open:\n{range}"),
-    };
-    let assumed = Table::of(assumptions)
+        .column("printed by", |judged| format!("plane-contact {}", judged.claim.command.join(" ")))
+        .column("JSON pointer", |judged| judged.claim.at.join(" over "));
+    let assumptions = Table::of(assumptions)
         .column("what the paper leaves open", |assumption| assumption.what)
-        .column("set to", |assumption| assumption.set_to.clone())
-        .text();
-    format!("{verdicts}{range}\n{numbers}\n{assumed}")
-}
-
-/// Writes the verdicts as a table in Markdown.
-pub fn markdown(claims: &[Judged]) -> String {
-    let head = "| line | the paper says that | verdict | scope | value | what the value is |\n\
-                |---|---|---|---|---|---|\n";
-    let row = |judged: &Judged| {
-        format!(
-            "| {}: {} | {} | {} | {} | {} | {} |\n",
-            judged.claim.id,
-            judged.claim.line,
-            judged.claim.says,
-            judged.measured.verdict,
-            judged.scope,
-            or_dash(judged.measured.number, rounded),
-            judged.claim.number
+        .column("set to", |assumption| assumption.set_to.clone());
+    let report = Report::default().table("Claims of the paper, and what they assume", judged);
+    let report = if claims.iter().all(|judged| judged.elsewhere.is_empty()) {
+        report.note(
+            "Measured on runs: of this scene only; audit --range tries other radii, meshes, shapes of \
+             the stamp and units of c_tol.",
         )
+    } else {
+        report.note("Over the range of what the paper leaves open:").then(over_the_range(claims))
     };
-    head.to_string() + &claims.iter().map(row).collect::<String>()
+    report.table("Values of the claims", values).table("Assumptions", assumptions)
 }
 
-/// Writes the verdicts that are not the same over the whole range as rows of a table in Markdown.
-pub fn range_markdown(claims: &[Judged]) -> String {
+/// Returns the verdicts with their values.
+pub fn verdicts(claims: &[Judged]) -> Table<Vec<&Judged>> {
+    Table::of(claims)
+        .column("line", |judged| format!("{}: {}", judged.claim.id, judged.claim.line))
+        .column("the paper says that", |judged| judged.claim.says)
+        .column("verdict", |judged| judged.measured.verdict.to_string())
+        .column("scope", |judged| judged.scope.to_string())
+        .column("value", |judged| or_dash(judged.measured.number, rounded))
+        .column("what the value is", |judged| judged.claim.number)
+}
+
+/// Returns the verdicts that are not the same over the whole range.
+pub fn range(claims: &[Judged]) -> Table<Vec<(&Judged, Parameter)>> {
     let changes = claims.iter().filter(|judged| {
         judged.elsewhere.windows(2).any(|w| w[0].measured.verdict != w[1].measured.verdict)
     });
-    let rows = changes.flat_map(|judged| {
-        let row = |parameter: &Parameter| {
-            let (id, meaning) = (judged.claim.id, parameter.meaning());
-            format!("| {id} | {meaning} | {} |\n", over(judged, *parameter))
-        };
-        Parameter::ALL.iter().map(row)
-    });
-    "| claim | what is varied | verdict at its values, with the value of the claim |\n|---|---|---|\n"
-        .to_string()
-        + &rows.collect::<String>()
+    Table::of(changes.flat_map(|judged| Parameter::ALL.iter().map(move |p| (judged, *p))))
+        .column("claim", |(judged, _)| judged.claim.id)
+        .column("what is varied", |(_, parameter)| parameter.meaning())
+        .column("verdict at its values, with the value of the claim", |(judged, parameter)| {
+            over(judged, *parameter)
+        })
 }
 
 /// Writes a number with three digits, and a whole one as it is.
@@ -81,17 +67,15 @@ fn rounded(x: f64) -> String {
     if x.fract() == 0.0 { short(x) } else { format!("{x:.3}") }
 }
 
-/// Writes, for each claim that was judged over the range, a line a parameter.
-pub fn over_the_range(claims: &[Judged]) -> String {
+/// Reports a line for each claim that was judged over the range, and one for each parameter.
+pub fn over_the_range(claims: &[Judged]) -> Report {
     let judged = claims.iter().filter(|judged| !judged.elsewhere.is_empty());
-    let lines = judged.flat_map(|judged| {
-        let says = format!("  {}: {}\n", judged.claim.id, judged.claim.says);
-        let over = |parameter: &Parameter| {
-            format!("    {}: {}\n", parameter.meaning(), over(judged, *parameter))
-        };
-        [says].into_iter().chain(Parameter::ALL.iter().map(over))
-    });
-    lines.collect()
+    judged.fold(Report::default(), |report, judged| {
+        let report = report.note(format!("{}: {}", judged.claim.id, judged.claim.says));
+        Parameter::ALL.iter().fold(report, |report, parameter| {
+            report.detail(format!("{}: {}", parameter.meaning(), over(judged, *parameter)))
+        })
+    })
 }
 
 /// Writes the verdict on a claim at each value of a parameter, with its number.
@@ -100,15 +84,10 @@ pub fn over(judged: &Judged, parameter: Parameter) -> String {
         judged.elsewhere.iter().filter(|other| other.place.parameter == parameter).collect();
     let alike = places.chunk_by(|a, b| a.measured.verdict == b.measured.verdict);
     let words = alike.map(|places| {
-        let at = places.iter().map(|other| {
+        let values = places.iter().map(|other| {
             format!("{} ({})", other.place.value, or_dash(other.measured.number, rounded))
         });
-        format!("{} at {}", places[0].measured.verdict, listed(at))
+        format!("{} at {}", places[0].measured.verdict, listed(values))
     });
     words.collect::<Vec<_>>().join("; ")
-}
-
-/// Writes the command that prints a claim's number.
-fn command(judged: &Judged) -> String {
-    format!("plane-contact {}", judged.claim.command.join(" "))
 }

@@ -1,7 +1,6 @@
 //! The tables of a report as CSV (RFC 4180).
 
 use super::model::{Block, Report, Table};
-use super::printed;
 
 impl Report {
     /// Returns each table as CSV, with the name of its file: the first words of its title.
@@ -16,7 +15,6 @@ impl Report {
                     }
                     files.push((name, table.csv()));
                 }
-                Block::Printed(text) => files.extend(printed::tables(text)),
                 Block::Heading { .. } | Block::Line { .. } | Block::Code(_) => {}
             }
         }

@@ -1,41 +1,36 @@
 //! A run of edited listings beside that of the printed ones.
 
-use super::layout::{Table, listed};
+use super::layout::listed;
+use super::model::{Cell, Report, Table};
 use super::numbers::{percent, quantity, short, with_unit};
 use engine::{Solution, max_displacement, summaries};
 
-/// Lays out what two runs of one scene came to, and the largest change of a displacement.
-pub fn beside(printed: &Solution, edited: &Solution) -> String {
+/// Reports what two runs of one scene came to, and the largest change of a displacement.
+pub fn report(printed: &Solution, edited: &Solution) -> Report {
     let units = &edited.request.scene.units;
+    let row =
+        |what: String, of: &dyn Fn(&Solution) -> Cell| vec![what.into(), of(printed), of(edited)];
     let nodes = |run: &Solution| match run.last().contact_set(&run.model) {
         nodes if nodes.is_empty() => "none".into(),
-        nodes => listed(nodes),
+        nodes => listed(nodes).into(),
     };
-    let largest = |run: &Solution| short(max_displacement(&run.u));
-    let force = |run: &Solution| short(run.target_force());
     let mut rows = vec![
-        ("in contact at the end".to_string(), nodes(printed), nodes(edited)),
-        (quantity("largest |u|", &units.length), largest(printed), largest(edited)),
-        (quantity("force on target", &units.force), force(printed), force(edited)),
+        row("in contact at the end".into(), &nodes),
+        row(quantity("largest |u|", &units.length), &|run| max_displacement(&run.u).into()),
+        row(quantity("force on target", &units.force), &|run| run.target_force().into()),
     ];
     for (a, b) in summaries(printed).into_iter().zip(summaries(edited)) {
         let what = format!("largest von Mises stress of {}", a.name);
-        rows.push((
-            quantity(&what, &units.stress),
-            short(a.max_von_mises_stress),
-            short(b.max_von_mises_stress),
-        ));
+        let [a, b] = [a, b].map(|body| body.max_von_mises_stress.into());
+        rows.push(vec![quantity(&what, &units.stress).into(), a, b]);
     }
-    let table = Table::of(rows)
-        .column("", |row| row.0.clone())
-        .column("as printed", |row| row.1.clone())
-        .column("edited", |row| row.2.clone())
-        .text();
     let change = max_displacement(&(&edited.u - &printed.u));
     let size = max_displacement(&printed.u);
     let part = if size > 0.0 { format!(" = {}", percent(change / size, 1)) } else { String::new() };
-    format!(
-        "\nWhat the edited listings change\n{table}  displacements change by at most {}{part}\n",
-        with_unit(&short(change), &units.length)
-    )
+    Report::default()
+        .table("What the edited listings change", Table::new(["", "as printed", "edited"], rows))
+        .note(format!(
+            "displacements change by at most {}{part}",
+            with_unit(&short(change), &units.length)
+        ))
 }

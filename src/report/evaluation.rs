@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::json::headed;
+use super::json;
 use mathcad::{self, Failure, Outcome};
 
 /// What came of a program.
@@ -41,12 +41,15 @@ pub struct ErrorRow<'a> {
 /// Returns what a program computed.
 pub fn json(outcome: &Outcome) -> String {
     let value = mathcad::json::write(&outcome.value);
-    headed(&Document::Result { value, trace: &outcome.trace_output })
+    json::line(None, &Document::Result { value, trace: &outcome.trace_output })
 }
 
 /// Returns why a program failed.
 pub fn error_json(failure: &Failure) -> String {
     let Failure { listing, line, column, text, statement, cause } = failure;
     let (line, column, cause) = (*line, *column, cause.to_string());
-    headed(&Document::Failure { error: ErrorRow { cause, listing, line, column, text, statement } })
+    json::line(
+        None,
+        &Document::Failure { error: ErrorRow { cause, listing, line, column, text, statement } },
+    )
 }

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::json::headed;
-use super::layout::{Table, aligned};
+use super::json;
+use super::model::{Cell, Report, Table};
 use super::picture::{Axis, SERIES, Series, Style, chart};
 use studies::extremes::{Break, Column, Generator, Measured, Verdict};
 
@@ -16,21 +16,27 @@ pub struct Document<'a> {
 
 /// Returns the content of `extremes.json`.
 pub fn json(measured: &[Measured]) -> String {
-    headed(&Document { rows: measured })
+    json::line(None, &Document { rows: measured })
 }
 
-pub fn list(generators: &[Generator]) -> String {
-    Table::of(generators)
+pub fn list(generators: &[Generator]) -> Report {
+    let table = Table::of(generators)
         .column("generator", |generator| generator.name)
         .column("what is swept", |generator| generator.magnitude)
-        .column("title", |generator| generator.title)
-        .text()
+        .column("title", |generator| generator.title);
+    Report::default().table("", table)
 }
 
-/// Lays out for each generator where its methods break down, then what came of every magnitude.
-pub fn text(measured: &[Measured]) -> String {
-    let of = |m: &Measured| format!("{}: {}\n\n{}\n{}", m.name, m.title, breaks(m), sweep(m));
-    measured.iter().map(of).collect::<Vec<_>>().join("\n\n")
+/// Reports for each generator where its methods break down, then what came of every magnitude.
+pub fn report(measured: &[Measured]) -> Report {
+    measured.iter().fold(Report::default(), |report, measured| {
+        let report = report.heading(format!("{}: {}", measured.name, measured.title));
+        let report = match measured.logarithmic {
+            true => report.table(format!("Where {} breaks down", measured.name), breaks(measured)),
+            false => report,
+        };
+        report.then(sweep(measured))
+    })
 }
 
 /// Draws the digits that each method keeps against the magnitude, in as many pictures as its curves
@@ -66,47 +72,43 @@ fn curve(measured: &Measured, column: &Column) -> Series {
     Series { name: column.name.clone(), points, style: Style::Dotted }
 }
 
-/// Lays out a line for each method: the digits where the sweep is kindest, and where it breaks
-/// down. Nothing where the magnitudes are no numbers.
-fn breaks(measured: &Measured) -> String {
-    if !measured.logarithmic {
-        return String::new();
-    }
-    let exponent = |at: &Break| format!("1e{:.0}", at.exponent.round());
-    let at = |at: &Option<Break>| at.as_ref().map_or("-".into(), exponent);
-    let there = |at: &Option<Break>| at.as_ref().map_or("-".into(), |at| at.verdict.to_string());
+/// Returns a row for each method: the digits where the sweep is kindest, and where it breaks down.
+fn breaks(measured: &Measured) -> Table<Vec<&Column>> {
+    let magnitude = |found: &Option<Break>| {
+        found.as_ref().map(|found| format!("1e{:.0}", found.exponent.round()))
+    };
+    let verdict = |found: &Option<Break>| found.as_ref().map(|found| found.verdict.to_string());
     Table::of(&measured.columns)
         .column("method", |column| column.name.clone())
         .column("most digits", |column| {
             let digits = column.verdicts.iter().filter_map(|v| v.digits(column.carried));
-            format!("{:.0}", digits.fold(0.0, f64::max).floor())
+            Cell::decimals(digits.fold(0.0, f64::max).floor(), 0)
         })
-        .column("breaks down below", |column| at(&column.below))
-        .column("there", |column| there(&column.below))
-        .column("breaks down above", |column| at(&column.above))
-        .column("there", |column| there(&column.above))
-        .text()
+        .column("breaks down below", |column| magnitude(&column.below))
+        .column("verdict below", |column| verdict(&column.below))
+        .column("breaks down above", |column| magnitude(&column.above))
+        .column("verdict above", |column| verdict(&column.above))
 }
 
-/// Lays out a line for each magnitude and a column for each method, and a legend above them.
-fn sweep(measured: &Measured) -> String {
-    let numbered = || measured.columns.iter().zip(1..);
-    let names: Vec<String> = numbered().map(|(c, k)| format!("  ({k}) {}", c.name)).collect();
-    let numbers = numbered().map(|(_, k)| format!("({k})"));
+/// Reports a row for each magnitude and a column for each method.
+fn sweep(measured: &Measured) -> Report {
     let rows = measured.labels.iter().enumerate().map(|(k, label)| {
         let cell = |column: &Column| match (&column.verdicts[k], measured.logarithmic) {
-            // The table above tells what was refused or wrong.
+            // The table above says what was refused or wrong.
             (Verdict::Refused(_), true) => "refused".into(),
             (Verdict::Wrong(_), true) => "WRONG".into(),
-            (verdict, _) => verdict.to_string(),
+            (verdict, _) => verdict.to_string().into(),
         };
-        std::iter::once(label.clone()).chain(measured.columns.iter().map(cell)).collect()
+        std::iter::once(label.clone().into()).chain(measured.columns.iter().map(cell)).collect()
     });
+    let numbers = (1..=measured.columns.len()).map(|k| format!("({k})"));
     let head = std::iter::once(measured.magnitude.to_string()).chain(numbers);
+    let methods = measured.columns.iter().zip(1..).map(|(c, k)| format!("({k}) {}", c.name));
     let unknown = measured.columns.iter().any(|c| c.verdicts.contains(&Verdict::Unknown));
-    let note = match unknown {
-        true => "  ?: an answer that no exact one stands beside: under unilateral a node opens\n",
-        false => "",
-    };
-    format!("{}\n{}{note}", names.join("\n"), aligned(head, rows))
+    Report::default()
+        .table(format!("Digits of {} kept by each method", measured.name), Table::new(head, rows))
+        .notes(methods)
+        .notes(unknown.then_some(
+            "?: an answer that no exact one stands beside: under unilateral a node opens",
+        ))
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::json::headed;
+use super::json;
 use engine::error::{self, Error};
 
 /// Why a command ended without a result.
@@ -93,5 +93,5 @@ fn cause(error: &Error) -> Cause {
 
 /// Returns why a command ended without a result.
 pub fn failure(error: &Error) -> String {
-    headed(&Failed { failure: error.into() })
+    json::line(None, &Failed { failure: error.into() })
 }

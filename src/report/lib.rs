@@ -18,8 +18,8 @@
 //! | `sweep`                                            | job files of engines                   |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
 //! | `changes`, `edited`, `scenes`                      | edited listings, scenes that are there |
-//! | `printed`                                          | what is printed, fitted, and as CSV    |
-//! | `layout`, `numbers`                                | columns of words, numbers as text      |
+//! | `model`; `text`, `csv`, `markdown`                 | reports of tables, and their renderings |
+//! | `layout`, `numbers`                                | lists of words, numbers as text        |
 #![forbid(unsafe_code)]
 
 pub mod answers;
@@ -36,15 +36,14 @@ pub mod failure;
 pub mod folder;
 pub mod json;
 mod layout;
+mod markdown;
 pub mod matrix_market;
 pub mod model;
 pub mod numbers;
-mod output;
 pub mod page;
 pub mod picture;
 pub mod plan;
 pub mod pressure;
-pub mod printed;
 pub mod quantities;
 mod result_file;
 pub mod scenes;

@@ -23,20 +23,6 @@ pub enum Block {
     Code(String),
     /// A table under its title, which may be empty.
     Table { title: String, table: Table },
-    /// A text with tables, which `printed` takes apart.
-    Printed(String),
-}
-
-impl From<String> for Report {
-    fn from(text: String) -> Self {
-        Report { blocks: vec![Block::Printed(text)] }
-    }
-}
-
-impl From<&String> for Report {
-    fn from(text: &String) -> Self {
-        text.clone().into()
-    }
 }
 
 impl Report {
@@ -92,8 +78,8 @@ impl Report {
 
     /// Adds all of another report.
     #[must_use]
-    pub fn then(mut self, other: impl Into<Report>) -> Self {
-        self.blocks.extend(other.into().blocks);
+    pub fn then(mut self, other: Report) -> Self {
+        self.blocks.extend(other.blocks);
         self
     }
 }
@@ -105,6 +91,22 @@ pub struct Table<R = ()> {
     pub headings: Vec<String>,
     /// Row by row, a cell for each heading.
     pub cells: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// Makes a table row by row; a row may have fewer cells than there are headings.
+    pub fn new(
+        headings: impl IntoIterator<Item = impl Display>,
+        rows: impl IntoIterator<Item = Vec<Cell>>,
+    ) -> Self {
+        let headings: Vec<String> =
+            headings.into_iter().map(|heading| heading.to_string()).collect();
+        let cells = rows.into_iter().map(|mut row| {
+            row.resize(headings.len(), Cell::Empty);
+            row
+        });
+        Table { rows: (), cells: cells.collect(), headings }
+    }
 }
 
 impl<R> Table<Vec<R>> {
@@ -151,6 +153,8 @@ pub enum Cell {
 pub enum Notation {
     /// As [`short`] writes it.
     Short,
+    /// With all its digits.
+    Plain,
     /// With so many decimals.
     Decimals(usize),
     /// With so many decimals before a power of ten.
@@ -158,6 +162,11 @@ pub enum Notation {
 }
 
 impl Cell {
+    /// Shows a number with all its digits.
+    pub fn plain(value: f64) -> Self {
+        Cell::number(value, Notation::Plain)
+    }
+
     /// Shows a number with so many decimals.
     pub fn decimals(value: f64, decimals: usize) -> Self {
         Cell::number(value, Notation::Decimals(decimals))
@@ -217,6 +226,7 @@ impl Display for Cell {
             Cell::Text(ref text) => write!(out, "{text}"),
             Cell::Integer(n) => write!(out, "{n}"),
             Cell::Number { value, notation: Notation::Short } => write!(out, "{}", short(value)),
+            Cell::Number { value, notation: Notation::Plain } => write!(out, "{value}"),
             Cell::Number { value, notation: Notation::Decimals(n) } => write!(out, "{value:.n$}"),
             Cell::Number { value, notation: Notation::Scientific(n) } => {
                 write!(out, "{value:.n$e}")

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json;
-use super::layout::{Table, aligned};
+use super::model::{Cell, Report, Table};
 use super::numbers::{quantity, short, six_digits};
 use problem::scene::{Scene, Units};
 use studies::plan::{BodyPlan, ContactPlan, MARGIN, Plan, Storage};
@@ -27,28 +27,31 @@ pub fn line(plan: &Plan) -> String {
     );
     text += match (&plan.half, plan.half_would_do()) {
         (None, _) => "",
-        (Some(_), true) => "; symmetric, half of it would do",
+        (Some(_), true) => "; symmetric, half the model suffices",
         (Some(_), false) => "; symmetric, but c_cnt as printed is not",
     };
     if plan.equations.idle > 0 {
-        text += &format!("; nothing moves {} of the free equations", plan.equations.idle);
+        text += &format!("; {} free equations have zero displacement", plan.equations.idle);
     }
     text
 }
 
-/// Lays out the plan in tables with the units of the scene; `free` is the memory that is free, bytes.
-pub fn text(plan: &Plan, units: &Units, free: Option<u128>) -> String {
-    let refused = plan.check_memory(free).err().map_or(String::new(), |why| format!("\n{why}\n"));
-    format!(
-        "{}\n\nWhat is built\n{}\nBodies\n{}\nLoad\n{}\nWhat it takes\n{}{refused}\n\
-         What is left out, or could be\n{}",
-        line(plan),
-        built(plan),
-        bodies(&plan.bodies, units),
-        load(plan, units),
-        cost(plan),
-        left_out(plan)
-    )
+/// Reports the plan with the units of the scene; `free` is the memory that is free, bytes.
+pub fn report(plan: &Plan, units: &Units, free: Option<u128>) -> Report {
+    let refused = plan.check_memory(free).err().map(|why| why.to_string());
+    let locking = plan.bodies.iter().filter_map(|body| {
+        let why = body.locking.as_ref()?;
+        Some(format!("NOTE: body {}: {why}; the error of the mesh is not estimated", body.name))
+    });
+    let report = Report::default()
+        .line(line(plan))
+        .table("What is built", built(plan))
+        .table("Bodies", bodies(&plan.bodies, units))
+        .notes(locking)
+        .table("Load", load(plan, units))
+        .table("What it takes", cost(plan));
+    let report = refused.into_iter().fold(report, Report::line);
+    report.table("What is left out, or could be", left_out(plan))
 }
 
 /// The plan as JSON.
@@ -62,18 +65,18 @@ pub struct Document<'a> {
 
 /// Writes the plan as JSON, with the sum of its bytes.
 pub fn json(scene: &Scene, plan: &Plan) -> String {
-    json::of_scene(scene, &Document { plan, bytes: plan.cost.bytes.total() })
+    json::line(Some(scene), &Document { plan, bytes: plan.cost.bytes.total() })
 }
 
-fn row(name: &str, value: impl ToString, why: impl ToString) -> Vec<String> {
-    vec![name.into(), value.to_string(), why.to_string()]
+fn row(name: &str, value: impl Into<Cell>, why: impl Into<Cell>) -> Vec<Cell> {
+    vec![name.into(), value.into(), why.into()]
 }
 
-fn built(plan: &Plan) -> String {
+fn built(plan: &Plan) -> Table {
     let equations = plan.equations;
     let solved = match equations.solved == equations.all {
         true => "Km as printed keeps restrained ones, with 1 on the diagonal",
-        false => "at most: a node in contact takes its own out",
+        false => "at most: each node in contact removes its equations",
     };
     let mut rows = vec![
         row("equations", equations.all, "two a node"),
@@ -82,33 +85,33 @@ fn built(plan: &Plan) -> String {
     ];
     match &plan.contact {
         None => rows.push(row("contact", "none", "the scene names no contact surfaces")),
-        Some(contact) => rows.extend(of_contact(contact)),
+        Some(contact) => rows.extend(contact_rows(contact)),
     }
     rows.push(row("solver", format!("{} in {}", plan.solver, plan.scalar), "--solver, --scalar"));
     let numbers = format!("{} numbers in its factors", plan.factors.nonzeros);
-    rows.push(row("matrix", plan.storage, numbers));
+    rows.push(row("matrix", plan.storage.to_string(), numbers));
     if let Some(kept) = plan.condensed {
         let why =
             "equations of the surfaces: the bodies are factored once, each contact state on these";
         rows.push(row("condensed to", kept, why));
     }
-    aligned(["", "", "why"], rows)
+    Table::new(["", "", "why"], rows)
 }
 
-fn of_contact(contact: &ContactPlan) -> [Vec<String>; 3] {
+fn contact_rows(contact: &ContactPlan) -> [Vec<Cell>; 3] {
     let found = &contact.candidates;
     let margin = format!(
         "of {}: nodes in the box of an edge, grown by c_tll + {MARGIN} of its length",
         found.all(),
     );
     [
-        row("coupling", contact.coupling, "contact.coupling"),
+        row("coupling", contact.coupling.to_string(), "contact.coupling"),
         row("contact candidates", found.pairs, margin),
         row("contact nodes near", found.near, format!("of {}", found.nodes)),
     ]
 }
 
-fn bodies(bodies: &[BodyPlan], units: &Units) -> String {
+fn bodies<'a>(bodies: &'a [BodyPlan], units: &Units) -> Table<Vec<&'a BodyPlan>> {
     Table::of(bodies)
         .column("body", |body| body.name.clone())
         .column(quantity("size", &units.length), |body| body.size.map(six_digits).join(" x "))
@@ -116,17 +119,10 @@ fn bodies(bodies: &[BodyPlan], units: &Units) -> String {
         .column("triangles", |body| body.triangles)
         .column("free equations", |body| body.free)
         .column("contact", |body| if body.in_contact { "yes" } else { "no" })
-        .column("moved", |body| body.idle.map_or("yes".into(), |idle| format!("no: {idle}")))
-        .text()
-        + &bodies.iter().filter_map(locking).collect::<String>()
+        .column("moves", |body| body.idle.map_or("yes".into(), |idle| format!("no: {idle}")))
 }
 
-fn locking(body: &BodyPlan) -> Option<String> {
-    let why = body.locking.as_ref()?;
-    Some(format!("  NOTE: body {}: {why}; the error of the mesh is not estimated\n", body.name))
-}
-
-fn load(plan: &Plan, units: &Units) -> String {
+fn load(plan: &Plan, units: &Units) -> Table {
     let total = format!("{} along x and y", quantity("sum of the loads", &units.force));
     let mut rows = vec![row(&total, plan.load.map(six_digits).join(", "), "with their signs")];
     rows.extend(plan.nominal_strain.map(|strain| {
@@ -134,10 +130,10 @@ fn load(plan: &Plan, units: &Units) -> String {
             "largest of a body: its loads, without signs, / (width or height x thickness x E)";
         row("nominal strain", six_digits(strain), why)
     }));
-    aligned(["", "", "of that"], rows)
+    Table::new(["", "", "of that"], rows)
 }
 
-fn cost(plan: &Plan) -> String {
+fn cost(plan: &Plan) -> Table {
     let (cost, bytes) = (plan.cost, plan.cost.bytes);
     let reference = match cost.reference_states {
         0 => String::new(),
@@ -150,14 +146,14 @@ fn cost(plan: &Plan) -> String {
     );
     let states = cost.states + cost.reference_states;
     let rows = [
-        row("memory, MB", megabytes(bytes.total()), memory),
+        row("memory, MB", Cell::decimals(bytes.total() / 1e6, 0), memory),
         row("factorisations", states, format!("{} likely{reference}", cost.states)),
-        row("operations", operations(cost.operations), "of the factorisations"),
+        row("operations", Cell::scientific(cost.operations, 1), "of the factorisations"),
     ];
-    aligned(["", "", "of that"], rows)
+    Table::new(["", "", "of that"], rows)
 }
 
-fn left_out(plan: &Plan) -> String {
+fn left_out(plan: &Plan) -> Table {
     let mut rows = vec![
         row("orphan nodes", plan.orphans, "in no triangle: dropped"),
         row("restrained equations", plan.equations.restrained, "known to be 0"),
@@ -171,7 +167,7 @@ fn left_out(plan: &Plan) -> String {
         row(&format!("equations of body {:?}", body.name), body.free, format!("0: {why}"))
     }));
     let half = match plan.half_would_do() {
-        true => "half of it would do",
+        true => "half the model suffices",
         false => "but half of it has another answer, for c_cnt as printed is not symmetric",
     };
     rows.extend(plan.half.map(|found| {
@@ -179,7 +175,7 @@ fn left_out(plan: &Plan) -> String {
         let why = format!("the scene is its own mirror image about x = {at}: {half}");
         row("nodes of the other half", plan.nodes - found.nodes, why)
     }));
-    aligned(["", "", "why"], rows)
+    Table::new(["", "", "why"], rows)
 }
 
 fn megabytes(bytes: f64) -> String {

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema};
 use serde_json::{Map, Value, json};
 
 use super::failure::Failed;
-use super::json::{Found, Head, Headed, SceneHead};
+use super::json::{Document, Found};
 use super::{
     ResultFile, answers, audit, comparison, evaluation, extremes, plan, snapshot, trace, worksheet,
 };
@@ -27,10 +27,6 @@ pub struct Named {
     make: fn() -> Schema,
 }
 
-/// A document on a scene, and one without.
-type OfScene<T> = Headed<SceneHead, T>;
-type OfNone<T> = Headed<Head, T>;
-
 /// All schemas: files, then documents that commands print.
 pub const SCHEMAS: &[Named] = &[
     Named { name: "scene", of: "a scene file", commands: &[], make: read::<Description> },
@@ -40,7 +36,7 @@ pub const SCHEMAS: &[Named] = &[
         name: "marks",
         of: "what snapshot verify prints of answers",
         commands: &[],
-        make: printed::<OfNone<answers::Document>>,
+        make: printed::<Document<answers::Document>>,
     },
     Named { name: "row", of: "a row of a sweep", commands: &[], make: sweep::row_schema },
     Named { name: "snapshot", of: "a snapshot", commands: &[], make: read::<Snapshot> },
@@ -49,79 +45,79 @@ pub const SCHEMAS: &[Named] = &[
         name: "failure",
         of: "what --json prints where there is nothing else",
         commands: &[],
-        make: printed::<OfNone<Failed>>,
+        make: printed::<Document<Failed>>,
     },
     Named {
         name: "audit",
         of: "audit.json",
         commands: &["audit"],
-        make: printed::<OfScene<audit::Document>>,
+        make: printed::<Document<audit::Document>>,
     },
     Named {
         name: "finding",
         of: "audit --finding",
         commands: &[],
-        make: printed::<OfScene<audit::FindingRow>>,
+        make: printed::<Document<audit::FindingRow>>,
     },
     Named {
         name: "c_cnt",
         of: "a call of c_cnt",
         commands: &["listing run c_cnt"],
-        make: printed::<OfScene<Found>>,
+        make: printed::<Document<Found>>,
     },
     Named {
         name: "compare",
         of: "compare.json",
         commands: &["compare"],
-        make: printed::<OfScene<comparison::Document>>,
+        make: printed::<Document<comparison::Document>>,
     },
     Named {
         name: "evaluate",
         of: "a program's value or failure",
         commands: &["listing evaluate"],
-        make: printed::<OfNone<evaluation::Document>>,
+        make: printed::<Document<evaluation::Document>>,
     },
     Named {
         name: "extremes",
         of: "extremes.json",
         commands: &["extremes"],
-        make: printed::<OfNone<extremes::Document>>,
+        make: printed::<Document<extremes::Document>>,
     },
     Named {
         name: "mathcad",
         of: "a worksheet, executed",
         commands: &["mathcad run"],
-        make: printed::<OfNone<worksheet::Document>>,
+        make: printed::<Document<worksheet::Document>>,
     },
     Named {
         name: "plan",
         of: "the plan of a run",
         commands: &["scene plan"],
-        make: printed::<OfScene<plan::Document>>,
+        make: printed::<Document<plan::Document>>,
     },
     Named {
         name: "statuses",
         of: "audit --statuses",
         commands: &[],
-        make: printed::<OfNone<Measurement>>,
+        make: printed::<Document<Measurement>>,
     },
     Named {
         name: "trace",
         of: "a listing executed",
         commands: &["listing trace"],
-        make: printed::<OfScene<trace::Document>>,
+        make: printed::<Document<trace::Document>>,
     },
     Named {
         name: "trade",
         of: "trade.json",
         commands: &["trade"],
-        make: printed::<OfScene<Trade>>,
+        make: printed::<Document<Trade>>,
     },
     Named {
         name: "verify",
         of: "what differs between runs",
         commands: &["snapshot verify", "snapshot explain", "snapshot diff"],
-        make: printed::<OfNone<snapshot::Document>>,
+        make: printed::<Document<snapshot::Document>>,
     },
 ];
 

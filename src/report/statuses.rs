@@ -1,25 +1,25 @@
 //! The status rules measured, for people, for machines and as a picture.
 
-use super::json::headed;
-use super::layout::aligned;
+use super::json;
+use super::model::{Cell, Report, Table};
 use super::picture::{Axis, Series, Style, chart};
 use problem::modelling::StatusRule;
 use studies::audit::statuses::{Measurement, Row};
 
-/// Lays out two tables: the wrong statuses by depth, and the operations by size.
 pub fn json(measured: &Measurement) -> String {
-    headed(measured)
+    json::line(None, measured)
 }
 
-pub fn text(measured: &Measurement) -> String {
-    format!(
-        "Status rules on random scenes ({} a row, seed {})\n\n\
-         1. Wrong statuses, missed + false, by depth of the jump\n{}\n\
-         2. Operations of one call for each contact node, by size\n{}",
-        measured.scenes,
-        measured.seed,
-        wrong(&measured.by_depth),
-        operations(&measured.by_size)
+/// Reports two tables: the wrong statuses by depth, and the operations by size.
+pub fn report(measured: &Measurement) -> Report {
+    Report::titled(format!(
+        "Status rules on random scenes ({} a row, seed {})",
+        measured.scenes, measured.seed
+    ))
+    .table("1. Wrong statuses, missed + false, by depth of the jump", wrong(&measured.by_depth))
+    .table(
+        "2. Operations of one call for each contact node, by size",
+        operations(&measured.by_size),
     )
 }
 
@@ -38,27 +38,27 @@ pub fn picture(measured: &Measurement) -> String {
     chart("Wrong statuses by depth of the jump", [x, y], &curves.collect::<Vec<_>>(), &[])
 }
 
-fn wrong(rows: &[Row]) -> String {
-    let start = ["depth / c_tll", "target", "nodes", "in contact"].map(String::from);
-    let rules = StatusRule::ALL.iter().flat_map(|rule| [rule.to_string(), "%".into()]);
-    let rows = rows.iter().map(|row| {
-        let [nodes, touching] = [row.nodes, row.touching].map(|count| count.to_string());
-        let start = [row.depth.to_string(), row.target.into(), nodes, touching];
-        let scores = row.rules.iter().flat_map(|score| {
-            let share = 100.0 * score.wrong_share(row.nodes);
-            [format!("{} + {}", score.missed, score.false_contacts), format!("{share:.1}")]
-        });
-        start.into_iter().chain(scores).collect()
-    });
-    aligned(start.into_iter().chain(rules), rows)
+fn wrong(rows: &[Row]) -> Table<Vec<&Row>> {
+    let table = Table::of(rows)
+        .column("depth / c_tll", |row| Cell::plain(row.depth))
+        .column("target", |row| row.target)
+        .column("nodes", |row| row.nodes)
+        .column("in contact", |row| row.touching);
+    StatusRule::ALL.iter().enumerate().fold(table, |table, (k, rule)| {
+        table
+            .column(rule, |row| {
+                format!("{} + {}", row.rules[k].missed, row.rules[k].false_contacts)
+            })
+            .column("%", |row| Cell::decimals(100.0 * row.rules[k].wrong_share(row.nodes), 1))
+    })
 }
 
-fn operations(rows: &[Row]) -> String {
-    let start = ["target edges", "nodes"].map(String::from);
-    let rows = rows.iter().map(|row| {
-        let each = |operations: u64| format!("{:.1}", operations as f64 / row.nodes.max(1) as f64);
-        let scores = row.rules.iter().map(|score| each(score.operations));
-        [row.edges, row.nodes].map(|count| count.to_string()).into_iter().chain(scores).collect()
-    });
-    aligned(start.into_iter().chain(StatusRule::ALL.iter().map(StatusRule::to_string)), rows)
+fn operations(rows: &[Row]) -> Table<Vec<&Row>> {
+    let table =
+        Table::of(rows).column("target edges", |row| row.edges).column("nodes", |row| row.nodes);
+    StatusRule::ALL.iter().enumerate().fold(table, |table, (k, rule)| {
+        table.column(rule, |row| {
+            Cell::decimals(row.rules[k].operations as f64 / row.nodes.max(1) as f64, 1)
+        })
+    })
 }

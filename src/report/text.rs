@@ -2,7 +2,6 @@
 
 use super::layout::filled;
 use super::model::{Block, Cell, Report, Table};
-use super::printed;
 
 impl Report {
     /// Writes the report in lines of at most `width` characters: prose is broken between words, and a
@@ -20,7 +19,6 @@ impl Report {
                 Block::Code(lines) => fitted(&indented(lines, 1), width),
                 Block::Table { title, table } if title.is_empty() => table.text(width),
                 Block::Table { title, table } => fitted(title, width) + &table.text(width),
-                Block::Printed(text) => printed::fitted(text, width),
             };
             previous = Some(block);
         }
@@ -31,7 +29,6 @@ impl Report {
 /// Whether a blank line stands between two blocks.
 fn is_apart(previous: &Block, next: &Block) -> bool {
     match (previous, next) {
-        (Block::Printed(_), _) | (_, Block::Printed(_)) => false,
         (_, Block::Heading { .. }) => true,
         (_, Block::Table { title, .. }) if !title.is_empty() => true,
         (Block::Table { .. }, Block::Table { .. }) => true,

@@ -1,22 +1,21 @@
 //! A trace for people and for machines.
 
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use schemars::JsonSchema;
-use serde::ser::SerializeSeq;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use serde_json::Value as Json;
 
 use super::failure::Failure;
-use super::json::{Found, write_of_scene};
+use super::json::{self, Found};
 use super::layout::{counted, filled, listed};
 use super::numbers::six_digits;
-use super::printed::fitted;
+use super::text::fitted;
+use engine::error::Error;
 use mathcad::array::Table;
 use mathcad::{self, Listing};
-use paper::listings::{self, Which};
+use paper::listings::Which;
 use problem::model::{Model, NodeId, TriangleId};
 use problem::scene::Scene;
 use studies::audit::trace::{Access, Kept, Product, Step, text_of};
@@ -255,12 +254,12 @@ fn decision(listing: &Listing, step: &Step, held: bool, shown: &Shown) -> String
     let condition = text.split_once("if ").map_or(text, |(_, condition)| condition);
     let failed = step.operands.iter().find(|(_, truth)| *truth == Some(false));
     let failed = failed.map_or(condition, |(operand, _)| operand);
-    let told = match held {
+    let outcome = match held {
         true if step.writes.is_empty() => format!("yes  {condition}"),
         true => format!("yes  {}", accesses(&step.writes, " ← ", shown).join(", ")),
         false => format!("no   {failed} is false"),
     };
-    format!("  {:>2}  {told}", step.line)
+    format!("  {:>2}  {outcome}", step.line)
 }
 
 /// Writes a line outside the turns: how often it was executed, and what it wrote last.
@@ -288,7 +287,7 @@ fn step_in_words(listing: &Listing, step: &Step, shown: &Shown) -> String {
     if !writes.is_empty() {
         text += &filled("      ⇒ ", 8, shown.width, writes, ", ");
     } else if step.held == Some(false) {
-        text += "      ⇒ the condition does not hold\n";
+        text += "      ⇒ the condition is false\n";
     }
     text
 }
@@ -337,53 +336,13 @@ pub struct Document<'a> {
     /// `c_cnt` or `Km`.
     listing: &'static str,
     /// The statements in order of execution.
-    #[schemars(with = "Vec<StepRow>")]
-    steps: Executing<'a>,
+    steps: Vec<StepRow<'a>>,
     /// What the listing's own `trace` wrote.
-    #[schemars(with = "Vec<String>")]
-    trace: Then<'a, Vec<String>>,
+    trace: &'a [String],
     /// What the listing computes; null where it failed.
-    #[schemars(with = "Option<Computed>")]
-    result: Then<'a, Option<Computed>>,
+    result: Option<Computed>,
     /// Why it failed; null where it did not.
-    #[schemars(with = "Option<Failure>")]
-    failure: Then<'a, Option<Failure>>,
-}
-
-/// Executes a listing, and hands over each statement.
-pub type Execute<'a> = dyn Fn(&mut dyn FnMut(Step)) -> listings::Traced<Product> + 'a;
-
-/// The statements of a listing, which is executed when they are written: none is kept.
-struct Executing<'a> {
-    listing: &'a Listing,
-    execute: &'a Execute<'a>,
-    outcome: &'a OnceCell<listings::Traced<Product>>,
-}
-
-impl Serialize for Executing<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut rows = serializer.serialize_seq(None)?;
-        let mut written = Ok(());
-        let outcome = (self.execute)(&mut |step| {
-            if written.is_ok() {
-                written = rows.serialize_element(&StepRow::new(&step, self.listing));
-            }
-        });
-        self.outcome.get_or_init(|| outcome);
-        written?;
-        rows.end()
-    }
-}
-
-/// What is known once the listing is executed.
-struct Then<'a, T>(&'a OnceCell<listings::Traced<Product>>, &'a Told<'a, T>);
-
-type Told<'a, T> = dyn Fn(&listings::Traced<Product>) -> T + 'a;
-
-impl<T: Serialize> Serialize for Then<'_, T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        (self.1)(self.0.get().expect("the steps stand before it")).serialize(serializer)
-    }
+    failure: Option<Failure>,
 }
 
 /// A statement as it was executed.
@@ -427,31 +386,23 @@ impl From<&Product> for Computed {
     }
 }
 
-/// Writes a trace as JSON as it is executed, which leaves its `outcome`; `blame` says why the listing
-/// failed.
-///
-/// # Errors
-/// Something was not written.
-pub fn write_json(
-    out: impl Write,
+/// Returns a trace as JSON: the statements in order of execution, and what the listing computed and
+/// its own `trace` wrote, or why it failed.
+pub fn json(
     of: &Traced,
-    execute: &Execute,
-    outcome: &OnceCell<listings::Traced<Product>>,
-    blame: &dyn Fn(&mathcad::Failure) -> Failure,
-) -> io::Result<()> {
+    steps: &[Step],
+    outcome: Result<&(Product, Vec<String>), &Error>,
+) -> String {
+    let computed = outcome.as_ref().ok();
     let document = Document {
         scene: &of.scene.name,
         listing: of.which.name(),
-        steps: Executing { listing: of.listing, execute, outcome },
-        trace: Then(outcome, &|outcome| {
-            outcome.as_ref().map_or(Vec::new(), |(_, output)| output.clone())
-        }),
-        result: Then(outcome, &|outcome| {
-            outcome.as_ref().ok().map(|(product, _)| Computed::from(product))
-        }),
-        failure: Then(outcome, &|outcome| outcome.as_ref().err().map(|why| blame(why))),
+        steps: steps.iter().map(|step| StepRow::new(step, of.listing)).collect(),
+        trace: computed.map_or(&[], |(_, output)| output),
+        result: computed.map(|(product, _)| product.into()),
+        failure: outcome.as_ref().err().map(|error| Failure::from(*error)),
     };
-    write_of_scene(out, of.scene, &document)
+    json::line(Some(of.scene), &document)
 }
 
 /// Returns the values of `of` that are not zero, each with its row and its column in `matrix`.

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::claims::{over, over_the_range};
-use super::json::of_scene;
-use super::layout::{Table, listed};
-use super::numbers::{note, or_dash};
-use super::output::csv as csv_of;
+use super::json;
+use super::layout::listed;
+use super::model::{Cell, Report, Table};
+use super::numbers::reason;
 use super::picture::{Axis, Series, Style, chart};
 use base::error::Result;
 use base::files::write_all;
@@ -17,14 +17,9 @@ use studies::audit::claims::{Claim, Elsewhere};
 use studies::audit::range::{self, Place};
 use studies::trade::{Came, Errors, Order, Reached, Row, Section, Trade, Varied};
 
-/// The heading of `trade.csv`.
-pub const COLUMNS: &str = "parameter,variant,setting,own,equations,in_contact,cycle,seconds,runs,\
-    peak_bytes,error_displacement,error_energy,error_von_mises,\
-    change_displacement,change_energy,change_von_mises,pareto,failure";
-
 /// Returns the content of `trade.json`.
 pub fn json(scene: &Scene, trade: &Trade) -> String {
-    of_scene(scene, trade)
+    json::line(Some(scene), trade)
 }
 
 /// Writes `trade.json`, `trade.csv` and the pictures to `folder`; gives back the first.
@@ -39,104 +34,98 @@ pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<String> {
     Ok(json)
 }
 
-/// Lays out a line for each trial, its cells being those of [`COLUMNS`].
+/// Writes a line for each trial.
 pub fn csv(trade: &Trade) -> String {
-    let rows = trade
-        .sections
-        .iter()
-        .flat_map(|section| section.rows.iter().map(move |row| cells(section, row)));
-    csv_of(COLUMNS, rows)
+    let sections = trade.sections.iter();
+    let rows = sections.flat_map(|section| section.rows.iter().map(move |row| (section, row)));
+    Table::of(rows)
+        .column("parameter", |(section, _)| section.parameter.to_string())
+        .column("variant", |(_, row)| row.variant.to_string())
+        .column("setting", |(_, row)| row.label.clone())
+        .column("own", |(_, row)| row.own.to_string())
+        .column("equations", |(_, row)| row.equations)
+        .column("in_contact", |(_, row)| row.in_contact)
+        .column("cycle", |(_, row)| row.cycle)
+        .column("seconds", |(_, row)| row.seconds)
+        .column("runs", |(_, row)| row.runs)
+        .column("peak_bytes", |(_, row)| row.peak_bytes)
+        .column("error_displacement", |(_, row)| row.error.map(|e| e.displacement))
+        .column("error_energy", |(_, row)| row.error.map(|e| e.energy))
+        .column("error_von_mises", |(_, row)| row.error.map(|e| e.von_mises))
+        .column("change_displacement", |(_, row)| row.change.map(|e| e.displacement))
+        .column("change_energy", |(_, row)| row.change.map(|e| e.energy))
+        .column("change_von_mises", |(_, row)| row.change.map(|e| e.von_mises))
+        .column("pareto", |(_, row)| row.pareto.to_string())
+        .column("failure", |(_, row)| row.failure.clone())
+        .csv()
 }
 
-fn cells(section: &Section, row: &Row) -> Vec<String> {
-    fn text<T: ToString>(value: Option<T>) -> String {
-        value.map_or(String::new(), |value| value.to_string())
-    }
-    let parts = [row.error, row.change].map(|errors| {
-        [errors.map(|e| e.displacement), errors.map(|e| e.energy), errors.map(|e| e.von_mises)]
-            .map(|error| error.filter(|error| error.is_finite()))
-    });
-    let start = [
-        section.parameter.to_string(),
-        row.variant.to_string(),
-        row.label.clone(),
-        row.own.to_string(),
-        row.equations.to_string(),
-        text(row.in_contact),
-        text(row.cycle),
-        text(row.seconds),
-        row.runs.to_string(),
-        text(row.peak_bytes),
-    ];
-    let end = [row.pareto.to_string(), row.failure.clone().unwrap_or_default()];
-    start.into_iter().chain(parts.concat().into_iter().map(text)).chain(end).collect()
-}
-
-/// Lays out a table for each parameter, and its answers.
-pub fn text(trade: &Trade) -> String {
-    let mut text = format!(
+/// Reports a table for each parameter, and its answers.
+pub fn report(trade: &Trade) -> Report {
+    let report = Report::titled(format!(
         "Speed against accuracy: scene {}, {} nodes, {} triangles; \
-         median of up to {} runs, in turn\n\
-         displacement: largest difference of a node's displacement over the largest displacement; energy: \
-         energy norm of the difference over that of the whole; von Mises: largest relative difference of a \
-         body's largest von Mises stress; moved by: displacement, from the row marked >\n\
-         * is on the Pareto front (time, displacement) of its table, > where the scene has the parameter\n",
+         median of up to {} runs, in turn",
         trade.scene, trade.nodes, trade.triangles, trade.runs
+    ))
+    .line(
+        "displacement: largest difference of a node's displacement over the largest displacement; energy: \
+         energy norm of the difference over that of the whole; von Mises: largest relative difference of a \
+         body's largest von Mises stress; moved by: displacement, from the row marked >",
+    )
+    .line(
+        "* is on the Pareto front (time, displacement) of its table, > where the scene has the parameter",
     );
-    for section in &trade.sections {
-        text += &format!("\n{}, errors against {}\n", section.parameter, section.against);
-        if !section.rows.is_empty() {
-            text += &trials(section);
-        }
-        if !section.orders.is_empty() {
-            text += &orders(&section.orders);
-        }
-        text += &over_the_range(&section.claims);
-        for answer in &section.answers {
-            text += &format!("  {answer}\n");
-        }
-    }
-    text
+    trade.sections.iter().fold(report, |report, section| {
+        let report =
+            report.heading(format!("{}, errors against {}", section.parameter, section.against));
+        let report = match section.rows.is_empty() {
+            true => report,
+            false => report.table(format!("Trials of {}", section.parameter), trials(section)),
+        };
+        let report = match section.orders.is_empty() {
+            true => report,
+            false => report.table("Order of convergence", orders(&section.orders)),
+        };
+        report.then(over_the_range(&section.claims)).notes(&section.answers)
+    })
 }
 
-fn trials(section: &Section) -> String {
+fn trials(section: &Section) -> Table<Vec<&Row>> {
     let mark = |is: bool, mark| if is { mark } else { "" };
-    let error = |errors: Option<Errors>, of: fn(&Errors) -> f64| match errors.as_ref().map(of) {
-        Some(0.0) => "0".into(),
-        error => or_dash(error.filter(|error| error.is_finite()), |error| format!("{error:.1e}")),
+    let error = |error: f64, field| match error {
+        0.0 => Cell::plain(0.0),
+        error => Cell::scientific(error, 1).because(reason(field)),
     };
-    let errors = || section.rows.iter().flat_map(|row| [row.error, row.change]).flatten();
-    let notes = note("displacement", errors().map(|errors| errors.displacement))
-        + &note("von_mises", errors().map(|errors| errors.von_mises));
+    let displacement = |e: Errors| error(e.displacement, "displacement");
     let table = Table::of(&section.rows)
         .column("", |row| [mark(row.pareto, "*"), mark(row.own, ">")].concat())
-        .column("variant", |row| row.variant)
+        .column("variant", |row| row.variant.to_string())
         .column(section.parameter, |row| row.label.clone())
         .column("equations", |row| row.equations)
-        .column("in contact", |row| or_dash(row.in_contact, |n| n.to_string()))
-        .column("time, s", |row| or_dash(row.seconds, |s| format!("{s:.4}")))
-        .column("peak, MB", |row| or_dash(row.peak_bytes, |b| format!("{:.0}", b as f64 / 1e6)))
-        .column("displacement", |row| error(row.error, |e| e.displacement))
-        .column("energy", |row| error(row.error, |e| e.energy))
-        .column("von Mises", |row| error(row.error, |e| e.von_mises))
-        .column("moved by", |row| error(row.change, |e| e.displacement));
+        .column("in contact", |row| row.in_contact)
+        .column("time, s", |row| row.seconds.map(|seconds| Cell::decimals(seconds, 4)))
+        .column("peak, MB", |row| row.peak_bytes.map(|b| Cell::decimals(b as f64 / 1e6, 0)))
+        .column("displacement", |row| row.error.map(displacement))
+        .column("energy", |row| row.error.map(|e| error(e.energy, "energy")))
+        .column("von Mises", |row| row.error.map(|e| error(e.von_mises, "von_mises")))
+        .column("moved by", |row| row.change.map(displacement));
     if section.rows.iter().all(|row| row.failure.is_none()) {
-        return table.text() + &notes;
+        return table;
     }
-    let first_line = |why: &String| why.lines().next().unwrap_or_default().to_string();
-    table.column("", |row| row.failure.as_ref().map_or(String::new(), first_line)).text() + &notes
+    table.column("failure", |row| {
+        row.failure.as_ref().and_then(|why| why.lines().next()).unwrap_or_default().to_string()
+    })
 }
 
-fn orders(orders: &[Order]) -> String {
-    let decimals = |value: Option<f64>| or_dash(value, |x| format!("{x:.2}"));
+fn orders(orders: &[Order]) -> Table<Vec<&Order>> {
     Table::of(orders)
         .column("quantity", |order| order.quantity)
-        .column("order", |order| decimals(order.order))
-        .column("scatter", |order| decimals(order.scatter))
+        .column("order", |order| order.order.map(|order| Cell::decimals(order, 2)))
+        .column("scatter", |order| order.scatter.map(|scatter| Cell::decimals(scatter, 2)))
         .column("left on the finest", |order| {
-            or_dash(order.errors.as_ref().and_then(|e| e.last()), |x| format!("{x:.1e}"))
+            let finest = order.errors.as_ref()?.last()?;
+            Some(Cell::scientific(*finest, 1))
         })
-        .text()
 }
 
 /// Draws time against error: a series for each parameter, and rings around what is on its front. None where
@@ -222,11 +211,11 @@ fn over_parameter(section: &Section, parameter: range::Parameter) -> String {
     chart(&format!("What the paper leaves open: {parameter}"), [x, y], &series, &captions)
 }
 
-/// Tells what `solve --accuracy` did to reach `accuracy`, a part of the largest displacement.
-pub fn reached(reached: &Reached, accuracy: f64) -> String {
-    let mut text = format!("\nAccuracy {accuracy:e} asked of the displacements, rounding alone\n");
-    for attempt in &reached.attempts {
-        let came = match &attempt.came {
+/// Reports what `solve --accuracy` did to reach `accuracy`, a part of the largest displacement.
+pub fn reached(reached: &Reached, accuracy: f64) -> Report {
+    let printed = reached.solution.request.variant == Variant::Printed;
+    let attempts = reached.attempts.iter().map(|attempt| {
+        let outcome = match &attempt.came {
             Came::NotRun(why) => format!("not run: {why}"),
             Came::Failed(why) => format!("failed, so up one precision: {why}"),
             Came::Bound(0.0) => "no rounding: taken".into(),
@@ -239,20 +228,22 @@ pub fn reached(reached: &Reached, accuracy: f64) -> String {
                     .into()
             }
         };
-        let printed = reached.solution.request.variant == Variant::Printed;
         let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver(printed));
-        text += &format!("  {scalar} by {solver}: {came}\n");
-    }
-    text + &mesh(reached.mesh, accuracy)
+        format!("{scalar} by {solver}: {outcome}")
+    });
+    Report::default()
+        .heading(format!("Accuracy {accuracy:e} asked of the displacements, rounding alone"))
+        .notes(attempts)
+        .note(error_of_mesh(reached.mesh, accuracy))
 }
 
-fn mesh(error: f64, accuracy: f64) -> String {
+fn error_of_mesh(error: f64, accuracy: f64) -> String {
     if !error.is_finite() {
-        return "  What the mesh adds is not known: it is too small to tell.\n".into();
+        return "What the mesh adds is unknown: it is too small for an estimate.".into();
     }
     let verdict = match error > accuracy {
         true => "larger than what was asked, and no precision fixes that: refine the mesh",
         false => "not larger than what was asked",
     };
-    format!("  The mesh's own error is about {error:.0e} in the energy norm: {verdict}.\n")
+    format!("The mesh's own error is about {error:.0e} in the energy norm: {verdict}.")
 }

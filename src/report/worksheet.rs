@@ -6,29 +6,32 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::json::headed;
-use mathcad::json as values;
+use super::json;
+use super::model::{Report, Table};
 use mathcad::worksheet::{Checked, Verdict};
 
-/// Lays out each region with what came of it, what a worksheet of questions decides, and how many
+/// Reports each region with what came of it, what a worksheet of questions decides, and how many
 /// regions came out how.
-pub fn text(regions: &[Checked], decided: &[(String, String)]) -> String {
-    let mut text = String::new();
-    for region in regions {
-        let tag = if region.tag.is_empty() { String::new() } else { format!(" ({})", region.tag) };
-        let first = region.text.lines().next().unwrap_or_default();
-        let shown: String = first.chars().take(90).collect();
-        let more = if shown.len() < region.text.trim_end().len() { " ..." } else { "" };
-        text += &format!("{:>4}{tag}  {shown}{more}\n        {}\n", region.id, words(region));
-    }
-    for (question, answer) in decided {
-        text += &format!("\nQuestion: {question}\n  {answer}\n");
-    }
-    text + "\n" + &summary(regions)
+pub fn report(regions: &[Checked], decided: &[(String, String)]) -> Report {
+    let table = Table::of(regions)
+        .column("region", |region| region.id.clone())
+        .column("tag", |region| region.tag.clone())
+        .column("text", |region| {
+            let first = region.text.lines().next().unwrap_or_default();
+            let shown: String = first.chars().take(90).collect();
+            let more = if shown.len() < region.text.trim_end().len() { " ..." } else { "" };
+            shown + more
+        })
+        .column("compared with Mathcad", words);
+    let report = Report::default().table("Regions", table);
+    let report = decided.iter().fold(report, |report, (question, answer)| {
+        report.line(format!("Question: {question}")).note(answer)
+    });
+    report.line(summary(regions))
 }
 
 /// Says what came of a region.
-fn words(region: &Checked) -> String {
+fn words(region: &&Checked) -> String {
     let inputs: Vec<&str> = region.inputs.iter().map(String::as_str).collect();
     let from = match inputs.as_slice() {
         [] => String::new(),
@@ -63,7 +66,7 @@ fn summary(regions: &[Checked]) -> String {
     let unsupported = count(&|v| matches!(v, Verdict::Unsupported(_)));
     format!(
         "{same} results same to the last bit, {digits} to ten digits or more, {failures} failures in \
-         both, {differ} differ, {unsupported} regions unsupported\n"
+         both, {differ} differ, {unsupported} regions unsupported"
     )
 }
 
@@ -132,17 +135,17 @@ struct Question<'a> {
 
 /// Writes the regions on one line.
 pub fn json(file: &str, regions: &[Checked], decided: &[(String, String)]) -> String {
-    let mut questions = Vec::new();
-    for (question, decides) in decided {
-        questions.push(Question { question, decides });
-    }
-    headed(&Document { file, regions: regions.iter().map(region).collect(), questions })
-}
-
-fn region(region: &Checked) -> RegionRow<'_> {
-    let Checked { id, tag, text, inputs, .. } = region;
-    let value = region.value.as_ref().map(values::write);
-    RegionRow { region: id, tag, text, verdict: verdict(&region.verdict), inputs, value }
+    let regions = regions.iter().map(|region| RegionRow {
+        region: &region.id,
+        tag: &region.tag,
+        text: &region.text,
+        verdict: verdict(&region.verdict),
+        inputs: &region.inputs,
+        value: region.value.as_ref().map(mathcad::json::write),
+    });
+    let questions =
+        decided.iter().map(|(question, decides)| Question { question, decides }).collect();
+    json::line(None, &Document { file, regions: regions.collect(), questions })
 }
 
 fn verdict(verdict: &Verdict) -> VerdictRow<'_> {

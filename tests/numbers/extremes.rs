@@ -8,12 +8,16 @@ use crate::common::tolerances::{EXTREME_DECADES, EXTREME_DIGITS};
 use plane_contact::report::extremes as report;
 use plane_contact::studies::extremes::{Column, Measured, Verdict, generators, measure};
 
+fn text(measured: &[Measured]) -> String {
+    report::report(measured).text(usize::MAX)
+}
+
 static MEASURED: LazyLock<Vec<Measured>> = LazyLock::new(|| measure(&generators()));
 
 #[test]
 fn the_table_is_the_golden_one() {
-    assert_golden_by("extremes", "table", &report::text(&MEASURED), |golden, table| {
-        let near = [-1.0, 1.0].map(|side| report::text(&moved(side * EXTREME_DIGITS.limit)));
+    assert_golden_by("extremes", "table", &text(&MEASURED), |golden, table| {
+        let near = [-1.0, 1.0].map(|side| text(&moved(side * EXTREME_DIGITS.limit)));
         same_table(golden, [table, &near[0], &near[1]])
     });
 }
@@ -91,8 +95,8 @@ fn a_table_differs_by_words_and_by_more_than_half_a_digit() {
 /// others.
 #[test]
 fn a_table_that_is_off_is_told() {
-    let [fewer, table, more] = [1.0, 1.5, 2.0].map(|by| report::text(&moved(by)));
-    let golden = report::text(&MEASURED);
+    let [fewer, table, more] = [1.0, 1.5, 2.0].map(|by| text(&moved(by)));
+    let golden = text(&MEASURED);
     assert!(same_table(&golden, [&golden; 3]));
     assert!(!same_table(&golden, [&table, &fewer, &more]));
     assert!(!same_table(&golden.replacen("WRONG", "1", 1), [&golden; 3]));

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use plane_contact::report::printed::{fitted, tables};
+use plane_contact::report::model::{Cell, Report, Table};
+use plane_contact::report::text::fitted;
 use tempfile::TempDir;
 
 use crate::common::program::run;
@@ -12,22 +13,34 @@ fn printed(folder: &Path, args: &[&str]) -> String {
     String::from_utf8(run(folder, args).stdout).expect("UTF-8")
 }
 
-fn longest(text: &str) -> usize {
-    text.lines().map(|line| line.chars().count()).max().unwrap_or(0)
+fn report() -> Report {
+    let rows = [
+        (1, Cell::from("new"), Cell::from("a \"b\"")),
+        (2, Cell::from("as in 1, a turn"), Cell::from(None::<f64>).because("nothing moves")),
+    ];
+    let table = Table::of(rows)
+        .column("k", |(k, ..)| *k as usize)
+        .column("contact state", |(_, state, _)| state.clone())
+        .column("remark", |(.., remark)| remark.clone());
+    Report::titled("A run").table("Iterations (all)", table).note("(1) a note that is no row")
 }
-
-const TEXT: &str = "Iterations (all)
-  k  contact state    remark
-  -  ---------------  ------
-  1  new              a \"b\"
-  2  as in 1, a turn
-  (1) a note that is no row of the table
-";
 
 #[test]
 fn tables_turn_to_records() {
-    assert_eq!(fitted(TEXT, 80), TEXT, "it fits");
-    let narrow = "Iterations (all)
+    let wide = "A run
+
+Iterations (all)
+  k  contact state    remark
+  -  ---------------  ------
+  1  new              a \"b\"
+  2  as in 1, a turn  -
+  -: nothing moves
+  (1) a note that is no row
+";
+    assert_eq!(report().text(80), wide);
+    let narrow = "A run
+
+Iterations (all)
   k 1
     contact state  new
     remark         a \"b\"
@@ -35,25 +48,27 @@ fn tables_turn_to_records() {
     contact state  as in
                    1, a
                    turn
+    remark         -
+  -: nothing moves
   (1) a note that is no
-    row of the table
+    row
 ";
-    assert_eq!(fitted(TEXT, 25), narrow);
+    assert_eq!(report().text(25), narrow);
 }
 
 /// A heading too long to have cells beside it.
 #[test]
 fn cells_stand_behind_headings_where_they_do_not_fit_beside_them() {
-    let wide = "  id  what the listing does that the text does not say
-  --  ------------------------------------------------
-  C1  a node on a corner is found twice
-";
+    let table = Table::new(
+        ["id", "what the listing does that the text does not say"],
+        [vec!["C1".into(), "a node on a corner is found twice".into()]],
+    );
     let narrow = "  id C1
     what the listing does that the text
       does not say: a node on a corner
       is found twice
 ";
-    assert_eq!(fitted(wide, 40), narrow);
+    assert_eq!(Report::default().table("", table).text(40), narrow);
 }
 
 /// A word that is longer than a line is broken, behind a slash where it has one.
@@ -69,49 +84,47 @@ fn words_longer_than_a_line_are_broken() {
 }
 
 #[test]
-fn nothing_printed_commands_a_terminal() {
+fn nothing_printed_controls_a_terminal() {
     let controls = "\u{1b}[31m \u{7} \r \u{7f} \u{9b} \u{202e} \u{2066}";
     assert_eq!(fitted(&format!("a\t{controls} é\n"), 80), "a\t�[31m � � � � � � é\n");
+    let cell = Table::new(["a\u{1b}"], [vec!["\u{202e}\n".into()]]);
+    assert_eq!(Report::default().table("\u{7}", cell).text(80), "�\n  a�\n  --\n  �\n");
 }
 
+/// Numbers have all their digits, those that are missing none; a name that repeats has a number.
 #[test]
 fn tables_are_csv() {
-    let csv = "k,contact state,remark\r\n1,new,\"a \"\"b\"\"\"\r\n2,\"as in 1, a turn\",\r\n";
-    assert_eq!(tables(TEXT), [("iterations".to_string(), csv.to_string())]);
+    let table = Table::new(
+        ["short", "share", "missing"],
+        [vec![(1.0 / 3.0).into(), Cell::percent(0.125, 0), Cell::decimals(f64::NAN, 1)]],
+    );
+    let report = report().table("Iterations, more", table);
+    let first = "k,contact state,remark\r\n1,new,\"a \"\"b\"\"\"\r\n2,\"as in 1, a turn\",\r\n";
+    let second = "short,share,missing\r\n0.3333333333333333,0.125,\r\n";
+    let files = [("iterations", first), ("iterations-2", second)];
+    assert_eq!(report.csv(), files.map(|(name, csv)| (name.to_string(), csv.to_string())));
 }
 
-/// Every command with tables fits 80 and 120 columns, and loses no row; without a terminal and
-/// without the variable its lines are whole.
 #[test]
-fn every_table_fits() {
-    let folder = TempDir::new().expect("a folder");
-    let at = folder.path();
-    for args in [
-        &["audit", "fig1"][..],
-        &["audit", "--finding", "C4"],
-        &["solve", "fig1", "--no-pictures"],
-        &["scene", "plan", "strand"],
-        &["listing", "run", "c_cnt", "fig1"],
-        &["scene", "list"],
-        &["listing", "trace", "fig1"],
-        &["listing", "trace", "fig1", "--summary"],
-        &["listing", "trace", "fig1", "--listing", "Km", "--node", "7"],
-    ] {
-        let whole = printed(at, args);
-        for width in [80, 120] {
-            let text = fitted(&whole, width);
-            assert!(longest(&text) <= width, "{args:?} at {width}: {}", longest(&text));
-            let cells = tables(&whole).iter().map(|(_, csv)| csv.lines().count()).sum::<usize>();
-            assert!(text.lines().count() >= cells, "{args:?}: rows are lost");
-        }
-    }
-    let narrow = std::process::Command::new(env!("CARGO_BIN_EXE_plane-contact"))
-        .args(["audit", "fig1"])
-        .env("COLUMNS", "80")
-        .output()
-        .expect("it starts");
-    assert!(longest(&String::from_utf8(narrow.stdout).expect("UTF-8")) <= 80);
-    assert!(String::from_utf8(narrow.stderr).expect("UTF-8").starts_with("auditing fig1"));
+fn a_report_is_markdown() {
+    let page = "# A run
+
+## Iterations (all)
+
+| k | contact state | remark |
+|---|---|---|
+| 1 | new | a \"b\" |
+| 2 | as in 1, a turn | - |
+
+- (1) a note that is no row
+
+````text
+```
+````
+
+a\\_b
+";
+    assert_eq!(report().code("```\n").line("a_b").markdown(), page);
 }
 
 const FACTORIAL: &str = "fact(n) :=

@@ -7,7 +7,6 @@ use plane_contact::engine::estimates::Certainty;
 use plane_contact::engine::{Request, solve};
 use plane_contact::problem::modelling::{Friction, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::printed::tables;
 use plane_contact::report::{comparison, trade as report};
 use plane_contact::studies::benchmark::{Annulus, Strand};
 use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair};
@@ -38,7 +37,7 @@ fn parts<'t>(text: &'t str, pattern: &str) -> Option<Vec<&'t str>> {
 /// Whether a number is printed as `text`: within half a unit of its last digit, a whole one exactly; a share in per cent
 /// where it ends so, and without a value where `x` has none.
 fn shows(text: &str, x: &Value) -> bool {
-    let Some(x) = x.as_f64() else { return ["-", "an undefined share (of 0)"].contains(&text) };
+    let Some(x) = x.as_f64() else { return ["-", "", "an undefined share (of 0)"].contains(&text) };
     let (text, factor) = match text.strip_suffix(" %") {
         Some(text) => (text, 100.0),
         None => (text, 1.0),
@@ -427,12 +426,13 @@ fn json_of(folder: &Path, args: &[&str]) -> Value {
     serde_json::from_str(&printed(folder, &[args, &["--json"]].concat())).expect("JSON")
 }
 
-/// The rows of a table of a text, as cells.
-fn cells(text: &str, name: &str) -> Vec<Vec<String>> {
-    let all = tables(text);
-    let (_, csv) = all.iter().find(|(own, _)| own == name).unwrap_or_else(|| {
-        panic!("no table {name}: {:?}", all.iter().map(|(name, _)| name).collect::<Vec<_>>())
-    });
+/// The rows of a table that a command wrote to the folder `csv`, as cells.
+fn cells(folder: &Path, name: &str) -> Vec<Vec<String>> {
+    rows(&std::fs::read_to_string(folder.join(format!("csv/{name}.csv"))).expect(name))
+}
+
+/// The rows of a table in CSV, as cells.
+fn rows(csv: &str) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     for line in csv.lines().skip(1) {
         let (mut row, mut cell, mut quoted) = (Vec::new(), String::new(), false);
@@ -470,7 +470,8 @@ fn sentences_and_tables_of_audit_are_those_of_its_json() {
     let folder = TempDir::new().expect("a folder");
     for scene in ["fig1", "two-blocks"] {
         let args = ["audit", scene];
-        let (text, json) = (printed(folder.path(), &args), json_of(folder.path(), &args));
+        let text = printed(folder.path(), &[&args[..], &["--csv", "csv"]].concat());
+        let json = json_of(folder.path(), &args);
         for (what, key) in [
             ("  error: against the equilibrium under the scene's own friction", "equilibrium"),
             ("  the reference solution", "reference"),
@@ -483,7 +484,7 @@ fn sentences_and_tables_of_audit_are_those_of_its_json() {
             assert_shows(said[1], &json[key]["in_contact"], line);
             assert_stresses(said[2], &json[key]["bodies"], line);
         }
-        for row in cells(&text, "3-variants-side-by-side") {
+        for row in cells(folder.path(), "3-variants-side-by-side") {
             let of = json["variants"].as_array().expect("variants").iter();
             let of = of.clone().find(|of| of["variant"] == row[0]).expect("a variant");
             let line = row.join(" | ");
@@ -496,7 +497,7 @@ fn sentences_and_tables_of_audit_are_those_of_its_json() {
             assert_shows(&row[8], &of["friction_needed"], &line);
             assert_eq!(row[9], of["pulling"].as_array().unwrap().len().to_string(), "{line}");
         }
-        for row in cells(&text, "2-findings") {
+        for row in cells(folder.path(), "2-findings") {
             let of = json["findings"].as_array().expect("findings").iter();
             let of = of.clone().find(|of| of["id"] == row[0]).expect("a finding");
             assert_shows(&row[3], &of["number"], &row.join(" | "));
@@ -505,7 +506,7 @@ fn sentences_and_tables_of_audit_are_those_of_its_json() {
                 (of["verdict"].as_str().unwrap(), of["of"].as_str().unwrap())
             );
         }
-        for row in cells(&text, "claims-of-the-paper") {
+        for row in cells(folder.path(), "claims-of-the-paper") {
             let of = json["claims"].as_array().expect("claims").iter();
             let of = of.clone().find(|of| of["id"] == row[0]).expect("a claim");
             assert_shows(&row[5], &of["number"], &row.join(" | "));
@@ -517,9 +518,10 @@ fn sentences_and_tables_of_audit_are_those_of_its_json() {
 fn tables_of_statuses_are_those_of_their_json() {
     let folder = TempDir::new().expect("a folder");
     let args = ["audit", "--statuses", "--scenes", "5"];
-    let (text, json) = (printed(folder.path(), &args), json_of(folder.path(), &args));
+    printed(folder.path(), &[&args[..], &["--csv", "csv"]].concat());
+    let json = json_of(folder.path(), &args);
     let rows = json["by_depth"].as_array().expect("rows");
-    let printed = cells(&text, "1-wrong-statuses");
+    let printed = cells(folder.path(), "1-wrong-statuses");
     assert_eq!(printed.len(), rows.len());
     for (row, of) in printed.iter().zip(rows) {
         for (rule, cells) in of["rules"].as_array().expect("rules").iter().zip(row[4..].chunks(2)) {
@@ -533,7 +535,8 @@ fn tables_of_statuses_are_those_of_their_json() {
         }
     }
     let rows = json["by_size"].as_array().expect("rows");
-    for (row, of) in cells(&text, "2-operations-of-one-call-for-each-contact-node").iter().zip(rows)
+    for (row, of) in
+        cells(folder.path(), "2-operations-of-one-call-for-each-contact-node").iter().zip(rows)
     {
         for (rule, cell) in of["rules"].as_array().expect("rules").iter().zip(&row[2..]) {
             assert_shows(cell, &(number(&rule["operations"]) / number(&of["nodes"])).into(), cell);
@@ -560,7 +563,8 @@ fn tables_of_compare_are_those_of_its_json() {
         version: "2.20",
         comparison: &comparison,
     };
-    let text = comparison::text(&compared);
+    let report = comparison::report(&compared);
+    let text = report.text(usize::MAX);
     let json: Value = serde_json::from_str(&comparison::json(&compared)).expect("JSON");
     let penalty = text.lines().find_map(|line| line.strip_prefix("contact pair, penalty "));
     assert_shows(
@@ -568,7 +572,7 @@ fn tables_of_compare_are_those_of_its_json() {
         &json["contact"]["penalty"],
         &text,
     );
-    let all: Vec<_> = tables(&text).into_iter().map(|(name, _)| cells(&text, &name)).collect();
+    let all: Vec<_> = report.csv().iter().map(|(_, csv)| rows(csv)).collect();
     for (row, of) in all[0].iter().zip(["displacement", "stress"]) {
         let largest = &json[of]["largest"];
         assert_shows(&row[1], &largest["difference"], &row.join(" | "));
@@ -595,12 +599,11 @@ fn tables_of_compare_are_those_of_its_json() {
 fn the_summary_of_extremes_is_that_of_its_sweep() {
     let folder = TempDir::new().expect("a folder");
     let args = ["extremes", "offset"];
-    let text = printed(folder.path(), &[&args[..], &["--out", "o"]].concat());
+    printed(folder.path(), &[&args[..], &["--out", "o", "--csv", "csv"]].concat());
     let json = json_of(folder.path(), &args);
     let of = &json["rows"][0];
     let columns = of["columns"].as_array().expect("columns");
-    let title = tables(&text)[0].0.clone();
-    let printed = cells(&text, &title);
+    let printed = cells(folder.path(), "where-offset-breaks-down");
     assert_eq!(printed.len(), columns.len());
     for (row, column) in printed.iter().zip(columns) {
         assert_eq!(row[0], column["name"]);
@@ -612,10 +615,10 @@ fn the_summary_of_extremes_is_that_of_its_sweep() {
         };
         let verdicts = column["verdicts"].as_array().expect("verdicts");
         let most = verdicts.iter().map(digits).fold(0.0, f64::max).floor();
-        assert_eq!(row[1], most.to_string(), "{row:?}");
+        assert_eq!(row[1].parse(), Ok(most), "{row:?}");
         for (cell, side) in [(&row[2], "below"), (&row[4], "above")] {
             match &column[side] {
-                Value::Null => assert_eq!(cell, "-"),
+                Value::Null => assert_eq!(cell, ""),
                 found => assert_eq!(*cell, format!("1e{:.0}", number(&found["exponent"]).round())),
             }
         }
@@ -647,6 +650,7 @@ fn sentences_of_solve_are_those_of_its_result() {
         ("two-blocks", "unilateral", "--friction 0 --geometry initial"),
     ] {
         let mut args = vec!["solve", scene, "--variant", variant, "--no-pictures", "--out", "o"];
+        args.extend(["--csv", "csv"]);
         args.extend(options.split_whitespace());
         let text = printed(folder.path(), &args);
         let result = std::fs::read_to_string(folder.path().join("o/result.json")).expect("a file");
@@ -661,7 +665,7 @@ fn sentences_of_solve_are_those_of_its_result() {
             (dy, Some(dy as u64)),
             "{scene} {variant}"
         );
-        let bodies = cells(&text, "bodies");
+        let bodies = cells(folder.path(), "bodies");
         for (row, body) in bodies.iter().zip(result["bodies"].as_array().expect("bodies")) {
             assert_shows(&row[3], &body["max_displacement"], &row.join(" | "));
             assert_shows(&row[4], &body["max_von_mises_stress"], &row.join(" | "));
@@ -670,7 +674,7 @@ fn sentences_of_solve_are_those_of_its_result() {
         let surface = result["contact"].as_array().expect("nodes").iter();
         let surface: Vec<&Value> = surface.filter(|node| node["dy"] == 1).collect();
         if !surface.is_empty() {
-            for (row, node) in cells(&text, "contact-surface").iter().zip(surface) {
+            for (row, node) in cells(folder.path(), "contact-surface").iter().zip(surface) {
                 let names = ["arc", "gap", "force", "pressure", "shear", "friction_needed"];
                 for (cell, name) in row[1..7].iter().zip(names) {
                     assert_shows(cell, &node[name], &format!("{name}: {}", row.join(" | ")));
@@ -718,7 +722,8 @@ fn sentences_of_solve_are_those_of_its_result() {
             assert_shows(share, &distance["displacement_relative"], moved);
             let energy = said("energy norm of the difference");
             assert_shows(energy, &distance["energy_relative"], energy);
-            let rows = cells(text, &tables(text)[0].0);
+            let table = what.replace([' ', '\''], "-");
+            let rows = cells(folder.path(), &format!("distance-from-the-{table}"));
             for (row, body) in rows.iter().zip(distance["bodies"].as_array().expect("bodies")) {
                 assert_shows(&row[1], &body["von_mises_stress"], &row.join(" | "));
                 assert_shows(&row[2], &body["reference"], &row.join(" | "));

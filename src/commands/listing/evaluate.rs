@@ -8,6 +8,7 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::mathcad::{Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
 use plane_contact::report::evaluation as report;
+use plane_contact::report::model::Report;
 
 use crate::commands::{print, print_either, read_listing, report_error, waiting};
 
@@ -109,13 +110,12 @@ fn inputs(text: &str) -> Result<Sheet, InputError> {
     Ok(sheet)
 }
 
-/// What `trace` was given, then the value, a row on each line.
-fn shown(outcome: &Outcome) -> String {
-    let mut text: String =
-        outcome.trace_output.iter().map(|line| format!("trace: {line}\n")).collect();
-    match &outcome.value {
-        nested @ Value::Nested(_) => text += &json::write(nested).to_string(),
-        value => text += &value.to_string().replace("; ", "\n"),
-    }
-    text + "\n"
+/// Reports what `trace` was given, then the value, a row on each line.
+fn shown(outcome: &Outcome) -> Report {
+    let traces = outcome.trace_output.iter().map(|line| format!("trace: {line}"));
+    let value = match &outcome.value {
+        nested @ Value::Nested(_) => json::write(nested).to_string(),
+        value => value.to_string().replace("; ", "\n"),
+    };
+    traces.chain([value]).fold(Report::default(), Report::line)
 }

@@ -90,7 +90,7 @@ fn c_cnt(args: &CCntArgs) -> Result<()> {
     let model = Request::new(&scene).reading(reading).model()?;
     let call = Call::c_cnt(&model, &reading, &model.nodes)?;
     if args.json {
-        return print(&json::of_scene(&scene, &json::Found::from(&call.pairs)));
+        return print(&json::line(Some(&scene), &json::Found::from(&call.pairs)));
     }
     args.tables.print("listing run c_cnt", tables::pairs(&scene, &model, &reading, &call))
 }

@@ -1,7 +1,5 @@
 //! `plane-contact listing trace`.
 
-use std::cell::OnceCell;
-
 use plane_contact::engine::Request;
 use plane_contact::engine::error::{Error, Result};
 use plane_contact::error::InputError;
@@ -12,11 +10,12 @@ use plane_contact::paper::listings::{Which, settings};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::changes::changes;
+use plane_contact::report::changes;
+use plane_contact::report::model::Report;
 use plane_contact::report::trace::{self as report, Shown, Telling, Traced};
 use plane_contact::studies::audit::trace::{self, Product, Step};
 
-use crate::commands::{ReadingArg, print_by, print_fitted, read_listing, report_error, width};
+use crate::commands::{ReadingArg, print, print_by, read_listing, report_error, width};
 
 /// Execute a listing and show, line by line, what each statement read and wrote.
 #[derive(clap::Args)]
@@ -82,28 +81,28 @@ pub fn run(args: &Args) -> Result<u8> {
     let execute = |each: &mut dyn FnMut(Step)| {
         trace::follow(chosen.which, &chosen.listing, &settings, &call, wanted, each)
     };
-    let blame = |failure: &Failure| chosen.blame(failure, &args.listing);
-    let outcome = OnceCell::new();
     if args.json {
-        let why = |failure: &Failure| (&blame(failure)).into();
-        print_by(|out| report::write_json(out, &of, &execute, &outcome, &why))?;
+        let mut steps = Vec::new();
+        let outcome = execute(&mut |step| steps.push(step));
+        let outcome = outcome.map_err(|failure| chosen.blame(&failure, &args.listing));
+        print(&report::json(&of, &steps, outcome.as_ref()))?;
         // The failure stands in the document: no other one follows.
-        let failure = outcome.get().and_then(|outcome| outcome.as_ref().err());
-        return Ok(failure.map_or(0, |failure| report_error(&blame(failure))));
+        return Ok(outcome.err().map_or(0, |error| report_error(&error)));
     }
     let lines = args.lines.unwrap_or([1, usize::MAX]);
     let shown = Shown { summary: args.summary, lines, exact: args.exact, width: width() };
+    let mut outcome = None;
     print_by(|out| {
         let mut telling = Telling::new(out, of, &shown);
-        let outcome = outcome.get_or_init(|| execute(&mut |step| telling.step(step)));
-        telling.finish(outcome.as_ref().map_or(&[], |(_, output)| output))
+        let executed = outcome.insert(execute(&mut |step| telling.step(step)));
+        telling.finish(executed.as_ref().map_or(&[], |(_, output)| output))
     })?;
-    match outcome.into_inner().expect("it is executed") {
-        Err(failure) => return Err(blame(&failure)),
-        Ok((product, _)) if chosen.edited => {
-            print_fitted(&edited(&product, chosen.which, args, &model, &call))?;
-        }
-        Ok(_) => (),
+    let (product, _) = outcome
+        .expect("it is executed")
+        .map_err(|failure| chosen.blame(&failure, &args.listing))?;
+    if chosen.edited {
+        let report = edited(&product, chosen.which, args, &model, &call);
+        print(&format!("\n{}", report.text(width())))?;
     }
     Ok(0)
 }
@@ -119,11 +118,13 @@ impl Chosen {
 }
 
 /// Tells what an edit changes of what its listing computes.
-fn edited(product: &Product, which: Which, args: &Args, model: &Model, call: &Call) -> String {
+fn edited(product: &Product, which: Which, args: &Args, model: &Model, call: &Call) -> Report {
     let reading = &args.reading.reading;
     match trace::run(which, &which.under(reading), &settings(reading), call, &mut ()) {
-        Ok((printed, _)) => changes(&printed, product, model),
-        Err(why) => format!("\nThe edited listing runs; as printed it fails: {why}\n"),
+        Ok((printed, _)) => changes::report(&printed, product, model),
+        Err(why) => {
+            Report::default().line(format!("The edited listing runs; as printed it fails: {why}"))
+        }
     }
 }
 

@@ -55,7 +55,7 @@ pub fn run(args: &Args) -> Result<u8> {
     bar.finish_and_clear();
     let decided = probe::decided(&sheet, &checked);
     let json = || report::json(&args.file.display().to_string(), &checked, &decided);
-    print_either(args.json, json, || report::text(&checked, &decided))?;
+    print_either(args.json, json, || report::report(&checked, &decided))?;
     let some = |is: fn(&Verdict) -> bool| checked.iter().any(|region| is(&region.verdict));
     let differs = some(|verdict| matches!(verdict, Verdict::Differs { .. }));
     Ok(u8::from(differs || !some(Verdict::agrees)))

@@ -27,5 +27,5 @@ pub fn run(_: &Args) -> Result<()> {
     let generators = generators.get_subcommands();
     let generators: Vec<_> =
         generators.map(|c| (c.get_name().to_string(), about(c).unwrap_or_default())).collect();
-    print_report(report::text(&scenes, &findings, &generators))
+    print_report(report::report(&scenes, &findings, &generators))
 }

@@ -8,7 +8,7 @@ use plane_contact::report::snapshot as report;
 use plane_contact::studies::snapshot::{Chosen, accept};
 
 use super::verify::verify_one;
-use crate::commands::print_fitted;
+use crate::commands::print_report;
 
 /// Take new values into a snapshot, with a reason.
 #[derive(clap::Args)]
@@ -50,5 +50,5 @@ pub fn run(args: &Args) -> Result<()> {
     if !args.dry_run {
         files::write(&args.file, &report::file(&snapshot))?;
     }
-    print_fitted(&report::accepted(&accepted))
+    print_report(report::accepted(&accepted))
 }

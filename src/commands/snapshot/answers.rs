@@ -20,7 +20,7 @@ pub fn are_in(text: &[u8]) -> bool {
 pub fn verify(files: &[PathBuf], texts: Vec<io::Result<Vec<u8>>>, json: bool) -> Result<bool> {
     let marked = files.iter().zip(texts).map(|(file, text)| marked(file, text));
     let marked = marked.collect::<Result<Vec<_>>>()?;
-    print_either(json, || report::json(&marked), || report::text(&marked))?;
+    print_either(json, || report::json(&marked), || report::report(&marked))?;
     Ok(marked.iter().all(Marked::is_right))
 }
 

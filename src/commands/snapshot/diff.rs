@@ -74,7 +74,7 @@ pub fn run(args: &Args) -> Result<u8> {
     let file = format!("{} and {}", names[0], names[1]);
     let verified = difference(&sides[0], &sides[1]);
     let checked = [Checked { file, verified: Ok(verified.clone()) }];
-    print_either(args.json, || report::json(&checked), || report::text(&checked))?;
+    print_either(args.json, || report::json(&checked), || report::report(&checked))?;
     if let (Some(folder), Some((old, run))) = (&args.out, first_pair(&sides[0], &verified)) {
         let written = report::difference_files(folder, &verified.input.build()?, [old, run])?;
         report_written(folder, written);

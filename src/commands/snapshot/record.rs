@@ -13,7 +13,7 @@ use plane_contact::report::snapshot as report;
 use plane_contact::studies::snapshot::{Bounds, FIELDS, Snapshot};
 
 use crate::commands::arithmetic::ArithmeticArgs;
-use crate::commands::{ModelArgs, ReadingArg, print_fitted, waiting};
+use crate::commands::{ModelArgs, ReadingArg, print_report, waiting};
 
 /// Record what a scene gives, to be verified later: a regression snapshot.
 #[derive(clap::Args)]
@@ -78,7 +78,7 @@ pub fn run(args: &Args) -> Result<()> {
             .clone()
             .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
         write_new(&file, &report::file(&snapshot))?;
-        print_fitted(&(report::recorded(&snapshot) + &format!("Written to {}\n", file.display())))?;
+        print_report(report::recorded(&snapshot).line(format!("Written to {}", file.display())))?;
     }
     Ok(())
 }

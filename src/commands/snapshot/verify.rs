@@ -65,7 +65,7 @@ pub fn run(args: &Args) -> Result<u8> {
         files::write(file, &report::junit(&checked))?;
     }
     if let Some(file) = &args.report {
-        files::write(file, &report::markdown(&checked))?;
+        files::write(file, &report::report(&checked).markdown())?;
     }
     report(&checked, args.json)
 }
@@ -73,7 +73,7 @@ pub fn run(args: &Args) -> Result<u8> {
 /// Prints what verifying found, and returns the exit status: that of the first file that could not be
 /// verified, else whether all is the same.
 pub fn report(checked: &[Checked], json: bool) -> Result<u8> {
-    print_either(json, || report::json(checked), || report::text(checked))?;
+    print_either(json, || report::json(checked), || report::report(checked))?;
     let failures = checked.iter().filter_map(|checked| checked.verified.as_ref().err());
     let statuses: Vec<u8> = failures.map(report_error).collect();
     let is_same = checked.iter().all(Checked::is_same);

@@ -1,15 +1,14 @@
 //! The files of a comparison: JSON, CSV, pictures.
 
 use std::collections::BTreeMap;
-use std::fmt::Display;
 use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Compared, WORST};
-use crate::json::of_scene;
-use crate::output::csv;
+use crate::json;
+use crate::model::Table;
 use crate::picture::{self, Drawing, Field};
 use crate::quantities::{Measured, measured};
 use base::error::Result;
@@ -156,7 +155,7 @@ fn document(compared: &Compared, nodes: &[NodeRow], elements: &[ElementRow]) -> 
         nodes,
         elements,
     };
-    of_scene(scene, &document)
+    json::line(Some(scene), &document)
 }
 
 fn contact_row(contact: &Contact) -> ContactRow {
@@ -197,15 +196,18 @@ fn of_triangle(comparison: &Comparison, id: TriangleId) -> [TriangleValues; 2] {
     [state(ours.sigma[k], von_mises[0][k]), state(theirs.sigma[k], von_mises[1][k])]
 }
 
-fn nodes_csv(nodes: &[NodeRow]) -> String {
-    let cells = |row: &NodeRow| {
-        let numbers = [row.u, row.u_calculix].concat();
-        cells(row.n, numbers.into_iter().chain([row.difference]))
-    };
-    csv("node,u_x,u_y,u_x_calculix,u_y_calculix,difference", nodes.iter().map(cells))
+fn nodes_csv(rows: &[NodeRow]) -> String {
+    Table::of(rows)
+        .column("node", |row| row.n)
+        .column("u_x", |row| row.u[0])
+        .column("u_y", |row| row.u[1])
+        .column("u_x_calculix", |row| row.u_calculix[0])
+        .column("u_y_calculix", |row| row.u_calculix[1])
+        .column("difference", |row| row.difference)
+        .csv()
 }
 
-/// Lays out a column for each component of a quantity that both programs know.
+/// Writes a column for each component of a quantity that both programs know.
 fn elements_csv(elements: &[ElementRow]) -> String {
     let known = TriangleValues::QUANTITIES
         .iter()
@@ -216,16 +218,11 @@ fn elements_csv(elements: &[ElementRow]) -> String {
         let components = quantity.components().into_iter().map(|name| name + "_calculix");
         (format!("{}_calculix", quantity.name), components.collect())
     });
-    let columns: Vec<(String, Vec<String>)> = ours.chain(theirs).collect();
-    let names: Vec<&str> =
-        columns.iter().flat_map(|(_, names)| names).map(String::as_str).collect();
-    let cells = |row: &ElementRow| {
-        let values = columns.iter().flat_map(|(name, _)| row.values[name].numbers());
-        cells(row.n, values.chain([row.difference]))
-    };
-    csv(&format!("element,{},difference", names.join(",")), elements.iter().map(cells))
-}
-
-fn cells(place: impl Display, numbers: impl Iterator<Item = f64>) -> Vec<String> {
-    std::iter::once(place.to_string()).chain(numbers.map(|x| format!("{x:e}"))).collect()
+    let table = Table::of(elements).column("element", |row| row.n);
+    let table = ours.chain(theirs).fold(table, |table, (name, components): (_, Vec<String>)| {
+        components.iter().enumerate().fold(table, |table, (k, component)| {
+            table.column(component, |row| row.values[&name].numbers()[k])
+        })
+    });
+    table.column("difference", |row| row.difference).csv()
 }

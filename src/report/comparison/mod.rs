@@ -4,15 +4,15 @@ mod files;
 
 use std::fmt::Display;
 
-use super::layout::{Table, aligned};
-use super::numbers::{or_dash, percent, place, quantity, short, with_unit};
+use super::model::{Cell, Report, Table};
+use super::numbers::{place, quantity, short, with_unit};
 use super::tables::certainty;
 use engine::estimates::Certainty;
 use problem::element::Plane;
 use problem::model::{Model, NodeId};
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use studies::calculix::{Comparison, Contact, Difference, Pair};
+use studies::calculix::{BodyStress, Comparison, Contact, Difference, Pair};
 
 pub use files::{Document, json, write};
 
@@ -34,43 +34,41 @@ pub struct Compared<'a> {
     pub comparison: &'a Comparison,
 }
 
-/// Lays out the differences in tables.
-pub fn text(compared: &Compared) -> String {
+/// Reports the differences in tables.
+pub fn report(compared: &Compared) -> Report {
     let Compared { scene, comparison, .. } = compared;
-    format!(
-        "{}\n{}\n\nLargest differences: of a node's displacement, over CalculiX's largest; of sigma_x, sigma_y or \
-         tau_xy of a triangle, over CalculiX's largest von Mises stress\n{}\n{}\n{}\nThe worst nodes\n{}",
-        scene.title,
-        heading(compared),
-        differences(compared),
-        quantity("Largest von Mises stress", &scene.units.stress),
-        bodies(comparison),
-        worst(compared)
-    )
+    Report::titled(&scene.title)
+        .then(heading(compared))
+        .table(
+            "Largest differences: of a node's displacement, over CalculiX's largest; of sigma_x, sigma_y \
+             or tau_xy of a triangle, over CalculiX's largest von Mises stress",
+            differences(compared),
+        )
+        .table(quantity("Largest von Mises stress", &scene.units.stress), bodies(comparison))
+        .table("The worst nodes", worst(compared))
 }
 
-fn heading(compared: &Compared) -> String {
+fn heading(compared: &Compared) -> Report {
     let Compared { scene, model, variant, version, .. } = compared;
-    let plane_stress = match model.plane {
-        Plane::Strain => "",
-        Plane::Stress => {
-            "\nPlane stress: CalculiX lets triangles share their thickness at nodes, \
-             and so differs."
-        }
+    let report = Report::default()
+        .line(format!(
+            "scene {}, variant {variant}, beside CalculiX {version}; plane {}; {} nodes, {} triangles",
+            scene.name,
+            model.plane,
+            model.nodes.len(),
+            model.triangles.len()
+        ))
+        .line(contact(compared));
+    let report = match model.plane {
+        Plane::Strain => report,
+        Plane::Stress => report.line(
+            "Plane stress: CalculiX lets triangles share their thickness at nodes, and so differs.",
+        ),
     };
-    format!(
-        "scene {}, variant {variant}, beside CalculiX {version}; plane {}; \
-         {} nodes, {} triangles\n{}{plane_stress}{}",
-        scene.name,
-        model.plane,
-        model.nodes.len(),
-        model.triangles.len(),
-        contact(compared),
-        certainty(compared.certainty).map_or(String::new(), |words| format!("\n{words}"))
-    )
+    certainty(compared.certainty).into_iter().fold(report, Report::line)
 }
 
-/// Tells how the bodies touch in what CalculiX ran.
+/// Says how the bodies touch in what CalculiX ran.
 fn contact(compared: &Compared) -> String {
     let units = &compared.scene.units;
     match (compared.contact, compared.decks) {
@@ -92,18 +90,17 @@ fn contact(compared: &Compared) -> String {
     }
 }
 
-fn differences(compared: &Compared) -> String {
+fn differences(compared: &Compared) -> Table {
     let Compared { scene, model, comparison, .. } = compared;
     let (u, s) = (&comparison.displacement, &comparison.stress);
     let corners = model.corners(s.largest.at);
     let centre = [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0);
-    let rows = [
-        row(quantity("displacement", &scene.units.length), u, "node", model.at(u.largest.at)),
-        row(quantity("stress", &scene.units.stress), s, "triangle", centre),
-    ];
-    aligned(
+    Table::new(
         ["of", "largest difference", "over CalculiX's", "which is", "at", "at x, y", "rms"],
-        rows,
+        [
+            row(quantity("displacement", &scene.units.length), u, "node", model.at(u.largest.at)),
+            row(quantity("stress", &scene.units.stress), s, "triangle", centre),
+        ],
     )
 }
 
@@ -113,36 +110,36 @@ fn row<Place: Display>(
     difference: &Difference<Place>,
     kind: &str,
     at: [f64; 2],
-) -> Vec<String> {
+) -> Vec<Cell> {
     let largest = &difference.largest;
     vec![
-        of,
-        format!("{:.3e}", largest.difference),
-        or_dash(largest.relative, |relative| format!("{relative:.1e}")),
-        short(largest.scale),
-        format!("{kind} {}", largest.at),
-        place(at, 3),
-        format!("{:.3e}", difference.rms),
+        of.into(),
+        Cell::scientific(largest.difference, 3),
+        largest.relative.map(|relative| Cell::scientific(relative, 1)).into(),
+        largest.scale.into(),
+        format!("{kind} {}", largest.at).into(),
+        place(at, 3).into(),
+        Cell::scientific(difference.rms, 3),
     ]
 }
 
-fn bodies(comparison: &Comparison) -> String {
+fn bodies(comparison: &Comparison) -> Table<Vec<&BodyStress>> {
     Table::of(&comparison.bodies)
         .column("body", |body| body.name.clone())
-        .column("here", |body| short(body.ours))
-        .column("CalculiX", |body| short(body.calculix))
+        .column("here", |body| body.ours)
+        .column("CalculiX", |body| body.calculix)
         .column("difference over CalculiX's", |body| {
-            or_dash(body.relative(), |relative| percent(relative, 1))
+            body.relative().map(|relative| Cell::percent(relative, 1))
         })
-        .text()
 }
 
-fn worst(compared: &Compared) -> String {
+fn worst(compared: &Compared) -> Table<Vec<NodeId>> {
     let Compared { model, comparison, .. } = compared;
     let Comparison { ours, theirs, displacement, .. } = comparison;
     // + 0: no component is −0.
-    let component =
-        |u: &[[f64; 2]], node: NodeId, axis: usize| format!("{:.6e}", u[node.index()][axis] + 0.0);
+    let component = |u: &[[f64; 2]], node: NodeId, axis: usize| {
+        Cell::scientific(u[node.index()][axis] + 0.0, 6)
+    };
     Table::of(displacement.worst(WORST))
         .column("node", |n| *n)
         .column("x, y", |n| place(model.at(*n), 3))
@@ -150,6 +147,5 @@ fn worst(compared: &Compared) -> String {
         .column("u_y here", |n| component(&ours.u, *n, 1))
         .column("u_x CalculiX", |n| component(&theirs.u, *n, 0))
         .column("u_y CalculiX", |n| component(&theirs.u, *n, 1))
-        .column("difference", |n| format!("{:.3e}", displacement.at[n.index()].1))
-        .text()
+        .column("difference", |n| Cell::scientific(displacement.at[n.index()].1, 3))
 }

@@ -60,12 +60,3 @@ pub const NO_LIMIT: &str = "the number diverges under refinement";
 pub fn reason(field: &str) -> &'static str {
     REASONS.iter().find(|(name, _)| *name == field).map_or("there is none", |(_, reason)| reason)
 }
-
-/// Writes the line under a table that says why there is a `-` for a field; nothing where all its
-/// `numbers` have values.
-pub fn note(field: &str, numbers: impl IntoIterator<Item = f64>) -> String {
-    match numbers.into_iter().all(f64::is_finite) {
-        true => String::new(),
-        false => format!("  -: {}\n", reason(field)),
-    }
-}

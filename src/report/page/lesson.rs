@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::Page;
 use crate::audit::FindingRow;
-use crate::json;
+use crate::json::document;
 use crate::picture::points;
 use mathcad::Listing;
 use problem::model::Model;
@@ -40,15 +40,13 @@ pub fn html(chapters: &[Chapter]) -> String {
     let scene = &chapters[0].scene;
     let mut shared = Shared::default();
     let scenes: Vec<Value> = chapters.iter().map(|chapter| shared.chapter(chapter)).collect();
-    let mut data = json::head(scene);
-    let Shared { names, values, accesses, steps } = shared;
-    data.extend([
-        ("scenes".to_string(), scenes.into()),
-        ("names".into(), names.items.into()),
-        ("values".into(), values.items.into()),
-        ("accesses".into(), accesses.items.into()),
-        ("steps".into(), steps.items.into()),
-    ]);
+    let own = json!({
+        "scenes": scenes,
+        "names": shared.names.items,
+        "values": shared.values.items,
+        "accesses": shared.accesses.items,
+        "steps": shared.steps.items,
+    });
     Page {
         title: &format!("Lesson: {}", scene.title),
         body: include_str!("lesson/body.html"),
@@ -63,7 +61,7 @@ pub fn html(chapters: &[Chapter]) -> String {
             include_str!("lesson/chapters.js"),
             include_str!("lesson/lesson.js"),
         ],
-        data: &data.into(),
+        data: &document(Some(scene), &own),
     }
     .html()
 }

@@ -11,8 +11,9 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::Page;
+use crate::json::document;
 use crate::picture::{colour, points};
-use crate::{ResultFile, audit as audit_report, json, pressure, quantities};
+use crate::{ResultFile, audit, pressure, quantities};
 use engine::{Assessment, Detail, Solution, Step, Stiffness, TriangleState, TriangleValues};
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
@@ -43,7 +44,6 @@ pub struct Run<'a> {
 
 pub fn html(report: &Report) -> String {
     let scene = report.scene;
-    let mut data = json::head(scene);
     let runs = report.runs.par_iter().map(run).collect::<Vec<Value>>();
     let calculix_fields = report.calculix.as_ref().map(|(comparison, _)| calculix_run(comparison));
     let charts = report.charts.iter();
@@ -51,7 +51,7 @@ pub fn html(report: &Report) -> String {
     let own = json!({
         "scene": { "name": scene.name, "title": scene.title },
         "what": report.what,
-        "audit": report.audit.map(|audit| audit_report::value(audit, scene)),
+        "audit": report.audit.map(|audit| audit::Document::new(audit, scene)),
         "mesh": mesh(&scene.model),
         "runs": runs.into_iter().chain(calculix_fields).collect::<Vec<_>>(),
         "own": own_run(report),
@@ -61,8 +61,6 @@ pub fn html(report: &Report) -> String {
         "colours": colour::parts(SHADES),
         "quantities": quantities::on_pages(),
     });
-    let Value::Object(own) = own else { unreachable!("it is written as an object") };
-    data.extend(own);
     Page {
         title: &format!("Report: {}", scene.name),
         body: include_str!("report/body.html"),
@@ -75,7 +73,7 @@ pub fn html(report: &Report) -> String {
             include_str!("report/chart.js"),
             include_str!("report/report.js"),
         ],
-        data: &data.into(),
+        data: &document(Some(scene), &own),
     }
     .html()
 }

@@ -10,12 +10,13 @@ pub use field::difference_files;
 pub use words::{difference, explanation};
 
 use super::failure::Failure;
-use super::json::{headed, pretty};
+use super::json::{self, OnScene, pretty};
+use super::layout::counted;
+use super::model::Report;
 use base::xml::Element;
 use engine::error::Error;
-use problem::scene::Units;
 use studies::snapshot::{
-    Acceptance, Difference, Explanation, Presence, Run, Snapshot, Verified, VerifiedRun,
+    Acceptance, Difference, Explanation, Presence, Snapshot, Verified, VerifiedRun,
 };
 
 /// A snapshot's file and what verifying it found, or why it could not be verified.
@@ -41,26 +42,24 @@ pub fn file(snapshot: &Snapshot) -> String {
     pretty(snapshot)
 }
 
-/// Returns what was recorded, for people.
-pub fn recorded(snapshot: &Snapshot) -> String {
-    let run = |(name, run): (&String, &Run)| {
-        let (facts, numbers) = (run.facts.len(), run.numbers.iter().map(|(_, n)| n.places().len()));
+/// Reports what was recorded: a line for each run.
+pub fn recorded(snapshot: &Snapshot) -> Report {
+    snapshot.runs.iter().fold(Report::default(), |report, (name, run)| {
+        let facts = run.facts.len();
+        let numbers: usize = run.numbers.iter().map(|(_, n)| n.places().len()).sum();
         let failure = run.facts.get("failure").filter(|failure| !failure.is_null());
         let failure = failure.map_or(String::new(), |failure| {
             format!("; exit status {}: {failure}", run.exit_status().unwrap_or_default())
         });
-        let unbounded = run.numbers.iter().filter(|(_, numbers)| numbers.bound.is_none()).count();
-        let unbounded = match unbounded {
+        let unbounded = match run.numbers.iter().filter(|(_, n)| n.bound.is_none()).count() {
             0 => String::new(),
             count => format!("; {count} arrays have no bound on their rounding errors"),
         };
-        let numbers: usize = numbers.sum();
-        format!(
-            "{} {name}: {facts} facts, {numbers} numbers{unbounded}{failure}\n",
+        report.line(format!(
+            "{} {name}: {facts} facts, {numbers} numbers{unbounded}{failure}",
             snapshot.input.name
-        )
-    };
-    snapshot.runs.iter().map(run).collect()
+        ))
+    })
 }
 
 /// Returns how a run compares, in a word or two.
@@ -78,29 +77,30 @@ fn verdict(run: &VerifiedRun) -> String {
     }
 }
 
-/// Returns what verifying found, for people.
-pub fn text(checked: &[Checked]) -> String {
-    checked.iter().map(of_file).collect()
+/// Reports what verifying found: file by file its runs, and why they differ and in what.
+pub fn report(checked: &[Checked]) -> Report {
+    checked.iter().fold(Report::default(), |report, Checked { file, verified }| match verified {
+        Err(why) => report
+            .line(format!("{file}: error, it cannot be verified"))
+            .code(format!("error: {why}\n")),
+        Ok(verified) => {
+            let report = report.line(format!("{file}: {}", outcome(verified)));
+            verified.runs.iter().fold(report, |report, run| {
+                let report = report.note(format!("{}: {}", run.name, verdict(run)));
+                match run.differences.is_empty() {
+                    true => report,
+                    false => report.code(run_words(run)),
+                }
+            })
+        }
+    })
 }
 
-fn of_file(checked: &Checked) -> String {
-    let verified = match &checked.verified {
-        Ok(verified) => verified,
-        Err(_) => return format!("{}: error, it cannot be verified\n", checked.file),
-    };
-    let mut text = format!("{}: {}\n", checked.file, of_runs(verified));
-    for run in &verified.runs {
-        text += &format!("  {}: {}\n", run.name, verdict(run));
-        text += &indent(&run_words(run), "    ");
-    }
-    text
-}
-
-fn of_runs(verified: &Verified) -> String {
+fn outcome(verified: &Verified) -> String {
     let differ = verified.runs.iter().filter(|run| !run.is_same()).count();
     match (verified.runs.len(), differ) {
         (0, _) => "no run in it, nothing was compared".into(),
-        (runs, 0) => format!("same, {runs} {}", if runs == 1 { "run" } else { "runs" }),
+        (runs, 0) => format!("same, {}", counted(runs, "run", "runs")),
         (runs, _) => format!("{differ} of {runs} runs differ"),
     }
 }
@@ -112,58 +112,6 @@ fn run_words(run: &VerifiedRun) -> String {
     }
     let why = run.explanation.as_ref().map(explanation).unwrap_or_default();
     why + &words::summary(&run.differences)
-}
-
-fn indent(text: &str, by: &str) -> String {
-    text.lines().map(|line| format!("{by}{line}\n")).collect()
-}
-
-/// Returns what verifying found as a page of Markdown.
-pub fn markdown(checked: &[Checked]) -> String {
-    let mut text = String::from(
-        "# plane-contact snapshot verify\n\n| snapshot | run | verdict |\n|---|---|---|\n",
-    );
-    let row = |file: &str, run: &str, verdict: &str| {
-        format!("| {} | {} | {} |\n", escaped(file), escaped(run), escaped(verdict))
-    };
-    for Checked { file, verified } in checked {
-        match verified {
-            Err(_) => text += &row(file, "-", "error"),
-            Ok(verified) if verified.runs.is_empty() => text += &row(file, "-", &of_runs(verified)),
-            Ok(verified) => {
-                text.extend(verified.runs.iter().map(|run| row(file, &run.name, &verdict(run))));
-            }
-        }
-    }
-    for checked in checked {
-        let file = escaped(&checked.file);
-        if let Err(why) = &checked.verified {
-            text += &format!("\n## {file}\n\n{}", block(&format!("error: {why}\n")));
-        }
-        for run in checked.runs().iter().filter(|run| !run.differences.is_empty()) {
-            text += &format!("\n## {file}: {}\n\n{}", escaped(&run.name), block(&run_words(run)));
-        }
-    }
-    text
-}
-
-/// Returns a text that stands in a line of Markdown or a cell of a table as it is.
-fn escaped(text: &str) -> String {
-    let escape = |c: char| match c {
-        '&' => "&amp;".into(),
-        '<' => "&lt;".into(),
-        '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '~' | '#' | '$' => format!("\\{c}"),
-        c if c.is_control() => " ".into(),
-        c => c.to_string(),
-    };
-    text.chars().map(escape).collect()
-}
-
-/// Returns lines as a block of Markdown, whose fence is longer than any in them.
-fn block(lines: &str) -> String {
-    let runs = lines.split(|c| c != '`').map(str::len);
-    let fence = "`".repeat(runs.max().unwrap_or(0).max(2) + 1);
-    format!("{fence}text\n{lines}{fence}\n")
 }
 
 /// Returns what verifying found as JUnit XML: a suite a file, a case a run.
@@ -225,19 +173,8 @@ struct FileRow<'a> {
     /// Why it could not be verified; null where it was.
     failure: Option<Failure>,
     #[serde(flatten)]
-    scene: Option<SceneRow<'a>>,
+    scene: Option<OnScene>,
     runs: Vec<RunRow<'a>>,
-}
-
-/// The scene that was run.
-#[derive(Serialize, JsonSchema)]
-struct SceneRow<'a> {
-    /// The names of its units.
-    units: Units,
-    /// Its SHA-256.
-    scene_sha256: &'a str,
-    /// The SHA-256 of its mesh.
-    mesh_sha256: &'a str,
 }
 
 /// What verifying a run found.
@@ -274,10 +211,10 @@ impl<'a> From<&'a VerifiedRun> for RunRow<'a> {
 
 impl<'a> From<&'a Checked> for FileRow<'a> {
     fn from(checked: &'a Checked) -> Self {
-        let scene = checked.verified.as_ref().ok().map(|Verified { input, .. }| SceneRow {
+        let scene = checked.verified.as_ref().ok().map(|Verified { input, .. }| OnScene {
             units: input.units(),
-            scene_sha256: &input.scene_sha256,
-            mesh_sha256: &input.mesh_sha256,
+            scene_sha256: input.scene_sha256.clone(),
+            mesh_sha256: input.mesh_sha256.clone(),
         });
         FileRow {
             file: &checked.file,
@@ -292,40 +229,34 @@ impl<'a> From<&'a Checked> for FileRow<'a> {
 /// Returns what verifying found as JSON.
 pub fn json(checked: &[Checked]) -> String {
     let same = checked.iter().all(Checked::is_same);
-    headed(&Document { same, files: checked.iter().map(FileRow::from).collect() })
+    json::line(None, &Document { same, files: checked.iter().map(FileRow::from).collect() })
 }
 
 /// The most lines of what was accepted.
 const LINES: usize = 20;
 
-/// Returns what was accepted, for people: a line for each entry, one for all iterations of a run.
-pub fn accepted(accepted: &[Acceptance]) -> String {
+/// Reports what was accepted: a line for each entry, one for all iterations of a run.
+pub fn accepted(accepted: &[Acceptance]) -> Report {
     let mut lines: Vec<(String, usize)> = Vec::new();
     for acceptance in accepted {
-        match in_iteration(&acceptance.entry) {
-            None => lines.push((line(acceptance), 1)),
-            Some(run) => {
-                let start = format!("accepted {run}/iteration ");
-                match lines.last_mut().filter(|(line, _)| line.starts_with(&start)) {
-                    Some((_, count)) => *count += 1,
-                    None => lines.push((line(acceptance), 1)),
-                }
-            }
+        let start = in_iteration(&acceptance.entry).map(|run| format!("accepted {run}/iteration "));
+        match (start, lines.last_mut()) {
+            (Some(start), Some((line, count))) if line.starts_with(&start) => *count += 1,
+            _ => lines.push((line(acceptance), 1)),
         }
     }
-    let entries = |lines: &[(String, usize)]| lines.iter().map(|(_, count)| count).sum::<usize>();
     let shown = if lines.len() > LINES { LINES - 1 } else { lines.len() };
-    let mut text: String = lines[..shown]
-        .iter()
-        .map(|(line, count)| match count {
-            1 => format!("{line}\n"),
-            count => format!("{line}; and {} other entries of iterations\n", count - 1),
+    let report = lines[..shown].iter().fold(Report::default(), |report, (line, count)| {
+        report.line(match count {
+            1 => line.clone(),
+            count => format!("{line}; and {} other entries of iterations", count - 1),
         })
-        .collect();
-    if shown < lines.len() {
-        text += &format!("and {} other entries, see the log\n", entries(&lines[shown..]));
+    });
+    let entries: usize = lines[shown..].iter().map(|(_, count)| count).sum();
+    match entries {
+        0 => report,
+        entries => report.line(format!("and {entries} other entries, see the log")),
     }
-    text
 }
 
 /// Returns the run of an entry that is one of an iteration.

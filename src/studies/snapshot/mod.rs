@@ -40,6 +40,7 @@ use engine::{Request, check};
 use problem::scene::{Scene, Units};
 
 pub use accept::{Acceptance, Chosen, accept};
+pub use base::files::json::{FORMAT, VERSION};
 pub use compare::{Difference, Kind, compare};
 pub use expected::{Expected, Origin};
 pub use explain::{Cause, Class, Explanation, Side, explain};
@@ -50,12 +51,6 @@ pub use options::Options;
 pub use place::FIELDS;
 pub use record::{Bounds, record};
 pub use verify::{Presence, Verified, VerifiedRun, difference, verify};
-
-/// The version of the format.
-pub const FORMAT: u32 = 1;
-
-/// The version of this program.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// What a scene gives, by runs under different options. Lengths, stresses and forces are in the units
 /// of the scene.

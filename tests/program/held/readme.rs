@@ -179,7 +179,8 @@ fn contact(solution: &Solution) -> String {
 /// The tables of claims, as the program writes it: line by line, so that a number that changed is
 /// seen.
 fn claims() -> Vec<String> {
-    let tables = [report::claims::markdown(&JUDGED), report::claims::range_markdown(&JUDGED)];
+    let tables =
+        [report::claims::verdicts(&JUDGED).markdown(), report::claims::range(&JUDGED).markdown()];
     tables.iter().flat_map(|table| table.lines().skip(2)).map(String::from).collect()
 }
 

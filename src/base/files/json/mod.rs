@@ -14,6 +14,12 @@ use crate::memory;
 use crate::plain::plain;
 use crate::suggestion::did_you_mean;
 
+/// The version of the format of the documents that the program writes and reads.
+pub const FORMAT: u32 = 1;
+
+/// The version of the program.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
 /// A kind of document.
 pub struct Kind {
     /// What errors call it, such as `snapshot`.

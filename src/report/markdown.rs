@@ -1,0 +1,52 @@
+//! A report as Markdown.
+
+use super::model::{Block, Cell, Report, Table};
+
+impl Report {
+    /// Writes the report as a page of Markdown.
+    pub fn markdown(&self) -> String {
+        let blocks = self.blocks.iter().map(|block| match block {
+            Block::Heading { level, text } => format!("{} {}\n", "#".repeat(*level), escaped(text)),
+            Block::Line { level: 0, text } => format!("{}\n", escaped(text)),
+            Block::Line { level, text } => {
+                format!("{}- {}\n", "  ".repeat(level - 1), escaped(text))
+            }
+            Block::Code(lines) => code(lines),
+            Block::Table { title, table } if title.is_empty() => table.markdown(),
+            Block::Table { title, table } => {
+                format!("## {}\n\n{}", escaped(title), table.markdown())
+            }
+        });
+        blocks.collect::<Vec<_>>().join("\n")
+    }
+}
+
+impl<R> Table<R> {
+    pub fn markdown(&self) -> String {
+        let row = |cells: Vec<String>| {
+            cells.iter().map(|cell| format!("| {} ", escaped(cell))).collect::<String>() + "|\n"
+        };
+        let rows = self.cells.iter().map(|cells| row(cells.iter().map(Cell::to_string).collect()));
+        let rule = "|---".repeat(self.headings.len()) + "|\n";
+        row(self.headings.clone()) + &rule + &rows.collect::<String>()
+    }
+}
+
+/// Returns a text that stands in a line of Markdown or a cell of a table as it is.
+fn escaped(text: &str) -> String {
+    let escape = |c: char| match c {
+        '&' => "&amp;".into(),
+        '<' => "&lt;".into(),
+        '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '~' | '#' | '$' => format!("\\{c}"),
+        c if c.is_control() => " ".into(),
+        c => c.to_string(),
+    };
+    text.chars().map(escape).collect()
+}
+
+/// Returns lines as a block of code, whose fence is longer than any in them.
+fn code(lines: &str) -> String {
+    let fences = lines.split(|c| c != '`').map(str::len);
+    let fence = "`".repeat(fences.max().unwrap_or(0).max(2) + 1);
+    format!("{fence}text\n{}\n{fence}\n", lines.trim_end())
+}
