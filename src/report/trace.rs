@@ -287,7 +287,7 @@ fn step_in_words(listing: &Listing, step: &Step, shown: &Shown) -> String {
     if !writes.is_empty() {
         text += &filled("      ⇒ ", 8, shown.width, writes, ", ");
     } else if step.held == Some(false) {
-        text += "      ⇒ the condition is false\n";
+        text += "      ⇒ the condition does not hold\n";
     }
     text
 }

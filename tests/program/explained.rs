@@ -150,7 +150,7 @@ fn the_first_cause_of_a_hundred_seeded_changes_is_named() {
         let again = record(&change.scene, &change.request).expect("it ran");
         false_causes += usize::from(explained(&new, &again).is_some());
     }
-    eprintln!("{right} of {drawn} right, {false_causes} false causes, {flips} other turns");
+    eprintln!("{right} of {drawn} right, {false_causes} false causes, {flips} divergences");
     assert_eq!((right, false_causes), (100, 0));
     assert!(flips > 10, "{flips}");
 }
