@@ -1,6 +1,5 @@
-//! plane-contact: a Mathcad-faithful, executable, audited reimplementation of a published plane
-//! contact algorithm (A. M. Filipov, M. V. Khomenko, «Решение плоской контактной задачи методом
-//! конечных элементов»).
+//! plane-contact: an audited, executable reimplementation of a published plane contact algorithm (A. M. Filipov,
+//! M. V. Khomenko, «Решение плоской контактной задачи методом конечных элементов»).
 //!
 //! ```text
 //!  Scene (open a file, or build one in code) --> Request (what is asked) --> solve --> Solution
@@ -23,25 +22,65 @@
 //! # Ok::<(), plane_contact::Error>(())
 //! ```
 //!
-//! The rest of the library is what the program is made of: a workspace of parts, each of which uses those
-//! above it only. They are open to tests and to the curious, and promise nothing from version to version.
+//! Three places to start:
 //!
-//! | part | what stands there |
+//! - The names below and [`input`] are the library; `examples/compare_variants.rs` uses them.
+//! - [`guide`] is for users of the program: scenes, auditing, snapshots, teaching, and a [`guide::glossary`].
+//! - [`paper::mirror`] is the reference: each line of the paper's listings stands quoted above the line of Rust
+//!   that computes it.
+//!
+//! The other modules are the parts of the program, each of which uses those above it only. Tests use them; they are
+//! private in the sense that they may change with any version.
+//!
+//! | part | what it has |
 //! |---|---|
-//! | [`base`](error) | errors of the input, files, closed sets |
-//! | [`numbers`] | scalars and solvers |
-//! | [`mathcad`] | Mathcad's notation, its interpreter and its worksheets |
+//! | [`error`], [`files`], [`choices`] | errors of the input, files, closed sets |
+//! | [`numbers`] | kinds of numbers and solvers |
+//! | [`mathcad`] | Mathcad's notation, interpreter and worksheets |
 //! | [`problem`] | the finite element model, the element, scenes and their files |
-//! | [`paper`] | **the reference**: the listings, their mirror in Rust, readings, printed conditions, the door to the model |
-//! | [`engine`] | request, solution, the published iterations, unilateral contact, error estimates |
+//! | [`paper`] | the listings, their mirror, readings, and how the model reaches them |
+//! | [`engine`] | requests, solutions, the published iterations, unilateral contact, error estimates |
 //! | [`studies`] | audit, snapshots, trade, extremes, lesson, plan, benchmarks, CalculiX |
 //! | [`report`] | tables, pictures, pages, documents |
-//!
-//! To read what the paper computes, begin with [`paper::mirror`]: each line of the listings stands quoted
-//! above the line of Rust that computes it. The table of symbols, with shapes and units, is in `README.md`.
 #![forbid(unsafe_code)]
 
 pub mod input;
+
+/// The guide: pages for users of the program.
+pub mod guide {
+    #[doc = include_str!("guide/scenes.md")]
+    pub mod scenes {}
+
+    #[doc = include_str!("guide/auditing.md")]
+    #[doc = include_str!("../golden/tables/claims.md")]
+    #[doc = include_str!("../golden/tables/calculix.md")]
+    #[doc = include_str!("../golden/tables/range.md")]
+    pub mod auditing {}
+
+    #[doc = include_str!("guide/snapshots.md")]
+    pub mod snapshots {}
+
+    #[doc = include_str!("guide/teaching.md")]
+    pub mod teaching {}
+
+    #[doc = include_str!("guide/mathcad.md")]
+    pub mod mathcad {}
+
+    #[doc = include_str!("guide/sweeps.md")]
+    pub mod sweeps {}
+
+    #[doc = include_str!("guide/accuracy.md")]
+    #[doc = include_str!("../golden/tables/trade.md")]
+    #[doc = include_str!("../golden/tables/statuses.md")]
+    pub mod accuracy {}
+
+    #[doc = include_str!("guide/benchmarks.md")]
+    #[doc = include_str!("../golden/tables/benchmarks.md")]
+    pub mod benchmarks {}
+
+    #[doc = include_str!("guide/glossary.md")]
+    pub mod glossary {}
+}
 
 pub use base::{choices, error, files, memory, plain, suggestion, xml};
 pub use {engine, mathcad, numbers, paper, problem, report, studies};

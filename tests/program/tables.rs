@@ -1,0 +1,429 @@
+//! The tables under `golden/tables`, which pages quote: each is made from what the program computes.
+//! `INSTA_UPDATE=always` writes them anew.
+
+use std::path::Path;
+use std::process::Command;
+use std::sync::LazyLock;
+
+use plane_contact::engine::{Assessment, Measured, Session, Solution, solve};
+use plane_contact::numbers::solve::{Arithmetic, ScalarName};
+use plane_contact::problem::model::{Body, Model};
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
+use plane_contact::report;
+use plane_contact::studies::audit::claims::Verdict;
+use plane_contact::studies::audit::statuses;
+use plane_contact::studies::benchmark::{
+    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Punch, PunchPatch, Strand,
+};
+use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, Part, run};
+use plane_contact::studies::trade::{self, Varied};
+use plane_contact::{Request, Scene};
+
+use crate::claims::JUDGED;
+use crate::common::fitted_hertz::over_hertz;
+use crate::common::golden_file::assert_file;
+use crate::common::recovery::{averaged, extrapolated, node_at, order, solved, solved_by};
+
+static STRAND: LazyLock<Scene> =
+    LazyLock::new(|| Scene::open("strand").expect("an embedded scene"));
+
+/// The variants as `solve strand` runs them, then `mortar`, which is the equilibrium under friction,
+/// and the reference solution.
+static VARIANTS: LazyLock<[Solution; 6]> = LazyLock::new(|| {
+    let request = Request::new(&STRAND);
+    let runs = [
+        request.clone().variant(Variant::Printed),
+        request.clone().variant(Variant::Tied),
+        request.clone().variant(Variant::Stepped),
+        request.clone().variant(Variant::Unilateral),
+        request.equilibrium(),
+        request.reference(),
+    ];
+    runs.map(|request| solve(&request, &mut |_| ()).expect("strand has a solution"))
+});
+
+/// Asserts that `golden/tables/<name>.md` has a title, the command that prints its numbers, and a table.
+#[track_caller]
+fn assert_table(name: &str, title: &str, command: &str, table: &str) {
+    let text = format!("**{title}** Printed by `plane-contact {command}`.\n\n{table}");
+    let file = format!("golden/tables/{name}.md");
+    assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file), &text);
+}
+
+/// A table in Markdown, from its head and its rows, the cells of each apart by `|`.
+fn markdown(head: &str, rows: impl IntoIterator<Item = String>) -> String {
+    let rule = "---|".repeat(head.split('|').count());
+    let rows: String = rows.into_iter().map(|row| format!("| {row} |\n")).collect();
+    format!("| {head} |\n|{rule}\n{rows}")
+}
+
+/// A share in per cent; what is rounding alone is 0.
+fn percent(share: f64, decimals: usize) -> String {
+    if share.abs() < 1e-9 { "0".into() } else { format!("{:.decimals$} %", 100.0 * share) }
+}
+
+/// A whole number with a comma before its last three digits.
+fn thousands(number: usize) -> String {
+    if number < 1000 {
+        number.to_string()
+    } else {
+        format!("{},{:03}", number / 1000, number % 1000)
+    }
+}
+
+#[test]
+fn variants() {
+    let names = [
+        "`printed`",
+        "`tied`",
+        "`stepped`",
+        "`unilateral`",
+        "`unilateral` with `mortar`",
+        "the reference solution",
+    ];
+    let row = |(name, solution): (&str, &Solution)| {
+        let others = [Some(&VARIANTS[5]), Some(&VARIANTS[4])];
+        let assessment = Assessment::against(solution, &Session::default(), others);
+        let [fx, fy] = solution.model.total_load();
+        let share = percent(solution.target_force() / fx.hypot(fy), 0);
+        let stress = assessment.bodies.iter().map(|body| body.max_von_mises_stress);
+        let stress: Vec<String> = stress.map(|stress| format!("{stress:.1}")).collect();
+        let error = |measured: Option<&Measured>| {
+            percent(measured.expect("strand has both").distance.energy_relative, 0)
+        };
+        let [own, measure] = [assessment.own(), assessment.measure()].map(error);
+        let stress = stress.join(" / ");
+        format!("{name} | {} | {share} | {stress} | {own} | {measure}", contact(solution))
+    };
+    let table = markdown(
+        "variant | contact nodes at the end | load that reaches the block | largest von Mises \
+         stress, block / stamp, MPa | error against the equilibrium under friction | error \
+         against the reference solution",
+        names.into_iter().zip(&*VARIANTS).map(row),
+    );
+    let model = &STRAND.model;
+    let [fx, fy] = model.total_load();
+    let title = format!(
+        "The paper's example: {} nodes, {} triangles, plane strain, {} iterations, load {:.2} N \
+         per mm of thickness.",
+        thousands(model.nodes.len()),
+        thousands(model.triangles.len()),
+        STRAND.iterations,
+        fx.hypot(fy)
+    );
+    assert_table("variants", &title, "solve strand --variant V", &table);
+}
+
+/// How many nodes are in contact at the end, and how the end was reached.
+fn contact(solution: &Solution) -> String {
+    let count = solution.last().in_contact;
+    let path = solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
+    match (solution.request.variant, &solution.last().cycle, path) {
+        (Variant::Unilateral, _, Some(path)) => format!("{count} after {} load steps", path.steps),
+        (Variant::Unilateral, _, None) => {
+            format!("{count} after {} iterations", solution.steps.len())
+        }
+        (Variant::Printed | Variant::Tied | Variant::Stepped, Some(cycle), _) => {
+            let counts = cycle.members.iter().map(|k| solution.steps[k - 1].in_contact);
+            let mut counts: Vec<String> = counts.map(|count| count.to_string()).collect();
+            counts.sort();
+            match cycle.length {
+                1 => format!("{count}, settled"),
+                _ => format!("alternates between {}", counts.join(" and ")),
+            }
+        }
+        (Variant::Printed | Variant::Tied | Variant::Stepped, None, _) => {
+            format!("{count}, still changing")
+        }
+    }
+}
+
+#[test]
+fn claims() {
+    let count =
+        |verdict: &Verdict| JUDGED.iter().filter(|j| j.measured.verdict == *verdict).count();
+    let counts = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
+    let title = format!(
+        "What the paper claims, {} sentences: {}. The line is that of its text.",
+        JUDGED.len(),
+        counts.collect::<Vec<_>>().join(", ")
+    );
+    assert_table("claims", &title, "audit", &report::claims::verdicts(&JUDGED).markdown());
+    assert_table(
+        "range",
+        "Claims whose verdict changes with what the paper does not give.",
+        "audit --range",
+        &report::claims::range(&JUDGED).markdown(),
+    );
+}
+
+/// Every variant beside CalculiX's own contact under the same friction. Where `ccx` is not installed
+/// the table is not made; where `REQUIRE_CCX` is set it must be.
+#[test]
+fn calculix() {
+    if Command::new("ccx").arg("-v").output().is_err() {
+        assert!(std::env::var_os("REQUIRE_CCX").is_none(), "ccx is not installed");
+        eprintln!("ccx is not installed: golden/tables/calculix.md is not made");
+        return;
+    }
+    let pair = Pair::new(&STRAND.model, None, Friction::STICK);
+    let [printed, tied, stepped, nts, mortar, _] = &*VARIANTS;
+    let some = Friction::new(0.2).expect("a coefficient");
+    let [rubbing, sliding] = [some, Friction::NONE].map(|friction| {
+        let contact = ContactModel { coupling: Coupling::Nts, friction, ..STRAND.contact };
+        let request = Request::new(&STRAND).variant(Variant::Unilateral).contact(contact);
+        solve(&request, &mut |_| ()).expect("strand has a solution")
+    });
+    let rows = [
+        ("`printed`", printed, Friction::STICK),
+        ("`tied`", tied, Friction::STICK),
+        ("`stepped`", stepped, Friction::STICK),
+        ("`unilateral`, `nts`", nts, Friction::STICK),
+        ("`unilateral`, `nts`, friction 0.2 in both", &rubbing, some),
+        ("`unilateral`, `nts`, frictionless in both", &sliding, Friction::NONE),
+        ("`unilateral`, `mortar`", mortar, Friction::STICK),
+    ];
+    let row = |(name, ours, friction): (&str, &Solution, Friction)| {
+        let contact = Contact::Pair(Pair::new(&STRAND.model, None, friction));
+        let part = Part { contact, share: 1.0 };
+        let theirs = run("ccx", &STRAND, &STRAND.model, &[part]).expect("ccx runs").fields;
+        let comparison = Comparison::new(&STRAND.model, Fields::of(ours), theirs);
+        let stresses = comparison.bodies.iter().map(|body| {
+            let apart = body.relative().expect("CalculiX has stress in both bodies").abs();
+            format!("{:.1} / {:.1}: {}", body.ours, body.calculix, percent(apart, 1))
+        });
+        let displacement = comparison.displacement.largest.relative.expect("displacements");
+        let stresses = stresses.collect::<Vec<_>>().join(" | ");
+        format!("{name} | {} | {stresses}", percent(displacement, 1))
+    };
+    let table = markdown(
+        "variant | displacement | von Mises stress in the block, here / CalculiX, MPa | in the stamp",
+        rows.into_iter().map(row),
+    );
+    let title = format!(
+        "The paper's example beside CalculiX's contact, penalty {:.3e} MPa/mm; differences over \
+         CalculiX's largest value.",
+        pair.penalty
+    );
+    assert_table(
+        "calculix",
+        &title,
+        "compare strand --with calculix --contact pair --friction stick",
+        &table,
+    );
+}
+
+/// What the scenes of `scene mesh` are made of.
+#[test]
+fn generated_scenes() {
+    let builders = [
+        Blocks::default().generate(),
+        PunchPatch::default().generate(),
+        Hertz::default().generate(),
+        Punch::default().generate(),
+        Annulus::default().generate(),
+        Hole::default().generate(),
+        Cook::default().generate(),
+        Ellipse::default().generate(),
+        Strand::default().generate(),
+    ];
+    let rows = builders.into_iter().flat_map(|builder| {
+        let scene = builder.and_then(|builder| builder.build()).expect("the defaults are sound");
+        let [fx, fy] = scene.model.total_load().map(rounded);
+        let load = format!("{fx}, {fy}");
+        let row =
+            |body: &Body| format!("{} | {} | {load}", scene.name, of_body(&scene.model, body));
+        scene.model.bodies.iter().map(row).collect::<Vec<_>>()
+    });
+    let head = "scene | body | E | nu | width x height | distances from the origin | thickness | load, x and y";
+    assert_table("scenes", "Generated scenes.", "scene mesh KIND", &markdown(head, rows));
+}
+
+/// Material, size and distances from the origin of a body, and its thickness.
+fn of_body(model: &Model, body: &Body) -> String {
+    let range = |length: fn([f64; 2]) -> f64| {
+        let all = body.nodes.iter().map(|node| length(model.at(*node)));
+        let (least, most) = all.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+        [rounded(least), rounded(most)]
+    };
+    let [[left, right], [bottom, top]] = [range(|[x, _]| x), range(|[_, y]| y)];
+    let [near, far] = range(|[x, y]| x.hypot(y));
+    let material = model.triangle(body.triangles[0]).material;
+    format!(
+        "{} | {} | {} | {} x {} | {near} to {far} | {}",
+        body.name,
+        material.e,
+        material.nu,
+        rounded(right - left),
+        rounded(top - bottom),
+        model.thickness
+    )
+}
+
+/// A number without what rounding left.
+fn rounded(x: f64) -> f64 {
+    (1e6 * x).round() / 1e6
+}
+
+/// Published numbers beside ours.
+#[test]
+fn benchmarks() {
+    let rows = [patches(), hertz(), plates()].concat();
+    let table = markdown("benchmark | quantity | published | here", rows);
+    assert_table("benchmarks", "Problems with a known solution.", "solve SCENE", &table);
+}
+
+fn patches() -> Vec<String> {
+    let (upper, lower) = (Blocks::default().upper, Blocks::default().lower);
+    let pressure = 6.3;
+    let misses = |upper, lower, coupling| {
+        let blocks = Blocks { upper, lower }.generate();
+        let solution = solved_by(blocks, |model| model.coupling = coupling);
+        let misses = solution.elements.iter().map(|state| (state.sigma[1] / pressure + 1.0).abs());
+        misses.fold(0.0, f64::max)
+    };
+    let row = |name: &str, upper, lower, coupling| {
+        let (miss, name) = (percent(misses(upper, lower, coupling), 1), name);
+        format!(
+            "patch test, {upper} on {lower} edges, {name} | largest error of sigma_y | 0 | {miss}"
+        )
+    };
+    let punch = solved(PunchPatch::default().generate());
+    let off = punch.elements.iter().map(|state| (state.sigma[1] + 1.0).abs()).fold(0.0, f64::max);
+    vec![
+        row("`mortar`", upper, lower, Coupling::Mortar),
+        row("`nts`", upper, lower, Coupling::Nts),
+        row("`nts`", 4 * upper, 4 * lower, Coupling::Nts),
+        row("`nts`", lower, upper, Coupling::Nts),
+        format!(
+            "Taylor and Papadopoulos, `mortar` | largest error of sigma_y | 0 | {}",
+            percent(off, 1)
+        ),
+    ]
+}
+
+fn hertz() -> Vec<String> {
+    let hertz = Hertz::default();
+    let [half_width, peak] = over_hertz(hertz.size, hertz.load, |_| ());
+    let [width, pressure] = [hertz.half_width(), hertz.peak_pressure()];
+    let punch = solved(Punch::default().generate());
+    let load: f64 = punch.contact.iter().filter_map(|node| node.force).sum();
+    let errors = punch.contact.iter().filter(|node| node.arc < 0.75).map(|node| {
+        let exact = 2.0 * load / (std::f64::consts::PI * (1.0 - node.arc.powi(2)).sqrt());
+        (node.pressure.expect("it is in contact") / exact - 1.0).abs()
+    });
+    vec![
+        format!("Hertz, NAFEMS CGS-1 | half width, mm | {width:.4} | {:.4}", half_width * width),
+        format!(
+            "Hertz, NAFEMS CGS-1 | largest pressure, MPa | {pressure:.1} | {:.1}",
+            peak * pressure
+        ),
+        format!(
+            "flat punch | largest error of the pressure up to 0.75 of the half width | 0 | {}",
+            percent(errors.fold(0.0, f64::max), 1)
+        ),
+    ]
+}
+
+/// Lamé, Kirsch, Cook, NAFEMS LE1.
+fn plates() -> Vec<String> {
+    let [coarse, fine] = [32, 64].map(|radial| {
+        let ring = solved(Annulus { radial, around: 2 * radial }.generate());
+        let bore = node_at(&ring.model, [50f64.sqrt(); 2]);
+        let [x, y] = bore.of(&ring.u);
+        let [xx, yy, xy] = extrapolated(&ring, bore);
+        [x.hypot(y), (xx + yy) / 2.0 - xy]
+    });
+    // Radii 10 and 20, pressure 10 inside, E = 30000, nu = 0.2, plane strain.
+    let (p, [a2, b2], e, nu) = (10.0, [100.0_f64, 400.0], 30000.0, 0.2);
+    let exact =
+        (1.0 + nu) * p * a2 / (e * (b2 - a2)) * ((1.0 - 2.0 * nu) * a2.sqrt() + b2 / a2.sqrt());
+    let hoop = p * (b2 + a2) / (b2 - a2);
+    let hole = solved(Hole { around: 64, ..Hole::default() }.generate());
+    let [top, side] =
+        [[0.0, 1.0], [1.0, 0.0]].map(|place| extrapolated(&hole, node_at(&hole.model, place)));
+    let cook = |(n, published): (usize, f64)| {
+        let panel = solved(Cook { n }.generate());
+        let v = node_at(&panel.model, [48.0, 52.0]).of(&panel.u)[1];
+        format!("Cook, {n} x {n} | displacement of (48, 52) | {published} | {v:.3}")
+    };
+    let cook = [(2, 6.743), (64, 23.774)].map(cook);
+    let ellipse = solved(Ellipse { n: 64 }.generate());
+    let corner = node_at(&ellipse.model, [2.0, 0.0]);
+    let [mean, limit] = [averaged(&ellipse, corner)[1], extrapolated(&ellipse, corner)[1]];
+    let rows = [
+        format!("Lamé | displacement of the bore, mm | {exact:.8} | {:.8}", fine[0]),
+        format!(
+            "Lamé | order of convergence of the displacement | 2 | {:.2}",
+            order(coarse[0] - exact, fine[0] - exact)
+        ),
+        format!("Lamé | hoop stress at the bore, MPa | {hoop:.4} | {:.4}", fine[1]),
+        format!("Kirsch | sigma_x at (0, 1) | {} | {:.3}", Hole::stress([0.0, 1.0])[0], top[0]),
+        format!("Kirsch | sigma_y at (1, 0) | {} | {:.3}", Hole::stress([1.0, 0.0])[1], side[1]),
+        format!("NAFEMS LE1, 64 x 64 | sigma_y at (2, 0), MPa | 89.06 | {mean:.2}"),
+        format!("NAFEMS LE1, extrapolated | sigma_y at (2, 0), MPa | 92.7 | {limit:.1}"),
+    ];
+    rows.into_iter().chain(cook).collect()
+}
+
+/// The paper's settings, in numbers in which rounding decides nothing.
+#[test]
+fn settings() {
+    let arithmetic = Arithmetic { scalar: ScalarName::F64x2, ..Arithmetic::default() };
+    let request = Request::new(&STRAND).arithmetic(arithmetic);
+    let only = vec![Varied::Tolerance, Varied::Iterations, Varied::Symmetry];
+    let options = trade::Options { runs: 1, only };
+    let trade = trade::measure(&request, &options, |_| None, |_| ()).expect("it is measured");
+    let rows = trade.sections.iter().flat_map(|section| {
+        section.rows.iter().map(move |row| {
+            let [error, change] = [&row.error, &row.change].map(|errors| {
+                errors.as_ref().map_or("-".into(), |errors| percent(errors.displacement, 1))
+            });
+            let count = row.in_contact.expect("strand has contact");
+            let cycle = row.cycle.map_or("-".into(), |cycle| cycle.to_string());
+            format!(
+                "{} | {} | {} | {count} | {cycle} | {error} | {change}",
+                section.parameter, row.label, row.variant
+            )
+        })
+    });
+    let table = markdown(
+        "what is varied | value | variant | contact nodes at the end | contact state repeats after, iterations | error | change",
+        rows,
+    );
+    assert_table(
+        "trade",
+        "The paper's settings, varied: largest difference of a displacement over the largest \
+         displacement. The error is against the equilibrium under friction, of half a scene \
+         against the whole; the change against the scene's own value. In double-doubles, in which \
+         rounding decides nothing.",
+        "trade strand --only c_tll,iterations,symmetry",
+        &table,
+    );
+}
+
+/// Status rules on random scenes.
+#[test]
+fn status_rules() {
+    let measured = statuses::measure(200, 1);
+    let row = |row: &statuses::Row| {
+        let wrong = row.rules.iter().map(|rule| percent(rule.wrong_share(row.nodes), 1));
+        let wrong = wrong.collect::<Vec<_>>().join(" | ");
+        format!("{} | {} | {wrong}", row.depth, row.target)
+    };
+    let head = "depth of the jump over c_tll | target lies | `signs`, wrong | `intersection`, wrong | `projection`, wrong";
+    let operations =
+        |k: usize| -> u64 { measured.by_size.iter().map(|row| row.rules[k].operations).sum() };
+    let over_signs = |k| operations(k) as f64 / operations(0) as f64;
+    let last = format!(
+        "operations, over those of `signs` | both | 1 | {:.1} | {:.1}",
+        over_signs(1),
+        over_signs(2)
+    );
+    assert_table(
+        "statuses",
+        "Status rules on random scenes whose contact is known.",
+        "audit --statuses",
+        &markdown(head, measured.by_depth.iter().map(row).chain([last])),
+    );
+}
