@@ -7,10 +7,7 @@ use plane_contact::input::{
     Arithmetic, Axis, Contact, Coupling, Friction, Geometry, Inputs, Mesh, MeshBuilder, Plane,
     Reading, ScalarName, Solver, StatusRule, Variant,
 };
-use plane_contact::mathcad::Conjunction;
-use plane_contact::paper::mirror::{
-    LoopPlace, NodeTable, RestraintIndex, Schedule, ToleranceUnit, Wedge,
-};
+use plane_contact::paper::mirror::{DefaultFrom, READINGS};
 use plane_contact::problem::scene::{Scene, SceneBuilder, Surface};
 
 fn seldom(u: &mut Unstructured) -> Result<bool> {
@@ -128,16 +125,18 @@ pub fn request(u: &mut Unstructured, scene: &Scene) -> Result<Request> {
 }
 
 pub fn reading(u: &mut Unstructured) -> Result<Reading> {
-    Ok(Reading {
-        r1: *u.choose(LoopPlace::ALL)?,
-        r2: *u.choose(RestraintIndex::ALL)?,
-        r3: *u.choose(Wedge::ALL)?,
-        r4: *u.choose(Conjunction::ALL)?,
-        r5: *u.choose(NodeTable::ALL)?,
-        r6: *u.choose(&[None, Some(Plane::Strain), Some(Plane::Stress)])?,
-        r7: *u.choose(&[None, Some(Schedule::Total), Some(Schedule::Stepped)])?,
-        r8: *u.choose(ToleranceUnit::ALL)?,
-    })
+    let mut reading = Reading::default();
+    for row in READINGS.iter().filter(|row| row.is_option()) {
+        let mut choices: Vec<_> = row.values.iter().map(Some).collect();
+        match row.default {
+            DefaultFrom::First => (),
+            DefaultFrom::Scene | DefaultFrom::Variant => choices.insert(0, None),
+        }
+        if let Some(value) = u.choose(&choices)? {
+            row.set(&mut reading, value);
+        }
+    }
+    Ok(reading)
 }
 
 /// Returns a listing's text with so many edits: lines that go, come twice, change places or level,

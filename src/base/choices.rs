@@ -28,7 +28,7 @@ macro_rules! choices {
             pub const ALL: &'static [$name] = &[$($name::$variant),+];
 
             /// Returns the name on the command line.
-            pub fn name(self) -> &'static str {
+            pub const fn name(self) -> &'static str {
                 match self { $($name::$variant => $text),+ }
             }
 

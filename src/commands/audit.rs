@@ -24,7 +24,7 @@ use super::{TablesArgs, print, print_either, print_stderr, progress, waiting};
 #[derive(clap::Args)]
 #[command(after_help = "\
 First the claims of the paper with their verdicts, how far each reaches, and what they assume;
-then three tables: the readings (what the other reading changes), the findings (present, not
+then three tables: the readings (what each other value changes), the findings (present, not
 triggered here, contradicted; with a number), and the variants side by side. --finding explains one
 on its smallest scene, or on SCENE where that is given. The whole takes 30 to 80 times as long as
 solve.

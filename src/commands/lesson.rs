@@ -7,11 +7,11 @@ use plane_contact::files;
 use plane_contact::paper::edited::Edited;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::page::exercise;
-use plane_contact::report::page::lesson::{self as page, Chapter, Shown};
+use plane_contact::report::page::lesson::{self as page, Chapter};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::lesson::exercise::Exercise;
-use plane_contact::studies::lesson::{Switch, repair, run as execute, switches};
+use plane_contact::studies::lesson::{self as study, Switch, run as execute, switches};
 
 use super::{read_listing, report_written, waiting};
 
@@ -85,16 +85,11 @@ fn lesson(args: &Args) -> Result<String> {
     Ok(page::html(&chapters))
 }
 
-/// The chapter of a finding, on the smallest scene that shows it, with its repair where that is an
-/// edit of the listing, else with the reason.
+/// Returns the chapter of a finding, on the smallest scene that shows it.
 fn chapter(finding: &'static Finding) -> Result<Chapter> {
     let case = Case::new(finding.scene());
-    let (switches, no_repair) = match repair(finding) {
-        Ok(both) => (both.to_vec(), None),
-        Err(reason) => (vec![Switch::as_printed()], Some(reason)),
-    };
-    let runs = switches.into_iter().map(|switch| execute(&case.scene, switch, &[]));
-    let runs = runs.collect::<Result<_>>()?;
+    let runs = study::chapter(finding).into_iter();
+    let runs = runs.map(|switch| execute(&case.scene, switch, &[])).collect::<Result<_>>()?;
     let measured = finding.measure(&case);
-    Ok(Chapter { runs, finding: Some(Shown { finding, measured, no_repair }), scene: case.scene })
+    Ok(Chapter { runs, finding: Some((finding, measured)), scene: case.scene })
 }

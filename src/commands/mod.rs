@@ -143,11 +143,7 @@ pub fn renamed(why: &clap::Error) -> Option<String> {
 /// The option that all commands share.
 #[derive(clap::Args)]
 pub struct ReadingArg {
-    /// Readings that differ from the default, such as R2=printed,R5=node_n.
-    /// R1 beside|inside, R2 odd|printed, R3 collect|per-node|nested, R4
-    /// guarded|left-to-right|eager, R5 node|node_n, R6 strain|stress (default: the scene's), R7
-    /// total|stepped (default: the variant's), R8 mm|m (unit of c_tol in a scene in mm).
-    #[arg(long, value_name = "LIST", default_value = "")]
+    #[arg(long, value_name = "LIST", default_value = "", help = Reading::help())]
     pub reading: Reading,
 }
 

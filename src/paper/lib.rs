@@ -2,7 +2,7 @@
 //!
 //! | module | what stands there |
 //! |---|---|
-//! | [`mirror`] | the two listings in Rust, in printed order, each line quoted above its own piece; their printed conditions, readings (R1 to R8), failures and worksheet |
+//! | [`mirror`] | the two listings in Rust, in printed order, each line quoted above its own piece; their printed conditions, failures and worksheet, and the table of readings (R1 to R10) |
 //! | [`listings`] | the listings as text, executed by the interpreter of Mathcad's notation |
 //! | [`edited`] | listings that a user edited, in place of the paper's |
 //! | [`door`] | the only conversion between the model, which counts from 0, and the paper's tables, which count from 1 |

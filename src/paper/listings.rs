@@ -1,6 +1,6 @@
 //! The paper's listings, executed as printed on the arrays of a scene.
 
-use crate::mirror::{LoopPlace, NodeTable, Pairs, Reading, RestraintIndex, Wedge, Worksheet};
+use crate::mirror::{Change, Pairs, Reading, Worksheet};
 use base::choices;
 use mathcad::array::{Column, Table};
 use mathcad::value::Array;
@@ -37,7 +37,7 @@ impl Which {
         }
     }
 
-    /// Returns the listing whose text begins like one of the paper's.
+    /// Returns the listing that a text, or an edit of a listing, begins with.
     pub fn of(text: &str) -> Option<Which> {
         let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty())?;
         Which::ALL.iter().copied().find(|w| header.trim_start().starts_with(w.name()))
@@ -47,9 +47,9 @@ impl Which {
     pub fn under(self, reading: &Reading) -> Listing {
         let listing =
             Listing::parse(self.name(), self.text()).expect("the text of record is sound");
-        edits(self, reading).into_iter().fold(listing, |listing, edit| {
-            let edit = Edit::parse(edit).expect("the edits of listings/readings are sound");
-            edit.apply(&listing).expect("the edits of listings/readings fit the text of record")
+        reading.changes().fold(listing, |listing, change| match change {
+            Change::Text(edit) if Which::of(edit) == Some(self) => edited(&listing, edit),
+            Change::Text(_) | Change::Settings(_) | Change::None => listing,
         })
     }
 
@@ -59,38 +59,17 @@ impl Which {
     }
 }
 
-/// Returns the edits that a reading makes to a listing's text. R4 is a setting of the worksheet.
-fn edits(which: Which, reading: &Reading) -> Vec<&'static str> {
-    let mut edits = Vec::new();
-    match which {
-        Which::CCnt => {
-            if reading.r5 == NodeTable::NodeN {
-                edits.push(include_str!("../../listings/readings/R5-node_n.edit"));
-            }
-            // This edit only reorders lines, so it follows the edit that rewrites two of them.
-            if reading.r1 == LoopPlace::Inside {
-                edits.push(include_str!("../../listings/readings/R1-inside.edit"));
-            }
-        }
-        Which::Km => {
-            if reading.r2 == RestraintIndex::Printed {
-                edits.push(include_str!("../../listings/readings/R2-printed.edit"));
-            }
-            match reading.r3 {
-                Wedge::Collect => {}
-                Wedge::PerNode => {
-                    edits.push(include_str!("../../listings/readings/R3-per-node.edit"))
-                }
-                Wedge::Nested => edits.push(include_str!("../../listings/readings/R3-nested.edit")),
-            }
-        }
-    }
-    edits
+/// Returns a listing with an edit of its text, one of `listings/readings/` or `listings/repairs/`.
+pub fn edited(listing: &Listing, edit: &str) -> Listing {
+    let edit = Edit::parse(edit).expect("the edits in listings are sound");
+    edit.apply(listing).expect("the edits in listings fit the text of record")
 }
 
-/// Returns the worksheet's settings under a reading: R4.
+/// Returns the worksheet's settings under a reading.
 pub fn settings(reading: &Reading) -> Settings {
-    Settings { conjunction: reading.r4, ..Settings::default() }
+    let mut settings = Settings::default();
+    reading.changes().for_each(|change| change.set(&mut settings));
+    settings
 }
 
 /// Executes `c_cnt` on the shape `node_n`.

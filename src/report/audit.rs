@@ -17,7 +17,7 @@ use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::Scene;
 use studies::audit::claims::Judged;
-use studies::audit::findings::{Finding, Measured, Verdict};
+use studies::audit::findings::{Finding, Measured, Repair, Verdict};
 use studies::audit::readings::Effect;
 use studies::audit::variants::{End, VariantRow};
 use studies::audit::{Assumption, Audit, Compared, Rubbing};
@@ -251,13 +251,20 @@ pub struct FindingRow {
     /// What the number is, with its unit.
     of: &'static str,
     detail: String,
+    /// What follows from it for a user of the listing.
+    why: &'static str,
+    /// What would repair it, in words.
+    repair: &'static str,
+    /// The repair as an edit of a listing, or why there is none.
+    edit: Repair,
 }
 
 impl FindingRow {
     pub fn new(finding: &Finding, measured: &Measured) -> Self {
-        let Finding { id, listing, lines, title, number: of, .. } = *finding;
+        let Finding { id, listing, lines, title, number: of, why, repair, edit, .. } = *finding;
         let Measured { verdict, number, ref detail } = *measured;
-        FindingRow { id, listing, lines, title, verdict, number, of, detail: detail.clone() }
+        let detail = detail.clone();
+        FindingRow { id, listing, lines, title, verdict, number, of, detail, why, repair, edit }
     }
 }
 
@@ -304,6 +311,21 @@ pub fn explanation(finding: &Finding, measured: &Measured, scene: &Scene) -> Rep
         .note(finding.why)
         .heading("A repair")
         .note(finding.repair)
+        .then(repair(&finding.edit))
+}
+
+/// Reports the repair as an edit of a listing, or why there is none.
+fn repair(edit: &Repair) -> Report {
+    match edit {
+        Repair::Edit { text } => {
+            let lines = text.lines().filter(|line| !line.starts_with('#'));
+            let lines: String = lines.map(|line| format!("{line}\n")).collect();
+            Report::default().heading("The repair as an edit of the listing").code(lines)
+        }
+        Repair::None { reason } => {
+            Report::default().heading("No edit of a listing repairs it").note(*reason)
+        }
+    }
 }
 
 /// Quotes the lines of a finding.

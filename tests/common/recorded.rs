@@ -2,8 +2,29 @@
 //! `golden/recorded/<name>.snap`: words are exact, floats toleranced, each by itself.
 #![allow(dead_code, reason = "some test programs record only one of the two kinds")]
 
+use plane_contact::numbers::solve::{Inputs, Solver};
+use plane_contact::paper::mirror::NodeTable;
+use plane_contact::problem::modelling::{Coupling, Geometry, StatusRule};
+
 use super::golden::assert_golden_by;
 use super::tolerances::{RECORDED, RECORDED_BOUND, RECORDED_FLOOR};
+
+// What recorded tests draw from: lists of their own, so that a new member of a closed set shifts no
+// draw. A new member gets recorded draws of its own.
+pub const RECORDED_NODE_TABLES: [NodeTable; 2] = [NodeTable::Node, NodeTable::NodeN];
+pub const RECORDED_COUPLINGS: [Coupling; 2] = [Coupling::Nts, Coupling::Mortar];
+pub const RECORDED_GEOMETRIES: [Geometry; 2] = [Geometry::Current, Geometry::Initial];
+pub const RECORDED_RULES: [StatusRule; 3] =
+    [StatusRule::Signs, StatusRule::Intersection, StatusRule::Projection];
+pub const RECORDED_INPUTS: [Inputs; 2] = [Inputs::Binary, Inputs::Decimal];
+pub const RECORDED_SOLVERS: [Solver; 6] = [
+    Solver::DenseLu,
+    Solver::SparseLu,
+    Solver::DenseCholesky,
+    Solver::SparseCholesky,
+    Solver::Cg,
+    Solver::Refined,
+];
 
 /// Compares `text` with `golden/recorded/<name>.snap`; `cargo insta review` (or INSTA_UPDATE=always)
 /// changes it. A float is a word with a point in it; behind `~` stands a bound, which may differ more.

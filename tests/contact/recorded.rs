@@ -12,16 +12,17 @@ use plane_contact::engine::estimates::arithmetic::rounding;
 use plane_contact::engine::estimates::singular;
 use plane_contact::engine::{Assessment, Detail, Published, Request, Session, Solution, solve};
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
-use plane_contact::paper::mirror::{NodeTable, Reading, Schedule};
-use plane_contact::problem::modelling::{
-    ContactModel, Coupling, Friction, Geometry, StatusRule, Variant,
-};
+use plane_contact::paper::mirror::{Reading, Schedule};
+use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Axis;
 use plane_contact::report::ResultFile;
 use serde_json::{Value, json};
 
 use crate::common::draws::one_of;
-use crate::common::recorded::assert_recorded;
+use crate::common::recorded::{
+    RECORDED_COUPLINGS, RECORDED_GEOMETRIES, RECORDED_INPUTS, RECORDED_NODE_TABLES, RECORDED_RULES,
+    RECORDED_SOLVERS, assert_recorded,
+};
 use crate::corners::{Bodies, Writing, grid};
 use crate::drawn::{Kind, draw};
 
@@ -99,11 +100,11 @@ pub fn regular(rng: &mut Rng) -> Bodies {
 
 fn model(rng: &mut Rng) -> ContactModel {
     ContactModel {
-        coupling: one_of(rng, Coupling::ALL),
+        coupling: one_of(rng, &RECORDED_COUPLINGS),
         friction: Friction::new(one_of(rng, &[0.0, 0.1, 0.3, 1.0, f64::INFINITY])).unwrap(),
-        geometry: one_of(rng, Geometry::ALL),
+        geometry: one_of(rng, &RECORDED_GEOMETRIES),
         load_steps: one_of(rng, &[1, 3, 4]),
-        status: one_of(rng, StatusRule::ALL),
+        status: one_of(rng, &RECORDED_RULES),
     }
 }
 
@@ -112,7 +113,7 @@ fn reading(rng: &mut Rng) -> Reading {
         return Reading::default();
     }
     Reading {
-        r5: one_of(rng, NodeTable::ALL),
+        r5: one_of(rng, &RECORDED_NODE_TABLES),
         r7: one_of(rng, &[None, Some(Schedule::Total), Some(Schedule::Stepped)]),
         ..Reading::default()
     }
@@ -125,10 +126,10 @@ fn arithmetic(rng: &mut Rng, variant: Variant) -> Arithmetic {
         Variant::Unilateral => F64,
         _ => one_of(rng, &[F64, F64, F64, F64x2, Bounded, BoundedDouble, Exact]),
     };
-    let asked = Some(one_of(rng, Solver::ALL)).filter(|_| rng.bool());
+    let asked = Some(one_of(rng, &RECORDED_SOLVERS)).filter(|_| rng.bool());
     let of = |solver| Arithmetic { scalar, solver, inputs: Inputs::default(), tol: None };
     let is_offered = variant != Variant::Unilateral && of(asked).check().is_ok();
-    Arithmetic { inputs: one_of(rng, Inputs::ALL), ..of(asked.filter(|_| is_offered)) }
+    Arithmetic { inputs: one_of(rng, &RECORDED_INPUTS), ..of(asked.filter(|_| is_offered)) }
 }
 
 /// Draws a request of a scene, and what it asks for in words.

@@ -16,7 +16,7 @@ use plane_contact::problem::scene::{Axis, SceneBuilder};
 use serde_json::json;
 
 use crate::common::draws::one_of;
-use crate::common::recorded::assert_recorded;
+use crate::common::recorded::{RECORDED_COUPLINGS, RECORDED_GEOMETRIES, assert_recorded};
 use crate::corners::{Bodies, Writing, grid};
 use crate::drawn::{KINDS, draw};
 use crate::recorded::{folded, regular};
@@ -107,9 +107,9 @@ fn of(solution: &Solution, watched: usize) -> String {
 
 fn model(rng: &mut Rng, friction: &[f64]) -> ContactModel {
     ContactModel {
-        coupling: one_of(rng, Coupling::ALL),
+        coupling: one_of(rng, &RECORDED_COUPLINGS),
         friction: Friction::new(one_of(rng, friction)).unwrap(),
-        geometry: one_of(rng, Geometry::ALL),
+        geometry: one_of(rng, &RECORDED_GEOMETRIES),
         load_steps: one_of(rng, &[1, 2, 3]),
         ..ContactModel::default()
     }

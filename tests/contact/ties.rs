@@ -9,12 +9,12 @@ use plane_contact::engine::estimates::arithmetic::bounded;
 use plane_contact::engine::estimates::ties::{Looking, State};
 use plane_contact::engine::{Choice, Detail, Solution, Step, Unilateral};
 use plane_contact::numbers::scalar::{Bounded, Scalar};
-use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
+use plane_contact::problem::modelling::{ContactModel, Friction};
 use plane_contact::problem::scene::Axis;
 use serde_json::{Value, json};
 
 use crate::common::draws::one_of;
-use crate::common::recorded::assert_recorded;
+use crate::common::recorded::{RECORDED_COUPLINGS, RECORDED_GEOMETRIES, assert_recorded};
 use crate::corners::{Bodies, Writing, blocks, roof};
 use crate::drawn::{KINDS, draw};
 use crate::recorded::{folded, regular};
@@ -34,9 +34,9 @@ fn own(step: &mut Step) -> &mut Unilateral {
 
 fn model(rng: &mut Rng) -> ContactModel {
     ContactModel {
-        coupling: one_of(rng, Coupling::ALL),
+        coupling: one_of(rng, &RECORDED_COUPLINGS),
         friction: Friction::new(one_of(rng, &[0.0, 0.2, 1.0, f64::INFINITY])).unwrap(),
-        geometry: one_of(rng, Geometry::ALL),
+        geometry: one_of(rng, &RECORDED_GEOMETRIES),
         load_steps: one_of(rng, &[1, 3]),
         ..ContactModel::default()
     }

@@ -19,7 +19,7 @@ use plane_contact::numbers::scalar::{Bounded, Scalar, compared};
 use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{
-    Cause, Failure, Km, LoopPlace, NodeTable, Pairs, Reading, RestraintIndex, Wedge, Worksheet,
+    Ambiguity, Cause, Change, Failure, Km, LoopPlace, Pairs, READINGS, Reading, Wedge, Worksheet,
     c_cnt,
 };
 use plane_contact::problem::element;
@@ -136,17 +136,19 @@ prop_compose! {
     }
 }
 
-prop_compose! {
-    /// Every combination of the readings that concern the listings.
-    pub fn reading()(
-        r1 in select(LoopPlace::ALL),
-        r2 in select(RestraintIndex::ALL),
-        r3 in select(Wedge::ALL),
-        r4 in select(Conjunction::ALL),
-        r5 in select(NodeTable::ALL),
-    ) -> Reading {
-        Reading { r1, r2, r3, r4, r5, ..Reading::default() }
-    }
+/// Every combination of the readings that change the listings' text or the worksheet's settings.
+pub fn reading() -> impl Strategy<Value = Reading> {
+    let is_of_listings = |row: &&Ambiguity| {
+        row.is_option() && row.values.iter().any(|value| !matches!(value.change, Change::None))
+    };
+    let rows: Vec<&Ambiguity> = READINGS.iter().filter(is_of_listings).collect();
+    prop::collection::vec(any::<Index>(), rows.len()).prop_map(move |drawn| {
+        let mut reading = Reading::default();
+        for (row, index) in rows.iter().zip(drawn) {
+            row.set(&mut reading, &row.values[index.index(row.values.len())]);
+        }
+        reading
+    })
 }
 
 /// Target polyline, contact nodes, then the arrays of the worksheet and the current shape.

@@ -6,6 +6,7 @@ mod common {
     pub mod draws;
     pub mod embedded;
     pub mod golden;
+    pub mod golden_file;
     pub mod golden_floats;
     pub mod json;
     pub mod outcome;
@@ -25,4 +26,5 @@ mod golden;
 mod listing_quotes;
 mod mathcad;
 mod octave;
+mod reading_page;
 mod variants;

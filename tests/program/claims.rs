@@ -89,7 +89,8 @@ fn a_scope_is_what_was_tried() {
     }
     for judged in judge(CLAIMS, &open("fig1"), &Range::new()) {
         assert!(judged.elsewhere.is_empty() && judged.scope != Scope::Range);
-        let known = judged.measured.number.is_some() || judged.measured.verdict == Verdict::Unknown;
+        let known =
+            judged.measured.number.is_some() || judged.measured.verdict == Verdict::NotCheckable;
         assert!(known, "{}", judged.claim.id);
     }
 }

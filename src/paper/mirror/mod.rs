@@ -29,5 +29,8 @@ pub use conditions::{
 };
 pub use failure::{Cause, Failure};
 pub use km::Km;
-pub use reading::{LoopPlace, NodeTable, Reading, RestraintIndex, Schedule, ToleranceUnit, Wedge};
+pub use reading::{
+    Ambiguity, Change, DefaultFrom, LoopPlace, NodeTable, READINGS, Reading, RestraintIndex,
+    Schedule, ToleranceUnit, Trial, Value, Wedge,
+};
 pub use worksheet::Worksheet;

@@ -23,16 +23,8 @@ use studies::lesson::{Program, Run, figure_numbers};
 pub struct Chapter {
     pub scene: Scene,
     pub runs: Vec<Run>,
-    /// What the scene is there to show.
-    pub finding: Option<Shown>,
-}
-
-/// A finding, with what was measured on its scene.
-pub struct Shown {
-    pub finding: &'static Finding,
-    pub measured: Measured,
-    /// Why none of the runs has its repair; nothing where the second one has.
-    pub no_repair: Option<&'static str>,
+    /// What the scene is there to show, and what was measured on it.
+    pub finding: Option<(&'static Finding, Measured)>,
 }
 
 /// Returns the page of a lesson; its first chapter is what it opens with.
@@ -102,11 +94,7 @@ impl Shared {
             "units": chapter.scene.units,
             "mesh": mesh(&chapter.runs[0].model),
             "runs": runs,
-            "finding": chapter.finding.as_ref().map(|Shown { finding, measured, no_repair }| {
-                let Finding { why, repair, .. } = finding;
-                let own = json!({ "why": why, "repair": repair, "no_repair": no_repair });
-                [json!(FindingRow::new(finding, measured)), own]
-            }),
+            "finding": chapter.finding.as_ref().map(|(finding, measured)| FindingRow::new(finding, measured)),
         })
     }
 

@@ -1,4 +1,4 @@
-//! The ambiguities of the print, one by one: what the other reading changes on a scene.
+//! The ambiguities of the print, one by one: what each other value of a reading changes on a scene.
 
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -11,15 +11,16 @@ use mathcad::array::Table;
 use mathcad::{Failure, Settings};
 use paper::door::{self, Call};
 use paper::listings::{self, Which};
-use paper::mirror::{Km, Pairs, Reading};
-use problem::element::{self, Plane};
+use paper::mirror::{Ambiguity, Change, Km, Pairs, READINGS, Reading, Trial, Value};
+use problem::element;
 use problem::modelling::Variant;
 
+/// What another value of a reading changes on a scene.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Effect {
     /// The ambiguity's name, `R1` to `R10`.
     pub id: &'static str,
-    /// What differs from the default: `R1 = inside`, or a setting of the worksheet.
+    /// The value that differs from the default, such as `R1 = inside`.
     pub reading: String,
     pub lines: &'static str,
     /// Contact nodes whose dy changes at the initial shape; nothing where that was not computed.
@@ -35,92 +36,19 @@ pub struct Effect {
     pub failure: Option<String>,
 }
 
-enum Trial {
-    /// The mirror under the reading, solved under a variant.
-    Mirror(Variant),
-    /// Another order of evaluation of `∧`.
-    Conjunction,
-    /// The other load schedule: for `tied` and `stepped` that is the other of the two.
-    Schedule(Variant),
-    Worksheet(fn(&mut Settings)),
-    StrainFormula,
-}
-
 /// Nothing where a trial runs through, else what stopped it.
 type Outcome<'a> = Result<(), Box<dyn std::error::Error + 'a>>;
 
-/// An alternative of R9: the lines that it concerns, its name, and what it sets.
-pub type Alternative = (&'static str, &'static str, fn(&mut Settings));
-
-/// What a worksheet, or Mathcad itself, may do otherwise around the listings.
-pub const WORKSHEETS: [Alternative; 6] = [
-    ("both", "ORIGIN = 0", |s| s.origin = 0),
-    ("c_cnt 10, 22, 23", "0/0 = 0", |s| s.zero_over_zero_is_zero = true),
-    ("both", "comparisons to 1e-12", |s| s.exact_boolean = false),
-    ("both", "below 1e-307 is 0", |s| s.tiny_is_zero = true),
-    ("both", "1 .. 0 is empty", |s| s.descending_is_empty = true),
-    ("both", "a failed last if is 0", |s| s.last_if_is_zero = true),
-];
-
-/// Every other reading on a scene, in the order of `listings/READING.md`, section 4.
+/// Tries every other value of every reading on a scene, in the order of [`READINGS`].
 pub fn effects(case: &Case) -> Vec<Effect> {
-    use Trial::{Conjunction, Mirror, StrainFormula, Worksheet};
     let own = case.published_variant();
-    let plane = match case.model().plane {
-        Plane::Strain => "R6 = stress",
-        Plane::Stress => "R6 = strain",
-    };
-    let (schedule, load) = match own {
-        Variant::Stepped => ("R7 = total", Trial::Schedule(Variant::Tied)),
-        Variant::Tied => ("R7 = stepped", Trial::Schedule(Variant::Stepped)),
-        Variant::Printed | Variant::Unilateral => ("R7 = stepped", Mirror(own)),
-    };
-    let mut trials: Vec<(&str, &str, &str, Trial)> = vec![
-        ("R1", "c_cnt 14", "R1 = inside", Mirror(own)),
-        ("R2", "Km 7", "R2 = printed", Mirror(Variant::Printed)),
-        ("R3", "Km 16-33", "R3 = per-node", Mirror(Variant::Printed)),
-        ("R3", "Km 16-33", "R3 = nested", Mirror(Variant::Printed)),
-        ("R4", "c_cnt 17, 18", "R4 = left-to-right", Conjunction),
-        ("R4", "c_cnt 17, 18", "R4 = eager", Conjunction),
-        ("R5", "c_cnt 22, 23", "R5 = node_n", Mirror(own)),
-        ("R6", "Km 9", plane, Mirror(own)),
-        ("R7", "-", schedule, load),
-        ("R8", "c_cnt 5-7, 16", "R8 = m", Mirror(own)),
-    ];
-    trials.extend(
-        WORKSHEETS.map(|(lines, reading, change)| ("R9", lines, reading, Worksheet(change))),
-    );
-    trials.push(("R10", "-", "stress formula / (1 + nu)", StrainFormula));
+    let (plane, schedule) = (case.model().plane, case.request(own).schedule());
+    let others: Vec<(&Ambiguity, &Value)> = READINGS
+        .iter()
+        .flat_map(|row| row.others(plane, schedule).map(move |value| (row, value)))
+        .collect();
     let blank = executed(case, &Settings::default());
-    let effect =
-        |(id, lines, reading, trial): (&'static str, &'static str, &'static str, Trial)| {
-            let of = match trial {
-                Mirror(variant) => format!("displacement under {variant}"),
-                Conjunction | Trial::Schedule(_) => format!("displacement under {own}"),
-                Worksheet(_) => "listings executed once".into(),
-                StrainFormula => format!("von Mises strain under {own}"),
-            };
-            let mut effect = Effect {
-                id,
-                reading: reading.into(),
-                lines,
-                statuses: None,
-                entries: None,
-                displacement: None,
-                of,
-                failure: None,
-            };
-            let outcome = match trial {
-                Mirror(variant) => effect.mirror(case, variant),
-                Conjunction => effect.conjunction(case, own),
-                Trial::Schedule(other) => effect.schedule(case, own, other),
-                Worksheet(change) => effect.worksheet(case, &blank, change),
-                StrainFormula => effect.strain_formula(case, own),
-            };
-            effect.failure = outcome.err().map(|why| why.to_string());
-            effect
-        };
-    trials.into_par_iter().map(effect).collect()
+    others.into_par_iter().map(|(row, value)| Effect::new(row, value, case, own, &blank)).collect()
 }
 
 /// What `c_cnt` and `Km` compute at the initial shape.
@@ -152,44 +80,69 @@ fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
 }
 
 impl Effect {
-    fn parsed(&self) -> Reading {
-        self.reading.parse().expect("the readings of this table are sound")
+    fn new(
+        row: &Ambiguity,
+        value: &Value,
+        case: &Case,
+        own: Variant,
+        blank: &Result<Initial, Box<Failure>>,
+    ) -> Self {
+        let mut effect = Effect {
+            id: row.id,
+            reading: row.label(value),
+            lines: row.lines,
+            statuses: None,
+            entries: None,
+            displacement: None,
+            of: match row.trial {
+                Trial::OwnVariant | Trial::EveryShape => format!("displacement under {own}"),
+                Trial::Printed => format!("displacement under {}", Variant::Printed),
+                Trial::Worksheet => "listings executed once".into(),
+                Trial::Strains => format!("von Mises strain under {own}"),
+            },
+            failure: None,
+        };
+        let reading = row.reading(value);
+        let outcome = match row.trial {
+            Trial::OwnVariant => effect.mirror(case, &reading, own),
+            Trial::Printed => effect.mirror(case, &reading, Variant::Printed),
+            Trial::EveryShape => effect.every_shape(case, &reading, own),
+            Trial::Worksheet => effect.worksheet(case, blank, value.change),
+            Trial::Strains => effect.strains(case, own),
+        };
+        effect.failure = outcome.err().map(|why| why.to_string());
+        effect
     }
 
     /// The mirror under the reading, beside the mirror under the default one.
-    fn mirror<'a>(&mut self, case: &'a Case, variant: Variant) -> Outcome<'a> {
-        let reading = self.parsed();
-        self.compare(&initial(case, &Reading::default())?, &initial(case, &reading)?);
-        let other = solve(&case.request(variant).reading(reading), &mut |_| ())?;
+    fn mirror<'a>(&mut self, case: &'a Case, reading: &Reading, variant: Variant) -> Outcome<'a> {
+        self.compare(&initial(case, &Reading::default())?, &initial(case, reading)?);
+        let other = solve(&case.request(variant).reading(*reading), &mut |_| ())?;
         let own = case.run(variant).map_err(|why| format!("under the default reading: {why}"))?;
         self.displacement = Some(largest_difference(own, &other));
         Ok(())
     }
 
-    /// The shapes of a variant once more under another order of evaluation: it can only make
-    /// `c_cnt` fail, or leave everything as it is.
-    fn conjunction<'a>(&mut self, case: &'a Case, variant: Variant) -> Outcome<'a> {
+    /// The shapes of a variant once more under the reading, which can only make `c_cnt` fail, or
+    /// leave everything as it is.
+    fn every_shape<'a>(
+        &mut self,
+        case: &'a Case,
+        reading: &Reading,
+        variant: Variant,
+    ) -> Outcome<'a> {
         let solution = case.run(variant)?;
         for step in &solution.steps {
-            let call = Call::c_cnt(&solution.model, &self.parsed(), &step.shape)
+            let call = Call::c_cnt(&solution.model, reading, &step.shape)
                 .map_err(|why| format!("iteration {}: {why}", step.k))?;
             if case.scene.contact.status.is_printed() {
                 let Detail::Published(own) = &step.detail else {
                     unreachable!("a published variant")
                 };
-                assert_eq!(
-                    call.pairs,
-                    own.pairs.whole(),
-                    "the order of evaluation changes no value"
-                );
+                assert_eq!(call.pairs, own.pairs.whole(), "{} changes no value", self.reading);
             }
         }
         (self.statuses, self.entries, self.displacement) = (Some(0), Some(0), Some(0.0));
-        Ok(())
-    }
-
-    fn schedule<'a>(&mut self, case: &'a Case, own: Variant, other: Variant) -> Outcome<'a> {
-        self.displacement = Some(largest_difference(case.run(own)?, case.run(other)?));
         Ok(())
     }
 
@@ -198,10 +151,10 @@ impl Effect {
         &mut self,
         case: &'a Case,
         blank: &Result<Initial, Box<Failure>>,
-        change: fn(&mut Settings),
+        change: Change,
     ) -> Outcome<'a> {
         let mut settings = Settings::default();
-        change(&mut settings);
+        change.set(&mut settings);
         let changed = executed(case, &settings)?;
         let blank = blank.as_ref();
         let blank =
@@ -212,7 +165,7 @@ impl Effect {
 
     /// R10: the von Mises strain by the formula of the von Mises stress on strains, divided by
     /// 1 + nu, beside the default: the largest difference of a triangle.
-    fn strain_formula<'a>(&mut self, case: &'a Case, variant: Variant) -> Outcome<'a> {
+    fn strains<'a>(&mut self, case: &'a Case, variant: Variant) -> Outcome<'a> {
         let solution = case.run(variant)?;
         let model = &*solution.model;
         let other = solution.elements.iter().zip(&model.triangles).map(|(state, triangle)| {

@@ -2,7 +2,6 @@
 //! lesson offers.
 
 pub mod exercise;
-mod repairs;
 mod switches;
 
 use std::collections::BTreeSet;
@@ -19,8 +18,7 @@ use paper::mirror::Reading;
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 
-pub use repairs::repair;
-pub use switches::{Switch, switches};
+pub use switches::{Switch, chapter, switches};
 
 /// The statements that a page holds at most, both listings together.
 const MOST_SHOWN: usize = 20_000;

@@ -1,11 +1,12 @@
-//! What a lesson can switch: readings, the worksheet's settings, the tolerance, an edited listing.
+//! What a lesson can switch: readings, the tolerance, an edited listing, a finding's repair.
 
 use std::sync::Arc;
 
 use super::{Listing, Model, Reading, Request, Scene, Settings, Which, settings};
-use crate::audit::readings::WORKSHEETS;
+use crate::audit::findings::{Before, Finding, Repair};
 use engine::error::Result;
-use problem::element::Plane;
+use paper::listings;
+use paper::mirror::{Change, READINGS};
 use problem::modelling::Variant;
 
 /// A change of one thing against the listings as printed under the default reading.
@@ -15,79 +16,91 @@ pub struct Switch {
     pub name: String,
     /// What it does, in words.
     pub about: String,
-    pub(super) reading: Reading,
-    pub(super) worksheet: fn(&mut Settings),
+    reading: Reading,
+    /// What is changed of the worksheet beside the reading.
+    worksheet: Change,
     /// The tolerance over the scene's.
-    pub(super) factor: f64,
+    factor: f64,
     /// What is changed of the scene's model.
-    pub(super) change: fn(&mut Model),
+    model: fn(&mut Model),
     /// The listing in place of one of the paper's.
-    pub(super) edited: Option<(Which, Listing)>,
+    edited: Option<(Which, Listing)>,
 }
-
-/// The values of R1 to R8 that are not the default and that a call of the listings depends on; R6
-/// depends on the scene.
-const READINGS: [(&str, &str); 8] = [
-    ("R1=inside", "c_cnt 14: the weights loop stands inside the zeroing loop"),
-    ("R2=printed", "Km 7: the restraint is read under the index of line 8"),
-    ("R3=per-node", "Km 16-33: each linked node adds with its own weight"),
-    ("R3=nested", "Km 16-33: as per-node, and the second pair within the first"),
-    ("R4=left-to-right", "c_cnt 17, 18: the operands of ∧ up to the first false one"),
-    ("R4=eager", "c_cnt 17, 18: all operands of ∧, and a failure stands"),
-    (
-        "R5=node_n",
-        "c_cnt 22, 23: weights from current coordinates; this is the first call, \
-                   where they are the initial ones",
-    ),
-    ("R8=m", "c_cnt 5-7, 16: c_tll in metres, where the scene is in mm"),
-];
 
 /// Tolerances over the scene's own.
 const TOLERANCES: [(f64, &str); 3] =
     [(0.1, "c_tll / 10"), (2.0, "c_tll · 2"), (10.0, "c_tll · 10")];
 
-/// Returns the switches that a lesson offers on a scene, first the one that changes nothing.
+/// Returns the switches that a lesson offers on a scene, first the one that changes nothing: of the
+/// readings those that concern a printed line, which a call of the listings can show.
 pub fn switches(scene: &Scene) -> Vec<Switch> {
-    let plane = match scene.model.plane {
-        Plane::Strain => "R6=stress",
-        Plane::Stress => "R6=strain",
+    let (plane, schedule) = (scene.model.plane, Request::new(scene).schedule());
+    let readings = READINGS.iter().filter(|row| row.lines != "-").flat_map(|row| {
+        row.others(plane, schedule).map(move |value| Switch {
+            name: row.label(value),
+            about: format!("{}: {}", row.lines, value.words),
+            reading: row.reading(value),
+            worksheet: if row.is_option() { Change::None } else { value.change },
+            ..Switch::as_printed()
+        })
+    });
+    let tolerances = TOLERANCES.map(|(factor, name)| Switch {
+        name: name.into(),
+        about: "c_cnt 5-7, 16: tolerance".into(),
+        factor,
+        ..Switch::as_printed()
+    });
+    std::iter::once(Switch::as_printed()).chain(readings).chain(tolerances).collect()
+}
+
+/// Returns what a finding's chapter runs: the listings as printed, where the finding shows, and
+/// with its repair if that is an edit of a listing.
+pub fn chapter(finding: &Finding) -> Vec<Switch> {
+    let printed = Switch::as_printed();
+    let about = |what: &str| format!("{}, {what}", printed.about);
+    let before = match finding.before {
+        Before::AsPrinted => printed,
+        Before::Reading(words, reading) => Switch {
+            about: about(words),
+            reading: reading.parse().expect("a reading of the register"),
+            ..printed
+        },
+        Before::Model(words, model) => Switch { about: about(words), model, ..printed },
     };
-    let plane = (plane, "Km 9: D of the other plane problem");
-    let readings = READINGS.into_iter().chain([plane]).map(|(reading, about)| Switch {
-        reading: reading.parse().expect("the readings of this table are sound"),
-        ..Switch::named(reading.replace('=', " = "), about)
-    });
-    let worksheets = WORKSHEETS.map(|(lines, name, worksheet)| Switch {
-        worksheet,
-        ..Switch::named(format!("R9: {name}"), lines)
-    });
-    let tolerances = TOLERANCES
-        .map(|(factor, name)| Switch { factor, ..Switch::named(name, "c_cnt 5-7, 16: tolerance") });
-    let all = std::iter::once(Switch::as_printed()).chain(readings);
-    all.chain(worksheets).chain(tolerances).collect()
+    match finding.edit {
+        Repair::None { .. } => vec![before],
+        Repair::Edit { text } => {
+            let which = Which::of(text).expect("an edit names its listing");
+            let listing = listings::edited(&which.under(&Reading::default()), text);
+            let after = Switch {
+                name: "repaired".into(),
+                about: format!("{}: {}", which.name(), finding.repair),
+                edited: Some((which, listing)),
+                ..before.clone()
+            };
+            vec![before, after]
+        }
+    }
 }
 
 impl Switch {
-    fn named(name: impl Into<String>, about: impl Into<String>) -> Self {
+    /// Returns the switch that changes nothing.
+    pub fn as_printed() -> Self {
         Switch {
-            name: name.into(),
-            about: about.into(),
+            name: "as printed".into(),
+            about: "the listings as printed, under the default of every reading".into(),
             reading: Reading::default(),
-            worksheet: |_| (),
+            worksheet: Change::None,
             factor: 1.0,
-            change: |_| (),
+            model: |_| (),
             edited: None,
         }
     }
 
-    /// Returns the switch that changes nothing.
-    pub fn as_printed() -> Self {
-        Switch::named("as printed", "the listings as printed, under the default of every reading")
-    }
-
     /// Returns the switch that has another listing in place of the printed one.
     pub fn edited(name: &str, about: String, which: Which, listing: Listing) -> Self {
-        Switch { edited: Some((which, listing)), ..Switch::named(name, about) }
+        let edited = Some((which, listing));
+        Switch { name: name.into(), about, edited, ..Switch::as_printed() }
     }
 
     /// Returns the scene's model under the switch.
@@ -95,7 +108,7 @@ impl Switch {
         let mut request = Request::new(scene).variant(Variant::Printed).reading(self.reading);
         request.tolerance = Some(self.factor * scene.model.contact.tolerance);
         let mut model = Arc::unwrap_or_clone(request.model()?);
-        (self.change)(&mut model);
+        (self.model)(&mut model);
         Ok(Arc::new(model))
     }
 
@@ -107,8 +120,8 @@ impl Switch {
     }
 
     pub(super) fn settings(&self) -> Settings {
-        let mut own = settings(&self.reading);
-        (self.worksheet)(&mut own);
-        own
+        let mut settings = settings(&self.reading);
+        self.worksheet.set(&mut settings);
+        settings
     }
 }

@@ -55,7 +55,7 @@ function showFinding(chapter) {
   const place = byId("finding");
   place.hidden = !chapter.finding;
   if (!chapter.finding) return;
-  const [row, { why, repair, no_repair: noRepair }] = chapter.finding;
+  const row = chapter.finding;
   const lines = row.lines.length ? `${row.listing} ${row.lines.join(", ")}` : "around the listings";
   const part = (term, text) => [make("dt", {}, term), make("dd", {}, text)];
   place.replaceChildren(
@@ -64,9 +64,9 @@ function showFinding(chapter) {
       "dl",
       {},
       ...part("On this scene", `${row.verdict}: ${short(row.number)} ${row.of}. ${row.detail}`),
-      ...part("Why it matters", why),
-      ...part("A repair", repair),
-      ...part("Before and after", noRepair ?? `before: ${chapter.runs[0].about}; after: choose the reading “repaired”, the listing with the repair, and see what it changes`),
+      ...part("Why it matters", row.why),
+      ...part("A repair", row.repair),
+      ...part("Before and after", row.edit.none?.reason ?? `before: ${chapter.runs[0].about}; after: choose the reading “repaired”, the listing with the repair, and see what it changes`),
     ),
   );
 }

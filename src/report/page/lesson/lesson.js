@@ -116,7 +116,7 @@ function openChapter(chapter) {
   showFinding(data.scenes[chapter]);
   const { contact } = data.scenes[chapter].mesh;
   byId("pictures").classList.toggle("alone", contact.length === 0);
-  const inKm = contact.length === 0 || data.scenes[chapter].finding?.[0].listing === "Km";
+  const inKm = contact.length === 0 || data.scenes[chapter].finding?.listing === "Km";
   const which = inKm ? "Km" : "c_cnt";
   for (const radio of document.getElementsByName("which")) {
     radio.checked = radio.value === which;
@@ -127,7 +127,7 @@ function openChapter(chapter) {
 
 byId("title").textContent = document.title;
 byId("chapter").replaceChildren(
-  ...data.scenes.map(({ name, finding }, k) => make("option", { value: k }, finding ? `${finding[0].id}: ${finding[0].title}`.slice(0, 70) : `scene ${name}`)),
+  ...data.scenes.map(({ name, finding }, k) => make("option", { value: k }, finding ? `${finding.id}: ${finding.title}`.slice(0, 70) : `scene ${name}`)),
 );
 byId("colophon").textContent =
   `plane-contact ${data.version}; scene ${data.scenes[0].name}, SHA-256 ${data.scene_sha256}, mesh ${data.mesh_sha256}.`;

@@ -2,7 +2,6 @@
 
 use super::{Measured, Outcome, Verdict};
 use crate::audit::Case;
-use crate::audit::findings::{self, FINDINGS};
 use crate::audit::statuses::{self, Score};
 use engine::distance;
 use engine::estimates::Certainty;
@@ -19,47 +18,8 @@ fn measured(verdict: Verdict, number: f64, detail: impl Into<String>) -> Outcome
     Ok(Measured { verdict, number: Some(number), detail: detail.into() })
 }
 
-fn holds_if(holds: bool) -> Verdict {
-    if holds { Verdict::Holds } else { Verdict::Fails }
-}
-
-/// A finding on its own scene: where it holds, the paper's claim has the given verdict.
-fn by_finding(id: &str, verdict: Verdict) -> Outcome<'static> {
-    let finding = FINDINGS.iter().find(|finding| finding.id == id).expect("an id of the register");
-    let found = finding.measure(&Case::new(finding.scene()));
-    let verdict =
-        if found.verdict == findings::Verdict::Holds { verdict } else { Verdict::Unknown };
-    measured(verdict, found.number, finding.title)
-}
-
-pub(super) fn nothing_joins(_: &Case) -> Outcome<'_> {
-    by_finding("K1", Verdict::Fails)
-}
-
-pub(super) fn nothing_releases(_: &Case) -> Outcome<'_> {
-    by_finding("K9", Verdict::Condition)
-}
-
-pub(super) fn weights_of_the_initial_shape(_: &Case) -> Outcome<'_> {
-    by_finding("C6", Verdict::Fails)
-}
-
-pub(super) fn deep_node_is_lost(_: &Case) -> Outcome<'_> {
-    by_finding("C9", Verdict::Holds)
-}
-
-pub(super) fn no_fixed_distance(_: &Case) -> Outcome<'_> {
-    by_finding("C15", Verdict::Fails)
-}
-
-pub(super) fn one_pair_a_target_node(_: &Case) -> Outcome<'_> {
-    by_finding("C7", Verdict::Fails)
-}
-
-pub(super) fn nothing_at_hand(_: &Case) -> Outcome<'_> {
-    let detail =
-        "neither the code, its version's contact settings, the mesh nor the radii are given";
-    Ok(Measured { verdict: Verdict::Unknown, number: None, detail: detail.into() })
+fn true_if(is_true: bool) -> Verdict {
+    if is_true { Verdict::True } else { Verdict::False }
 }
 
 /// Whether eq. (1) ties what friction would: the largest coefficient that a node in contact needs.
@@ -67,7 +27,7 @@ pub(super) fn friction_needed(case: &Case) -> Outcome<'_> {
     let solution = case.run(Variant::Unilateral)?;
     let needed = solution.contact.iter().filter_map(|node| node.friction_needed);
     let needed = needed.reduce(f64::max).ok_or("no node is in contact")?;
-    measured(Verdict::Condition, needed, "the coefficient of friction is at least this")
+    measured(Verdict::TrueOnlyIf, needed, "the coefficient of friction is at least the value")
 }
 
 /// The share of statuses that the sign rule gets wrong where the stamp jumped to twice c_tll.
@@ -76,7 +36,7 @@ pub(super) fn signs_go_wrong(_: &Case) -> Outcome<'_> {
     let row = measurement.by_depth.iter().find(|row| row.depth == 2.0).ok_or("no such depth")?;
     let missed = row.rules[0].missed as f64 / row.touching as f64;
     let detail = "target below the stamp, jumped to twice c_tll";
-    measured(holds_if(missed < NOTICEABLE), missed, detail)
+    measured(true_if(missed < NOTICEABLE), missed, detail)
 }
 
 /// Operations of the intersection over those of the sign rule.
@@ -86,7 +46,7 @@ pub(super) fn fewer_operations(_: &Case) -> Outcome<'_> {
         let of = |score: &Score| score.operations as f64;
         measurement.by_size.last().map_or(0.0, |row| of(&row.rules[rule]))
     });
-    measured(holds_if(signs < intersection), intersection / signs, "on the largest surfaces tried")
+    measured(true_if(signs < intersection), intersection / signs, "on the largest surfaces tried")
 }
 
 /// The largest difference of a node's displacement between c_tll and a thousandth of it, over the largest
@@ -100,7 +60,7 @@ pub(super) fn tolerance(case: &Case) -> Outcome<'_> {
     let change = distance(least, own).displacement_relative;
     let numbers = numbers(&[*of_own, *of_least]);
     let detail = format!("{variant}, from {tolerance:e} to {:e}{numbers}", tolerance / 1000.0);
-    measured(holds_if(change < NOTICEABLE), change, detail)
+    measured(true_if(change < NOTICEABLE), change, detail)
 }
 
 /// Says in which numbers runs were made where rounding counts.
@@ -124,7 +84,7 @@ pub(super) fn settles(case: &Case) -> Outcome<'_> {
         _ => "the contact state repeats in a cycle",
     };
     let detail = format!("{state}{}", numbers(&[*certainty]));
-    measured(holds_if(length == 1), length as f64, detail)
+    measured(true_if(length == 1), length as f64, detail)
 }
 
 /// The smallest distance in the energy norm of the paper's variants from the equilibrium under the
@@ -145,5 +105,5 @@ pub(super) fn error_of_the_reading(case: &Case) -> Outcome<'_> {
             (least, nearest) = (error, format!("{variant} is the nearest variant{numbers}"));
         }
     }
-    measured(holds_if(least < NOTICEABLE), least, nearest)
+    measured(true_if(least < NOTICEABLE), least, nearest)
 }

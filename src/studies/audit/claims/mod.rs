@@ -17,6 +17,7 @@ use serde::Serialize;
 pub use register::CLAIMS;
 
 use super::Case;
+use super::findings::{self, FINDINGS};
 use super::range::{Place, Range};
 use base::choices;
 
@@ -41,7 +42,21 @@ pub struct Claim {
     /// Where it stands there: a JSON pointer, or two of which it is the quotient.
     pub at: &'static [&'static str],
     #[serde(skip)]
-    measure: fn(&Case) -> Outcome<'_>,
+    measure: Measure,
+}
+
+/// How a claim is judged.
+#[derive(Clone, Copy, Debug)]
+enum Measure {
+    /// By a finding, on the finding's scene: if it is present, the claim is false.
+    Refuted(&'static str),
+    /// By a finding, on the finding's scene: if it is present, the claim has this verdict, with
+    /// these words.
+    Finding(&'static str, Verdict, &'static str),
+    /// By an experiment on a scene.
+    Scene(fn(&Case) -> Outcome<'_>),
+    /// By nothing, for this reason.
+    Nothing(&'static str),
 }
 
 choices! {
@@ -53,18 +68,19 @@ choices! {
         Random = "measured on random scenes",
         /// Runs of a scene.
         Runs = "measured on runs",
-        /// Nothing that is at hand.
-        Nothing = "what is needed is not at hand",
+        /// Nothing: neither the paper nor a run can tell.
+        Nothing = "not enough information",
     }
 }
 
 choices! {
     /// Whether what the paper says is so.
     Verdict {
-        Holds = "holds",
-        Condition = "holds with a condition",
-        Fails = "does not hold",
-        Unknown = "cannot be checked",
+        True = "true",
+        /// Under a condition, which the detail says.
+        TrueOnlyIf = "true only if",
+        False = "false",
+        NotCheckable = "not checkable",
     }
 }
 
@@ -92,7 +108,18 @@ type Outcome<'a> = Result<Measured, Box<dyn std::error::Error + 'a>>;
 pub struct Measured {
     pub verdict: Verdict,
     pub number: Option<f64>,
+    /// The condition of the verdict `true only if`; else what is to be said beside the number.
     pub detail: String,
+}
+
+impl Measured {
+    /// Returns the verdict in words, with its condition.
+    pub fn words(&self) -> String {
+        match self.verdict {
+            Verdict::TrueOnlyIf => format!("{} {}", self.verdict, self.detail),
+            Verdict::True | Verdict::False | Verdict::NotCheckable => self.verdict.to_string(),
+        }
+    }
 }
 
 /// A claim with its verdict on a scene and over the range.
@@ -125,10 +152,16 @@ pub fn judge(claims: &[Claim], case: &Case, places: &Range) -> Vec<Judged> {
 impl Claim {
     /// Measures the claim on a scene. Where a run fails, the detail says so.
     pub fn measure(&self, case: &Case) -> Measured {
-        (self.measure)(case).unwrap_or_else(|why| {
-            let detail = why.to_string().lines().next().unwrap_or_default().into();
-            Measured { verdict: Verdict::Unknown, number: None, detail }
-        })
+        let not_checkable =
+            |detail| Measured { verdict: Verdict::NotCheckable, number: None, detail };
+        match self.measure {
+            Measure::Refuted(id) => by_finding(id, Verdict::False, None),
+            Measure::Finding(id, verdict, words) => by_finding(id, verdict, Some(words)),
+            Measure::Scene(measure) => measure(case).unwrap_or_else(|why| {
+                not_checkable(why.to_string().lines().next().unwrap_or_default().into())
+            }),
+            Measure::Nothing(reason) => not_checkable(reason.into()),
+        }
     }
 
     fn judge(&self, case: &Case, places: &Range) -> Judged {
@@ -149,4 +182,17 @@ impl Claim {
         };
         Judged { claim: self.clone(), measured, scope, elsewhere }
     }
+}
+
+/// Judges a claim by a finding on the finding's own scene; without words the finding's title is the
+/// detail.
+fn by_finding(id: &str, verdict: Verdict, words: Option<&str>) -> Measured {
+    let finding = FINDINGS.iter().find(|finding| finding.id == id).expect("an id of the register");
+    let found = finding.measure(&Case::new(finding.scene()));
+    let verdict = match found.verdict {
+        findings::Verdict::Present => verdict,
+        findings::Verdict::NotTriggered | findings::Verdict::Contradicted => Verdict::NotCheckable,
+    };
+    let detail = words.unwrap_or(finding.title).into();
+    Measured { verdict, number: Some(found.number), detail }
 }

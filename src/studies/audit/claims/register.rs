@@ -1,6 +1,6 @@
 //! What the paper says, in the order of its text.
 
-use super::{Basis, Claim, measures};
+use super::{Basis, Claim, Measure, Verdict, measures};
 
 /// All claims: P1 to P13.
 pub const CLAIMS: &[Claim] = &[
@@ -13,7 +13,7 @@ pub const CLAIMS: &[Claim] = &[
         number: "nodes kept in contact under tension at the end of stepped, on the finding's scene",
         command: &["audit", "--finding", "K9", "--json"],
         at: &["/number"],
-        measure: measures::nothing_releases,
+        measure: Measure::Finding("K9", Verdict::TrueOnlyIf, "no node in contact pulls"),
     },
     Claim {
         id: "P2",
@@ -24,7 +24,7 @@ pub const CLAIMS: &[Claim] = &[
         number: "largest shear over pressure of a node in contact at the end of unilateral",
         command: &["audit", "strand", "--json"],
         at: &["/variants/3/friction_needed"],
-        measure: measures::friction_needed,
+        measure: Measure::Scene(measures::friction_needed),
     },
     Claim {
         id: "P3",
@@ -35,7 +35,7 @@ pub const CLAIMS: &[Claim] = &[
         number: "entries of MJS that join the two bodies, on the finding's scene",
         command: &["audit", "--finding", "K1", "--json"],
         at: &["/number"],
-        measure: measures::nothing_joins,
+        measure: Measure::Refuted("K1"),
     },
     Claim {
         id: "P4",
@@ -46,7 +46,7 @@ pub const CLAIMS: &[Claim] = &[
         number: "largest excess of a weight of a node in contact beyond [0, 1], on the finding's scene",
         command: &["audit", "--finding", "C6", "--json"],
         at: &["/number"],
-        measure: measures::weights_of_the_initial_shape,
+        measure: Measure::Refuted("C6"),
     },
     Claim {
         id: "P5",
@@ -57,7 +57,7 @@ pub const CLAIMS: &[Claim] = &[
         number: "nodes inside the target, deeper than c_tll, without a target edge, on the finding's scene",
         command: &["audit", "--finding", "C9", "--json"],
         at: &["/number"],
-        measure: measures::deep_node_is_lost,
+        measure: Measure::Finding("C9", Verdict::True, "lines 5 to 7 find it no target edge"),
     },
     Claim {
         id: "P6",
@@ -69,7 +69,7 @@ pub const CLAIMS: &[Claim] = &[
                  twice c_tll",
         command: &["audit", "--statuses", "--scenes", "20", "--json"],
         at: &["/by_depth/2/rules/0/missed", "/by_depth/2/touching"],
-        measure: measures::signs_go_wrong,
+        measure: Measure::Scene(measures::signs_go_wrong),
     },
     Claim {
         id: "P7",
@@ -81,7 +81,7 @@ pub const CLAIMS: &[Claim] = &[
                  finding's scene",
         command: &["audit", "--finding", "C15", "--json"],
         at: &["/number"],
-        measure: measures::no_fixed_distance,
+        measure: Measure::Refuted("C15"),
     },
     Claim {
         id: "P8",
@@ -92,7 +92,7 @@ pub const CLAIMS: &[Claim] = &[
         number: "operations of the intersection over those of the sign rule, on the largest surfaces tried",
         command: &["audit", "--statuses", "--scenes", "20", "--json"],
         at: &["/by_size/5/rules/1/operations", "/by_size/5/rules/0/operations"],
-        measure: measures::fewer_operations,
+        measure: Measure::Scene(measures::fewer_operations),
     },
     Claim {
         id: "P9",
@@ -103,7 +103,7 @@ pub const CLAIMS: &[Claim] = &[
         number: "target nodes to which two or more contact nodes are tied, on the finding's scene",
         command: &["audit", "--finding", "C7", "--json"],
         at: &["/number"],
-        measure: measures::one_pair_a_target_node,
+        measure: Measure::Refuted("C7"),
     },
     Claim {
         id: "P10",
@@ -115,7 +115,7 @@ pub const CLAIMS: &[Claim] = &[
                  the largest displacement at c_tol",
         command: &["trade", "strand", "--only", "c_tll", "--runs", "1", "--json"],
         at: &["/sections/0/rows/6/change/displacement"],
-        measure: measures::tolerance,
+        measure: Measure::Scene(measures::tolerance),
     },
     Claim {
         id: "P11",
@@ -126,7 +126,7 @@ pub const CLAIMS: &[Claim] = &[
         number: "final period of the contact state under tied, iterations; 1 = settled, 0 = none yet",
         command: &["audit", "strand", "--json"],
         at: &["/variants/1/cycle/length"],
-        measure: measures::settles,
+        measure: Measure::Scene(measures::settles),
     },
     Claim {
         id: "P12",
@@ -138,7 +138,7 @@ pub const CLAIMS: &[Claim] = &[
                  friction, in the energy norm, over that of the equilibrium",
         command: &["audit", "strand", "--json"],
         at: &["/variants/0/distance/energy_relative"],
-        measure: measures::error_of_the_reading,
+        measure: Measure::Scene(measures::error_of_the_reading),
     },
     Claim {
         id: "P13",
@@ -149,6 +149,8 @@ pub const CLAIMS: &[Claim] = &[
         number: "none",
         command: &["audit", "strand", "--json"],
         at: &[],
-        measure: measures::nothing_at_hand,
+        measure: Measure::Nothing(
+            "neither the code, its version's contact settings, the mesh nor the radii are given",
+        ),
     },
 ];

@@ -28,7 +28,7 @@ pub(super) fn count(found: impl IntoIterator<Item = String>) -> Measured {
         detail += &format!("; and {} more", found.len() - SHOWN);
     }
     let detail = if found.is_empty() { "none".into() } else { detail };
-    Measured::holds_if(!found.is_empty(), found.len() as f64, detail)
+    Measured::present_if(!found.is_empty(), found.len() as f64, detail)
 }
 
 /// Counts the entries of the contact surface of which `words` has something to say.
@@ -45,7 +45,7 @@ pub(super) fn at_shapes(
 ) -> Outcome<'_> {
     let mut heaviest: Option<Measured> = None;
     for (name, shape) in shapes(case) {
-        let nothing = |failure: Failure| Measured::holds_if(false, 0.0, failure.to_string());
+        let nothing = |failure: Failure| Measured::present_if(false, 0.0, failure.to_string());
         let mut here = experiment(&shape).unwrap_or_else(nothing);
         here.detail = format!("{name}: {}", here.detail);
         let weight = |m: &Measured| (m.verdict, m.number.abs());

@@ -1,7 +1,7 @@
 //! The register of findings: what the listings do that the text does not say.
 //!
-//! A finding is data (where it stands, why it matters, what would repair it), the smallest scene
-//! that shows it (`golden/findings/<id>/`), and a measure: an experiment with the listings as
+//! A finding is one entry of the register: data (where it stands, why it matters, its repair), a
+//! measure, and the smallest scene that shows it (`golden/findings/<id>/`). A measure is an experiment with the listings as
 //! printed, under the default reading, that runs on any scene. C: `c_cnt`; K: `Km` and the
 //! iterations.
 
@@ -14,8 +14,12 @@ mod weights;
 
 pub use register::FINDINGS;
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::Case;
 use base::choices;
+use problem::model::Model;
 use problem::scene::Scene;
 
 /// Something that a listing does and the text does not say.
@@ -30,11 +34,39 @@ pub struct Finding {
     pub title: &'static str,
     /// What follows from it for a user of the listing.
     pub why: &'static str,
-    /// What would repair it.
+    /// What would repair it, in words.
     pub repair: &'static str,
+    /// The repair as an edit of a listing.
+    pub edit: Repair,
+    /// What is changed for it to show in one call of each listing on its own scene.
+    pub before: Before,
     /// What the measured number is, with its unit.
     pub number: &'static str,
     measure: fn(&Case) -> Outcome<'_>,
+}
+
+/// The repair of a finding.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Repair {
+    /// An edit of a listing.
+    Edit {
+        /// Its text, in the format of `listings/readings/README.md`.
+        text: &'static str,
+    },
+    /// No edit of a listing.
+    None {
+        /// Why not, and what shows the repair.
+        reason: &'static str,
+    },
+}
+
+/// What is changed on a finding's scene before the listings are executed once, with its words.
+#[derive(Clone, Copy)]
+pub enum Before {
+    AsPrinted,
+    Reading(&'static str, &'static str),
+    Model(&'static str, fn(&mut Model)),
 }
 
 /// What a scene shows, or why a listing or a run failed.
@@ -44,7 +76,7 @@ impl Finding {
     /// Looks for the finding in a scene. Where a listing or a run fails, the detail says so; it
     /// never panics.
     pub fn measure(&self, case: &Case) -> Measured {
-        (self.measure)(case).unwrap_or_else(|why| Measured::holds_if(false, 0.0, why.to_string()))
+        (self.measure)(case).unwrap_or_else(|why| Measured::present_if(false, 0.0, why.to_string()))
     }
 
     pub fn scene(&self) -> Scene {
@@ -57,32 +89,33 @@ choices! {
     #[derive(PartialOrd, Ord)]
     Verdict {
         /// The scene lacks what the finding needs.
-        DoesNotArise = "does not arise",
+        NotTriggered = "not triggered here",
         /// The scene has what the finding needs, and yet it does not happen: the finding is wrong.
         Contradicted = "contradicted",
         /// The scene has what the finding needs, and it happens.
-        Holds = "holds",
+        Present = "present",
     }
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     pub verdict: Verdict,
-    /// The number that the finding names; 0 where it does not arise and nothing could be counted.
+    /// The number that the finding names; 0 where it is not triggered and nothing could be counted.
     pub number: f64,
     pub detail: String,
 }
 
 impl Measured {
-    /// A measure of the verdict `holds` or `does not arise`.
-    fn holds_if(holds: bool, number: f64, detail: impl Into<String>) -> Self {
-        let verdict = if holds { Verdict::Holds } else { Verdict::DoesNotArise };
+    /// Returns a measure of the verdict `present` or `not triggered here`.
+    fn present_if(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
+        let verdict = if is_present { Verdict::Present } else { Verdict::NotTriggered };
         Measured { verdict, number, detail: detail.into() }
     }
 
-    /// A measure of the verdict `holds` or `contradicted`, on a scene that has what it needs.
-    fn must_hold(holds: bool, number: f64, detail: impl Into<String>) -> Self {
-        let verdict = if holds { Verdict::Holds } else { Verdict::Contradicted };
+    /// Returns a measure of the verdict `present` or `contradicted`, on a scene that has what the
+    /// finding needs.
+    fn must_be_present(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
+        let verdict = if is_present { Verdict::Present } else { Verdict::Contradicted };
         Measured { verdict, number, detail: detail.into() }
     }
 }

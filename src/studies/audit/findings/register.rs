@@ -1,6 +1,14 @@
 //! The findings (`listings/READING.md`, section 5).
 
-use super::{Finding, search, status, stiffness, weights};
+use super::{Before, Finding, Repair, search, status, stiffness, weights};
+use problem::model::Model;
+
+/// A repair that is a file in `listings/`.
+macro_rules! edit {
+    ($file:literal) => {
+        Repair::Edit { text: include_str!(concat!("../../../../listings/", $file)) }
+    };
+}
 
 /// All findings: C1 to C15, K1 to K9.
 pub const FINDINGS: &[Finding] = &[
@@ -13,6 +21,8 @@ pub const FINDINGS: &[Finding] = &[
         why: "the direction in which a mesh generator happened to write an edge decides who is in \
               contact",
         repair: "order the two coordinates first: min − c_tll .. max + c_tll",
+        edit: edit!("repairs/C1.edit"),
+        before: Before::Model("each target edge turned round", turn_target),
         number: "contact nodes that get or lose a target edge or dy = 1 once every target edge is turned \
                  round",
         measure: search::turned_edges,
@@ -26,6 +36,8 @@ pub const FINDINGS: &[Finding] = &[
         why: "the order of trg, which the text never mentions, decides which edge a node near a \
               joint is tied to",
         repair: "keep the edge with the smallest distance",
+        edit: edit!("repairs/C2.edit"),
+        before: Before::AsPrinted,
         number: "contact nodes with another target edge once trg is reversed",
         measure: search::reversed_target,
     },
@@ -37,6 +49,8 @@ pub const FINDINGS: &[Finding] = &[
         why: "on a slope of angle t the tolerance acts as c_tll · cos t, and a vertical edge \
               divides by zero",
         repair: "project on the edge's normal",
+        edit: edit!("repairs/C3.edit"),
+        before: Before::AsPrinted,
         number: "contact nodes nearer than c_tll along the normal that are not in contact",
         measure: search::vertical_distance,
     },
@@ -49,6 +63,8 @@ pub const FINDINGS: &[Finding] = &[
         why: "with the target below the stamp it takes the separated node and leaves the one that \
               went in; upside down it is the other way round",
         repair: "flag the node that is inside, by the side on which the target lies",
+        edit: edit!("repairs/C4.edit"),
+        before: Before::AsPrinted,
         number: "contact nodes, their target edge unchanged, whose dy changes once the scene is \
                  turned upside down",
         measure: status::upside_down,
@@ -61,6 +77,8 @@ pub const FINDINGS: &[Finding] = &[
                 it sees the ends, or nothing",
         why: "a step that carries two neighbours in loses both, for good",
         repair: "flag every node that is inside",
+        edit: edit!("repairs/C5.edit"),
+        before: Before::AsPrinted,
         number: "contact nodes in runs of two or more deeper inside than c_tll that are not \
                  flagged",
         measure: status::deep_runs,
@@ -72,6 +90,12 @@ pub const FINDINGS: &[Finding] = &[
         title: "the weights come from initial coordinates, the partners from current ones",
         why: "after sliding over an edge's end the weights leave [0, 1] and extrapolate",
         repair: "node_n in place of node (reading R5)",
+        edit: Repair::None {
+            reason: "the first call, which a lesson shows, has both tables the same, since nothing has \
+                     moved; solve findings/C6 --reading R5=node_n has all iterations with weights \
+                     within [0, 1]",
+        },
+        before: Before::AsPrinted,
         number: "largest excess of a weight of a node in contact beyond [0, 1]",
         measure: weights::outside_the_edge,
     },
@@ -82,7 +106,9 @@ pub const FINDINGS: &[Finding] = &[
         title: "a target node keeps the last contact node's number and the sum of all weights; its \
                 columns 3 and 4 are never set",
         why: "the text promises two pairs for every node; Km puts the weights of all on the last",
-        repair: "a list of pairs for each node",
+        repair: "as K1: the pairs of the contact nodes are enough",
+        edit: edit!("repairs/K1.edit"),
+        before: Before::AsPrinted,
         number: "target nodes to which two or more contact nodes are tied",
         measure: weights::shared_nodes,
     },
@@ -94,6 +120,8 @@ pub const FINDINGS: &[Finding] = &[
                 still can, over sloping edges",
         why: "a node exactly on its edge is not in contact while a separated one beside it may be",
         repair: "≤ in place of <",
+        edit: edit!("repairs/C8.edit"),
+        before: Before::AsPrinted,
         number: "contact nodes exactly on their edge that are not flagged with c_tll = 0",
         measure: status::strictly_less,
     },
@@ -106,6 +134,8 @@ pub const FINDINGS: &[Finding] = &[
         why: "the node that jumped deeper than c_tll, for which the text has the sign rule, is \
               lost; over a horizontal edge the rule can fire at |yt| = c_tll at most",
         repair: "search along the normal, without a box",
+        edit: edit!("repairs/C9.edit"),
+        before: Before::AsPrinted,
         number: "contact nodes inside the target, deeper than c_tll, without a target edge",
         measure: search::lost_inside,
     },
@@ -117,6 +147,8 @@ pub const FINDINGS: &[Finding] = &[
         why: "evaluated from left to right the listing stops with an index error as soon as the \
               first contact node has a target edge and yt[1] < 0",
         repair: "the guard first, as in line 17",
+        edit: edit!("repairs/C10.edit"),
+        before: Before::Reading("the operands of ∧ from left to right (R4)", "R4=left-to-right"),
         number: "yt of the first contact node at the initial shape, length",
         measure: status::left_to_right,
     },
@@ -128,6 +160,8 @@ pub const FINDINGS: &[Finding] = &[
                 error, and its sign decides on the neighbours",
         why: "another processor, another order of operations, another contact set",
         repair: "compare with c_tll",
+        edit: edit!("repairs/C11.edit"),
+        before: Before::AsPrinted,
         number: "contact nodes whose dy changes as a node on its edge moves by a rounding error",
         measure: status::rounding_noise,
     },
@@ -138,6 +172,8 @@ pub const FINDINGS: &[Finding] = &[
         title: "a node that cnt lists twice gets its weights twice",
         why: "eq. (1) with them reads u_cont = 2 · u_targ",
         repair: "set the weights, do not add",
+        edit: edit!("repairs/C12.edit"),
+        before: Before::AsPrinted,
         number: "largest sum of the two weights of a node in contact",
         measure: weights::listed_twice,
     },
@@ -147,7 +183,9 @@ pub const FINDINGS: &[Finding] = &[
         lines: &[],
         title: "the printed matrix depends on the order of cnt (C7, K2: the last one wins)",
         why: "a scene and its mirror image have different answers",
-        repair: "what repairs C7 and K2",
+        repair: "as K1: nothing is read that depends on the order",
+        edit: edit!("repairs/K1.edit"),
+        before: Before::AsPrinted,
         number: "entries of MJS that change once cnt is reversed",
         measure: weights::reversed_contact,
     },
@@ -159,6 +197,8 @@ pub const FINDINGS: &[Finding] = &[
                 2 · c_tll)",
         why: "a node that lies on the edge is not found; of a symmetric scene one half is",
         repair: "as C1",
+        edit: edit!("repairs/C1.edit"),
+        before: Before::AsPrinted,
         number: "contact nodes over or under a target edge, vertically nearer to it than c_tll, that \
                  have no target edge",
         measure: search::missed_near,
@@ -172,6 +212,8 @@ pub const FINDINGS: &[Finding] = &[
         why: "a node that merely touches, with 0 < yt < c_tll, puts its separated neighbour in \
               contact",
         repair: "leave nodes that line 16 flags out of the comparison",
+        edit: edit!("repairs/C15.edit"),
+        before: Before::AsPrinted,
         number: "contact nodes apart by c_tll or more, flagged beside nodes that only touch",
         measure: status::touching_neighbour,
     },
@@ -182,6 +224,8 @@ pub const FINDINGS: &[Finding] = &[
         title: "only blocks (W, W) are added, never (V, W)",
         why: "nothing couples the two bodies: no load reaches the target",
         repair: "Tᵀ·K·T with eq. (1) in T (variants tied and stepped)",
+        edit: edit!("repairs/K1.edit"),
+        before: Before::AsPrinted,
         number: "entries of MJS that join two bodies",
         measure: stiffness::nothing_joins,
     },
@@ -192,7 +236,9 @@ pub const FINDINGS: &[Finding] = &[
         title: "one fl for the whole element: of several linked nodes the last one's weight scales \
                 all",
         why: "the other weights are lost",
-        repair: "a weight for each row and column",
+        repair: "as K1: Tᵀ·K·T has a weight for each row and column",
+        edit: edit!("repairs/K1.edit"),
+        before: Before::AsPrinted,
         number: "triangles in which linked nodes have different weights",
         measure: stiffness::one_weight_for_all,
     },
@@ -203,6 +249,8 @@ pub const FINDINGS: &[Finding] = &[
         title: "restrained equations get 1 on the diagonal, whatever the unit",
         why: "beside stiffnesses of 1e4 to 1e6 the choice of units decides the condition number",
         repair: "the size of the other diagonal entries, or leave the equations out",
+        edit: edit!("repairs/K3.edit"),
+        before: Before::AsPrinted,
         number: "largest over smallest diagonal entry of MJS",
         measure: stiffness::ones_on_the_diagonal,
     },
@@ -214,6 +262,8 @@ pub const FINDINGS: &[Finding] = &[
                 even where S restrains it",
         why: "the matrix is singular: one stray point of the mesh is enough",
         repair: "set the 1 in a loop over nodes",
+        edit: edit!("repairs/K4.edit"),
+        before: Before::Model("with one more node, which belongs to no triangle", add_orphan),
         number: "rows of zeros that one such node adds",
         measure: stiffness::orphan,
     },
@@ -225,6 +275,11 @@ pub const FINDINGS: &[Finding] = &[
         why: "the node leaves contact and returns: the contact set cycles, and where in the cycle \
               the 20th iteration falls decides the result",
         repair: "increments (variant stepped), or the gap itself in eq. (1)",
+        edit: Repair::None {
+            reason: "the iterations stand around the listings, and no listing prints them; solve \
+                     findings/K5 --variant stepped, eq. (1) on increments, does not cycle",
+        },
+        before: Before::AsPrinted,
         number: "final period of the contact state under tied, iterations; 1 = settled",
         measure: stiffness::cycle,
     },
@@ -235,6 +290,11 @@ pub const FINDINGS: &[Finding] = &[
         title: "one linked node is a hinge: the stamp turns about it",
         why: "the matrix is singular unless restraints hold the stamp",
         repair: "hold the stamp's axis",
+        edit: Repair::None {
+            reason: "what is restrained is the scene's choice, not a listing's; solve findings/K6, whose \
+                     stamp's axis is held, runs",
+        },
+        before: Before::AsPrinted,
         number: "most linked nodes, of one and two, with which the released stamp is singular",
         measure: stiffness::hinge,
     },
@@ -246,6 +306,8 @@ pub const FINDINGS: &[Finding] = &[
                 addition out",
         why: "a contact node over the end of an edge takes its neighbours' additions with it",
         repair: "a switch of its own, a weight for each node",
+        edit: edit!("readings/R3-per-node.edit"),
+        before: Before::AsPrinted,
         number: "additions (triangle, pair) left out because the last weight is 0 and another is \
                  not",
         measure: stiffness::switched_off,
@@ -257,6 +319,8 @@ pub const FINDINGS: &[Finding] = &[
         title: "a weight below 0 (C1, C6) takes stiffness away",
         why: "MJS may lose its positive definiteness, and a load may move its node backwards",
         repair: "weights in [0, 1]",
+        edit: edit!("repairs/K8.edit"),
+        before: Before::AsPrinted,
         number: "smallest diagonal entry of MJS, force/length",
         measure: stiffness::stiffness_taken_away,
     },
@@ -269,7 +333,23 @@ pub const FINDINGS: &[Finding] = &[
         why: "a contact that carries tension stays, against the text's own condition of no \
               penetration and friction",
         repair: "release a node whose contact force pulls",
+        edit: Repair::None {
+            reason: "no line of a listing looks at a contact force; solve findings/K9 --variant \
+                     unilateral releases the node",
+        },
+        before: Before::AsPrinted,
         number: "nodes kept in contact under tension at the end of stepped",
         measure: stiffness::pulls,
     },
 ];
+
+fn turn_target(model: &mut Model) {
+    for edge in &model.contact.target {
+        model.edges[edge.index()].nodes.reverse();
+    }
+}
+
+fn add_orphan(model: &mut Model) {
+    model.nodes.push([1.0, 0.0]);
+    model.restrained.extend([false; 2]);
+}

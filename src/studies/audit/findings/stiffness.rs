@@ -18,7 +18,7 @@ use problem::modelling::Variant;
 pub(super) fn nothing_joins(case: &Case) -> Outcome<'_> {
     let mjs = first_in_contact(case)?.km(&Reading::default())?;
     let joins: usize = case.model().bodies.iter().map(|body| joins(&mjs, body)).sum();
-    Ok(Measured::must_hold(joins == 0, joins as f64, target_moves(case)))
+    Ok(Measured::must_be_present(joins == 0, joins as f64, target_moves(case)))
 }
 
 /// Entries of `mjs` in a row of `body` and a column of another.
@@ -87,7 +87,7 @@ pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<'_> {
         let ((low, high), (one, _)) = (range(false), range(true));
         let detail = format!("restrained: {one}, others {low:.4e} to {high:.4e}");
         let outside = one < low || (one > high && one.is_finite());
-        Ok(Measured::holds_if(outside, high.max(one) / low.min(one), detail))
+        Ok(Measured::present_if(outside, high.max(one) / low.min(one), detail))
     })
 }
 
@@ -97,7 +97,7 @@ pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<'_> {
         let diagonal = mjs(case.model(), shape)?.diagonal();
         let (at, smallest) = diagonal.argmin();
         let detail = format!("node {}, direction {}", at / 2 + 1, ["x", "y"][at % 2]);
-        Ok(Measured::holds_if(smallest < 0.0, smallest, detail))
+        Ok(Measured::present_if(smallest < 0.0, smallest, detail))
     })
 }
 
@@ -114,7 +114,7 @@ pub(super) fn orphan(case: &Case) -> Outcome<'_> {
     let detail = format!(
         "rows of zeros: {own} without the node, {free} with it, {restrained} where S restrains it"
     );
-    Ok(Measured::must_hold(free == own + 2, (free - own) as f64, detail))
+    Ok(Measured::must_be_present(free == own + 2, (free - own) as f64, detail))
 }
 
 /// K5: the cycle in which `tied` ends.
@@ -127,8 +127,8 @@ pub(super) fn cycle(case: &Case) -> Outcome<'_> {
     let entered = steps.iter().any(|step| step.statuses() != steps[0].statuses());
     let verdict = match cycle.length {
         1 if entered => Verdict::Contradicted,
-        1 => Verdict::DoesNotArise,
-        _ => Verdict::Holds,
+        1 => Verdict::NotTriggered,
+        _ => Verdict::Present,
     };
     Ok(Measured { verdict, number: cycle.length as f64, detail })
 }
@@ -181,7 +181,7 @@ pub(super) fn hinge(case: &Case) -> Outcome<'_> {
         None => "not in this scene",
     });
     let detail = format!("one linked node: {one}; two: {two}");
-    Ok(Measured::must_hold(singular[0] == Some(true), most as f64, detail))
+    Ok(Measured::must_be_present(singular[0] == Some(true), most as f64, detail))
 }
 
 /// The restraints, none of them on the body of `node`.

@@ -1,0 +1,64 @@
+//! The tables of `listings/READING.md` that are written from the program's own: readings and
+//! findings. INSTA_UPDATE=always writes them.
+
+use std::path::Path;
+
+use crate::common::golden_file::assert_file;
+use plane_contact::paper::mirror::{Ambiguity, DefaultFrom, READINGS};
+use plane_contact::studies::audit::Case;
+use plane_contact::studies::audit::findings::{FINDINGS, Finding};
+
+#[test]
+fn the_tables_of_readings_and_findings_are_the_programs() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("listings/READING.md");
+    let page = std::fs::read_to_string(&path).expect("the page is there");
+    let readings: String = READINGS.iter().map(reading).collect();
+    let readings = format!(
+        "| id | lines | open | values, the default first | why this default |\n\
+         |---|---|---|---|---|\n{readings}"
+    );
+    let findings: String = FINDINGS.iter().map(finding).collect();
+    let findings = format!(
+        "| id | line | what the listing does | on the smallest scene | repair |\n\
+         |---|---|---|---|---|\n{findings}"
+    );
+    let page = filled(&page, "readings", &readings);
+    assert_file(&path, &filled(&page, "findings", &findings));
+}
+
+/// Returns a page with `text` between the comments `name` and `end`.
+fn filled(page: &str, name: &str, text: &str) -> String {
+    let begin = format!("<!-- {name} -->\n");
+    let (above, rest) = page.split_once(&begin).expect("the page marks the table");
+    let (_, below) = rest.split_once("<!-- end -->").expect("the page marks the table's end");
+    format!("{above}{begin}{text}<!-- end -->{below}")
+}
+
+fn reading(row: &Ambiguity) -> String {
+    let values: Vec<String> =
+        row.values.iter().map(|value| format!("`{}`: {}", value.name, value.words)).collect();
+    let default = match row.default {
+        DefaultFrom::First => "",
+        DefaultFrom::Scene => "the scene's `plane`; ",
+        DefaultFrom::Variant => "the variant's; ",
+    };
+    let values = default.to_string() + &values.join("; ");
+    line(&[row.id, row.lines, row.what, &values, row.why])
+}
+
+fn finding(finding: &Finding) -> String {
+    let id = format!("[{0}](../golden/findings/{0}/README.md)", finding.id);
+    let lines: Vec<String> = finding.lines.iter().map(usize::to_string).collect();
+    let lines = format!("{} {}", finding.listing, lines.join(", "));
+    let measured = finding.measure(&Case::new(finding.scene()));
+    let value = format!("{:.3}", measured.number);
+    let value = value.trim_end_matches('0').trim_end_matches('.');
+    let shown = format!("{value} = {}", finding.number);
+    line(&[&id, lines.trim_end(), finding.title, &shown, finding.repair])
+}
+
+/// Returns a row of a table in Markdown.
+fn line(cells: &[&str]) -> String {
+    let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+    format!("| {} |\n", cells.join(" | "))
+}
