@@ -19,8 +19,7 @@ use plane_contact::numbers::scalar::{Bounded, Scalar, compared};
 use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{
-    Ambiguity, Cause, Change, Failure, Km, LoopPlace, Pairs, READINGS, Reading, Wedge, Worksheet,
-    c_cnt,
+    Cause, Change, Failure, Km, LoopPlace, Pairs, READINGS, Reading, Wedge, Worksheet, c_cnt,
 };
 use plane_contact::problem::element;
 use plane_contact::problem::element::Plane;
@@ -136,19 +135,27 @@ prop_compose! {
     }
 }
 
-/// Every combination of the readings that change the listings' text or the worksheet's settings.
+/// One of [`all_readings`].
 pub fn reading() -> impl Strategy<Value = Reading> {
-    let is_of_listings = |row: &&Ambiguity| {
-        row.is_option() && row.values.iter().any(|value| !matches!(value.change, Change::None))
-    };
-    let rows: Vec<&Ambiguity> = READINGS.iter().filter(is_of_listings).collect();
-    prop::collection::vec(any::<Index>(), rows.len()).prop_map(move |drawn| {
-        let mut reading = Reading::default();
-        for (row, index) in rows.iter().zip(drawn) {
-            row.set(&mut reading, &row.values[index.index(row.values.len())]);
+    select(all_readings())
+}
+
+/// Every combination of the readings that change the listings' text or the worksheet's settings.
+pub fn all_readings() -> Vec<Reading> {
+    let mut all = vec![Reading::default()];
+    for row in READINGS.iter().filter(|row| row.is_option()) {
+        if row.values.iter().any(|value| !matches!(value.change, Change::None)) {
+            let under = |mut reading: Reading, value| {
+                row.set(&mut reading, value);
+                reading
+            };
+            let chosen =
+                |reading: &Reading| row.values.iter().map(|v| under(*reading, v)).collect();
+            all = all.iter().flat_map::<Vec<Reading>, _>(chosen).collect();
         }
-        reading
-    })
+    }
+    assert!(all.len() >= 72);
+    all
 }
 
 /// Target polyline, contact nodes, then the arrays of the worksheet and the current shape.
@@ -584,20 +591,6 @@ fn listing_and_mirror_agree_on_the_shipped_scenes() {
 pub fn initial(scene: &str) -> Worksheet<f64> {
     let request = Request::new(&Scene::open(scene).unwrap());
     door::worksheet(&request.model().unwrap(), |x| x)
-}
-
-fn all_readings() -> Vec<Reading> {
-    let mut all = vec![Reading::default()];
-    let times = |all: Vec<Reading>, set: &dyn Fn(Reading) -> Vec<Reading>| -> Vec<Reading> {
-        all.into_iter().flat_map(set).collect()
-    };
-    all = times(all, &|r| LoopPlace::ALL.iter().map(|&r1| Reading { r1, ..r }).collect());
-    all = times(all, &|r| RestraintIndex::ALL.iter().map(|&r2| Reading { r2, ..r }).collect());
-    all = times(all, &|r| Wedge::ALL.iter().map(|&r3| Reading { r3, ..r }).collect());
-    all = times(all, &|r| Conjunction::ALL.iter().map(|&r4| Reading { r4, ..r }).collect());
-    all = times(all, &|r| NodeTable::ALL.iter().map(|&r5| Reading { r5, ..r }).collect());
-    assert_eq!(all.len(), 72);
-    all
 }
 
 /// `export --to mathcad`, read back and executed by the interpreter, has the mirror's bits on

@@ -1,6 +1,7 @@
 //! The second notation: listings to XMCD and back, worksheets executed, hostile files.
 
 use super::spelled::spelled;
+use crate::bitwise::all_readings;
 use crate::common::random::fixed;
 use plane_contact::mathcad::worksheet::{Checked, Verdict, execute};
 use plane_contact::mathcad::xmcd::document::{self, Content, Saved};
@@ -27,8 +28,7 @@ fn there_and_back(listing: &Listing) -> Result<String, String> {
 
 #[test]
 fn the_paper_s_listings_come_back_byte_for_byte() {
-    for reading in ["", "R1=inside", "R2=printed", "R3=per-node", "R3=nested", "R5=node_n"] {
-        let reading: Reading = reading.parse().unwrap();
+    for reading in all_readings() {
         for which in Which::ALL {
             let listing = which.under(&reading);
             assert_eq!(there_and_back(&listing).unwrap(), listing.to_string(), "{which} {reading}");
