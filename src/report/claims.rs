@@ -87,7 +87,7 @@ pub fn over(judged: &Judged, parameter: Parameter) -> String {
         let values = places.iter().map(|other| {
             format!("{} ({})", other.place.value, or_dash(other.measured.number, rounded))
         });
-        format!("{} at {}", places[0].measured.verdict, listed(values))
+        format!("{} at {}", places[0].measured.words(), listed(values))
     });
     words.collect::<Vec<_>>().join("; ")
 }
